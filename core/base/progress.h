@@ -1,0 +1,18 @@
+/* Progress and cancelling of long work. Long functions take a `const SporeProgress *`, which may be NULL. */
+#ifndef SPORE_BASE_PROGRESS_H
+#define SPORE_BASE_PROGRESS_H
+
+#include <stdbool.h>
+
+typedef struct SporeProgress {
+  /* fraction 0..1; stage: translated, may be NULL. Returns false to cancel. Called often from the working thread. */
+  bool (*report)(void *data, double fraction, const char *stage);
+  void *data;
+} SporeProgress;
+
+/* True to go on. */
+static inline bool spore_progress(const SporeProgress *progress, double fraction, const char *stage) {
+  return !progress || !progress->report || progress->report(progress->data, fraction, stage);
+}
+
+#endif

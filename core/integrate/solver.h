@@ -1,0 +1,28 @@
+/* How a world is integrated: the table of solver parameters. */
+#ifndef SPORE_INTEGRATE_SOLVER_H
+#define SPORE_INTEGRATE_SOLVER_H
+
+#include "core/base/parameter.h"
+
+typedef enum SporeIntegratorKind {
+  SPORE_INTEGRATOR_SYMPLECTIC_EULER,
+  SPORE_INTEGRATOR_IMPLICIT_EULER,
+  SPORE_INTEGRATOR_DEFAULT = -1
+} SporeIntegratorKind;
+/* Names by SporeIntegratorKind, NULL-terminated: the choices of every `integrator` parameter. */
+extern const char *const spore_integrator_names[];
+
+typedef enum SporeNonlinearKind { SPORE_NONLINEAR_NEWTON, SPORE_NONLINEAR_BROYDEN } SporeNonlinearKind;
+
+typedef struct SporeSolverFields {
+  double time_step;          /* s */
+  int integrator;            /* SporeIntegratorKind */
+  int nonlinear;             /* SporeNonlinearKind */
+  int64_t newton_iterations; /* at most, a step */
+  int64_t linear_iterations; /* at most, a Newton iteration */
+  double tolerance;          /* relative residual to reach */
+  double maximum_speed;      /* m/s: above it the monitor steps in */
+} SporeSolverFields;
+extern const SporeParameterTable spore_solver_parameters;
+
+#endif

@@ -1,0 +1,37 @@
+/* Meshes from strangers' files. */
+#ifndef SPORE_IO_MESH_IMPORT_H
+#define SPORE_IO_MESH_IMPORT_H
+
+#include <glib.h>
+
+#include "core/base/progress.h"
+#include "core/mesh/mesh.h"
+#include "core/scene/error.h"
+
+/* Units and frames by index, as in the file; NULL-terminated. Frame says what the file's axes are: RAS and LPS are the
+ * patient frames of medical images, Y_UP that of most modelling programs. SPORE's axes are x right, y up, z toward
+ * the user: Y_UP is the identity; RAS (x, y, z) -> (x, z, -y); LPS (x, y, z) -> (-x, z, y). */
+extern const char *const spore_length_units[]; /* m cm mm um in */
+extern const double spore_length_unit_m[];
+extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
+
+/* Decodes STL, OBJ, PLY, OFF, glTF (embedded) or GLB; by content, the extension of `file` only breaks ties. OFF is read
+ * here; the rest by assimp in a helper process that may open no file, reach no network and outlive no time limit.
+ * All sub-meshes are joined, their node transforms applied; then validated, welded (1e-6), unit and frame applied.
+ * place (usually the path) begins every message. Cancelled by progress. */
+gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
+                           SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error);
+
+/* Frame said by the file itself (Slicer writes SPACE=LPS or RAS into headers and comments): index, or -1. */
+int spore_mesh_frame_hint(const void *content, gsize size);
+
+/* Sphere sets: "x y z r" a line, metres, # comments. Tetrahedra: Medit .mesh (ASCII). In memory, messages with line. */
+gboolean spore_spheres_parse(const char *place, const char *text, gsize size, SporeSphereSet *set, GError **error);
+char *spore_spheres_format(const SporeSphereSet *set, gsize *size); /* g_free */
+gboolean spore_medit_parse(const char *place, const char *text, gsize size, SporeTetrahedralMesh *mesh, GError **error);
+char *spore_medit_format(const SporeTetrahedralMesh *mesh, gsize *size); /* g_free */
+char *spore_gmsh_format(const SporeTetrahedralMesh *mesh, gsize *size);  /* .msh 2.2 ASCII */
+char *spore_vtu_format(const SporeTetrahedralMesh *mesh, gsize *size);   /* VTK unstructured grid, ASCII */
+char *spore_off_format(const SporeTriangleMesh *mesh, gsize *size);
+
+#endif

@@ -1,0 +1,41 @@
+/* Symmetric-pattern sparse matrix of 3x3 blocks (block CSR), rows sorted, diagonal always present. */
+#ifndef SPORE_LINALG_BLOCK_MATRIX_H
+#define SPORE_LINALG_BLOCK_MATRIX_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/math/mat3.h"
+
+/* Collects the off-diagonal blocks before a matrix is made. */
+typedef struct SporeBlockPattern {
+  size_t block_count, pair_count, pair_capacity;
+  uint32_t *pairs; /* pair_count x 2 */
+} SporeBlockPattern;
+
+void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count);
+/* Both (i, j) and (j, i) will exist; repeats are harmless. False: no memory or an index out of range. */
+bool spore_block_pattern_add(SporeBlockPattern *pattern, uint32_t i, uint32_t j);
+void spore_block_pattern_clear(SporeBlockPattern *pattern);
+
+typedef struct SporeBlockMatrix {
+  size_t block_count;
+  uint32_t *row_start; /* block_count + 1 */
+  uint32_t *column;    /* row_start[block_count] */
+  uint32_t *diagonal;  /* index of each row's diagonal block */
+  double *values;      /* 9 a block, row-major */
+} SporeBlockMatrix;
+
+bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern);
+void spore_block_matrix_clear(SporeBlockMatrix *matrix);
+void spore_block_matrix_zero(SporeBlockMatrix *matrix);
+/* Position of block (i, j) in values, in blocks; SIZE_MAX where the pattern has none. Models look their blocks up
+ * once, at create: the pattern of a model is its own, rows 0..block_count-1. */
+size_t spore_block_matrix_find(const SporeBlockMatrix *matrix, uint32_t i, uint32_t j);
+/* Adds k to block (i, j), which must exist. */
+void spore_block_matrix_add(SporeBlockMatrix *matrix, uint32_t i, uint32_t j, const double k[9]);
+/* y += A x */
+void spore_block_matrix_multiply_add(const SporeBlockMatrix *matrix, const double *x, double *y);
+
+#endif

@@ -1,0 +1,39 @@
+/* Unit quaternions (w, x, y, z) for orientations, and poses. */
+#ifndef SPORE_MATH_QUAT_H
+#define SPORE_MATH_QUAT_H
+
+#include "core/math/mat3.h"
+
+typedef struct SporeQuat {
+  double w, x, y, z;
+} SporeQuat;
+
+static inline SporeQuat spore_quat_identity(void) { return (SporeQuat){1, 0, 0, 0}; }
+static inline SporeQuat spore_quat_load(const double *p) { return (SporeQuat){p[0], p[1], p[2], p[3]}; }
+static inline void spore_quat_store(double *p, SporeQuat q) { p[0] = q.w, p[1] = q.x, p[2] = q.y, p[3] = q.z; }
+static inline SporeQuat spore_quat_multiply(SporeQuat a, SporeQuat b) {
+  return (SporeQuat){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+                     a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+static inline SporeQuat spore_quat_conjugate(SporeQuat q) { return (SporeQuat){q.w, -q.x, -q.y, -q.z}; }
+SporeQuat spore_quat_normalise(SporeQuat q); /* identity where q has no length */
+SporeVec3 spore_quat_rotate(SporeQuat q, SporeVec3 v);
+SporeMat3 spore_quat_to_mat3(SporeQuat q);
+SporeQuat spore_quat_from_mat3(SporeMat3 r);
+/* Rotation by the vector's length (rad) about its direction. */
+SporeQuat spore_quat_from_rotation_vector(SporeVec3 v);
+/* The inverse: length in [0, pi]. */
+SporeVec3 spore_quat_to_rotation_vector(SporeQuat q);
+
+/* Position (m) and orientation of a frame. */
+typedef struct SporePose {
+  SporeVec3 position;
+  SporeQuat orientation;
+} SporePose;
+
+static inline SporePose spore_pose_identity(void) { return (SporePose){{0, 0, 0}, {1, 0, 0, 0}}; }
+static inline SporeVec3 spore_pose_apply(SporePose p, SporeVec3 v) {
+  return spore_vec3_add(p.position, spore_quat_rotate(p.orientation, v));
+}
+
+#endif

@@ -1,0 +1,23 @@
+/* Distance, nearest point and winding number of a triangle mesh. */
+#ifndef SPORE_MESH_BVH_H
+#define SPORE_MESH_BVH_H
+
+#include "core/mesh/mesh.h"
+
+typedef struct SporeBvh SporeBvh;
+
+/* Copies what it needs of a valid mesh. NULL: no memory. */
+SporeBvh *spore_bvh_create(const SporeTriangleMesh *mesh, SporeError *error);
+void spore_bvh_free(SporeBvh *bvh);
+
+/* Distance (m) from p to the surface, exact; *nearest and *triangle may be NULL. */
+double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, uint32_t *triangle);
+/* Generalised winding number (about 1 inside, 0 outside), far triangles by dipoles
+ * (Barill et al. 2018, "Fast winding numbers for soups and clouds"). */
+double spore_bvh_winding(const SporeBvh *bvh, SporeVec3 p);
+/* Depth: distance where the winding number is over 0.5, minus distance elsewhere. */
+double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p);
+/* First hit of the ray p + t d, t >= 0; false: none. */
+bool spore_bvh_ray(const SporeBvh *bvh, SporeVec3 p, SporeVec3 d, double *t, uint32_t *triangle);
+
+#endif

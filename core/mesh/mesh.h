@@ -1,0 +1,80 @@
+/* Triangle meshes, tetrahedral meshes and sphere sets: flat arrays in metres, owned by the structure. */
+#ifndef SPORE_MESH_MESH_H
+#define SPORE_MESH_MESH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/base/error.h"
+#include "core/math/vec3.h"
+
+typedef struct SporeTriangleMesh {
+  size_t vertex_count, triangle_count;
+  double *vertices;    /* vertex_count x 3 */
+  uint32_t *triangles; /* triangle_count x 3, counter-clockwise seen from outside */
+} SporeTriangleMesh;
+
+typedef struct SporeTetrahedralMesh {
+  size_t vertex_count, tetrahedron_count;
+  double *vertices;     /* vertex_count x 3 */
+  uint32_t *tetrahedra; /* tetrahedron_count x 4, positive volume: (b-a) x (c-a) . (d-a) > 0 */
+} SporeTetrahedralMesh;
+
+typedef struct SporeSphereSet {
+  size_t count;
+  double *spheres; /* count x 4: x y z r */
+} SporeSphereSet;
+
+/* All arrays from spore_allocate; the *_clear functions free them and zero the structure. Counts above
+ * SPORE_MESH_MAXIMUM are refused everywhere. */
+#define SPORE_MESH_MAXIMUM 20000000u
+
+bool spore_triangle_mesh_allocate(SporeTriangleMesh *mesh, size_t vertices, size_t triangles, SporeError *error);
+bool spore_triangle_mesh_copy(SporeTriangleMesh *to, const SporeTriangleMesh *from, SporeError *error);
+void spore_triangle_mesh_clear(SporeTriangleMesh *mesh);
+bool spore_tetrahedral_mesh_allocate(SporeTetrahedralMesh *mesh, size_t vertices, size_t tetrahedra, SporeError *error);
+void spore_tetrahedral_mesh_clear(SporeTetrahedralMesh *mesh);
+bool spore_sphere_set_allocate(SporeSphereSet *set, size_t count, SporeError *error);
+void spore_sphere_set_clear(SporeSphereSet *set);
+
+/* Finite coordinates (|x| <= 1e9 m), indices in range, at least one element; for tetrahedra positive volume above
+ * 1e-12 of the cubed longest edge; for spheres r > 0. The message names the first offending element (0-based). */
+bool spore_triangle_mesh_validate(const SporeTriangleMesh *mesh, SporeError *error);
+bool spore_tetrahedral_mesh_validate(const SporeTetrahedralMesh *mesh, SporeError *error);
+bool spore_sphere_set_validate(const SporeSphereSet *set, SporeError *error);
+
+/* Merges vertices nearer than `relative` of the bounding box diagonal (1e-6 is usual), drops triangles that
+ * collapse, exact duplicates and unused vertices. In place; order of what stays is kept. */
+bool spore_triangle_mesh_weld(SporeTriangleMesh *mesh, double relative, SporeError *error);
+
+typedef struct SporeMeshReport {
+  double lower[3], upper[3], diagonal; /* m */
+  double area, volume;                 /* m^2, signed m^3 (meaningful when closed) */
+  size_t components, boundary_edges, nonmanifold_edges, misoriented_edges, degenerate_triangles;
+  bool closed; /* no boundary edge, no non-manifold edge, oriented alike */
+} SporeMeshReport;
+bool spore_triangle_mesh_report(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error);
+
+/* Makes neighbouring triangles turn the same way and closed components outward. False only without memory. */
+bool spore_triangle_mesh_orient(SporeTriangleMesh *mesh, SporeError *error);
+
+/* Area-weighted unit vertex normals, vertex_count x 3. */
+void spore_triangle_mesh_normals(const double *vertices, size_t vertex_count, const uint32_t *triangles,
+                                 size_t triangle_count, double *normals);
+
+/* Unique undirected edges, pairs (smaller, larger), sorted. *edges from spore_allocate. */
+bool spore_edges_of_triangles(const uint32_t *triangles, size_t count, uint32_t **edges, size_t *edge_count);
+bool spore_edges_of_tetrahedra(const uint32_t *tetrahedra, size_t count, uint32_t **edges, size_t *edge_count);
+
+/* Outer triangles of a tetrahedral mesh, outward, indexing its vertices. *triangles from spore_allocate. */
+bool spore_tetrahedral_mesh_boundary(const SporeTetrahedralMesh *mesh, uint32_t **triangles, size_t *triangle_count);
+
+typedef struct SporeTetrahedraQuality {
+  double volume;                              /* m^3 */
+  double min_dihedral_deg, mean_dihedral_deg; /* least of all; mean of each tetrahedron's least */
+  double worst_radius_ratio;                  /* R / 3r, 1 is regular */
+} SporeTetrahedraQuality;
+void spore_tetrahedral_mesh_quality(const SporeTetrahedralMesh *mesh, SporeTetrahedraQuality *quality);
+
+#endif

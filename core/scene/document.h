@@ -1,0 +1,119 @@
+/* The document: what the author edits. A tree of objects with properties from the tables. Every change is a command,
+ * so undo, modified state and "what changed" come from one place. One thread (the GTK thread, or main) owns it. */
+#ifndef SPORE_SCENE_DOCUMENT_H
+#define SPORE_SCENE_DOCUMENT_H
+
+#include <glib.h>
+
+#include "core/mesh/mesh.h"
+#include "core/scene/error.h"
+#include "core/scene/schema.h"
+
+typedef struct SporeDocument SporeDocument;
+
+/* An object belongs to its document; read it through these functions. Its id is never used again, even after undo. */
+typedef struct SporeObject SporeObject;
+
+SporeDocument *spore_document_new(const SporeSchema *schema); /* schema borrowed; holds the root and its sections */
+void spore_document_free(SporeDocument *document);
+const SporeSchema *spore_document_schema(const SporeDocument *document);
+
+/* Reading. */
+SporeObject *spore_document_root(const SporeDocument *document);
+SporeObject *spore_document_section(const SporeDocument *document, const char *element); /* always there */
+SporeObject *spore_document_by_id(const SporeDocument *document, guint32 id);
+/* Object of one of the kinds (element names joined by |) with that name; NULL: none. */
+SporeObject *spore_document_find(const SporeDocument *document, const char *elements, const char *name);
+/* By path: "bodies/liver", "bodies/liver/mechanical/corotational_tetrahedra", "solver". */
+SporeObject *spore_document_by_path(const SporeDocument *document, const char *path);
+
+guint32 spore_object_id(const SporeObject *object);
+const SporeObjectType *spore_object_type(const SporeObject *object);
+const char *spore_object_name(const SporeObject *object); /* NULL: this kind has none */
+SporeObject *spore_object_parent(const SporeObject *object);
+guint spore_object_child_count(const SporeObject *object);
+SporeObject *spore_object_child(const SporeObject *object, guint index);
+SporeObject *spore_object_child_of(const SporeObject *object, const char *element); /* first of that element, or NULL */
+char *spore_object_path(const SporeObject *object); /* g_free */
+int spore_object_line(const SporeObject *object);   /* in the file read; 0: not from a file */
+int spore_object_column(const SporeObject *object);
+/* Value now in force: what the author set, else the default. Valid until the next change. */
+const SporeValue *spore_object_value(const SporeObject *object, guint property);
+gboolean spore_object_is_set(const SporeObject *object, guint property);
+double spore_object_number(const SporeObject *object, const char *property);     /* by name, which must exist */
+const char *spore_object_text(const SporeObject *object, const char *property);  /* NULL when neither set nor default */
+/* Fills a structure of the type's table with the values in force; texts are borrowed until the next change. */
+void spore_object_fields(const SporeObject *object, void *fields);
+
+/* Changing. Each is one undo step unless inside a group. FALSE with a GError (place: object path) when refused:
+ * value out of range, name taken or malformed, child not allowed, reference to nothing is allowed (check says it). */
+gboolean spore_document_set(SporeDocument *document, SporeObject *object, guint property, const SporeValue *value,
+                            GError **error);
+gboolean spore_document_set_text(SporeDocument *document, SporeObject *object, const char *property, const char *text,
+                                 GError **error); /* parses as in a file */
+/* Back to the default: no longer written to the file. */
+gboolean spore_document_unset(SporeDocument *document, SporeObject *object, guint property, GError **error);
+/* New child of that element at `index` (G_MAXUINT: last, or where the fixed order wants it). A nameable one gets `name`
+ * made unique ("liver", "liver-2"); NULL: from the element. */
+SporeObject *spore_document_insert(SporeDocument *document, SporeObject *parent, const char *element, const char *name,
+                                   guint index, GError **error);
+gboolean spore_document_remove(SporeDocument *document, SporeObject *object, GError **error);
+gboolean spore_document_move(SporeDocument *document, SporeObject *object, SporeObject *parent, guint index, GError **error);
+/* Renames and follows every reference to it, as one step. */
+gboolean spore_document_rename(SporeDocument *document, SporeObject *object, const char *name, GError **error);
+
+/* Groups: everything between begin and end is one undo step named `label` (translated). Inside, several sets of the
+ * same property merge. abort restores exactly. Groups nest; only the outermost counts. */
+void spore_document_begin(SporeDocument *document, const char *label);
+void spore_document_end(SporeDocument *document);
+void spore_document_abort(SporeDocument *document);
+
+gboolean spore_document_can_undo(const SporeDocument *document);
+gboolean spore_document_can_redo(const SporeDocument *document);
+const char *spore_document_undo_label(const SporeDocument *document); /* NULL: nothing */
+const char *spore_document_redo_label(const SporeDocument *document);
+void spore_document_undo(SporeDocument *document);
+void spore_document_redo(SporeDocument *document);
+gboolean spore_document_is_modified(const SporeDocument *document); /* against the last save or load */
+/* Counts up with every change, undo and redo; for "did the document move on?" */
+guint64 spore_document_revision(const SporeDocument *document);
+
+/* Listening. Called after each change, undo and redo included. */
+typedef enum SporeChangeKind {
+  SPORE_DOCUMENT_SET,      /* object, property */
+  SPORE_DOCUMENT_INSERTED, /* object */
+  SPORE_DOCUMENT_REMOVED,  /* object: still readable during the call */
+  SPORE_DOCUMENT_MOVED,    /* object */
+  SPORE_DOCUMENT_HISTORY   /* undo, redo or modified state changed; object NULL */
+} SporeChangeKind;
+typedef void (*SporeDocumentListener)(SporeDocument *document, SporeChangeKind kind, SporeObject *object, guint property,
+                                      gpointer data);
+guint spore_document_listen(SporeDocument *document, SporeDocumentListener listener, gpointer data);
+void spore_document_unlisten(SporeDocument *document, guint id);
+
+/* Files. A document has a folder once it was loaded or saved; assets are relative to it, and nothing outside can be
+ * named. Content that no file holds yet (imported meshes, generated spheres) waits in the document as a blob under the
+ * file name that it will have; saving writes those that some object names. */
+const char *spore_document_file(const SporeDocument *document); /* NULL: never saved */
+void spore_document_put_blob(SporeDocument *document, const char *file, GBytes *content);
+/* Content of a file named by an asset: the blob, else the file in the folder (regular, inside, at most 1 GiB). */
+GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GError **error);
+
+/* Assets decoded, cached by content, shared and immutable; NULL with a GError whose place is the asset. `asset` is an
+ * object of element mesh, spheres or tetrahedra. Mesh vertices come in metres and SPORE's axes. Valid until the document
+ * is freed. Installed by core/io (spore_io_install_readers), so that the document needs no importer. */
+const SporeTriangleMesh *spore_document_mesh(SporeDocument *document, SporeObject *asset, GError **error);
+const SporeSphereSet *spore_document_spheres(SporeDocument *document, SporeObject *asset, GError **error);
+const SporeTetrahedralMesh *spore_document_tetrahedra(SporeDocument *document, SporeObject *asset, GError **error);
+/* Hash of an asset's decoded content as 16 hex digits: what source_hash holds. g_free. NULL: unreadable. */
+char *spore_document_asset_hash(SporeDocument *document, SporeObject *asset);
+
+typedef struct SporeAssetReaders {
+  gboolean (*mesh)(const char *place, const char *file, GBytes *content, int unit, int frame, SporeTriangleMesh *mesh,
+                   GError **error);
+  gboolean (*spheres)(const char *place, const char *file, GBytes *content, SporeSphereSet *set, GError **error);
+  gboolean (*tetrahedra)(const char *place, const char *file, GBytes *content, SporeTetrahedralMesh *mesh, GError **error);
+} SporeAssetReaders;
+void spore_document_set_readers(SporeDocument *document, const SporeAssetReaders *readers);
+
+#endif

@@ -1,0 +1,58 @@
+/* What objects a scene may hold: their elements, properties and children. Made from the parameter tables and the
+ * model registry; the reader, writer, RELAX NG, inspector and `spore models` all ask it. */
+#ifndef SPORE_SCENE_SCHEMA_H
+#define SPORE_SCENE_SCHEMA_H
+
+#include <glib.h>
+
+#include "core/sim/model.h"
+
+#define SPORE_FORMAT_MAJOR 1
+#define SPORE_FORMAT_MINOR 0
+
+/* Tree of elements (sections of the root in this order; units of a body in this order):
+ *
+ *   spore(version)
+ *     meta(title author description licence)
+ *     units(length)                        how lengths are shown to people; the file is SI
+ *     environment(gravity)
+ *     solver(spore_solver_parameters)
+ *     defaults > contact(spore_contact_parameters)   what bodies' collision units start from
+ *     assets > mesh(name file unit frame)
+ *              spheres(name file source method count seed source_hash)
+ *              tetrahedra(name file source cells source_hash)
+ *     bodies > body(name role position rotation velocity spin)
+ *                mechanical(geometry integrator) > one model element (its own table)
+ *                collision(spheres + spore_contact_parameters)
+ *                visual(mesh colour wetness)
+ *                fidelity(mode)
+ *     links  > pin(name body point radius) | spring(name body_a body_b point_a point_b stiffness damping rest_length)
+ *     effects
+ *     tools  > probe(name body device)
+ *     devices > mouse(name) | track(name file)
+ *     exercise
+ */
+typedef struct SporeObjectType SporeObjectType;
+struct SporeObjectType {
+  const char *element;              /* "body" */
+  const char *label, *doc;          /* translatable */
+  const SporeParameterTable *table; /* properties, possibly empty; one of type SPORE_NAME makes it nameable */
+  GPtrArray *children;              /* of const SporeObjectType *, in file order where `ordered` */
+  gboolean ordered;                 /* children in fixed order, each element at most once */
+  gboolean single_child;            /* at most one child in all (mechanical: one model) */
+  const SporeModelType *model;      /* for a child of mechanical, else NULL */
+};
+
+typedef struct SporeSchema SporeSchema;
+SporeSchema *spore_schema_new(SporeModelRegistry registry);
+void spore_schema_free(SporeSchema *schema);
+SporeModelRegistry spore_schema_registry(const SporeSchema *schema);
+const SporeObjectType *spore_schema_root(const SporeSchema *schema); /* element "spore" */
+const SporeObjectType *spore_schema_find(const SporeSchema *schema, const char *element);
+/* The child type of that element allowed in `parent`, or NULL. */
+const SporeObjectType *spore_object_type_child(const SporeObjectType *parent, const char *element);
+
+/* RELAX NG (XML syntax) of the whole format. Free with g_free. */
+char *spore_schema_relax_ng(const SporeSchema *schema);
+
+#endif

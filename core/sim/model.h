@@ -1,0 +1,89 @@
+/* The interface of a mechanical model: how a body moves.
+ *
+ * A model is immutable while it runs (retune apart); its state lies in the world's flat arrays:
+ *   q  configuration, q_count doubles
+ *   v  generalised velocity, block_count x 3 doubles
+ * A node model has q_count = 3 block_count and q' = v. A rigid body has q_count 7, block_count 2.
+ *
+ * The world solves M v' = f(q, v) + gravity + contacts + links. Models add their own internal force and, if they
+ * can, its Jacobian in 3x3 blocks. Gravity is the world's: it pulls block i with block_mass[i] g. */
+#ifndef SPORE_SIM_MODEL_H
+#define SPORE_SIM_MODEL_H
+
+#include "core/base/parameter.h"
+#include "core/linalg/block_matrix.h"
+#include "core/mesh/mesh.h"
+#include "core/sim/mapping.h"
+
+typedef enum SporeGeometryKind {
+  SPORE_GEOMETRY_NONE,       /* parameters alone */
+  SPORE_GEOMETRY_SURFACE,    /* a triangle mesh, open or closed */
+  SPORE_GEOMETRY_SOLID,      /* a closed triangle mesh */
+  SPORE_GEOMETRY_TETRAHEDRA  /* a tetrahedral mesh */
+} SporeGeometryKind;
+
+/* What a model is built from, in the body's frame, m. Borrowed during create; what the model does not need is NULL. */
+typedef struct SporeGeometry {
+  const SporeTriangleMesh *surface;
+  const SporeTetrahedralMesh *tetrahedra;
+} SporeGeometry;
+
+typedef struct SporeModelType SporeModelType;
+
+/* Base of every model: the first member of the model's own structure. Filled by create. */
+typedef struct SporeModel {
+  const SporeModelType *type;
+  size_t q_count, block_count;
+  double *block_mass; /* kg, block_count; 0 where a block has no weight (a rigid body's rotation) */
+} SporeModel;
+
+struct SporeModelType {
+  const char *name;  /* as in the file: "mass_spring_net" */
+  const char *label; /* for people, translatable (N_) */
+  const char *doc;   /* one paragraph, translatable (N_) */
+  SporeParameterTable parameters;
+  SporeGeometryKind geometry;
+
+  /* Required. */
+  /* Builds from geometry and fields (a structure of parameters.size bytes, checked already). Refuses, with place
+   * (element index) and remedy, what it could not simulate: zero mass, flat tetrahedra, a net without edges. */
+  SporeModel *(*create)(const SporeGeometry *geometry, const void *fields, SporeError *error);
+  void (*destroy)(SporeModel *model);
+  /* State at rest when the body's frame stands at `pose`, moving with velocity (m/s) and spin (rad/s, world axes). */
+  void (*place)(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v);
+  /* Block-diagonal mass at q: block_count x 9, row-major, symmetric positive definite. */
+  void (*mass)(const SporeModel *model, const double *q, double *blocks);
+  /* f += internal force (N; N m for a rotation block). */
+  void (*force)(const SporeModel *model, const double *q, const double *v, double *f);
+  /* Internal potential energy, J: force(q, 0) = -dU/dq. */
+  double (*potential)(const SporeModel *model, const double *q);
+  /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. */
+  bool (*map)(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error);
+
+  /* Optional. */
+  /* Off-diagonal blocks that jacobian writes: calls spore_block_pattern_add(pattern, i, j) for i != j, either order. */
+  bool (*pattern)(const SporeModel *model, SporeBlockPattern *pattern);
+  /* matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv), symmetric; where the exact matrix is indefinite, its
+   * positive semi-definite part. NULL: no internal stiffness (rigid). */
+  void (*jacobian)(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
+                   double damping_scale, SporeBlockMatrix *matrix);
+  /* Moves q along v for h seconds, free of force: q1, v1 from q, v (may alias). NULL: q1 = q + h v, v1 = v.
+   * A rigid body turns here and keeps its angular momentum. */
+  void (*drift)(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1);
+  /* Takes new parameter values while running; only ones marked SPORE_CHANGE_LIVE differ. */
+  bool (*retune)(SporeModel *model, const void *fields, SporeError *error);
+};
+
+/* Helpers for models. */
+bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t q_count, size_t block_count, SporeError *error);
+void spore_model_clear(SporeModel *model);
+static inline bool spore_model_is_nodal(const SporeModel *model) { return model->q_count == 3 * model->block_count; }
+double spore_model_total_mass(const SporeModel *model);
+
+/* A registry is an explicit NULL-terminated array; models/registry.c holds the one of this program. */
+typedef const SporeModelType *const *SporeModelRegistry;
+const SporeModelType *spore_model_type_find(SporeModelRegistry registry, const char *name);
+/* Refuses a type that misses a required slot or whose table is inconsistent (duplicate names, default out of range). */
+bool spore_model_type_check(const SporeModelType *type, SporeError *error);
+
+#endif

@@ -1,0 +1,194 @@
+/* The world: a scene compiled for running. Flat arrays sized exactly; a step allocates, locks and prints nothing.
+ *
+ * Threads: one thread steps a world. Other threads read spore_world_snapshot_acquire (one reader) and write
+ * spore_world_post (one writer). */
+#ifndef SPORE_SIM_WORLD_H
+#define SPORE_SIM_WORLD_H
+
+#include "core/base/profile.h"
+#include "core/base/threads.h"
+#include "core/collide/sphere.h"
+#include "core/haptic/device.h"
+#include "core/integrate/solver.h"
+#include "core/sim/model.h"
+
+typedef struct SporeWorld SporeWorld;
+
+typedef enum SporeRole { SPORE_UNMOVABLE, SPORE_ACTIVE, SPORE_PASSIVE } SporeRole;
+
+/* Contact law of a body; two bodies in contact take the harmonic sum of stiffness and damping (springs in series)
+ * and the smaller friction. The table is spore_contact_parameters. */
+typedef struct SporeContactFields {
+  double stiffness; /* N/m, each sphere's */
+  double damping;   /* N s/m */
+  double friction;  /* Coulomb coefficient */
+  bool self;        /* spheres of this body collide with each other, those that touch at rest excepted */
+} SporeContactFields;
+extern const SporeParameterTable spore_contact_parameters;
+
+typedef struct SporeBodyDescription {
+  const char *name;
+  SporeRole role;
+  SporeModel *model;             /* passive: owned by the world once spore_world_create succeeded; else NULL */
+  SporeIntegratorKind integrator; /* passive; SPORE_INTEGRATOR_DEFAULT: the world's */
+  SporePose pose;                /* of the body's frame at time 0 */
+  SporeVec3 velocity, spin;      /* at time 0 */
+  const SporeSphereSet *spheres; /* body's frame at rest; borrowed; NULL: no collision unit */
+  SporeContactFields contact;
+} SporeBodyDescription;
+
+typedef enum SporeLinkKind { SPORE_LINK_PIN, SPORE_LINK_SPRING } SporeLinkKind;
+
+/* Pin: holds still every block of body_a whose position at time 0 lies within `radius` of `point_a` (world, m).
+ * Spring: between the material points of two bodies that lie at point_a and point_b (world, m) at time 0;
+ * body_b = SPORE_NO_BODY ties to the world. */
+#define SPORE_NO_BODY UINT32_MAX
+typedef struct SporeLinkDescription {
+  const char *name;
+  SporeLinkKind kind;
+  uint32_t body_a, body_b;
+  SporeVec3 point_a, point_b;
+  double radius;                /* pin, m */
+  double stiffness, damping;    /* spring, N/m and N s/m */
+  double rest_length;           /* spring, m; negative: the distance at time 0 */
+} SporeLinkDescription;
+
+typedef struct SporeWorldDescription {
+  size_t body_count, link_count;
+  const SporeBodyDescription *bodies;
+  const SporeLinkDescription *links;
+  SporeVec3 gravity; /* m/s^2 */
+  SporeSolverFields solver;
+} SporeWorldDescription;
+
+/* Names are copied. On failure the models still belong to the caller. Refuses: no memory, a pin that holds nothing, a
+ * spring on a body without degrees of freedom at both ends, non-finite values; place is "bodies/NAME" or "links/NAME". */
+SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error);
+void spore_world_free(SporeWorld *world);
+
+/* One step of solver.time_step. See world.c: it reads as the list in the architecture. */
+void spore_world_step(SporeWorld *world);
+/* Back to time 0, bit for bit. */
+void spore_world_reset(SporeWorld *world);
+
+/* Input of an active body; borrowed; NULL leaves it where it is. */
+void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *device);
+
+size_t spore_world_body_count(const SporeWorld *world);
+uint32_t spore_world_find_body(const SporeWorld *world, const char *name); /* SPORE_NO_BODY: none */
+const char *spore_world_body_name(const SporeWorld *world, uint32_t body);
+SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body);
+const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body); /* NULL: none */
+uint64_t spore_world_step_count(const SporeWorld *world);
+double spore_world_time_s(const SporeWorld *world);
+const SporeSpheres *spore_world_spheres(const SporeWorld *world); /* as of the last step's map phase */
+size_t spore_world_dof(const SporeWorld *world); /* velocity components that physics moves */
+/* Body's state, for measuring and carrying over; valid until the next step. A body without a model has the 7 + 6 of a
+ * pose. */
+const double *spore_world_q(const SporeWorld *world, uint32_t body);
+const double *spore_world_v(const SporeWorld *world, uint32_t body);
+/* Overwrites a body's state (carry-over, tests). Counts must match its model. */
+void spore_world_set_state(SporeWorld *world, uint32_t body, const double *q, const double *v);
+
+/* Mapping of points given in the body's frame at rest, whatever its role; for viewers and measuring.
+ * Feed it with the body's part of a snapshot: snapshot->q + spore_world_q_offset(world, body). */
+bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,
+                     SporeError *error);
+size_t spore_world_q_offset(const SporeWorld *world, uint32_t body);
+size_t spore_world_v_offset(const SporeWorld *world, uint32_t body);
+
+/* Energy, J. */
+typedef struct SporeEnergy {
+  double kinetic, internal, gravity, contact;
+} SporeEnergy;
+SporeEnergy spore_world_energy(const SporeWorld *world);
+
+/* Bits of q, v, step and time. */
+uint64_t spore_world_hash(const SporeWorld *world);
+
+/* Plan: which stages this world runs, and why; which it leaves out, and why. */
+typedef struct SporePlanStage {
+  const char *name;   /* "detect" */
+  bool included;
+  const char *reason; /* translated */
+  size_t items;       /* what it works on: spheres, pairs, links, degrees of freedom */
+  const SporeProfilePhase *profile; /* NULL when left out */
+} SporePlanStage;
+typedef struct SporePlanLeftOut {
+  const char *what, *reason; /* translated; owned by the world */
+} SporePlanLeftOut;
+typedef struct SporePlan {
+  size_t stage_count, left_out_count;
+  const SporePlanStage *stages;
+  const SporePlanLeftOut *left_out;
+} SporePlan;
+const SporePlan *spore_world_plan(const SporeWorld *world);
+const SporeProfilePhase *spore_world_profile(const SporeWorld *world); /* of whole steps */
+
+/* Monitor: what had to be mended. Messages are kept in a ring of SPORE_MONITOR_MESSAGES; `serial` counts all ever. */
+#define SPORE_MONITOR_MESSAGES 64
+typedef struct SporeMonitorMessage {
+  uint64_t serial, step;
+  char text[256]; /* names body and cause, translated */
+} SporeMonitorMessage;
+typedef struct SporeMonitor {
+  uint64_t recoveries;      /* steps taken again from the last good state */
+  uint64_t substeps;        /* extra steps that this cost */
+  uint64_t not_converged;   /* solver ended above its tolerance */
+  uint64_t held_inputs;     /* device states refused (not finite, or a jump) */
+  uint64_t message_count;   /* ever */
+  SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
+} SporeMonitor;
+const SporeMonitor *spore_world_monitor(const SporeWorld *world);
+bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);
+
+/* Counts of the last step. */
+typedef struct SporeStepCounts {
+  size_t contacts, islands, newton_iterations, linear_iterations, force_evaluations;
+  double residual; /* worst relative residual of the islands' solves; 0 for explicit ones */
+} SporeStepCounts;
+SporeStepCounts spore_world_counts(const SporeWorld *world);
+
+/* Snapshot: published at the end of each step through a triple buffer, never blocking either side. */
+typedef struct SporeSnapshotContact {
+  SporeVec3 point, force; /* on sphere a */
+  uint32_t sphere_a, sphere_b;
+} SporeSnapshotContact;
+typedef struct SporeSnapshot {
+  uint64_t step;
+  double time_s;
+  double *q, *v;           /* all bodies, by spore_world_q_offset and _v_offset */
+  double *reaction;        /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
+  size_t contact_count;    /* total; at most contact_capacity are listed */
+  size_t contact_capacity;
+  SporeSnapshotContact *contacts;
+  SporeStepCounts counts;
+  SporeEnergy energy;
+  uint64_t monitor_messages; /* as SporeMonitor.message_count */
+  uint64_t hash;
+  double step_us;
+} SporeSnapshot;
+/* The newest snapshot; stays valid until the next call. Never NULL: before the first step it is time 0. */
+const SporeSnapshot *spore_world_snapshot_acquire(SporeWorld *world);
+
+/* Commands: applied at the start of the next step. False: the queue (1024) is full. */
+typedef enum SporeCommandKind {
+  SPORE_COMMAND_GRAVITY, /* vector */
+  SPORE_COMMAND_PULL,    /* pulls the material point of `body` nearest to `point` toward `vector`, stiffness in number;
+                            the point is chosen on the first PULL after a RELEASE */
+  SPORE_COMMAND_RELEASE, /* ends a pull on `body` */
+  SPORE_COMMAND_RETUNE,  /* model of `body` takes `fields` (parameters.size bytes; freed by the world with spore_free) */
+  SPORE_COMMAND_CONTACT, /* contact law of `body`: contact */
+  SPORE_COMMAND_THAW     /* a frozen body moves again */
+} SporeCommandKind;
+typedef struct SporeCommand {
+  SporeCommandKind kind;
+  uint32_t body;
+  SporeVec3 point, vector;
+  double number;
+  void *fields;
+  SporeContactFields contact;
+} SporeCommand;
+bool spore_world_post(SporeWorld *world, const SporeCommand *command);
+
+#endif

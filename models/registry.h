@@ -1,0 +1,12 @@
+/* The models of this program. */
+#ifndef SPORE_MODELS_REGISTRY_H
+#define SPORE_MODELS_REGISTRY_H
+
+#include "core/sim/model.h"
+
+extern const SporeModelType spore_rigid_body, spore_mass_spring_net, spore_corotational_tetrahedra;
+
+/* NULL-terminated. */
+extern const SporeModelType *const spore_model_registry[];
+
+#endif

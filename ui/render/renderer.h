@@ -1,0 +1,67 @@
+/* Drawing with OpenGL 3.3 core. No GTK here: the editor, `spore render` and the golden pictures share it. */
+#ifndef SPORE_UI_RENDER_RENDERER_H
+#define SPORE_UI_RENDER_RENDERER_H
+
+#include <glib.h>
+
+#include "core/mesh/mesh.h"
+#include "core/scene/error.h"
+
+/* Off-screen context of its own, on a machine with or without a display (EGL surfaceless, else a device). Current to the
+ * thread that made it; make_current moves it. */
+typedef struct SporeOffscreen SporeOffscreen;
+SporeOffscreen *spore_offscreen_new(GError **error);
+void spore_offscreen_free(SporeOffscreen *offscreen);
+gboolean spore_offscreen_make_current(SporeOffscreen *offscreen);
+const char *spore_offscreen_renderer(const SporeOffscreen *offscreen); /* GL_RENDERER */
+gboolean spore_offscreen_is_software(const SporeOffscreen *offscreen);
+
+typedef struct SporeCamera {
+  SporeVec3 target;      /* looked at, and orbited */
+  double distance;       /* m */
+  double azimuth, elevation; /* rad; 0, 0 looks along -z from +z, y up */
+  double field_of_view;  /* vertical, rad */
+} SporeCamera;
+void spore_camera_frame(SporeCamera *camera, const double lower[3], const double upper[3], double aspect);
+void spore_camera_eye(const SporeCamera *camera, SporeVec3 *eye, SporeVec3 *right, SporeVec3 *up, SporeVec3 *forward);
+/* Ray (unit direction) through a pixel, origin top left. */
+void spore_camera_ray(const SporeCamera *camera, double x, double y, int width, int height, SporeVec3 *origin,
+                      SporeVec3 *direction);
+
+/* What is drawn: surfaces and sphere groups, by handle. Buffers are copied. */
+typedef struct SporeRenderer SporeRenderer;
+typedef struct SporeSurfaceStyle {
+  float colour[3];  /* linear light */
+  float wetness;    /* 0..1: film of the specular lobe */
+  gboolean selected, metal, wireframe;
+} SporeSurfaceStyle;
+
+SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error);
+void spore_renderer_free(SporeRenderer *renderer);
+guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
+                                 const guint32 *triangles, gsize triangle_count, const SporeSurfaceStyle *style);
+void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices); /* normals follow */
+void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style);
+/* Spheres as impostors that write depth. values: one a sphere in 0..1 for the colour map, or NULL for `colour`. */
+guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres, gsize count, const float colour[3],
+                                 const float *values, gboolean overlay);
+void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres);
+/* Line segments, count x 2 points x 3; overlays are drawn dimmed where hidden. */
+guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3], float width);
+void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const double *points, gsize count);
+void spore_renderer_remove(SporeRenderer *renderer, guint handle);
+void spore_renderer_set_visible(SporeRenderer *renderer, guint handle, gboolean visible);
+void spore_renderer_clear(SporeRenderer *renderer);
+
+typedef struct SporeRenderOptions {
+  int width, height;
+  gboolean grid;  /* floor grid and axes: editing; off for pictures */
+  gboolean antialias;
+} SporeRenderOptions;
+/* Draws and reads back: pixels is height rows of `stride` bytes, top first, as CAIRO_FORMAT_RGB24 (native BGRx). */
+gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
+                             guint8 *pixels, gsize stride, GError **error);
+
+gboolean spore_png_write(const char *file, const guint8 *pixels, int width, int height, gsize stride, GError **error);
+
+#endif

@@ -1,0 +1,27 @@
+/* A document, and what runs of it, put before the camera: surfaces and spheres of each body, following snapshots. */
+#ifndef SPORE_UI_RENDER_STAGE_H
+#define SPORE_UI_RENDER_STAGE_H
+
+#include "core/scene/compile.h"
+#include "ui/render/renderer.h"
+
+typedef struct SporeStage SporeStage;
+
+typedef struct SporeStageOptions {
+  gboolean surfaces, spheres, tetrahedra, contacts;
+} SporeStageOptions;
+
+/* All borrowed. simulation may be NULL: bodies stand where the document puts them. */
+SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document);
+void spore_stage_free(SporeStage *stage);
+/* Builds everything anew from the document (assets that cannot be read are skipped; check says why). */
+void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation);
+/* Moves what moves. */
+void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot);
+void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options);
+void spore_stage_set_selection(SporeStage *stage, guint32 object_id);
+void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3]);
+/* Body object under a ray: id, 0 none; *point is the hit. */
+guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point);
+
+#endif

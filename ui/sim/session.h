@@ -1,0 +1,31 @@
+/* A simulation on a thread of its own, paced to real time or free. GLib, no GTK. */
+#ifndef SPORE_UI_SIM_SESSION_H
+#define SPORE_UI_SIM_SESSION_H
+
+#include "core/scene/compile.h"
+
+typedef struct SporeSession SporeSession;
+
+/* Compiles the document and starts paused at time 0. The session owns its simulation. */
+SporeSession *spore_session_new(SporeDocument *document, int threads, const SporeTrack *input, GError **error);
+void spore_session_free(SporeSession *session); /* stops the thread and waits */
+const SporeSimulation *spore_session_simulation(const SporeSession *session);
+
+void spore_session_play(SporeSession *session);
+void spore_session_pause(SporeSession *session); /* returns when the thread stands still */
+gboolean spore_session_is_playing(const SporeSession *session);
+void spore_session_step(SporeSession *session, guint steps); /* while paused; returns when done */
+void spore_session_reset(SporeSession *session);             /* time 0, paused or playing as before */
+void spore_session_set_speed(SporeSession *session, double speed); /* 1: real time; 0: as fast as it goes */
+
+/* Newest state; valid until the next call; one reader (the GTK thread). */
+const SporeSnapshot *spore_session_snapshot(SporeSession *session);
+gboolean spore_session_post(SporeSession *session, const SporeCommand *command);
+/* Where the mouse holds the active body `body`; ignored for a body that a track drives. */
+void spore_session_set_pointer(SporeSession *session, guint32 body, const SporeDeviceState *state);
+/* Simulated seconds per second of clock over the last second. */
+double spore_session_real_time_factor(const SporeSession *session);
+/* A copy of what the devices said so far. spore_track_clear and g_free. */
+SporeTrack *spore_session_recording(SporeSession *session);
+
+#endif
