@@ -1,0 +1,137 @@
+#include "core/linalg/block_matrix.h"
+
+#include <string.h>
+
+#include "core/base/memory.h"
+
+void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count) {
+  *pattern = (SporeBlockPattern){.block_count = block_count};
+}
+
+bool spore_block_pattern_add(SporeBlockPattern *pattern, uint32_t i, uint32_t j) {
+  if (i >= pattern->block_count || j >= pattern->block_count) return false;
+  if (i == j) return true;
+  if (pattern->pair_count == pattern->pair_capacity) {
+    size_t capacity = pattern->pair_capacity ? 2 * pattern->pair_capacity : 256;
+    uint32_t *pairs = spore_reallocate(pattern->pairs, 2 * pattern->pair_capacity, 2 * capacity, sizeof *pairs);
+    if (!pairs) return false;
+    pattern->pairs = pairs;
+    pattern->pair_capacity = capacity;
+  }
+  pattern->pairs[2 * pattern->pair_count] = i;
+  pattern->pairs[2 * pattern->pair_count + 1] = j;
+  pattern->pair_count++;
+  return true;
+}
+
+void spore_block_pattern_clear(SporeBlockPattern *pattern) {
+  spore_free(pattern->pairs);
+  *pattern = (SporeBlockPattern){0};
+}
+
+/* Rows with repeats, in any order: row_start (block_count + 1) and column. */
+static void scatter_pairs(const SporeBlockPattern *pattern, uint32_t *row_start, uint32_t *column, uint32_t *fill) {
+  size_t n = pattern->block_count;
+  for (size_t i = 0; i <= n; i++) row_start[i] = 0;
+  for (size_t i = 0; i < n; i++) row_start[i + 1] = 1;
+  for (size_t p = 0; p < 2 * pattern->pair_count; p++) row_start[pattern->pairs[p] + 1]++;
+  for (size_t i = 0; i < n; i++) row_start[i + 1] += row_start[i];
+  for (size_t i = 0; i < n; i++) {
+    fill[i] = row_start[i];
+    column[fill[i]++] = (uint32_t)i;
+  }
+  for (size_t p = 0; p < pattern->pair_count; p++) {
+    uint32_t i = pattern->pairs[2 * p], j = pattern->pairs[2 * p + 1];
+    column[fill[i]++] = j;
+    column[fill[j]++] = i;
+  }
+}
+
+/* Transposing a pattern sorts its rows; doing so to a symmetric one changes nothing else. */
+static void sort_rows(size_t n, const uint32_t *row_start, const uint32_t *column, uint32_t *sorted, uint32_t *fill) {
+  memcpy(fill, row_start, n * sizeof *fill);
+  for (size_t i = 0; i < n; i++)
+    for (uint32_t k = row_start[i]; k < row_start[i + 1]; k++) sorted[fill[column[k]]++] = (uint32_t)i;
+}
+
+/* Drops repeats from sorted rows, in place. */
+static void unique_rows(SporeBlockMatrix *matrix, const uint32_t *row_start, const uint32_t *sorted) {
+  uint32_t count = 0;
+  for (size_t i = 0; i < matrix->block_count; i++) {
+    matrix->row_start[i] = count;
+    for (uint32_t k = row_start[i]; k < row_start[i + 1]; k++) {
+      if (k > row_start[i] && sorted[k] == sorted[k - 1]) continue;
+      if (sorted[k] == i) matrix->diagonal[i] = count;
+      matrix->column[count++] = sorted[k];
+    }
+  }
+  matrix->row_start[matrix->block_count] = count;
+}
+
+bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern) {
+  size_t n = pattern->block_count, entries = n + 2 * pattern->pair_count;
+  *matrix = (SporeBlockMatrix){.block_count = n};
+  if (entries > UINT32_MAX) return false;
+  uint32_t *row_start = SPORE_NEW_ARRAY(uint32_t, n + 1), *column = SPORE_NEW_ARRAY(uint32_t, entries);
+  uint32_t *sorted = SPORE_NEW_ARRAY(uint32_t, entries), *fill = SPORE_NEW_ARRAY(uint32_t, n);
+  matrix->row_start = SPORE_NEW_ARRAY(uint32_t, n + 1);
+  matrix->column = SPORE_NEW_ARRAY(uint32_t, entries);
+  matrix->diagonal = SPORE_NEW_ARRAY(uint32_t, n);
+  bool made = row_start && column && sorted && fill && matrix->row_start && matrix->column && matrix->diagonal;
+  if (made) {
+    scatter_pairs(pattern, row_start, column, fill);
+    sort_rows(n, row_start, column, sorted, fill);
+    unique_rows(matrix, row_start, sorted);
+    matrix->values = spore_allocate(matrix->row_start[n], 9 * sizeof *matrix->values);
+    made = matrix->values != NULL;
+  }
+  spore_free(row_start);
+  spore_free(column);
+  spore_free(sorted);
+  spore_free(fill);
+  if (!made) spore_block_matrix_clear(matrix);
+  return made;
+}
+
+void spore_block_matrix_clear(SporeBlockMatrix *matrix) {
+  spore_free(matrix->row_start);
+  spore_free(matrix->column);
+  spore_free(matrix->diagonal);
+  spore_free(matrix->values);
+  *matrix = (SporeBlockMatrix){0};
+}
+
+void spore_block_matrix_zero(SporeBlockMatrix *matrix) {
+  if (matrix->block_count) memset(matrix->values, 0, 9 * sizeof(double) * matrix->row_start[matrix->block_count]);
+}
+
+size_t spore_block_matrix_find(const SporeBlockMatrix *matrix, uint32_t i, uint32_t j) {
+  if (i >= matrix->block_count) return SIZE_MAX;
+  uint32_t low = matrix->row_start[i], high = matrix->row_start[i + 1];
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (matrix->column[middle] < j) low = middle + 1;
+    else high = middle;
+  }
+  return low < matrix->row_start[i + 1] && matrix->column[low] == j ? low : SIZE_MAX;
+}
+
+void spore_block_matrix_add(SporeBlockMatrix *matrix, uint32_t i, uint32_t j, const double k[9]) {
+  double *block = matrix->values + 9 * spore_block_matrix_find(matrix, i, j);
+  for (int e = 0; e < 9; e++) block[e] += k[e];
+}
+
+void spore_block_matrix_multiply_add(const SporeBlockMatrix *matrix, const double *x, double *y) {
+  for (size_t i = 0; i < matrix->block_count; i++) {
+    double s0 = 0, s1 = 0, s2 = 0;
+    for (uint32_t k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
+      const double *a = matrix->values + 9 * (size_t)k, *b = x + 3 * (size_t)matrix->column[k];
+      s0 += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+      s1 += a[3] * b[0] + a[4] * b[1] + a[5] * b[2];
+      s2 += a[6] * b[0] + a[7] * b[1] + a[8] * b[2];
+    }
+    y[3 * i] += s0;
+    y[3 * i + 1] += s1;
+    y[3 * i + 2] += s2;
+  }
+}
