@@ -29,6 +29,7 @@
  *     links  > pin(name body point radius) | spring(name body_a body_b point_a point_b stiffness damping rest_length)
  *     effects
  *     tools  > probe(name body device)
+ *              camera(name position target field_of_view)
  *     devices > mouse(name) | track(name file)
  *     exercise
  */

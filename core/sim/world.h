@@ -74,6 +74,10 @@ void spore_world_reset(SporeWorld *world);
 /* Input of an active body; borrowed; NULL leaves it where it is. */
 void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *device);
 
+/* What the device of an active body was taken to say in the last step (after the guard), and at what simulated time; for
+ * recording. NULL: it has none, or that has not spoken yet. */
+const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t body, double *time_s);
+
 size_t spore_world_body_count(const SporeWorld *world);
 uint32_t spore_world_find_body(const SporeWorld *world, const char *name); /* SPORE_NO_BODY: none */
 const char *spore_world_body_name(const SporeWorld *world, uint32_t body);

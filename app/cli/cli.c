@@ -1,0 +1,165 @@
+#include "app/cli/cli.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/io/mesh_import.h"
+
+static volatile sig_atomic_t interrupted;
+
+static void on_signal(int number) { interrupted = number; }
+
+gboolean spore_cli_interrupted(void) { return interrupted != 0; }
+
+/* The handler only sets a flag: work ends at its next look, and no file is left half-written. */
+static void catch_signals(void) {
+  struct sigaction action = {.sa_handler = on_signal};
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+int spore_cli_parse(SporeCli *cli, const SporeCommandInfo *info, const GOptionEntry *entries, int *argc, char ***argv) {
+  const GOptionEntry shared[] = {
+      {"json", 0, 0, G_OPTION_ARG_NONE, &cli->json, N_("Print one JSON object and nothing else"), NULL},
+      {"quiet", 'q', 0, G_OPTION_ARG_NONE, &cli->quiet, N_("Print errors only"), NULL},
+      G_OPTION_ENTRY_NULL};
+  g_autoptr(GOptionContext) context = g_option_context_new(info->arguments);
+  g_option_context_set_summary(context, _(info->summary));
+  g_option_context_add_main_entries(context, entries, GETTEXT_PACKAGE);
+  g_option_context_add_main_entries(context, shared, GETTEXT_PACKAGE);
+  g_autoptr(GError) error = NULL;
+  if (!g_option_context_parse(context, argc, argv, &error))
+    return spore_cli_usage(_("spore %s: %s; see `spore %s --help`"), info->name, error->message, info->name);
+  if (*argc - 1 < info->minimum || *argc - 1 > info->maximum)
+    return spore_cli_usage(_("spore %s: %d plain arguments given; expected %s; see `spore %s --help`"), info->name,
+                           *argc - 1, info->arguments, info->name);
+  catch_signals();
+  return SPORE_EXIT_DONE;
+}
+
+void spore_cli_say(const SporeCli *cli, const char *format, ...) {
+  if (cli->json || cli->quiet) return;
+  va_list arguments;
+  va_start(arguments, format);
+  vprintf(format, arguments);
+  va_end(arguments);
+}
+
+int spore_cli_fail(GError *error) {
+  int status = g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED) ? SPORE_EXIT_INTERRUPTED
+                                                                          : spore_error_exit_status(error);
+  fprintf(stderr, "%s\n", error->message);
+  g_error_free(error);
+  return status;
+}
+
+int spore_cli_usage(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  vfprintf(stderr, format, arguments);
+  va_end(arguments);
+  fputc('\n', stderr);
+  return SPORE_EXIT_INPUT;
+}
+
+int spore_cli_finish(SporeCli *cli, int status) {
+  if (!cli->json) return status;
+  json_builder_end_object(cli->report);
+  g_autoptr(JsonGenerator) generator = json_generator_new();
+  g_autoptr(JsonNode) root = json_builder_get_root(cli->report);
+  json_generator_set_root(generator, root);
+  json_generator_set_pretty(generator, TRUE);
+  g_autofree char *text = json_generator_to_data(generator, NULL);
+  puts(text);
+  return status;
+}
+
+static void name_member(SporeCli *cli, const char *member) {
+  if (member) json_builder_set_member_name(cli->report, member);
+}
+
+void spore_cli_number(SporeCli *cli, const char *member, double value) {
+  name_member(cli, member);
+  if (isfinite(value)) json_builder_add_double_value(cli->report, value);
+  else json_builder_add_null_value(cli->report);
+}
+
+void spore_cli_count(SporeCli *cli, const char *member, gint64 value) {
+  name_member(cli, member);
+  json_builder_add_int_value(cli->report, value);
+}
+
+void spore_cli_text(SporeCli *cli, const char *member, const char *value) {
+  name_member(cli, member);
+  if (value) json_builder_add_string_value(cli->report, value);
+  else json_builder_add_null_value(cli->report);
+}
+
+void spore_cli_open(SporeCli *cli, const char *member) {
+  name_member(cli, member);
+  json_builder_begin_object(cli->report);
+}
+
+void spore_cli_open_array(SporeCli *cli, const char *member) {
+  name_member(cli, member);
+  json_builder_begin_array(cli->report);
+}
+
+void spore_cli_close(SporeCli *cli) { json_builder_end_object(cli->report); }
+void spore_cli_close_array(SporeCli *cli) { json_builder_end_array(cli->report); }
+
+static bool report_progress(void *data, double fraction, const char *stage) {
+  const SporeCli *cli = data;
+  static int shown = -1;
+  int percent = (int)(100 * CLAMP(fraction, 0, 1));
+  if (percent != shown && !cli->quiet && isatty(STDERR_FILENO)) {
+    fprintf(stderr, "\r\033[K%3d%% %s", percent, stage ? stage : "");
+    if (percent == 100) fprintf(stderr, "\r\033[K");
+    shown = percent;
+  }
+  return !spore_cli_interrupted();
+}
+
+const SporeProgress *spore_cli_progress(const SporeCli *cli) {
+  static SporeProgress progress = {.report = report_progress};
+  progress.data = (void *)cli;
+  return &progress;
+}
+
+int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error) {
+  for (int i = 0; choices[i]; i++)
+    if (g_str_equal(choices[i], text)) return i;
+  g_autofree char *all = g_strjoinv(", ", (char **)choices);
+  spore_error_raise(error, SPORE_ERROR_INPUT, option, _("'%s' is not known; expected one of %s"), text, all);
+  return -1;
+}
+
+gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
+                             SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
+                             GError **error) {
+  int unit_chosen = spore_cli_choice("--unit", unit ? unit : "m", spore_length_units, error);
+  int frame_chosen = frame ? spore_cli_choice("--frame", frame, spore_mesh_frames, error) : 0;
+  if (unit_chosen < 0 || frame_chosen < 0) return FALSE;
+  char *bytes = NULL;
+  gsize size = 0;
+  g_autoptr(GError) cause = NULL;
+  if (g_file_test(file, G_FILE_TEST_EXISTS) && !g_file_test(file, G_FILE_TEST_IS_REGULAR))
+    return spore_error_raise(error, SPORE_ERROR_FILE, file,
+                             _("is not a regular file; expected a mesh; name a mesh file"));
+  if (!g_file_get_contents(file, &bytes, &size, &cause))
+    return spore_error_raise(error, SPORE_ERROR_FILE, file, _("cannot be read (%s); expected a mesh; check the path"),
+                             cause->message);
+  g_autoptr(GBytes) read = g_bytes_new_take(bytes, size);
+  int hint = spore_mesh_frame_hint(bytes, size);
+  if (!frame && hint >= 0) frame_chosen = hint;
+  if (!spore_mesh_decode(file, file, bytes, size, unit_chosen, frame_chosen, mesh, spore_cli_progress(cli), error))
+    return FALSE;
+  if (content) *content = g_steal_pointer(&read);
+  if (unit_index) *unit_index = unit_chosen;
+  if (frame_index) *frame_index = frame_chosen;
+  return TRUE;
+}

@@ -1,0 +1,76 @@
+/* What the commands of `spore` share: options, output, interruption. */
+#ifndef SPORE_APP_CLI_H
+#define SPORE_APP_CLI_H
+
+#include <json-glib/json-glib.h>
+
+#include "core/base/progress.h"
+#include "core/scene/document.h"
+
+/* Exit statuses of the contract; an interrupt ends as a shell expects it. */
+enum {
+  SPORE_EXIT_DONE = 0,
+  SPORE_EXIT_NOT_HELD = 1,
+  SPORE_EXIT_INPUT = 2,
+  SPORE_EXIT_FAULT = 3,
+  SPORE_EXIT_INTERRUPTED = 130
+};
+
+typedef struct SporeCli {
+  SporeSchema *schema;
+  gboolean json, quiet; /* --json, --quiet */
+  JsonBuilder *report;  /* an open object; printed by spore_cli_finish when json */
+} SporeCli;
+
+typedef struct SporeCommandInfo {
+  const char *name;
+  const char *arguments; /* "SCENE" */
+  const char *summary;   /* translatable */
+  int minimum, maximum;  /* count of plain arguments */
+} SporeCommandInfo;
+
+/* Reads options (entries end with G_OPTION_ENTRY_NULL; --json, --quiet and --help are added) and leaves the plain
+ * arguments in *argv[1..*argc-1]. Returns SPORE_EXIT_DONE to go on. Prints its own message when it fails. */
+int spore_cli_parse(SporeCli *cli, const SporeCommandInfo *info, const GOptionEntry *entries, int *argc, char ***argv);
+
+/* Prints a message for people on stdout, unless --json or --quiet. */
+void spore_cli_say(const SporeCli *cli, const char *format, ...) G_GNUC_PRINTF(2, 3);
+/* Prints the error on stderr, frees it and returns the exit status it asks for. */
+int spore_cli_fail(GError *error);
+/* A usage error: status 2. */
+int spore_cli_usage(const char *format, ...) G_GNUC_PRINTF(1, 2);
+/* Closes the report's object and prints it when --json; returns status. */
+int spore_cli_finish(SporeCli *cli, int status);
+
+/* Members of the report. Numbers that JSON cannot hold become null. */
+void spore_cli_number(SporeCli *cli, const char *member, double value);
+void spore_cli_count(SporeCli *cli, const char *member, gint64 value);
+void spore_cli_text(SporeCli *cli, const char *member, const char *value);
+void spore_cli_open(SporeCli *cli, const char *member); /* object; NULL inside an array */
+void spore_cli_open_array(SporeCli *cli, const char *member);
+void spore_cli_close(SporeCli *cli);
+void spore_cli_close_array(SporeCli *cli);
+
+/* True after Ctrl-C or SIGTERM. */
+gboolean spore_cli_interrupted(void);
+/* Progress on stderr when that is a terminal; cancels on interruption. */
+const SporeProgress *spore_cli_progress(const SporeCli *cli);
+
+/* Reads a mesh file from anywhere; --unit and --frame by name (frame NULL: what the file says, else Y_UP). */
+gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
+                             SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
+                             GError **error);
+/* Index of text in a NULL-terminated list; -1 with a GError that lists it. */
+int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error);
+
+int spore_command_check(SporeCli *cli, int argc, char **argv);
+int spore_command_import(SporeCli *cli, int argc, char **argv);
+int spore_command_models(SporeCli *cli, int argc, char **argv);
+int spore_command_plan(SporeCli *cli, int argc, char **argv);
+int spore_command_render(SporeCli *cli, int argc, char **argv);
+int spore_command_run(SporeCli *cli, int argc, char **argv);
+int spore_command_schema(SporeCli *cli, int argc, char **argv);
+int spore_command_spheres(SporeCli *cli, int argc, char **argv);
+int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv);
+
+#endif

@@ -1,0 +1,75 @@
+/* spore models: every parameter with unit, range, default and meaning. */
+#include <glib/gi18n.h>
+#include <math.h>
+
+#include "app/cli/cli.h"
+
+static const char *type_name(SporeParameterType type) {
+  static const char *const names[] = {"real", "integer", "boolean",   "vector", "choice",
+                                      "text", "file",    "reference", "name"};
+  return names[type];
+}
+
+static void report_parameter(SporeCli *cli, const SporeParameter *parameter) {
+  SporeValue value = {0};
+  char initial[256] = "";
+  if (!parameter->required && spore_parameter_initial(parameter, &value)) {
+    spore_parameter_format(parameter, &value, initial, sizeof initial);
+    spore_value_clear(&value);
+  }
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", parameter->name);
+  spore_cli_text(cli, "type", type_name(parameter->type));
+  spore_cli_text(cli, "unit", parameter->unit);
+  spore_cli_number(cli, "minimum", parameter->minimum);
+  spore_cli_number(cli, "maximum", parameter->maximum);
+  spore_cli_text(cli, "default", parameter->required ? NULL : initial);
+  spore_cli_text(cli, "doc", _(parameter->doc));
+  if (parameter->choices) {
+    spore_cli_open_array(cli, "choices");
+    for (int i = 0; parameter->choices[i]; i++) spore_cli_text(cli, NULL, parameter->choices[i]);
+    spore_cli_close_array(cli);
+  }
+  spore_cli_close(cli);
+  g_autofree char *choices = parameter->choices ? g_strjoinv(" | ", (char **)parameter->choices) : NULL;
+  g_autofree char *range = choices ? g_steal_pointer(&choices)
+                           : isfinite(parameter->minimum) || isfinite(parameter->maximum)
+                               ? g_strdup_printf("%g to %g", parameter->minimum, parameter->maximum)
+                               : g_strdup("");
+  spore_cli_say(cli, "  %-24s %-9s %-7s %-22s %-10s %s\n", parameter->name, type_name(parameter->type), parameter->unit,
+                range, parameter->required ? _("(required)") : initial, _(parameter->doc));
+}
+
+static void report_model(SporeCli *cli, const SporeModelType *type) {
+  static const char *const geometry[] = {"none", "surface", "solid", "tetrahedra"};
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", type->name);
+  spore_cli_text(cli, "label", _(type->label));
+  spore_cli_text(cli, "doc", _(type->doc));
+  spore_cli_text(cli, "geometry", geometry[type->geometry]);
+  spore_cli_say(cli, "%s: %s\n%s\n", type->name, _(type->label), _(type->doc));
+  spore_cli_open_array(cli, "parameters");
+  for (gsize i = 0; i < type->parameters.count; i++) report_parameter(cli, &type->parameters.parameters[i]);
+  spore_cli_close_array(cli);
+  spore_cli_close(cli);
+  spore_cli_say(cli, "\n");
+}
+
+int spore_command_models(SporeCli *cli, int argc, char **argv) {
+  static const SporeCommandInfo info = {"models", "[NAME]", N_("Lists models and their parameters."), 0, 1};
+  const GOptionEntry entries[] = {G_OPTION_ENTRY_NULL};
+  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  if (status != SPORE_EXIT_DONE) return status;
+  SporeModelRegistry registry = spore_schema_registry(cli->schema);
+  if (argc > 1 && !spore_model_type_find(registry, argv[1])) {
+    GString *names = g_string_new(NULL);
+    for (gsize i = 0; registry[i]; i++) g_string_append_printf(names, "%s%s", i ? ", " : "", registry[i]->name);
+    g_autofree char *list = g_string_free(names, FALSE);
+    return spore_cli_usage(_("spore models: '%s' is no model; expected one of %s"), argv[1], list);
+  }
+  spore_cli_open_array(cli, "models");
+  for (gsize i = 0; registry[i]; i++)
+    if (argc < 2 || g_str_equal(argv[1], registry[i]->name)) report_model(cli, registry[i]);
+  spore_cli_close_array(cli);
+  return spore_cli_finish(cli, SPORE_EXIT_DONE);
+}

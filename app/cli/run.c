@@ -1,0 +1,221 @@
+/* spore run: the kernel without a window. */
+#include <glib/gi18n.h>
+#include <math.h>
+#include <time.h>
+
+#include "app/cli/cli.h"
+#include "app/cli/scene.h"
+#include "core/base/memory.h"
+#include "core/io/scene_xml.h"
+
+#define ENERGY_SAMPLES 1000 /* looks at the energy during a run: outside the step, and few enough to cost nothing */
+
+typedef struct RunOptions {
+  double time_s, dt_s;
+  gint64 steps;
+  gboolean realtime;
+  char *record;
+  int threads;
+  SporeSceneOptions scene;
+} RunOptions;
+
+typedef struct RunResult {
+  double energy_start, energy_end, energy_drift; /* J; largest change from the start */
+  double contacts_mean;
+  gsize contacts_max;
+} RunResult;
+
+static double total_energy(const SporeWorld *world) {
+  SporeEnergy energy = spore_world_energy(world);
+  return energy.kinetic + energy.internal + energy.gravity + energy.contact;
+}
+
+static void wait_until(guint64 start_ns, double time_s) {
+  guint64 due = start_ns + (guint64)(1e9 * time_s);
+  struct timespec at = {.tv_sec = (time_t)(due / 1000000000u), .tv_nsec = (long)(due % 1000000000u)};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL);
+}
+
+/* Appends what each device was taken to say in the step just done. */
+static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
+  for (gsize i = 0; i < recording->channel_count; i++) {
+    SporeTrackChannel *channel = &recording->channels[i];
+    guint body = spore_world_find_body(world, channel->name);
+    double time_s = 0;
+    const SporeDeviceState *state = spore_world_input(world, body, &time_s);
+    if (state && !spore_track_append(channel, time_s, state)) return FALSE;
+  }
+  return TRUE;
+}
+
+/* recording: NULL, or a track with a channel for each active body. */
+static RunResult run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, gboolean realtime,
+                           SporeTrack *recording) {
+  RunResult result = {.energy_start = total_energy(world)};
+  gint64 stride = MAX(1, steps / ENERGY_SAMPLES);
+  guint64 start_ns = spore_clock_ns();
+  double contacts = 0;
+  gint64 done = 0;
+  while (done < steps && !spore_cli_interrupted()) {
+    spore_world_step(world);
+    done++;
+    if (recording && !record_inputs(world, recording)) break;
+    gsize now = spore_world_counts(world).contacts;
+    contacts += (double)now;
+    result.contacts_max = MAX(result.contacts_max, now);
+    if (done % stride == 0) {
+      double drift = fabs(total_energy(world) - result.energy_start);
+      result.energy_drift = fmax(result.energy_drift, drift);
+      spore_progress(spore_cli_progress(cli), (double)done / (double)steps, _("running"));
+    }
+    if (realtime) wait_until(start_ns, spore_world_time_s(world));
+  }
+  result.energy_end = total_energy(world);
+  result.contacts_mean = done ? contacts / (double)done : 0;
+  return result;
+}
+
+static void report_stages(SporeCli *cli, const SporePlan *plan) {
+  double total_us = 0;
+  for (gsize i = 0; i < plan->stage_count; i++)
+    if (plan->stages[i].profile) total_us += spore_profile_summary(plan->stages[i].profile).median_us;
+  spore_cli_open_array(cli, "stages");
+  for (gsize i = 0; i < plan->stage_count; i++) {
+    const SporePlanStage *stage = &plan->stages[i];
+    if (!stage->profile) continue;
+    double median_us = spore_profile_summary(stage->profile).median_us;
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", stage->name);
+    spore_cli_number(cli, "median_us", median_us);
+    spore_cli_number(cli, "share", total_us > 0 ? median_us / total_us : 0);
+    spore_cli_close(cli);
+    spore_cli_say(cli, "  %-10s %9.2f us %5.1f %%\n", stage->name, median_us,
+                  total_us > 0 ? 100 * median_us / total_us : 0);
+  }
+  spore_cli_close_array(cli);
+}
+
+/* Number of frozen bodies. */
+static guint report_monitor(SporeCli *cli, const SporeWorld *world) {
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  guint frozen = 0;
+  spore_cli_open(cli, "monitor");
+  spore_cli_count(cli, "recoveries", (gint64)monitor->recoveries);
+  spore_cli_count(cli, "substeps", (gint64)monitor->substeps);
+  spore_cli_count(cli, "not_converged", (gint64)monitor->not_converged);
+  spore_cli_count(cli, "held_inputs", (gint64)monitor->held_inputs);
+  spore_cli_open_array(cli, "frozen");
+  for (guint body = 0; body < spore_world_body_count(world); body++)
+    if (spore_world_body_frozen(world, body)) {
+      spore_cli_text(cli, NULL, spore_world_body_name(world, body));
+      frozen++;
+    }
+  spore_cli_close_array(cli);
+  spore_cli_open_array(cli, "messages");
+  guint64 kept = MIN(monitor->message_count, SPORE_MONITOR_MESSAGES);
+  for (guint64 serial = monitor->message_count - kept; serial < monitor->message_count; serial++) {
+    const SporeMonitorMessage *message = &monitor->messages[serial % SPORE_MONITOR_MESSAGES];
+    spore_cli_text(cli, NULL, message->text);
+    spore_cli_say(cli, _("  step %" G_GUINT64_FORMAT ": %s\n"), message->step, message->text);
+  }
+  spore_cli_close_array(cli);
+  spore_cli_close(cli);
+  return frozen;
+}
+
+static int report(SporeCli *cli, const char *scene, const SporeWorld *world, const RunResult *result) {
+  SporeProfileSummary step = spore_profile_summary(spore_world_profile(world));
+  g_autofree char *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_world_hash(world));
+  gint64 steps = (gint64)spore_world_step_count(world);
+  spore_cli_text(cli, "scene", scene);
+  spore_cli_count(cli, "steps", steps);
+  spore_cli_number(cli, "time_s", spore_world_time_s(world));
+  spore_cli_count(cli, "dof", (gint64)spore_world_dof(world));
+  spore_cli_count(cli, "spheres", (gint64)spore_world_spheres(world)->count);
+  spore_cli_open(cli, "contacts");
+  spore_cli_number(cli, "mean", result->contacts_mean);
+  spore_cli_count(cli, "max", (gint64)result->contacts_max);
+  spore_cli_close(cli);
+  spore_cli_open(cli, "step_us");
+  spore_cli_number(cli, "median", step.median_us);
+  spore_cli_number(cli, "p99", step.p99_us);
+  spore_cli_number(cli, "max", step.max_us);
+  spore_cli_close(cli);
+  spore_cli_say(cli, _("%s: %" G_GINT64_FORMAT " steps, %g s, %zu degrees of freedom, %zu spheres\n"), scene, steps,
+                spore_world_time_s(world), spore_world_dof(world), spore_world_spheres(world)->count);
+  spore_cli_say(cli, _("step: median %.2f us, 99th percentile %.2f us, longest %.2f us\n"), step.median_us, step.p99_us,
+                step.max_us);
+  report_stages(cli, spore_world_plan(world));
+  spore_cli_open(cli, "energy");
+  spore_cli_number(cli, "start", result->energy_start);
+  spore_cli_number(cli, "end", result->energy_end);
+  spore_cli_number(cli, "max_drift", result->energy_drift);
+  spore_cli_close(cli);
+  spore_cli_say(cli, _("contacts: mean %.1f, most %zu; energy: %.6g J at the start, %.6g J at the end\n"),
+                result->contacts_mean, result->contacts_max, result->energy_start, result->energy_end);
+  guint frozen = report_monitor(cli, world);
+  spore_cli_text(cli, "state_hash", hash);
+  spore_cli_say(cli, _("state hash %s\n"), hash);
+  return frozen ? SPORE_EXIT_NOT_HELD : SPORE_EXIT_DONE;
+}
+
+static gboolean add_channels(const SporeWorld *world, SporeTrack *recording) {
+  for (guint body = 0; body < spore_world_body_count(world); body++)
+    if (spore_world_body_role(world, body) == SPORE_ACTIVE &&
+        !spore_track_add_channel(recording, spore_world_body_name(world, body)))
+      return FALSE;
+  return TRUE;
+}
+
+static int save_recording(const SporeTrack *recording, const char *file) {
+  GError *error = NULL;
+  gsize size = 0;
+  char *text = spore_track_format(recording, &size);
+  gboolean saved =
+      text ? spore_write_file(file, text, size, &error)
+           : spore_error_raise(&error, SPORE_ERROR_MEMORY, file, _("not enough memory; record fewer steps"));
+  spore_free(text);
+  return saved ? SPORE_EXIT_DONE : spore_cli_fail(error);
+}
+
+static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
+  GError *error = NULL;
+  g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, options->threads, &error);
+  if (!run) return spore_cli_fail(error);
+  SporeWorld *world = run->simulation->world;
+  SporeTrack recording = {0};
+  if (options->record && !add_channels(world, &recording)) return spore_cli_usage(_("--record: not enough memory"));
+  double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
+  gint64 steps = options->time_s > 0 ? (gint64)ceil(options->time_s / dt_s - 1e-9) : options->steps;
+  RunResult result = run_steps(cli, world, steps, options->realtime, options->record ? &recording : NULL);
+  int status = spore_cli_finish(cli, report(cli, scene, world, &result));
+  if (options->record) status = MAX(status, save_recording(&recording, options->record));
+  spore_track_clear(&recording);
+  return spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : status;
+}
+
+int spore_command_run(SporeCli *cli, int argc, char **argv) {
+  static const SporeCommandInfo info = {"run", "SCENE", N_("Runs a scene and says how it went."), 1, 1};
+  RunOptions options = {.steps = 1000, .threads = 1};
+  const GOptionEntry entries[] = {
+      {"time", 't', 0, G_OPTION_ARG_DOUBLE, &options.time_s, N_("Simulated time"), "S"},
+      {"steps", 'n', 0, G_OPTION_ARG_INT64, &options.steps, N_("Number of steps (default 1000)"), "N"},
+      {"threads", 'j', 0, G_OPTION_ARG_INT, &options.threads, N_("Threads (default 1); the result is the same"), "N"},
+      {"realtime", 0, 0, G_OPTION_ARG_NONE, &options.realtime, N_("Keep pace with the clock"), NULL},
+      {"record", 0, 0, G_OPTION_ARG_FILENAME, &options.record, N_("Write the devices' input as a track"), "FILE"},
+      SPORE_SCENE_OPTION_ENTRIES(options.scene),
+      G_OPTION_ENTRY_NULL};
+  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  if (status == SPORE_EXIT_DONE) {
+    if (options.time_s < 0 || !isfinite(options.time_s))
+      status = spore_cli_usage(_("--time: %g s; expected a time of 0 s or more"), options.time_s);
+    else if (options.steps < 0)
+      status = spore_cli_usage(_("--steps: %" G_GINT64_FORMAT "; expected 0 or more"), options.steps);
+    else if (options.threads < 1 || options.threads > 256)
+      status = spore_cli_usage(_("--threads: %d; expected 1 to 256"), options.threads);
+    else status = run(cli, argv[1], &options);
+  }
+  spore_scene_options_clear(&options.scene);
+  g_free(options.record);
+  return status;
+}

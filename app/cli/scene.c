@@ -1,0 +1,83 @@
+#include "app/cli/scene.h"
+
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/io/scene_xml.h"
+
+void spore_scene_options_clear(SporeSceneOptions *options) {
+  g_strfreev(options->set);
+  g_free(options->integrator);
+  g_free(options->dt);
+  g_free(options->input);
+  *options = (SporeSceneOptions){0};
+}
+
+/* PATH/PROPERTY=VALUE */
+static gboolean set_property(SporeDocument *document, const char *setting, GError **error) {
+  const char *equals = strchr(setting, '=');
+  g_autofree char *path = equals ? g_strndup(setting, (gsize)(equals - setting)) : NULL;
+  char *slash = path ? strrchr(path, '/') : NULL;
+  if (!slash)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--set",
+                             _("'%s' names no property; expected PATH/PROPERTY=VALUE, such as solver/time_step=0.001"),
+                             setting);
+  *slash = '\0';
+  SporeObject *object = spore_document_by_path(document, path);
+  if (!object)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--set",
+                             _("the scene has no object '%s'; expected a path such as bodies/NAME/collision"), path);
+  return spore_document_set_text(document, object, slash + 1, equals + 1, error);
+}
+
+static gboolean apply(SporeDocument *document, const SporeSceneOptions *options, GError **error) {
+  SporeObject *solver = spore_document_section(document, "solver");
+  if (options->dt && !spore_document_set_text(document, solver, "time_step", options->dt, error)) return FALSE;
+  if (options->integrator && !spore_document_set_text(document, solver, "integrator", options->integrator, error))
+    return FALSE;
+  for (char **setting = options->set; setting && *setting; setting++)
+    if (!set_property(document, *setting, error)) return FALSE;
+  return TRUE;
+}
+
+SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneOptions *options, GError **error) {
+  SporeDocument *document = spore_scene_load(cli->schema, file, error);
+  if (document && !apply(document, options, error)) g_clear_pointer(&document, spore_document_free);
+  return document;
+}
+
+static gboolean read_track(const char *file, SporeTrack *track, GError **error) {
+  g_autofree char *text = NULL;
+  g_autoptr(GError) cause = NULL;
+  gsize size = 0;
+  SporeError fault = SPORE_ERROR_INIT;
+  if (!g_file_get_contents(file, &text, &size, &cause))
+    return spore_error_raise(error, SPORE_ERROR_FILE, file, _("cannot be read (%s); expected a track; check the path"),
+                             cause->message);
+  return spore_track_parse(track, file, text, size, &fault) || spore_error_propagate(&fault, error);
+}
+
+SporeRun *spore_run_open(SporeCli *cli, const char *file, const SporeSceneOptions *options, int threads,
+                         GError **error) {
+  g_autoptr(SporeRun) run = g_new0(SporeRun, 1);
+  run->document = spore_cli_load(cli, file, options, error);
+  if (!run->document) return NULL;
+  if (options->input && !read_track(options->input, &run->input, error)) return NULL;
+  run->pool = spore_pool_create(threads);
+  if (!run->pool) {
+    spore_error_raise(error, SPORE_ERROR_MEMORY, "--threads", _("%d threads are not to be had; ask for fewer"),
+                      threads);
+    return NULL;
+  }
+  run->simulation = spore_simulation_new(run->document, run->pool, options->input ? &run->input : NULL, error);
+  return run->simulation ? g_steal_pointer(&run) : NULL;
+}
+
+void spore_run_free(SporeRun *run) {
+  g_clear_pointer(&run->simulation, spore_simulation_free);
+  spore_pool_free(run->pool);
+  spore_track_clear(&run->input);
+  g_clear_pointer(&run->document, spore_document_free);
+  g_free(run);
+}

@@ -1,0 +1,45 @@
+/* Opening a scene from the command line, with the options that change it on the way. */
+#ifndef SPORE_APP_CLI_SCENE_H
+#define SPORE_APP_CLI_SCENE_H
+
+#include "app/cli/cli.h"
+#include "core/scene/compile.h"
+
+typedef struct SporeSceneOptions {
+  char **set; /* PATH=VALUE, PATH ending in the property: solver/time_step, bodies/liver/collision/stiffness */
+  char *integrator, *dt, *input;
+} SporeSceneOptions;
+
+#define SPORE_SCENE_OPTION_ENTRIES(options)                                                                            \
+  {                                                                                                                    \
+      "set",                                                                                                           \
+      0,                                                                                                               \
+      0,                                                                                                               \
+      G_OPTION_ARG_STRING_ARRAY,                                                                                       \
+      &(options).set,                                                                                                  \
+      N_("Set a property: bodies/liver/position=\"0 0 1\""),                                                           \
+      "PATH=VALUE"},                                                                                                   \
+      {"dt", 0, 0, G_OPTION_ARG_STRING, &(options).dt, N_("Time step, s"), "S"},                                       \
+      {"integrator", 0, 0, G_OPTION_ARG_STRING, &(options).integrator, N_("Integrator"), "NAME"}, {                    \
+    "input", 0, 0, G_OPTION_ARG_FILENAME, &(options).input, N_("Recorded device input"), "TRACK"                       \
+  }
+
+void spore_scene_options_clear(SporeSceneOptions *options);
+
+/* Loads a scene and applies --set, --dt and --integrator. */
+SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneOptions *options, GError **error);
+
+/* A scene ready to run; what it holds lives as long as it. */
+typedef struct SporeRun {
+  SporeDocument *document;
+  SporePool *pool;
+  SporeTrack input; /* of --input */
+  SporeSimulation *simulation;
+} SporeRun;
+
+SporeRun *spore_run_open(SporeCli *cli, const char *file, const SporeSceneOptions *options, int threads,
+                         GError **error);
+void spore_run_free(SporeRun *run);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeRun, spore_run_free)
+
+#endif

@@ -1,0 +1,74 @@
+/* spore spheres: a sphere set from a mesh. */
+#include <glib/gi18n.h>
+
+#include "app/cli/cli.h"
+#include "core/generate/spheres.h"
+#include "core/io/mesh_import.h"
+#include "core/io/scene_xml.h"
+
+static void report(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report) {
+  spore_cli_count(cli, "count", (gint64)set->count);
+  spore_cli_number(cli, "coverage", report->coverage);
+  spore_cli_number(cli, "outside", report->outside);
+  spore_cli_open(cli, "distance");
+  spore_cli_number(cli, "mean", report->distance_mean);
+  spore_cli_number(cli, "max", report->distance_max);
+  spore_cli_close(cli);
+  spore_cli_number(cli, "depth_error", report->depth_error);
+  spore_cli_number(cli, "seconds", report->seconds);
+  spore_cli_say(cli,
+                _("%zu spheres: coverage %.1f %%, outside %.1f %%, distance %.3f %% (largest %.2f %%) of the diagonal, "
+                  "depth error %.3f, %.2f s\n"),
+                set->count, 100 * report->coverage, 100 * report->outside, 100 * report->distance_mean,
+                100 * report->distance_max, report->depth_error, report->seconds);
+}
+
+static int generate(SporeCli *cli, const char *file, const SporeSpheresOptions *options, const char *unit,
+                    const char *frame, const char *output) {
+  GError *error = NULL;
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeTriangleMesh mesh = {0};
+  SporeSphereSet set = {0};
+  SporeSpheresReport figures = {0};
+  gboolean done = spore_cli_read_mesh(cli, file, unit, frame, &mesh, NULL, NULL, NULL, &error);
+  if (done && !spore_spheres_from_mesh(&mesh, options, &set, &figures, spore_cli_progress(cli), &fault)) {
+    spore_error_at(&fault, file);
+    done = spore_error_propagate(&fault, &error);
+  }
+  if (done && output) {
+    gsize size = 0;
+    g_autofree char *text = spore_spheres_format(&set, &size);
+    done = spore_write_file(output, text, size, &error);
+  }
+  if (done) report(cli, &set, &figures);
+  spore_triangle_mesh_clear(&mesh);
+  spore_sphere_set_clear(&set);
+  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
+int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
+  static const SporeCommandInfo info = {"spheres", "MESH", N_("Fits collision spheres to a mesh."), 1, 1};
+  char *unit = NULL, *frame = NULL, *output = NULL;
+  gint64 count = 0, seed = 1;
+  double tolerance = 0;
+  const GOptionEntry entries[] = {
+      {"count", 'n', 0, G_OPTION_ARG_INT64, &count, N_("Number of spheres"), "N"},
+      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &tolerance,
+       N_("Mean distance allowed, of the diagonal: as many spheres as that takes"), "D"},
+      {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
+      {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
+      {"seed", 0, 0, G_OPTION_ARG_INT64, &seed, N_("Seed: the same one gives the same spheres (default 1)"), "N"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, x y z r a line"), "F.spheres"},
+      G_OPTION_ENTRY_NULL};
+  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  if (status == SPORE_EXIT_DONE) {
+    SporeSpheresOptions options = {.count = (size_t)MAX(count, 0), .tolerance = tolerance, .seed = (uint64_t)seed};
+    if (count < 0 || count > 100000 || (count == 0) == !(tolerance > 0 && tolerance < 1))
+      status = spore_cli_usage(_("spore spheres: expected either --count 1 to 100000 or --tolerance between 0 and 1"));
+    else status = generate(cli, argv[1], &options, unit, frame, output);
+  }
+  g_free(unit);
+  g_free(frame);
+  g_free(output);
+  return status;
+}

@@ -1,0 +1,64 @@
+/* spore: the command line. */
+#include <glib/gi18n.h>
+#include <locale.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "app/cli/cli.h"
+#include "app/locale.h"
+#include "models/registry.h"
+
+typedef struct Command {
+  const char *name;
+  int (*run)(SporeCli *cli, int argc, char **argv);
+  const char *summary;
+} Command;
+
+static const Command commands[] = {
+    {"run", spore_command_run, N_("Run a scene and say how it went")},
+    {"check", spore_command_check, N_("Say what is wrong with a scene, and the remedy")},
+    {"plan", spore_command_plan, N_("Say what a scene needs, what it leaves out, and why")},
+#ifdef SPORE_HAVE_RENDER
+    {"render", spore_command_render, N_("Make a picture of a scene")},
+#endif
+    {"import", spore_command_import, N_("Make a scene from organ meshes")},
+    {"spheres", spore_command_spheres, N_("Fit collision spheres to a mesh")},
+    {"tetrahedra", spore_command_tetrahedra, N_("Fill a mesh with tetrahedra")},
+    {"models", spore_command_models, N_("List models and their parameters")},
+    {"schema", spore_command_schema, N_("Print the RELAX NG schema of scenes")},
+};
+
+static void print_help(void) {
+  printf("%s\n\n", _("Usage: spore COMMAND [OPTION...] [ARGUMENT...]"));
+  for (gsize i = 0; i < G_N_ELEMENTS(commands); i++) printf("  %-11s %s\n", commands[i].name, _(commands[i].summary));
+  printf("\n%s\n", _("`spore COMMAND --help` says more. Exit status: 0 done, 1 a check did not hold, 2 bad input, "
+                     "3 a fault of ours."));
+}
+
+static int run_command(const Command *command, int argc, char **argv) {
+  SporeCli cli = {.schema = spore_schema_new(spore_model_registry), .report = json_builder_new()};
+  json_builder_begin_object(cli.report);
+  int status = command->run(&cli, argc, argv);
+  g_object_unref(cli.report);
+  spore_schema_free(cli.schema);
+  return status;
+}
+
+int main(int argc, char **argv) {
+  spore_locale_start();
+  if (argc < 2 || g_str_equal(argv[1], "--help") || g_str_equal(argv[1], "help") || g_str_equal(argv[1], "-h")) {
+    print_help();
+    return argc < 2 ? SPORE_EXIT_INPUT : SPORE_EXIT_DONE;
+  }
+  if (g_str_equal(argv[1], "--version")) {
+    printf("spore %s\n", SPORE_VERSION);
+    return SPORE_EXIT_DONE;
+  }
+  for (gsize i = 0; i < G_N_ELEMENTS(commands); i++)
+    if (g_str_equal(argv[1], commands[i].name)) {
+      g_autofree char *name = g_strdup_printf("spore %s", commands[i].name);
+      g_set_prgname(name);
+      return run_command(&commands[i], argc - 1, argv + 1);
+    }
+  return spore_cli_usage(_("spore: '%s' is no command; expected one of those that `spore --help` lists"), argv[1]);
+}
