@@ -49,7 +49,8 @@ typedef struct SporeParameterTable {
   size_t size; /* sizeof the described structure */
 } SporeParameterTable;
 
-/* A value apart from any structure. text is owned by the value (spore_value_clear). */
+/* A value apart from any structure. text is owned by the value: from spore_allocate, given back by
+ * spore_value_clear. */
 typedef struct SporeValue {
   SporeParameterType type;
   double number[3]; /* real, vector; integer, boolean and choice in [0], exactly */
@@ -67,8 +68,11 @@ bool spore_value_equal(const SporeValue *a, const SporeValue *b); /* bitwise for
 
 /* The default of a parameter. */
 bool spore_parameter_initial(const SporeParameter *parameter, SporeValue *value);
-/* Reads text as it stands in a file (C locale, no junk behind it) and checks it against type, range and choices.
- * On failure *value is untouched and the message says value, range with unit and nearest choice. */
+/* Reads text as it stands in a file and checks it against type, range and choices. Numbers are decimal in the C
+ * locale's form, those of a vector apart by blanks; an integer has neither point nor exponent and lies within +-2^53;
+ * a boolean is true or false; blanks around anything but free text do not count.
+ * On success *value is overwritten (what it held is not freed). On failure *value is untouched and the message says
+ * value, range with unit and nearest choice. */
 bool spore_parameter_parse(const SporeParameter *parameter, const char *text, SporeValue *value, SporeError *error);
 /* Checks a value that did not come from text (inspector, API): finite, in range, of the right type. */
 bool spore_parameter_check(const SporeParameter *parameter, const SporeValue *value, SporeError *error);
