@@ -1,0 +1,343 @@
+#!/usr/bin/python3
+"""The command line from end to end, as the contract has it. test_cli.py SPORE FEATURES: FEATURES is a comma-separated
+list of what the build holds (assimp, cgal, render)."""
+import json
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import shapes
+from tap import Skip, check, main
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+SPORE = os.path.abspath(sys.argv[1])
+FEATURES = set(sys.argv[2].split(","))
+WORK = pathlib.Path(tempfile.mkdtemp(prefix="spore-e2e-"))
+SCENES = ROOT / "resources" / "scenes"
+
+
+def spore(*arguments, status=0, **options):
+    """Runs spore, asserts its exit status, returns the finished process."""
+    done = subprocess.run([SPORE, *map(str, arguments)], capture_output=True, text=True, timeout=300, cwd=WORK, **options)
+    assert done.returncode == status, f"{arguments}: status {done.returncode}\n{done.stdout}\n{done.stderr}"
+    assert "Sanitizer" not in done.stderr, done.stderr
+    return done
+
+
+def report(*arguments, status=0):
+    """The JSON object of a command; stdout must hold nothing else."""
+    return json.loads(spore(*arguments, "--json", status=status).stdout)
+
+
+def refuses(*arguments, says, **options):
+    """The command ends with status 2, one line on stderr that holds every text of `says`, and nothing on stdout."""
+    done = spore(*arguments, status=2, **options)
+    lines = done.stderr.strip().splitlines()
+    assert len(lines) == 1, f"expected one line:\n{done.stderr}"
+    for text in says:
+        assert text in lines[0], f"'{text}' is not in: {lines[0]}"
+    assert not done.stdout, done.stdout
+    return lines[0]
+
+
+def file(name, content):
+    path = WORK / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+def organ():
+    """A scene made by import: an organ of one mesh."""
+    scene = WORK / "organ" / "ball.spore"
+    if not scene.exists():
+        file("ball.off", shapes.off(*shapes.sphere()))
+        spore("import", "ball.off", "--unit", "m", "-o", scene)
+    return scene
+
+
+def soft_ball():
+    """A scene with a rigid ball above unmovable spheres: contacts within a few hundred steps."""
+    scene = WORK / "soft" / "soft.spore"
+    if not scene.exists():
+        file("soft/ball.off", shapes.off(*shapes.sphere()))
+        file("soft/one.spheres", "0 0 0 0.03\n")
+        file("soft/floor.spheres", "".join(f"{x / 50} -0.05 {z / 50} 0.02\n" for x in range(-3, 4) for z in range(-3, 4)))
+        file("soft/soft.spore", """<?xml version="1.0" encoding="UTF-8"?>
+<spore version="1.0">
+  <environment gravity="0 -9.81 0"/>
+  <solver time_step="0.001"/>
+  <assets>
+    <mesh name="ball" file="ball.off"/>
+    <spheres name="one" file="one.spheres"/>
+    <spheres name="floor" file="floor.spheres"/>
+  </assets>
+  <bodies>
+    <body name="ball" role="passive" position="0 0.02 0">
+      <mechanical geometry="ball">
+        <rigid_body/>
+      </mechanical>
+      <collision spheres="one"/>
+      <visual mesh="ball"/>
+    </body>
+    <body name="floor" role="unmovable">
+      <collision spheres="floor"/>
+    </body>
+  </bodies>
+</spore>
+""")
+    return scene
+
+
+@check
+def help_lists_commands():
+    """help lists every command; no command and unknown ones are usage errors."""
+    text = spore("--help").stdout
+    for name in ("run", "check", "plan", "import", "spheres", "tetrahedra", "models", "schema"):
+        assert f"\n  {name} " in text
+        assert "--json" in spore(name, "--help").stdout
+    spore(status=2)
+    refuses("fly", says=["fly"])
+    refuses("run", says=["SCENE"])
+    refuses("run", "--no-such-option", "x", says=["no-such-option"])
+
+
+@check
+def import_makes_a_scene():
+    """import writes a scene that check, plan and run take."""
+    scene = organ()
+    text = scene.read_text()
+    assert 'unit="m"' in text and "<body" in text
+    assert sorted(p.name for p in scene.parent.iterdir()) == ["ball.off", "ball.spore"]
+    assert isinstance(report("check", scene)["diagnostics"], list)
+    assert report("plan", scene)["stages"]
+    assert report("run", scene, "--steps", 1000)["steps"] == 1000
+
+
+@check
+def run_reports_the_contract():
+    """run --json gives what the contract promises."""
+    answer = report("run", soft_ball(), "--steps", 500)
+    for key in ("scene", "steps", "time_s", "dof", "spheres", "contacts", "step_us", "stages", "energy", "monitor", "state_hash"):
+        assert key in answer, key
+    assert set(answer["contacts"]) >= {"mean", "max"} and answer["contacts"]["max"] > 0
+    assert set(answer["step_us"]) >= {"median", "p99", "max"}
+    assert set(answer["energy"]) >= {"start", "end", "max_drift"}
+    assert set(answer["monitor"]) >= {"recoveries", "substeps", "frozen"} and answer["monitor"]["frozen"] == []
+    assert {"name", "median_us", "share"} <= set(answer["stages"][0])
+    assert answer["dof"] == 6 and answer["spheres"] == 50
+
+
+@check
+def time_and_dt():
+    """--time, --dt and --set change the run."""
+    answer = report("run", soft_ball(), "--time", 0.1, "--dt", 0.0005)
+    assert answer["steps"] == 200 and abs(answer["time_s"] - 0.1) < 1e-9
+    still = report("run", soft_ball(), "--steps", 10, "--set", "environment/gravity=0 0 0")
+    assert still["energy"]["max_drift"] < 1e-12
+    refuses("run", soft_ball(), "--dt", "-1", says=["time_step", "-1"])
+    refuses("run", soft_ball(), "--set", "bodies/none/role=passive", says=["bodies/none"])
+    refuses("run", soft_ball(), "--set", "solver/time_stop=1", says=["time_stop", "time_step"])
+    refuses("run", soft_ball(), "--integrator", "magic", says=["magic", "implicit_euler"])
+    refuses("run", soft_ball(), "--steps", "-4", says=["-4"])
+
+
+@check
+def same_run_same_hash():
+    """The same scene gives the same state hash: twice, and with 1 or 2 threads."""
+    runs = [report("run", soft_ball(), "--steps", 400, *more)["state_hash"] for more in ((), (), ("--threads", 2))]
+    assert len(set(runs)) == 1, runs
+    other = report("run", soft_ball(), "--steps", 401)["state_hash"]
+    assert other != runs[0]
+
+
+@check
+def shipped_scenes_run():
+    """Each shipped scene is valid by the schema, checks without an error, and repeats its hash with 1 or 2 threads."""
+    schema = file("spore.rng", spore("schema").stdout)
+    scenes = sorted(SCENES.glob("*.spore"))
+    assert {"minimal.spore", "laparoscopy.spore"} <= {s.name for s in scenes}
+    for scene in scenes:
+        subprocess.run(["xmllint", "--noout", "--relaxng", schema, scene], check=True, capture_output=True)
+        bad = [d for d in report("check", scene)["diagnostics"] if d["severity"] != "note"]
+        assert not bad, bad
+        hashes = {report("run", scene, "--steps", 300, "--threads", n)["state_hash"] for n in (1, 1, 2)}
+        assert len(hashes) == 1, scene
+
+
+@check
+def record_and_replay():
+    """run --record writes a track that gives the same hash again."""
+    scene, track = SCENES / "laparoscopy.spore", WORK / "again.track"
+    first = report("run", scene, "--steps", 300, "--record", track)["state_hash"]
+    assert report("run", scene, "--steps", 300, "--input", track)["state_hash"] == first
+    refuses("run", scene, "--input", WORK / "none.track", says=["none.track"])
+    refuses("run", scene, "--input", file("bad.track", "spore-track 1\ndevice probe\n0 1 2\n"), says=["bad.track:3"])
+
+
+@check
+def render_makes_a_picture():
+    """render writes a PNG of the asked size without a display."""
+    if "render" not in FEATURES:
+        raise Skip("built without pictures")
+    picture = WORK / "minimal.png"
+    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    done = spore("render", SCENES / "minimal.spore", "-o", picture, "--size", "320x200", "--json", env=environment)
+    answer = json.loads(done.stdout)
+    assert (answer["width"], answer["height"], answer["frames"]) == (320, 200, 1) and answer["gl_renderer"]
+    head = picture.read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n" and int.from_bytes(head[16:20], "big") == 320
+    refuses("render", SCENES / "minimal.spore", "-o", picture, "--size", "0x9", says=["0x9"])
+    refuses("render", SCENES / "minimal.spore", says=["-o"])
+    refuses("render", SCENES / "minimal.spore", "-o", "no/such/folder/x.png", says=["no/such/folder"])
+
+
+@check
+def plan_says_why():
+    """plan gives each stage with a reason and says what is left out."""
+    answer = report("plan", soft_ball(), "--measure")
+    names = {s["name"]: s for s in answer["stages"]}
+    assert {"detect", "integrate"} <= set(names)
+    assert all(s["reason"] for s in answer["stages"])
+    assert names["detect"]["included"] and "measured_us" in names["detect"]
+    assert not names["link"]["included"] and "measured_us" not in names["link"]
+    assert answer["left_out"] and answer["libraries"]
+    assert not any("gtk" in library for library in answer["libraries"])
+
+
+@check
+def models_and_schema():
+    """models lists parameters with unit and range; schema is a RELAX NG that accepts a scene and refuses another."""
+    models = {m["name"]: m for m in report("models")["models"]}
+    assert {"rigid_body", "mass_spring_net", "corotational_tetrahedra"} <= set(models)
+    young = next(p for p in models["corotational_tetrahedra"]["parameters"] if "young" in p["name"])
+    assert young["unit"] == "Pa" and young["doc"]
+    assert len(report("models", "rigid_body")["models"]) == 1
+    refuses("models", "rigid_boy", says=["rigid_boy", "rigid_body"])
+    schema = file("spore.rng", spore("schema").stdout)
+    subprocess.run(["xmllint", "--noout", "--relaxng", schema, soft_ball()], check=True, capture_output=True)
+    wrong = file("soft/wrong.spore", soft_ball().read_text().replace("time_step", "time_stop"))
+    assert subprocess.run(["xmllint", "--noout", "--relaxng", schema, wrong], capture_output=True).returncode
+
+
+@check
+def spheres_command():
+    """spheres writes the asked number of spheres, the same each time, with its figures."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    answer = report("spheres", "ball.off", "--count", 20, "-o", "a.spheres")
+    assert answer["count"] == 20 and answer["coverage"] > 0.9
+    assert {"outside", "distance", "depth_error", "seconds"} <= set(answer)
+    rows = [line for line in (WORK / "a.spheres").read_text().splitlines() if line and line[0] != "#"]
+    assert len(rows) == 20 and all(len(row.split()) == 4 for row in rows)
+    report("spheres", "ball.off", "--count", 20, "-o", "b.spheres")
+    assert (WORK / "a.spheres").read_bytes() == (WORK / "b.spheres").read_bytes()
+    refuses("spheres", "ball.off", says=["--count"])
+    refuses("spheres", "ball.off", "--count", 0, says=["--count"])
+    refuses("spheres", "ball.off", "--count", 5, "--unit", "parsec", says=["parsec", "mm"])
+    refuses("spheres", "ball.off", "--count", 5, "-o", "no/such/x.spheres", says=["no/such"])
+
+
+@check
+def tetrahedra_command():
+    """tetrahedra fills a mesh in each format, or says what this build lacks."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    if "cgal" not in FEATURES:
+        refuses("tetrahedra", "ball.off", "--cells", 300, says=["CGAL"])
+        return
+    answer = report("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.mesh")
+    assert answer["tetrahedra"] > 100 and answer["min_dihedral_deg"] > 5 and answer["method"] == "direct"
+    for name, mark in (("ball.vtu", "UnstructuredGrid"), ("ball.msh", "$MeshFormat"), ("ball.mesh", "Tetrahedra")):
+        spore("tetrahedra", "ball.off", "--cells", 300, "-o", name)
+        assert mark in (WORK / name).read_text()
+    refuses("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.xyz", says=["ball.xyz", ".vtu"])
+
+
+@check
+def bad_meshes():
+    """Each bad mesh gets one clear line and leaves no file."""
+    ball = shapes.sphere()
+    nan = shapes.off([(float("nan"), 0, 0)] + ball[0][1:], ball[1])
+    index = shapes.off(ball[0], ball[1][:-1] + [(0, 1, 99999)])
+    (WORK / "folder.stl").mkdir(exist_ok=True)
+    for name, content, says in (("none.stl", None, ["none.stl"]), ("folder.stl", None, ["folder.stl"]),
+                                ("empty.stl", b"", ["empty.stl"]), ("text.stl", b"Dear diary, no mesh today.\n", ["text.stl"]),
+                                ("nan.off", nan, ["nan.off", "vertex"]), ("index.off", index, ["index.off", "99999"]),
+                                ("cut.glb", b"glTF\x02\x00\x00\x00\xff\xff\x00\x00\x10", ["cut.glb"])):
+        if content is not None:
+            file(name, content)
+        refuses("import", name, "--unit", "m", "-o", "bad/bad.spore", says=says)
+        refuses("spheres", name, "--count", 10, "-o", "bad.spheres", says=says)
+    assert not (WORK / "bad").exists() and not (WORK / "bad.spheres").exists()
+
+
+@check
+def bad_scenes():
+    """Each bad scene gets its line, column, value and remedy."""
+    good = soft_ball().read_text()
+    bomb = '<?xml version="1.0"?>\n<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">' + "".join(
+        f'<!ENTITY a{i} "&a{i - 1 if i else ""};&a{i - 1 if i else ""};">' for i in range(30)) + "]>\n<spore>&a29;</spore>\n"
+    cases = [("unknown", good.replace("<collision spheres=\"one\"/>", "<colision spheres=\"one\"/>"), [":16:7:", "colision", "collision"]),
+             ("range", good.replace('time_step="0.001"', 'time_step="-1"'), [":4:11:", "-1", "time_step"]),
+             ("number", good.replace('time_step="0.001"', 'time_step="fast"'), [":4:11:", "fast"]),
+             ("nan", good.replace('gravity="0 -9.81 0"', 'gravity="0 nan 0"'), [":3:16:", "nan"]),
+             ("twice", good.replace('name="floor" role', 'name="ball" role'), [":19:", "ball"]),
+             ("outside", good.replace('file="ball.off"', 'file="../secret.off"'), [":6:", "../secret.off"]),
+             ("absolute", good.replace('file="ball.off"', 'file="/etc/passwd"'), [":6:", "/etc/passwd"]),
+             ("newer", good.replace('version="1.0"', 'version="2.0"', 2).replace('<?xml version="2.0"', '<?xml version="1.0"'), ["2.0"]),
+             ("noversion", good.replace('<spore version="1.0">', "<spore>"), ["version"]),
+             ("bomb", bomb, [":2:", "DOCTYPE"]), ("cut", good[:300], ["cut.spore:"]), ("empty", "", ["empty.spore"]),
+             ("binary", b"\x00\x01\x02\xff" * 50, ["binary.spore"]),
+             ("reference", good.replace('spheres="one"', 'spheres="won"'), ["won"]),
+             ("asset", good.replace('file="ball.off"', 'file="gone.off"'), ["gone.off"])]
+    for name, text, says in cases:
+        refuses("run", file(f"soft/{name}.spore", text), "--steps", 1, says=[name + ".spore"] + says)
+    refuses("run", WORK / "none.spore", says=["none.spore"])
+    refuses("run", WORK, says=[str(WORK)])
+    for name, text, _ in cases:
+        (WORK / f"soft/{name}.spore").unlink()
+
+
+@check
+def disk_full_leaves_things_as_they_were():
+    """When the disk is full, saving says so and leaves the old file whole."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    file("keep.spheres", "0 0 0 1\n")
+    limit = lambda: (signal.signal(signal.SIGXFSZ, signal.SIG_IGN), resource.setrlimit(resource.RLIMIT_FSIZE, (16, 16)))
+    refuses("spheres", "ball.off", "--count", 20, "-o", "keep.spheres", says=["keep.spheres"], preexec_fn=limit)
+    assert (WORK / "keep.spheres").read_text() == "0 0 0 1\n"
+    assert not [p for p in WORK.iterdir() if p.name.startswith((".keep", "keep.spheres."))]
+
+
+@check
+def interruption_is_quick():
+    """Ctrl-C ends long work within half a second and leaves no half-written file."""
+    file("fine.off", shapes.off(*shapes.sphere(rings=60, sectors=120)))
+    for arguments in (["run", str(soft_ball()), "--steps", "100000000"],
+                      ["spheres", "fine.off", "--count", "3000", "-o", "never.spheres"]):
+        process = subprocess.Popen([SPORE, *arguments], cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(1.5)
+        assert process.poll() is None, f"{arguments} ended by itself: {process.communicate()}"
+        process.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        process.communicate(timeout=60)
+        assert time.monotonic() - start < (0.5 if "Sanitizer" not in os.environ.get("SPORE_BUILD", "") else 5)
+        assert process.returncode == 130, process.returncode
+    assert not (WORK / "never.spheres").exists()
+
+
+@check
+def links_what_it_needs():
+    """spore links neither GTK nor CGAL's libraries nor assimp, in any build."""
+    linked = subprocess.run(["ldd", SPORE], capture_output=True, text=True, check=True).stdout
+    for library in ("gtk", "assimp", "gmp", "mpfr") + (() if "render" in FEATURES else ("epoxy", "libpng")):
+        assert library not in linked, library
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,35 @@
+"""A few lines of TAP for test programs in Python: each function marked @check counts by itself."""
+import sys
+import traceback
+
+_checks = []
+
+
+def check(function):
+    """Marks a check. Its first docstring line (or name) is what the report says."""
+    _checks.append(function)
+    return function
+
+
+class Skip(Exception):
+    """Raised by a check that this build or machine cannot make."""
+
+
+def main(*arguments):
+    """Runs all checks in order, hands each `arguments`, and exits with 1 when one failed."""
+    failed = 0
+    print("TAP version 13")
+    print(f"1..{len(_checks)}")
+    for number, function in enumerate(_checks, 1):
+        name = (function.__doc__ or function.__name__).splitlines()[0].strip().rstrip(".").replace("#", "")
+        try:
+            function(*arguments)
+            print(f"ok {number} - {name}", flush=True)
+        except Skip as reason:
+            print(f"ok {number} - {name} # SKIP {reason}", flush=True)
+        except Exception:
+            failed += 1
+            print(f"not ok {number} - {name}", flush=True)
+            for line in traceback.format_exc().splitlines():
+                print("#", line, flush=True)
+    sys.exit(1 if failed else 0)
