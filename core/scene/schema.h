@@ -10,6 +10,10 @@
 #define SPORE_FORMAT_MAJOR 1
 #define SPORE_FORMAT_MINOR 0
 
+/* Whether a file of that version ("1.0") can be read: any minor of this major, since a newer minor only adds, and what
+ * it added is refused by name where it is used. */
+bool spore_format_version_check(const char *version, SporeError *error);
+
 /* Tree of elements (sections of the root in this order; units of a body in this order):
  *
  *   spore(version)
@@ -32,6 +36,10 @@
  *              camera(name position target field_of_view)
  *     devices > mouse(name) | track(name file)
  *     exercise
+ *
+ * Names are unique within a section (assets, bodies, links, tools, devices), so that "bodies/liver" says one object.
+ * position and rotation place a body's frame: metres, and a rotation vector (axis times angle, rad).
+ * A property of `collision` that is not set takes its value from `defaults > contact`.
  */
 typedef struct SporeObjectType SporeObjectType;
 struct SporeObjectType {
@@ -42,6 +50,8 @@ struct SporeObjectType {
   gboolean ordered;                 /* children in fixed order, each element at most once */
   gboolean single_child;            /* at most one child in all (mechanical: one model) */
   const SporeModelType *model;      /* for a child of mechanical, else NULL */
+  const char *defaults;             /* child of `defaults` from which unset properties take their value, or NULL */
+  const SporeValue *initial;        /* table->count defaults, as spore_parameter_initial gives them */
 };
 
 typedef struct SporeSchema SporeSchema;
@@ -52,6 +62,9 @@ const SporeObjectType *spore_schema_root(const SporeSchema *schema); /* element 
 const SporeObjectType *spore_schema_find(const SporeSchema *schema, const char *element);
 /* The child type of that element allowed in `parent`, or NULL. */
 const SporeObjectType *spore_object_type_child(const SporeObjectType *parent, const char *element);
+
+/* Nearest known name by edit distance among the children of `parent`, or NULL. */
+const char *spore_object_type_nearest_child(const SporeObjectType *parent, const char *element);
 
 /* RELAX NG (XML syntax) of the whole format. Free with g_free. */
 char *spore_schema_relax_ng(const SporeSchema *schema);

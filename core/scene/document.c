@@ -1,0 +1,280 @@
+#include "core/scene/document_private.h"
+
+#include <string.h>
+
+/* Objects. */
+
+static void free_comments(GArray *comments) {
+  if (!comments) return;
+  for (guint i = 0; i < comments->len; i++) g_free(g_array_index(comments, SporeComment, i).text);
+  g_array_unref(comments);
+}
+
+void spore_comments_add(GArray **comments, const char *text, guint lines_before) {
+  if (!*comments) *comments = g_array_new(FALSE, FALSE, sizeof(SporeComment));
+  SporeComment comment = {g_strdup(text), lines_before};
+  g_array_append_val(*comments, comment);
+}
+
+void spore_object_free(SporeObject *object) {
+  for (size_t i = 0; i < object->type->table->count; i++) {
+    spore_value_clear(&object->slots[i].value);
+    g_free(object->slots[i].source);
+  }
+  g_free(object->slots);
+  g_array_unref(object->order);
+  g_ptr_array_unref(object->children);
+  free_comments(object->before);
+  free_comments(object->beside);
+  free_comments(object->tail);
+  g_free(object);
+}
+
+SporeObject *spore_object_new(SporeDocument *document, const SporeObjectType *type) {
+  SporeObject *object = g_new0(SporeObject, 1);
+  object->id = ++document->last_id;
+  object->type = type;
+  object->document = document;
+  object->detached = TRUE;
+  object->children = g_ptr_array_new();
+  object->slots = g_new0(SporeSlot, type->table->count);
+  object->order = g_array_new(FALSE, FALSE, sizeof(guint));
+  object->lines_before = 1;
+  g_hash_table_insert(document->objects, GUINT_TO_POINTER(object->id), object);
+  return object;
+}
+
+static void attach(SporeObject *object, SporeObject *parent, guint index) {
+  g_ptr_array_insert(parent->children, (gint)index, object);
+  object->parent = parent;
+  object->detached = FALSE;
+}
+
+/* The document. */
+
+SporeDocument *spore_document_new(const SporeSchema *schema) {
+  SporeDocument *document = g_new0(SporeDocument, 1);
+  document->schema = schema;
+  document->objects = g_hash_table_new_full(NULL, NULL, NULL, (GDestroyNotify)spore_object_free);
+  document->declaration = TRUE;
+  document->undo = g_ptr_array_new();
+  document->redo = g_ptr_array_new();
+  document->open = g_array_new(FALSE, FALSE, sizeof(SporeEdit));
+  document->marks = g_array_new(FALSE, FALSE, sizeof(guint));
+  document->listeners = g_array_new(FALSE, FALSE, sizeof(SporeListenerEntry));
+  spore_assets_init(document);
+  document->root = spore_object_new(document, spore_schema_root(schema));
+  document->root->detached = FALSE;
+  const GPtrArray *sections = document->root->type->children;
+  for (guint i = 0; i < sections->len; i++)
+    attach(spore_object_new(document, g_ptr_array_index(sections, i)), document->root, i);
+  return document;
+}
+
+void spore_document_free(SporeDocument *document) {
+  if (!document) return;
+  spore_history_free(document);
+  g_hash_table_unref(document->objects);
+  g_array_unref(document->listeners);
+  spore_assets_free(document);
+  g_free(document->file);
+  g_free(document);
+}
+
+const SporeSchema *spore_document_schema(const SporeDocument *document) { return document->schema; }
+const char *spore_document_file(const SporeDocument *document) { return document->file; }
+
+void spore_document_set_file(SporeDocument *document, const char *file) {
+  char *copy = g_strdup(file);
+  g_free(document->file);
+  document->file = copy;
+}
+
+SporeObject *spore_document_load_object(SporeDocument *document, SporeObject *parent, const SporeObjectType *type,
+                                        int line, int column) {
+  SporeObject *object;
+  if (!parent) {
+    object = document->root;
+  } else if (parent == document->root) {
+    object = spore_object_child_of(parent, type->element);
+  } else {
+    object = spore_object_new(document, type);
+    attach(object, parent, parent->children->len);
+  }
+  object->line = line, object->column = column;
+  object->written = TRUE;
+  return object;
+}
+
+void spore_document_load_value(SporeObject *object, guint property, SporeValue *value, char *source) {
+  SporeSlot *slot = &object->slots[property];
+  *slot = (SporeSlot){.set = TRUE, .position = object->order->len, .value = *value, .source = source};
+  g_array_append_val(object->order, property);
+  value->text = NULL;
+}
+
+/* Finding. */
+
+SporeObject *spore_document_root(const SporeDocument *document) { return document->root; }
+
+SporeObject *spore_document_section(const SporeDocument *document, const char *element) {
+  return spore_object_child_of(document->root, element);
+}
+
+static gboolean is_attached(const SporeObject *object) {
+  for (; object; object = object->parent)
+    if (object->detached) return FALSE;
+  return TRUE;
+}
+
+SporeObject *spore_document_by_id(const SporeDocument *document, guint32 id) {
+  SporeObject *object = g_hash_table_lookup(document->objects, GUINT_TO_POINTER(id));
+  return object && is_attached(object) ? object : NULL;
+}
+
+gboolean spore_element_in_list(const char *elements, const char *element) {
+  size_t length = strlen(element);
+  for (const char *at = elements; at; at = strchr(at, '|'), at += at != NULL)
+    if (strncmp(at, element, length) == 0 && (at[length] == '\0' || at[length] == '|')) return TRUE;
+  return FALSE;
+}
+
+SporeObject *spore_document_find(const SporeDocument *document, const char *elements, const char *name) {
+  if (!name) return NULL;
+  for (guint s = 0; s < document->root->children->len; s++) {
+    const SporeObject *section = spore_object_child(document->root, s);
+    for (guint i = 0; i < section->children->len; i++) {
+      SporeObject *object = spore_object_child(section, i);
+      if (g_strcmp0(spore_object_name(object), name) == 0 && spore_element_in_list(elements, object->type->element))
+        return object;
+    }
+  }
+  return NULL;
+}
+
+static SporeObject *step_into(const SporeObject *parent, const char *part) {
+  for (guint i = 0; i < parent->children->len; i++) {
+    SporeObject *child = spore_object_child(parent, i);
+    const char *name = spore_object_name(child);
+    if (strcmp(name ? name : child->type->element, part) == 0) return child;
+  }
+  return NULL;
+}
+
+SporeObject *spore_document_by_path(const SporeDocument *document, const char *path) {
+  if (strcmp(path, document->root->type->element) == 0) return document->root;
+  g_auto(GStrv) parts = g_strsplit(path, "/", -1);
+  SporeObject *object = parts[0] ? document->root : NULL;
+  for (char **part = parts; *part && object; part++) object = step_into(object, *part);
+  return object;
+}
+
+/* Reading an object. */
+
+guint32 spore_object_id(const SporeObject *object) { return object->id; }
+const SporeObjectType *spore_object_type(const SporeObject *object) { return object->type; }
+SporeObject *spore_object_parent(const SporeObject *object) { return object->parent; }
+guint spore_object_child_count(const SporeObject *object) { return object->children->len; }
+SporeObject *spore_object_child(const SporeObject *object, guint index) {
+  return g_ptr_array_index(object->children, index);
+}
+int spore_object_line(const SporeObject *object) { return object->line; }
+int spore_object_column(const SporeObject *object) { return object->column; }
+gboolean spore_object_is_set(const SporeObject *object, guint property) { return object->slots[property].set; }
+
+int spore_object_name_property(const SporeObject *object) {
+  const SporeParameterTable *table = object->type->table;
+  for (size_t i = 0; i < table->count; i++)
+    if (table->parameters[i].type == SPORE_NAME) return (int)i;
+  return -1;
+}
+
+const char *spore_object_name(const SporeObject *object) {
+  int property = spore_object_name_property(object);
+  return property < 0 ? NULL : object->slots[property].value.text;
+}
+
+SporeObject *spore_object_child_of(const SporeObject *object, const char *element) {
+  for (guint i = 0; i < object->children->len; i++) {
+    SporeObject *child = spore_object_child(object, i);
+    if (strcmp(child->type->element, element) == 0) return child;
+  }
+  return NULL;
+}
+
+char *spore_object_path(const SporeObject *object) {
+  if (!object->parent) return g_strdup(object->type->element);
+  const char *name = spore_object_name(object);
+  const char *part = name ? name : object->type->element;
+  if (!object->parent->parent) return g_strdup(part);
+  g_autofree char *above = spore_object_path(object->parent);
+  return g_strdup_printf("%s/%s", above, part);
+}
+
+char *spore_object_where(const SporeObject *object) {
+  const char *file = object->document->file;
+  if (!file || object->line == 0) return spore_object_path(object);
+  return g_strdup_printf("%s:%d:%d", file, object->line, object->column);
+}
+
+/* What `defaults` says of a property that the object does not set; NULL: nothing. */
+static const SporeValue *inherited_value(const SporeObject *object, guint property) {
+  if (!object->type->defaults) return NULL;
+  const SporeObject *section = spore_document_section(object->document, "defaults");
+  const SporeObject *defaults = spore_object_child_of(section, object->type->defaults);
+  if (!defaults) return NULL;
+  int same = spore_parameter_find(defaults->type->table, object->type->table->parameters[property].name);
+  return same >= 0 && defaults->slots[same].set ? &defaults->slots[same].value : NULL;
+}
+
+const SporeValue *spore_object_value(const SporeObject *object, guint property) {
+  if (object->slots[property].set) return &object->slots[property].value;
+  const SporeValue *inherited = inherited_value(object, property);
+  return inherited ? inherited : &object->type->initial[property];
+}
+
+static const SporeValue *value_by_name(const SporeObject *object, const char *property) {
+  int index = spore_parameter_find(object->type->table, property);
+  g_assert(index >= 0);
+  return spore_object_value(object, (guint)index);
+}
+
+double spore_object_number(const SporeObject *object, const char *property) {
+  return value_by_name(object, property)->number[0];
+}
+
+const char *spore_object_text(const SporeObject *object, const char *property) {
+  return value_by_name(object, property)->text;
+}
+
+void spore_object_fields(const SporeObject *object, void *fields) {
+  const SporeParameterTable *table = object->type->table;
+  for (guint i = 0; i < table->count; i++)
+    spore_parameter_store(&table->parameters[i], spore_object_value(object, i), fields);
+}
+
+/* Listening. */
+
+guint spore_document_listen(SporeDocument *document, SporeDocumentListener listener, gpointer data) {
+  SporeListenerEntry entry = {++document->last_listener, listener, data};
+  g_array_append_val(document->listeners, entry);
+  return entry.id;
+}
+
+void spore_document_unlisten(SporeDocument *document, guint id) {
+  for (guint i = 0; i < document->listeners->len; i++)
+    if (g_array_index(document->listeners, SporeListenerEntry, i).id == id) {
+      g_array_remove_index(document->listeners, i);
+      return;
+    }
+}
+
+void spore_document_notify(SporeDocument *document, SporeChangeKind kind, SporeObject *object, guint property) {
+  if (kind != SPORE_DOCUMENT_HISTORY) document->revision++;
+  for (guint i = 0; i < document->listeners->len; i++) {
+    SporeListenerEntry entry = g_array_index(document->listeners, SporeListenerEntry, i);
+    entry.listener(document, kind, object, property, entry.data);
+  }
+}
+
+guint64 spore_document_revision(const SporeDocument *document) { return document->revision; }

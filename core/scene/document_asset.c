@@ -1,0 +1,276 @@
+/* Content of assets: found, read without leaving the folder, decoded once per content. */
+#include <errno.h>
+#include <fcntl.h>
+#include <glib/gi18n.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/hash.h"
+#include "core/scene/beneath.h"
+#include "core/scene/document_private.h"
+
+#define LARGEST_ASSET (G_GUINT64_CONSTANT(1) << 30) /* bytes */
+
+typedef struct Decoded {
+  SporeTriangleMesh mesh;
+  SporeSphereSet spheres;
+  SporeTetrahedralMesh tetrahedra;
+  char hash[17];
+} Decoded;
+
+/* Where an asset's content was when it was last decoded: the same place has the same content. */
+typedef struct Located {
+  char *place;
+  const Decoded *decoded;
+  GError *fault; /* instead of decoded: content that cannot be read is not tried again and again */
+} Located;
+
+static void free_decoded(gpointer data) {
+  Decoded *decoded = data;
+  spore_triangle_mesh_clear(&decoded->mesh);
+  spore_sphere_set_clear(&decoded->spheres);
+  spore_tetrahedral_mesh_clear(&decoded->tetrahedra);
+  g_free(decoded);
+}
+
+static void free_located(gpointer data) {
+  Located *located = data;
+  g_free(located->place);
+  g_clear_error(&located->fault);
+  g_free(located);
+}
+
+static void free_blob(gpointer data) {
+  SporeBlob *blob = data;
+  g_bytes_unref(blob->content);
+  g_free(blob);
+}
+
+void spore_assets_init(SporeDocument *document) {
+  document->blobs = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, free_blob);
+  document->located = g_hash_table_new_full(NULL, NULL, NULL, free_located);
+  document->decoded = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, free_decoded);
+}
+
+void spore_assets_free(SporeDocument *document) {
+  g_hash_table_unref(document->blobs);
+  g_hash_table_unref(document->located);
+  g_hash_table_unref(document->decoded);
+}
+
+void spore_document_set_readers(SporeDocument *document, const SporeAssetReaders *readers) {
+  document->readers = *readers;
+}
+
+void spore_document_put_blob(SporeDocument *document, const char *file, GBytes *content) {
+  SporeBlob *blob = g_new0(SporeBlob, 1);
+  blob->content = g_bytes_ref(content);
+  blob->serial = ++document->last_blob;
+  g_hash_table_insert(document->blobs, g_strdup(file), blob);
+}
+
+/* Files. */
+
+static gboolean say_why(int fault, const char *place, const char *file, GError **error) {
+  if (fault == EXDEV || fault == ELOOP)
+    return spore_error_raise(error, SPORE_ERROR_FILE, place,
+                             _("\"%s\" leads out of the scene's folder; expected a file inside it; copy it there"),
+                             file);
+  if (fault == ENOENT || fault == ENOTDIR)
+    return spore_error_raise(error, SPORE_ERROR_FILE, place,
+                             _("there is no file \"%s\" in the scene's folder; put it there or correct the name"),
+                             file);
+  return spore_error_raise(error, SPORE_ERROR_FILE, place, _("\"%s\" cannot be read: %s; check its permissions"), file,
+                           g_strerror(fault));
+}
+
+int spore_document_open_asset(const SporeDocument *document, const char *place, const char *file, GError **error) {
+  if (!document->file) {
+    spore_error_raise(error, SPORE_ERROR_FILE, place,
+                      _("\"%s\" is relative to the scene's folder, and the scene has none yet; save the scene first"),
+                      file);
+    return -1;
+  }
+  g_autofree char *folder = g_path_get_dirname(document->file);
+  int directory = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
+  if (directory < 0) {
+    say_why(errno, place, folder, error);
+    return -1;
+  }
+  int descriptor = spore_open_beneath(directory, file, O_RDONLY | O_NONBLOCK | O_NOCTTY, 0);
+  int fault = errno;
+  close(directory);
+  struct stat status;
+  if (descriptor < 0) {
+    say_why(fault, place, file, error);
+  } else if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+    spore_error_raise(error, SPORE_ERROR_FILE, place, _("\"%s\" is not a regular file; expected one; correct the name"),
+                      file);
+  } else if ((guint64)status.st_size > LARGEST_ASSET) {
+    spore_error_raise(error, SPORE_ERROR_FILE, place, _("\"%s\" has over 1 GiB; expected less; reduce its resolution"),
+                      file);
+  } else {
+    return descriptor;
+  }
+  if (descriptor >= 0) close(descriptor);
+  return -1;
+}
+
+/* What is there, up to the limit even if the file grows meanwhile. */
+static GBytes *read_all(int descriptor, const char *place, const char *file, GError **error) {
+  struct stat status;
+  if (fstat(descriptor, &status) != 0) return say_why(errno, place, file, error), NULL;
+  gsize capacity = (gsize)status.st_size + 1, size = 0;
+  guint8 *content = g_try_malloc(capacity);
+  if (!content) return say_why(ENOMEM, place, file, error), NULL;
+  for (;;) {
+    ssize_t got = read(descriptor, content + size, capacity - size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) {
+      say_why(errno, place, file, error);
+      g_free(content);
+      return NULL;
+    }
+    size += (gsize)got;
+    if (got == 0 || size == capacity) return g_bytes_new_take(content, MIN(size, (gsize)status.st_size));
+  }
+}
+
+static GBytes *read_asset(const SporeDocument *document, const char *place, const char *file, GError **error) {
+  const SporeBlob *blob = g_hash_table_lookup(document->blobs, file);
+  if (blob) return g_bytes_ref(blob->content);
+  int descriptor = spore_document_open_asset(document, place, file, error);
+  if (descriptor < 0) return NULL;
+  GBytes *content = read_all(descriptor, place, file, error);
+  close(descriptor);
+  return content;
+}
+
+GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GError **error) {
+  return read_asset(document, NULL, file, error);
+}
+
+/* Decoding. */
+
+/* Says the same as before as long as the content is the same. g_free. */
+static char *locate(const SporeDocument *document, const char *place, const char *file, const char *options,
+                    GError **error) {
+  const SporeBlob *blob = g_hash_table_lookup(document->blobs, file);
+  if (blob) return g_strdup_printf("blob %" G_GUINT64_FORMAT " %s", blob->serial, options);
+  int descriptor = spore_document_open_asset(document, place, file, error);
+  if (descriptor < 0) return NULL;
+  struct stat status = {0};
+  fstat(descriptor, &status);
+  close(descriptor);
+  return g_strdup_printf("file %ju %ju %jd %jd.%ld %s", (uintmax_t)status.st_dev, (uintmax_t)status.st_ino,
+                         (intmax_t)status.st_size, (intmax_t)status.st_mtim.tv_sec, status.st_mtim.tv_nsec, options);
+}
+
+static void write_hash(Decoded *decoded) {
+  guint64 hash = SPORE_HASH_INIT;
+  const SporeTriangleMesh *mesh = &decoded->mesh;
+  const SporeTetrahedralMesh *tetrahedra = &decoded->tetrahedra;
+  hash = spore_hash(hash, mesh->vertices, mesh->vertex_count * 3 * sizeof(double));
+  hash = spore_hash(hash, mesh->triangles, mesh->triangle_count * 3 * sizeof(uint32_t));
+  hash = spore_hash(hash, tetrahedra->vertices, tetrahedra->vertex_count * 3 * sizeof(double));
+  hash = spore_hash(hash, tetrahedra->tetrahedra, tetrahedra->tetrahedron_count * 4 * sizeof(uint32_t));
+  hash = spore_hash(hash, decoded->spheres.spheres, decoded->spheres.count * 4 * sizeof(double));
+  g_snprintf(decoded->hash, sizeof decoded->hash, "%016" G_GINT64_MODIFIER "x", hash);
+}
+
+static Decoded *decode(SporeDocument *document, const SporeObject *asset, const char *place, GBytes *content,
+                       GError **error) {
+  const SporeAssetReaders *readers = &document->readers;
+  const char *element = asset->type->element, *file = spore_object_text(asset, "file");
+  Decoded *decoded = g_new0(Decoded, 1);
+  gboolean done;
+  if (strcmp(element, "mesh") == 0 && readers->mesh)
+    done = readers->mesh(place, file, content, (int)spore_object_number(asset, "unit"),
+                         (int)spore_object_number(asset, "frame"), &decoded->mesh, error);
+  else if (strcmp(element, "spheres") == 0 && readers->spheres)
+    done = readers->spheres(place, file, content, &decoded->spheres, error);
+  else if (strcmp(element, "tetrahedra") == 0 && readers->tetrahedra)
+    done = readers->tetrahedra(place, file, content, &decoded->tetrahedra, error);
+  else
+    done = spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, place,
+                             _("no reader for %s here; expected a mesh, spheres or "
+                               "tetrahedra; name one of these"),
+                             element);
+  if (done) {
+    write_hash(decoded);
+    return decoded;
+  }
+  free_decoded(decoded);
+  return NULL;
+}
+
+static const Decoded *decode_content(SporeDocument *document, const SporeObject *asset, const char *place,
+                                     const char *options, GError **error) {
+  g_autoptr(GBytes) content = read_asset(document, place, spore_object_text(asset, "file"), error);
+  if (!content) return NULL;
+  g_autofree char *sum = g_compute_checksum_for_bytes(G_CHECKSUM_SHA256, content);
+  g_autofree char *key = g_strdup_printf("%s %s", sum, options);
+  Decoded *decoded = g_hash_table_lookup(document->decoded, key);
+  if (decoded) return decoded;
+  decoded = decode(document, asset, place, content, error);
+  if (decoded) g_hash_table_insert(document->decoded, g_steal_pointer(&key), decoded);
+  return decoded;
+}
+
+/* Takes over place and fault. */
+static const Located *remember(SporeDocument *document, const SporeObject *asset, char *place, const Decoded *decoded,
+                               GError *fault) {
+  Located *located = g_new0(Located, 1);
+  located->place = place, located->decoded = decoded, located->fault = fault;
+  g_hash_table_insert(document->located, GUINT_TO_POINTER(asset->id), located);
+  return located;
+}
+
+static const Decoded *find(SporeDocument *document, const SporeObject *asset, GError **error) {
+  g_autofree char *where = spore_object_where(asset);
+  const char *file = spore_object_text(asset, "file"), *element = asset->type->element;
+  if (!file) {
+    spore_error_raise(error, SPORE_ERROR_INPUT, where,
+                      _("the %s has no file; expected one inside the scene's folder; set it"), element);
+    return NULL;
+  }
+  g_autofree char *options = strcmp(element, "mesh") != 0
+                                 ? g_strdup(element)
+                                 : g_strdup_printf("mesh %s %d %d", file, (int)spore_object_number(asset, "unit"),
+                                                   (int)spore_object_number(asset, "frame"));
+  g_autofree char *place = locate(document, where, file, options, error);
+  if (!place) return NULL;
+  const Located *known = g_hash_table_lookup(document->located, GUINT_TO_POINTER(asset->id));
+  if (!known || strcmp(known->place, place) != 0) {
+    GError *fault = NULL;
+    const Decoded *decoded = decode_content(document, asset, where, options, &fault);
+    if (fault && !g_error_matches(fault, SPORE_ERROR, SPORE_ERROR_INPUT)) {
+      g_propagate_error(error, fault);
+      return NULL;
+    }
+    known = remember(document, asset, g_steal_pointer(&place), decoded, fault);
+  }
+  if (known->fault && error) *error = g_error_copy(known->fault);
+  return known->decoded;
+}
+
+const SporeTriangleMesh *spore_document_mesh(SporeDocument *document, SporeObject *asset, GError **error) {
+  const Decoded *decoded = find(document, asset, error);
+  return decoded ? &decoded->mesh : NULL;
+}
+
+const SporeSphereSet *spore_document_spheres(SporeDocument *document, SporeObject *asset, GError **error) {
+  const Decoded *decoded = find(document, asset, error);
+  return decoded ? &decoded->spheres : NULL;
+}
+
+const SporeTetrahedralMesh *spore_document_tetrahedra(SporeDocument *document, SporeObject *asset, GError **error) {
+  const Decoded *decoded = find(document, asset, error);
+  return decoded ? &decoded->tetrahedra : NULL;
+}
+
+char *spore_document_asset_hash(SporeDocument *document, SporeObject *asset) {
+  const Decoded *decoded = find(document, asset, NULL);
+  return decoded ? g_strdup(decoded->hash) : NULL;
+}

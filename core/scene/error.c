@@ -1,0 +1,34 @@
+#include "core/scene/error.h"
+
+#include <stdarg.h>
+
+G_DEFINE_QUARK(spore - error - quark, spore_error)
+
+gboolean spore_error_propagate(const SporeError *from, GError **error) {
+  return spore_error_raise(error, from->code, from->place, "%s", from->message);
+}
+
+gboolean spore_error_raise(GError **error, SporeErrorCode code, const char *place, const char *format, ...) {
+  if (!error) return FALSE;
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *message = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  if (place && *place) g_set_error(error, SPORE_ERROR, (int)code, "%s: %s", place, message);
+  else g_set_error_literal(error, SPORE_ERROR, (int)code, message);
+  return FALSE;
+}
+
+int spore_error_exit_status(const GError *error) {
+  if (error->domain != SPORE_ERROR) return 2; /* a library's: files and options, for the user to mend */
+  switch ((SporeErrorCode)error->code) {
+  case SPORE_ERROR_NUMERICAL:
+  case SPORE_ERROR_CANCELLED:
+    return 1;
+  case SPORE_ERROR_NONE:
+  case SPORE_ERROR_INTERNAL:
+    return 3;
+  default:
+    return 2;
+  }
+}

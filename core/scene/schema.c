@@ -1,0 +1,156 @@
+#include "core/scene/schema.h"
+
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "core/base/name.h"
+#include "core/scene/schema_fields.h"
+
+/* A type with what it owns. */
+typedef struct SchemaType {
+  SporeObjectType type;
+  SporeParameterTable table;
+  SporeParameter *parameters; /* NULL where the table is a model's own */
+  SporeValue *initial;
+} SchemaType;
+
+struct SporeSchema {
+  SporeModelRegistry registry;
+  GPtrArray *types;         /* SchemaType *, root first */
+  GHashTable *by_element;   /* element -> SchemaType * */
+  const char **integrators; /* "scene", then spore_integrator_names */
+};
+
+static void free_type(gpointer data) {
+  SchemaType *entry = data;
+  for (size_t i = 0; i < entry->table.count; i++) spore_value_clear(&entry->initial[i]);
+  g_free(entry->initial);
+  g_free(entry->parameters);
+  g_ptr_array_unref(entry->type.children);
+  g_free(entry);
+}
+
+static SchemaType *add_type(SporeSchema *schema, const char *element, const char *label, const char *doc) {
+  SchemaType *entry = g_new0(SchemaType, 1);
+  entry->type.element = element, entry->type.label = label, entry->type.doc = doc;
+  entry->type.children = g_ptr_array_new();
+  entry->type.table = &entry->table;
+  g_ptr_array_add(schema->types, entry);
+  gboolean is_new = g_hash_table_insert(schema->by_element, (gpointer)element, entry);
+  g_assert(is_new);
+  return entry;
+}
+
+static void finish_table(SchemaType *entry, const SporeParameter *parameters, size_t count, size_t size) {
+  entry->table = (SporeParameterTable){parameters, count, size};
+  entry->initial = g_new0(SporeValue, count);
+  for (size_t i = 0; i < count; i++)
+    if (!spore_parameter_initial(&parameters[i], &entry->initial[i])) g_error("not enough memory");
+  entry->type.initial = entry->initial;
+}
+
+/* An element's own parameters, then those of the kernel's table that it takes over. */
+static void add_element(SporeSchema *schema, const SporeElement *element) {
+  SchemaType *entry = add_type(schema, element->element, element->label, element->doc);
+  entry->type.ordered = element->ordered, entry->type.single_child = element->single_child;
+  size_t extra = element->extra ? element->extra->count : 0;
+  entry->parameters = g_new0(SporeParameter, element->count + extra);
+  for (size_t i = 0; i < element->count; i++) {
+    entry->parameters[i] = element->parameters[i];
+    if (element->parameters[i].type == SPORE_CHOICE && !element->parameters[i].choices)
+      entry->parameters[i].choices = schema->integrators;
+  }
+  for (size_t i = 0; i < extra; i++) {
+    SporeParameter *parameter = &entry->parameters[element->count + i];
+    *parameter = element->extra->parameters[i];
+    parameter->offset += element->extra_offset;
+  }
+  finish_table(entry, entry->parameters, element->count + extra, element->size);
+}
+
+static void add_model(SporeSchema *schema, const SporeModelType *model, SchemaType *mechanical) {
+  SchemaType *entry = add_type(schema, model->name, model->label, model->doc);
+  entry->type.model = model;
+  finish_table(entry, model->parameters.parameters, model->parameters.count, model->parameters.size);
+  g_ptr_array_add(mechanical->type.children, &entry->type);
+}
+
+static const char **integrator_choices(void) {
+  size_t count = 0;
+  while (spore_integrator_names[count]) count++;
+  const char **choices = g_new0(const char *, count + 2);
+  choices[0] = "scene";
+  for (size_t i = 0; i < count; i++) choices[i + 1] = spore_integrator_names[i];
+  return choices;
+}
+
+SporeSchema *spore_schema_new(SporeModelRegistry registry) {
+  SporeSchema *schema = g_new0(SporeSchema, 1);
+  schema->registry = registry;
+  schema->types = g_ptr_array_new_with_free_func(free_type);
+  schema->by_element = g_hash_table_new(g_str_hash, g_str_equal);
+  schema->integrators = integrator_choices();
+  for (size_t i = 0; i < spore_scene_element_count; i++) add_element(schema, &spore_scene_elements[i]);
+  for (size_t i = 0; i < spore_scene_element_count; i++) {
+    const SporeElement *element = &spore_scene_elements[i];
+    SchemaType *entry = g_hash_table_lookup(schema->by_element, element->element);
+    for (const char *const *child = element->children; child && *child; child++)
+      g_ptr_array_add(entry->type.children, (gpointer)spore_schema_find(schema, *child));
+  }
+  ((SchemaType *)g_hash_table_lookup(schema->by_element, "collision"))->type.defaults = "contact";
+  SchemaType *mechanical = g_hash_table_lookup(schema->by_element, "mechanical");
+  for (SporeModelRegistry model = registry; *model; model++) add_model(schema, *model, mechanical);
+  return schema;
+}
+
+void spore_schema_free(SporeSchema *schema) {
+  if (!schema) return;
+  g_hash_table_unref(schema->by_element);
+  g_ptr_array_unref(schema->types);
+  g_free(schema->integrators);
+  g_free(schema);
+}
+
+SporeModelRegistry spore_schema_registry(const SporeSchema *schema) { return schema->registry; }
+
+const SporeObjectType *spore_schema_root(const SporeSchema *schema) {
+  return &((const SchemaType *)g_ptr_array_index(schema->types, 0))->type;
+}
+
+const SporeObjectType *spore_schema_find(const SporeSchema *schema, const char *element) {
+  const SchemaType *entry = g_hash_table_lookup(schema->by_element, element);
+  return entry ? &entry->type : NULL;
+}
+
+const SporeObjectType *spore_object_type_child(const SporeObjectType *parent, const char *element) {
+  for (guint i = 0; i < parent->children->len; i++) {
+    const SporeObjectType *child = g_ptr_array_index(parent->children, i);
+    if (strcmp(child->element, element) == 0) return child;
+  }
+  return NULL;
+}
+
+const char *spore_object_type_nearest_child(const SporeObjectType *parent, const char *element) {
+  g_autofree const char **names = g_new0(const char *, parent->children->len + 1);
+  for (guint i = 0; i < parent->children->len; i++)
+    names[i] = ((const SporeObjectType *)g_ptr_array_index(parent->children, i))->element;
+  return spore_name_nearest(names, element);
+}
+
+bool spore_format_version_check(const char *version, SporeError *error) {
+  char *end = NULL;
+  guint64 major = g_ascii_isdigit(version[0]) ? g_ascii_strtoull(version, &end, 10) : 0, minor = 0;
+  if (end && *end == '.' && g_ascii_isdigit(end[1])) minor = g_ascii_strtoull(end + 1, &end, 10);
+  if (!end || *end || minor > 9999)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("version=\"%.40s\" is not a version; expected major.minor; write version=\"%d.%d\""),
+                           version, SPORE_FORMAT_MAJOR, SPORE_FORMAT_MINOR);
+  if (major != SPORE_FORMAT_MAJOR)
+    return spore_error_set(
+        error, SPORE_ERROR_INPUT, NULL,
+        major > SPORE_FORMAT_MAJOR
+            ? _("the file has format version %.40s; this SPORE reads %d.x; a newer SPORE opens it")
+            : _("the file has format version %.40s, which never was; this SPORE reads %d.x; correct it"),
+        version, SPORE_FORMAT_MAJOR);
+  return true;
+}

@@ -1,0 +1,103 @@
+/* The structures that the scene's own tables describe, and those tables. */
+#ifndef SPORE_SCENE_SCHEMA_FIELDS_H
+#define SPORE_SCENE_SCHEMA_FIELDS_H
+
+#include "core/scene/schema.h"
+#include "core/sim/world.h"
+
+typedef enum SporeFidelity { SPORE_FIDELITY_PHYSICAL, SPORE_FIDELITY_EFFECT } SporeFidelity;
+
+typedef struct SporeRootFields {
+  const char *version;
+} SporeRootFields;
+
+typedef struct SporeMetaFields {
+  const char *title, *author, *description, *licence;
+} SporeMetaFields;
+
+typedef struct SporeUnitsFields {
+  int length; /* index into m cm mm um in */
+} SporeUnitsFields;
+
+typedef struct SporeEnvironmentFields {
+  double gravity[3]; /* m/s^2 */
+} SporeEnvironmentFields;
+
+typedef struct SporeMeshFields {
+  const char *name, *file;
+  int unit, frame; /* as core/io/mesh_import.h counts them */
+} SporeMeshFields;
+
+typedef struct SporeSpheresFields {
+  const char *name, *file, *source, *source_hash;
+  int method; /* SporeSpheresMethod */
+  int64_t count, seed;
+} SporeSpheresFields;
+
+typedef struct SporeTetrahedraFields {
+  const char *name, *file, *source, *source_hash;
+  int64_t cells;
+} SporeTetrahedraFields;
+
+typedef struct SporeBodyFields {
+  const char *name;
+  int role; /* SporeRole */
+  double position[3], rotation[3], velocity[3], spin[3];
+} SporeBodyFields;
+
+typedef struct SporeMechanicalFields {
+  const char *geometry;
+  int integrator; /* 0: the scene's; else SporeIntegratorKind + 1 */
+} SporeMechanicalFields;
+
+typedef struct SporeCollisionFields {
+  const char *spheres;
+  SporeContactFields contact;
+} SporeCollisionFields;
+
+typedef struct SporeVisualFields {
+  const char *mesh;
+  double colour[3], wetness;
+} SporeVisualFields;
+
+typedef struct SporeFidelityFields {
+  int mode; /* SporeFidelity */
+} SporeFidelityFields;
+
+typedef struct SporePinFields {
+  const char *name, *body;
+  double point[3], radius;
+} SporePinFields;
+
+typedef struct SporeSpringFields {
+  const char *name, *body_a, *body_b;
+  double point_a[3], point_b[3], stiffness, damping, rest_length;
+} SporeSpringFields;
+
+typedef struct SporeProbeFields {
+  const char *name, *body, *device;
+} SporeProbeFields;
+
+typedef struct SporeMouseFields {
+  const char *name;
+} SporeMouseFields;
+
+typedef struct SporeTrackFields {
+  const char *name, *file;
+} SporeTrackFields;
+
+/* One element of the scene's own, before it is joined with the models. */
+typedef struct SporeElement {
+  const char *element, *label, *doc;
+  const SporeParameter *parameters;
+  size_t count, size;
+  const char *const *children; /* NULL-terminated element names; NULL: none */
+  gboolean ordered, single_child;
+  const SporeParameterTable *extra; /* a kernel table appended to the parameters, or NULL */
+  size_t extra_offset;              /* of its structure in this one */
+} SporeElement;
+
+extern const SporeElement spore_scene_elements[]; /* root first */
+extern const size_t spore_scene_element_count;
+
+#endif
