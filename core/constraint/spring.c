@@ -1,0 +1,42 @@
+#include "core/constraint/spring.h"
+
+/* Length l and direction n from b to a. */
+static double span(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, SporeVec3 *n) {
+  SporeVec3 d = spore_vec3_sub(a, b);
+  double length = spore_vec3_length(d);
+  *n = length > 1e-9 * spring->rest_length && length > 0 ? spore_vec3_scale(1 / length, d) : spring->fallback;
+  return length;
+}
+
+SporeVec3 spore_spring_force(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, SporeVec3 velocity_a,
+                             SporeVec3 velocity_b) {
+  SporeVec3 speed = spore_vec3_sub(velocity_a, velocity_b);
+  if (spring->rest_length == 0) {
+    SporeVec3 pull = spore_vec3_scale(-spring->stiffness, spore_vec3_sub(a, b));
+    return spore_vec3_add_scaled(pull, -spring->damping, speed);
+  }
+  SporeVec3 n;
+  double length = span(spring, a, b, &n);
+  double tension = spring->stiffness * (length - spring->rest_length) + spring->damping * spore_vec3_dot(n, speed);
+  return spore_vec3_scale(-tension, n);
+}
+
+void spore_spring_jacobian(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, SporeMat3 *stiffness,
+                           SporeMat3 *damping) {
+  if (spring->rest_length == 0) {
+    *stiffness = spore_mat3_scale(spring->stiffness, spore_mat3_identity());
+    *damping = spore_mat3_scale(spring->damping, spore_mat3_identity());
+    return;
+  }
+  SporeVec3 n;
+  double length = span(spring, a, b, &n);
+  double sideways = length > spring->rest_length ? 1 - spring->rest_length / length : 0;
+  SporeMat3 axial = spore_mat3_outer(n, n), across = spore_mat3_sub(spore_mat3_identity(), axial);
+  *stiffness = spore_mat3_scale(spring->stiffness, spore_mat3_add(axial, spore_mat3_scale(sideways, across)));
+  *damping = spore_mat3_scale(spring->damping, axial);
+}
+
+double spore_spring_energy(const SporeSpring *spring, SporeVec3 a, SporeVec3 b) {
+  double stretch = spore_vec3_distance(a, b) - spring->rest_length;
+  return 0.5 * spring->stiffness * stretch * stretch;
+}

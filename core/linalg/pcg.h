@@ -1,0 +1,35 @@
+/* Preconditioned conjugate gradients for A x = b, A symmetric positive definite and known by its products alone. */
+#ifndef SPORE_LINALG_PCG_H
+#define SPORE_LINALG_PCG_H
+
+#include <stddef.h>
+
+typedef struct SporeLinearOperator {
+  void *data;
+  size_t count;                                                 /* unknowns */
+  void (*multiply)(void *data, const double *x, double *y);     /* y = A x */
+  void (*precondition)(void *data, const double *r, double *z); /* z = P^-1 r, P positive definite */
+} SporeLinearOperator;
+
+typedef enum SporeLinearStatus {
+  SPORE_LINEAR_CONVERGED,
+  SPORE_LINEAR_TOO_MANY,   /* iterations spent; x is the best so far */
+  SPORE_LINEAR_INDEFINITE, /* a direction p with p.Ap <= 0 or r.P^-1 r < 0 was met; x is what was reached before it */
+  SPORE_LINEAR_BREAKDOWN   /* a number was not finite; x is zero */
+} SporeLinearStatus;
+
+typedef struct SporeLinearResult {
+  SporeLinearStatus status;
+  size_t iterations;
+  double residual; /* sqrt(r.P^-1 r / b.P^-1 b) at the end: it has no unit, so blocks of any unit count alike */
+} SporeLinearResult;
+
+/* Vectors of `count` doubles that spore_pcg works in. */
+#define SPORE_PCG_SCRATCH 4
+
+/* Starts from x = 0 and stops at the relative residual `tolerance`. scratch: SPORE_PCG_SCRATCH x count doubles. Where
+ * the very first direction is indefinite, x is that direction P^-1 b: still one of descent. */
+SporeLinearResult spore_pcg(const SporeLinearOperator *operator, const double * b, double tolerance, size_t iterations,
+                            double *x, double *scratch);
+
+#endif

@@ -1,0 +1,31 @@
+#include "core/nonlinear/convergence.h"
+
+#include <math.h>
+
+bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, const SporeNonlinearOptions *options,
+                             double norm, SporeNonlinearResult *result) {
+  *test = (SporeConvergence){options->tolerance, fmax(norm, system->scale_r), norm};
+  result->finite = isfinite(norm);
+  result->converged = norm == 0;
+  result->residual = norm == 0 ? 0 : norm / test->scale_r;
+  return result->finite;
+}
+
+bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
+                                SporeNonlinearResult *result) {
+  if (test->norm > system->rounding(system->data, x)) return false;
+  result->converged = true;
+  return true;
+}
+
+void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,
+                            double length, double norm, SporeNonlinearResult *result) {
+  double change = length * sqrt(system->dot(system->data, d, d));
+  double size = fmax(sqrt(system->dot(system->data, x, x)), system->scale_x);
+  /* What is still missing: the change made, times how much the residual shrank with it. */
+  double missing = test->norm > 0 ? change * fmin(norm / test->norm, 1) : 0;
+  test->norm = norm;
+  result->iterations++;
+  result->residual = norm == 0 ? 0 : norm / test->scale_r;
+  result->converged = norm <= test->tolerance * test->scale_r && missing <= test->tolerance * size;
+}

@@ -1,0 +1,22 @@
+/* The test for convergence shared by the nonlinear solvers: residual and next change, or rounding. */
+#ifndef SPORE_NONLINEAR_CONVERGENCE_H
+#define SPORE_NONLINEAR_CONVERGENCE_H
+
+#include "core/nonlinear/system.h"
+
+typedef struct SporeConvergence {
+  double tolerance, scale_r, norm;
+} SporeConvergence;
+
+/* With the residual norm at the guess: fills the test; false, and result->finite with it, where it is not finite.
+ * A residual of zero is convergence already. */
+bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, const SporeNonlinearOptions *options,
+                             double norm, SporeNonlinearResult *result);
+/* True, and convergence, when the residual is down to rounding. Needs a current linearisation. */
+bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
+                                SporeNonlinearResult *result);
+/* After x moved by length * d to a residual of norm `norm`: counts the iteration and tests. */
+void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,
+                            double length, double norm, SporeNonlinearResult *result);
+
+#endif

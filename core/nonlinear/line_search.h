@@ -1,0 +1,14 @@
+/* Line search shared by the nonlinear solvers. */
+#ifndef SPORE_NONLINEAR_LINE_SEARCH_H
+#define SPORE_NONLINEAR_LINE_SEARCH_H
+
+#include "core/nonlinear/system.h"
+
+/* Halves the step from x along d until it helps: the residual norm falls (Armijo), or, where the norm must climb a hill
+ * on the way (buckling), its slope along d does, which is what a minimiser of energy would ask for.
+ * r and norm: residual at x; on success trial, trial_r, *trial_norm hold the new point, and the length is returned;
+ * 0 where no length helps. evaluations is counted up. */
+double spore_line_search(const SporeSystem *system, const double *x, const double *d, const double *r, double norm,
+                         double *trial, double *trial_r, double *trial_norm, size_t *evaluations);
+
+#endif

@@ -1,0 +1,42 @@
+#include <math.h>
+#include <string.h>
+
+#include "core/nonlinear/convergence.h"
+#include "core/nonlinear/line_search.h"
+
+/* Forcing term: how exactly the linear system needs solving. First roughly, then as the residual falls (Eisenstat and
+ * Walker 1996, choice 2), never more exactly than the answer asks for. */
+static double forcing_term(double norm, double previous, double target) {
+  double eta = previous > 0 ? 0.9 * (norm / previous) * (norm / previous) : 1e-2;
+  return fmax(fmin(eta, 1e-2), 0.3 * fmin(target / norm, 1));
+}
+
+SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
+                                  double *scratch) {
+  size_t n = system->count;
+  double *r = scratch, *d = scratch + n, *trial = scratch + 2 * n, *trial_r = scratch + 3 * n;
+  SporeNonlinearResult result = {0};
+  SporeConvergence test;
+  system->residual(system->data, x, r);
+  result.evaluations++;
+  if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
+  double previous = 0;
+  while (!result.converged && result.iterations < options->iterations) {
+    system->linearise(system->data, x);
+    result.linearisations++;
+    if (spore_convergence_rounding(&test, system, x, &result)) break;
+    SporeLinearResult linear =
+        system->solve(system->data, r, forcing_term(test.norm, previous, options->tolerance * test.scale_r), d);
+    result.linear_iterations += linear.iterations;
+    result.indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
+    if (linear.status == SPORE_LINEAR_BREAKDOWN) break;
+    double trial_norm;
+    double length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+    if (length == 0) break;
+    memcpy(x, trial, n * sizeof *x);
+    memcpy(r, trial_r, n * sizeof *r);
+    previous = test.norm;
+    spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
+  }
+  return result;
+}

@@ -1,0 +1,57 @@
+/* What a nonlinear solver sees: a system r(x) = 0 with an inner product, and nothing of what it stands for.
+ *
+ * The system linearises itself: A ~ -dr/dx, symmetric positive definite, is kept by the system until the next
+ * `linearise`. `dot` is an inner product on x (kinetic energy's), `norm` the dual norm of a residual. */
+#ifndef SPORE_NONLINEAR_SYSTEM_H
+#define SPORE_NONLINEAR_SYSTEM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "core/linalg/pcg.h"
+
+typedef struct SporeSystem {
+  void *data;
+  size_t count; /* unknowns */
+  /* r(x); entries that are not finite are allowed and make `norm` not finite. */
+  void (*residual)(void *data, const double *x, double *r);
+  void (*linearise)(void *data, const double *x);
+  /* True when an earlier linearisation may stand in for a new one, and is now the current one. */
+  bool (*reuse)(void *data, const double *x);
+  /* dx ~ A^-1 r to a relative residual. */
+  SporeLinearResult (*solve)(void *data, const double *r, double tolerance, double *dx);
+  double (*dot)(void *data, const double *a, const double *b);
+  double (*norm)(void *data, const double *r);
+  /* Size of x below which a change is not one, and of r below which it is: sums over what r is made of. */
+  double scale_x, scale_r;
+  /* Norm of the rounding in r at x, by the current linearisation: no solver can get below it. */
+  double (*rounding)(void *data, const double *x);
+} SporeSystem;
+
+typedef struct SporeNonlinearOptions {
+  size_t iterations; /* at most */
+  double tolerance;  /* of the residual and of the next change of x, both relative */
+} SporeNonlinearOptions;
+
+typedef struct SporeNonlinearResult {
+  bool converged, finite;
+  size_t iterations, linear_iterations, evaluations, linearisations;
+  double residual; /* relative, at the x returned */
+  bool indefinite; /* the linear solver met a direction of negative curvature */
+} SporeNonlinearResult;
+
+/* Newton's method with inexact linear solves and a line search. x holds the guess, and the answer after it; what is
+ * best so far when it did not converge. scratch: SPORE_NEWTON_SCRATCH x count doubles. */
+#define SPORE_NEWTON_SCRATCH 4
+SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
+                                  double *scratch);
+
+/* Broyden's "good" method with limited memory, one stored step an iteration (C. T. Kelley, "Iterative Methods for
+ * Linear and Nonlinear Equations", SIAM 1995, chapter 7), from the linearisation that `reuse` allows. Takes a new one
+ * where the residual shrinks by less than half or the memory is full, and hands over to Newton where that fails. */
+#define SPORE_BROYDEN_MEMORY 12
+#define SPORE_BROYDEN_SCRATCH (SPORE_NEWTON_SCRATCH + SPORE_BROYDEN_MEMORY + 1)
+SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
+                                   double *scratch);
+
+#endif
