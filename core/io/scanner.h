@@ -1,0 +1,42 @@
+/* Words and numbers of a text that someone else wrote, with the place of each for messages. */
+#ifndef SPORE_IO_SCANNER_H
+#define SPORE_IO_SCANNER_H
+
+#include <glib.h>
+
+#include "core/scene/error.h"
+
+typedef struct SporeScanner {
+  const char *place; /* the file, begins every message; borrowed */
+  const char *at, *end, *line_start;
+  unsigned line;    /* from 1 */
+  const char *word; /* the word read last, not NUL-terminated; NULL at the end of the text */
+  gsize length;
+  unsigned word_line, word_column;
+} SporeScanner;
+
+void spore_scanner_init(SporeScanner *scanner, const char *place, const char *text, gsize size);
+/* Next word; white space and # comments are passed over. FALSE at the end. */
+gboolean spore_scanner_next(SporeScanner *scanner);
+/* Is there another word on the line of the last one? */
+gboolean spore_scanner_more_on_line(SporeScanner *scanner);
+/* The last word equals `text`, upper or lower case. */
+gboolean spore_scanner_is(const SporeScanner *scanner, const char *text);
+/* Passes over the rest of the line of the last word. */
+void spore_scanner_skip_line(SporeScanner *scanner);
+gsize spore_scanner_left(const SporeScanner *scanner); /* bytes */
+
+/* The next word as a number; `what` says in messages which one was expected ("the x of a vertex", translated). */
+gboolean spore_scanner_real(SporeScanner *scanner, const char *what, double *value, GError **error);
+gboolean spore_scanner_integer(SporeScanner *scanner, const char *what, guint64 minimum, guint64 maximum,
+                               guint64 *value, GError **error);
+/* A number of items that each take `bytes` at least: what the rest of the text cannot hold is refused, and so are more
+ * than SPORE_MESH_MAXIMUM. */
+gboolean spore_scanner_count(SporeScanner *scanner, const char *what, gsize bytes, gsize *count, GError **error);
+/* Writes rows of `width` numbers, each row on a line that ends in `ending`; every number reads back to the same bits.
+ */
+void spore_append_reals(GString *text, const double *values, gsize rows, gsize width, const char *ending);
+/* Raises "FILE:LINE:COLUMN: message" at the last word. Returns FALSE. */
+gboolean spore_scanner_fail(const SporeScanner *scanner, GError **error, const char *format, ...) G_GNUC_PRINTF(3, 4);
+
+#endif
