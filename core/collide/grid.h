@@ -1,0 +1,57 @@
+/* Broad and narrow phase: which spheres of a world touch.
+ *
+ * Spheres lie in hashed regular grids of cells, one grid for each class of radius (cells of a class are twice as wide
+ * as those of the class below and at least as wide as the spheres in them), so that any mixture of radii costs O(n)
+ * time and memory. Table entries carry the number of the step that wrote them and count as empty in any other: the
+ * table is never emptied. Unmovable spheres have a table of their own, filled at creation. A pair is looked for from
+ * its smaller class, among unmovable spheres from the moving one, and so is found exactly once. */
+#ifndef SPORE_COLLIDE_GRID_H
+#define SPORE_COLLIDE_GRID_H
+
+#include <stdbool.h>
+
+#include "core/base/error.h"
+#include "core/collide/sphere.h"
+
+typedef struct SporeGrid SporeGrid;
+
+/* What the pair filter knows of a body. Two bodies pair when at least one of them is passive; a body pairs with itself
+ * when it is passive and asks for it. */
+typedef struct SporeGridBody {
+  bool passive; /* moved by physics */
+  bool self;    /* its spheres collide with each other */
+} SporeGridBody;
+
+/* Spheres of one body whose gap at rest is below this part of the sum of their radii never collide with each other. */
+#define SPORE_GRID_SELF_MARGIN 0.1
+
+/* `rest` holds the spheres with every passive body at rest, wherever it stands; unmovable ones first and already where
+ * they will stay. bodies: body_count, indexed by spheres->body. Room for contact_capacity contacts (0: a default).
+ * Everything is copied. Refuses radii that are not positive and finite, unmovable spheres that are not finite, body
+ * indices out of range; NULL then, or without memory. */
+SporeGrid *spore_grid_create(const SporeSpheres *rest, const SporeGridBody *bodies, size_t body_count,
+                             size_t contact_capacity, SporeError *error);
+void spore_grid_free(SporeGrid *grid);
+
+/* Makes room for more contacts; between steps only. What was detected is lost. False: no memory, all as before. */
+bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity);
+
+/* Finds the contacts of spheres that start the step at `centre` and move with `velocity` for dt_s (0: as they stand).
+ * A contact is a pair that overlaps now (depth > 0), or one whose relative travel in the step exceeds the smaller
+ * radius and that meets within the step: its normal is then the one at first touch, and its depth (<= 0) grows along
+ * the normal to 0 at that time, depth + t (-gap_speed) = 0.
+ *
+ * Contacts are ordered by (a, b). Coincident centres: the normal opposes the relative velocity, and is +y where there
+ * is none. Spheres that are not finite touch nothing. Count and layout of the spheres and the radii are as at creation.
+ * Allocates nothing. Returns the number of contacts; *missed: pairs that found no room (then call spore_grid_reserve
+ * with spore_grid_capacity + missed, and detect again). */
+size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed);
+
+/* Those of the last detection; valid until the next one. */
+const SporeContact *spore_grid_contacts(const SporeGrid *grid);
+size_t spore_grid_capacity(const SporeGrid *grid);
+
+/* Pairs that the pair filter would let through by body alone, for the plan: (i, j) with i <= j. */
+size_t spore_grid_body_pairs(const SporeGridBody *bodies, size_t body_count);
+
+#endif
