@@ -1,0 +1,10 @@
+// Shared by every pass. Positions are in metres, camera-relative: the eye is at the origin of view space and looks along -z.
+// The picture is drawn upside down (projection flips y), so that rows are read back top first.
+layout(std140) uniform Frame {
+  mat4 projection;
+  mat4 rotation;  // world axes to view axes
+  mat4 shadow;    // view space to the light's clip space
+  vec4 light;     // view space; w: distance of the target, m
+  vec4 viewport;  // width, height, size of a pixel at distance 1, strength of the vignette
+  vec4 up;        // world's up in view space; w: shadow map is there
+};

@@ -1,0 +1,2 @@
+// One triangle over the whole picture, at the far end.
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0); }

@@ -1,0 +1,44 @@
+flat in vec4 v_sphere;
+flat in float v_value;
+in vec3 v_ray;
+
+uniform vec3 colour;
+uniform float dim; // alpha of the hidden part of an overlay; 1 elsewhere
+
+#if !DEPTH_ONLY
+out vec4 result;
+
+// Small error dark violet, over green, to large error yellow.
+vec3 scale_colour(float x) {
+  vec3 low = mix(vec3(0.055, 0.010, 0.115), vec3(0.020, 0.150, 0.260), clamp(x * 2.5, 0.0, 1.0));
+  vec3 mid = mix(low, vec3(0.030, 0.390, 0.190), clamp(x * 2.5 - 0.8, 0.0, 1.0));
+  return mix(mid, vec3(0.930, 0.740, 0.020), clamp(x * 2.2 - 1.2, 0.0, 1.0));
+}
+#endif
+
+void main() {
+#if DEPTH_ONLY == 2
+  vec3 direction = normalize(vec3(shadow[0].z, shadow[1].z, shadow[2].z));
+  vec3 across = v_ray - v_sphere.xyz;
+  float inside = v_sphere.w * v_sphere.w - dot(across, across);
+  if (inside < 0.0) discard;
+  vec3 position = v_ray - direction * sqrt(inside);
+  vec4 clip = shadow * vec4(position, 1.0);
+#else
+  // The ray through this pixel from the eye: |t ray - centre| = radius, nearest t.
+  vec3 ray = normalize(v_ray);
+  float along = dot(ray, v_sphere.xyz);
+  vec3 miss = v_sphere.xyz - along * ray;
+  float inside = v_sphere.w * v_sphere.w - dot(miss, miss);
+  if (inside < 0.0) discard;
+  vec3 position = ray * (along - sqrt(inside));
+  vec4 clip = projection * vec4(position, 1.0);
+#endif
+  gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w;
+#if !DEPTH_ONLY
+  vec3 normal = (position - v_sphere.xyz) / v_sphere.w;
+  vec3 albedo = v_value >= 0.0 ? scale_colour(v_value) : colour;
+  float open = ambient_open(), lit = light_reaches(position, normal);
+  result = finish(shade_tissue(albedo, 0.35, position, normal, normal, open, lit), dim);
+#endif
+}

@@ -1,0 +1,55 @@
+#if DEPTH_ONLY
+in vec3 v_position;
+void main() {}
+#else
+in vec3 v_position, v_normal, v_rest;
+in float v_mottle;
+
+uniform vec3 colour;
+uniform float wetness;
+uniform float cell;     // size of a pattern cell, m
+uniform float selected; // 0 or 1
+uniform int metal;
+uniform vec3 axis;      // streaks of brushed metal run along it, rest axes
+
+out vec4 result;
+
+// Noise that is finer than a pixel fades out instead of sparkling.
+float detail(float frequency) {
+  float footprint = -v_position.z * viewport.z * frequency / cell;
+  return clamp(1.6 - 1.6 * footprint, 0.0, 1.0);
+}
+
+void main() {
+  vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
+  float open = ambient_open(), lit = light_reaches(v_position, normal);
+  vec3 outcome;
+  if (metal != 0) {
+    vec3 across = v_rest - axis * dot(v_rest, axis);
+    vec3 streak = (noise(vec3(across * 60.0) + axis * dot(v_rest, axis) * 1.5).yzw) * 0.05 * detail(60.0);
+    outcome = shade_metal(colour, v_position, normal, mat3(rotation) * streak, open, lit);
+  } else {
+    // Blood shows through unevenly: pale and dark patches, and a fine grain.
+    vec4 grain = noise(v_rest * 2.7);
+    float patches = v_mottle - 0.5 + 0.22 * (grain.x - 0.5);
+    vec3 albedo = colour * (1.0 + vec3(0.50, 0.85, 0.80) * patches);
+#if QUALITY
+    vec4 fine = noise(v_rest * 7.3 + 3.1), vessel = noise(v_rest * 1.15 + grain.yzw * 0.18 + 11.0);
+    float thread = 1.0 - smoothstep(0.0, 0.055 + 0.03 * fine.x, abs(vessel.x - 0.5) / (0.25 + length(vessel.yzw)));
+    thread *= smoothstep(0.42, 0.75, v_mottle + 0.2 * (fine.x - 0.5)) * detail(6.0);
+    albedo *= 1.0 + vec3(0.22, 0.30, 0.30) * (fine.x - 0.5) * detail(7.3);
+    albedo = mix(albedo, albedo * vec3(0.62, 0.20, 0.22), 0.55 * thread);
+    vec3 bump = grain.yzw * 0.085 * detail(2.7) + fine.yzw * 0.055 * detail(7.3);
+    bump += (noise(v_rest * 17.0).yzw) * 0.022 * detail(17.0);
+#else
+    vec3 bump = grain.yzw * 0.11 * detail(2.7);
+#endif
+    bump = mat3(rotation) * bump;
+    bump -= normal * dot(normal, bump);
+    outcome = shade_tissue(max(albedo, 0.0), wetness, v_position, normalize(normal - 0.25 * bump), normalize(normal - bump), open, lit);
+  }
+  float rim = 1.0 - clamp(dot(normal, normalize(-v_position)), 0.0, 1.0);
+  outcome += selected * vec3(0.10, 0.42, 1.0) * (0.04 + 0.9 * rim * rim * rim);
+  result = finish(outcome, 1.0);
+}
+#endif

@@ -1,0 +1,25 @@
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 rest; // xyz: place at rest in pattern cells, so that the pattern sticks; w: slow mottling 0..1
+
+uniform vec3 offset; // of the mesh's origin from the eye, world axes
+
+out vec3 v_position;
+#if !DEPTH_ONLY
+out vec3 v_normal, v_rest;
+out float v_mottle;
+#endif
+
+void main() {
+  v_position = mat3(rotation) * (position + offset);
+#if DEPTH_ONLY == 2
+  gl_Position = shadow * vec4(v_position, 1.0);
+#else
+  gl_Position = projection * vec4(v_position, 1.0);
+#endif
+#if !DEPTH_ONLY
+  v_normal = mat3(rotation) * normal;
+  v_rest = rest.xyz;
+  v_mottle = rest.w;
+#endif
+}

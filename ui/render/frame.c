@@ -1,0 +1,78 @@
+#include "ui/render/frame.h"
+
+#include <math.h>
+#include <string.h>
+
+#define VIGNETTE 0.62f
+
+/* Depth range, m along the view, of everything visible. */
+static void depth_range(GPtrArray *drawables, SporeVec3 eye, SporeVec3 forward, double *near, double *far) {
+  *near = HUGE_VAL, *far = -HUGE_VAL;
+  for (guint i = 0; i < drawables->len; i++) {
+    const SporeDrawable *drawable = drawables->pdata[i];
+    if (!drawable || !drawable->visible || !(drawable->lower[0] <= drawable->upper[0])) continue;
+    for (int corner = 0; corner < 8; corner++) {
+      SporeVec3 p = {(corner & 1 ? drawable->upper : drawable->lower)[0],
+                     (corner & 2 ? drawable->upper : drawable->lower)[1],
+                     (corner & 4 ? drawable->upper : drawable->lower)[2]};
+      double depth = spore_vec3_dot(spore_vec3_sub(p, eye), forward);
+      *near = MIN(*near, depth);
+      *far = MAX(*far, depth);
+    }
+  }
+}
+
+/* Column-major, y flipped. */
+static void projection(float out[16], double slope, double aspect, double near, double far) {
+  memset(out, 0, 16 * sizeof(float));
+  out[0] = (float)(1 / (slope * aspect));
+  out[5] = (float)(-1 / slope);
+  out[10] = (float)(-(far + near) / (far - near));
+  out[11] = -1;
+  out[14] = (float)(-2 * far * near / (far - near));
+}
+
+static void rotation(float out[16], SporeVec3 right, SporeVec3 up, SporeVec3 forward) {
+  const float columns[16] = {(float)right.x,
+                             (float)up.x,
+                             (float)-forward.x,
+                             0,
+                             (float)right.y,
+                             (float)up.y,
+                             (float)-forward.y,
+                             0,
+                             (float)right.z,
+                             (float)up.z,
+                             (float)-forward.z,
+                             0,
+                             0,
+                             0,
+                             0,
+                             1};
+  memcpy(out, columns, sizeof columns);
+}
+
+void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray *drawables, gboolean grid, int width,
+                         int height) {
+  SporeVec3 right, up, forward;
+  *frame = (SporeFrame){0};
+  spore_camera_eye(camera, &frame->eye, &right, &up, &forward);
+  double distance = camera->distance, slope = tan(camera->field_of_view / 2);
+  depth_range(drawables, frame->eye, forward, &frame->near, &frame->far);
+  if (grid || !(frame->far > 0)) {
+    frame->near = MIN(frame->near, distance * 0.05);
+    frame->far = MAX(frame->far, distance * 12);
+  }
+  frame->far *= 1.01;
+  frame->near = MAX(frame->near * 0.99, frame->far * 3e-4);
+
+  SporeFrameBlock *block = &frame->block;
+  projection(block->projection, slope, (double)width / height, frame->near, frame->far);
+  rotation(block->rotation, right, up, forward);
+  /* The lamp sits up and to the left of the lens, so that shapes keep a shadow side. */
+  block->light[0] = (float)(-0.30 * distance), block->light[1] = (float)(0.42 * distance);
+  block->light[2] = (float)(0.02 * distance), block->light[3] = (float)distance;
+  block->viewport[0] = (float)width, block->viewport[1] = (float)height;
+  block->viewport[2] = (float)(2 * slope / height), block->viewport[3] = VIGNETTE;
+  block->up[0] = (float)right.y, block->up[1] = (float)up.y, block->up[2] = (float)-forward.y;
+}

@@ -1,0 +1,11 @@
+/* What the shaders are told of a frame: projection, light, range of depth. */
+#ifndef SPORE_UI_RENDER_FRAME_H
+#define SPORE_UI_RENDER_FRAME_H
+
+#include "ui/render/passes.h"
+
+/* Fills the frame for the visible drawables. width x height: of the buffer drawn into. */
+void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray *drawables, gboolean grid, int width,
+                         int height);
+
+#endif

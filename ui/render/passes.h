@@ -1,0 +1,136 @@
+/* Inside the renderer: what is drawn, the programs that draw it, and the passes in which it happens. */
+#ifndef SPORE_UI_RENDER_PASSES_H
+#define SPORE_UI_RENDER_PASSES_H
+
+#include <epoxy/gl.h>
+
+#include "ui/render/renderer.h"
+
+/* Programs. Each is made from its shaders in one of several variants, when it is first needed. */
+typedef enum SporeVariant {
+  SPORE_VARIANT_FAST,   /* one pass to the screen's colours */
+  SPORE_VARIANT_FULL,   /* linear light for the composite pass; occlusion, shadow, fine detail */
+  SPORE_VARIANT_DEPTH,  /* depth alone, from the eye */
+  SPORE_VARIANT_SHADOW, /* depth alone, from the light */
+  SPORE_VARIANT_COUNT
+} SporeVariant;
+
+typedef enum SporeProgramKind {
+  SPORE_PROGRAM_SURFACE,
+  SPORE_PROGRAM_SPHERE,
+  SPORE_PROGRAM_LINE,
+  SPORE_PROGRAM_BACKGROUND,
+  SPORE_PROGRAM_OCCLUSION,
+  SPORE_PROGRAM_SMOOTH,
+  SPORE_PROGRAM_GLOW,
+  SPORE_PROGRAM_COMPOSITE,
+  SPORE_PROGRAM_COUNT
+} SporeProgramKind;
+
+typedef struct SporeProgram {
+  GLuint id;                                                                                     /* 0: not made yet */
+  GLint offset, colour, wetness, cell, selected, metal, axis, dim, width, near, fade, direction; /* -1: has none */
+} SporeProgram;
+
+typedef struct SporePrograms {
+  SporeProgram programs[SPORE_PROGRAM_COUNT][SPORE_VARIANT_COUNT];
+} SporePrograms;
+
+/* Makes the program when it is not there yet. NULL with a GError holding the compiler's words. */
+const SporeProgram *spore_programs_get(SporePrograms *programs, SporeProgramKind kind, SporeVariant variant,
+                                       GError **error);
+void spore_programs_clear(SporePrograms *programs);
+
+/* Texture units of the full variant. */
+enum { SPORE_UNIT_OCCLUSION, SPORE_UNIT_SHADOW, SPORE_UNIT_COLOUR, SPORE_UNIT_DEPTH, SPORE_UNIT_GLOW };
+
+/* What all shaders know; laid out as the uniform block `Frame` (std140). */
+typedef struct SporeFrameBlock {
+  float projection[16], rotation[16], shadow[16], light[4], viewport[4], up[4];
+} SporeFrameBlock;
+
+typedef struct SporeFrame {
+  SporeFrameBlock block;
+  SporeVec3 eye;    /* world, m */
+  double near, far; /* m */
+} SporeFrame;
+
+/* What is drawn. Buffers hold positions relative to `origin`, so that single precision suffices far from the world's.
+ */
+typedef enum SporeDrawableKind { SPORE_DRAW_SURFACE, SPORE_DRAW_SPHERES, SPORE_DRAW_LINES } SporeDrawableKind;
+typedef struct SporeDrawable {
+  SporeDrawableKind kind;
+  gboolean visible;
+  double origin[3], lower[3], upper[3]; /* m, world */
+} SporeDrawable;
+
+typedef struct SporeSurface {
+  SporeDrawable base;
+  GLuint vertex_array, moving, rest, indices;
+  gsize vertex_count, triangle_count;
+  guint32 *triangles; /* triangle_count x 3 */
+  double *normals;    /* vertex_count x 3 */
+  SporeSurfaceStyle style;
+  gboolean closed; /* back faces are never seen */
+  float cell;      /* m: size of the pattern of the tissue */
+  float axis[3];   /* longest axis at rest */
+} SporeSurface;
+
+typedef struct SporeSphereGroup {
+  SporeDrawable base;
+  GLuint vertex_array, moving, values;
+  gsize count;
+  float colour[3];
+  gboolean overlay;
+} SporeSphereGroup;
+
+typedef struct SporeLineGroup {
+  SporeDrawable base;
+  GLuint vertex_array, moving;
+  gsize count;
+  float colour[3], width;
+  float fade; /* m; 0: lines do not fade */
+} SporeLineGroup;
+
+/* Context current in all that follows. */
+SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
+                                gsize triangle_count, const SporeSurfaceStyle *style);
+void spore_surface_move(SporeSurface *surface, const double *vertices);
+SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
+                                         gboolean overlay);
+void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres);
+SporeLineGroup *spore_line_group_new(const double *points, gsize count, const float colour[3], float width);
+void spore_line_group_move(SporeLineGroup *group, const double *points, gsize count);
+void spore_drawable_free(SporeDrawable *drawable);
+
+/* Offset of the drawable's origin from the eye, as the shaders want it. */
+void spore_drawable_set_offset(const SporeDrawable *drawable, const SporeFrame *frame, GLint location);
+/* Empties origin and bounds, then takes in points of `stride` doubles, each grown by its 4th number when radius. */
+void spore_drawable_set_bounds(SporeDrawable *drawable, const double *points, gsize count, gsize stride,
+                               gboolean radius, gboolean set_origin);
+
+/* Passes: draw every visible drawable of their kind (NULL entries are skipped) to the bound framebuffer. */
+gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
+                            SporeVariant variant, GError **error);
+/* overlays FALSE: solid spheres; TRUE: overlays, dimmed where hidden. */
+gboolean spore_sphere_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
+                           gboolean overlays, GError **error);
+gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
+                         GError **error);
+gboolean spore_background_pass(SporePrograms *programs, SporeVariant variant, GError **error);
+
+/* Floor grid and axes at y = 0 about what the camera looks at; a list of line groups. */
+GPtrArray *spore_grid_new(void);
+void spore_grid_update(GPtrArray *grid, const SporeCamera *camera);
+
+/* Framebuffer with a texture or renderbuffer for colour and for depth. */
+typedef struct SporeTarget {
+  int width, height, samples;
+  GLuint framebuffer, colour, depth; /* textures when samples is 0, else renderbuffers */
+} SporeTarget;
+/* Makes it anew only when size or samples changed. colour_format or depth_format 0: has none. */
+gboolean spore_target_prepare(SporeTarget *target, int width, int height, int samples, GLenum colour_format,
+                              GLenum depth_format, GError **error);
+void spore_target_clear(SporeTarget *target);
+
+#endif

@@ -1,0 +1,145 @@
+#include <gio/gio.h>
+#include <glib/gi18n.h>
+
+#include "ui/render/passes.h"
+#include "ui/render/shaders.h"
+
+#define PREFIX "/spore/shaders/"
+
+typedef struct ProgramSource {
+  const char *vertex, *fragment;
+} ProgramSource;
+
+static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
+    [SPORE_PROGRAM_SURFACE] = {"surface.vert", "surface.frag"},
+    [SPORE_PROGRAM_SPHERE] = {"sphere.vert", "sphere.frag"},
+    [SPORE_PROGRAM_LINE] = {"line.vert", "line.frag"},
+    [SPORE_PROGRAM_BACKGROUND] = {"screen.vert", "background.frag"},
+    [SPORE_PROGRAM_OCCLUSION] = {"screen.vert", "occlusion.frag"},
+    [SPORE_PROGRAM_SMOOTH] = {"screen.vert", "smooth.frag"},
+    [SPORE_PROGRAM_GLOW] = {"screen.vert", "glow.frag"},
+    [SPORE_PROGRAM_COMPOSITE] = {"screen.vert", "composite.frag"},
+};
+
+/* A narrow film lobe sparkles unless several samples a pixel are taken: the fast variant widens it. */
+static const char *const preamble[SPORE_VARIANT_COUNT] = {
+    [SPORE_VARIANT_FAST] = "#version 330 core\n#define QUALITY 0\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.03\n",
+    [SPORE_VARIANT_FULL] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.01\n",
+    [SPORE_VARIANT_DEPTH] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 1\n",
+    [SPORE_VARIANT_SHADOW] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 2\n",
+};
+
+static GBytes *shader_text(const char *name) {
+  char *path = g_strconcat(PREFIX, name, NULL);
+  GBytes *text = g_resource_lookup_data(spore_shaders_get_resource(), path, G_RESOURCE_LOOKUP_FLAGS_NONE, NULL);
+  g_free(path);
+  g_assert(text);
+  return text;
+}
+
+static gboolean refused(const char *name, const char *log, GError **error) {
+  return spore_error_raise(
+      error, SPORE_ERROR_UNSUPPORTED, name,
+      _("the graphics driver refuses the shader: %s; OpenGL 3.3 was expected; update the driver, or "
+        "set LIBGL_ALWAYS_SOFTWARE=1"),
+      log);
+}
+
+static GLuint compile(GLenum stage, const char *name, SporeVariant variant, GError **error) {
+  const char *parts[] = {"frame.glsl", "colour.glsl", "visibility.glsl", "tissue.glsl", name};
+  GBytes *texts[G_N_ELEMENTS(parts)];
+  const char *strings[G_N_ELEMENTS(parts) + 1] = {preamble[variant]};
+  GLint lengths[G_N_ELEMENTS(parts) + 1] = {-1};
+  guint count = 1;
+  for (guint i = 0; i < G_N_ELEMENTS(parts); i++) {
+    gsize size;
+    texts[i] = shader_text(parts[i]);
+    /* Light is computed in fragments that have a colour. */
+    if (i > 0 && i + 1 < G_N_ELEMENTS(parts) && (stage == GL_VERTEX_SHADER || variant >= SPORE_VARIANT_DEPTH)) continue;
+    strings[count] = g_bytes_get_data(texts[i], &size);
+    lengths[count++] = (GLint)size;
+  }
+  GLuint shader = glCreateShader(stage);
+  glShaderSource(shader, (GLsizei)count, strings, lengths);
+  glCompileShader(shader);
+  for (guint i = 0; i < G_N_ELEMENTS(parts); i++) g_bytes_unref(texts[i]);
+  GLint good;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  if (good) return shader;
+  char log[1024] = "";
+  glGetShaderInfoLog(shader, sizeof log, NULL, log);
+  glDeleteShader(shader);
+  refused(name, log, error);
+  return 0;
+}
+
+static GLuint link_program(const ProgramSource *source, SporeVariant variant, GError **error) {
+  GLuint vertex = compile(GL_VERTEX_SHADER, source->vertex, variant, error);
+  GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, source->fragment, variant, error) : 0;
+  GLuint id = 0;
+  if (fragment) {
+    GLint good;
+    id = glCreateProgram();
+    glAttachShader(id, vertex);
+    glAttachShader(id, fragment);
+    glLinkProgram(id);
+    glGetProgramiv(id, GL_LINK_STATUS, &good);
+    if (!good) {
+      char log[1024] = "";
+      glGetProgramInfoLog(id, sizeof log, NULL, log);
+      glDeleteProgram(id);
+      id = 0;
+      refused(source->fragment, log, error);
+    }
+  }
+  glDeleteShader(vertex);
+  glDeleteShader(fragment);
+  return id;
+}
+
+static void set_sampler(GLuint id, const char *name, int unit) {
+  GLint location = glGetUniformLocation(id, name);
+  if (location >= 0) glUniform1i(location, unit);
+}
+
+static void find_uniforms(SporeProgram *program) {
+  GLuint id = program->id;
+  GLuint block = glGetUniformBlockIndex(id, "Frame");
+  if (block != GL_INVALID_INDEX) glUniformBlockBinding(id, block, 0);
+  program->offset = glGetUniformLocation(id, "offset");
+  program->colour = glGetUniformLocation(id, "colour");
+  program->wetness = glGetUniformLocation(id, "wetness");
+  program->cell = glGetUniformLocation(id, "cell");
+  program->selected = glGetUniformLocation(id, "selected");
+  program->metal = glGetUniformLocation(id, "metal");
+  program->axis = glGetUniformLocation(id, "axis");
+  program->dim = glGetUniformLocation(id, "dim");
+  program->width = glGetUniformLocation(id, "width");
+  program->near = glGetUniformLocation(id, "near");
+  program->fade = glGetUniformLocation(id, "fade");
+  program->direction = glGetUniformLocation(id, "direction");
+  glUseProgram(id);
+  set_sampler(id, "occlusion_map", SPORE_UNIT_OCCLUSION);
+  set_sampler(id, "shadow_map", SPORE_UNIT_SHADOW);
+  set_sampler(id, "colour_map", SPORE_UNIT_COLOUR);
+  set_sampler(id, "depth_map", SPORE_UNIT_DEPTH);
+  set_sampler(id, "glow_map", SPORE_UNIT_GLOW);
+}
+
+const SporeProgram *spore_programs_get(SporePrograms *programs, SporeProgramKind kind, SporeVariant variant,
+                                       GError **error) {
+  SporeProgram *program = &programs->programs[kind][variant];
+  if (!program->id) {
+    program->id = link_program(&sources[kind], variant, error);
+    if (!program->id) return NULL;
+    find_uniforms(program);
+  }
+  return program;
+}
+
+void spore_programs_clear(SporePrograms *programs) {
+  for (int kind = 0; kind < SPORE_PROGRAM_COUNT; kind++)
+    for (int variant = 0; variant < SPORE_VARIANT_COUNT; variant++)
+      if (programs->programs[kind][variant].id) glDeleteProgram(programs->programs[kind][variant].id);
+  *programs = (SporePrograms){0};
+}

@@ -1,0 +1,223 @@
+#include <glib/gi18n.h>
+#include <math.h>
+
+#include "ui/render/frame.h"
+#include "ui/render/passes.h"
+
+/* A hardware driver takes several samples of each edge at little cost. */
+#define HARDWARE_SAMPLES 4
+#define LARGEST_PICTURE 16384
+
+struct SporeRenderer {
+  SporeOffscreen *offscreen; /* borrowed */
+  GPtrArray *drawables;      /* SporeDrawable * by handle - 1, NULL where removed */
+  GPtrArray *grid;           /* SporeLineGroup * */
+  SporePrograms programs;
+  SporeTarget screen, resolved; /* resolved: what is read back when the screen has samples */
+  GLuint block, screen_array;   /* uniform buffer; vertex array without attributes */
+  int samples, largest;
+};
+
+SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error) {
+  if (!spore_offscreen_make_current(offscreen)) {
+    spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, _("graphics"),
+                      _("the OpenGL context cannot be made current; a context that no other thread uses was expected; "
+                        "close other 3D programs and start again"));
+    return NULL;
+  }
+  SporeRenderer *renderer = g_new0(SporeRenderer, 1);
+  renderer->offscreen = offscreen;
+  renderer->drawables = g_ptr_array_new();
+  renderer->grid = spore_grid_new();
+  glGenBuffers(1, &renderer->block);
+  glGenVertexArrays(1, &renderer->screen_array);
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderer->largest);
+  renderer->samples = spore_offscreen_is_software(offscreen) ? 0 : HARDWARE_SAMPLES;
+  const SporeProgramKind needed[] = {SPORE_PROGRAM_SURFACE, SPORE_PROGRAM_SPHERE, SPORE_PROGRAM_LINE,
+                                     SPORE_PROGRAM_BACKGROUND};
+  for (guint i = 0; i < G_N_ELEMENTS(needed); i++)
+    if (!spore_programs_get(&renderer->programs, needed[i], SPORE_VARIANT_FAST, error)) {
+      spore_renderer_free(renderer);
+      return NULL;
+    }
+  return renderer;
+}
+
+void spore_renderer_free(SporeRenderer *renderer) {
+  if (!renderer) return;
+  spore_renderer_clear(renderer);
+  for (guint i = 0; i < renderer->grid->len; i++) spore_drawable_free(renderer->grid->pdata[i]);
+  spore_programs_clear(&renderer->programs);
+  spore_target_clear(&renderer->screen);
+  spore_target_clear(&renderer->resolved);
+  glDeleteBuffers(1, &renderer->block);
+  glDeleteVertexArrays(1, &renderer->screen_array);
+  g_ptr_array_free(renderer->drawables, TRUE);
+  g_ptr_array_free(renderer->grid, TRUE);
+  g_free(renderer);
+}
+
+/* Handles. */
+
+static guint add(SporeRenderer *renderer, SporeDrawable *drawable) {
+  guint i = 0;
+  while (i < renderer->drawables->len && renderer->drawables->pdata[i]) i++;
+  if (i == renderer->drawables->len) g_ptr_array_add(renderer->drawables, drawable);
+  else renderer->drawables->pdata[i] = drawable;
+  return i + 1;
+}
+
+static SporeDrawable *find(SporeRenderer *renderer, guint handle) {
+  spore_offscreen_make_current(renderer->offscreen);
+  return handle > 0 && handle <= renderer->drawables->len ? renderer->drawables->pdata[handle - 1] : NULL;
+}
+
+static void *find_kind(SporeRenderer *renderer, guint handle, SporeDrawableKind kind) {
+  SporeDrawable *drawable = find(renderer, handle);
+  g_return_val_if_fail(drawable && drawable->kind == kind, NULL);
+  return drawable;
+}
+
+guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
+                                 const guint32 *triangles, gsize triangle_count, const SporeSurfaceStyle *style) {
+  spore_offscreen_make_current(renderer->offscreen);
+  return add(renderer, &spore_surface_new(vertices, vertex_count, triangles, triangle_count, style)->base);
+}
+
+void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices) {
+  SporeSurface *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
+  if (drawable) spore_surface_move(drawable, vertices);
+}
+
+void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style) {
+  SporeSurface *drawable = find_kind(renderer, surface, SPORE_DRAW_SURFACE);
+  if (drawable) drawable->style = *style;
+}
+
+guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres, gsize count, const float colour[3],
+                                 const float *values, gboolean overlay) {
+  spore_offscreen_make_current(renderer->offscreen);
+  return add(renderer, &spore_sphere_group_new(spheres, count, colour, values, overlay)->base);
+}
+
+void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres) {
+  SporeSphereGroup *drawable = find_kind(renderer, group, SPORE_DRAW_SPHERES);
+  if (drawable) spore_sphere_group_move(drawable, spheres);
+}
+
+guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3],
+                               float width) {
+  spore_offscreen_make_current(renderer->offscreen);
+  return add(renderer, &spore_line_group_new(points, count, colour, width)->base);
+}
+
+void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const double *points, gsize count) {
+  SporeLineGroup *drawable = find_kind(renderer, group, SPORE_DRAW_LINES);
+  if (drawable) spore_line_group_move(drawable, points, count);
+}
+
+void spore_renderer_remove(SporeRenderer *renderer, guint handle) {
+  SporeDrawable *drawable = find(renderer, handle);
+  g_return_if_fail(drawable);
+  renderer->drawables->pdata[handle - 1] = NULL;
+  spore_drawable_free(drawable);
+}
+
+void spore_renderer_set_visible(SporeRenderer *renderer, guint handle, gboolean visible) {
+  SporeDrawable *drawable = find(renderer, handle);
+  g_return_if_fail(drawable);
+  drawable->visible = visible;
+}
+
+void spore_renderer_clear(SporeRenderer *renderer) {
+  spore_offscreen_make_current(renderer->offscreen);
+  for (guint i = 0; i < renderer->drawables->len; i++) spore_drawable_free(renderer->drawables->pdata[i]);
+  g_ptr_array_set_size(renderer->drawables, 0);
+}
+
+/* Drawing. */
+
+static void upload_frame(SporeRenderer *renderer, const SporeFrame *frame) {
+  glBindBuffer(GL_UNIFORM_BUFFER, renderer->block);
+  glBufferData(GL_UNIFORM_BUFFER, sizeof frame->block, &frame->block, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, renderer->block);
+}
+
+static void set_state(void) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glFrontFace(GL_CW); /* the projection is upside down */
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+}
+
+/* What has a colour, in the order that writes each pixel least often: solids, then the background behind them. */
+static gboolean draw_colours(SporeRenderer *renderer, const SporeFrame *frame, SporeVariant variant, gboolean grid,
+                             GError **error) {
+  GPtrArray *drawables = renderer->drawables;
+  SporePrograms *programs = &renderer->programs;
+  if (!spore_surface_pass(drawables, frame, programs, variant, error) ||
+      !spore_sphere_pass(drawables, frame, programs, variant, FALSE, error))
+    return FALSE;
+  glBindVertexArray(renderer->screen_array);
+  if (!spore_background_pass(programs, variant, error)) return FALSE;
+  if (grid && !spore_line_pass(renderer->grid, frame, programs, variant, error)) return FALSE;
+  return spore_sphere_pass(drawables, frame, programs, variant, TRUE, error) &&
+         spore_line_pass(drawables, frame, programs, variant, error);
+}
+
+static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
+                          GError **error) {
+  SporeFrame frame;
+  int width = options->width, height = options->height;
+  if (!spore_target_prepare(&renderer->screen, width, height, renderer->samples, GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT24,
+                            error))
+    return FALSE;
+  spore_frame_prepare(&frame, camera, renderer->drawables, options->grid, width, height);
+  upload_frame(renderer, &frame);
+  glBindFramebuffer(GL_FRAMEBUFFER, renderer->screen.framebuffer);
+  glViewport(0, 0, width, height);
+  glClear(GL_DEPTH_BUFFER_BIT); /* the background covers what nothing else does */
+  if (!draw_colours(renderer, &frame, SPORE_VARIANT_FAST, options->grid, error)) return FALSE;
+  if (renderer->samples == 0) return TRUE;
+  if (!spore_target_prepare(&renderer->resolved, width, height, 0, GL_SRGB8_ALPHA8, 0, error)) return FALSE;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer->screen.framebuffer);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, renderer->resolved.framebuffer);
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, renderer->resolved.framebuffer);
+  return TRUE;
+}
+
+static gboolean read_back(int width, int height, guint8 *pixels, gsize stride, GError **error) {
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glPixelStorei(GL_PACK_ROW_LENGTH, (GLint)(stride / 4));
+  glReadPixels(0, 0, width, height, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, pixels);
+  GLenum code = glGetError();
+  if (code == GL_NO_ERROR) return TRUE;
+  return spore_error_raise(
+      error, SPORE_ERROR_INTERNAL, _("graphics"),
+      _("drawing failed with OpenGL error %#x; none was expected; please report it together with the "
+        "name of the graphics card"),
+      code);
+}
+
+gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
+                             guint8 *pixels, gsize stride, GError **error) {
+  int width = options->width, height = options->height, largest = MIN(renderer->largest, LARGEST_PICTURE);
+  if (width < 1 || height < 1 || width > largest || height > largest)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, _("picture size"),
+                             _("%d x %d pixels cannot be drawn; 1 to %d each way was expected; ask for another size"),
+                             width, height, largest);
+  g_return_val_if_fail(stride >= 4 * (gsize)width && stride % 4 == 0, FALSE);
+  if (!spore_offscreen_make_current(renderer->offscreen))
+    return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, _("graphics"),
+                             _("the OpenGL context was lost; it was expected to last; start again"));
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  if (options->grid) spore_grid_update(renderer->grid, camera);
+  set_state();
+  return draw_fast(renderer, camera, options, error) && read_back(width, height, pixels, stride, error);
+}

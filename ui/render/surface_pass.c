@@ -1,0 +1,181 @@
+#include <math.h>
+#include <string.h>
+
+#include "core/math/mat3.h"
+#include "ui/render/passes.h"
+
+/* Value noise on a lattice, 0..1: the slow mottling, made once a vertex rather than once a pixel. */
+static double lattice(int x, int y, int z) {
+  guint32 h = (guint32)x * 0x8da6b343u ^ (guint32)y * 0xd8163841u ^ (guint32)z * 0xcb1ab31fu;
+  h = (h ^ (h >> 15)) * 0x2c1b3c6du;
+  h = (h ^ (h >> 12)) * 0x297a2d39u;
+  return (h ^ (h >> 15)) / 4294967295.0;
+}
+
+static double value_noise(const double p[3]) {
+  int cell[3];
+  double w[3];
+  for (int i = 0; i < 3; i++) {
+    double floor_p = floor(p[i]), f = p[i] - floor_p;
+    cell[i] = (int)fmod(floor_p, 1 << 20);
+    w[i] = f * f * (3 - 2 * f);
+  }
+  double sum = 0;
+  for (int corner = 0; corner < 8; corner++) {
+    int dx = corner & 1, dy = corner >> 1 & 1, dz = corner >> 2;
+    sum += (dx ? w[0] : 1 - w[0]) * (dy ? w[1] : 1 - w[1]) * (dz ? w[2] : 1 - w[2]) *
+           lattice(cell[0] + dx, cell[1] + dy, cell[2] + dz);
+  }
+  return sum;
+}
+
+static float mottling(const double p[3]) {
+  double sum = 0, weight = 0.5, q[3] = {0.45 * p[0], 0.45 * p[1], 0.45 * p[2]};
+  for (int octave = 0; octave < 3; octave++) {
+    sum += weight * value_noise(q);
+    for (int i = 0; i < 3; i++) q[i] = 2.03 * q[i] + 5.7;
+    weight /= 2;
+  }
+  return (float)(sum / 0.875);
+}
+
+/* Longest axis of the cloud of vertices: brushed metal is brushed along it. */
+static void longest_axis(const SporeSurface *surface, const double *vertices, float axis[3]) {
+  double covariance[9] = {0};
+  for (gsize v = 0; v < surface->vertex_count; v++)
+    for (int i = 0; i < 9; i++)
+      covariance[i] += (vertices[3 * v + i / 3] - surface->base.origin[i / 3]) *
+                       (vertices[3 * v + i % 3] - surface->base.origin[i % 3]);
+  SporeMat3 matrix, vectors;
+  double values[3];
+  memcpy(matrix.m, covariance, sizeof covariance);
+  spore_mat3_eigen_symmetric(matrix, values, &vectors);
+  SporeVec3 longest = spore_mat3_column(vectors, 2);
+  axis[0] = (float)longest.x, axis[1] = (float)longest.y, axis[2] = (float)longest.z;
+}
+
+/* Patterns grow slowly with the organ: 8 mm cells on 12 cm of uterus, 4.6 mm on 4 cm of ovary. */
+static float pattern_cell(const SporeDrawable *base) {
+  double d2 = 0;
+  for (int i = 0; i < 3; i++) d2 += (base->upper[i] - base->lower[i]) * (base->upper[i] - base->lower[i]);
+  double diagonal = sqrt(d2);
+  return diagonal > 0 ? (float)(0.008 * sqrt(diagonal / 0.12)) : 1.0f;
+}
+
+static gboolean is_closed(const double *vertices, gsize vertex_count, const guint32 *triangles, gsize triangle_count) {
+  SporeTriangleMesh mesh = {.vertex_count = vertex_count,
+                            .triangle_count = triangle_count,
+                            .vertices = (double *)vertices,
+                            .triangles = (guint32 *)triangles};
+  SporeMeshReport report;
+  return spore_triangle_mesh_report(&mesh, &report, NULL) && report.closed && report.volume > 0;
+}
+
+static void upload_rest(SporeSurface *surface, const double *vertices) {
+  float *rest = g_new(float, 4 * surface->vertex_count);
+  for (gsize v = 0; v < surface->vertex_count; v++) {
+    double cells[3];
+    for (int i = 0; i < 3; i++) {
+      cells[i] = (vertices[3 * v + i] - surface->base.origin[i]) / surface->cell;
+      rest[4 * v + i] = (float)cells[i];
+    }
+    rest[4 * v + 3] = mottling(cells);
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, surface->rest);
+  glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(surface->vertex_count * 4 * sizeof(float)), rest, GL_STATIC_DRAW);
+  g_free(rest);
+}
+
+static void describe_vertices(const SporeSurface *surface) {
+  const GLsizei stride = 6 * sizeof(float);
+  glBindVertexArray(surface->vertex_array);
+  glBindBuffer(GL_ARRAY_BUFFER, surface->moving);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, NULL);
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, stride, (const void *)(3 * sizeof(float)));
+  glBindBuffer(GL_ARRAY_BUFFER, surface->rest);
+  glEnableVertexAttribArray(2);
+  glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, 0, NULL);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface->indices);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(surface->triangle_count * 3 * sizeof(guint32)), surface->triangles,
+               GL_STATIC_DRAW);
+  glBindVertexArray(0);
+}
+
+SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
+                                gsize triangle_count, const SporeSurfaceStyle *style) {
+  SporeSurface *surface = g_new0(SporeSurface, 1);
+  surface->base.kind = SPORE_DRAW_SURFACE;
+  surface->base.visible = TRUE;
+  surface->vertex_count = vertex_count;
+  surface->triangle_count = triangle_count;
+  surface->triangles = g_memdup2(triangles, triangle_count * 3 * sizeof(guint32));
+  surface->normals = g_new(double, 3 * vertex_count);
+  surface->style = *style;
+  surface->closed = is_closed(vertices, vertex_count, triangles, triangle_count);
+  glGenVertexArrays(1, &surface->vertex_array);
+  glGenBuffers(1, &surface->moving);
+  glGenBuffers(1, &surface->rest);
+  glGenBuffers(1, &surface->indices);
+  spore_drawable_set_bounds(&surface->base, vertices, vertex_count, 3, FALSE, TRUE);
+  surface->cell = pattern_cell(&surface->base);
+  longest_axis(surface, vertices, surface->axis);
+  upload_rest(surface, vertices);
+  spore_surface_move(surface, vertices);
+  describe_vertices(surface);
+  return surface;
+}
+
+void spore_surface_move(SporeSurface *surface, const double *vertices) {
+  spore_drawable_set_bounds(&surface->base, vertices, surface->vertex_count, 3, FALSE, FALSE);
+  spore_triangle_mesh_normals(vertices, surface->vertex_count, surface->triangles, surface->triangle_count,
+                              surface->normals);
+  GLsizeiptr size = (GLsizeiptr)(surface->vertex_count * 6 * sizeof(float));
+  glBindBuffer(GL_ARRAY_BUFFER, surface->moving);
+  glBufferData(GL_ARRAY_BUFFER, size, NULL, GL_STREAM_DRAW); /* orphans what the last frame still reads */
+  float *out =
+      size ? glMapBufferRange(GL_ARRAY_BUFFER, 0, size, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT) : NULL;
+  if (!out) return;
+  const double *origin = surface->base.origin, *normals = surface->normals;
+  for (gsize v = 0; v < surface->vertex_count; v++, out += 6)
+    for (int i = 0; i < 3; i++) {
+      out[i] = (float)(vertices[3 * v + i] - origin[i]);
+      out[3 + i] = (float)normals[3 * v + i];
+    }
+  glUnmapBuffer(GL_ARRAY_BUFFER);
+}
+
+static void draw_surface(const SporeSurface *surface, const SporeFrame *frame, const SporeProgram *program,
+                         gboolean colours) {
+  const SporeSurfaceStyle *style = &surface->style;
+  spore_drawable_set_offset(&surface->base, frame, program->offset);
+  glUniform3fv(program->colour, 1, style->colour);
+  glUniform1f(program->wetness, style->wetness);
+  glUniform1f(program->cell, surface->cell);
+  glUniform1f(program->selected, style->selected ? 1 : 0);
+  glUniform1i(program->metal, style->metal);
+  glUniform3fv(program->axis, 1, surface->axis);
+  if (surface->closed && !style->wireframe) glEnable(GL_CULL_FACE);
+  else glDisable(GL_CULL_FACE);
+  glPolygonMode(GL_FRONT_AND_BACK, style->wireframe && colours ? GL_LINE : GL_FILL);
+  glBindVertexArray(surface->vertex_array);
+  glDrawElements(GL_TRIANGLES, (GLsizei)(3 * surface->triangle_count), GL_UNSIGNED_INT, NULL);
+}
+
+gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
+                            SporeVariant variant, GError **error) {
+  const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_SURFACE, variant, error);
+  if (!program) return FALSE;
+  gboolean colours = variant < SPORE_VARIANT_DEPTH;
+  glUseProgram(program->id);
+  for (guint i = 0; i < drawables->len; i++) {
+    const SporeDrawable *drawable = drawables->pdata[i];
+    if (!drawable || !drawable->visible || drawable->kind != SPORE_DRAW_SURFACE) continue;
+    const SporeSurface *surface = (const SporeSurface *)drawable;
+    if (colours || !surface->style.wireframe) draw_surface(surface, frame, program, colours);
+  }
+  glDisable(GL_CULL_FACE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  return TRUE;
+}
