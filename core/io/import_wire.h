@@ -12,6 +12,7 @@ typedef struct SporeImportRequest {
 /* vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. */
 typedef struct SporeImportAnswer {
   uint64_t vertex_count, triangle_count;
+  uint64_t passed_over; /* points and lines */
 } SporeImportAnswer;
 
 #endif

@@ -38,7 +38,7 @@ static void apply_unit_and_frame(SporeTriangleMesh *mesh, int unit, int frame) {
 static gboolean read_answer(const char *place, GBytes *answer, SporeTriangleMesh *mesh, GError **error) {
   gsize size;
   const char *bytes = g_bytes_get_data(answer, &size);
-  SporeImportAnswer head = {0, 0};
+  SporeImportAnswer head = {0};
   if (size >= sizeof head) memcpy(&head, bytes, sizeof head);
   if (head.vertex_count > SPORE_MESH_MAXIMUM || head.triangle_count > SPORE_MESH_MAXIMUM)
     return spore_error_raise(error, SPORE_ERROR_INPUT, place,
@@ -57,6 +57,9 @@ static gboolean read_answer(const char *place, GBytes *answer, SporeTriangleMesh
   }
   memcpy(mesh->vertices, bytes + sizeof head, vertex_bytes);
   memcpy(mesh->triangles, bytes + sizeof head + vertex_bytes, triangle_bytes);
+  if (head.passed_over)
+    g_message(_("%s: %" G_GUINT64_FORMAT " points and lines were passed over; only triangles are read"), place,
+              head.passed_over);
   return TRUE;
 }
 

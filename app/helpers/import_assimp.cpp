@@ -1,0 +1,199 @@
+#include "app/helpers/import_assimp.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/importerdesc.h>
+#include <assimp/LogStream.hpp>
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+extern "C" {
+#include "core/io/import_wire.h"
+}
+
+#define N_(text) text
+
+namespace {
+
+constexpr uint64_t most_elements = 20000000; /* as SPORE_MESH_MAXIMUM */
+
+struct Refusal {
+  SporeErrorCode code;
+  const char *message;
+  std::string detail;
+};
+
+/* The only file there is, is the content; whatever else an importer asks for does not exist. */
+class OneFile : public Assimp::IOSystem {
+public:
+  OneFile(std::string name, const void *content, size_t size)
+      : name_(std::move(name)), content_(static_cast<const uint8_t *>(content)), size_(size) {}
+  bool Exists(const char *file) const override { return name_ == file; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream *Open(const char *file, const char *) override {
+    if (name_ == file) return new Assimp::MemoryIOStream(content_, size_);
+    refused = file;
+    return nullptr;
+  }
+  void Close(Assimp::IOStream *stream) override { delete stream; }
+
+  std::string refused; /* the last other file that was asked for */
+
+private:
+  const std::string name_;
+  const uint8_t *content_;
+  const size_t size_;
+};
+
+/* Importers drop faces with a wrong index and only write it to the log; a mesh with holes is not what was asked for. */
+class Listener : public Assimp::LogStream {
+public:
+  void write(const char *text) override {
+    if (std::strstr(text, "out-of-range") || std::strstr(text, "out of range") || std::strstr(text, "invalid index"))
+      complaint = text;
+  }
+  static std::string complaint;
+};
+std::string Listener::complaint;
+
+void keep_one_importer(Assimp::Importer &importer, const std::string &extension) {
+  std::vector<Assimp::BaseImporter *> others;
+  for (size_t i = 0; i < importer.GetImporterCount(); i++) {
+    const aiImporterDesc *description = importer.GetImporterInfo(i);
+    std::istringstream extensions(description->mFileExtensions);
+    bool wanted = false;
+    for (std::string one; extensions >> one;) wanted = wanted || one == extension;
+    if (std::strcmp(description->mName, "glTF Importer") == 0) wanted = false; /* glTF 1 */
+    if (!wanted) others.push_back(importer.GetImporter(i));
+  }
+  for (Assimp::BaseImporter *other : others) importer.UnregisterLoader(other);
+}
+
+struct Mesh {
+  std::vector<double> vertices;
+  std::vector<uint32_t> triangles;
+  uint64_t passed_over = 0;
+};
+
+void append_faces(const aiMesh &from, uint64_t first, bool mirrored, Mesh &mesh) {
+  for (unsigned f = 0; f < from.mNumFaces; f++) {
+    const aiFace &face = from.mFaces[f];
+    if (face.mNumIndices != 3) {
+      mesh.passed_over++;
+      continue;
+    }
+    for (int c = 0; c < 3; c++) {
+      unsigned index = face.mIndices[mirrored && c ? 3 - c : c];
+      if (index >= from.mNumVertices)
+        throw Refusal{SPORE_ERROR_INPUT,
+                      N_("a face names a vertex that is not there; expected indices of the mesh's own "
+                         "vertices; repair or export the mesh again"),
+                      "face " + std::to_string(f) + ", vertex " + std::to_string(index) + " of " +
+                          std::to_string(from.mNumVertices)};
+      mesh.triangles.push_back(static_cast<uint32_t>(first + index));
+    }
+  }
+}
+
+void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, Mesh &mesh) {
+  const aiMatrix4x4 transform = outer * node.mTransformation;
+  const bool mirrored = transform.Determinant() < 0;
+  for (unsigned m = 0; m < node.mNumMeshes; m++) {
+    const aiMesh &from = *scene.mMeshes[node.mMeshes[m]];
+    const uint64_t first = mesh.vertices.size() / 3;
+    if (first + from.mNumVertices > most_elements || mesh.triangles.size() / 3 + from.mNumFaces > most_elements)
+      throw Refusal{SPORE_ERROR_INPUT,
+                    N_("the mesh is too large; expected at most 20 million vertices and as many "
+                       "triangles; decimate it first"),
+                    ""};
+    for (unsigned v = 0; v < from.mNumVertices; v++) {
+      const aiVector3D p = transform * from.mVertices[v];
+      mesh.vertices.insert(mesh.vertices.end(), {p.x, p.y, p.z});
+    }
+    append_faces(from, first, mirrored, mesh);
+  }
+  for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], transform, mesh);
+}
+
+Mesh import(const char *extension, const void *content, size_t size) {
+  const std::string name = std::string("mesh.") + extension;
+  Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+  Assimp::DefaultLogger::get()->attachStream(new Listener, Assimp::Logger::Warn | Assimp::Logger::Err);
+  Assimp::Importer importer;
+  keep_one_importer(importer, extension);
+  OneFile *files = new OneFile(name, content, size);
+  importer.SetIOHandler(files); /* which takes it over */
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, 0);
+  const aiScene *scene = importer.ReadFile(name, aiProcess_Triangulate);
+  const std::string said = scene ? "" : importer.GetErrorString();
+  if (!Listener::complaint.empty())
+    throw Refusal{SPORE_ERROR_INPUT,
+                  N_("a face names a vertex that is not there; expected indices of the mesh's own "
+                     "vertices; repair or export the mesh again"),
+                  Listener::complaint};
+  if (!scene && !files->refused.empty())
+    throw Refusal{SPORE_ERROR_INPUT,
+                  N_("the mesh keeps a part in another file, which is not read; expected all in one "
+                     "file; export it as GLB, or with embedded data"),
+                  files->refused};
+  if (!scene)
+    throw Refusal{SPORE_ERROR_INPUT, N_("the mesh cannot be read; expected a sound file; export it again"), said};
+  Mesh mesh;
+  if (scene->mRootNode) append(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
+  if (mesh.triangles.empty())
+    throw Refusal{SPORE_ERROR_INPUT,
+                  mesh.vertices.empty()
+                      ? N_("there is no mesh in the file; expected triangles; export it again")
+                      : N_("there are only points or lines in the file; expected triangles; export the "
+                           "surface"),
+                  ""};
+  return mesh;
+}
+
+void *make_answer(const Mesh &mesh, size_t *size) {
+  const SporeImportAnswer head = {mesh.vertices.size() / 3, mesh.triangles.size() / 3, mesh.passed_over};
+  const size_t vertex_bytes = mesh.vertices.size() * sizeof(double);
+  const size_t triangle_bytes = mesh.triangles.size() * sizeof(uint32_t);
+  *size = sizeof head + vertex_bytes + triangle_bytes;
+  char *answer = static_cast<char *>(std::malloc(*size));
+  if (!answer) throw std::bad_alloc();
+  std::memcpy(answer, &head, sizeof head);
+  std::memcpy(answer + sizeof head, mesh.vertices.data(), vertex_bytes);
+  std::memcpy(answer + sizeof head + vertex_bytes, mesh.triangles.data(), triangle_bytes);
+  return answer;
+}
+
+bool fail(SporeImportFailure *failure, SporeErrorCode code, const char *message, const char *detail) {
+  failure->code = code;
+  failure->message = message;
+  std::snprintf(failure->detail, sizeof failure->detail, "%s", detail);
+  return false;
+}
+
+} // namespace
+
+bool spore_import_assimp(const char *extension, const void *content, size_t size, void **answer, size_t *answer_size,
+                         SporeImportFailure *failure) {
+  try {
+    *answer = make_answer(import(extension, content, size), answer_size);
+    return true;
+  } catch (const Refusal &refusal) {
+    return fail(failure, refusal.code, refusal.message, refusal.detail.c_str());
+  } catch (const std::bad_alloc &) {
+    return fail(failure, SPORE_ERROR_MEMORY,
+                N_("the mesh needs more memory than it may have; expected a smaller one; decimate it first"), "");
+  } catch (const std::exception &exception) {
+    return fail(failure, SPORE_ERROR_INPUT, N_("the mesh cannot be read; expected a sound file; export it again"),
+                exception.what());
+  }
+}
