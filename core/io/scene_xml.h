@@ -10,11 +10,12 @@ extern const SporeAssetReaders spore_io_readers;
 /* Loads a scene. NULL with a GError "FILE:LINE:COLUMN: ..." at the first fault. The document has spore_io_readers. */
 SporeDocument *spore_scene_load(const SporeSchema *schema, const char *file, GError **error);
 /* The same from memory; `file` names it in messages and gives the folder (may be NULL). */
-SporeDocument *spore_scene_parse(const SporeSchema *schema, const char *file, const char *text, gsize size, GError **error);
+SporeDocument *spore_scene_parse(const SporeSchema *schema, const char *file, const char *text, gsize size,
+                                 GError **error);
 /* Text of the scene: only what the author set, comments and order kept. g_free. */
 char *spore_scene_format(const SporeDocument *document, gsize *size);
-/* Saves scene and waiting blobs, each by temporary file, fsync and rename; blobs first, the scene last. Saving into another
- * folder copies the assets that objects name. On failure the files on disk and the document are as before. */
+/* Saves scene and waiting blobs, each by temporary file, fsync and rename; blobs first, the scene last. Saving into
+ * another folder copies the assets that objects name. On failure the files on disk and the document are as before. */
 gboolean spore_scene_save(SporeDocument *document, const char *file, GError **error);
 
 /* Writes a file whole or not at all: temporary file beside it, fsync, rename, fsync of the folder. */

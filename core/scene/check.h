@@ -7,13 +7,13 @@
 typedef enum SporeSeverity { SPORE_NOTE, SPORE_WARNING, SPORE_FAULT } SporeSeverity;
 typedef struct SporeDiagnostic {
   SporeSeverity severity;
-  guint32 object;              /* id, 0: the whole scene */
+  guint32 object;                 /* id, 0: the whole scene */
   char *place, *message, *remedy; /* place: FILE:LINE:COLUMN or object path; texts translated */
 } SporeDiagnostic;
 void spore_diagnostic_free(SporeDiagnostic *diagnostic);
-/* GPtrArray of SporeDiagnostic *, worst first; never NULL. Format is checked by reading; this checks references, assets,
- * units (an organ 150 m long), mesh quality, initial overlap, loose passive bodies, unused assets, stale generated
- * data, and the step against the stiffness. */
+/* GPtrArray of SporeDiagnostic *, worst first; never NULL. Format is checked by reading; this checks references,
+ * assets, units (an organ 150 m long), mesh quality, initial overlap, loose passive bodies, unused assets, stale
+ * generated data, and the step against the stiffness. */
 GPtrArray *spore_document_check(SporeDocument *document);
 
 #endif

@@ -34,14 +34,14 @@ SporeObject *spore_object_parent(const SporeObject *object);
 guint spore_object_child_count(const SporeObject *object);
 SporeObject *spore_object_child(const SporeObject *object, guint index);
 SporeObject *spore_object_child_of(const SporeObject *object, const char *element); /* first of that element, or NULL */
-char *spore_object_path(const SporeObject *object); /* g_free */
-int spore_object_line(const SporeObject *object);   /* in the file read; 0: not from a file */
+char *spore_object_path(const SporeObject *object);                                 /* g_free */
+int spore_object_line(const SporeObject *object); /* in the file read; 0: not from a file */
 int spore_object_column(const SporeObject *object);
 /* Value now in force: what the author set, else the default. Valid until the next change. */
 const SporeValue *spore_object_value(const SporeObject *object, guint property);
 gboolean spore_object_is_set(const SporeObject *object, guint property);
-double spore_object_number(const SporeObject *object, const char *property);     /* by name, which must exist */
-const char *spore_object_text(const SporeObject *object, const char *property);  /* NULL when neither set nor default */
+double spore_object_number(const SporeObject *object, const char *property);    /* by name, which must exist */
+const char *spore_object_text(const SporeObject *object, const char *property); /* NULL when neither set nor default */
 /* Fills a structure of the type's table with the values in force; texts are borrowed until the next change. */
 void spore_object_fields(const SporeObject *object, void *fields);
 
@@ -58,7 +58,8 @@ gboolean spore_document_unset(SporeDocument *document, SporeObject *object, guin
 SporeObject *spore_document_insert(SporeDocument *document, SporeObject *parent, const char *element, const char *name,
                                    guint index, GError **error);
 gboolean spore_document_remove(SporeDocument *document, SporeObject *object, GError **error);
-gboolean spore_document_move(SporeDocument *document, SporeObject *object, SporeObject *parent, guint index, GError **error);
+gboolean spore_document_move(SporeDocument *document, SporeObject *object, SporeObject *parent, guint index,
+                             GError **error);
 /* Renames and follows every reference to it, as one step. */
 gboolean spore_document_rename(SporeDocument *document, SporeObject *object, const char *name, GError **error);
 
@@ -86,8 +87,8 @@ typedef enum SporeChangeKind {
   SPORE_DOCUMENT_MOVED,    /* object */
   SPORE_DOCUMENT_HISTORY   /* undo, redo or modified state changed; object NULL */
 } SporeChangeKind;
-typedef void (*SporeDocumentListener)(SporeDocument *document, SporeChangeKind kind, SporeObject *object, guint property,
-                                      gpointer data);
+typedef void (*SporeDocumentListener)(SporeDocument *document, SporeChangeKind kind, SporeObject *object,
+                                      guint property, gpointer data);
 guint spore_document_listen(SporeDocument *document, SporeDocumentListener listener, gpointer data);
 void spore_document_unlisten(SporeDocument *document, guint id);
 
@@ -100,8 +101,8 @@ void spore_document_put_blob(SporeDocument *document, const char *file, GBytes *
 GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GError **error);
 
 /* Assets decoded, cached by content, shared and immutable; NULL with a GError whose place is the asset. `asset` is an
- * object of element mesh, spheres or tetrahedra. Mesh vertices come in metres and SPORE's axes. Valid until the document
- * is freed. Installed by core/io (spore_io_install_readers), so that the document needs no importer. */
+ * object of element mesh, spheres or tetrahedra. Mesh vertices come in metres and SPORE's axes. Valid until the
+ * document is freed. Installed by core/io (spore_io_install_readers), so that the document needs no importer. */
 const SporeTriangleMesh *spore_document_mesh(SporeDocument *document, SporeObject *asset, GError **error);
 const SporeSphereSet *spore_document_spheres(SporeDocument *document, SporeObject *asset, GError **error);
 const SporeTetrahedralMesh *spore_document_tetrahedra(SporeDocument *document, SporeObject *asset, GError **error);
@@ -112,7 +113,8 @@ typedef struct SporeAssetReaders {
   gboolean (*mesh)(const char *place, const char *file, GBytes *content, int unit, int frame, SporeTriangleMesh *mesh,
                    GError **error);
   gboolean (*spheres)(const char *place, const char *file, GBytes *content, SporeSphereSet *set, GError **error);
-  gboolean (*tetrahedra)(const char *place, const char *file, GBytes *content, SporeTetrahedralMesh *mesh, GError **error);
+  gboolean (*tetrahedra)(const char *place, const char *file, GBytes *content, SporeTetrahedralMesh *mesh,
+                         GError **error);
 } SporeAssetReaders;
 void spore_document_set_readers(SporeDocument *document, const SporeAssetReaders *readers);
 

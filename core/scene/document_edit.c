@@ -37,6 +37,7 @@ static void edit_property(SporeObject *object, guint property, SporeValue *value
   SporeEdit edit = {.kind = SPORE_EDIT_SET, .object = object, .property = property, .slot.set = value != NULL};
   if (value) {
     edit.slot.value = *value;
+    edit.slot.on_new_line = slot->on_new_line;
     for (guint i = 0; slot->set && i < object->order->len; i++)
       if (g_array_index(object->order, guint, i) == property) edit.slot.position = i;
     if (!slot->set) edit.slot.position = natural_position(object, property);

@@ -11,6 +11,7 @@ typedef struct SporeSlot {
   guint position; /* among the set properties, in the author's order */
   SporeValue value;
   char *source; /* the value as XML, in the author's spelling; NULL: format it */
+  gboolean on_new_line;
 } SporeSlot;
 
 /* A comment of the file. `lines_before`: line ends between it and what precedes it (0: on the same line). */
@@ -55,10 +56,9 @@ typedef struct SporeUndoStep {
   GArray *edits; /* of SporeEdit */
 } SporeUndoStep;
 
-/* Content that no file holds yet, or that a file of this folder holds already. */
+/* Content that no file holds yet. */
 typedef struct SporeBlob {
   GBytes *content;
-  gboolean stored;
   guint64 serial; /* never given twice */
 } SporeBlob;
 

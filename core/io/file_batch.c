@@ -1,0 +1,157 @@
+#include "core/io/file_batch.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <glib/gi18n.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/scene/beneath.h"
+
+typedef struct Entry {
+  int folder; /* open, of the file's own folder */
+  char *temporary, *name, *place;
+  gboolean renamed, exchanged; /* exchanged: the old file has the temporary name now */
+} Entry;
+
+typedef struct MadeFolder {
+  int parent;
+  char *name;
+} MadeFolder;
+
+struct SporeFileBatch {
+  GPtrArray *entries; /* of Entry * */
+  GArray *made;       /* of MadeFolder */
+  gboolean committed;
+};
+
+static gboolean say_why(int fault, const char *place, GError **error) {
+  const char *remedy = _("choose another place");
+  if (fault == ENOSPC || fault == EDQUOT || fault == EFBIG) remedy = _("free some space or choose another place");
+  else if (fault == EACCES || fault == EPERM || fault == EROFS)
+    remedy = _("check the permissions or choose another place");
+  else if (fault == ENOENT) remedy = _("make the folder first");
+  else if (fault == EXDEV || fault == ELOOP) remedy = _("it leads out of the scene's folder; name a file inside it");
+  return spore_error_raise(error, SPORE_ERROR_FILE, place, _("cannot be written: %s; nothing was changed; %s"),
+                           g_strerror(fault), remedy);
+}
+
+SporeFileBatch *spore_file_batch_new(void) {
+  SporeFileBatch *batch = g_new0(SporeFileBatch, 1);
+  batch->entries = g_ptr_array_new();
+  batch->made = g_array_new(FALSE, FALSE, sizeof(MadeFolder));
+  return batch;
+}
+
+static void take_back(Entry *entry) {
+  if (entry->exchanged) renameat2(entry->folder, entry->temporary, entry->folder, entry->name, RENAME_EXCHANGE);
+  else if (entry->renamed) renameat(entry->folder, entry->name, entry->folder, entry->temporary);
+  entry->exchanged = entry->renamed = FALSE;
+}
+
+void spore_file_batch_free(SporeFileBatch *batch) {
+  for (guint i = batch->entries->len; i > 0; i--) {
+    Entry *entry = g_ptr_array_index(batch->entries, i - 1);
+    if (!batch->committed) take_back(entry);
+    unlinkat(entry->folder, entry->temporary, 0); /* gone already where it was renamed */
+    close(entry->folder);
+    g_free(entry->temporary), g_free(entry->name), g_free(entry->place);
+    g_free(entry);
+  }
+  g_ptr_array_unref(batch->entries);
+  for (guint i = batch->made->len; i > 0; i--) {
+    MadeFolder *folder = &g_array_index(batch->made, MadeFolder, i - 1);
+    if (!batch->committed) unlinkat(folder->parent, folder->name, AT_REMOVEDIR);
+    close(folder->parent);
+    g_free(folder->name);
+  }
+  g_array_unref(batch->made);
+  g_free(batch);
+}
+
+/* Opens a folder below another, making it where it is missing. -1 with errno. */
+static int open_folder(SporeFileBatch *batch, int directory, const char *path) {
+  int folder = spore_open_beneath(directory, path, O_RDONLY | O_DIRECTORY, 0);
+  if (folder >= 0 || errno != ENOENT || strcmp(path, ".") == 0) return folder;
+  g_autofree char *above = g_path_get_dirname(path), *name = g_path_get_basename(path);
+  int parent = open_folder(batch, directory, above);
+  if (parent < 0) return -1;
+  if (mkdirat(parent, name, 0777) == 0) {
+    MadeFolder made = {parent, g_steal_pointer(&name)};
+    g_array_append_val(batch->made, made);
+  } else {
+    int fault = errno;
+    close(parent);
+    if (fault != EEXIST) return errno = fault, -1;
+  }
+  return spore_open_beneath(directory, path, O_RDONLY | O_DIRECTORY, 0);
+}
+
+/* errno, or 0. */
+static int write_whole(int descriptor, const char *content, gsize size) {
+  while (size > 0) {
+    ssize_t written = write(descriptor, content, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    if (written == 0) return ENOSPC;
+    content += written, size -= (gsize)written;
+  }
+  return fsync(descriptor) == 0 ? 0 : errno;
+}
+
+static int write_temporary(const Entry *entry, const void *content, gsize size) {
+  struct stat old;
+  gboolean replaces = fstatat(entry->folder, entry->name, &old, AT_SYMLINK_NOFOLLOW) == 0;
+  if (replaces && S_ISDIR(old.st_mode)) return EISDIR;
+  if (replaces && S_ISREG(old.st_mode) && faccessat(entry->folder, entry->name, W_OK, AT_EACCESS) != 0) return errno;
+  int descriptor = openat(entry->folder, entry->temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0) return errno;
+  int fault = write_whole(descriptor, content, size);
+  if (!fault && replaces && S_ISREG(old.st_mode) && fchmod(descriptor, old.st_mode & 07777) != 0) fault = errno;
+  if (close(descriptor) != 0 && !fault) fault = errno;
+  return fault;
+}
+
+gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *place, const char *name,
+                              const void *content, gsize size, GError **error) {
+  g_autofree char *path = g_path_get_dirname(name);
+  int folder = open_folder(batch, directory, path);
+  if (folder < 0) return say_why(errno, place, error);
+  Entry *entry = g_new0(Entry, 1);
+  entry->folder = folder;
+  entry->place = g_strdup(place);
+  entry->name = g_path_get_basename(name);
+  entry->temporary = g_strdup_printf(".spore-%d-%08x.tmp", (int)getpid(), g_random_int());
+  g_ptr_array_add(batch->entries, entry);
+  int fault = write_temporary(entry, content, size);
+  return fault ? say_why(fault, place, error) : TRUE;
+}
+
+/* errno, or 0. */
+static int rename_entry(Entry *entry) {
+  if (renameat2(entry->folder, entry->temporary, entry->folder, entry->name, RENAME_EXCHANGE) == 0) {
+    entry->exchanged = TRUE;
+    return 0;
+  }
+  if (errno != ENOENT && errno != EINVAL && errno != ENOSYS)
+    return errno; /* EINVAL: a file system that cannot exchange */
+  if (renameat(entry->folder, entry->temporary, entry->folder, entry->name) != 0) return errno;
+  entry->renamed = TRUE;
+  return 0;
+}
+
+gboolean spore_file_batch_commit(SporeFileBatch *batch, GError **error) {
+  int fault = 0;
+  for (guint i = 0; i < batch->entries->len; i++) {
+    Entry *entry = g_ptr_array_index(batch->entries, i);
+    fault = rename_entry(entry);
+    if (!fault && fsync(entry->folder) != 0) fault = errno;
+    if (!fault) continue;
+    for (guint j = i + 1; j > 0; j--) take_back(g_ptr_array_index(batch->entries, j - 1));
+    return say_why(fault, entry->place, error);
+  }
+  batch->committed = TRUE;
+  return TRUE;
+}

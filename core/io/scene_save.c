@@ -1,0 +1,162 @@
+/* Saving: blobs and assets first, the scene last, all of them or none. */
+#include <errno.h>
+#include <fcntl.h>
+#include <glib/gi18n.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/io/file_batch.h"
+#include "core/io/scene_format.h"
+#include "core/io/scene_xml.h"
+
+/* Where a file goes: symbolic links to it are followed, so that they stay links. g_free. */
+static char *real_target(const char *file) {
+  char *real = realpath(file, NULL);
+  char *target = g_strdup(real ? real : file);
+  free(real);
+  return target;
+}
+
+static int open_folder_of(const char *file, GError **error) {
+  g_autofree char *folder = g_path_get_dirname(file);
+  int directory = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory < 0)
+    spore_error_raise(error, SPORE_ERROR_FILE, file,
+                      _("the folder \"%s\" cannot be opened: %s; nothing was changed; choose "
+                        "another place"),
+                      folder, g_strerror(errno));
+  return directory;
+}
+
+static gboolean add_file(SporeFileBatch *batch, const char *file, const void *content, gsize size, GError **error) {
+  g_autofree char *target = real_target(file);
+  g_autofree char *name = g_path_get_basename(target);
+  int directory = open_folder_of(target, error);
+  if (directory < 0) return FALSE;
+  gboolean done = spore_file_batch_add(batch, directory, file, name, content, size, error);
+  close(directory);
+  return done;
+}
+
+gboolean spore_write_file(const char *file, const void *content, gsize size, GError **error) {
+  SporeFileBatch *batch = spore_file_batch_new();
+  gboolean done = add_file(batch, file, content, size, error) && spore_file_batch_commit(batch, error);
+  spore_file_batch_free(batch);
+  return done;
+}
+
+/* Assets. */
+
+static void collect_files(SporeObject *object, GHashTable *files) {
+  const SporeParameterTable *table = object->type->table;
+  for (size_t i = 0; i < table->count; i++)
+    if (table->parameters[i].type == SPORE_FILE && object->slots[i].set)
+      g_hash_table_add(files, object->slots[i].value.text);
+  for (guint i = 0; i < object->children->len; i++) collect_files(spore_object_child(object, i), files);
+}
+
+static gboolean same_folder(const SporeDocument *document, int directory) {
+  if (!document->file) return FALSE;
+  g_autofree char *folder = g_path_get_dirname(document->file);
+  struct stat one, other;
+  return stat(folder, &one) == 0 && fstat(directory, &other) == 0 && one.st_dev == other.st_dev &&
+         one.st_ino == other.st_ino;
+}
+
+typedef enum Found { FOUND_NOTHING, FOUND_SAME, FOUND_OTHER } Found;
+
+/* What stands at the target already. */
+static Found compare_target(const SporeDocument *document, const char *scene, const char *file, GBytes *content) {
+  g_autofree char *folder = g_path_get_dirname(scene);
+  g_autofree char *target = g_build_filename(folder, file, NULL);
+  struct stat status;
+  if (lstat(target, &status) != 0) return FOUND_NOTHING;
+  if (!S_ISREG(status.st_mode) || (gsize)status.st_size != g_bytes_get_size(content)) return FOUND_OTHER;
+  g_autoptr(GMappedFile) mapped = g_mapped_file_new(target, FALSE, NULL);
+  if (!mapped) return FOUND_OTHER;
+  g_autoptr(GBytes) old = g_mapped_file_get_bytes(mapped);
+  return g_bytes_equal(old, content) ? FOUND_SAME : FOUND_OTHER;
+}
+
+static gboolean save_asset(SporeDocument *document, SporeFileBatch *batch, int directory, const char *scene,
+                           const char *file, gboolean stays, GError **error) {
+  if (stays && !g_hash_table_contains(document->blobs, file)) return TRUE;
+  g_autoptr(GError) missing = NULL;
+  g_autoptr(GBytes) content = spore_document_read_asset(document, file, &missing);
+  if (!content) return TRUE; /* as broken in the new place as in the old one; `check` says it */
+  Found found = compare_target(document, scene, file, content);
+  if (found == FOUND_SAME) return TRUE;
+  g_autofree char *folder = g_path_get_dirname(scene);
+  g_autofree char *place = g_build_filename(folder, file, NULL);
+  if (found == FOUND_OTHER && !stays)
+    return spore_error_raise(error, SPORE_ERROR_FILE, place, "%s",
+                             _("this file is there already, with other content; expected a folder where it is free; "
+                               "choose another folder or move the file"));
+  gsize size;
+  const void *bytes = g_bytes_get_data(content, &size);
+  return spore_file_batch_add(batch, directory, place, file, bytes, size, error);
+}
+
+static gboolean save_assets(SporeDocument *document, SporeFileBatch *batch, const char *scene, GHashTable *files,
+                            GError **error) {
+  int directory = open_folder_of(scene, error);
+  if (directory < 0) return FALSE;
+  gboolean stays = same_folder(document, directory), done = TRUE;
+  GHashTableIter iterator;
+  gpointer file;
+  g_hash_table_iter_init(&iterator, files);
+  while (done && g_hash_table_iter_next(&iterator, &file, NULL))
+    done = save_asset(document, batch, directory, scene, file, stays, error);
+  close(directory);
+  return done;
+}
+
+/* The scene. */
+
+/* A required property without a value would make a file that cannot be read again. */
+static gboolean check_required(const SporeObject *object, GError **error) {
+  const SporeParameterTable *table = object->type->table;
+  for (size_t i = 0; i < table->count; i++) {
+    const SporeParameter *parameter = &table->parameters[i];
+    if (!parameter->required || object->slots[i].set || !object->parent) continue;
+    g_autofree char *path = spore_object_path(object);
+    return spore_error_raise(error, SPORE_ERROR_INPUT, path,
+                             _("%s is not set; expected a value before saving; set it, or "
+                               "remove the object"),
+                             parameter->name);
+  }
+  for (guint i = 0; i < object->children->len; i++)
+    if (!check_required(spore_object_child(object, i), error)) return FALSE;
+  return TRUE;
+}
+
+/* What holds after the files are there. */
+static void settle(SporeDocument *document, const char *file, GHashTable *files, const GArray *places) {
+  GHashTableIter iterator;
+  gpointer asset;
+  g_hash_table_iter_init(&iterator, files);
+  while (g_hash_table_iter_next(&iterator, &asset, NULL)) g_hash_table_remove(document->blobs, asset);
+  for (guint i = 0; i < places->len; i++) {
+    const SporeObjectPlace *place = &g_array_index(places, SporeObjectPlace, i);
+    place->object->line = place->line, place->object->column = place->column;
+  }
+  spore_document_set_file(document, file);
+  spore_document_mark_saved(document);
+}
+
+gboolean spore_scene_save(SporeDocument *document, const char *file, GError **error) {
+  if (!check_required(document->root, error)) return FALSE;
+  g_autoptr(GHashTable) files = g_hash_table_new(g_str_hash, g_str_equal);
+  collect_files(document->root, files);
+  g_autoptr(GArray) places = g_array_new(FALSE, FALSE, sizeof(SporeObjectPlace));
+  gsize size;
+  g_autofree char *text = spore_scene_format_places(document, &size, places);
+  SporeFileBatch *batch = spore_file_batch_new();
+  gboolean done = save_assets(document, batch, file, files, error) && add_file(batch, file, text, size, error) &&
+                  spore_file_batch_commit(batch, error);
+  spore_file_batch_free(batch);
+  if (done) settle(document, file, files, places);
+  return done;
+}
