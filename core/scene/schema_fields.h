@@ -74,6 +74,11 @@ typedef struct SporeSpringFields {
   double point_a[3], point_b[3], stiffness, damping, rest_length;
 } SporeSpringFields;
 
+typedef struct SporeCameraFields {
+  const char *name;
+  double position[3], target[3], field_of_view;
+} SporeCameraFields;
+
 typedef struct SporeProbeFields {
   const char *name, *body, *device;
 } SporeProbeFields;
