@@ -20,6 +20,12 @@ float detail(float frequency) {
   return clamp(1.6 - 1.6 * footprint, 0.0, 1.0);
 }
 
+// 1 on a thread of that half width (pattern cells): where noise crosses its middle value.
+float vessel(vec3 p, float width) {
+  vec4 n = noise(p);
+  return 1.0 - smoothstep(0.3 * width, width, abs(n.x - 0.5) / (0.15 + length(n.yzw)));
+}
+
 void main() {
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
   float open = ambient_open(), lit = light_reaches(v_position, normal);
@@ -32,15 +38,15 @@ void main() {
     // Blood shows through unevenly: pale and dark patches, and a fine grain.
     vec4 grain = noise(v_rest * 2.7);
     float patches = v_mottle - 0.5 + 0.22 * (grain.x - 0.5);
-    vec3 albedo = colour * (1.0 + vec3(0.50, 0.85, 0.80) * patches);
+    vec3 albedo = colour * (1.0 + vec3(0.75, 1.5, 1.4) * patches);
 #if QUALITY
-    vec4 fine = noise(v_rest * 7.3 + 3.1), vessel = noise(v_rest * 1.15 + grain.yzw * 0.18 + 11.0);
-    float thread = 1.0 - smoothstep(0.0, 0.055 + 0.03 * fine.x, abs(vessel.x - 0.5) / (0.25 + length(vessel.yzw)));
-    thread *= smoothstep(0.42, 0.75, v_mottle + 0.2 * (fine.x - 0.5)) * detail(6.0);
-    albedo *= 1.0 + vec3(0.22, 0.30, 0.30) * (fine.x - 0.5) * detail(7.3);
-    albedo = mix(albedo, albedo * vec3(0.62, 0.20, 0.22), 0.55 * thread);
-    vec3 bump = grain.yzw * 0.085 * detail(2.7) + fine.yzw * 0.055 * detail(7.3);
-    bump += (noise(v_rest * 17.0).yzw) * 0.022 * detail(17.0);
+    vec4 broad = noise(v_rest * 1.1 + 5.3), fine = noise(v_rest * 7.3 + 3.1);
+    albedo *= 1.0 + vec3(0.16, 0.24, 0.24) * (fine.x - 0.5) * detail(7.3);
+    float thread = vessel(v_rest * 1.15 + 0.14 * grain.yzw + 0.03 * fine.yzw + 11.0, 0.030 + 0.03 * broad.x);
+    thread *= smoothstep(0.44, 0.60, v_mottle + 0.10 * (grain.x - 0.5)) * detail(6.0);
+    albedo *= mix(vec3(1.0), vec3(0.72, 0.42, 0.46), 0.55 * thread);
+    vec3 bump = broad.yzw * 0.16 + grain.yzw * 0.11 * detail(2.7) + fine.yzw * 0.030 * detail(7.3);
+    bump += noise(v_rest * 17.0).yzw * 0.012 * detail(17.0);
 #else
     vec3 bump = grain.yzw * 0.11 * detail(2.7);
 #endif

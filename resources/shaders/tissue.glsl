@@ -19,12 +19,11 @@ vec3 lamp(vec3 position, out float strength) {
   return to_light * inversesqrt(d2);
 }
 
-// What a mirror sees: a dim warm room with one soft box above.
-vec3 room(vec3 direction) {
-  float height = dot(direction, up.xyz);
-  vec3 walls = mix(vec3(0.055, 0.035, 0.030), vec3(0.16, 0.145, 0.135), 0.5 + 0.5 * height);
-  float box = clamp((height - 0.45) * 3.0, 0.0, 1.0);
-  return walls + vec3(0.55, 0.53, 0.50) * box * box;
+// What a mirror sees: a dim warm room with one soft box, up and to the left behind the viewer.
+vec3 room(vec3 direction, float box) {
+  vec3 walls = mix(vec3(0.050, 0.030, 0.026), vec3(0.15, 0.135, 0.125), 0.5 + 0.5 * dot(direction, up.xyz));
+  float inside = clamp(dot(direction, vec3(-0.38, 0.75, 0.54)) * 5.0 - 3.9, 0.0, 1.0);
+  return walls + box * vec3(1.0, 0.96, 0.90) * inside * inside;
 }
 
 // albedo: linear light; film: normal of the wet film; open: 1 where nothing occludes; lit: 0 in shadow.
@@ -33,19 +32,24 @@ vec3 shade_tissue(vec3 albedo, float wetness, vec3 position, vec3 normal, vec3 f
   vec3 view = normalize(-position), to_light = lamp(position, strength), halfway = normalize(view + to_light);
   float n_v = clamp(dot(normal, view), 0.02, 1.0), n_l = dot(normal, to_light), positive = clamp(n_l, 0.0, 1.0);
   // Light that enters comes out farther on, red farther than green and blue: each channel wraps by its own width.
-  const vec3 wrap = vec3(0.38, 0.14, 0.11);
+  const vec3 wrap = vec3(0.34, 0.10, 0.08);
   vec3 diffuse = clamp((n_l + wrap) / ((1.0 + wrap) * (1.0 + wrap)), 0.0, 1.0);
-  diffuse = mix(diffuse * vec3(0.35, 0.08, 0.06), diffuse, lit);
-  vec3 ambient = mix(vec3(0.10, 0.055, 0.05), vec3(0.20, 0.19, 0.18), 0.5 + 0.5 * dot(normal, up.xyz));
+  diffuse = mix(diffuse * vec3(0.30, 0.05, 0.04), diffuse, lit);
+  // The lens carries a weaker light of its own: what faces the viewer is never black.
+  diffuse = diffuse * 1.25 * mix(0.6 + 0.4 * open, 1.0, lit * 0.5) + 0.22 * n_v * n_v * open;
+  vec3 ambient = mix(vec3(0.055, 0.028, 0.025), vec3(0.125, 0.115, 0.110), 0.5 + 0.5 * dot(normal, up.xyz));
   // Occluded tissue is lit by tissue: it reddens rather than greys.
-  ambient *= pow(vec3(open), vec3(0.75, 1.25, 1.3));
-  vec3 colour = albedo * (diffuse * strength * 1.55 * mix(0.6 + 0.4 * open, 1.0, lit * 0.5) + ambient);
-  float rough = ggx(clamp(dot(normal, halfway), 0.0, 1.0), n_v, max(positive, 0.02), 0.30) * positive * 0.045;
+  ambient *= pow(vec3(open), vec3(0.8, 1.3, 1.35));
+  // Light that leaves at a low angle has travelled longer through blood: deeper colour toward the outline.
+  float longer = 1.0 - n_v;
+  vec3 colour = albedo * mix(vec3(1.0), vec3(0.80, 0.48, 0.46), longer * longer) * (diffuse * strength + ambient);
+  float rough = ggx(clamp(dot(normal, halfway), 0.0, 1.0), n_v, max(positive, 0.02), 0.30) * positive * 0.040;
   float f_v = clamp(dot(film, view), 0.02, 1.0), f_l = clamp(dot(film, to_light), 0.0, 1.0);
-  float wet = min(ggx(clamp(dot(film, halfway), 0.0, 1.0), f_v, max(f_l, 0.02), FILM_ALPHA), 60.0) * f_l;
+  float wet = min(ggx(clamp(dot(film, halfway), 0.0, 1.0), f_v, max(f_l, 0.02), FILM_ALPHA), 60.0) * f_l * lit;
+  wet = wet * 1.8 + min(ggx(f_v, f_v, f_v, FILM_ALPHA), 60.0) * f_v * 0.30;
   wet *= schlick(clamp(dot(view, halfway), 0.0, 1.0), 0.028) * wetness;
-  colour += (rough + wet * 1.8) * strength * lit;
-  colour += room(reflect(-view, film)) * schlick(f_v, 0.028) * (0.25 + 0.75 * wetness) * open;
+  colour += (rough * lit + wet) * strength;
+  colour += room(reflect(-view, film), 3.0 * lit) * schlick(f_v, 0.028) * (0.15 + 0.85 * wetness) * open;
   return colour;
 }
 
@@ -57,6 +61,6 @@ vec3 shade_metal(vec3 tint, vec3 position, vec3 normal, vec3 streak, float open,
   float n_v = clamp(dot(bent, view), 0.05, 1.0), n_l = clamp(dot(bent, to_light), 0.0, 1.0);
   float lobe = ggx(clamp(dot(bent, halfway), 0.0, 1.0), n_v, max(n_l, 0.05), 0.16) * n_l;
   vec3 reflectance = tint + (1.0 - tint) * schlick(n_v, 0.0);
-  vec3 mirror = 1.3 * room(reflect(-view, bent)) * (0.4 + 0.6 * open);
+  vec3 mirror = 1.3 * room(reflect(-view, bent), 0.7) * (0.4 + 0.6 * open);
   return reflectance * (mirror + (lobe * 0.9 + n_l * 0.25) * strength * lit);
 }

@@ -76,3 +76,38 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray
   block->viewport[2] = (float)(2 * slope / height), block->viewport[3] = VIGNETTE;
   block->up[0] = (float)right.y, block->up[1] = (float)up.y, block->up[2] = (float)-forward.y;
 }
+
+/* Radius about the target that holds every visible drawable, but at most what a camera at that distance looks at. */
+static double lit_radius(const SporeCamera *camera, GPtrArray *drawables) {
+  double radius = 0;
+  for (guint i = 0; i < drawables->len; i++) {
+    const SporeDrawable *drawable = drawables->pdata[i];
+    if (!drawable || !drawable->visible || !(drawable->lower[0] <= drawable->upper[0])) continue;
+    const double target[3] = {camera->target.x, camera->target.y, camera->target.z};
+    double d2 = 0;
+    for (int k = 0; k < 3; k++) {
+      double d = MAX(fabs(drawable->lower[k] - target[k]), fabs(drawable->upper[k] - target[k]));
+      d2 += d * d;
+    }
+    radius = MAX(radius, sqrt(d2));
+  }
+  return MIN(radius, 1.2 * camera->distance);
+}
+
+void spore_frame_add_shadow(SporeFrame *frame, const SporeCamera *camera, GPtrArray *drawables) {
+  double radius = lit_radius(camera, drawables);
+  if (!(radius > 0)) return;
+  const float *light = frame->block.light;
+  SporeVec3 target = spore_vec3(0, 0, -camera->distance), up = spore_vec3(0, 1, 0);
+  SporeVec3 back = spore_vec3_sub(spore_vec3((double)light[0], (double)light[1], (double)light[2]), target);
+  back = spore_vec3_normalise(back, spore_vec3(0, 0, 1));
+  SporeVec3 side = spore_vec3_normalise(spore_vec3_cross(up, back), spore_vec3(1, 0, 0));
+  const SporeVec3 rows[3] = {side, spore_vec3_cross(back, side), spore_vec3_scale(-1, back)};
+  float *out = frame->block.shadow;
+  for (int i = 0; i < 3; i++) {
+    out[i] = (float)(rows[i].x / radius), out[4 + i] = (float)(rows[i].y / radius);
+    out[8 + i] = (float)(rows[i].z / radius), out[12 + i] = (float)(-spore_vec3_dot(rows[i], target) / radius);
+  }
+  out[15] = 1;
+  frame->block.up[3] = 1;
+}

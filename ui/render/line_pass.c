@@ -66,13 +66,3 @@ gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePro
   glDisable(GL_BLEND);
   return TRUE;
 }
-
-gboolean spore_background_pass(SporePrograms *programs, SporeVariant variant, GError **error) {
-  const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_BACKGROUND, variant, error);
-  if (!program) return FALSE;
-  glUseProgram(program->id);
-  glDepthMask(GL_FALSE);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDepthMask(GL_TRUE);
-  return TRUE;
-}

@@ -117,7 +117,6 @@ gboolean spore_sphere_pass(GPtrArray *drawables, const SporeFrame *frame, SporeP
                            gboolean overlays, GError **error);
 gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                          GError **error);
-gboolean spore_background_pass(SporePrograms *programs, SporeVariant variant, GError **error);
 
 /* Floor grid and axes at y = 0 about what the camera looks at; a list of line groups. */
 GPtrArray *spore_grid_new(void);
@@ -131,6 +130,31 @@ typedef struct SporeTarget {
 /* Makes it anew only when size or samples changed. colour_format or depth_format 0: has none. */
 gboolean spore_target_prepare(SporeTarget *target, int width, int height, int samples, GLenum colour_format,
                               GLenum depth_format, GError **error);
+/* Draws into it from now on, all of it. */
+void spore_target_bind(const SporeTarget *target);
 void spore_target_clear(SporeTarget *target);
+
+/* What a picture is drawn from. */
+typedef struct SporeCanvas {
+  GPtrArray *drawables; /* SporeDrawable * by handle - 1, NULL where removed */
+  GPtrArray *grid;      /* SporeLineGroup * */
+  SporePrograms programs;
+  GLuint block, screen_array; /* uniform buffer; vertex array without attributes */
+} SporeCanvas;
+
+/* Tells the shaders of the frame. */
+void spore_canvas_set_frame(SporeCanvas *canvas, const SporeFrame *frame);
+/* Everything that has a colour, into the bound framebuffer, whose depth is cleared. */
+gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
+                           GError **error);
+
+/* Full quality: shadow, occlusion, several samples a pixel in linear light, glare; then film. */
+typedef struct SporePicture {
+  SporeTarget shadow, depth, occlusion, smoothed, colour, glow, glare;
+} SporePicture;
+/* Draws into `screen` (prepared, without samples). largest: of a buffer's sides, pixels. */
+gboolean spore_picture_draw(SporePicture *picture, SporeCanvas *canvas, const SporeCamera *camera, gboolean grid,
+                            const SporeTarget *screen, int largest, GError **error);
+void spore_picture_clear(SporePicture *picture);
 
 #endif

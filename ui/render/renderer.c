@@ -10,11 +10,10 @@
 
 struct SporeRenderer {
   SporeOffscreen *offscreen; /* borrowed */
-  GPtrArray *drawables;      /* SporeDrawable * by handle - 1, NULL where removed */
-  GPtrArray *grid;           /* SporeLineGroup * */
-  SporePrograms programs;
-  SporeTarget screen, resolved; /* resolved: what is read back when the screen has samples */
-  GLuint block, screen_array;   /* uniform buffer; vertex array without attributes */
+  SporeCanvas canvas;
+  SporeTarget screen;  /* what is read back */
+  SporeTarget sampled; /* what is drawn into when the hardware takes several samples */
+  SporePicture picture;
   int samples, largest;
 };
 
@@ -27,16 +26,16 @@ SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error) {
   }
   SporeRenderer *renderer = g_new0(SporeRenderer, 1);
   renderer->offscreen = offscreen;
-  renderer->drawables = g_ptr_array_new();
-  renderer->grid = spore_grid_new();
-  glGenBuffers(1, &renderer->block);
-  glGenVertexArrays(1, &renderer->screen_array);
+  renderer->canvas.drawables = g_ptr_array_new();
+  renderer->canvas.grid = spore_grid_new();
+  glGenBuffers(1, &renderer->canvas.block);
+  glGenVertexArrays(1, &renderer->canvas.screen_array);
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderer->largest);
   renderer->samples = spore_offscreen_is_software(offscreen) ? 0 : HARDWARE_SAMPLES;
   const SporeProgramKind needed[] = {SPORE_PROGRAM_SURFACE, SPORE_PROGRAM_SPHERE, SPORE_PROGRAM_LINE,
                                      SPORE_PROGRAM_BACKGROUND};
   for (guint i = 0; i < G_N_ELEMENTS(needed); i++)
-    if (!spore_programs_get(&renderer->programs, needed[i], SPORE_VARIANT_FAST, error)) {
+    if (!spore_programs_get(&renderer->canvas.programs, needed[i], SPORE_VARIANT_FAST, error)) {
       spore_renderer_free(renderer);
       return NULL;
     }
@@ -46,14 +45,15 @@ SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error) {
 void spore_renderer_free(SporeRenderer *renderer) {
   if (!renderer) return;
   spore_renderer_clear(renderer);
-  for (guint i = 0; i < renderer->grid->len; i++) spore_drawable_free(renderer->grid->pdata[i]);
-  spore_programs_clear(&renderer->programs);
+  for (guint i = 0; i < renderer->canvas.grid->len; i++) spore_drawable_free(renderer->canvas.grid->pdata[i]);
+  spore_programs_clear(&renderer->canvas.programs);
   spore_target_clear(&renderer->screen);
-  spore_target_clear(&renderer->resolved);
-  glDeleteBuffers(1, &renderer->block);
-  glDeleteVertexArrays(1, &renderer->screen_array);
-  g_ptr_array_free(renderer->drawables, TRUE);
-  g_ptr_array_free(renderer->grid, TRUE);
+  spore_target_clear(&renderer->sampled);
+  spore_picture_clear(&renderer->picture);
+  glDeleteBuffers(1, &renderer->canvas.block);
+  glDeleteVertexArrays(1, &renderer->canvas.screen_array);
+  g_ptr_array_free(renderer->canvas.drawables, TRUE);
+  g_ptr_array_free(renderer->canvas.grid, TRUE);
   g_free(renderer);
 }
 
@@ -61,15 +61,15 @@ void spore_renderer_free(SporeRenderer *renderer) {
 
 static guint add(SporeRenderer *renderer, SporeDrawable *drawable) {
   guint i = 0;
-  while (i < renderer->drawables->len && renderer->drawables->pdata[i]) i++;
-  if (i == renderer->drawables->len) g_ptr_array_add(renderer->drawables, drawable);
-  else renderer->drawables->pdata[i] = drawable;
+  while (i < renderer->canvas.drawables->len && renderer->canvas.drawables->pdata[i]) i++;
+  if (i == renderer->canvas.drawables->len) g_ptr_array_add(renderer->canvas.drawables, drawable);
+  else renderer->canvas.drawables->pdata[i] = drawable;
   return i + 1;
 }
 
 static SporeDrawable *find(SporeRenderer *renderer, guint handle) {
   spore_offscreen_make_current(renderer->offscreen);
-  return handle > 0 && handle <= renderer->drawables->len ? renderer->drawables->pdata[handle - 1] : NULL;
+  return handle > 0 && handle <= renderer->canvas.drawables->len ? renderer->canvas.drawables->pdata[handle - 1] : NULL;
 }
 
 static void *find_kind(SporeRenderer *renderer, guint handle, SporeDrawableKind kind) {
@@ -119,7 +119,7 @@ void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const doubl
 void spore_renderer_remove(SporeRenderer *renderer, guint handle) {
   SporeDrawable *drawable = find(renderer, handle);
   g_return_if_fail(drawable);
-  renderer->drawables->pdata[handle - 1] = NULL;
+  renderer->canvas.drawables->pdata[handle - 1] = NULL;
   spore_drawable_free(drawable);
 }
 
@@ -131,17 +131,11 @@ void spore_renderer_set_visible(SporeRenderer *renderer, guint handle, gboolean 
 
 void spore_renderer_clear(SporeRenderer *renderer) {
   spore_offscreen_make_current(renderer->offscreen);
-  for (guint i = 0; i < renderer->drawables->len; i++) spore_drawable_free(renderer->drawables->pdata[i]);
-  g_ptr_array_set_size(renderer->drawables, 0);
+  for (guint i = 0; i < renderer->canvas.drawables->len; i++) spore_drawable_free(renderer->canvas.drawables->pdata[i]);
+  g_ptr_array_set_size(renderer->canvas.drawables, 0);
 }
 
 /* Drawing. */
-
-static void upload_frame(SporeRenderer *renderer, const SporeFrame *frame) {
-  glBindBuffer(GL_UNIFORM_BUFFER, renderer->block);
-  glBufferData(GL_UNIFORM_BUFFER, sizeof frame->block, &frame->block, GL_STREAM_DRAW);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, renderer->block);
-}
 
 static void set_state(void) {
   glEnable(GL_DEPTH_TEST);
@@ -154,40 +148,26 @@ static void set_state(void) {
   glEnable(GL_FRAMEBUFFER_SRGB);
 }
 
-/* What has a colour, in the order that writes each pixel least often: solids, then the background behind them. */
-static gboolean draw_colours(SporeRenderer *renderer, const SporeFrame *frame, SporeVariant variant, gboolean grid,
-                             GError **error) {
-  GPtrArray *drawables = renderer->drawables;
-  SporePrograms *programs = &renderer->programs;
-  if (!spore_surface_pass(drawables, frame, programs, variant, error) ||
-      !spore_sphere_pass(drawables, frame, programs, variant, FALSE, error))
-    return FALSE;
-  glBindVertexArray(renderer->screen_array);
-  if (!spore_background_pass(programs, variant, error)) return FALSE;
-  if (grid && !spore_line_pass(renderer->grid, frame, programs, variant, error)) return FALSE;
-  return spore_sphere_pass(drawables, frame, programs, variant, TRUE, error) &&
-         spore_line_pass(drawables, frame, programs, variant, error);
-}
-
-static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, const SporeRenderOptions *options,
-                          GError **error) {
+static gboolean draw_fast(SporeRenderer *renderer, const SporeCamera *camera, gboolean grid, GError **error) {
   SporeFrame frame;
-  int width = options->width, height = options->height;
-  if (!spore_target_prepare(&renderer->screen, width, height, renderer->samples, GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT24,
-                            error))
-    return FALSE;
-  spore_frame_prepare(&frame, camera, renderer->drawables, options->grid, width, height);
-  upload_frame(renderer, &frame);
-  glBindFramebuffer(GL_FRAMEBUFFER, renderer->screen.framebuffer);
-  glViewport(0, 0, width, height);
+  const SporeTarget *screen = &renderer->screen, *target = screen;
+  int width = screen->width, height = screen->height;
+  if (renderer->samples) {
+    if (!spore_target_prepare(&renderer->sampled, width, height, renderer->samples, GL_SRGB8_ALPHA8,
+                              GL_DEPTH_COMPONENT24, error))
+      return FALSE;
+    target = &renderer->sampled;
+  }
+  spore_frame_prepare(&frame, camera, renderer->canvas.drawables, grid, width, height);
+  spore_canvas_set_frame(&renderer->canvas, &frame);
+  spore_target_bind(target);
   glClear(GL_DEPTH_BUFFER_BIT); /* the background covers what nothing else does */
-  if (!draw_colours(renderer, &frame, SPORE_VARIANT_FAST, options->grid, error)) return FALSE;
-  if (renderer->samples == 0) return TRUE;
-  if (!spore_target_prepare(&renderer->resolved, width, height, 0, GL_SRGB8_ALPHA8, 0, error)) return FALSE;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer->screen.framebuffer);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, renderer->resolved.framebuffer);
+  if (!spore_canvas_draw(&renderer->canvas, &frame, SPORE_VARIANT_FAST, grid, error)) return FALSE;
+  if (target == screen) return TRUE;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, screen->framebuffer);
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, renderer->resolved.framebuffer);
+  spore_target_bind(screen);
   return TRUE;
 }
 
@@ -217,7 +197,12 @@ gboolean spore_renderer_draw(SporeRenderer *renderer, const SporeCamera *camera,
                              _("the OpenGL context was lost; it was expected to last; start again"));
   while (glGetError() != GL_NO_ERROR) {
   }
-  if (options->grid) spore_grid_update(renderer->grid, camera);
+  if (options->grid) spore_grid_update(renderer->canvas.grid, camera);
   set_state();
-  return draw_fast(renderer, camera, options, error) && read_back(width, height, pixels, stride, error);
+  if (!spore_target_prepare(&renderer->screen, width, height, 0, GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT24, error))
+    return FALSE;
+  gboolean drawn = options->antialias ? spore_picture_draw(&renderer->picture, &renderer->canvas, camera, options->grid,
+                                                           &renderer->screen, renderer->largest, error)
+                                      : draw_fast(renderer, camera, options->grid, error);
+  return drawn && read_back(width, height, pixels, stride, error);
 }

@@ -7,8 +7,8 @@
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
 
-/* Off-screen context of its own, on a machine with or without a display (EGL surfaceless, else a device). Current to the
- * thread that made it; make_current moves it. */
+/* Off-screen context of its own, on a machine with or without a display (EGL surfaceless, else a device). Current to
+ * the thread that made it; make_current moves it. */
 typedef struct SporeOffscreen SporeOffscreen;
 SporeOffscreen *spore_offscreen_new(GError **error);
 void spore_offscreen_free(SporeOffscreen *offscreen);
@@ -17,10 +17,10 @@ const char *spore_offscreen_renderer(const SporeOffscreen *offscreen); /* GL_REN
 gboolean spore_offscreen_is_software(const SporeOffscreen *offscreen);
 
 typedef struct SporeCamera {
-  SporeVec3 target;      /* looked at, and orbited */
-  double distance;       /* m */
+  SporeVec3 target;          /* looked at, and orbited */
+  double distance;           /* m */
   double azimuth, elevation; /* rad; 0, 0 looks along -z from +z, y up */
-  double field_of_view;  /* vertical, rad */
+  double field_of_view;      /* vertical, rad */
 } SporeCamera;
 void spore_camera_frame(SporeCamera *camera, const double lower[3], const double upper[3], double aspect);
 void spore_camera_eye(const SporeCamera *camera, SporeVec3 *eye, SporeVec3 *right, SporeVec3 *up, SporeVec3 *forward);
@@ -31,8 +31,8 @@ void spore_camera_ray(const SporeCamera *camera, double x, double y, int width, 
 /* What is drawn: surfaces and sphere groups, by handle. Buffers are copied. */
 typedef struct SporeRenderer SporeRenderer;
 typedef struct SporeSurfaceStyle {
-  float colour[3];  /* linear light */
-  float wetness;    /* 0..1: film of the specular lobe */
+  float colour[3]; /* linear light */
+  float wetness;   /* 0..1: film of the specular lobe */
   gboolean selected, metal, wireframe;
 } SporeSurfaceStyle;
 
@@ -47,7 +47,8 @@ guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres,
                                  const float *values, gboolean overlay);
 void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres);
 /* Line segments, count x 2 points x 3; overlays are drawn dimmed where hidden. */
-guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3], float width);
+guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3],
+                               float width);
 void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const double *points, gsize count);
 void spore_renderer_remove(SporeRenderer *renderer, guint handle);
 void spore_renderer_set_visible(SporeRenderer *renderer, guint handle, gboolean visible);
@@ -55,7 +56,7 @@ void spore_renderer_clear(SporeRenderer *renderer);
 
 typedef struct SporeRenderOptions {
   int width, height;
-  gboolean grid;  /* floor grid and axes: editing; off for pictures */
+  gboolean grid; /* floor grid and axes: editing; off for pictures */
   gboolean antialias;
 } SporeRenderOptions;
 /* Draws and reads back: pixels is height rows of `stride` bytes, top first, as CAIRO_FORMAT_RGB24 (native BGRx). */

@@ -20,9 +20,10 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation);
 void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot);
 void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options);
 void spore_stage_set_selection(SporeStage *stage, guint32 object_id);
-/* The scene's camera of that name (tools > camera); NULL: its first, else one that sees everything at this aspect. FALSE with a
- * GError when there is none of that name. */
-gboolean spore_stage_camera(const SporeStage *stage, const char *name, double aspect, SporeCamera *camera, GError **error);
+/* The scene's camera of that name (tools > camera); NULL: its first, else one that sees everything at this aspect.
+ * FALSE with a GError when there is none of that name. */
+gboolean spore_stage_camera(const SporeStage *stage, const char *name, double aspect, SporeCamera *camera,
+                            GError **error);
 void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3]);
 /* Body object under a ray: id, 0 none; *point is the hit. */
 guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point);

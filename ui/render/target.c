@@ -52,6 +52,11 @@ gboolean spore_target_prepare(SporeTarget *target, int width, int height, int sa
                            width, height, status, code);
 }
 
+void spore_target_bind(const SporeTarget *target) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+  glViewport(0, 0, target->width, target->height);
+}
+
 void spore_target_clear(SporeTarget *target) {
   if (target->samples == 0) {
     glDeleteTextures(1, &target->colour);

@@ -1,0 +1,30 @@
+#include "ui/render/passes.h"
+
+void spore_canvas_set_frame(SporeCanvas *canvas, const SporeFrame *frame) {
+  glBindBuffer(GL_UNIFORM_BUFFER, canvas->block);
+  glBufferData(GL_UNIFORM_BUFFER, sizeof frame->block, &frame->block, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, canvas->block);
+}
+
+static gboolean background(SporeCanvas *canvas, SporeVariant variant, GError **error) {
+  const SporeProgram *program = spore_programs_get(&canvas->programs, SPORE_PROGRAM_BACKGROUND, variant, error);
+  if (!program) return FALSE;
+  glUseProgram(program->id);
+  glBindVertexArray(canvas->screen_array);
+  glDepthMask(GL_FALSE);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
+  return TRUE;
+}
+
+/* In the order that writes each pixel least often: solids, then the background behind them, then overlays. */
+gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
+                           GError **error) {
+  GPtrArray *drawables = canvas->drawables;
+  SporePrograms *programs = &canvas->programs;
+  return spore_surface_pass(drawables, frame, programs, variant, error) &&
+         spore_sphere_pass(drawables, frame, programs, variant, FALSE, error) && background(canvas, variant, error) &&
+         (!grid || spore_line_pass(canvas->grid, frame, programs, variant, error)) &&
+         spore_sphere_pass(drawables, frame, programs, variant, TRUE, error) &&
+         spore_line_pass(drawables, frame, programs, variant, error);
+}
