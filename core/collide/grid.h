@@ -27,7 +27,7 @@ typedef struct SporeGridBody {
 
 /* `rest` holds the spheres with every passive body at rest, wherever it stands; unmovable ones first and already where
  * they will stay. bodies: body_count, indexed by spheres->body. Room for contact_capacity contacts (0: a default).
- * Everything is copied. Refuses radii that are not positive and finite, unmovable spheres that are not finite, body
+ * Everything is copied. Refuses radii outside 1e-9..1e9 m, unmovable spheres that are not finite, body
  * indices out of range; NULL then, or without memory. */
 SporeGrid *spore_grid_create(const SporeSpheres *rest, const SporeGridBody *bodies, size_t body_count,
                              size_t contact_capacity, SporeError *error);
@@ -51,7 +51,7 @@ size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt
 const SporeContact *spore_grid_contacts(const SporeGrid *grid);
 size_t spore_grid_capacity(const SporeGrid *grid);
 
-/* Pairs that the pair filter would let through by body alone, for the plan: (i, j) with i <= j. */
+/* Pairs of bodies, a body with itself included, that the filter lets through; for the plan. */
 size_t spore_grid_body_pairs(const SporeGridBody *bodies, size_t body_count);
 
 #endif

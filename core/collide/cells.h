@@ -1,0 +1,66 @@
+/* Hashed regular grids, one for each class of radius. Private to core/collide. */
+#ifndef SPORE_COLLIDE_CELLS_H
+#define SPORE_COLLIDE_CELLS_H
+
+#include <stdbool.h>
+
+#include "core/collide/sphere.h"
+
+#define SPORE_CELL_CLASSES 64
+#define SPORE_CELL_NONE UINT32_MAX
+#define SPORE_CELL_MIXED UINT32_MAX /* in place of a body: spheres of several */
+
+/* Class k has cells of width[k] = width[0] 2^k, laid out from origin, which lies among the spheres so that cells are
+ * exact far from the scene's origin too. */
+typedef struct SporeCellScale {
+  SporeVec3 origin;
+  double width[SPORE_CELL_CLASSES], inverse[SPORE_CELL_CLASSES];
+} SporeCellScale;
+
+/* Class 0 is as wide as spheres of the smallest radius, and some class fits spheres of the usual radius tightly. */
+SporeCellScale spore_cell_scale(SporeVec3 origin, double smallest_radius, double usual_radius);
+
+typedef struct SporeCell {
+  int32_t x, y, z, class;    /* which cell */
+  uint32_t first, count;     /* its spheres in the sorted arrays */
+  uint32_t body;             /* the one body of all of them, or SPORE_CELL_MIXED */
+  uint32_t next_in_class;    /* another cell of the class, or SPORE_CELL_NONE */
+  double lower[3], upper[3]; /* bounds of the spheres, reach included, m */
+} SporeCell;
+
+typedef struct SporeCellSlot {
+  uint64_t stamp;
+  int32_t x, y, z, class;
+  uint32_t cell;
+} SporeCellSlot;
+
+/* Spheres put in cells by `spore_cells_fill`. Sizes are fixed at creation. */
+typedef struct SporeCells {
+  size_t capacity, cell_count;
+  SporeCell *cells; /* capacity */
+  /* Spheres sorted by cell. A sphere's reach is the radius of the ball about the middle of its way through the step
+   * that it stays in. */
+  double *middle;   /* 4 a sphere: x y z reach, m */
+  uint32_t *sphere; /* index in SporeSpheres */
+  uint32_t *body;
+  uint32_t *cell_of; /* scratch: cell of each sphere, unsorted */
+  double *unsorted;  /* scratch: as middle */
+  SporeCellSlot *slots;
+  size_t slot_mask;
+  uint64_t stamp;
+  uint64_t classes; /* bit k: some cell is of class k */
+  uint32_t class_head[SPORE_CELL_CLASSES], class_count[SPORE_CELL_CLASSES];
+  double class_reach[SPORE_CELL_CLASSES]; /* largest reach */
+} SporeCells;
+
+bool spore_cells_create(SporeCells *cells, size_t capacity); /* false: no memory, *cells cleared */
+void spore_cells_clear(SporeCells *cells);
+/* Spheres first..first+count-1, count <= capacity. Leaves out those that are not finite. */
+void spore_cells_fill(SporeCells *cells, const SporeCellScale *scale, const SporeSpheres *spheres, size_t first,
+                      size_t count, double dt_s);
+/* Index of a cell, or SPORE_CELL_NONE. */
+uint32_t spore_cells_find(const SporeCells *cells, int32_t x, int32_t y, int32_t z, int32_t class);
+/* Index of the cell along one axis that a coordinate, relative to the origin, lies in; held within 32 bits. */
+int32_t spore_cell_index(double coordinate, double inverse_width);
+
+#endif

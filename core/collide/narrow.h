@@ -1,0 +1,12 @@
+/* Narrow phase: the contact of two spheres. Private to core/collide. */
+#ifndef SPORE_COLLIDE_NARROW_H
+#define SPORE_COLLIDE_NARROW_H
+
+#include <stdbool.h>
+
+#include "core/collide/sphere.h"
+
+/* Contact of spheres a < b as spore_grid_detect defines it; false: none. */
+bool spore_narrow_contact(const SporeSpheres *spheres, uint32_t a, uint32_t b, double dt_s, SporeContact *contact);
+
+#endif
