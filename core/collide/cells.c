@@ -69,15 +69,12 @@ void spore_cells_clear(SporeCells *cells) {
   *cells = (SporeCells){0};
 }
 
-/* The slot of a cell: its own, or the empty one where it belongs. Linear probing; the table is at most half full.
- * Cells that follow each other along z have slots that do, so that looking around a cell touches few cache lines. */
+/* The slot of a cell: its own, or the empty one where it belongs. Linear probing; the table is at most half full. */
 static SporeCellSlot *find_slot(const SporeCells *cells, int32_t x, int32_t y, int32_t z, int32_t class) {
-  uint64_t key =
-      ((uint64_t)(uint32_t)x << 32 | (uint32_t)y) + (uint64_t)(uint32_t) class * UINT64_C(0x9E3779B97F4A7C15);
-  key *= UINT64_C(0xC2B2AE3D27D4EB4F);
-  key = (key ^ key >> 29) * UINT64_C(0x165667B19E3779F9);
-  key = (key >> 32) + (uint64_t)(int64_t)z;
-  for (size_t at = (size_t)key & cells->slot_mask;; at = (at + 1) & cells->slot_mask) {
+  uint64_t key = (uint64_t)(uint32_t)x * UINT64_C(0x9E3779B97F4A7C15) ^
+                 (uint64_t)(uint32_t)y * UINT64_C(0xC2B2AE3D27D4EB4F) ^
+                 (uint64_t)(uint32_t)z * UINT64_C(0x165667B19E3779F9) ^ (uint64_t)(uint32_t) class << 57;
+  for (size_t at = (size_t)(key ^ key >> 32) & cells->slot_mask;; at = (at + 1) & cells->slot_mask) {
     SporeCellSlot *slot = &cells->slots[at];
     if (slot->stamp != cells->stamp) return slot;
     if (slot->x == x && slot->y == y && slot->z == z && slot->class == class) return slot;
