@@ -45,18 +45,21 @@ bool spore_tetrahedral_mesh_validate(const SporeTetrahedralMesh *mesh, SporeErro
 bool spore_sphere_set_validate(const SporeSphereSet *set, SporeError *error);
 
 /* Merges vertices nearer than `relative` of the bounding box diagonal (1e-6 is usual), drops triangles that
- * collapse, exact duplicates and unused vertices. In place; order of what stays is kept. */
+ * collapse, exact duplicates (whichever way they turn) and unused vertices. In place; order of what stays is kept.
+ * Refused, mesh untouched, when nothing would be left. */
 bool spore_triangle_mesh_weld(SporeTriangleMesh *mesh, double relative, SporeError *error);
 
 typedef struct SporeMeshReport {
   double lower[3], upper[3], diagonal; /* m */
   double area, volume;                 /* m^2, signed m^3 (meaningful when closed) */
+  /* components: sets of triangles joined by edges */
   size_t components, boundary_edges, nonmanifold_edges, misoriented_edges, degenerate_triangles;
   bool closed; /* no boundary edge, no non-manifold edge, oriented alike */
 } SporeMeshReport;
 bool spore_triangle_mesh_report(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error);
 
-/* Makes neighbouring triangles turn the same way and closed components outward. False only without memory. */
+/* Makes neighbouring triangles turn the same way and closed components outward; the wall of a cavity (a closed
+ * component inside another one that came turned the other way) looks into the cavity. False only without memory. */
 bool spore_triangle_mesh_orient(SporeTriangleMesh *mesh, SporeError *error);
 
 /* Area-weighted unit vertex normals, vertex_count x 3. */

@@ -1,0 +1,58 @@
+#include <math.h>
+
+#include "core/mesh/common.h"
+#include "core/mesh/half_edges.h"
+
+#define DEGENERATE_AREA 1e-12 /* of the squared longest side */
+
+static bool degenerate(SporeVec3 a, SporeVec3 b, SporeVec3 c, double area) {
+  double longest = fmax(spore_vec3_distance(a, b), fmax(spore_vec3_distance(b, c), spore_vec3_distance(c, a)));
+  return area <= DEGENERATE_AREA * longest * longest;
+}
+
+/* Volumes are summed about the middle of the box, so that a mesh far from the origin loses no digits. */
+static void measure_triangles(const SporeTriangleMesh *mesh, SporeMeshReport *report) {
+  SporeVec3 middle =
+      spore_vec3_scale(0.5, spore_vec3_add(spore_vec3_load(report->lower), spore_vec3_load(report->upper)));
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    SporeVec3 p[3];
+    for (int k = 0; k < 3; k++)
+      p[k] = spore_vec3_sub(spore_mesh_vertex(mesh->vertices, mesh->triangles[3 * t + k]), middle);
+    double area = spore_vec3_length(spore_mesh_area_vector(p[0], p[1], p[2]));
+    report->area += area;
+    report->volume += spore_vec3_dot(p[0], spore_vec3_cross(p[1], p[2])) / 6;
+    report->degenerate_triangles += degenerate(p[0], p[1], p[2], area);
+  }
+}
+
+static void count_edges(const SporeTriangleMesh *mesh, const SporeHalfEdges *halves, uint32_t *parent,
+                        SporeMeshReport *report) {
+  for (size_t i = 0, end; i < halves->count; i = end) {
+    end = spore_half_edges_end(halves, i);
+    report->boundary_edges += end - i == 1;
+    report->nonmanifold_edges += end - i > 2;
+    report->misoriented_edges += end - i == 2 && spore_half_edge_ascends(mesh->triangles, halves->half[i]) ==
+                                                     spore_half_edge_ascends(mesh->triangles, halves->half[i + 1]);
+    for (size_t j = i + 1; j < end; j++) spore_set_join(parent, halves->half[i] / 3, halves->half[j] / 3);
+  }
+}
+
+bool spore_triangle_mesh_report(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error) {
+  *report = (SporeMeshReport){0};
+  if (!mesh->vertex_count || !mesh->triangle_count) return true;
+  SporeHalfEdges halves;
+  uint32_t *parent = SPORE_NEW_ARRAY(uint32_t, mesh->triangle_count);
+  if (!parent || !spore_half_edges_create(&halves, mesh->triangles, mesh->triangle_count)) {
+    spore_free(parent);
+    return spore_mesh_no_memory(error);
+  }
+  report->diagonal = spore_mesh_bounds(mesh->vertices, mesh->vertex_count, report->lower, report->upper);
+  measure_triangles(mesh, report);
+  for (size_t t = 0; t < mesh->triangle_count; t++) parent[t] = (uint32_t)t;
+  count_edges(mesh, &halves, parent, report);
+  for (size_t t = 0; t < mesh->triangle_count; t++) report->components += parent[t] == t;
+  report->closed = !report->boundary_edges && !report->nonmanifold_edges && !report->misoriented_edges;
+  spore_half_edges_clear(&halves);
+  spore_free(parent);
+  return true;
+}

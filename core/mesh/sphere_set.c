@@ -1,0 +1,35 @@
+#include <math.h>
+
+#include "core/base/text.h"
+#include "core/mesh/common.h"
+
+bool spore_sphere_set_allocate(SporeSphereSet *set, size_t count, SporeError *error) {
+  *set = (SporeSphereSet){0};
+  if (count > SPORE_MESH_MAXIMUM) return spore_mesh_too_large(error, count);
+  *set = (SporeSphereSet){count, SPORE_NEW_ARRAY(double, 4 * count)};
+  if (set->spheres) return true;
+  *set = (SporeSphereSet){0};
+  return spore_mesh_no_memory(error);
+}
+
+void spore_sphere_set_clear(SporeSphereSet *set) {
+  spore_free(set->spheres);
+  *set = (SporeSphereSet){0};
+}
+
+bool spore_sphere_set_validate(const SporeSphereSet *set, SporeError *error) {
+  if (set->count > SPORE_MESH_MAXIMUM) return spore_mesh_too_large(error, set->count);
+  if (!set->count)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("the sphere set is empty; at least one sphere was expected; generate the spheres again"));
+  if (!spore_mesh_check_points(set->spheres, set->count, 4, _("sphere"), error)) return false;
+  for (size_t i = 0; i < set->count; i++) {
+    double radius = set->spheres[4 * i + 3];
+    if (!(radius > 0 && radius <= SPORE_MESH_COORDINATE_MAXIMUM))
+      return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                             _("sphere %zu has the radius %g; a number above 0 and at most %g m was expected; correct "
+                               "or remove that sphere"),
+                             i, radius, SPORE_MESH_COORDINATE_MAXIMUM);
+  }
+  return true;
+}
