@@ -1,0 +1,200 @@
+#include "ui/render/stage_body.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/scene/schema_fields.h"
+
+static const float sphere_colour[3] = {0.03f, 0.24f, 0.36f};
+static const float wire_colour[3] = {0.16f, 0.42f, 0.55f};
+
+static float linear_light(double srgb) {
+  return (float)(srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4));
+}
+
+/* Where a body object stands in the document. */
+static SporePose document_pose(const SporeObject *object) {
+  SporeBodyFields fields;
+  spore_object_fields(object, &fields);
+  return (SporePose){spore_vec3_load(fields.position),
+                     spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))};
+}
+
+/* The configuration at time 0. Taken from the model, which never changes, and not from the world, which another thread
+ * may be stepping. */
+static void init_configuration(SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation) {
+  SporePose pose = document_pose(object);
+  const SporeModel *model = NULL;
+  if (simulation) {
+    const SporeWorld *world = simulation->world;
+    for (gsize i = 0; i < spore_world_body_count(world); i++)
+      if (simulation->body_object[i] == body->object) body->world_body = (guint32)i;
+    if (body->world_body != SPORE_NO_BODY) {
+      model = spore_world_body_model(world, body->world_body);
+      body->moves = spore_world_body_role(world, body->world_body) != SPORE_UNMOVABLE;
+      body->q_offset = spore_world_q_offset(world, body->world_body);
+    }
+  }
+  body->q_count = model ? model->q_count : 7;
+  body->q = g_new0(double, body->q_count);
+  if (model) {
+    double *v = g_new0(double, 3 * model->block_count);
+    model->type->place(model, pose, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0), body->q, v);
+    g_free(v);
+  } else {
+    spore_vec3_store(body->q, pose.position);
+    spore_quat_store(body->q + 3, pose.orientation);
+  }
+}
+
+static gboolean map_points(const SporeStageBody *body, const SporeSimulation *simulation, const double *points,
+                           gsize count, SporeStagePoints *mapped) {
+  gboolean done = body->world_body != SPORE_NO_BODY
+                      ? spore_world_map(simulation->world, body->world_body, points, count, &mapped->mapping, NULL)
+                      : spore_mapping_init_points(&mapped->mapping, SPORE_MAPPING_RIGID, points, count, NULL);
+  if (!done) return FALSE;
+  mapped->count = count;
+  mapped->positions = g_new(double, 3 * count);
+  spore_mapping_positions(&mapped->mapping, body->q, mapped->positions);
+  return TRUE;
+}
+
+static void clear_points(SporeStagePoints *points) {
+  if (points->count) spore_mapping_clear(&points->mapping);
+  g_free(points->positions);
+}
+
+static SporeObject *asset_of(const SporeStage *stage, const SporeObject *unit, const char *property,
+                             const char *elements) {
+  const char *name = unit ? spore_object_text(unit, property) : NULL;
+  return name ? spore_document_find(stage->document, elements, name) : NULL;
+}
+
+static const SporeTetrahedralMesh *tetrahedra_of(SporeStage *stage, const SporeObject *object) {
+  SporeObject *asset = asset_of(stage, spore_object_child_of(object, "mechanical"), "geometry", "tetrahedra");
+  return asset ? spore_document_tetrahedra(stage->document, asset, NULL) : NULL;
+}
+
+static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
+                        const double *vertices, gsize vertex_count) {
+  if (map_points(body, simulation, vertices, vertex_count, &body->surface))
+    body->surface_handle = spore_renderer_add_surface(stage->renderer, vertices, vertex_count, body->triangles,
+                                                      body->triangle_count, &body->style);
+}
+
+/* The visual unit's mesh; without one the mechanical unit's, or the boundary of its tetrahedra. */
+static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
+                          const SporeSimulation *simulation) {
+  const SporeObject *visual = spore_object_child_of(object, "visual");
+  SporeObject *asset = asset_of(stage, visual, "mesh", "mesh");
+  if (!asset) asset = asset_of(stage, spore_object_child_of(object, "mechanical"), "geometry", "mesh");
+  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(stage->document, asset, NULL) : NULL;
+  if (mesh) {
+    body->triangles = mesh->triangles;
+    body->triangle_count = mesh->triangle_count;
+    add_surface(stage, body, simulation, mesh->vertices, mesh->vertex_count);
+    return;
+  }
+  const SporeTetrahedralMesh *tetrahedra = tetrahedra_of(stage, object);
+  if (tetrahedra && spore_tetrahedral_mesh_boundary(tetrahedra, &body->own_triangles, &body->triangle_count)) {
+    body->triangles = body->own_triangles;
+    add_surface(stage, body, simulation, tetrahedra->vertices, tetrahedra->vertex_count);
+  }
+}
+
+static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
+                          const SporeSimulation *simulation) {
+  SporeObject *asset = asset_of(stage, spore_object_child_of(object, "collision"), "spheres", "spheres");
+  const SporeSphereSet *set = asset ? spore_document_spheres(stage->document, asset, NULL) : NULL;
+  if (!set) return;
+  double *centres = g_new(double, 3 * set->count);
+  for (gsize i = 0; i < set->count; i++) memcpy(centres + 3 * i, set->spheres + 4 * i, 3 * sizeof(double));
+  gboolean mapped = map_points(body, simulation, centres, set->count, &body->centres);
+  g_free(centres);
+  if (!mapped) return;
+  body->spheres = g_memdup2(set->spheres, set->count * 4 * sizeof(double));
+  body->solid = !body->surface_handle;
+  const float *fit = body->solid ? NULL : spore_stage_fit(stage, asset, set);
+  body->spheres_handle = spore_renderer_add_spheres(
+      stage->renderer, body->spheres, set->count, body->solid ? body->style.colour : sphere_colour, fit, !body->solid);
+}
+
+static void build_wire(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
+                       const SporeSimulation *simulation) {
+  const SporeTetrahedralMesh *mesh = tetrahedra_of(stage, object);
+  if (!mesh || !map_points(body, simulation, mesh->vertices, mesh->vertex_count, &body->nodes)) return;
+  if (!spore_edges_of_tetrahedra(mesh->tetrahedra, mesh->tetrahedron_count, &body->edges, &body->edge_count)) return;
+  body->segments = g_new(double, 6 * body->edge_count);
+  body->wire_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, wire_colour, 1.0f);
+}
+
+SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation) {
+  SporeStageBody *body = g_new0(SporeStageBody, 1);
+  SporeVisualFields visual = {.colour = {0.75, 0.35, 0.32}, .wetness = 0.5};
+  const SporeObject *unit = spore_object_child_of(object, "visual");
+  if (unit) spore_object_fields(unit, &visual);
+  body->object = spore_object_id(object);
+  body->world_body = SPORE_NO_BODY;
+  for (int i = 0; i < 3; i++) body->style.colour[i] = linear_light(visual.colour[i]);
+  body->style.wetness = (float)visual.wetness;
+  SporeBodyFields fields;
+  spore_object_fields(object, &fields);
+  body->style.metal = fields.role == SPORE_ACTIVE; /* what a device moves is an instrument */
+  body->style.selected = stage->selection == body->object;
+  init_configuration(body, object, simulation);
+  build_surface(stage, body, object, simulation);
+  build_spheres(stage, body, object, simulation);
+  build_wire(stage, body, object, simulation);
+  spore_stage_body_show(stage, body);
+  spore_stage_body_place(stage, body);
+  return body;
+}
+
+void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
+  const guint handles[] = {body->surface_handle, body->spheres_handle, body->wire_handle};
+  for (guint i = 0; i < G_N_ELEMENTS(handles); i++)
+    if (handles[i]) spore_renderer_remove(stage->renderer, handles[i]);
+  clear_points(&body->surface);
+  clear_points(&body->centres);
+  clear_points(&body->nodes);
+  spore_free(body->own_triangles);
+  spore_free(body->edges);
+  g_free(body->spheres);
+  g_free(body->segments);
+  g_free(body->q);
+  g_free(body);
+}
+
+static void place_spheres(SporeStage *stage, SporeStageBody *body) {
+  spore_mapping_positions(&body->centres.mapping, body->q, body->centres.positions);
+  for (gsize i = 0; i < body->centres.count; i++)
+    memcpy(body->spheres + 4 * i, body->centres.positions + 3 * i, 3 * sizeof(double));
+  spore_renderer_move_spheres(stage->renderer, body->spheres_handle, body->spheres);
+}
+
+static void place_wire(SporeStage *stage, SporeStageBody *body) {
+  spore_mapping_positions(&body->nodes.mapping, body->q, body->nodes.positions);
+  for (gsize i = 0; i < 2 * body->edge_count; i++)
+    memcpy(body->segments + 3 * i, body->nodes.positions + 3 * (gsize)body->edges[i], 3 * sizeof(double));
+  spore_renderer_move_lines(stage->renderer, body->wire_handle, body->segments, body->edge_count);
+}
+
+void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
+  if (body->surface_handle) { /* hidden ones too: picking and bounds use their positions */
+    spore_mapping_positions(&body->surface.mapping, body->q, body->surface.positions);
+    spore_renderer_move_surface(stage->renderer, body->surface_handle, body->surface.positions);
+  }
+  if (body->spheres_handle && (stage->options.spheres || body->solid)) place_spheres(stage, body);
+  if (body->wire_handle && stage->options.tetrahedra) place_wire(stage, body);
+}
+
+void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {
+  SporeRenderer *renderer = stage->renderer;
+  if (body->surface_handle) spore_renderer_set_visible(renderer, body->surface_handle, stage->options.surfaces);
+  if (body->spheres_handle)
+    spore_renderer_set_visible(renderer, body->spheres_handle,
+                               body->solid ? stage->options.surfaces || stage->options.spheres
+                                           : stage->options.spheres);
+  if (body->wire_handle) spore_renderer_set_visible(renderer, body->wire_handle, stage->options.tetrahedra);
+}

@@ -1,0 +1,61 @@
+/* Inside the stage: one body of the document and what is drawn of it. */
+#ifndef SPORE_UI_RENDER_STAGE_BODY_H
+#define SPORE_UI_RENDER_STAGE_BODY_H
+
+#include "ui/render/stage.h"
+
+/* Points that follow the body's degrees of freedom. */
+typedef struct SporeStagePoints {
+  SporeMapping mapping;
+  gsize count;
+  double *positions; /* count x 3, world, m */
+} SporeStagePoints;
+
+typedef struct SporeStageBody {
+  guint32 object;     /* id */
+  guint32 world_body; /* SPORE_NO_BODY: not simulated */
+  gboolean moves;
+  gsize q_offset, q_count;
+  double *q; /* configuration that is shown */
+
+  SporeStagePoints surface;
+  gsize triangle_count;
+  const guint32 *triangles; /* triangle_count x 3; borrowed from the document, or own_triangles */
+  uint32_t *own_triangles;
+  SporeSurfaceStyle style;
+  guint surface_handle; /* handles: 0 is none */
+
+  SporeStagePoints centres;
+  double *spheres; /* centres.count x 4, world */
+  gboolean solid;  /* the spheres are all there is to see of the body */
+  guint spheres_handle;
+
+  SporeStagePoints nodes;
+  gsize edge_count;
+  uint32_t *edges;  /* edge_count x 2 */
+  double *segments; /* edge_count x 6, world */
+  guint wire_handle;
+} SporeStageBody;
+
+struct SporeStage {
+  SporeRenderer *renderer;
+  SporeDocument *document;
+  SporeStageOptions options;
+  guint32 selection; /* id of a body */
+  GPtrArray *bodies; /* SporeStageBody * */
+  GHashTable *fit;   /* const SporeSphereSet * -> float *: error of each sphere, 0..1 */
+  guint contact_handle;
+  GArray *contacts; /* double: segments of the contacts shown */
+};
+
+/* Builds what is drawn of a body object; nothing of it where its assets cannot be read. */
+SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation);
+void spore_stage_body_free(SporeStage *stage, SporeStageBody *body);
+/* Moves what the options show to configuration body->q. */
+void spore_stage_body_place(SporeStage *stage, SporeStageBody *body);
+void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
+/* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|, 1 at a fiftieth of the
+ * diagonal. NULL: no such mesh. Kept by the stage. */
+const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
+
+#endif
