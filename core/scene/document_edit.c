@@ -68,11 +68,21 @@ static gboolean set_value(SporeObject *object, guint property, const SporeValue 
   return TRUE;
 }
 
+/* What XML cannot hold: broken UTF-8 and the two characters that are none. */
+static gboolean is_xml_text(const char *text) {
+  return g_utf8_validate(text, -1, NULL) && !strstr(text, "\xEF\xBF\xBE") && !strstr(text, "\xEF\xBF\xBF");
+}
+
 gboolean spore_document_set(SporeDocument *document, SporeObject *object, guint property, const SporeValue *value,
                             GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
   const SporeParameter *parameter = &object->type->table->parameters[property];
   if (!spore_parameter_check(parameter, value, &fault)) return refuse(object, &fault, error);
+  if (value->text && !is_xml_text(value->text)) {
+    spore_error_set(&fault, SPORE_ERROR_INPUT, NULL, _("%s is not UTF-8 text; expected that; correct it"),
+                    parameter->name);
+    return refuse(object, &fault, error);
+  }
   if (object == document->root && !spore_format_version_check(value->text, &fault))
     return refuse(object, &fault, error);
   if (parameter->type == SPORE_NAME) return spore_document_rename(document, object, value->text, error);
