@@ -247,6 +247,13 @@ const char *spore_object_text(const SporeObject *object, const char *property) {
   return value_by_name(object, property)->text;
 }
 
+SporeObject *spore_object_reference(const SporeObject *object, const char *property) {
+  int index = spore_parameter_find(object->type->table, property);
+  g_assert(index >= 0);
+  const char *elements = object->type->table->parameters[index].references;
+  return spore_document_find(object->document, elements, spore_object_value(object, (guint)index)->text);
+}
+
 void spore_object_fields(const SporeObject *object, void *fields) {
   const SporeParameterTable *table = object->type->table;
   for (guint i = 0; i < table->count; i++)

@@ -42,6 +42,10 @@ const SporeValue *spore_object_value(const SporeObject *object, guint property);
 gboolean spore_object_is_set(const SporeObject *object, guint property);
 double spore_object_number(const SporeObject *object, const char *property);    /* by name, which must exist */
 const char *spore_object_text(const SporeObject *object, const char *property); /* NULL when neither set nor default */
+/* The object that a reference names; NULL: not set, or nothing has that name. */
+SporeObject *spore_object_reference(const SporeObject *object, const char *property);
+/* "FILE:LINE:COLUMN" where the object came from a file, else its path: the place of a message. g_free. */
+char *spore_object_where(const SporeObject *object);
 /* Fills a structure of the type's table with the values in force; texts are borrowed until the next change. */
 void spore_object_fields(const SporeObject *object, void *fields);
 

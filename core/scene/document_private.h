@@ -115,9 +115,6 @@ int spore_object_name_property(const SporeObject *object); /* -1: none */
 /* Whether `element` is one of the names joined by | in `elements`. */
 gboolean spore_element_in_list(const char *elements, const char *element);
 
-/* "FILE:LINE:COLUMN" where the object came from a file, else its path. g_free. */
-char *spore_object_where(const SporeObject *object);
-
 /* Opens a regular file inside the document's folder for reading. -1 with a GError. */
 int spore_document_open_asset(const SporeDocument *document, const char *place, const char *file, GError **error);
 void spore_assets_init(SporeDocument *document);

@@ -1,0 +1,471 @@
+#include "core/scene/compile.h"
+
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/name.h"
+#include "core/scene/schema_fields.h"
+
+/* What is being put together. */
+typedef struct Compiler {
+  SporeDocument *document;
+  GPtrArray *objects; /* body objects, by index in the world */
+  GArray *bodies;     /* of SporeBodyDescription */
+  GArray *links;      /* of SporeLinkDescription */
+  GError **error;
+} Compiler;
+
+/* Messages. */
+
+static gboolean refuse(Compiler *compiler, const SporeObject *object, const char *format, ...) G_GNUC_PRINTF(3, 4);
+static gboolean refuse(Compiler *compiler, const SporeObject *object, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *message = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_autofree char *where = spore_object_where(object);
+  return spore_error_raise(compiler->error, SPORE_ERROR_INPUT, where, "%s", message);
+}
+
+/* Nearest name among the objects that a reference may name, or NULL. */
+static const char *nearest_name(const SporeDocument *document, const char *elements, const char *name) {
+  g_autoptr(GPtrArray) names = g_ptr_array_new();
+  const SporeObject *root = spore_document_root(document);
+  for (guint s = 0; s < spore_object_child_count(root); s++) {
+    const SporeObject *section = spore_object_child(root, s);
+    for (guint i = 0; i < spore_object_child_count(section); i++) {
+      const char *other = spore_object_name(spore_object_child(section, i));
+      if (other && spore_document_find(document, elements, other)) g_ptr_array_add(names, (gpointer)other);
+    }
+  }
+  g_ptr_array_add(names, NULL);
+  return spore_name_nearest((const char *const *)names->pdata, name);
+}
+
+/* The object that a reference names. FALSE: it names nothing that is there; *target NULL: it is not set. */
+static gboolean resolve(Compiler *compiler, const SporeObject *object, const char *property, SporeObject **target) {
+  const char *name = spore_object_text(object, property);
+  *target = spore_object_reference(object, property);
+  if (!name || *target) return TRUE;
+  int index = spore_parameter_find(spore_object_type(object)->table, property);
+  const char *elements = spore_object_type(object)->table->parameters[index].references;
+  const char *nearest = nearest_name(compiler->document, elements, name);
+  if (nearest)
+    return refuse(compiler, object, _("%s=\"%s\" names nothing; expected a %s; did you mean \"%s\"?"), property, name,
+                  elements, nearest);
+  return refuse(compiler, object, _("%s=\"%s\" names nothing; expected a %s; add one or correct the name"), property,
+                name, elements);
+}
+
+/* Bodies. */
+
+static gboolean is_closed(Compiler *compiler, const SporeObject *mechanical, const SporeObject *asset,
+                          const SporeTriangleMesh *mesh) {
+  SporeMeshReport report;
+  SporeError fault = SPORE_ERROR_INIT;
+  if (!spore_triangle_mesh_report(mesh, &report, &fault)) return refuse(compiler, mechanical, "%s", fault.message);
+  if (report.closed) return TRUE;
+  return refuse(compiler, mechanical,
+                _("the mesh \"%s\" is not closed (%zu open, %zu non-manifold edges); expected a closed "
+                  "one for this model; repair it or generate tetrahedra from it"),
+                spore_object_name(asset), report.boundary_edges, report.nonmanifold_edges);
+}
+
+/* What the model is to be built from. Fails with a message when the asset is missing or of the wrong kind. */
+static gboolean find_geometry(Compiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
+                              SporeGeometry *geometry) {
+  SporeObject *asset;
+  if (type->geometry == SPORE_GEOMETRY_NONE) return TRUE;
+  if (!resolve(compiler, mechanical, "geometry", &asset)) return FALSE;
+  gboolean volume = type->geometry == SPORE_GEOMETRY_TETRAHEDRA;
+  if (!asset)
+    return refuse(compiler, mechanical,
+                  volume ? _("%s has no geometry; expected tetrahedra; generate them and name them here")
+                         : _("%s has no geometry; expected a mesh; name one here"),
+                  type->name);
+  gboolean is_mesh = strcmp(spore_object_type(asset)->element, "mesh") == 0;
+  if (volume && is_mesh)
+    return refuse(compiler, mechanical,
+                  _("geometry=\"%s\" is a mesh; %s needs tetrahedra; generate them from the mesh and "
+                    "name those here"),
+                  spore_object_name(asset), type->name);
+  if (!volume && !is_mesh)
+    return refuse(compiler, mechanical,
+                  _("geometry=\"%s\" is a set of tetrahedra; %s needs a mesh; name the one that they "
+                    "were made from"),
+                  spore_object_name(asset), type->name);
+  if (volume) geometry->tetrahedra = spore_document_tetrahedra(compiler->document, asset, compiler->error);
+  else geometry->surface = spore_document_mesh(compiler->document, asset, compiler->error);
+  if (!geometry->tetrahedra && !geometry->surface) return FALSE;
+  return type->geometry != SPORE_GEOMETRY_SOLID || is_closed(compiler, mechanical, asset, geometry->surface);
+}
+
+/* The object of a body's model, or NULL. */
+static SporeObject *model_object(const SporeObject *body) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
+}
+
+static gboolean make_model(Compiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  const SporeObject *object = model_object(body);
+  if (!object)
+    return refuse(compiler, body,
+                  _("the passive body \"%s\" has no mechanical model; expected one to move it; choose a model "
+                    "or make its role unmovable"),
+                  spore_object_name(body));
+  const SporeObject *mechanical = spore_object_parent(object);
+  const SporeModelType *type = spore_object_type(object)->model;
+  SporeGeometry geometry = {0};
+  if (!find_geometry(compiler, mechanical, type, &geometry)) return FALSE;
+  SporeError fault = SPORE_ERROR_INIT;
+  g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
+  spore_object_fields(object, fields);
+  description->model = type->create(&geometry, fields, &fault);
+  description->integrator = (SporeIntegratorKind)((int)spore_object_number(mechanical, "integrator") - 1);
+  if (description->model) return TRUE;
+  return refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
+}
+
+static gboolean add_collision(Compiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  const SporeObject *collision = spore_object_child_of(body, "collision");
+  spore_parameters_set_initial(&spore_contact_parameters, &description->contact);
+  if (!collision) return TRUE;
+  SporeCollisionFields fields;
+  SporeObject *spheres;
+  spore_object_fields(collision, &fields);
+  description->contact = fields.contact;
+  if (!resolve(compiler, collision, "spheres", &spheres)) return FALSE;
+  if (spheres) description->spheres = spore_document_spheres(compiler->document, spheres, compiler->error);
+  return !spheres || description->spheres;
+}
+
+static gboolean add_body(Compiler *compiler, SporeObject *body) {
+  SporeBodyFields fields;
+  spore_object_fields(body, &fields);
+  SporeBodyDescription description = {
+      .name = fields.name,
+      .role = (SporeRole)fields.role,
+      .integrator = SPORE_INTEGRATOR_DEFAULT,
+      .pose = {spore_vec3_load(fields.position), spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))},
+      .velocity = spore_vec3_load(fields.velocity),
+      .spin = spore_vec3_load(fields.spin)};
+  if (!add_collision(compiler, body, &description)) return FALSE;
+  if (description.role == SPORE_PASSIVE && !make_model(compiler, body, &description)) return FALSE;
+  g_ptr_array_add(compiler->objects, body);
+  g_array_append_val(compiler->bodies, description);
+  return TRUE;
+}
+
+/* Links. */
+
+static gboolean body_index(Compiler *compiler, const SporeObject *object, const char *property, guint32 *index) {
+  SporeObject *body;
+  *index = SPORE_NO_BODY;
+  if (!resolve(compiler, object, property, &body)) return FALSE;
+  guint found;
+  if (body && g_ptr_array_find(compiler->objects, body, &found)) *index = found;
+  return TRUE;
+}
+
+static gboolean add_pin(Compiler *compiler, const SporeObject *object) {
+  SporePinFields fields;
+  spore_object_fields(object, &fields);
+  SporeLinkDescription link = {.name = fields.name,
+                               .kind = SPORE_LINK_PIN,
+                               .body_b = SPORE_NO_BODY,
+                               .point_a = spore_vec3_load(fields.point),
+                               .radius = fields.radius};
+  if (!body_index(compiler, object, "body", &link.body_a)) return FALSE;
+  if (link.body_a == SPORE_NO_BODY)
+    return refuse(compiler, object, _("the pin \"%s\" has no body; expected the name of one; set it"), fields.name);
+  g_array_append_val(compiler->links, link);
+  return TRUE;
+}
+
+static gboolean add_spring(Compiler *compiler, const SporeObject *object) {
+  SporeSpringFields fields;
+  spore_object_fields(object, &fields);
+  SporeLinkDescription link = {.name = fields.name,
+                               .kind = SPORE_LINK_SPRING,
+                               .point_a = spore_vec3_load(fields.point_a),
+                               .point_b = spore_vec3_load(fields.point_b),
+                               .stiffness = fields.stiffness,
+                               .damping = fields.damping,
+                               .rest_length = fields.rest_length};
+  if (!body_index(compiler, object, "body_a", &link.body_a) || !body_index(compiler, object, "body_b", &link.body_b))
+    return FALSE;
+  if (link.body_a == SPORE_NO_BODY)
+    return refuse(compiler, object, _("the spring \"%s\" has no body_a; expected the name of a body; set it"),
+                  fields.name);
+  g_array_append_val(compiler->links, link);
+  return TRUE;
+}
+
+static gboolean add_link(Compiler *compiler, const SporeObject *object) {
+  return strcmp(spore_object_type(object)->element, "pin") == 0 ? add_pin(compiler, object)
+                                                                : add_spring(compiler, object);
+}
+
+/* Input. */
+
+static gboolean copy_channel(Compiler *compiler, SporeTrack *track, const SporeTrackChannel *from, const char *name) {
+  SporeTrackChannel *channel = spore_track_add_channel(track, name);
+  for (size_t i = 0; channel && i < from->count; i++)
+    if (!spore_track_append(channel, from->time_s[i], &from->states[i])) channel = NULL;
+  return channel || spore_error_raise(compiler->error, SPORE_ERROR_MEMORY, NULL, "%s",
+                                      _("not enough memory for the recorded input; close something or shorten it"));
+}
+
+/* The channel that drives `body`: the one of its name, or the only one there is. */
+static const SporeTrackChannel *channel_for(const SporeTrack *track, const char *body) {
+  const SporeTrackChannel *channel = spore_track_channel(track, body);
+  return !channel && track->channel_count == 1 ? &track->channels[0] : channel;
+}
+
+static gboolean add_track(Compiler *compiler, SporeTrack *merged, const SporeObject *device, const char *body) {
+  g_autofree char *where = spore_object_where(device);
+  const char *file = spore_object_text(device, "file");
+  g_autoptr(GError) unreadable = NULL;
+  g_autoptr(GBytes) content = file ? spore_document_read_asset(compiler->document, file, &unreadable) : NULL;
+  if (!content)
+    return refuse(compiler, device, "%s", unreadable ? unreadable->message : _("the track has no file; set it"));
+  gsize size;
+  const char *text = g_bytes_get_data(content, &size);
+  SporeTrack track = {0};
+  SporeError fault = SPORE_ERROR_INIT;
+  gboolean done;
+  if (!spore_track_parse(&track, file, text, size, &fault)) {
+    done = refuse(compiler, device, "%s: %s", fault.place, fault.message);
+  } else {
+    const SporeTrackChannel *channel = channel_for(&track, body);
+    done = channel ? copy_channel(compiler, merged, channel, body)
+                   : refuse(compiler, device,
+                            _("the track has no channel \"%s\"; expected one of the body's name; record it "
+                              "or rename the channel"),
+                            body);
+  }
+  spore_track_clear(&track);
+  return done;
+}
+
+static gboolean add_probe(Compiler *compiler, SporeTrack *merged, const SporeTrack *input, const SporeObject *probe) {
+  SporeObject *body, *device;
+  if (!resolve(compiler, probe, "body", &body) || !resolve(compiler, probe, "device", &device)) return FALSE;
+  if (!body) return TRUE; /* `check` says it */
+  const char *name = spore_object_name(body);
+  if ((int)spore_object_number(body, "role") != SPORE_ACTIVE)
+    return refuse(compiler, probe,
+                  _("the tool's body \"%s\" is not active; expected role=\"active\"; change its role or choose "
+                    "another body"),
+                  name);
+  if (!device || strcmp(spore_object_type(device)->element, "track") != 0) return TRUE;
+  if (input && spore_track_channel(input, name)) return TRUE;
+  if (spore_track_channel(merged, name))
+    return refuse(compiler, probe, _("two tools move the body \"%s\"; expected one; remove one"), name);
+  return add_track(compiler, merged, device, name);
+}
+
+static gboolean merge_input(Compiler *compiler, SporeTrack *merged, const SporeTrack *input) {
+  for (size_t i = 0; input && i < input->channel_count; i++) {
+    const char *name = input->channels[i].name;
+    const SporeObject *body = spore_document_find(compiler->document, "body", name);
+    if (!body || (int)spore_object_number(body, "role") != SPORE_ACTIVE)
+      return spore_error_raise(
+          compiler->error, SPORE_ERROR_INPUT, NULL,
+          _("the input track moves \"%s\"; expected the name of an active body of the scene; rename the "
+            "channel or use the track's own scene"),
+          name);
+    if (!copy_channel(compiler, merged, &input->channels[i], name)) return FALSE;
+  }
+  const SporeObject *tools = spore_document_section(compiler->document, "tools");
+  for (guint i = 0; i < spore_object_child_count(tools); i++)
+    if (!add_probe(compiler, merged, input, spore_object_child(tools, i))) return FALSE;
+  return TRUE;
+}
+
+/* Devices that play the merged track. */
+static gboolean open_devices(Compiler *compiler, SporeSimulation *simulation) {
+  SporeTrack *track = simulation->track;
+  for (size_t i = 0; i < track->channel_count; i++) {
+    SporeDevice *device = spore_track_device_create(&track->channels[i]);
+    if (!device)
+      return spore_error_raise(compiler->error, SPORE_ERROR_MEMORY, NULL, "%s",
+                               _("not enough memory for the recorded input; close something or shorten it"));
+    g_ptr_array_add(simulation->devices, device);
+    spore_world_set_device(simulation->world, spore_world_find_body(simulation->world, track->channels[i].name),
+                           device);
+  }
+  if (track->channel_count == 0) g_clear_pointer(&simulation->track, g_free);
+  return TRUE;
+}
+
+/* The whole. */
+
+static gboolean describe(Compiler *compiler) {
+  SporeObject *bodies = spore_document_section(compiler->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++)
+    if (!add_body(compiler, spore_object_child(bodies, i))) return FALSE;
+  SporeObject *links = spore_document_section(compiler->document, "links");
+  for (guint i = 0; i < spore_object_child_count(links); i++)
+    if (!add_link(compiler, spore_object_child(links, i))) return FALSE;
+  return TRUE;
+}
+
+static void destroy_models(const Compiler *compiler) {
+  for (guint i = 0; i < compiler->bodies->len; i++) {
+    SporeModel *model = g_array_index(compiler->bodies, SporeBodyDescription, i).model;
+    if (model) model->type->destroy(model);
+  }
+}
+
+/* The kernel says paths; the author wants the line of the file. */
+static gboolean say_in_scene(Compiler *compiler, const SporeError *fault) {
+  SporeObject *object = *fault->place ? spore_document_by_path(compiler->document, fault->place) : NULL;
+  if (!object) return spore_error_propagate(fault, compiler->error);
+  g_autofree char *where = spore_object_where(object);
+  return spore_error_raise(compiler->error, fault->code, where, "%s", fault->message);
+}
+
+static SporeWorld *create_world(Compiler *compiler, SporePool *pool) {
+  SporeEnvironmentFields environment;
+  SporeWorldDescription description = {.body_count = compiler->bodies->len,
+                                       .link_count = compiler->links->len,
+                                       .bodies = (const SporeBodyDescription *)(void *)compiler->bodies->data,
+                                       .links = (const SporeLinkDescription *)(void *)compiler->links->data};
+  spore_object_fields(spore_document_section(compiler->document, "environment"), &environment);
+  spore_object_fields(spore_document_section(compiler->document, "solver"), &description.solver);
+  description.gravity = spore_vec3_load(environment.gravity);
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeWorld *world = spore_world_create(&description, pool, &fault);
+  if (!world) say_in_scene(compiler, &fault);
+  return world;
+}
+
+static void close_device(gpointer data) {
+  SporeDevice *device = data;
+  device->type->close(device);
+}
+
+static SporeSimulation *assemble(Compiler *compiler, SporePool *pool, const SporeTrack *input) {
+  SporeSimulation *simulation = g_new0(SporeSimulation, 1);
+  simulation->devices = g_ptr_array_new_with_free_func(close_device);
+  simulation->track = g_new0(SporeTrack, 1);
+  gboolean done = describe(compiler) && merge_input(compiler, simulation->track, input);
+  if (done) simulation->world = create_world(compiler, pool);
+  if (!simulation->world) destroy_models(compiler);
+  simulation->body_object = g_new0(guint32, MAX(compiler->objects->len, 1));
+  for (guint i = 0; i < compiler->objects->len; i++)
+    simulation->body_object[i] = spore_object_id(g_ptr_array_index(compiler->objects, i));
+  if (simulation->world && open_devices(compiler, simulation)) return simulation;
+  spore_simulation_free(simulation);
+  return NULL;
+}
+
+SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, const SporeTrack *input,
+                                      GError **error) {
+  Compiler compiler = {.document = document, .error = error};
+  compiler.objects = g_ptr_array_new();
+  compiler.bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
+  compiler.links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
+  SporeSimulation *simulation = assemble(&compiler, pool, input);
+  g_ptr_array_unref(compiler.objects);
+  g_array_unref(compiler.bodies);
+  g_array_unref(compiler.links);
+  return simulation;
+}
+
+void spore_simulation_free(SporeSimulation *simulation) {
+  if (!simulation) return;
+  if (simulation->world) spore_world_free(simulation->world);
+  g_ptr_array_unref(simulation->devices); /* after the world that borrows them, before the track that they borrow */
+  if (simulation->track) spore_track_clear(simulation->track);
+  g_free(simulation->track);
+  g_free(simulation->body_object);
+  g_free(simulation);
+}
+
+guint32 spore_simulation_body_of(const SporeSimulation *simulation, SporeObject *object) {
+  while (object && strcmp(spore_object_type(object)->element, "body") != 0) object = spore_object_parent(object);
+  if (!object) return SPORE_NO_BODY;
+  size_t count = spore_world_body_count(simulation->world);
+  for (guint32 i = 0; i < count; i++)
+    if (simulation->body_object[i] == spore_object_id(object)) return i;
+  return SPORE_NO_BODY;
+}
+
+/* While it runs. */
+
+static gboolean same_state(const SporeModel *a, const SporeModel *b) {
+  if (!a || !b) return a == b;
+  return a->type == b->type && a->q_count == b->q_count && a->block_count == b->block_count;
+}
+
+void spore_simulation_carry_over(SporeSimulation *to, const SporeSimulation *from) {
+  size_t count = spore_world_body_count(to->world);
+  for (guint32 i = 0; i < count; i++) {
+    SporeRole role = spore_world_body_role(to->world, i);
+    guint32 old = spore_world_find_body(from->world, spore_world_body_name(to->world, i));
+    if (old == SPORE_NO_BODY || role == SPORE_UNMOVABLE || spore_world_body_role(from->world, old) != role) continue;
+    if (same_state(spore_world_body_model(to->world, i), spore_world_body_model(from->world, old)))
+      spore_world_set_state(to->world, i, spore_world_q(from->world, old), spore_world_v(from->world, old));
+  }
+}
+
+static gboolean holds_text(const SporeParameterTable *table) {
+  for (size_t i = 0; i < table->count; i++)
+    if (table->parameters[i].type >= SPORE_TEXT) return TRUE;
+  return FALSE;
+}
+
+static gboolean retune(SporeSimulation *simulation, SporeObject *object, guint32 body) {
+  const SporeModel *model = spore_world_body_model(simulation->world, body);
+  const SporeModelType *type = spore_object_type(object)->model;
+  if (!model) return TRUE; /* unmovable and active bodies have none */
+  if (model->type != type || !type->retune || holds_text(&type->parameters)) return FALSE;
+  void *fields = spore_allocate(1, type->parameters.size);
+  if (!fields) return FALSE;
+  spore_object_fields(object, fields);
+  SporeCommand command = {.kind = SPORE_COMMAND_RETUNE, .body = body, .fields = fields};
+  if (spore_world_post(simulation->world, &command)) return TRUE;
+  spore_free(fields);
+  return FALSE;
+}
+
+static gboolean post_contact(SporeSimulation *simulation, const SporeObject *collision, guint32 body) {
+  SporeCollisionFields fields;
+  spore_object_fields(collision, &fields);
+  SporeCommand command = {.kind = SPORE_COMMAND_CONTACT, .body = body, .contact = fields.contact};
+  return spore_world_post(simulation->world, &command);
+}
+
+/* The default contact law changed: every body that has a collision unit hears it. */
+static gboolean post_contacts(SporeSimulation *simulation, SporeDocument *document) {
+  SporeObject *bodies = spore_document_section(document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    const SporeObject *collision = spore_object_child_of(spore_object_child(bodies, i), "collision");
+    guint32 body = spore_simulation_body_of(simulation, spore_object_child(bodies, i));
+    if (collision && (body == SPORE_NO_BODY || !post_contact(simulation, collision, body))) return FALSE;
+  }
+  return TRUE;
+}
+
+static gboolean post_gravity(SporeSimulation *simulation, const SporeObject *environment) {
+  SporeEnvironmentFields fields;
+  spore_object_fields(environment, &fields);
+  SporeCommand command = {.kind = SPORE_COMMAND_GRAVITY, .vector = spore_vec3_load(fields.gravity)};
+  return spore_world_post(simulation->world, &command);
+}
+
+gboolean spore_simulation_apply(SporeSimulation *simulation, SporeDocument *document, SporeObject *object,
+                                guint property) {
+  const SporeObjectType *type = spore_object_type(object);
+  if (type->table->parameters[property].change != SPORE_CHANGE_LIVE) return FALSE;
+  if (strcmp(type->element, "environment") == 0) return post_gravity(simulation, object);
+  if (strcmp(type->element, "contact") == 0) return post_contacts(simulation, document);
+  if (strcmp(type->element, "solver") == 0) return FALSE;
+  if (!type->model && strcmp(type->element, "collision") != 0) return TRUE; /* only shown, or used when generating */
+  guint32 body = spore_simulation_body_of(simulation, object);
+  if (body == SPORE_NO_BODY) return FALSE;
+  return type->model ? retune(simulation, object, body) : post_contact(simulation, object, body);
+}
