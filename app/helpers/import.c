@@ -22,7 +22,7 @@ int main(int argc, char **argv) {
   if (!spore_helper_read_request(&request, &size) || size < sizeof head) _exit(1);
   memcpy(&head, request, sizeof head);
   if (head.format >= SPORE_MESH_FORMAT_COUNT || !extensions[head.format]) _exit(1);
-  SporeImportFailure failure;
+  SporeHelperFailure failure;
   if (spore_import_assimp(extensions[head.format], (const char *)request + sizeof head, size - sizeof head, &answer,
                           &answer_size, &failure))
     spore_helper_send_answer(answer, answer_size);

@@ -173,7 +173,7 @@ void *make_answer(const Mesh &mesh, size_t *size) {
   return answer;
 }
 
-bool fail(SporeImportFailure *failure, SporeErrorCode code, const char *message, const char *detail) {
+bool fail(SporeHelperFailure *failure, SporeErrorCode code, const char *message, const char *detail) {
   failure->code = code;
   failure->message = message;
   std::snprintf(failure->detail, sizeof failure->detail, "%s", detail);
@@ -183,7 +183,7 @@ bool fail(SporeImportFailure *failure, SporeErrorCode code, const char *message,
 } // namespace
 
 bool spore_import_assimp(const char *extension, const void *content, size_t size, void **answer, size_t *answer_size,
-                         SporeImportFailure *failure) {
+                         SporeHelperFailure *failure) {
   try {
     *answer = make_answer(import(extension, content, size), answer_size);
     return true;

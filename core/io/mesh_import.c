@@ -33,7 +33,6 @@ static void apply_unit_and_frame(SporeTriangleMesh *mesh, int unit, int frame) {
   }
 }
 
-#ifdef SPORE_HAVE_ASSIMP
 /* The helper is not believed: its counts must agree with what it sent, to the byte. */
 static gboolean read_answer(const char *place, GBytes *answer, SporeTriangleMesh *mesh, GError **error) {
   gsize size;
@@ -65,6 +64,12 @@ static gboolean read_answer(const char *place, GBytes *answer, SporeTriangleMesh
 
 static gboolean decode_in_helper(const char *place, SporeMeshFormat format, const void *content, gsize size,
                                  SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error) {
+  if (!SPORE_HAVE_ASSIMP)
+    return spore_error_raise(
+        error, SPORE_ERROR_UNSUPPORTED, place,
+        _("this is %s, and this build of SPORE reads OFF alone; expected OFF; convert the mesh, or "
+          "install libassimp-dev and build SPORE again"),
+        spore_mesh_format_names[format]);
   SporeImportRequest head = {format};
   char *request = g_try_malloc(sizeof head + size);
   if (!request)
@@ -80,17 +85,6 @@ static gboolean decode_in_helper(const char *place, SporeMeshFormat format, cons
   g_bytes_unref(answer);
   return done;
 }
-
-#else
-static gboolean decode_in_helper(const char *place, SporeMeshFormat format, const void *content, gsize size,
-                                 SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error) {
-  return spore_error_raise(
-      error, SPORE_ERROR_UNSUPPORTED, place,
-      _("this is %s, and this build of SPORE reads OFF alone; expected OFF; convert the mesh, or install "
-        "libassimp-dev and build SPORE again"),
-      spore_mesh_format_names[format]);
-}
-#endif
 
 /* Checks what came, brings it to metres and SPORE's axes, and welds it. */
 static gboolean finish(const char *place, int unit, int frame, SporeTriangleMesh *mesh, GError **error) {

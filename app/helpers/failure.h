@@ -1,0 +1,13 @@
+/* Why a library could not do it, carried over the border between C++ and C. */
+#ifndef SPORE_HELPERS_FAILURE_H
+#define SPORE_HELPERS_FAILURE_H
+
+#include "core/base/error.h"
+
+typedef struct SporeHelperFailure {
+  SporeErrorCode code;
+  const char *message; /* marked for translation */
+  char detail[256];    /* what the library said; may be empty */
+} SporeHelperFailure;
+
+#endif
