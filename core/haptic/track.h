@@ -21,11 +21,14 @@ typedef struct SporeTrack {
 } SporeTrack;
 
 /* From text already in memory (`place` names it in messages). Refuses non-finite numbers, times out of order,
- * duplicate channels, more than 10 million rows. */
+ * duplicate channels, orientations that are not of unit length (to 1e-3), more than 10 million rows; place is
+ * "PLACE:LINE:COLUMN" and *track untouched then. */
 bool spore_track_parse(SporeTrack *track, const char *place, const char *text, size_t size, SporeError *error);
 void spore_track_clear(SporeTrack *track);
 SporeTrackChannel *spore_track_channel(const SporeTrack *track, const char *name);
-/* Recording: adds a channel; appends a sample (may allocate: never inside a step). */
+/* Recording. Adds a channel (NULL: no memory, not a name, or there already), which moves the others: pointers to
+ * channels hold only until the next is added. Appends a sample: false where its time is not after the last and within
+ * 0..1e9 s, it is not finite, or there is no memory. Both may allocate: never inside a step. */
 SporeTrackChannel *spore_track_add_channel(SporeTrack *track, const char *name);
 bool spore_track_append(SporeTrackChannel *channel, double time_s, const SporeDeviceState *state);
 /* Text of the whole track, from spore_allocate; numbers round-trip exactly. NULL: no memory. */

@@ -1,6 +1,10 @@
 #include "core/math/quat.h"
 
+#include <float.h>
+
 SporeQuat spore_quat_normalise(SporeQuat q) {
+  double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  if (fabs(square - 1) <= 4 * DBL_EPSILON) return q;
   double largest = fmax(fmax(fabs(q.w), fabs(q.x)), fmax(fabs(q.y), fabs(q.z)));
   if (!(largest > 0) || !isfinite(q.w + q.x + q.y + q.z)) return spore_quat_identity();
   q = (SporeQuat){q.w / largest, q.x / largest, q.y / largest, q.z / largest};

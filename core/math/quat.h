@@ -16,7 +16,8 @@ static inline SporeQuat spore_quat_multiply(SporeQuat a, SporeQuat b) {
                      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 static inline SporeQuat spore_quat_conjugate(SporeQuat q) { return (SporeQuat){q.w, -q.x, -q.y, -q.z}; }
-SporeQuat spore_quat_normalise(SporeQuat q); /* identity where q has no length */
+/* Identity where q has no length or is not finite; untouched where it is of unit length to rounding. */
+SporeQuat spore_quat_normalise(SporeQuat q);
 SporeVec3 spore_quat_rotate(SporeQuat q, SporeVec3 v);
 SporeMat3 spore_quat_to_mat3(SporeQuat q);
 SporeQuat spore_quat_from_mat3(SporeMat3 r);
