@@ -1,0 +1,36 @@
+#include "models/nodal.h"
+
+#include <stdio.h>
+
+#include "core/base/text.h"
+
+void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q,
+                       double *v) {
+  SporeMat3 rotation = spore_quat_to_mat3(pose.orientation);
+  for (size_t i = 0; i < count; i++) {
+    SporeVec3 arm = spore_mat3_apply(rotation, spore_vec3_load(rest + 3 * i));
+    spore_vec3_store(q + 3 * i, spore_vec3_add(pose.position, arm));
+    spore_vec3_store(v + 3 * i, spore_vec3_add(velocity, spore_vec3_cross(spin, arm)));
+  }
+}
+
+void spore_nodal_mass(const SporeModel *model, const double *q, double *blocks) {
+  for (size_t i = 0; i < model->block_count; i++) {
+    double m = model->block_mass[i];
+    SporeMat3 block = spore_mat3_diagonal(m, m, m);
+    for (int k = 0; k < 9; k++) blocks[9 * i + k] = block.m[k];
+  }
+}
+
+bool spore_nodal_check_mass(const SporeModel *model, const char *element, SporeError *error) {
+  for (size_t i = 0; i < model->block_count; i++) {
+    if (model->block_mass[i] > 0) continue;
+    char place[64];
+    snprintf(place, sizeof place, "vertex %zu", i);
+    return spore_error_set(error, SPORE_ERROR_INPUT, place,
+                           _("no %s with a size holds this vertex, so that it has no mass; every vertex of a moving "
+                             "body needs mass; clean the mesh or remove the vertex"),
+                           element);
+  }
+  return true;
+}

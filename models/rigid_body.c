@@ -1,0 +1,265 @@
+/* Rigid body. q = centre of mass (3), quaternion wxyz of the body's frame (4); v = velocity of the centre of mass (3),
+ * angular velocity (3), world axes. Mass, centre and inertia come from the closed surface by exact integrals. */
+#include <math.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "models/nodal.h"
+#include "models/registry.h"
+
+typedef struct RigidBodyFields {
+  double density, mass;
+} RigidBodyFields;
+
+typedef struct RigidBody {
+  SporeModel base;
+  double mass;              /* kg */
+  SporeVec3 centre;         /* of mass, body's frame, m */
+  SporeMat3 inertia;        /* about the centre, axes of the body's frame, kg m^2 */
+  SporeMat3 principal;      /* columns: principal axes in the body's frame, right-handed */
+  SporeQuat principal_quat; /* the same */
+  double inverse[3];        /* 1 / principal moments, smallest moment first: inverse[0] >= inverse[1] >= inverse[2] */
+} RigidBody;
+
+static const SporeParameter parameters[] = {
+    SPORE_NODAL_REAL(RigidBodyFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
+                     N_("Mass per volume; 1060 is soft tissue, 7900 surgical steel. Not used where mass is set.")),
+    SPORE_NODAL_REAL(RigidBodyFields, mass, "kg", 0, 1e9, 0, SPORE_CHANGE_REBUILD,
+                     N_("Mass of the whole body; 0 takes it from density and volume.")),
+};
+
+/* Volume, first and second moments of the solid inside a closed surface, as a sum of signed tetrahedra from `origin`:
+ * with corners 0, a, b, c and s = a + b + c, det = a x b . c, the integral of x x^T is det/120 (s s^T + a a^T + b b^T +
+ * c c^T) (m: symmetric-simplex quadrature, exact for quadratics). */
+typedef struct Moments {
+  double volume;    /* m^3 */
+  SporeVec3 first;  /* m^4 */
+  SporeMat3 second; /* m^5 */
+} Moments;
+
+static Moments moments_of(const SporeTriangleMesh *mesh, SporeVec3 origin) {
+  Moments sum = {0};
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    SporeVec3 corner[4] = {{0, 0, 0}};
+    for (int k = 0; k < 3; k++) {
+      const double *vertex = mesh->vertices + 3 * (size_t)mesh->triangles[3 * t + k];
+      corner[k] = spore_vec3_sub(spore_vec3_load(vertex), origin);
+      corner[3] = spore_vec3_add(corner[3], corner[k]);
+    }
+    double determinant = spore_vec3_dot(spore_vec3_cross(corner[0], corner[1]), corner[2]);
+    sum.volume += determinant / 6;
+    sum.first = spore_vec3_add_scaled(sum.first, determinant / 24, corner[3]);
+    for (int k = 0; k < 4; k++)
+      sum.second =
+          spore_mat3_add(sum.second, spore_mat3_scale(determinant / 120, spore_mat3_outer(corner[k], corner[k])));
+  }
+  return sum;
+}
+
+static SporeVec3 middle_of(const SporeTriangleMesh *mesh) {
+  SporeVec3 sum = {0, 0, 0};
+  for (size_t i = 0; i < mesh->vertex_count; i++) sum = spore_vec3_add(sum, spore_vec3_load(mesh->vertices + 3 * i));
+  return spore_vec3_scale(1.0 / (double)mesh->vertex_count, sum);
+}
+
+static bool check_closed(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error) {
+  if (!mesh || mesh->triangle_count == 0)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("there is no surface; a rigid body needs a closed one; give the body a mesh"));
+  if (!spore_triangle_mesh_report(mesh, report, error)) return false;
+  if (report->boundary_edges > 0)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("the surface is open at %zu edges; a rigid body needs a closed one to know its mass; "
+                             "repair the mesh or choose another model"),
+                           report->boundary_edges);
+  if (report->misoriented_edges > 0)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("triangles on the two sides of %zu edges face opposite ways; a rigid body needs a surface "
+                             "with one outside; orient the mesh again"),
+                           report->misoriented_edges);
+  return true;
+}
+
+/* A surface that is turned inside out holds the same solid: only the signs differ. */
+static bool set_inertia(RigidBody *body, const SporeTriangleMesh *mesh, const RigidBodyFields *fields, double size,
+                        SporeError *error) {
+  SporeVec3 origin = middle_of(mesh);
+  Moments moments = moments_of(mesh, origin);
+  double sign = moments.volume < 0 ? -1 : 1, volume = fabs(moments.volume);
+  if (!(volume > 1e-12 * size * size * size))
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("the surface holds no volume (%g m^3); a rigid body needs a solid; check unit and mesh"),
+                           volume);
+  double density = fields->mass > 0 ? fields->mass / volume : fields->density;
+  SporeVec3 arm = spore_vec3_scale(1 / moments.volume, moments.first);
+  SporeMat3 second = spore_mat3_scale(sign, moments.second);
+  second = spore_mat3_sub(second, spore_mat3_scale(volume, spore_mat3_outer(arm, arm)));
+  double trace = spore_mat3_trace(second);
+  body->mass = density * volume;
+  body->centre = spore_vec3_add(origin, arm);
+  body->inertia = spore_mat3_scale(density, spore_mat3_sub(spore_mat3_diagonal(trace, trace, trace), second));
+  double moment[3];
+  spore_mat3_eigen_symmetric(body->inertia, moment, &body->principal);
+  if (!(body->mass > 0) || !(moment[0] > 0) || !isfinite(moment[2]))
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("mass %g kg and smallest moment of inertia %g kg m^2 were found; both must be positive; "
+                             "check the mesh for parts that overlap or face inward"),
+                           body->mass, moment[0]);
+  for (int i = 0; i < 3; i++) body->inverse[i] = 1 / moment[i];
+  body->principal_quat = spore_quat_from_mat3(body->principal);
+  return true;
+}
+
+static void destroy(SporeModel *model) {
+  RigidBody *body = (RigidBody *)model;
+  spore_model_clear(&body->base);
+  spore_free(body);
+}
+
+static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
+  SporeMeshReport report;
+  if (!check_closed(geometry->surface, &report, error)) return NULL;
+  RigidBody *body = SPORE_NEW(RigidBody);
+  if (!body) {
+    spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a rigid body"));
+    return NULL;
+  }
+  if (!spore_model_init(&body->base, &spore_rigid_body, 7, 2, error) ||
+      !set_inertia(body, geometry->surface, fields, report.diagonal, error)) {
+    destroy(&body->base);
+    return NULL;
+  }
+  body->base.block_mass[0] = body->mass;
+  return &body->base;
+}
+
+static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  const RigidBody *body = (const RigidBody *)model;
+  SporeVec3 arm = spore_quat_rotate(pose.orientation, body->centre);
+  spore_vec3_store(q, spore_vec3_add(pose.position, arm));
+  spore_quat_store(q + 3, pose.orientation);
+  spore_vec3_store(v, spore_vec3_add(velocity, spore_vec3_cross(spin, arm)));
+  spore_vec3_store(v + 3, spin);
+}
+
+static SporeMat3 conjugate(SporeMat3 rotation, SporeMat3 a) {
+  return spore_mat3_multiply(spore_mat3_multiply(rotation, a), spore_mat3_transpose(rotation));
+}
+
+static void mass(const SporeModel *model, const double *q, double *blocks) {
+  const RigidBody *body = (const RigidBody *)model;
+  SporeMat3 linear = spore_mat3_diagonal(body->mass, body->mass, body->mass);
+  SporeMat3 angular = conjugate(spore_quat_to_mat3(spore_quat_load(q + 3)), body->inertia);
+  for (int i = 0; i < 3; i++) /* symmetric to the last bit */
+    for (int j = 0; j < i; j++) angular.m[3 * i + j] = angular.m[3 * j + i];
+  for (int k = 0; k < 9; k++) blocks[k] = linear.m[k], blocks[9 + k] = angular.m[k];
+}
+
+static void force(const SporeModel *model, const double *q, const double *v, double *f) {}
+static double potential(const SporeModel *model, const double *q) { return 0; }
+
+/* Free motion. In principal axes, with a = 1 / moment and body angular momentum p, the kinetic energy is
+ *   |p|^2 a1/2 + p0^2 (a0 - a1)/2 + p2^2 (a2 - a1)/2.
+ * The first term commutes with the others: it turns the body about the fixed world vector L by |L| a1 h. The other two
+ * turn it about its own axes 0 and 2; composed symmetrically they are a symplectic map that keeps |p| and L
+ * (Reich 1994; Touma and Wisdom 1994), exact for any body of revolution. Suzuki's composition (1990) makes it
+ * fourth order. */
+typedef struct FreeTop {
+  double p[3];           /* angular momentum along the principal axes */
+  SporeQuat orientation; /* of the principal axes */
+} FreeTop;
+
+/* The body turns by `angle` about its principal axis k: p turns the other way. */
+static void turn_about(FreeTop *top, int k, double angle) {
+  double c = cos(angle), s = sin(angle), *i = &top->p[(k + 1) % 3], *j = &top->p[(k + 2) % 3];
+  double pi = *i, pj = *j;
+  *i = c * pi + s * pj;
+  *j = c * pj - s * pi;
+  double half[3] = {0, 0, 0};
+  half[k] = sin(0.5 * angle);
+  SporeQuat turn = {cos(0.5 * angle), half[0], half[1], half[2]};
+  top->orientation = spore_quat_multiply(top->orientation, turn);
+}
+
+static void strang_step(FreeTop *top, const double inverse[3], double h) {
+  double a = inverse[0] - inverse[1], b = inverse[2] - inverse[1];
+  if (a == 0 && b == 0) return;
+  turn_about(top, 0, 0.5 * h * a * top->p[0]);
+  turn_about(top, 2, h * b * top->p[2]);
+  turn_about(top, 0, 0.5 * h * a * top->p[0]);
+}
+
+static void suzuki_step(FreeTop *top, const double inverse[3], double h) {
+  static const double outer = 0.41449077179437573714; /* 1 / (4 - 4^(1/3)) */
+  strang_step(top, inverse, outer * h);
+  strang_step(top, inverse, outer * h);
+  strang_step(top, inverse, (1 - 4 * outer) * h);
+  strang_step(top, inverse, outer * h);
+  strang_step(top, inverse, outer * h);
+}
+
+/* Substeps so that neither partial rotation passes 0.1 rad in one, by bounds that free motion keeps (the number must
+ * not change along it). Above the cap the motion stays stable and keeps its momentum, but loses phase. */
+static int substeps(const FreeTop *top, const double inverse[3], double h) {
+  double square = 0, energy2 = 0;
+  for (int i = 0; i < 3; i++) square += top->p[i] * top->p[i], energy2 += top->p[i] * top->p[i] * inverse[i];
+  double fast = fmin(sqrt(square), sqrt(energy2 / inverse[0])) * (inverse[0] - inverse[1]);
+  double slow = fmin(sqrt(square), sqrt(energy2 / inverse[2])) * (inverse[1] - inverse[2]);
+  if (fmin(fast, slow) * h < 1e-12) return 1; /* of revolution: one is exact */
+  double count = ceil(fmax(fast, slow) * h / 0.1);
+  return count < 1 ? 1 : count > 1000 ? 1000 : (int)count;
+}
+
+static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {
+  const RigidBody *body = (const RigidBody *)model;
+  SporeQuat orientation = spore_quat_load(q + 3), principal = body->principal_quat;
+  SporeMat3 rotation = spore_quat_to_mat3(orientation);
+  SporeVec3 spin = spore_mat3_apply(spore_mat3_transpose(rotation), spore_vec3_load(v + 3));
+  SporeVec3 momentum = spore_mat3_apply(body->inertia, spin);
+  SporeVec3 world_momentum = spore_mat3_apply(rotation, momentum);
+  FreeTop top = {.orientation = spore_quat_multiply(orientation, principal)};
+  spore_vec3_store(top.p, spore_mat3_apply(spore_mat3_transpose(body->principal), momentum));
+
+  int count = substeps(&top, body->inverse, fabs(h));
+  for (int i = 0; i < count; i++) suzuki_step(&top, body->inverse, h / count);
+  SporeQuat about_momentum = spore_quat_from_rotation_vector(spore_vec3_scale(body->inverse[1] * h, world_momentum));
+  SporeQuat axes = spore_quat_normalise(spore_quat_multiply(about_momentum, top.orientation));
+
+  /* Back from the world's angular momentum, which stays, and not from p, which has gathered rounding. */
+  SporeMat3 axes1 = spore_quat_to_mat3(axes);
+  SporeVec3 p1 = spore_mat3_apply(spore_mat3_transpose(axes1), world_momentum);
+  SporeVec3 spin1 = {p1.x * body->inverse[0], p1.y * body->inverse[1], p1.z * body->inverse[2]};
+  for (int i = 0; i < 3; i++) q1[i] = q[i] + h * v[i], v1[i] = v[i];
+  spore_quat_store(q1 + 3, spore_quat_normalise(spore_quat_multiply(axes, spore_quat_conjugate(principal))));
+  spore_vec3_store(v1 + 3, spore_mat3_apply(axes1, spin1));
+}
+
+static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  const RigidBody *body = (const RigidBody *)model;
+  double *shifted = SPORE_NEW_ARRAY(double, 3 * count);
+  if (!shifted) return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
+  for (size_t i = 0; i < count; i++)
+    spore_vec3_store(shifted + 3 * i, spore_vec3_sub(spore_vec3_load(points + 3 * i), body->centre));
+  bool good = spore_mapping_init_points(mapping, SPORE_MAPPING_RIGID, shifted, count, error);
+  spore_free(shifted);
+  return good;
+}
+
+const SporeModelType spore_rigid_body = {
+    .name = "rigid_body",
+    .label = N_("Rigid body"),
+    .doc =
+        N_("A solid that moves and turns without changing shape: instruments, bones, stones. Mass, centre and inertia "
+           "are those of the closed surface filled evenly. Free turning keeps angular momentum exactly and energy "
+           "without drift, also for very slender bodies."),
+    .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(RigidBodyFields)},
+    .geometry = SPORE_GEOMETRY_SOLID,
+    .create = create,
+    .destroy = destroy,
+    .place = place,
+    .mass = mass,
+    .force = force,
+    .potential = potential,
+    .map = map,
+    .drift = drift,
+};

@@ -1,0 +1,16 @@
+/* Points that follow the vertices of a surface. */
+#ifndef SPORE_MODELS_SURFACE_MAP_H
+#define SPORE_MODELS_SURFACE_MAP_H
+
+#include "core/mesh/mesh.h"
+#include "core/sim/mapping.h"
+
+/* A point on a vertex follows that vertex; points that are the vertices in their order make an identity mapping. A
+ * point on a triangle follows its corners by barycentric weights. A point off the surface follows the nearest triangle
+ * and one more vertex: the four make a tetrahedron that carries it affinely. That vertex is chosen so that the sum of
+ * the absolute weights is least, then by nearness. Where even the best sum passes 100 the surface is flat there and
+ * cannot carry the point: an offset up to 1e-6 of the surface's size is dropped, a greater one refused. */
+bool spore_surface_map(const SporeTriangleMesh *mesh, const double *points, size_t count, SporeMapping *mapping,
+                       SporeError *error);
+
+#endif
