@@ -1,0 +1,88 @@
+/* Commands from another thread: a ring with one writer and one reader. */
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+bool spore_world_post(SporeWorld *world, const SporeCommand *command) {
+  SporeCommands *commands = &world->commands;
+  size_t written = atomic_load_explicit(&commands->written, memory_order_relaxed);
+  size_t applied = atomic_load_explicit(&commands->applied, memory_order_acquire);
+  if (written - applied == SPORE_COMMAND_CAPACITY) return false;
+  commands->ring[written % SPORE_COMMAND_CAPACITY] = *command;
+  atomic_store_explicit(&commands->written, written + 1, memory_order_release);
+  return true;
+}
+
+static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
+  SporeError error = SPORE_ERROR_INIT;
+  const SporeModelType *type = body->model ? body->model->type : NULL;
+  if (!type || !type->retune) {
+    spore_world_report(world, _("%s: has no parameters that can change while it runs; restart to apply them"),
+                       body->name);
+    return;
+  }
+  if (!spore_parameters_check(&type->parameters, fields, &error) || !type->retune(body->model, fields, &error)) {
+    spore_world_report(world, "%s: %s", body->name, error.message);
+    return;
+  }
+  body->matrix_c = 0;
+  body->total_mass = spore_model_total_mass(body->model);
+  spore_body_update_mass(world, body);
+}
+
+static void set_contact(SporeWorld *world, SporeBody *body, const SporeContactFields *contact) {
+  SporeError error = SPORE_ERROR_INIT;
+  if (spore_parameters_check(&spore_contact_parameters, contact, &error)) body->contact = *contact;
+  else spore_world_report(world, "%s: %s", body->name, error.message);
+}
+
+static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
+  if (isfinite(gravity.x + gravity.y + gravity.z)) world->gravity = gravity;
+  else spore_world_report(world, _("gravity is not finite; expected a vector in m/s^2; kept as it was"));
+}
+
+static void thaw(SporeBody *body) {
+  body->frozen = false;
+  body->told = SPORE_TROUBLE_NONE;
+}
+
+static void apply(SporeWorld *world, const SporeCommand *command) {
+  if (command->kind == SPORE_COMMAND_GRAVITY) {
+    set_gravity(world, command->vector);
+    return;
+  }
+  if (command->body >= world->body_count) return;
+  SporeBody *body = &world->bodies[command->body];
+  switch (command->kind) {
+  case SPORE_COMMAND_PULL:
+    spore_world_pull(world, command);
+    break;
+  case SPORE_COMMAND_RELEASE:
+    spore_world_release(world, command->body);
+    break;
+  case SPORE_COMMAND_RETUNE:
+    retune(world, body, command->fields);
+    break;
+  case SPORE_COMMAND_CONTACT:
+    set_contact(world, body, &command->contact);
+    break;
+  case SPORE_COMMAND_THAW:
+    thaw(body);
+    break;
+  case SPORE_COMMAND_GRAVITY:
+    break;
+  }
+}
+
+void spore_world_apply_commands(SporeWorld *world) {
+  SporeCommands *commands = &world->commands;
+  size_t applied = atomic_load_explicit(&commands->applied, memory_order_relaxed);
+  size_t written = atomic_load_explicit(&commands->written, memory_order_acquire);
+  for (; applied != written; applied++) {
+    SporeCommand *command = &commands->ring[applied % SPORE_COMMAND_CAPACITY];
+    apply(world, command);
+    spore_free(command->fields);
+    command->fields = NULL;
+    atomic_store_explicit(&commands->applied, applied + 1, memory_order_release);
+  }
+}

@@ -1,0 +1,218 @@
+/* From a description to a world: everything is sized and checked here, so that a step need not. */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+static bool no_memory(SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+}
+
+static bool finite3(SporeVec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
+
+static bool finite_all(const double *values, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (!isfinite(values[i])) return false;
+  return true;
+}
+
+static bool fail(SporeError *error, const char *body, const char *text) {
+  char place[200];
+  snprintf(place, sizeof place, "bodies/%s", body);
+  return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", text);
+}
+
+static bool check_body(const SporeBodyDescription *body, SporeError *error) {
+  const char *name = body->name ? body->name : "";
+  if (!*name) return fail(error, name, _("a body has no name; expected one that is unique; give it a name"));
+  if ((body->role == SPORE_PASSIVE) != (body->model != NULL))
+    return fail(error, name, _("a passive body needs a mechanical model, and no other may have one; change the role"));
+  const SporeQuat o = body->pose.orientation;
+  if (!finite3(body->pose.position) || !finite3(body->velocity) || !finite3(body->spin) ||
+      !isfinite(o.w + o.x + o.y + o.z))
+    return fail(error, name, _("pose or velocity is not finite; expected numbers; correct the body's pose"));
+  if (body->model && body->model->q_count > 6 * body->model->block_count)
+    return fail(error, name, _("the model has more than 6 configuration values a block; this is a fault of the model"));
+  SporeError reason = SPORE_ERROR_INIT;
+  if (!spore_parameters_check(&spore_contact_parameters, &body->contact, &reason))
+    return fail(error, name, reason.message);
+  return true;
+}
+
+static bool check_description(const SporeWorldDescription *description, SporeError *error) {
+  if (!spore_parameters_check(&spore_solver_parameters, &description->solver, error)) {
+    spore_error_at(error, "solver");
+    return false;
+  }
+  if (!finite3(description->gravity))
+    return spore_error_set(error, SPORE_ERROR_INPUT, "environment",
+                           _("gravity is not finite; expected a vector in m/s^2; correct it"));
+  for (size_t i = 0; i < description->body_count; i++)
+    if (!check_body(&description->bodies[i], error)) return false;
+  return true;
+}
+
+static char *copy_text(const char *text) {
+  char *copy = SPORE_NEW_ARRAY(char, strlen(text) + 1);
+  return copy ? strcpy(copy, text) : NULL;
+}
+
+/* Offsets and names; the models are borrowed until the world stands. */
+static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
+  body->role = from->role;
+  body->model = from->model;
+  body->total_mass = from->model ? spore_model_total_mass(from->model) : 0;
+  body->contact = from->contact;
+  body->rest_pose = (SporePose){from->pose.position, spore_quat_normalise(from->pose.orientation)};
+  body->integrator =
+      from->integrator == SPORE_INTEGRATOR_DEFAULT ? (SporeIntegratorKind)world->solver.integrator : from->integrator;
+  body->q_offset = world->q_count;
+  body->v_offset = world->v_count;
+  body->q_count = from->model ? from->model->q_count : SPORE_POSE_Q;
+  body->block_count = from->model ? from->model->block_count : SPORE_POSE_BLOCKS;
+  world->q_count += body->q_count;
+  world->v_count += 3 * body->block_count;
+  body->name = copy_text(from->name);
+  return body->name || no_memory(error);
+}
+
+static bool make_matrix(SporeBody *body, SporeError *error) {
+  if (!body->model || !body->model->type->jacobian) return true;
+  SporeBlockPattern pattern;
+  spore_block_pattern_init(&pattern, body->block_count);
+  bool made = (!body->model->type->pattern || body->model->type->pattern(body->model, &pattern)) &&
+              spore_block_matrix_create(&body->matrix, &pattern);
+  spore_block_pattern_clear(&pattern);
+  return made || no_memory(error);
+}
+
+static void place_body(SporeWorld *world, const SporeBody *body, const SporeBodyDescription *from) {
+  double *q = world->rest_q + body->q_offset, *v = world->rest_v + body->v_offset;
+  if (body->model) {
+    body->model->type->place(body->model, body->rest_pose, from->velocity, from->spin, q, v);
+    return;
+  }
+  spore_vec3_store(q, body->rest_pose.position);
+  spore_quat_store(q + 3, body->rest_pose.orientation);
+}
+
+bool spore_world_compile_bodies(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  if (!check_description(description, error)) return false;
+  size_t n = world->body_count = description->body_count;
+  world->bodies = SPORE_NEW_ARRAY(SporeBody, n);
+  world->world_sites = SPORE_NEW_ARRAY(SporeSite, n);
+  if (!world->bodies || !world->world_sites) return no_memory(error);
+  for (size_t i = 0; i < n; i++) {
+    if (!lay_out_body(world, &world->bodies[i], &description->bodies[i], error)) return false;
+    world->world_sites[i] = (SporeSite){world->bodies[i].q_offset, world->bodies[i].v_offset};
+  }
+  world->rest_q = SPORE_NEW_ARRAY(double, world->q_count);
+  world->rest_v = SPORE_NEW_ARRAY(double, world->v_count);
+  if (!world->rest_q || !world->rest_v) return no_memory(error);
+  for (size_t i = 0; i < n; i++) {
+    SporeBody *body = &world->bodies[i];
+    if (!make_matrix(body, error)) return false;
+    place_body(world, body, &description->bodies[i]);
+    if (!finite_all(world->rest_q + body->q_offset, body->q_count) ||
+        !finite_all(world->rest_v + body->v_offset, 3 * body->block_count))
+      return fail(error, body->name, _("the body cannot be placed: its state is not finite; check its mesh and pose"));
+  }
+  return true;
+}
+
+/* Spheres of the bodies with this role, behind those that are there. */
+static bool add_spheres(SporeWorld *world, const SporeWorldDescription *description, bool unmovable,
+                        SporeError *error) {
+  SporeSpheres *all = &world->spheres;
+  for (size_t i = 0; i < world->body_count; i++) {
+    SporeBody *body = &world->bodies[i];
+    const SporeSphereSet *set = description->bodies[i].spheres;
+    if ((body->role == SPORE_UNMOVABLE) != unmovable) continue;
+    body->sphere_start = all->count;
+    size_t count = set ? set->count : 0;
+    double *points = SPORE_NEW_ARRAY(double, 3 * count);
+    if (!points) return no_memory(error);
+    for (size_t s = 0; s < count; s++) {
+      memcpy(points + 3 * s, set->spheres + 4 * s, 3 * sizeof *points);
+      all->radius[all->count + s] = set->spheres[4 * s + 3];
+      all->body[all->count + s] = (uint32_t)i;
+    }
+    bool mapped = spore_world_map(world, (uint32_t)i, points, count, &body->spheres, error);
+    spore_free(points);
+    if (!mapped) {
+      char place[200];
+      snprintf(place, sizeof place, "bodies/%s", body->name);
+      spore_error_at(error, place);
+      return false;
+    }
+    spore_mapping_positions(&body->spheres, world->rest_q + body->q_offset, all->centre + 3 * all->count);
+    all->count += count;
+  }
+  return true;
+}
+
+static bool make_grid(SporeWorld *world, SporeError *error) {
+  SporeGridBody *bodies = SPORE_NEW_ARRAY(SporeGridBody, world->body_count);
+  if (!bodies) return no_memory(error);
+  for (size_t i = 0; i < world->body_count; i++)
+    bodies[i] = (SporeGridBody){world->bodies[i].role == SPORE_PASSIVE, world->bodies[i].contact.self};
+  /* Bodies without spheres are no reason for a grid. */
+  size_t with = 0, movers = 0, selves = 0;
+  for (size_t i = 0; i < world->body_count; i++) {
+    if (world->bodies[i].spheres.point_count == 0) continue;
+    with++;
+    movers += bodies[i].passive;
+    selves += bodies[i].passive && bodies[i].self;
+  }
+  bool needed = movers > 0 && (with > 1 || selves > 0);
+  if (needed) world->grid = spore_grid_create(&world->spheres, bodies, world->body_count, 0, error);
+  spore_free(bodies);
+  if (!needed) return true;
+  if (world->grid) return spore_world_reserve_contacts(world) || no_memory(error);
+  return false;
+}
+
+bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  size_t count = 0;
+  for (size_t i = 0; i < description->body_count; i++)
+    count += description->bodies[i].spheres ? description->bodies[i].spheres->count : 0;
+  SporeSpheres *all = &world->spheres;
+  all->centre = SPORE_NEW_ARRAY(double, 3 * count);
+  all->velocity = SPORE_NEW_ARRAY(double, 3 * count);
+  all->radius = SPORE_NEW_ARRAY(double, count);
+  all->body = SPORE_NEW_ARRAY(uint32_t, count);
+  if (!all->centre || !all->velocity || !all->radius || !all->body) return no_memory(error);
+  if (!add_spheres(world, description, true, error)) return false;
+  all->static_count = all->count;
+  return add_spheres(world, description, false, error) && make_grid(world, error);
+}
+
+bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
+  size_t n = world->body_count, q = world->q_count, v = world->v_count;
+  world->scratch_per_block = spore_integrator_scratch();
+  world->q = SPORE_NEW_ARRAY(double, q);
+  world->v = SPORE_NEW_ARRAY(double, v);
+  world->target_q = SPORE_NEW_ARRAY(double, q);
+  world->mass = SPORE_NEW_ARRAY(double, 3 * v);
+  world->mass_inverse = SPORE_NEW_ARRAY(double, 3 * v);
+  world->precondition = SPORE_NEW_ARRAY(double, 3 * v);
+  world->local_q0 = SPORE_NEW_ARRAY(double, q);
+  world->local_q1 = SPORE_NEW_ARRAY(double, q);
+  world->local_v0 = SPORE_NEW_ARRAY(double, v);
+  world->local_v1 = SPORE_NEW_ARRAY(double, v);
+  world->scratch = spore_allocate(v / 3, world->scratch_per_block * sizeof(double));
+  world->reaction = SPORE_NEW_ARRAY(double, 6 * n);
+  world->parent = SPORE_NEW_ARRAY(uint32_t, n);
+  world->island_of = SPORE_NEW_ARRAY(uint32_t, n);
+  world->island_bodies = SPORE_NEW_ARRAY(uint32_t, n);
+  world->islands = SPORE_NEW_ARRAY(SporeIsland, n);
+  world->local_sites = SPORE_NEW_ARRAY(SporeSite, n);
+  world->commands.ring = SPORE_NEW_ARRAY(SporeCommand, SPORE_COMMAND_CAPACITY);
+  bool made = world->q && world->v && world->target_q && world->mass && world->mass_inverse && world->precondition &&
+              world->local_q0 && world->local_q1 && world->local_v0 && world->local_v1 && world->scratch &&
+              world->reaction && world->parent && world->island_of && world->island_bodies && world->islands &&
+              world->local_sites && world->commands.ring;
+  return made || no_memory(error);
+}

@@ -1,0 +1,44 @@
+#include <math.h>
+
+#include "core/base/text.h"
+#include "core/sim/world.h"
+
+static const SporeParameter parameters[] = {
+    {.name = "stiffness",
+     .type = SPORE_REAL,
+     .unit = "N/m",
+     .minimum = 0,
+     .maximum = 1e9,
+     .initial = {1000},
+     .offset = offsetof(SporeContactFields, stiffness),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Force with which each sphere resists being entered, per depth.")},
+    {.name = "damping",
+     .type = SPORE_REAL,
+     .unit = "N s/m",
+     .minimum = 0,
+     .maximum = 1e6,
+     .initial = {1},
+     .offset = offsetof(SporeContactFields, damping),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Force against the speed at which spheres enter each other: takes the bounce away.")},
+    {.name = "friction",
+     .type = SPORE_REAL,
+     .unit = "",
+     .minimum = 0,
+     .maximum = 10,
+     .initial = {0.3},
+     .offset = offsetof(SporeContactFields, friction),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Coulomb coefficient; of two bodies in contact the smaller one counts.")},
+    {.name = "self",
+     .type = SPORE_BOOLEAN,
+     .unit = "",
+     .maximum = 1,
+     .offset = offsetof(SporeContactFields, self),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("The body's own spheres collide with each other, those that touch at rest excepted.")},
+};
+
+const SporeParameterTable spore_contact_parameters = {parameters, sizeof parameters / sizeof *parameters,
+                                                      sizeof(SporeContactFields)};

@@ -1,0 +1,104 @@
+/* Spheres from the state, contacts from the spheres, terms from the contacts. */
+#include "core/base/memory.h"
+#include "core/sim/world_private.h"
+
+/* An active body's spheres have the velocity that takes them to its target in one step. */
+static void map_active(SporeWorld *world, const SporeBody *body, double *centre, double *velocity) {
+  spore_mapping_positions(&body->spheres, world->target_q + body->q_offset, velocity);
+  double rate = 1 / world->solver.time_step;
+  for (size_t k = 0; k < 3 * body->spheres.point_count; k++) velocity[k] = (velocity[k] - centre[k]) * rate;
+}
+
+void spore_world_map_spheres(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->role == SPORE_UNMOVABLE || body->spheres.point_count == 0) continue;
+    const double *q = world->q + body->q_offset, *v = world->v + body->v_offset;
+    double *centre = world->spheres.centre + 3 * body->sphere_start;
+    double *velocity = world->spheres.velocity + 3 * body->sphere_start;
+    spore_mapping_positions(&body->spheres, q, centre);
+    if (body->role == SPORE_ACTIVE) map_active(world, body, centre, velocity);
+    else spore_mapping_velocities(&body->spheres, q, v, velocity);
+  }
+}
+
+void spore_world_detect(SporeWorld *world) {
+  world->contact_count = spore_grid_detect(world->grid, &world->spheres, world->solver.time_step, &world->missed);
+}
+
+bool spore_world_reserve_contacts(SporeWorld *world) {
+  size_t old = world->contact_capacity, wanted = spore_grid_capacity(world->grid) + world->missed;
+  if (world->missed) wanted += wanted / 2;
+  if (world->missed && !spore_grid_reserve(world->grid, wanted)) return false;
+  wanted = spore_grid_capacity(world->grid);
+  SporeContactTerm *terms = spore_reallocate(world->contacts, old, wanted, sizeof *terms);
+  if (terms) world->contacts = terms;
+  SporeMat3 *jacobians = spore_reallocate(world->contact_jacobians, old, wanted, sizeof *jacobians);
+  if (jacobians) world->contact_jacobians = jacobians;
+  uint32_t *order = spore_reallocate(world->contact_order, old, wanted, sizeof *order);
+  if (order) world->contact_order = order;
+  if (!terms || !jacobians || !order) return false;
+  world->contact_capacity = wanted;
+  world->missed = 0;
+  return true;
+}
+
+void spore_world_fill_end(const SporeWorld *world, SporeEnd *end) {
+  const SporeVec3 none = {0, 0, 0};
+  end->velocity = end->offset = none;
+  end->prescribed = end->body == SPORE_NO_BODY || !spore_body_moves(&world->bodies[end->body]);
+  if (end->body == SPORE_NO_BODY) {
+    end->position = spore_mapping_position(end->mapping, end->point, NULL);
+    return;
+  }
+  const SporeBody *body = &world->bodies[end->body];
+  end->position = spore_mapping_position(end->mapping, end->point, world->q + body->q_offset);
+  if (body->role != SPORE_ACTIVE) return;
+  SporeVec3 target = spore_mapping_position(end->mapping, end->point, world->target_q + body->q_offset);
+  end->offset = spore_vec3_sub(target, end->position);
+  end->velocity = spore_vec3_scale(1 / world->solver.time_step, end->offset);
+}
+
+static void fill_sphere_end(const SporeWorld *world, uint32_t sphere, SporeEnd *end) {
+  const SporeVec3 none = {0, 0, 0};
+  uint32_t index = world->spheres.body[sphere];
+  const SporeBody *body = &world->bodies[index];
+  *end = (SporeEnd){.mapping = &body->spheres,
+                    .body = index,
+                    .point = sphere - (uint32_t)body->sphere_start,
+                    .prescribed = !spore_body_moves(body),
+                    .position = spore_vec3_load(world->spheres.centre + 3 * (size_t)sphere)};
+  if (!end->prescribed) return;
+  bool driven = body->role == SPORE_ACTIVE;
+  end->velocity = driven ? spore_vec3_load(world->spheres.velocity + 3 * (size_t)sphere) : none;
+  end->offset = spore_vec3_scale(world->solver.time_step, end->velocity);
+}
+
+static SporeContactMaterial material(const SporeBody *body) {
+  return (SporeContactMaterial){body->contact.stiffness, body->contact.damping, body->contact.friction};
+}
+
+static void fill_term(const SporeWorld *world, const SporeContact *contact, SporeContactTerm *term) {
+  fill_sphere_end(world, contact->a, &term->a);
+  fill_sphere_end(world, contact->b, &term->b);
+  double radius_a = world->spheres.radius[contact->a], radius_b = world->spheres.radius[contact->b];
+  SporeContactMaterial a = material(&world->bodies[term->a.body]), b = material(&world->bodies[term->b.body]);
+  term->sphere_a = contact->a;
+  term->sphere_b = contact->b;
+  term->normal = contact->normal;
+  term->depth = contact->depth;
+  term->arm_a = radius_a - 0.5 * contact->depth;
+  term->arm_b = radius_b - 0.5 * contact->depth;
+  term->law = spore_contact_law(&a, &b, radius_a, radius_b);
+  term->force = (SporeVec3){0, 0, 0};
+}
+
+void spore_world_respond(SporeWorld *world) {
+  const SporeContact *found = spore_grid_contacts(world->grid);
+  for (size_t i = 0; i < world->contact_count; i++) {
+    SporeContactTerm *term = &world->contacts[i];
+    fill_term(world, &found[i], term);
+    /* Two bodies that physics does not move (one is frozen) still press on each other: a tool is to feel it. */
+    if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, NULL);
+  }
+}

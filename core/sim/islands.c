@@ -1,0 +1,139 @@
+/* Islands: bodies that terms tie together this step. What physics does not move ties nothing: it takes part in the
+ * terms of every island it touches. */
+#include <string.h>
+
+#include "core/sim/world_private.h"
+
+static uint32_t find_root(uint32_t *parent, uint32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/* The lower index becomes the root, so that islands come in the order of their first bodies. */
+static void tie(uint32_t *parent, const SporeEnd *a, const SporeEnd *b) {
+  if (a->prescribed || b->prescribed || a->body == b->body) return;
+  uint32_t i = find_root(parent, a->body), j = find_root(parent, b->body);
+  if (i < j) parent[j] = i;
+  else parent[i] = j;
+}
+
+static void tie_bodies(SporeWorld *world) {
+  for (uint32_t b = 0; b < world->body_count; b++) world->parent[b] = b;
+  for (size_t i = 0; i < world->contact_count; i++) tie(world->parent, &world->contacts[i].a, &world->contacts[i].b);
+  size_t springs = spore_world_spring_count(world);
+  for (size_t i = 0; i < springs; i++)
+    if (world->spring_active[i]) tie(world->parent, &world->springs[i].a, &world->springs[i].b);
+}
+
+/* Numbers the islands and counts their bodies. */
+static void number_islands(SporeWorld *world) {
+  world->island_count = 0;
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    world->island_of[b] = SPORE_NO_BODY;
+    if (!spore_body_moves(body)) continue;
+    uint32_t root = find_root(world->parent, b);
+    if (root == b) {
+      world->islands[world->island_count] = (SporeIsland){.integrator = body->integrator};
+      world->island_of[b] = (uint32_t)world->island_count++;
+    } else {
+      world->island_of[b] = world->island_of[root];
+    }
+    SporeIsland *island = &world->islands[world->island_of[b]];
+    island->body_count++;
+    island->q_count += body->q_count;
+    island->v_count += 3 * body->block_count;
+    if (body->integrator > island->integrator) island->integrator = body->integrator;
+  }
+}
+
+static uint32_t island_of_term(const SporeWorld *world, const SporeEnd *a, const SporeEnd *b) {
+  if (!a->prescribed) return world->island_of[a->body];
+  return b->prescribed ? SPORE_NO_BODY : world->island_of[b->body];
+}
+
+static uint32_t island_of_contact(const SporeWorld *world, size_t i) {
+  return island_of_term(world, &world->contacts[i].a, &world->contacts[i].b);
+}
+
+static uint32_t island_of_spring(const SporeWorld *world, size_t i) {
+  if (!world->spring_active[i]) return SPORE_NO_BODY;
+  return island_of_term(world, &world->springs[i].a, &world->springs[i].b);
+}
+
+static void count_terms(SporeWorld *world, size_t springs) {
+  for (size_t i = 0; i < world->contact_count; i++) {
+    uint32_t island = island_of_contact(world, i);
+    if (island != SPORE_NO_BODY) world->islands[island].contact_count++;
+  }
+  for (size_t i = 0; i < springs; i++) {
+    uint32_t island = island_of_spring(world, i);
+    if (island != SPORE_NO_BODY) world->islands[island].spring_count++;
+  }
+}
+
+static void set_starts(SporeWorld *world) {
+  SporeIsland end = {0};
+  for (size_t i = 0; i < world->island_count; i++) {
+    SporeIsland *island = &world->islands[i];
+    island->body_start = end.body_start;
+    island->contact_start = end.contact_start;
+    island->spring_start = end.spring_start;
+    island->q_start = end.q_start;
+    island->v_start = end.v_start;
+    end.body_start += island->body_count;
+    end.contact_start += island->contact_count;
+    end.spring_start += island->spring_count;
+    end.q_start += island->q_count;
+    end.v_start += island->v_count;
+    island->kept_count = island->body_count;
+    island->body_count = island->contact_count = island->spring_count = 0;
+  }
+}
+
+static void fill_islands(SporeWorld *world, size_t springs) {
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    if (world->island_of[b] == SPORE_NO_BODY) continue;
+    SporeIsland *island = &world->islands[world->island_of[b]];
+    world->island_bodies[island->body_start + island->body_count++] = b;
+  }
+  for (size_t i = 0; i < world->contact_count; i++) {
+    uint32_t index = island_of_contact(world, i);
+    if (index == SPORE_NO_BODY) continue;
+    SporeIsland *island = &world->islands[index];
+    world->contact_order[island->contact_start + island->contact_count++] = (uint32_t)i;
+  }
+  for (size_t i = 0; i < springs; i++) {
+    uint32_t index = island_of_spring(world, i);
+    if (index == SPORE_NO_BODY) continue;
+    SporeIsland *island = &world->islands[index];
+    world->spring_order[island->spring_start + island->spring_count++] = (uint32_t)i;
+  }
+}
+
+void spore_world_group(SporeWorld *world) {
+  size_t springs = spore_world_spring_count(world);
+  tie_bodies(world);
+  number_islands(world);
+  count_terms(world, springs);
+  set_starts(world);
+  fill_islands(world, springs);
+}
+
+void spore_island_gather(SporeWorld *world, SporeIsland *island) {
+  double mass = 0;
+  island->q_count = island->v_count = 0;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    uint32_t b = world->island_bodies[island->body_start + i];
+    const SporeBody *body = &world->bodies[b];
+    world->local_sites[b] = (SporeSite){island->q_count, island->v_count};
+    memcpy(world->local_q0 + island->q_start + island->q_count, world->q + body->q_offset,
+           body->q_count * sizeof(double));
+    memcpy(world->local_v0 + island->v_start + island->v_count, world->v + body->v_offset,
+           3 * body->block_count * sizeof(double));
+    island->q_count += body->q_count;
+    island->v_count += 3 * body->block_count;
+    mass += body->total_mass;
+  }
+  island->gravity_momentum = sqrt(mass) * spore_vec3_length(world->gravity);
+}

@@ -1,0 +1,214 @@
+/* What to do when a step goes wrong. The last good state is still in the world's q and v: it is stepped again in
+ * smaller steps and implicitly; a body that cannot be helped is held where it was good, and the others go on. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+#define SUBSTEPS_MAXIMUM 8
+
+static bool finite_all(const double *values, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (!isfinite(values[i])) return false;
+  return true;
+}
+
+/* Fastest block of a body that has weight, m/s. */
+static double top_speed(const SporeBody *body, const double *v) {
+  double top = 0;
+  for (size_t i = 0; i < body->block_count; i++)
+    if (body->model->block_mass[i] > 0) top = fmax(top, spore_vec3_length(spore_vec3_load(v + 3 * i)));
+  return top;
+}
+
+SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *island, uint32_t *offender) {
+  double top = world->solver.maximum_speed;
+  SporeTrouble trouble = island->result.converged ? SPORE_TROUBLE_NONE : SPORE_TROUBLE_NOT_CONVERGED;
+  *offender = world->island_bodies[island->body_start];
+  for (size_t i = 0; i < island->kept_count; i++) {
+    uint32_t b = world->island_bodies[island->body_start + i];
+    const SporeBody *body = &world->bodies[b];
+    const SporeSite *site = &world->local_sites[b];
+    const double *q = world->local_q1 + island->q_start + site->q, *v = world->local_v1 + island->v_start + site->v;
+    if (!finite_all(q, body->q_count) || !finite_all(v, 3 * body->block_count)) {
+      *offender = b;
+      return SPORE_TROUBLE_NOT_FINITE;
+    }
+    double speed = top_speed(body, v);
+    if (speed <= top) continue;
+    top = speed;
+    *offender = b;
+    trouble = SPORE_TROUBLE_SPEED;
+  }
+  return trouble;
+}
+
+/* Where prescribed ends of the island's terms are after this part of the step. */
+static void move_prescribed(SporeWorld *world, const SporeIsland *island, double elapsed_s) {
+  for (size_t i = 0; i < island->contact_count; i++) {
+    SporeContactTerm *term = &world->contacts[world->contact_order[island->contact_start + i]];
+    if (term->a.prescribed) term->a.offset = spore_vec3_scale(elapsed_s, term->a.velocity);
+    if (term->b.prescribed) term->b.offset = spore_vec3_scale(elapsed_s, term->b.velocity);
+  }
+  for (size_t i = 0; i < island->spring_count; i++) {
+    SporeSpringTerm *term = &world->springs[world->spring_order[island->spring_start + i]];
+    if (term->a.prescribed) term->a.offset = spore_vec3_scale(elapsed_s, term->a.velocity);
+    if (term->b.prescribed) term->b.offset = spore_vec3_scale(elapsed_s, term->b.velocity);
+  }
+}
+
+SporeStepResult spore_island_advance(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind,
+                                     size_t substeps) {
+  SporeGroup group = {world, island};
+  SporeDynamics dynamics = spore_group_dynamics(&group);
+  const SporeIntegrator *integrator = spore_integrator(kind);
+  double *q0 = world->local_q0 + island->q_start, *v0 = world->local_v0 + island->v_start;
+  double *q1 = world->local_q1 + island->q_start, *v1 = world->local_v1 + island->v_start;
+  double *scratch = world->scratch + world->scratch_per_block * (island->v_start / 3);
+  double h = world->solver.time_step / (double)substeps;
+  SporeStepResult total = {.converged = true};
+  for (size_t s = 0; s < substeps; s++) {
+    if (s > 0) {
+      memcpy(q0, q1, island->q_count * sizeof *q0);
+      memcpy(v0, v1, island->v_count * sizeof *v0);
+    }
+    if (substeps > 1) move_prescribed(world, island, (double)(s + 1) * h);
+    SporeStepResult result = integrator->step(&dynamics, &world->solver, h, q0, v0, q1, v1, scratch);
+    total.converged &= result.converged;
+    total.newton_iterations += result.newton_iterations;
+    total.linear_iterations += result.linear_iterations;
+    total.force_evaluations += result.force_evaluations;
+    total.residual = fmax(total.residual, result.residual);
+  }
+  return total;
+}
+
+/* A body whose own forces are not finite at the last good state, or SPORE_NO_BODY. Leaves local_v1 undefined. */
+static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++) {
+    uint32_t b = world->island_bodies[island->body_start + i];
+    const SporeBody *body = &world->bodies[b];
+    double *f = world->local_v1 + island->v_start;
+    memset(f, 0, 3 * body->block_count * sizeof *f);
+    body->model->type->force(body->model, world->q + body->q_offset, world->v + body->v_offset, f);
+    if (!finite_all(f, 3 * body->block_count)) return b;
+  }
+  return SPORE_NO_BODY;
+}
+
+static void prescribe(SporeWorld *world, SporeEnd *end, uint32_t body) {
+  if (end->body != body) return;
+  const SporeVec3 none = {0, 0, 0};
+  end->prescribed = true;
+  end->velocity = end->offset = none;
+  end->position = spore_mapping_position(end->mapping, end->point, world->q + world->bodies[body].q_offset);
+}
+
+/* Takes the body out of the island for good; its terms see it standing still. */
+static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
+  uint32_t *bodies = world->island_bodies + island->body_start;
+  world->bodies[index].frozen = true;
+  size_t at = 0;
+  while (bodies[at] != index) at++;
+  memmove(bodies + at, bodies + at + 1, (island->kept_count - at - 1) * sizeof *bodies);
+  bodies[--island->kept_count] = index;
+  for (size_t i = 0; i < island->contact_count; i++) {
+    SporeContactTerm *term = &world->contacts[world->contact_order[island->contact_start + i]];
+    prescribe(world, &term->a, index);
+    prescribe(world, &term->b, index);
+  }
+  for (size_t i = 0; i < island->spring_count; i++) {
+    SporeSpringTerm *term = &world->springs[world->spring_order[island->spring_start + i]];
+    prescribe(world, &term->a, index);
+    prescribe(world, &term->b, index);
+  }
+}
+
+static SporeTrouble try_again(SporeWorld *world, SporeIsland *island, size_t substeps, uint32_t *offender) {
+  spore_island_gather(world, island);
+  island->result = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, substeps);
+  island->substeps += substeps;
+  return spore_island_examine(world, island, offender);
+}
+
+/* Smaller and smaller steps. An answer that is sound but not solved to tolerance is better than a frozen body. */
+static SporeTrouble try_substeps(SporeWorld *world, SporeIsland *island, uint32_t *offender) {
+  SporeTrouble trouble = SPORE_TROUBLE_NOT_FINITE;
+  for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM; substeps *= 2) {
+    trouble = try_again(world, island, substeps, offender);
+    if (trouble == SPORE_TROUBLE_NONE) break;
+  }
+  return trouble;
+}
+
+void spore_island_recover(SporeWorld *world, SporeIsland *island) {
+  uint32_t offender = broken_model(world, island);
+  while (island->kept_count > 0) {
+    SporeTrouble trouble = SPORE_TROUBLE_NOT_FINITE;
+    if (offender == SPORE_NO_BODY) trouble = try_substeps(world, island, &offender);
+    if (trouble <= SPORE_TROUBLE_NOT_CONVERGED) return;
+    if (trouble > island->trouble) island->trouble = trouble;
+    freeze(world, island, offender);
+    offender = broken_model(world, island);
+  }
+  island->result = (SporeStepResult){.converged = true};
+}
+
+void spore_world_report(SporeWorld *world, const char *format, ...) {
+  SporeMonitor *monitor = &world->monitor;
+  SporeMonitorMessage *message = &monitor->messages[monitor->message_count % SPORE_MONITOR_MESSAGES];
+  message->serial = monitor->message_count++;
+  message->step = world->step;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(message->text, sizeof message->text, format, arguments);
+  va_end(arguments);
+}
+
+static const char *cause(SporeTrouble trouble) {
+  switch (trouble) {
+  case SPORE_TROUBLE_NOT_FINITE:
+    return _("its forces or motion are not finite");
+  case SPORE_TROUBLE_SPEED:
+    return _("it moves faster than the maximum speed");
+  case SPORE_TROUBLE_NOT_CONVERGED:
+    return _("its equations are not solved to tolerance");
+  case SPORE_TROUBLE_NONE:
+    break;
+  }
+  return "";
+}
+
+static void report_island(SporeWorld *world, const SporeIsland *island) {
+  const uint32_t *bodies = world->island_bodies + island->body_start;
+  for (size_t i = island->kept_count; i < island->body_count; i++) {
+    SporeBody *body = &world->bodies[bodies[i]];
+    body->told = SPORE_TROUBLE_NOT_FINITE;
+    spore_world_report(world, _("%s: frozen, because %s, in smaller steps too; reset, or change its parameters"),
+                       body->name, cause(island->trouble));
+  }
+  if (island->kept_count == 0) return;
+  SporeBody *first = &world->bodies[bodies[0]];
+  if (island->kept_count < island->body_count || first->told >= island->trouble) return;
+  first->told = island->trouble;
+  if (island->result.converged)
+    spore_world_report(world, _("%s: a step was taken again in %llu smaller ones, because %s"), first->name,
+                       (unsigned long long)island->substeps, cause(island->trouble));
+  else
+    spore_world_report(world, _("%s: %s (residual %.1e); take a smaller time step or more iterations"), first->name,
+                       cause(SPORE_TROUBLE_NOT_CONVERGED), island->result.residual);
+}
+
+void spore_world_report_islands(SporeWorld *world) {
+  SporeMonitor *monitor = &world->monitor;
+  for (size_t i = 0; i < world->island_count; i++) {
+    const SporeIsland *island = &world->islands[i];
+    if (island->trouble == SPORE_TROUBLE_NONE) continue;
+    monitor->recoveries++;
+    monitor->substeps += island->substeps;
+    monitor->not_converged += !island->result.converged;
+    report_island(world, island);
+  }
+}

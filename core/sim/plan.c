@@ -1,0 +1,115 @@
+/* The plan: which stages a world needs, and why. A stage that is left out costs nothing at all. */
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+typedef struct Census {
+  size_t passive, active, spheres_moving, spheres_bodies, self_bodies;
+  bool implicit_needed;
+} Census;
+
+static Census count_bodies(const SporeWorld *world) {
+  Census census = {0};
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    census.passive += body->role == SPORE_PASSIVE;
+    census.active += body->role == SPORE_ACTIVE;
+    census.spheres_bodies += body->spheres.point_count > 0;
+    census.implicit_needed |= body->role == SPORE_PASSIVE && spore_integrator(body->integrator)->implicit;
+  }
+  census.spheres_moving = world->spheres.count - world->spheres.static_count;
+  return census;
+}
+
+static size_t no_items(const SporeWorld *world) { return 0; }
+static size_t active_bodies(const SporeWorld *world) { return count_bodies(world).active; }
+static size_t moving_spheres(const SporeWorld *world) { return world->spheres.count - world->spheres.static_count; }
+static size_t all_spheres(const SporeWorld *world) { return world->spheres.count; }
+static size_t contacts(const SporeWorld *world) { return world->contact_count; }
+static size_t links(const SporeWorld *world) { return world->link_count; }
+static size_t islands(const SporeWorld *world) { return world->island_count; }
+static size_t degrees_of_freedom(const SporeWorld *world) { return world->dof; }
+static size_t bodies(const SporeWorld *world) { return world->body_count; }
+
+static void add(SporeWorld *world, const char *name, bool included, const char *reason, void (*run)(SporeWorld *),
+                size_t (*items)(const SporeWorld *)) {
+  size_t index = world->plan.stage_count++;
+  world->plan_stages[index] = (SporePlanStage){.name = name, .included = included, .reason = reason};
+  if (!included) return;
+  SporeStage *stage = &world->stages[world->stage_count++];
+  stage->run = run;
+  stage->items = items;
+  stage->plan_index = index;
+  stage->profile.name = name;
+  world->plan_stages[index].profile = &stage->profile;
+}
+
+static void leave_out(SporeWorld *world, const char *what, const char *reason) {
+  world->left_out[world->plan.left_out_count++] = (SporePlanLeftOut){what, reason};
+}
+
+static void plan_collision(SporeWorld *world, const Census *census) {
+  bool collide = world->grid != NULL;
+  const char *why = collide ? _("bodies that move have spheres to touch") : _("no two bodies can touch");
+  if (census->spheres_bodies == 0) why = _("no body has spheres");
+  add(world, "map", collide, why, spore_world_map_spheres, moving_spheres);
+  add(world, "detect", collide, why, spore_world_detect, all_spheres);
+  add(world, "respond", collide, why, spore_world_respond, contacts);
+  if (!collide) leave_out(world, _("collision"), why);
+  else if (world->spheres.static_count)
+    leave_out(world, _("mapping of unmovable spheres"), _("they lie in the grid from the start"));
+}
+
+static void plan_numerics(SporeWorld *world, const Census *census) {
+  bool moves = census->passive > 0;
+  const char *why = moves ? _("passive bodies move by physics") : _("no body moves by physics");
+  add(world, "group", moves, moves ? _("bodies that touch are solved together") : why, spore_world_group, islands);
+  add(world, "integrate", moves, why, spore_world_integrate, degrees_of_freedom);
+  if (!moves) leave_out(world, _("integration"), why);
+  else if (!census->implicit_needed)
+    leave_out(world, _("the nonlinear solver"), _("every body is integrated explicitly; it is kept for recovery only"));
+}
+
+void spore_world_make_plan(SporeWorld *world) {
+  Census census = count_bodies(world);
+  bool active = census.active > 0, linked = world->link_count > 0, moves = census.passive > 0;
+  bool coupled = moves && (linked || world->grid);
+  const char *no_active = _("no body is driven by a device or a track");
+  add(world, "command", true, _("parameters and pulls may change while it runs"), spore_world_apply_commands, no_items);
+  add(world, "sense", active, active ? _("active bodies follow their devices") : no_active, spore_world_sense,
+      active_bodies);
+  plan_collision(world, &census);
+  add(world, "link", moves, linked ? _("springs tie bodies together") : _("a viewer may pull at a body"),
+      spore_world_link, links);
+  plan_numerics(world, &census);
+  add(world, "react", coupled, coupled ? _("contacts and links push back") : _("nothing touches and nothing is tied"),
+      spore_world_react, bodies);
+  add(world, "feedback", active, active ? _("devices feel what active bodies touch") : no_active, spore_world_feed_back,
+      active_bodies);
+  add(world, "commit", true, _("checks, accepts and publishes the new state"), spore_world_commit, bodies);
+  if (!active) leave_out(world, _("devices and feedback"), no_active);
+  if (!linked) leave_out(world, _("links"), _("the scene has none"));
+  world->plan.stages = world->plan_stages;
+  world->plan.left_out = world->left_out;
+}
+
+/* One step: each stage of the plan in its order, timed. */
+void spore_world_run_plan(SporeWorld *world) {
+  uint64_t start = spore_clock_ns(), before = start;
+  for (size_t i = 0; i < world->stage_count; i++) {
+    SporeStage *stage = &world->stages[i];
+    stage->run(world);
+    uint64_t after = spore_clock_ns();
+    spore_profile_add(&stage->profile, after - before);
+    before = after;
+  }
+  spore_profile_add(&world->profile, before - start);
+  world->step_us = (double)(before - start) * 1e-3;
+}
+
+const SporePlan *spore_world_plan(const SporeWorld *world) {
+  /* What a stage works on changes from step to step; the plan is brought up to date when somebody looks. */
+  SporeWorld *plan_owner = (SporeWorld *)(uintptr_t)world;
+  for (size_t i = 0; i < world->stage_count; i++)
+    plan_owner->plan_stages[world->stages[i].plan_index].items = world->stages[i].items(world);
+  return &world->plan;
+}

@@ -1,0 +1,56 @@
+/* Active bodies: poses from devices, forces back to them. */
+#include <string.h>
+
+#include "core/sim/world_private.h"
+
+/* Velocity that takes the body from where it is to its target in one step. It is made from the poses, not from what
+ * the device says, so that a recorded track gives the same motion again. */
+static void set_velocity(SporeWorld *world, const SporeBody *body) {
+  const double *from = world->q + body->q_offset, *to = world->target_q + body->q_offset;
+  double rate = 1 / world->solver.time_step, *v = world->v + body->v_offset;
+  SporeVec3 moved = spore_vec3_sub(spore_vec3_load(to), spore_vec3_load(from));
+  SporeQuat turn = spore_quat_multiply(spore_quat_load(to + 3), spore_quat_conjugate(spore_quat_load(from + 3)));
+  spore_vec3_store(v, spore_vec3_scale(rate, moved));
+  spore_vec3_store(v + 3, spore_vec3_scale(rate, spore_quat_to_rotation_vector(turn)));
+}
+
+static bool spore_device_state_is_good(const SporeDeviceState *state) {
+  double sum = 0;
+  for (int k = 0; k < 3; k++) sum += state->position[k];
+  for (int k = 0; k < 4; k++) sum += state->orientation[k];
+  return isfinite(sum);
+}
+
+static void sense(SporeWorld *world, SporeBody *body) {
+  double time_s = (double)(world->step + 1) * world->solver.time_step;
+  SporeDeviceState state = body->input;
+  if (!body->device->type->exchange(body->device, time_s, &body->command, &state)) return;
+  if (!spore_device_state_is_good(&state)) {
+    world->monitor.held_inputs++;
+    return;
+  }
+  body->input = state;
+  body->input_time_s = time_s;
+  body->has_input = true;
+  double *target = world->target_q + body->q_offset;
+  memcpy(target, state.position, sizeof state.position);
+  spore_quat_store(target + 3, spore_quat_normalise(spore_quat_load(state.orientation)));
+}
+
+void spore_world_sense(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_ACTIVE) continue;
+    if (body->device) sense(world, body);
+    set_velocity(world, body);
+  }
+}
+
+void spore_world_feed_back(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_ACTIVE) continue;
+    memcpy(body->command.force, world->reaction + 6 * b, sizeof body->command.force);
+    memcpy(body->command.torque, world->reaction + 6 * b + 3, sizeof body->command.torque);
+  }
+}

@@ -1,0 +1,149 @@
+#include "core/sim/step_limit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/constraint/pin.h"
+#include "core/sim/world_private.h"
+
+#define ITERATIONS 500
+
+typedef struct Power {
+  SporeBlockMatrix matrix;
+  double *inverse; /* M^-1, 9 a block */
+  double *x, *y, *z;
+  const uint32_t *held;
+  size_t held_count;
+} Power;
+
+static bool invert_mass(const SporeModel *model, const double *q, double *blocks) {
+  model->type->mass(model, q, blocks);
+  for (size_t i = 0; i < model->block_count; i++) {
+    SporeMat3 block, inverse;
+    memcpy(block.m, blocks + 9 * i, sizeof block.m);
+    if (!spore_mat3_invert(block, &inverse)) return false;
+    memcpy(blocks + 9 * i, inverse.m, sizeof inverse.m);
+  }
+  return true;
+}
+
+/* A start that is no eigenvector of anything symmetric, and the same on every machine. */
+static void fill_start(double *x, size_t count) {
+  uint32_t state = 12345;
+  for (size_t i = 0; i < count; i++) {
+    state = state * 1664525u + 1013904223u;
+    x[i] = (double)(state >> 8) / (1 << 24) - 0.5;
+  }
+}
+
+static double dot(const double *a, const double *b, size_t count) {
+  double sum = 0;
+  for (size_t i = 0; i < count; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* y = M^-1 x, block by block */
+static void solve_mass(const Power *power, const double *x, double *y) {
+  for (size_t i = 0; i < power->matrix.block_count; i++) {
+    SporeMat3 block;
+    memcpy(block.m, power->inverse + 9 * i, sizeof block.m);
+    spore_vec3_store(y + 3 * i, spore_mat3_apply(block, spore_vec3_load(x + 3 * i)));
+  }
+}
+
+/* Largest eigenvalue of M^-1 K, as the Rayleigh quotient x.K x / x.M x. Iterates r = M x, so that M itself is not
+ * needed: x = M^-1 r, r <- K x. */
+static double largest_eigenvalue(const Power *power) {
+  size_t n = 3 * power->matrix.block_count;
+  double *r = power->z, *x = power->x, *k = power->y, value = 0;
+  fill_start(r, n);
+  spore_pin_filter(power->held, power->held_count, r);
+  for (int i = 0; i < ITERATIONS; i++) {
+    solve_mass(power, r, x);
+    double square = dot(r, x, n); /* x.M x */
+    if (!(square > 0)) return 0;
+    memset(k, 0, n * sizeof *k);
+    spore_block_matrix_multiply_add(&power->matrix, x, k);
+    spore_pin_filter(power->held, power->held_count, k);
+    double next = dot(x, k, n) / square;
+    bool settled = fabs(next - value) <= 1e-4 * next;
+    value = next;
+    if (!(value > 0) || (settled && i > 20)) break;
+    double scale = 1 / (sqrt(square) * value);
+    for (size_t e = 0; e < n; e++) r[e] = scale * k[e];
+  }
+  return fmax(value, 0);
+}
+
+static bool allocate(Power *power, const SporeModel *model) {
+  size_t n = 3 * model->block_count;
+  SporeBlockPattern pattern;
+  spore_block_pattern_init(&pattern, model->block_count);
+  bool made = (!model->type->pattern || model->type->pattern(model, &pattern)) &&
+              spore_block_matrix_create(&power->matrix, &pattern);
+  spore_block_pattern_clear(&pattern);
+  power->inverse = SPORE_NEW_ARRAY(double, 3 * n);
+  power->x = SPORE_NEW_ARRAY(double, n);
+  power->y = SPORE_NEW_ARRAY(double, n);
+  power->z = SPORE_NEW_ARRAY(double, n);
+  return made && power->inverse && power->x && power->y && power->z;
+}
+
+static void clear(Power *power) {
+  spore_block_matrix_clear(&power->matrix);
+  spore_free(power->inverse);
+  spore_free(power->x);
+  spore_free(power->y);
+  spore_free(power->z);
+}
+
+/* Root of w^2 h^2 + 2 d h = 4. */
+static double stable_step(double square, double damping) {
+  if (square <= 0) return damping > 0 ? 2 / damping : HUGE_VAL;
+  return (sqrt(damping * damping + 4 * square) - damping) / square;
+}
+
+bool spore_step_limit(const SporeModel *model, const double *q, const double *v, const uint32_t *held,
+                      size_t held_count, SporeStepLimit *limit, SporeError *error) {
+  *limit = (SporeStepLimit){0, 0, HUGE_VAL};
+  if (!model->type->jacobian) return true;
+  Power power = {.held = held, .held_count = held_count};
+  if (!allocate(&power, model)) {
+    clear(&power);
+    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory to find the largest step"));
+  }
+  if (invert_mass(model, q, power.inverse)) {
+    model->type->jacobian(model, q, v, 1, 0, &power.matrix);
+    double square = largest_eigenvalue(&power);
+    spore_block_matrix_zero(&power.matrix);
+    model->type->jacobian(model, q, v, 0, 1, &power.matrix);
+    limit->damping = largest_eigenvalue(&power);
+    limit->frequency = sqrt(square);
+    limit->dt_s = 0.98 * stable_step(square, limit->damping);
+  }
+  clear(&power);
+  return true;
+}
+
+bool spore_world_check_step(SporeWorld *world, SporeError *error) {
+  double h = world->solver.time_step;
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_PASSIVE || spore_integrator(body->integrator)->implicit) continue;
+    SporeStepLimit limit;
+    if (!spore_step_limit(body->model, world->rest_q + body->q_offset, world->rest_v + body->v_offset, body->held,
+                          body->held_count, &limit, error))
+      return false;
+    if (h <= limit.dt_s) continue;
+    char place[200];
+    snprintf(place, sizeof place, "bodies/%s", body->name);
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; "
+                             "take a smaller time_step or integrator implicit_euler"),
+                           h, spore_integrator_names[body->integrator], limit.dt_s);
+  }
+  return true;
+}

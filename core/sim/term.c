@@ -1,0 +1,145 @@
+#include "core/sim/term.h"
+
+SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q) {
+  if (end->prescribed) return spore_vec3_add(end->position, end->offset);
+  return spore_mapping_position(end->mapping, end->point, q + sites[end->body].q);
+}
+
+/* Position of the end; keeps the lever of a force that acts `arm` away from it. */
+static SporeVec3 locate(SporeEnd *end, SporeVec3 arm, const SporeSite *sites, const double *q) {
+  SporeVec3 position = spore_end_position(end, sites, q);
+  if (!end->prescribed && end->mapping->kind == SPORE_MAPPING_RIGID)
+    end->offset = spore_vec3_add(spore_vec3_sub(position, spore_vec3_load(q + sites[end->body].q)), arm);
+  return position;
+}
+
+/* What the velocity-like vector x gives the point where the force acts; nothing to a prescribed end. */
+static SporeVec3 gather(const SporeEnd *end, const SporeSite *sites, const double *x) {
+  if (end->prescribed) return (SporeVec3){0, 0, 0};
+  const double *local = x + sites[end->body].v;
+  switch (end->mapping->kind) {
+  case SPORE_MAPPING_IDENTITY:
+    return spore_vec3_load(local + 3 * (size_t)end->point);
+  case SPORE_MAPPING_RIGID:
+    return spore_vec3_add(spore_vec3_load(local), spore_vec3_cross(spore_vec3_load(local + 3), end->offset));
+  case SPORE_MAPPING_LINEAR:
+  case SPORE_MAPPING_FIXED:
+    break;
+  }
+  return spore_mapping_velocity(end->mapping, end->point, NULL, local);
+}
+
+/* The transpose of gather. */
+static void scatter(const SporeEnd *end, const SporeSite *sites, SporeVec3 force, double *f) {
+  if (end->prescribed) return;
+  double *local = f + sites[end->body].v;
+  switch (end->mapping->kind) {
+  case SPORE_MAPPING_IDENTITY:
+    spore_vec3_accumulate(local + 3 * (size_t)end->point, force);
+    return;
+  case SPORE_MAPPING_RIGID:
+    spore_vec3_accumulate(local, force);
+    spore_vec3_accumulate(local + 3, spore_vec3_cross(end->offset, force));
+    return;
+  case SPORE_MAPPING_LINEAR:
+  case SPORE_MAPPING_FIXED:
+    break;
+  }
+  spore_mapping_add_force(end->mapping, end->point, NULL, force, local);
+}
+
+static SporeVec3 velocity(const SporeEnd *end, const SporeSite *sites, const double *v) {
+  return end->prescribed ? end->velocity : gather(end, sites, v);
+}
+
+static void scatter_pair(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, SporeVec3 force, double *f) {
+  scatter(a, sites, force, f);
+  scatter(b, sites, spore_vec3_scale(-1, force), f);
+}
+
+/* depth = depth when the step began + n.(motion of b - motion of a) */
+static double depth_at(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b) {
+  SporeVec3 moved = spore_vec3_sub(spore_vec3_sub(b, term->b.position), spore_vec3_sub(a, term->a.position));
+  return term->depth + spore_vec3_dot(term->normal, moved);
+}
+
+/* Depth, and velocity of a relative to b at the contact point. */
+static double contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                            SporeVec3 *relative) {
+  SporeVec3 a = locate(&term->a, spore_vec3_scale(-term->arm_a, term->normal), sites, q);
+  SporeVec3 b = locate(&term->b, spore_vec3_scale(term->arm_b, term->normal), sites, q);
+  *relative = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
+  return depth_at(term, a, b);
+}
+
+void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                              double *f) {
+  SporeVec3 relative;
+  double depth = contact_state(term, sites, q, v, &relative);
+  term->force = spore_contact_force(&term->law, term->normal, depth, relative);
+  scatter_pair(&term->a, &term->b, sites, term->force, f);
+}
+
+SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                                      double c, double c2) {
+  SporeVec3 relative;
+  SporeMat3 stiffness, damping;
+  double depth = contact_state(term, sites, q, v, &relative);
+  spore_contact_jacobian(&term->law, term->normal, depth, relative, &stiffness, &damping);
+  return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
+}
+
+void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
+                             double *f) {
+  const SporeVec3 none = {0, 0, 0};
+  SporeVec3 a = locate(&term->a, none, sites, q), b = locate(&term->b, none, sites, q);
+  term->force = spore_spring_force(&term->law, a, b, velocity(&term->a, sites, v), velocity(&term->b, sites, v));
+  scatter_pair(&term->a, &term->b, sites, term->force, f);
+}
+
+SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, double c,
+                                     double c2) {
+  const SporeVec3 none = {0, 0, 0};
+  SporeMat3 stiffness, damping;
+  SporeVec3 a = locate(&term->a, none, sites, q), b = locate(&term->b, none, sites, q);
+  spore_spring_jacobian(&term->law, a, b, &stiffness, &damping);
+  return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
+}
+
+void spore_term_multiply(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
+                         const double *x, double *y) {
+  SporeVec3 relative = spore_vec3_sub(gather(a, sites, x), gather(b, sites, x));
+  scatter_pair(a, b, sites, spore_mat3_apply(*k, relative), y);
+}
+
+static void end_diagonal(const SporeEnd *end, const SporeMat3 *k, const SporeSite *sites, double *blocks) {
+  if (end->prescribed) return;
+  double *local = blocks + 3 * sites[end->body].v;
+  if (end->mapping->kind != SPORE_MAPPING_RIGID) {
+    spore_mapping_add_diagonal(end->mapping, end->point, NULL, k, local);
+    return;
+  }
+  SporeMat3 r = spore_mat3_skew(end->offset);
+  SporeMat3 turned = spore_mat3_multiply(spore_mat3_transpose(r), spore_mat3_multiply(*k, r));
+  for (int e = 0; e < 9; e++) local[e] += k->m[e], local[9 + e] += turned.m[e];
+}
+
+void spore_term_diagonal(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
+                         double *blocks) {
+  end_diagonal(a, k, sites, blocks);
+  end_diagonal(b, k, sites, blocks);
+}
+
+double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
+  double depth = depth_at(term, spore_end_position(&term->a, sites, q), spore_end_position(&term->b, sites, q));
+  return spore_contact_potential(&term->law, depth);
+}
+
+double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q) {
+  return spore_spring_energy(&term->law, spore_end_position(&term->a, sites, q),
+                             spore_end_position(&term->b, sites, q));
+}
+
+SporeVec3 spore_contact_term_point(const SporeContactTerm *term) {
+  return spore_vec3_add_scaled(term->a.position, -term->arm_a, term->normal);
+}

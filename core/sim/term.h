@@ -1,0 +1,70 @@
+/* Terms: what couples two material points for the length of a step, contacts and springs. Their points, normals and
+ * laws are frozen when the step begins, so that the forces are a pure function of q and v. Private to the room. */
+#ifndef SPORE_SIM_TERM_H
+#define SPORE_SIM_TERM_H
+
+#include "core/collide/response.h"
+#include "core/constraint/spring.h"
+#include "core/sim/mapping.h"
+
+/* Where the state of a body begins in a pair of vectors q and v, in doubles. */
+typedef struct SporeSite {
+  size_t q, v;
+} SporeSite;
+
+/* One end of a term. A moving end follows its body's state by the mapping; a prescribed one (unmovable, active and
+ * frozen bodies, the world) is at position + offset and has `velocity`. */
+typedef struct SporeEnd {
+  const SporeMapping *mapping;
+  uint32_t body, point; /* body: index, or SPORE_NO_BODY for the world */
+  bool prescribed;
+  SporeVec3 position; /* when the step began */
+  SporeVec3 velocity; /* of a prescribed end */
+  SporeVec3 offset;   /* prescribed: motion since the step began; moving and rigid: lever from the body's origin to
+                         where the force acts, at the last evaluation */
+} SporeEnd;
+
+typedef struct SporeContactTerm {
+  SporeEnd a, b; /* sphere centres */
+  uint32_t sphere_a, sphere_b;
+  SporeVec3 normal;    /* from b to a */
+  double depth;        /* m, when the step began */
+  double arm_a, arm_b; /* from the centres to the contact point, m */
+  SporeContactLaw law;
+  SporeVec3 force; /* on a, at the last evaluation, N */
+} SporeContactTerm;
+
+typedef struct SporeSpringTerm {
+  SporeEnd a, b;
+  SporeSpring law;
+  SporeVec3 force; /* on a, at the last evaluation, N */
+} SporeSpringTerm;
+
+/* Below, q and v are the vectors that `sites` (by body) belongs to. */
+
+/* Evaluates the term's force and adds it to f. */
+void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                              double *f);
+void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
+                             double *f);
+/* c (-df/dv) + c2 (-df/dx) for the motion of end a relative to end b. */
+SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                                      double c, double c2);
+SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, double c,
+                                     double c2);
+/* y += J^T k J x with J the relative motion of the ends, at the last evaluation. */
+void spore_term_multiply(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
+                         const double *x, double *y);
+/* Adds the diagonal blocks of J^T k J: 9 doubles a block, so 3 for each double of v. */
+void spore_term_diagonal(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
+                         double *blocks);
+/* Potential energy, J. */
+double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q);
+double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q);
+
+/* Where an end is, m. */
+SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q);
+/* Contact point when the step began, m. */
+SporeVec3 spore_contact_term_point(const SporeContactTerm *term);
+
+#endif

@@ -1,0 +1,211 @@
+#include "core/sim/world.h"
+
+#include <string.h>
+
+#include "core/base/hash.h"
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/constraint/pin.h"
+#include "core/sim/world_private.h"
+
+static void clear_body(SporeBody *body) {
+  spore_free(body->name);
+  spore_mapping_clear(&body->spheres);
+  spore_free(body->held);
+  spore_block_matrix_clear(&body->matrix);
+  if (body->model) body->model->type->destroy(body->model);
+}
+
+static void clear_commands(SporeCommands *commands) {
+  size_t written = atomic_load(&commands->written);
+  for (size_t i = atomic_load(&commands->applied); i != written; i++)
+    spore_free(commands->ring[i % SPORE_COMMAND_CAPACITY].fields);
+  spore_free(commands->ring);
+}
+
+static void free_arrays(SporeWorld *world) {
+  void *arrays[] = {world->rest_q,
+                    world->rest_v,
+                    world->world_sites,
+                    world->q,
+                    world->v,
+                    world->target_q,
+                    world->mass,
+                    world->mass_inverse,
+                    world->spheres.centre,
+                    world->spheres.velocity,
+                    world->spheres.radius,
+                    world->spheres.body,
+                    world->reaction,
+                    world->contacts,
+                    world->springs,
+                    world->spring_active,
+                    world->contact_jacobians,
+                    world->spring_jacobians,
+                    world->parent,
+                    world->island_of,
+                    world->island_bodies,
+                    world->islands,
+                    world->contact_order,
+                    world->spring_order,
+                    world->local_sites,
+                    world->local_q0,
+                    world->local_v0,
+                    world->local_q1,
+                    world->local_v1,
+                    world->scratch,
+                    world->precondition};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
+}
+
+void spore_world_free(SporeWorld *world) {
+  if (!world) return;
+  for (size_t i = 0; world->spring_mappings && i < 2 * spore_world_spring_count(world); i++)
+    spore_mapping_clear(&world->spring_mappings[i]);
+  spore_free(world->spring_mappings);
+  for (size_t i = 0; world->bodies && i < world->body_count; i++) clear_body(&world->bodies[i]);
+  spore_free(world->bodies);
+  spore_grid_free(world->grid);
+  spore_snapshots_clear(&world->snapshots);
+  clear_commands(&world->commands);
+  free_arrays(world);
+  spore_free(world);
+}
+
+/* The models go back to the caller. */
+static SporeWorld *give_up(SporeWorld *world) {
+  for (size_t i = 0; world->bodies && i < world->body_count; i++) world->bodies[i].model = NULL;
+  spore_world_free(world);
+  return NULL;
+}
+
+SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error) {
+  SporeWorld *world = SPORE_NEW(SporeWorld);
+  if (!world) {
+    spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+    return NULL;
+  }
+  world->pool = pool;
+  world->solver = description->solver;
+  world->gravity = description->gravity;
+  world->profile.name = "step";
+  bool made = spore_world_compile_bodies(world, description, error) &&
+              spore_world_compile_spheres(world, description, error) &&
+              spore_world_compile_links(world, description, error) && spore_world_allocate_vectors(world, error) &&
+              spore_world_check_step(world, error);
+  if (!made) return give_up(world);
+  if (!spore_snapshots_init(world)) {
+    spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));
+    return give_up(world);
+  }
+  spore_world_make_plan(world);
+  spore_world_reset(world);
+  return world;
+}
+
+void spore_world_step(SporeWorld *world) {
+  spore_world_run_plan(world);
+  /* Contacts that found no room are rare, and cost this step nothing: room is made before the next one. */
+  if (world->missed) spore_world_reserve_contacts(world);
+}
+
+static void reset_body(SporeWorld *world, SporeBody *body) {
+  body->frozen = false;
+  body->told = SPORE_TROUBLE_NONE;
+  body->matrix_c = 0;
+  body->has_input = false;
+  body->command = (SporeDeviceCommand){0};
+  if (body->model) spore_body_update_mass(world, body);
+}
+
+void spore_world_reset(SporeWorld *world) {
+  memcpy(world->q, world->rest_q, world->q_count * sizeof *world->q);
+  memcpy(world->v, world->rest_v, world->v_count * sizeof *world->v);
+  memcpy(world->target_q, world->rest_q, world->q_count * sizeof *world->q);
+  memset(world->reaction, 0, 6 * world->body_count * sizeof *world->reaction);
+  memset(world->spring_active + world->link_count, 0, world->body_count * sizeof *world->spring_active);
+  world->step = 0;
+  world->contact_count = 0;
+  world->counts = (SporeStepCounts){0};
+  world->step_us = 0;
+  for (size_t b = 0; b < world->body_count; b++) reset_body(world, &world->bodies[b]);
+  world->monitor.recoveries = world->monitor.substeps = 0;
+  world->monitor.not_converged = world->monitor.held_inputs = 0;
+  spore_world_map_spheres(world);
+  spore_world_link(world);
+  spore_snapshot_publish(world);
+}
+
+void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, const double *v) {
+  SporeBody *body = &world->bodies[index];
+  memcpy(world->q + body->q_offset, q, body->q_count * sizeof *q);
+  memcpy(world->target_q + body->q_offset, q, body->q_count * sizeof *q);
+  memcpy(world->v + body->v_offset, v, 3 * body->block_count * sizeof *v);
+  spore_pin_filter(body->held, body->held_count, world->v + body->v_offset);
+  body->matrix_c = 0;
+  world->contact_count = 0; /* they belong to the state before */
+  if (body->model) spore_body_update_mass(world, body);
+  spore_world_map_spheres(world);
+  spore_world_link(world);
+  spore_snapshot_publish(world);
+}
+
+void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *device) {
+  if (body < world->body_count) world->bodies[body].device = device;
+}
+
+const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t index, double *time_s) {
+  const SporeBody *body = &world->bodies[index];
+  if (!body->has_input) return NULL;
+  *time_s = body->input_time_s;
+  return &body->input;
+}
+
+size_t spore_world_body_count(const SporeWorld *world) { return world->body_count; }
+
+uint32_t spore_world_find_body(const SporeWorld *world, const char *name) {
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (!strcmp(world->bodies[b].name, name)) return b;
+  return SPORE_NO_BODY;
+}
+
+const char *spore_world_body_name(const SporeWorld *world, uint32_t body) { return world->bodies[body].name; }
+SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body) { return world->bodies[body].role; }
+const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body) { return world->bodies[body].model; }
+bool spore_world_body_frozen(const SporeWorld *world, uint32_t body) { return world->bodies[body].frozen; }
+uint64_t spore_world_step_count(const SporeWorld *world) { return world->step; }
+double spore_world_time_s(const SporeWorld *world) { return (double)world->step * world->solver.time_step; }
+const SporeSpheres *spore_world_spheres(const SporeWorld *world) { return &world->spheres; }
+size_t spore_world_dof(const SporeWorld *world) { return world->dof; }
+size_t spore_world_q_offset(const SporeWorld *world, uint32_t body) { return world->bodies[body].q_offset; }
+size_t spore_world_v_offset(const SporeWorld *world, uint32_t body) { return world->bodies[body].v_offset; }
+const double *spore_world_q(const SporeWorld *world, uint32_t body) { return world->q + world->bodies[body].q_offset; }
+const double *spore_world_v(const SporeWorld *world, uint32_t body) { return world->v + world->bodies[body].v_offset; }
+const SporeProfilePhase *spore_world_profile(const SporeWorld *world) { return &world->profile; }
+const SporeMonitor *spore_world_monitor(const SporeWorld *world) { return &world->monitor; }
+SporeStepCounts spore_world_counts(const SporeWorld *world) { return world->counts; }
+
+uint64_t spore_world_hash(const SporeWorld *world) {
+  double time_s = spore_world_time_s(world);
+  uint64_t hash = spore_hash(SPORE_HASH_INIT, world->q, world->q_count * sizeof *world->q);
+  hash = spore_hash(hash, world->v, world->v_count * sizeof *world->v);
+  hash = spore_hash(hash, &world->step, sizeof world->step);
+  return spore_hash(hash, &time_s, sizeof time_s);
+}
+
+/* Points of an unmovable body stand where its pose puts them. */
+static bool map_fixed(const SporeBody *body, const double *points, size_t count, SporeMapping *mapping,
+                      SporeError *error) {
+  if (!spore_mapping_init_points(mapping, SPORE_MAPPING_FIXED, points, count, error)) return false;
+  for (size_t i = 0; i < count; i++)
+    spore_vec3_store(mapping->points + 3 * i, spore_pose_apply(body->rest_pose, spore_vec3_load(points + 3 * i)));
+  return true;
+}
+
+bool spore_world_map(const SporeWorld *world, uint32_t index, const double *points, size_t count, SporeMapping *mapping,
+                     SporeError *error) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->role == SPORE_UNMOVABLE) return map_fixed(body, points, count, mapping, error);
+  if (body->role == SPORE_ACTIVE) return spore_mapping_init_points(mapping, SPORE_MAPPING_RIGID, points, count, error);
+  return body->model->type->map(body->model, points, count, mapping, error);
+}

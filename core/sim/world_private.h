@@ -1,0 +1,207 @@
+/* Inside of a world, for the files of core/sim.
+ *
+ * The last good state lies in `q` and `v`, body by body. A step sorts the bodies that move into islands, copies each
+ * island's state next to each other into the local vectors, integrates there, and copies back what is good. */
+#ifndef SPORE_SIM_WORLD_PRIVATE_H
+#define SPORE_SIM_WORLD_PRIVATE_H
+
+#include <stdatomic.h>
+
+#include "core/collide/grid.h"
+#include "core/integrate/integrator.h"
+#include "core/sim/term.h"
+#include "core/sim/world.h"
+
+#define SPORE_MATRIX_STEPS 20 /* a linearisation is kept for so many steps at most */
+#define SPORE_COMMAND_CAPACITY 1024
+#define SPORE_POSE_Q 7 /* a body without a model: position, orientation; velocity, spin */
+#define SPORE_POSE_BLOCKS 2
+#define SPORE_STAGE_MAXIMUM 12
+#define SPORE_LEFT_OUT_MAXIMUM 16
+
+typedef enum SporeTrouble { /* worst last */
+                            SPORE_TROUBLE_NONE,
+                            SPORE_TROUBLE_NOT_CONVERGED,
+                            SPORE_TROUBLE_SPEED,
+                            SPORE_TROUBLE_NOT_FINITE
+} SporeTrouble;
+
+typedef struct SporeBody {
+  char *name;
+  SporeRole role;
+  SporeModel *model;
+  SporeIntegratorKind integrator;
+  SporeContactFields contact;
+  SporePose rest_pose;                             /* at time 0 */
+  size_t q_offset, q_count, v_offset, block_count; /* v_offset in doubles */
+  SporeMapping spheres;
+  size_t sphere_start;
+  double total_mass; /* kg, of a model */
+  uint32_t *held;    /* blocks that pins hold still */
+  size_t held_count;
+
+  bool frozen;
+  SporeTrouble told; /* the worst that the monitor has said of it */
+
+  SporeBlockMatrix matrix;    /* M + c D + c2 K of the model alone; empty where that is M */
+  double matrix_c, matrix_c2; /* as assembled; 0: not */
+  uint64_t matrix_step;
+
+  SporeDevice *device;
+  SporeDeviceState input;
+  SporeDeviceCommand command;
+  double input_time_s;
+  bool has_input;
+} SporeBody;
+
+typedef struct SporeIsland {
+  size_t body_start, body_count;             /* in island_bodies */
+  size_t contact_start, contact_count;       /* in contact_order */
+  size_t spring_start, spring_count;         /* in spring_order */
+  size_t q_start, q_count, v_start, v_count; /* in the local vectors */
+  SporeIntegratorKind integrator;
+  double gravity_momentum; /* (M g . g)^1/2 */
+  /* What came of it. */
+  SporeStepResult result;
+  SporeTrouble trouble; /* that was met, mended or not */
+  uint64_t substeps;    /* that the mending cost; 0: none needed */
+  size_t kept_count;    /* bodies behind these were frozen by this step */
+} SporeIsland;
+
+typedef struct SporeStage {
+  void (*run)(SporeWorld *world);
+  size_t (*items)(const SporeWorld *world);
+  size_t plan_index;
+  SporeProfilePhase profile;
+} SporeStage;
+
+typedef struct SporeSnapshots {
+  SporeSnapshot buffers[3];
+  unsigned writing, reading; /* buffer of each side; the third is in `middle` */
+  _Atomic unsigned middle;   /* its index, and SPORE_SNAPSHOT_FRESH when the reader has not seen it */
+} SporeSnapshots;
+
+typedef struct SporeCommands {
+  SporeCommand *ring;              /* SPORE_COMMAND_CAPACITY */
+  _Atomic size_t written, applied; /* ever */
+} SporeCommands;
+
+struct SporeWorld {
+  /* What a step does not change. */
+  size_t body_count;
+  SporeBody *bodies;
+  SporeSolverFields solver;
+  SporePool *pool;
+  size_t q_count, v_count, dof; /* doubles */
+  double *rest_q, *rest_v;      /* at time 0 */
+  SporeSite *world_sites;       /* of the bodies in q and v */
+
+  /* State. */
+  uint64_t step;
+  SporeVec3 gravity;
+  double *q, *v;               /* the last good state */
+  double *target_q;            /* where active bodies are to be at the end of the step */
+  double *mass, *mass_inverse; /* 9 a block, at 3 x the block's place in v */
+  SporeSpheres spheres;
+  double *reaction; /* body_count x 6 */
+  SporeStepCounts counts;
+
+  /* Terms. */
+  SporeGrid *grid; /* NULL where nothing can touch */
+  size_t missed;   /* contacts without room in the last step */
+  size_t contact_count, contact_capacity;
+  SporeContactTerm *contacts;
+  size_t link_count; /* springs that the scene has; behind them one pull a body */
+  SporeSpringTerm *springs;
+  bool *spring_active;
+  SporeMapping *spring_mappings; /* two a spring: end a, end b */
+  SporeMat3 *contact_jacobians, *spring_jacobians;
+
+  /* Islands. */
+  uint32_t *parent;        /* union-find over bodies */
+  uint32_t *island_of;     /* by body; SPORE_NO_BODY: it does not move */
+  uint32_t *island_bodies; /* bodies that move, island by island */
+  size_t island_count;
+  SporeIsland *islands; /* body_count */
+  uint32_t *contact_order, *spring_order;
+  SporeSite *local_sites; /* of the bodies in their island's part of the local vectors */
+  double *local_q0, *local_v0, *local_q1, *local_v1;
+  double *scratch; /* of the integrators, scratch_per_block doubles a block */
+  size_t scratch_per_block;
+  double *precondition; /* 9 a block, as local_v0 */
+
+  SporeCommands commands;
+  SporeSnapshots snapshots;
+  SporeMonitor monitor;
+
+  SporeStage stages[SPORE_STAGE_MAXIMUM];
+  size_t stage_count;
+  SporePlan plan;
+  SporePlanStage plan_stages[SPORE_STAGE_MAXIMUM];
+  SporePlanLeftOut left_out[SPORE_LEFT_OUT_MAXIMUM];
+  SporeProfilePhase profile;
+  double step_us; /* of the step before */
+};
+
+static inline bool spore_body_moves(const SporeBody *body) { return body->role == SPORE_PASSIVE && !body->frozen; }
+static inline size_t spore_world_spring_count(const SporeWorld *world) { return world->link_count + world->body_count; }
+
+/* compile.c: parts of spore_world_create. */
+bool spore_world_compile_bodies(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
+bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
+bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error);
+
+/* links.c */
+bool spore_world_compile_links(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
+void spore_world_pull(SporeWorld *world, const SporeCommand *command);
+void spore_world_release(SporeWorld *world, uint32_t body);
+
+/* Stages, one file a kind. */
+void spore_world_apply_commands(SporeWorld *world); /* command.c */
+void spore_world_sense(SporeWorld *world);          /* sense.c */
+void spore_world_feed_back(SporeWorld *world);
+void spore_world_map_spheres(SporeWorld *world); /* contacts.c */
+void spore_world_detect(SporeWorld *world);
+void spore_world_respond(SporeWorld *world);
+void spore_world_link(SporeWorld *world);      /* links.c */
+void spore_world_group(SporeWorld *world);     /* islands.c */
+void spore_world_integrate(SporeWorld *world); /* integrate.c */
+void spore_world_react(SporeWorld *world);     /* react.c */
+void spore_world_commit(SporeWorld *world);    /* commit.c */
+
+/* contacts.c */
+void spore_world_fill_end(const SporeWorld *world, SporeEnd *end);
+bool spore_world_reserve_contacts(SporeWorld *world);
+
+/* islands.c: places of the bodies of an island in the local vectors, and their state there. */
+void spore_island_gather(SporeWorld *world, SporeIsland *island);
+/* dynamics.c: the island as the integrators see it. `group` lives as long as the dynamics. */
+typedef struct SporeGroup {
+  SporeWorld *world;
+  const SporeIsland *island;
+} SporeGroup;
+SporeDynamics spore_group_dynamics(SporeGroup *group);
+void spore_body_update_mass(SporeWorld *world, const SporeBody *body);
+
+/* monitor.c */
+SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *island, uint32_t *offender);
+void spore_island_recover(SporeWorld *world, SporeIsland *island);
+/* One step of the world in `substeps` parts, from local_q0 and local_v0 (spoilt) to local_q1 and local_v1. */
+SporeStepResult spore_island_advance(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind,
+                                     size_t substeps);
+void spore_world_report(SporeWorld *world, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void spore_world_report_islands(SporeWorld *world);
+
+/* snapshot.c */
+bool spore_snapshots_init(SporeWorld *world);
+void spore_snapshots_clear(SporeSnapshots *snapshots);
+void spore_snapshot_publish(SporeWorld *world);
+
+/* plan.c */
+void spore_world_make_plan(SporeWorld *world);
+void spore_world_run_plan(SporeWorld *world);
+
+/* step_limit.c */
+bool spore_world_check_step(SporeWorld *world, SporeError *error);
+
+#endif
