@@ -224,7 +224,6 @@ static const SporeTrackChannel *channel_for(const SporeTrack *track, const char 
 }
 
 static gboolean add_track(Compiler *compiler, SporeTrack *merged, const SporeObject *device, const char *body) {
-  g_autofree char *where = spore_object_where(device);
   const char *file = spore_object_text(device, "file");
   g_autoptr(GError) unreadable = NULL;
   g_autoptr(GBytes) content = file ? spore_document_read_asset(compiler->document, file, &unreadable) : NULL;
@@ -251,6 +250,7 @@ static gboolean add_track(Compiler *compiler, SporeTrack *merged, const SporeObj
 
 static gboolean add_probe(Compiler *compiler, SporeTrack *merged, const SporeTrack *input, const SporeObject *probe) {
   SporeObject *body, *device;
+  if (strcmp(spore_object_type(probe)->element, "probe") != 0) return TRUE;
   if (!resolve(compiler, probe, "body", &body) || !resolve(compiler, probe, "device", &device)) return FALSE;
   if (!body) return TRUE; /* `check` says it */
   const char *name = spore_object_name(body);

@@ -137,18 +137,24 @@ const char *spore_object_type_nearest_child(const SporeObjectType *parent, const
   return spore_name_nearest(names, element);
 }
 
+/* Digits at the start of the text; 0: none, or more than four. */
+static size_t count_digits(const char *text) {
+  size_t count = strspn(text, "0123456789");
+  return count <= 4 ? count : 0;
+}
+
 bool spore_format_version_check(const char *version, SporeError *error) {
-  char *end = NULL;
-  guint64 major = g_ascii_isdigit(version[0]) ? g_ascii_strtoull(version, &end, 10) : 0, minor = 0;
-  if (end && *end == '.' && g_ascii_isdigit(end[1])) minor = g_ascii_strtoull(end + 1, &end, 10);
-  if (!end || *end || minor > 9999)
+  size_t major = count_digits(version), end = major;
+  if (major > 0 && version[end] == '.') end += 1 + count_digits(version + end + 1);
+  if (major == 0 || version[end] || version[end - 1] == '.' || (version[0] == '0' && major > 1))
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("version=\"%.40s\" is not a version; expected major.minor; write version=\"%d.%d\""),
                            version, SPORE_FORMAT_MAJOR, SPORE_FORMAT_MINOR);
-  if (major != SPORE_FORMAT_MAJOR)
+  int number = (int)g_ascii_strtoll(version, NULL, 10);
+  if (number != SPORE_FORMAT_MAJOR)
     return spore_error_set(
         error, SPORE_ERROR_INPUT, NULL,
-        major > SPORE_FORMAT_MAJOR
+        number > SPORE_FORMAT_MAJOR
             ? _("the file has format version %.40s; this SPORE reads %d.x; a newer SPORE opens it")
             : _("the file has format version %.40s, which never was; this SPORE reads %d.x; correct it"),
         version, SPORE_FORMAT_MAJOR);

@@ -32,7 +32,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *                fidelity(mode)
  *     links  > pin(name body point radius) | spring(name body_a body_b point_a point_b stiffness damping rest_length)
  *     effects
- *     tools  > probe(name body device)
+ *     tools  > probe(name body device) | camera(name position target field_of_view)
  *              camera(name position target field_of_view)
  *     devices > mouse(name) | track(name file)
  *     exercise
