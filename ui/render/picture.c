@@ -16,7 +16,11 @@ static gboolean prepare(SporePicture *picture, const SporeTarget *screen, int sc
   if (!spore_target_prepare(&picture->shadow, SHADOW_SIZE, SHADOW_SIZE, 0, 0, GL_DEPTH_COMPONENT24, error))
     return FALSE;
   if (fresh) {
+    static const float lit[4] = {1, 1, 1, 1}; /* beyond the map there is no shadow */
     glBindTexture(GL_TEXTURE_2D, picture->shadow.depth);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, lit);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);

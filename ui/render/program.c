@@ -24,7 +24,7 @@ static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
 /* A narrow film lobe sparkles unless several samples a pixel are taken: the fast variant widens it. */
 static const char *const preamble[SPORE_VARIANT_COUNT] = {
     [SPORE_VARIANT_FAST] = "#version 330 core\n#define QUALITY 0\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.03\n",
-    [SPORE_VARIANT_FULL] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.01\n",
+    [SPORE_VARIANT_FULL] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.018\n",
     [SPORE_VARIANT_DEPTH] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 1\n",
     [SPORE_VARIANT_SHADOW] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 2\n",
 };

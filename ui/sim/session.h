@@ -16,6 +16,8 @@ void spore_session_pause(SporeSession *session); /* returns when the thread stan
 gboolean spore_session_is_playing(const SporeSession *session);
 void spore_session_step(SporeSession *session, guint steps); /* while paused; returns when done */
 void spore_session_reset(SporeSession *session);             /* time 0, paused or playing as before */
+/* State of the bodies that both have, by name, into a session that stands still. */
+void spore_session_carry_over(SporeSession *to, const SporeSession *from);
 void spore_session_set_speed(SporeSession *session, double speed); /* 1: real time; 0: as fast as it goes */
 
 /* Newest state; valid until the next call; one reader (the GTK thread). */

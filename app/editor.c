@@ -1,0 +1,37 @@
+/* spore-editor: the editor's window on a scene. */
+#include <glib/gi18n.h>
+#include <stdlib.h>
+
+#include "app/locale.h"
+#include "ui/spore-application.h"
+
+static gboolean show_version;
+static const GOptionEntry options[] = {
+    {"version", 0, 0, G_OPTION_ARG_NONE, &show_version, N_("Say the version and end"), NULL},
+    {NULL},
+};
+
+static int handle_options(GApplication *application, GVariantDict *given, gpointer data) {
+  if (!show_version) return -1; /* go on */
+  g_print("spore-editor %s\n", SPORE_VERSION);
+  return EXIT_SUCCESS;
+}
+
+/* Beside the sources when run from the build tree, else where they were installed. */
+static const char *scenes_folder(void) {
+  return g_file_test(SPORE_SOURCE_SCENES, G_FILE_TEST_IS_DIR) ? SPORE_SOURCE_SCENES : SPORE_INSTALLED_SCENES;
+}
+
+int main(int argc, char **argv) {
+  gtk_disable_setlocale(); /* numbers stay in the C locale, as in files */
+  spore_locale_start();
+  g_set_prgname("spore-editor");
+  g_set_application_name("SPORE");
+  g_autoptr(SporeApplication) application = spore_application_new(SPORE_VERSION, scenes_folder());
+  g_application_add_main_option_entries(G_APPLICATION(application), options);
+  g_application_set_option_context_parameter_string(G_APPLICATION(application), _("[SCENE]"));
+  g_application_set_option_context_summary(G_APPLICATION(application),
+                                           _("Builds scenes for surgical simulation, and runs them."));
+  g_signal_connect(application, "handle-local-options", G_CALLBACK(handle_options), NULL);
+  return g_application_run(G_APPLICATION(application), argc, argv);
+}

@@ -1,0 +1,53 @@
+#include "ui/document/asset-readers.h"
+
+#include "core/io/scene_xml.h"
+
+#define KEPT 8
+
+typedef struct {
+  GBytes *content;
+  int unit, frame;
+  SporeTriangleMesh mesh;
+} Decoded;
+
+static GMutex mutex;
+static Decoded decoded[KEPT];
+static guint next;
+
+void spore_editor_readers_remember(GBytes *content, int unit, int frame, const SporeTriangleMesh *mesh) {
+  SporeTriangleMesh copy = {0};
+  if (!spore_triangle_mesh_copy(&copy, mesh, NULL)) return;
+  g_mutex_lock(&mutex);
+  Decoded *slot = &decoded[next++ % KEPT];
+  if (slot->content) g_bytes_unref(slot->content);
+  spore_triangle_mesh_clear(&slot->mesh);
+  *slot = (Decoded){g_bytes_ref(content), unit, frame, copy};
+  g_mutex_unlock(&mutex);
+}
+
+static gboolean recall(GBytes *content, int unit, int frame, SporeTriangleMesh *mesh) {
+  gboolean found = FALSE;
+  g_mutex_lock(&mutex);
+  for (guint i = 0; i < KEPT && !found; i++)
+    found = decoded[i].content && decoded[i].unit == unit && decoded[i].frame == frame &&
+            g_bytes_equal(decoded[i].content, content) && spore_triangle_mesh_copy(mesh, &decoded[i].mesh, NULL);
+  g_mutex_unlock(&mutex);
+  return found;
+}
+
+static gboolean read_mesh(const char *place, const char *file, GBytes *content, int unit, int frame,
+                          SporeTriangleMesh *mesh, GError **error) {
+  return recall(content, unit, frame, mesh) || spore_io_readers.mesh(place, file, content, unit, frame, mesh, error);
+}
+
+static gboolean read_spheres(const char *place, const char *file, GBytes *content, SporeSphereSet *set,
+                             GError **error) {
+  return spore_io_readers.spheres(place, file, content, set, error);
+}
+
+static gboolean read_tetrahedra(const char *place, const char *file, GBytes *content, SporeTetrahedralMesh *mesh,
+                                GError **error) {
+  return spore_io_readers.tetrahedra(place, file, content, mesh, error);
+}
+
+const SporeAssetReaders spore_editor_readers = {read_mesh, read_spheres, read_tetrahedra};

@@ -1,0 +1,13 @@
+/* Asset readers of the editor's documents: a mesh that a job has decoded already is not decoded again on the GTK
+ * thread, which would have to wait for the import helper. */
+#ifndef SPORE_UI_DOCUMENT_ASSET_READERS_H
+#define SPORE_UI_DOCUMENT_ASSET_READERS_H
+
+#include "core/scene/document.h"
+
+extern const SporeAssetReaders spore_editor_readers;
+
+/* Keeps a copy of a decoded mesh for the reader; any thread. The few newest are kept. */
+void spore_editor_readers_remember(GBytes *content, int unit, int frame, const SporeTriangleMesh *mesh);
+
+#endif

@@ -1,0 +1,399 @@
+#include "ui/document/edits.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/hash.h"
+#include "core/io/mesh_import.h"
+#include "core/math/quat.h"
+#include "core/sim/world.h"
+
+/* A probe of 10 mm with a shaft behind it. */
+#define PROBE_TIP_RADIUS_M 0.005
+#define PROBE_SHAFT_RADIUS_M 0.0035
+#define PROBE_SHAFT_SPHERES 12
+#define PROBE_SHAFT_SPACING_M 0.005
+#define PROBE_CLEARANCE_M 0.02
+
+/* Ends the group, or takes back what it did. */
+static gboolean finish(SporeDocument *document, gboolean done) {
+  if (done) spore_document_end(document);
+  else spore_document_abort(document);
+  return done;
+}
+
+static SporeObject *child_or_new(SporeDocument *document, SporeObject *parent, const char *element, GError **error) {
+  SporeObject *child = spore_object_child_of(parent, element);
+  return child ? child : spore_document_insert(document, parent, element, NULL, G_MAXUINT, error);
+}
+
+/* A name of the form that the file format allows, from any text. g_free. */
+static char *name_from(const char *text) {
+  GString *name = g_string_new(NULL);
+  for (const char *c = text; *c; c++)
+    g_string_append_c(name, g_ascii_isalnum(*c) || *c == '_' || *c == '-' || *c == '.' ? *c : '_');
+  if (name->len == 0 || !(g_ascii_isalpha(name->str[0]) || name->str[0] == '_')) g_string_prepend(name, "organ_");
+  return g_string_free(name, FALSE);
+}
+
+static char *stem_of(const char *file) {
+  g_autofree char *base = g_path_get_basename(file);
+  char *dot = strrchr(base, '.');
+  if (dot && dot != base) *dot = '\0';
+  return name_from(base);
+}
+
+static gboolean set_integer(SporeDocument *document, SporeObject *object, const char *property, guint64 value,
+                            GError **error) {
+  g_autofree char *text = g_strdup_printf("%" G_GUINT64_FORMAT, value);
+  return spore_document_set_text(document, object, property, text, error);
+}
+
+static gboolean set_vector(SporeDocument *document, SporeObject *object, const char *property, SporeVec3 v,
+                           GError **error) {
+  char text[3][G_ASCII_DTOSTR_BUF_SIZE];
+  const double component[3] = {v.x, v.y, v.z};
+  for (int i = 0; i < 3; i++) g_ascii_formatd(text[i], sizeof text[i], "%.6g", component[i]);
+  g_autofree char *joined = g_strjoin(" ", text[0], text[1], text[2], NULL);
+  return spore_document_set_text(document, object, property, joined, error);
+}
+
+/* A file name in the scene's folder that no asset uses: name and content hash tell them apart. */
+static char *file_for(const char *name, const char *extension, gconstpointer content, gsize size) {
+  guint64 hash = spore_hash(SPORE_HASH_INIT, content, size);
+  return g_strdup_printf("%s-%08x.%s", name, (guint)(hash ^ hash >> 32), extension);
+}
+
+/* Imported. */
+
+static gboolean file_taken(SporeDocument *document, const char *file, GBytes *content) {
+  SporeObject *assets = spore_document_section(document, "assets");
+  for (guint i = 0; i < spore_object_child_count(assets); i++) {
+    SporeObject *asset = spore_object_child(assets, i);
+    if (g_strcmp0(spore_object_text(asset, "file"), file) != 0) continue;
+    g_autoptr(GBytes) held = spore_document_read_asset(document, file, NULL);
+    if (!held || !g_bytes_equal(held, content)) return TRUE;
+  }
+  const char *scene = spore_document_file(document);
+  if (!scene) return FALSE;
+  g_autofree char *folder = g_path_get_dirname(scene);
+  g_autofree char *path = g_build_filename(folder, file, NULL);
+  if (!g_file_test(path, G_FILE_TEST_EXISTS)) return FALSE;
+  g_autoptr(GBytes) held = spore_document_read_asset(document, file, NULL);
+  return !held || !g_bytes_equal(held, content);
+}
+
+/* The file's own name where it is free, with its content's hash where another file bears it. */
+static char *asset_file(SporeDocument *document, const char *file, GBytes *content) {
+  g_autofree char *base = g_path_get_basename(file);
+  g_autofree char *stem = stem_of(file);
+  const char *dot = strrchr(base, '.');
+  const char *extension = dot && dot[1] ? dot + 1 : "mesh";
+  char *plain = g_strdup_printf("%s.%s", stem, extension);
+  if (!file_taken(document, plain, content)) return plain;
+  g_free(plain);
+  gsize size;
+  gconstpointer bytes = g_bytes_get_data(content, &size);
+  return file_for(stem, extension, bytes, size);
+}
+
+static SporeObject *insert_organ(SporeDocument *document, const char *file, GBytes *content, int unit, int frame,
+                                 GError **error) {
+  g_autofree char *name = stem_of(file);
+  g_autofree char *kept = asset_file(document, file, content);
+  SporeObject *assets = spore_document_section(document, "assets"),
+              *bodies = spore_document_section(document, "bodies");
+  spore_document_put_blob(document, kept, content);
+  SporeObject *mesh = spore_document_insert(document, assets, "mesh", name, G_MAXUINT, error);
+  if (!mesh || !spore_document_set_text(document, mesh, "file", kept, error) ||
+      !spore_document_set_text(document, mesh, "unit", spore_length_units[unit], error) ||
+      !spore_document_set_text(document, mesh, "frame", spore_mesh_frames[frame], error))
+    return NULL;
+  SporeObject *body = spore_document_insert(document, bodies, "body", name, G_MAXUINT, error);
+  if (!body) return NULL;
+  SporeObject *visual = child_or_new(document, body, "visual", error);
+  if (!visual || !spore_document_set_text(document, visual, "mesh", spore_object_name(mesh), error)) return NULL;
+  return body;
+}
+
+SporeObject *spore_edit_add_organ(SporeDocument *document, const char *file, GBytes *content, int unit, int frame,
+                                  GError **error) {
+  g_autofree char *base = g_path_get_basename(file);
+  g_autofree char *label = g_strdup_printf(_("Import %s"), base);
+  spore_document_begin(document, label);
+  SporeObject *body = insert_organ(document, file, content, unit, frame, error);
+  finish(document, body != NULL);
+  return body;
+}
+
+/* What a body uses. */
+
+static SporeObject *used_asset(SporeDocument *document, SporeObject *body, const char *unit, const char *property,
+                               const char *element) {
+  SporeObject *part = spore_object_child_of(body, unit);
+  const char *name = part ? spore_object_text(part, property) : NULL;
+  return name && *name ? spore_document_find(document, element, name) : NULL;
+}
+
+SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, GError **error) {
+  SporeObject *mesh = used_asset(document, body, "visual", "mesh", "mesh");
+  if (!mesh) {
+    g_autofree char *path = spore_object_path(body);
+    spore_error_raise(error, SPORE_ERROR_INPUT, path,
+                      _("the body shows no mesh; a generator needs a surface; choose one under Visual mesh"));
+  }
+  return mesh;
+}
+
+SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body) {
+  return used_asset(document, body, "collision", "spheres", "spheres");
+}
+
+SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body) {
+  return used_asset(document, body, "mechanical", "geometry", "tetrahedra");
+}
+
+SporeObject *spore_edit_body_model(SporeObject *body) {
+  SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  return mechanical && spore_object_child_count(mechanical) ? spore_object_child(mechanical, 0) : NULL;
+}
+
+/* Generated. */
+
+/* The asset the body uses, where it came from the same generator; else a new one. */
+static SporeObject *generated_asset(SporeDocument *document, SporeObject *body, SporeObject *used, const char *element,
+                                    GError **error) {
+  const char *source = used ? spore_object_text(used, "source") : NULL;
+  if (source && *source) return used;
+  g_autofree char *name = g_strdup_printf("%s_%s", spore_object_name(body), element);
+  return spore_document_insert(document, spore_document_section(document, "assets"), element, name, G_MAXUINT, error);
+}
+
+static gboolean fill_generated(SporeDocument *document, SporeObject *asset, char *text, gsize size,
+                               const char *extension, const char *source, const char *source_hash, GError **error) {
+  g_autofree char *file = file_for(spore_object_name(asset), extension, text, size);
+  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
+  spore_document_put_blob(document, file, content);
+  return spore_document_set_text(document, asset, "file", file, error) &&
+         spore_document_set_text(document, asset, "source", source, error) &&
+         spore_document_set_text(document, asset, "source_hash", source_hash, error);
+}
+
+static gboolean use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
+                            const SporeSpheresOptions *options, const SporeSphereSet *set, GError **error) {
+  SporeObject *collision = child_or_new(document, body, "collision", error);
+  if (!collision) return FALSE;
+  SporeObject *asset = generated_asset(document, body, spore_edit_body_spheres(document, body), "spheres", error);
+  if (!asset) return FALSE;
+  gsize size;
+  char *text = spore_spheres_format(set, &size);
+  return fill_generated(document, asset, text, size, "spheres", source, source_hash, error) &&
+         set_integer(document, asset, "count", options->count, error) &&
+         set_integer(document, asset, "seed", options->seed, error) &&
+         spore_document_set_text(document, collision, "spheres", spore_object_name(asset), error);
+}
+
+gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
+                                const SporeSpheresOptions *options, const SporeSphereSet *set, GError **error) {
+  spore_document_begin(document, _("Generate spheres"));
+  return finish(document, use_spheres(document, body, source, source_hash, options, set, error));
+}
+
+static gboolean use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
+                               gsize cells, const SporeTetrahedralMesh *mesh, GError **error) {
+  SporeObject *mechanical = child_or_new(document, body, "mechanical", error);
+  if (!mechanical) return FALSE;
+  SporeObject *asset = generated_asset(document, body, spore_edit_body_tetrahedra(document, body), "tetrahedra", error);
+  if (!asset) return FALSE;
+  gsize size;
+  char *text = spore_medit_format(mesh, &size);
+  return fill_generated(document, asset, text, size, "mesh", source, source_hash, error) &&
+         set_integer(document, asset, "cells", cells, error) &&
+         spore_document_set_text(document, mechanical, "geometry", spore_object_name(asset), error);
+}
+
+gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source,
+                                   const char *source_hash, gsize cells, const SporeTetrahedralMesh *mesh,
+                                   GError **error) {
+  spore_document_begin(document, _("Generate tetrahedra"));
+  return finish(document, use_tetrahedra(document, body, source, source_hash, cells, mesh, error));
+}
+
+/* Models. */
+
+/* The geometry that a model asks for, where the body has it; NULL: leave what is there. */
+static const char *geometry_for(SporeDocument *document, SporeObject *body, SporeGeometryKind kind) {
+  if (kind == SPORE_GEOMETRY_SURFACE || kind == SPORE_GEOMETRY_SOLID) {
+    SporeObject *mesh = used_asset(document, body, "visual", "mesh", "mesh");
+    return mesh ? spore_object_name(mesh) : NULL;
+  }
+  if (kind != SPORE_GEOMETRY_TETRAHEDRA || spore_edit_body_tetrahedra(document, body)) return NULL;
+  /* Tetrahedra made earlier of the mesh that the body shows, then set aside for another model. */
+  SporeObject *mesh = used_asset(document, body, "visual", "mesh", "mesh");
+  SporeObject *assets = spore_document_section(document, "assets");
+  for (guint i = 0; mesh && i < spore_object_child_count(assets); i++) {
+    SporeObject *asset = spore_object_child(assets, i);
+    if (g_str_equal(spore_object_type(asset)->element, "tetrahedra") &&
+        g_strcmp0(spore_object_text(asset, "source"), spore_object_name(mesh)) == 0)
+      return spore_object_name(asset);
+  }
+  return NULL;
+}
+
+static gboolean set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error) {
+  SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  if (*model == '\0') return !mechanical || spore_document_remove(document, mechanical, error);
+  if (!mechanical) mechanical = spore_document_insert(document, body, "mechanical", NULL, G_MAXUINT, error);
+  if (!mechanical) return FALSE;
+  SporeObject *old = spore_edit_body_model(body);
+  if (old && g_str_equal(spore_object_type(old)->element, model)) return TRUE;
+  if (old && !spore_document_remove(document, old, error)) return FALSE;
+  SporeObject *new = spore_document_insert(document, mechanical, model, NULL, G_MAXUINT, error);
+  if (!new) return FALSE;
+  const SporeModelType *type = spore_object_type(new)->model;
+  const char *geometry = type ? geometry_for(document, body, type->geometry) : NULL;
+  return !geometry || spore_document_set_text(document, mechanical, "geometry", geometry, error);
+}
+
+gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error) {
+  spore_document_begin(document, _("Choose model"));
+  return finish(document, set_model(document, body, model, error));
+}
+
+/* Probe. */
+
+SporeObject *spore_edit_find_probe(SporeDocument *document) {
+  SporeObject *bodies = spore_document_section(document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    if (spore_object_number(body, "role") == SPORE_ACTIVE) return body;
+  }
+  return NULL;
+}
+
+static void grow(double lower[3], double upper[3], SporeVec3 p, double r) {
+  const double x[3] = {p.x, p.y, p.z};
+  for (int i = 0; i < 3; i++) {
+    lower[i] = fmin(lower[i], x[i] - r);
+    upper[i] = fmax(upper[i], x[i] + r);
+  }
+}
+
+static SporePose body_pose(SporeObject *body) {
+  const SporeParameterTable *table = spore_object_type(body)->table;
+  SporePose pose = spore_pose_identity();
+  int position = spore_parameter_find(table, "position");
+  if (position >= 0) pose.position = spore_vec3_load(spore_object_value(body, (guint)position)->number);
+  return pose;
+}
+
+/* Rotation is left out: the box only has to be of the right size and place. */
+static void grow_by_body(SporeDocument *document, SporeObject *body, double lower[3], double upper[3]) {
+  SporePose pose = body_pose(body);
+  SporeObject *mesh_asset = used_asset(document, body, "visual", "mesh", "mesh");
+  const SporeTriangleMesh *mesh = mesh_asset ? spore_document_mesh(document, mesh_asset, NULL) : NULL;
+  for (gsize i = 0; mesh && i < mesh->vertex_count; i++)
+    grow(lower, upper, spore_pose_apply(pose, spore_vec3_load(mesh->vertices + 3 * i)), 0);
+  SporeObject *sphere_asset = mesh ? NULL : spore_edit_body_spheres(document, body);
+  const SporeSphereSet *set = sphere_asset ? spore_document_spheres(document, sphere_asset, NULL) : NULL;
+  for (gsize i = 0; set && i < set->count; i++)
+    grow(lower, upper, spore_pose_apply(pose, spore_vec3_load(set->spheres + 4 * i)), set->spheres[4 * i + 3]);
+}
+
+gboolean spore_edit_bounds(SporeDocument *document, double lower[3], double upper[3]) {
+  for (int i = 0; i < 3; i++) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
+  SporeObject *bodies = spore_document_section(document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++)
+    grow_by_body(document, spore_object_child(bodies, i), lower, upper);
+  return lower[0] <= upper[0];
+}
+
+/* Tip at the origin, shaft going up. */
+static GBytes *probe_spheres(void) {
+  GString *text = g_string_new("# x y z r, m: tip, then the shaft\n");
+  char y[G_ASCII_DTOSTR_BUF_SIZE], r[G_ASCII_DTOSTR_BUF_SIZE];
+  for (int i = 0; i <= PROBE_SHAFT_SPHERES; i++) {
+    g_ascii_formatd(y, sizeof y, "%.6g", i * PROBE_SHAFT_SPACING_M);
+    g_ascii_formatd(r, sizeof r, "%.6g", i == 0 ? PROBE_TIP_RADIUS_M : PROBE_SHAFT_RADIUS_M);
+    g_string_append_printf(text, "0 %s 0 %s\n", y, r);
+  }
+  return g_string_free_to_bytes(text);
+}
+
+static SporeObject *insert_probe(SporeDocument *document, SporeVec3 position, GError **error) {
+  g_autoptr(GBytes) content = probe_spheres();
+  spore_document_put_blob(document, "probe.spheres", content);
+  SporeObject *spheres = spore_document_insert(document, spore_document_section(document, "assets"), "spheres",
+                                               "probe_spheres", G_MAXUINT, error);
+  if (!spheres || !spore_document_set_text(document, spheres, "file", "probe.spheres", error)) return NULL;
+  SporeObject *body =
+      spore_document_insert(document, spore_document_section(document, "bodies"), "body", "probe", G_MAXUINT, error);
+  if (!body || !spore_document_set_text(document, body, "role", "active", error) ||
+      !set_vector(document, body, "position", position, error))
+    return NULL;
+  SporeObject *collision = child_or_new(document, body, "collision", error);
+  if (!collision || !spore_document_set_text(document, collision, "spheres", spore_object_name(spheres), error))
+    return NULL;
+  return body;
+}
+
+static gboolean insert_probe_tool(SporeDocument *document, SporeObject *body, GError **error) {
+  SporeObject *devices = spore_document_section(document, "devices");
+  SporeObject *mouse = spore_object_child_of(devices, "mouse");
+  if (!mouse) mouse = spore_document_insert(document, devices, "mouse", "mouse", G_MAXUINT, error);
+  if (!mouse) return FALSE;
+  SporeObject *tool =
+      spore_document_insert(document, spore_document_section(document, "tools"), "probe", "probe", G_MAXUINT, error);
+  return tool && spore_document_set_text(document, tool, "body", spore_object_name(body), error) &&
+         spore_document_set_text(document, tool, "device", spore_object_name(mouse), error);
+}
+
+SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error) {
+  double lower[3], upper[3];
+  SporeVec3 position = {0, 0, 0};
+  if (spore_edit_bounds(document, lower, upper))
+    position = spore_vec3((lower[0] + upper[0]) / 2, upper[1] + PROBE_CLEARANCE_M, (lower[2] + upper[2]) / 2);
+  spore_document_begin(document, _("Add probe"));
+  SporeObject *body = insert_probe(document, position, error);
+  gboolean done = body && insert_probe_tool(document, body, error);
+  return finish(document, done) ? body : NULL;
+}
+
+/* By path. */
+
+/* The object of a path whose last part may be a unit that its body does not have yet. */
+static SporeObject *object_or_new_unit(SporeDocument *document, const char *path, GError **error) {
+  SporeObject *object = spore_document_by_path(document, path);
+  if (object) return object;
+  const char *slash = strrchr(path, '/');
+  g_autofree char *parent_path = slash ? g_strndup(path, (gsize)(slash - path)) : NULL;
+  SporeObject *parent = parent_path ? spore_document_by_path(document, parent_path) : NULL;
+  if (parent && spore_object_type(parent)->ordered && spore_object_type_child(spore_object_type(parent), slash + 1))
+    return spore_document_insert(document, parent, slash + 1, NULL, G_MAXUINT, error);
+  spore_error_raise(error, SPORE_ERROR_INPUT, path, _("no such object; choose one from the outliner"));
+  return NULL;
+}
+
+static gboolean change_property(SporeDocument *document, SporeObject *object, const char *property, const char *text,
+                                GError **error) {
+  int index = spore_parameter_find(spore_object_type(object)->table, property);
+  if (index < 0) {
+    g_autofree char *path = spore_object_path(object);
+    const char *near = spore_parameter_nearest(spore_object_type(object)->table, property);
+    return spore_error_raise(error, SPORE_ERROR_INPUT, path, _("unknown property “%s”; the nearest is “%s”"), property,
+                             near ? near : "—");
+  }
+  if (!text) return spore_document_unset(document, object, (guint)index, error);
+  if (spore_object_type(object)->table->parameters[index].type == SPORE_NAME)
+    return spore_document_rename(document, object, text, error);
+  return spore_document_set_text(document, object, property, text, error);
+}
+
+gboolean spore_edit_set_property(SporeDocument *document, const char *path, const char *property, const char *text,
+                                 GError **error) {
+  g_autofree char *label = g_strdup_printf(text ? _("Set %s") : _("Reset %s"), property);
+  spore_document_begin(document, label);
+  SporeObject *object = object_or_new_unit(document, path, error);
+  return finish(document, object && change_property(document, object, property, text, error));
+}

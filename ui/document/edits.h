@@ -1,0 +1,46 @@
+/* What an author does in one gesture, each one undo step made of document commands. No GTK. */
+#ifndef SPORE_UI_DOCUMENT_EDITS_H
+#define SPORE_UI_DOCUMENT_EDITS_H
+
+#include "core/generate/spheres.h"
+#include "core/generate/tetrahedra.h"
+#include "core/scene/document.h"
+
+/* A mesh asset named after `file` (content kept until the scene is saved) and a body that shows it. Returns the body.
+ */
+SporeObject *spore_edit_add_organ(SporeDocument *document, const char *file, GBytes *content, int unit, int frame,
+                                  GError **error);
+
+/* Mesh asset that the body shows, NULL with an error where it has none. */
+SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, GError **error);
+/* Sphere or tetrahedra asset in use by the body, or NULL. */
+SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body);
+SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body);
+
+/* Generated spheres become an asset of the body (its earlier generated one is replaced). */
+gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
+                                const SporeSpheresOptions *options, const SporeSphereSet *set, GError **error);
+gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source,
+                                   const char *source_hash, gsize cells, const SporeTetrahedralMesh *mesh,
+                                   GError **error);
+
+/* Gives the body a mechanical model of that element, on the geometry it asks for where the body has it; "" takes the
+ * mechanical unit away. */
+gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error);
+/* Element of the body's model, or NULL. */
+SporeObject *spore_edit_body_model(SporeObject *body);
+
+/* A probe moved by the mouse, above the middle of what the scene shows. Returns its body. */
+SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error);
+/* First active body, or NULL. */
+SporeObject *spore_edit_find_probe(SporeDocument *document);
+
+/* Sets by path ("bodies/liver/collision"), property name and text as in a file; text NULL: back to the default.
+ * A unit of a body that is not there yet ("bodies/liver/collision") is made. */
+gboolean spore_edit_set_property(SporeDocument *document, const char *path, const char *property, const char *text,
+                                 GError **error);
+
+/* Box of all bodies where the document puts them, m; FALSE: nothing to be seen. */
+gboolean spore_edit_bounds(SporeDocument *document, double lower[3], double upper[3]);
+
+#endif

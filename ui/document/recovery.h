@@ -1,0 +1,26 @@
+/* Unsaved work, kept beside the user's files: a folder for each window under $XDG_STATE_HOME/spore/recovery, locked by
+ * its owner as long as that lives. No GTK. */
+#ifndef SPORE_UI_DOCUMENT_RECOVERY_H
+#define SPORE_UI_DOCUMENT_RECOVERY_H
+
+#include "ui/document/spore-editor-document.h"
+
+typedef struct SporeRecovery SporeRecovery;
+SporeRecovery *spore_recovery_new(void);
+/* Forgets what was kept. */
+void spore_recovery_free(SporeRecovery *recovery);
+/* Keeps the document as it is now, with its assets; forgets what was kept when nothing is unsaved. Cheap when nothing
+ * has changed since. */
+gboolean spore_recovery_keep(SporeRecovery *recovery, SporeEditorDocument *document, GError **error);
+void spore_recovery_forget(SporeRecovery *recovery);
+
+/* What a dead owner left. */
+typedef struct SporeLeftover {
+  char *folder, *scene;
+  char *original; /* file it was made from, NULL: it was never saved */
+} SporeLeftover;
+SporeLeftover *spore_leftover_find(void); /* the newest; NULL: none */
+void spore_leftover_remove(const SporeLeftover *leftover);
+void spore_leftover_free(SporeLeftover *leftover);
+
+#endif

@@ -1,0 +1,40 @@
+/* The document as a GObject: history, selection and changes as signals, so that widgets can follow it.
+ *
+ * Signals
+ *   changed (SporeChangeKind kind, guint id, guint property)   after each change, undo and redo included
+ *   history-changed ()                                         undo, redo or modified state may differ
+ *   selection-changed ()                                                                                          */
+#ifndef SPORE_UI_DOCUMENT_SPORE_EDITOR_DOCUMENT_H
+#define SPORE_UI_DOCUMENT_SPORE_EDITOR_DOCUMENT_H
+
+#include <glib-object.h>
+
+#include "core/scene/document.h"
+
+G_BEGIN_DECLS
+
+#define SPORE_TYPE_EDITOR_DOCUMENT spore_editor_document_get_type()
+G_DECLARE_FINAL_TYPE(SporeEditorDocument, spore_editor_document, SPORE, EDITOR_DOCUMENT, GObject)
+
+/* Takes the document. */
+SporeEditorDocument *spore_editor_document_new(SporeDocument *document);
+SporeDocument *spore_editor_document_get(SporeEditorDocument *self);
+
+/* Selected object's id, 0: none. Falls back to 0 when the object goes. */
+guint32 spore_editor_document_get_selection(SporeEditorDocument *self);
+void spore_editor_document_select(SporeEditorDocument *self, guint32 id);
+SporeObject *spore_editor_document_selected(SporeEditorDocument *self); /* NULL: none */
+/* The body that is selected, or to which the selection belongs; NULL: none. */
+SporeObject *spore_editor_document_selected_body(SporeEditorDocument *self);
+
+/* Where Save writes: the document's file, or the original of one that was recovered. NULL: ask. */
+const char *spore_editor_document_get_save_file(SporeEditorDocument *self);
+void spore_editor_document_set_recovered(SporeEditorDocument *self, const char *original);
+gboolean spore_editor_document_is_modified(SporeEditorDocument *self);
+/* "liver.spore", or "Untitled". g_free. */
+char *spore_editor_document_get_title(SporeEditorDocument *self);
+/* Saves under `file`; NULL: the save file, which must exist. */
+gboolean spore_editor_document_save(SporeEditorDocument *self, const char *file, GError **error);
+
+G_END_DECLS
+#endif

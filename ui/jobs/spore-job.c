@@ -1,0 +1,119 @@
+#include "ui/jobs/spore-job.h"
+
+#include "core/scene/error.h"
+
+#define PROGRESS_INTERVAL_MS 100
+
+struct _SporeJob {
+  GObject parent;
+  char *title;
+  GCancellable *cancellable;
+  SporeJobWork work;
+  SporeJobDone done;
+  GObject *owner;
+  gboolean running;
+  guint timer;
+
+  GMutex mutex; /* over what the worker reports */
+  double fraction;
+  char stage[128];
+};
+
+G_DEFINE_FINAL_TYPE(SporeJob, spore_job, G_TYPE_OBJECT)
+
+enum { PROGRESSED, FINISHED, SIGNAL_COUNT };
+static guint signals[SIGNAL_COUNT];
+
+static void spore_job_finalize(GObject *object) {
+  SporeJob *self = SPORE_JOB(object);
+  g_free(self->title);
+  g_clear_object(&self->cancellable);
+  g_mutex_clear(&self->mutex);
+  G_OBJECT_CLASS(spore_job_parent_class)->finalize(object);
+}
+
+static void spore_job_class_init(SporeJobClass *class) {
+  GType type = G_TYPE_FROM_CLASS(class);
+  G_OBJECT_CLASS(class)->finalize = spore_job_finalize;
+  signals[PROGRESSED] = g_signal_new("progressed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+  signals[FINISHED] = g_signal_new("finished", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+}
+
+static void spore_job_init(SporeJob *self) {
+  g_mutex_init(&self->mutex);
+  self->cancellable = g_cancellable_new();
+}
+
+static bool report(void *data, double fraction, const char *stage) {
+  SporeJob *self = data;
+  g_mutex_lock(&self->mutex);
+  self->fraction = CLAMP(fraction, 0, 1);
+  if (stage) g_strlcpy(self->stage, stage, sizeof self->stage);
+  g_mutex_unlock(&self->mutex);
+  return !g_cancellable_is_cancelled(self->cancellable);
+}
+
+static void run(GTask *task, gpointer source, gpointer data, GCancellable *cancellable) {
+  SporeJob *self = source;
+  SporeProgress progress = {report, self};
+  GError *error = NULL;
+  gboolean done = self->work(data, &progress, &error);
+  if (done && g_cancellable_is_cancelled(cancellable)) {
+    done = FALSE;
+    spore_error_raise(&error, SPORE_ERROR_CANCELLED, "", "cancelled");
+  }
+  if (done) g_task_return_boolean(task, TRUE);
+  else g_task_return_error(task, error);
+}
+
+static void ended(GObject *source, GAsyncResult *result, gpointer user_data) {
+  SporeJob *self = SPORE_JOB(source);
+  g_autoptr(GError) error = NULL;
+  g_task_propagate_boolean(G_TASK(result), &error);
+  self->running = FALSE;
+  g_clear_handle_id(&self->timer, g_source_remove);
+  self->done(self, g_task_get_task_data(G_TASK(result)), error, self->owner);
+  g_signal_emit(self, signals[FINISHED], 0);
+  g_clear_object(&self->owner);
+}
+
+static gboolean tick(gpointer data) {
+  g_signal_emit(data, signals[PROGRESSED], 0);
+  return G_SOURCE_CONTINUE;
+}
+
+SporeJob *spore_job_start(const char *title, SporeJobWork work, gpointer work_data, GDestroyNotify free_data,
+                          SporeJobDone done, GObject *owner) {
+  SporeJob *self = g_object_new(SPORE_TYPE_JOB, NULL);
+  self->title = g_strdup(title);
+  self->work = work;
+  self->done = done;
+  self->owner = g_object_ref(owner);
+  self->running = TRUE;
+  self->timer = g_timeout_add(PROGRESS_INTERVAL_MS, tick, self);
+  g_autoptr(GTask) task = g_task_new(self, self->cancellable, ended, NULL);
+  g_task_set_check_cancellable(task, FALSE);
+  g_task_set_task_data(task, work_data, free_data);
+  g_task_run_in_thread(task, run);
+  return self;
+}
+
+void spore_job_cancel(SporeJob *self) { g_cancellable_cancel(self->cancellable); }
+
+gboolean spore_job_is_running(SporeJob *self) { return self->running; }
+
+const char *spore_job_get_title(SporeJob *self) { return self->title; }
+
+double spore_job_get_fraction(SporeJob *self) {
+  g_mutex_lock(&self->mutex);
+  double fraction = self->fraction;
+  g_mutex_unlock(&self->mutex);
+  return fraction;
+}
+
+char *spore_job_get_stage(SporeJob *self) {
+  g_mutex_lock(&self->mutex);
+  char *stage = g_strdup(self->stage);
+  g_mutex_unlock(&self->mutex);
+  return stage;
+}

@@ -1,0 +1,56 @@
+/* The long works of the editor, as data that a SporeJob carries: what goes in, what comes out. No GTK. */
+#ifndef SPORE_UI_JOBS_WORKS_H
+#define SPORE_UI_JOBS_WORKS_H
+
+#include "core/base/progress.h"
+#include "core/generate/spheres.h"
+#include "core/generate/tetrahedra.h"
+#include "core/scene/document.h"
+
+/* Reads and decodes a mesh file. */
+typedef struct SporeImportWork {
+  char *file;
+  int unit, frame;
+  GBytes *content;        /* out */
+  SporeTriangleMesh mesh; /* out, m */
+  int frame_hint;         /* out, -1: the file says none */
+} SporeImportWork;
+SporeImportWork *spore_import_work_new(const char *file, int unit, int frame);
+gboolean spore_import_work_run(gpointer work, const SporeProgress *progress, GError **error);
+void spore_import_work_free(gpointer work);
+
+/* Reads a scene and decodes its assets. */
+typedef struct SporeOpenWork {
+  const SporeSchema *schema;
+  char *file;
+  char *original; /* of a recovered scene, or NULL */
+  gboolean recovered;
+  SporeDocument *document; /* out; taken by setting it to NULL */
+} SporeOpenWork;
+SporeOpenWork *spore_open_work_new(const SporeSchema *schema, const char *file);
+gboolean spore_open_work_run(gpointer work, const SporeProgress *progress, GError **error);
+void spore_open_work_free(gpointer work);
+
+/* What generators share: where they started from, to be compared when they are through. */
+typedef struct SporeGenerateWork {
+  guint32 body; /* object id */
+  char *source; /* name of the mesh asset */
+  char *source_hash;
+  SporeTriangleMesh mesh;
+  SporeSpheresOptions spheres_options;
+  SporeTetrahedraOptions tetrahedra_options;
+  SporeSphereSet spheres;                  /* out, or in for measuring */
+  SporeSpheresReport spheres_report;       /* out */
+  SporeTetrahedralMesh tetrahedra;         /* out */
+  SporeTetrahedraReport tetrahedra_report; /* out */
+} SporeGenerateWork;
+/* Copies the mesh that the body shows. NULL with an error when there is none. */
+SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body, GError **error);
+gboolean spore_spheres_work_run(gpointer work, const SporeProgress *progress, GError **error);
+gboolean spore_tetrahedra_work_run(gpointer work, const SporeProgress *progress, GError **error);
+gboolean spore_measure_work_run(gpointer work, const SporeProgress *progress, GError **error);
+void spore_generate_work_free(gpointer work);
+/* The body, where it still shows the mesh that the work began with; NULL: the document moved on. */
+SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document);
+
+#endif

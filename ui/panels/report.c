@@ -1,0 +1,38 @@
+#include "ui/panels/report.h"
+
+#include <glib/gi18n.h>
+
+void spore_activate(GtkWidget *widget, const char *name, GVariant *parameter) {
+  GActionGroup *group = gtk_widget_get_action_group(widget, "win");
+  GtkWidget *window = gtk_widget_get_toplevel(widget);
+  if (!group && G_IS_ACTION_GROUP(window)) group = G_ACTION_GROUP(window);
+  g_autoptr(GVariant) taken = parameter ? g_variant_ref_sink(parameter) : NULL;
+  if (group) g_action_group_activate_action(group, name, taken);
+}
+
+void spore_report(GtkWidget *widget, const GError *error) {
+  spore_activate(widget, "report", g_variant_new_string(error->message));
+}
+
+/* Stopped here and still not handled, so that it goes on to the parent. */
+static gboolean pass_on(GtkWidget *widget, GdkEventScroll *event, gpointer data) {
+  g_signal_stop_emission_by_name(widget, "scroll-event");
+  return GDK_EVENT_PROPAGATE;
+}
+
+void spore_ignore_wheel(GtkWidget *widget) { g_signal_connect(widget, "scroll-event", G_CALLBACK(pass_on), NULL); }
+
+char *spore_label_of(const char *name) {
+  g_autofree char *label = g_strdup(name);
+  g_strdelimit(label, "_", ' ');
+  label[0] = g_ascii_toupper(label[0]);
+  return g_strdup(_(label));
+}
+
+char *spore_value_text(const SporeParameter *parameter, const SporeValue *value) {
+  int length = spore_parameter_format(parameter, value, NULL, 0);
+  char *text = g_malloc((gsize)MAX(length, 0) + 1);
+  text[0] = '\0';
+  spore_parameter_format(parameter, value, text, (gsize)MAX(length, 0) + 1);
+  return text;
+}

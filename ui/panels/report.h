@@ -1,0 +1,20 @@
+/* Small services that panels share. */
+#ifndef SPORE_UI_PANELS_REPORT_H
+#define SPORE_UI_PANELS_REPORT_H
+
+#include <gtk/gtk.h>
+
+#include "core/base/parameter.h"
+
+/* Activates win.NAME of the window that holds the widget. Takes a floating parameter. */
+void spore_activate(GtkWidget *widget, const char *name, GVariant *parameter);
+/* Shows the message in the window's bar. */
+void spore_report(GtkWidget *widget, const GError *error);
+/* The wheel over this widget scrolls what holds it and never changes its value. */
+void spore_ignore_wheel(GtkWidget *widget);
+/* "Contact stiffness" of "contact_stiffness", translated. g_free. */
+char *spore_label_of(const char *name);
+/* The value as the file would hold it. g_free. */
+char *spore_value_text(const SporeParameter *parameter, const SporeValue *value);
+
+#endif

@@ -1,0 +1,58 @@
+#include "ui/panels/spore-generator-box.h"
+
+#include <glib/gi18n.h>
+
+#include "ui/panels/report.h"
+
+struct _SporeGeneratorBox {
+  GtkBox parent;
+  GtkWidget *label, *count, *button, *result;
+  char *action;
+};
+
+G_DEFINE_FINAL_TYPE(SporeGeneratorBox, spore_generator_box, GTK_TYPE_BOX)
+
+static void generate(GtkWidget *widget, SporeGeneratorBox *self) {
+  gtk_spin_button_update(GTK_SPIN_BUTTON(self->count));
+  guint count = (guint)gtk_spin_button_get_value_as_int(GTK_SPIN_BUTTON(self->count));
+  spore_activate(GTK_WIDGET(self), self->action, g_variant_new_uint32(count));
+}
+
+static void spore_generator_box_finalize(GObject *object) {
+  g_free(SPORE_GENERATOR_BOX(object)->action);
+  G_OBJECT_CLASS(spore_generator_box_parent_class)->finalize(object);
+}
+
+static void spore_generator_box_class_init(SporeGeneratorBoxClass *class) {
+  GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+  G_OBJECT_CLASS(class)->finalize = spore_generator_box_finalize;
+  gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-generator-box.ui");
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, label);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, count);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, button);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, result);
+  gtk_widget_class_bind_template_callback(widget, generate);
+}
+
+static void spore_generator_box_init(SporeGeneratorBox *self) {
+  gtk_widget_init_template(GTK_WIDGET(self));
+  spore_ignore_wheel(self->count);
+}
+
+GtkWidget *spore_generator_box_new(const char *action, const char *label, guint count, guint maximum) {
+  SporeGeneratorBox *self = g_object_new(SPORE_TYPE_GENERATOR_BOX, NULL);
+  self->action = g_strdup(action);
+  gtk_label_set_text(GTK_LABEL(self->label), label);
+  gtk_spin_button_set_range(GTK_SPIN_BUTTON(self->count), 1, maximum);
+  gtk_spin_button_set_increments(GTK_SPIN_BUTTON(self->count), 10, 100);
+  gtk_spin_button_set_value(GTK_SPIN_BUTTON(self->count), count);
+  return GTK_WIDGET(self);
+}
+
+void spore_generator_box_set_result(SporeGeneratorBox *self, const char *text, gboolean stale) {
+  gtk_label_set_text(GTK_LABEL(self->result), text);
+  gtk_button_set_label(GTK_BUTTON(self->button), stale ? _("Regenerate") : _("Generate"));
+  GtkStyleContext *style = gtk_widget_get_style_context(self->button);
+  if (stale) gtk_style_context_add_class(style, "suggested-action");
+  else gtk_style_context_remove_class(style, "suggested-action");
+}

@@ -1,0 +1,381 @@
+#include "ui/panels/spore-inspector.h"
+
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "ui/document/edits.h"
+#include "ui/jobs/spore-job.h"
+#include "ui/jobs/works.h"
+#include "ui/panels/report.h"
+#include "ui/panels/spore-generator-box.h"
+#include "ui/panels/spore-property-row.h"
+
+#define DEFAULT_SPHERES 100
+#define MOST_SPHERES 20000
+#define DEFAULT_CELLS 1000
+#define MOST_CELLS 1000000
+
+struct _SporeInspector {
+  GtkBox parent;
+  GtkWidget *title, *subtitle, *sections;
+  SporeEditorDocument *document;
+  guint rebuild, refresh;
+  GPtrArray *rows; /* SporePropertyRow *, borrowed from the widget tree */
+  GtkWidget *mesh_facts, *spheres_box, *tetrahedra_box, *model;
+  gboolean filling;
+  GHashTable *collapsed; /* set of section titles that the user closed */
+
+  /* How good the spheres are: measured apart, kept by content of mesh and spheres. */
+  GHashTable *reports; /* char * -> SporeSpheresReport * */
+  char *measured_key;  /* now being measured, or NULL */
+};
+
+G_DEFINE_FINAL_TYPE(SporeInspector, spore_inspector, GTK_TYPE_BOX)
+
+static SporeDocument *document_of(SporeInspector *self) { return spore_editor_document_get(self->document); }
+
+/* Sections. */
+
+static void section_toggled(GtkExpander *expander, GParamSpec *spec, SporeInspector *self) {
+  const char *title = gtk_widget_get_name(GTK_WIDGET(expander));
+  if (gtk_expander_get_expanded(expander)) g_hash_table_remove(self->collapsed, title);
+  else g_hash_table_add(self->collapsed, g_strdup(title));
+}
+
+static GtkBox *add_section(SporeInspector *self, const char *title) {
+  GtkWidget *expander = gtk_expander_new(title);
+  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
+  gtk_widget_set_name(expander, title);
+  gtk_expander_set_expanded(GTK_EXPANDER(expander), !g_hash_table_contains(self->collapsed, title));
+  g_signal_connect(expander, "notify::expanded", G_CALLBACK(section_toggled), self);
+  gtk_style_context_add_class(gtk_widget_get_style_context(expander), "section");
+  gtk_style_context_add_class(gtk_widget_get_style_context(box), "section-body");
+  gtk_container_add(GTK_CONTAINER(expander), box);
+  gtk_container_add(GTK_CONTAINER(self->sections), expander);
+  return GTK_BOX(box);
+}
+
+/* One row a parameter of the table. */
+static void add_rows(SporeInspector *self, GtkBox *box, const char *path, const SporeObjectType *type) {
+  for (gsize i = 0; i < type->table->count; i++) {
+    GtkWidget *row = spore_property_row_new(self->document, path, type, (guint)i);
+    gtk_container_add(GTK_CONTAINER(box), row);
+    g_ptr_array_add(self->rows, row);
+  }
+}
+
+static void add_object(SporeInspector *self, GtkBox *box, SporeObject *object) {
+  g_autofree char *path = spore_object_path(object);
+  add_rows(self, box, path, spore_object_type(object));
+}
+
+/* A unit of the body, there or not: the first change of a row makes it. */
+static void add_unit(SporeInspector *self, GtkBox *box, SporeObject *body, const char *element) {
+  const SporeObjectType *type = spore_object_type_child(spore_object_type(body), element);
+  g_autofree char *parent = spore_object_path(body);
+  g_autofree char *path = g_strconcat(parent, "/", element, NULL);
+  if (type) add_rows(self, box, path, type);
+}
+
+static GtkWidget *add_fact(GtkBox *box) {
+  GtkWidget *label = gtk_label_new(NULL);
+  gtk_label_set_xalign(GTK_LABEL(label), 0);
+  gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
+  gtk_label_set_max_width_chars(GTK_LABEL(label), 40);
+  gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
+  gtk_style_context_add_class(gtk_widget_get_style_context(label), "result");
+  gtk_container_add(GTK_CONTAINER(box), label);
+  return label;
+}
+
+/* Facts. */
+
+static void show_mesh_facts(SporeInspector *self, SporeObject *body) {
+  g_autoptr(GError) error = NULL;
+  SporeObject *asset = spore_edit_visual_mesh(document_of(self), body, NULL);
+  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document_of(self), asset, &error) : NULL;
+  SporeMeshReport report;
+  if (!mesh || !spore_triangle_mesh_report(mesh, &report, NULL)) {
+    gtk_label_set_text(GTK_LABEL(self->mesh_facts), error ? error->message : _("No mesh is shown"));
+    return;
+  }
+  g_autofree char *text =
+      g_strdup_printf(_("%" G_GSIZE_FORMAT " triangles, %.3g × %.3g × %.3g mm, %s"), mesh->triangle_count,
+                      1e3 * (report.upper[0] - report.lower[0]), 1e3 * (report.upper[1] - report.lower[1]),
+                      1e3 * (report.upper[2] - report.lower[2]), report.closed ? _("closed") : _("not closed"));
+  gtk_label_set_text(GTK_LABEL(self->mesh_facts), text);
+}
+
+static gboolean is_stale(SporeInspector *self, SporeObject *asset) {
+  const char *source = spore_object_text(asset, "source"), *hash = spore_object_text(asset, "source_hash");
+  SporeObject *mesh = source && *source ? spore_document_find(document_of(self), "mesh", source) : NULL;
+  if (!mesh || !hash) return FALSE;
+  g_autofree char *now = spore_document_asset_hash(document_of(self), mesh);
+  return now && !g_str_equal(now, hash);
+}
+
+static gboolean refresh(gpointer data);
+
+static void queue_refresh(SporeInspector *self) {
+  if (!self->refresh && !self->rebuild) self->refresh = g_idle_add(refresh, self);
+}
+
+static void measured(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeInspector *self = owner;
+  SporeGenerateWork *work = data;
+  char *key = g_steal_pointer(&self->measured_key);
+  /* What cannot be measured is kept too (all zero), so that it is not tried again and again. */
+  g_hash_table_replace(self->reports, key, g_memdup2(&work->spheres_report, sizeof work->spheres_report));
+  if (self->document) queue_refresh(self);
+}
+
+/* NULL while it is being measured. */
+static const SporeSpheresReport *report_of(SporeInspector *self, SporeObject *body, SporeObject *asset,
+                                           const SporeSphereSet *set) {
+  SporeObject *mesh = spore_edit_visual_mesh(document_of(self), body, NULL);
+  if (!mesh) return NULL;
+  g_autofree char *mesh_hash = spore_document_asset_hash(document_of(self), mesh);
+  g_autofree char *set_hash = spore_document_asset_hash(document_of(self), asset);
+  g_autofree char *key = g_strconcat(mesh_hash ? mesh_hash : "", set_hash, NULL);
+  const SporeSpheresReport *report = g_hash_table_lookup(self->reports, key);
+  if (report || self->measured_key) return report;
+  SporeGenerateWork *work = spore_generate_work_new(document_of(self), body, NULL);
+  if (!work) return NULL;
+  if (!spore_sphere_set_allocate(&work->spheres, set->count, NULL)) {
+    spore_generate_work_free(work);
+    return NULL;
+  }
+  memcpy(work->spheres.spheres, set->spheres, set->count * 4 * sizeof(double));
+  self->measured_key = g_steal_pointer(&key);
+  g_object_unref(spore_job_start(_("Measuring spheres"), spore_measure_work_run, work, spore_generate_work_free,
+                                 measured, G_OBJECT(self)));
+  return NULL;
+}
+
+static void show_spheres(SporeInspector *self, SporeObject *body) {
+  SporeGeneratorBox *box = SPORE_GENERATOR_BOX(self->spheres_box);
+  SporeObject *asset = spore_edit_body_spheres(document_of(self), body);
+  g_autoptr(GError) error = NULL;
+  const SporeSphereSet *set = asset ? spore_document_spheres(document_of(self), asset, &error) : NULL;
+  if (!set) {
+    spore_generator_box_set_result(box, error ? error->message : _("No spheres yet: the body touches nothing"), FALSE);
+    return;
+  }
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("%" G_GSIZE_FORMAT " spheres"), set->count);
+  const SporeSpheresReport *report = report_of(self, body, asset, set);
+  if (report && report->coverage > 0)
+    g_string_append_printf(text, _("\nCoverage %.1f %%, outside %.1f %%\nDepth error %.1f %%, distance %.2f %%"),
+                           100 * report->coverage, 100 * report->outside, 100 * report->depth_error,
+                           100 * report->distance_mean);
+  else if (self->measured_key) g_string_append(text, _(", measuring…"));
+  gboolean stale = is_stale(self, asset);
+  if (stale) g_string_append(text, _("\nThe mesh has changed since"));
+  spore_generator_box_set_result(box, text->str, stale);
+  g_string_free(text, TRUE);
+}
+
+static void show_tetrahedra(SporeInspector *self, SporeObject *body) {
+  SporeGeneratorBox *box = SPORE_GENERATOR_BOX(self->tetrahedra_box);
+  SporeObject *asset = spore_edit_body_tetrahedra(document_of(self), body);
+  g_autoptr(GError) error = NULL;
+  const SporeTetrahedralMesh *mesh = asset ? spore_document_tetrahedra(document_of(self), asset, &error) : NULL;
+  if (!mesh) {
+    spore_generator_box_set_result(box, error ? error->message : _("No tetrahedra yet"), FALSE);
+    return;
+  }
+  SporeTetrahedraQuality quality;
+  spore_tetrahedral_mesh_quality(mesh, &quality);
+  gboolean stale = is_stale(self, asset);
+  g_autofree char *text = g_strdup_printf(_("%" G_GSIZE_FORMAT " tetrahedra, %.3g ml\nLeast angle %.1f°, mean %.1f°%s"),
+                                          mesh->tetrahedron_count, 1e6 * quality.volume, quality.min_dihedral_deg,
+                                          quality.mean_dihedral_deg, stale ? _("\nThe mesh has changed since") : "");
+  spore_generator_box_set_result(box, text, stale);
+}
+
+static void show_model(SporeInspector *self, SporeObject *body) {
+  SporeObject *model = spore_edit_body_model(body);
+  self->filling = TRUE;
+  gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->model), model ? spore_object_type(model)->element : "");
+  self->filling = FALSE;
+}
+
+static void show_facts(SporeInspector *self) {
+  SporeObject *body = spore_editor_document_selected_body(self->document);
+  if (!body || !self->model) return;
+  show_mesh_facts(self, body);
+  show_spheres(self, body);
+  show_tetrahedra(self, body);
+  show_model(self, body);
+}
+
+/* What is selected. */
+
+static void model_chosen(GtkComboBox *combo, SporeInspector *self) {
+  const char *id = gtk_combo_box_get_active_id(combo);
+  if (id && !self->filling) spore_activate(GTK_WIDGET(self), "set-model", g_variant_new_string(id));
+}
+
+static void add_model_choice(SporeInspector *self, GtkBox *box) {
+  GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *label = gtk_label_new(_("Model"));
+  self->model = gtk_combo_box_text_new();
+  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(self->model), "", _("None"));
+  SporeModelRegistry registry = spore_schema_registry(spore_document_schema(document_of(self)));
+  for (; *registry; registry++)
+    gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(self->model), (*registry)->name, _((*registry)->label));
+  g_signal_connect(self->model, "changed", G_CALLBACK(model_chosen), self);
+  spore_ignore_wheel(self->model);
+  gtk_label_set_xalign(GTK_LABEL(label), 0);
+  gtk_label_set_mnemonic_widget(GTK_LABEL(label), self->model);
+  gtk_widget_set_hexpand(label, TRUE);
+  gtk_style_context_add_class(gtk_widget_get_style_context(line), "generator");
+  gtk_container_add(GTK_CONTAINER(line), label);
+  gtk_container_add(GTK_CONTAINER(line), self->model);
+  gtk_container_add(GTK_CONTAINER(box), line);
+}
+
+static guint last_count(SporeObject *asset, const char *property, guint otherwise) {
+  return asset ? (guint)spore_object_number(asset, property) : otherwise;
+}
+
+static void add_body(SporeInspector *self, SporeObject *body) {
+  SporeDocument *document = document_of(self);
+  add_object(self, add_section(self, _("Body")), body);
+
+  GtkBox *visual = add_section(self, _("Visual mesh"));
+  self->mesh_facts = add_fact(visual);
+  add_unit(self, visual, body, "visual");
+
+  GtkBox *collision = add_section(self, _("Collision spheres"));
+  guint spheres = last_count(spore_edit_body_spheres(document, body), "count", DEFAULT_SPHERES);
+  self->spheres_box = spore_generator_box_new("generate-spheres", _("Number of spheres"), spheres, MOST_SPHERES);
+  gtk_container_add(GTK_CONTAINER(collision), self->spheres_box);
+  add_unit(self, collision, body, "collision");
+
+  GtkBox *mechanical = add_section(self, _("Mechanical unit"));
+  add_model_choice(self, mechanical);
+  guint cells = last_count(spore_edit_body_tetrahedra(document, body), "cells", DEFAULT_CELLS);
+  self->tetrahedra_box = spore_generator_box_new("generate-tetrahedra", _("Number of tetrahedra"), cells, MOST_CELLS);
+  gtk_container_add(GTK_CONTAINER(mechanical), self->tetrahedra_box);
+  add_unit(self, mechanical, body, "mechanical");
+
+  SporeObject *model = spore_edit_body_model(body);
+  if (model) {
+    const SporeModelType *type = spore_object_type(model)->model;
+    GtkBox *parameters = add_section(self, type ? _(type->label) : spore_object_type(model)->element);
+    if (type) gtk_widget_set_tooltip_text(GTK_WIDGET(parameters), _(type->doc));
+    add_object(self, parameters, model);
+  }
+  add_unit(self, add_section(self, _("Fidelity")), body, "fidelity");
+}
+
+/* Sections of the scene that hold settings rather than objects. */
+static void add_settings(SporeInspector *self, SporeObject *object) {
+  if (spore_object_type(object)->table->count > 0)
+    add_object(self, add_section(self, _(spore_object_type(object)->label)), object);
+  for (guint i = 0; i < spore_object_child_count(object); i++) {
+    SporeObject *child = spore_object_child(object, i);
+    if (!spore_object_name(child) && spore_object_type(child)->table->count > 0) add_settings(self, child);
+    else if (g_str_equal(spore_object_type(child)->element, "defaults")) add_settings(self, child);
+  }
+}
+
+static void show_title(SporeInspector *self, const char *title, const char *subtitle) {
+  gtk_label_set_text(GTK_LABEL(self->title), title);
+  gtk_label_set_text(GTK_LABEL(self->subtitle), subtitle);
+  gtk_widget_set_visible(self->subtitle, *subtitle != '\0');
+}
+
+static void destroy_child(GtkWidget *child, gpointer data) { gtk_widget_destroy(child); }
+
+static gboolean rebuild(gpointer data) {
+  SporeInspector *self = data;
+  self->rebuild = 0;
+  g_clear_handle_id(&self->refresh, g_source_remove);
+  g_ptr_array_set_size(self->rows, 0);
+  self->mesh_facts = self->spheres_box = self->tetrahedra_box = self->model = NULL;
+  gtk_container_foreach(GTK_CONTAINER(self->sections), destroy_child, NULL);
+  SporeObject *selected = spore_editor_document_selected(self->document);
+  SporeObject *body = spore_editor_document_selected_body(self->document);
+  if (body) {
+    show_title(self, spore_object_name(body), "");
+    add_body(self, body);
+    show_facts(self);
+  } else if (selected && spore_object_name(selected)) {
+    show_title(self, spore_object_name(selected), _(spore_object_type(selected)->label));
+    add_object(self, add_section(self, _(spore_object_type(selected)->label)), selected);
+  } else {
+    show_title(self, _("Scene"), _("Select an organ to see its units"));
+    add_settings(self, spore_document_root(document_of(self)));
+  }
+  gtk_widget_show_all(self->sections);
+  for (guint i = 0; i < self->rows->len; i++) spore_property_row_refresh(g_ptr_array_index(self->rows, i));
+  return G_SOURCE_REMOVE;
+}
+
+static gboolean refresh(gpointer data) {
+  SporeInspector *self = data;
+  self->refresh = 0;
+  for (guint i = 0; i < self->rows->len; i++) spore_property_row_refresh(g_ptr_array_index(self->rows, i));
+  show_facts(self);
+  return G_SOURCE_REMOVE;
+}
+
+static void queue_rebuild(SporeInspector *self) {
+  if (!self->rebuild) self->rebuild = g_idle_add(rebuild, self);
+}
+
+static void document_changed(SporeInspector *self, int kind, guint id, guint property) {
+  SporeObject *object = kind == SPORE_DOCUMENT_SET ? spore_document_by_id(document_of(self), id) : NULL;
+  if (!object || spore_object_type(object)->table->parameters[property].type == SPORE_NAME)
+    queue_rebuild(self); /* paths and candidates may differ */
+  else queue_refresh(self);
+}
+
+static void release_document(SporeInspector *self) {
+  g_clear_handle_id(&self->rebuild, g_source_remove);
+  g_clear_handle_id(&self->refresh, g_source_remove);
+  if (self->document) g_signal_handlers_disconnect_by_data(self->document, self);
+  g_clear_object(&self->document);
+}
+
+void spore_inspector_set_document(SporeInspector *self, SporeEditorDocument *document) {
+  release_document(self);
+  self->document = g_object_ref(document);
+  g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(document, "selection-changed", G_CALLBACK(queue_rebuild), self, G_CONNECT_SWAPPED);
+  rebuild(self);
+}
+
+static void spore_inspector_dispose(GObject *object) {
+  SporeInspector *self = SPORE_INSPECTOR(object);
+  release_document(self);
+  self->rows->len = 0;
+  G_OBJECT_CLASS(spore_inspector_parent_class)->dispose(object);
+}
+
+static void spore_inspector_finalize(GObject *object) {
+  SporeInspector *self = SPORE_INSPECTOR(object);
+  g_ptr_array_unref(self->rows);
+  g_hash_table_unref(self->collapsed);
+  g_hash_table_unref(self->reports);
+  g_free(self->measured_key);
+  G_OBJECT_CLASS(spore_inspector_parent_class)->finalize(object);
+}
+
+static void spore_inspector_class_init(SporeInspectorClass *class) {
+  GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+  G_OBJECT_CLASS(class)->dispose = spore_inspector_dispose;
+  G_OBJECT_CLASS(class)->finalize = spore_inspector_finalize;
+  gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-inspector.ui");
+  gtk_widget_class_bind_template_child(widget, SporeInspector, title);
+  gtk_widget_class_bind_template_child(widget, SporeInspector, subtitle);
+  gtk_widget_class_bind_template_child(widget, SporeInspector, sections);
+}
+
+static void spore_inspector_init(SporeInspector *self) {
+  self->rows = g_ptr_array_new();
+  self->collapsed = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  self->reports = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
+  gtk_widget_init_template(GTK_WIDGET(self));
+}

@@ -1,0 +1,263 @@
+#include "ui/panels/spore-outliner.h"
+
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "core/scene/check.h"
+#include "core/sim/world.h"
+#include "ui/panels/report.h"
+
+enum { COLUMN_ID, COLUMN_NAME, COLUMN_BADGE, COLUMN_HINT, COLUMN_EDITABLE, COLUMN_WEIGHT };
+
+struct _SporeOutliner {
+  GtkBox parent;
+  GtkWidget *filter, *tree;
+  GtkTreeStore *store;
+  GtkTreeModelFilter *filtered;
+  GtkTreeSelection *selection;
+  GtkTreeViewColumn *column;
+  GtkCellRenderer *name;
+  SporeEditorDocument *document;
+  guint rebuild;
+  gboolean filling;
+  GHashTable *badges; /* id -> SporeSeverity + 1 */
+};
+
+G_DEFINE_FINAL_TYPE(SporeOutliner, spore_outliner, GTK_TYPE_BOX)
+
+/* Filling. */
+
+static const char *badge_of(SporeOutliner *self, guint32 id) {
+  int severity = GPOINTER_TO_INT(g_hash_table_lookup(self->badges, GUINT_TO_POINTER(id))) - 1;
+  if (severity == SPORE_FAULT) return "dialog-error-symbolic";
+  return severity == SPORE_WARNING ? "dialog-warning-symbolic" : NULL;
+}
+
+static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *object) {
+  guint32 id = spore_object_id(object);
+  gtk_tree_store_insert_with_values(self->store, NULL, group, -1, COLUMN_ID, id, COLUMN_NAME, spore_object_name(object),
+                                    COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, _(spore_object_type(object)->label),
+                                    COLUMN_EDITABLE, TRUE, COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, -1);
+}
+
+static void add_group(SporeOutliner *self, const char *title, guint32 id, GtkTreeIter *group) {
+  gtk_tree_store_insert_with_values(self->store, group, NULL, -1, COLUMN_ID, id, COLUMN_NAME, title, COLUMN_EDITABLE,
+                                    FALSE, COLUMN_WEIGHT, PANGO_WEIGHT_BOLD, -1);
+}
+
+static void add_section(SporeOutliner *self, GtkTreeIter *group, const char *element) {
+  SporeObject *section = spore_document_section(spore_editor_document_get(self->document), element);
+  for (guint i = 0; i < spore_object_child_count(section); i++) {
+    SporeObject *object = spore_object_child(section, i);
+    if (spore_object_name(object)) add_object(self, group, object);
+  }
+}
+
+static void add_bodies(SporeOutliner *self, GtkTreeIter *group, gboolean active) {
+  SporeObject *section = spore_document_section(spore_editor_document_get(self->document), "bodies");
+  for (guint i = 0; i < spore_object_child_count(section); i++) {
+    SporeObject *body = spore_object_child(section, i);
+    if ((spore_object_number(body, "role") == SPORE_ACTIVE) == active) add_object(self, group, body);
+  }
+}
+
+static void fill(SporeOutliner *self) {
+  GtkTreeIter group;
+  gtk_tree_store_clear(self->store);
+  add_group(self, _("Scene"), spore_object_id(spore_document_root(spore_editor_document_get(self->document))), &group);
+  add_group(self, _("Organs"), 0, &group);
+  add_bodies(self, &group, FALSE);
+  add_group(self, _("Instruments"), 0, &group);
+  add_bodies(self, &group, TRUE);
+  add_section(self, &group, "tools");
+  add_section(self, &group, "devices");
+  add_group(self, _("Links"), 0, &group);
+  add_section(self, &group, "links");
+  add_group(self, _("Assets"), 0, &group);
+  add_section(self, &group, "assets");
+  gtk_tree_view_expand_all(GTK_TREE_VIEW(self->tree));
+}
+
+/* Selection, both ways. */
+
+static gboolean select_if(GtkTreeModel *model, GtkTreePath *path, GtkTreeIter *iter, gpointer data) {
+  SporeOutliner *self = data;
+  guint id;
+  gtk_tree_model_get(model, iter, COLUMN_ID, &id, -1);
+  if (id == 0 || id != spore_editor_document_get_selection(self->document)) return FALSE;
+  gtk_tree_selection_select_iter(self->selection, iter);
+  gtk_tree_view_scroll_to_cell(GTK_TREE_VIEW(self->tree), path, NULL, FALSE, 0, 0);
+  return TRUE;
+}
+
+static void show_selection(SporeOutliner *self) {
+  self->filling = TRUE;
+  gtk_tree_selection_unselect_all(self->selection);
+  gtk_tree_model_foreach(GTK_TREE_MODEL(self->filtered), select_if, self);
+  self->filling = FALSE;
+}
+
+static void row_selected(GtkTreeSelection *selection, SporeOutliner *self) {
+  GtkTreeModel *model;
+  GtkTreeIter iter;
+  guint id = 0;
+  if (self->filling || !self->document) return;
+  if (gtk_tree_selection_get_selected(selection, &model, &iter)) gtk_tree_model_get(model, &iter, COLUMN_ID, &id, -1);
+  spore_editor_document_select(self->document, id);
+}
+
+static gboolean may_select(GtkTreeSelection *selection, GtkTreeModel *model, GtkTreePath *path, gboolean selected,
+                           gpointer data) {
+  GtkTreeIter iter;
+  guint id = 0;
+  if (gtk_tree_model_get_iter(model, &iter, path)) gtk_tree_model_get(model, &iter, COLUMN_ID, &id, -1);
+  return id != 0;
+}
+
+static gboolean rebuild(gpointer data) {
+  SporeOutliner *self = data;
+  self->rebuild = 0;
+  self->filling = TRUE;
+  fill(self);
+  self->filling = FALSE;
+  show_selection(self);
+  return G_SOURCE_REMOVE;
+}
+
+static void queue_rebuild(SporeOutliner *self) {
+  if (!self->rebuild && self->document) self->rebuild = g_idle_add(rebuild, self);
+}
+
+/* Only names, roles and what there is are shown here. */
+static void document_changed(SporeOutliner *self, int kind, guint id, guint property) {
+  SporeObject *object =
+      kind == SPORE_DOCUMENT_SET ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
+  const SporeParameter *parameter = object ? &spore_object_type(object)->table->parameters[property] : NULL;
+  if (!parameter || parameter->type == SPORE_NAME || g_str_equal(parameter->name, "role")) queue_rebuild(self);
+}
+
+/* Filter. */
+
+static gboolean matches(GtkTreeModel *model, GtkTreeIter *iter, const char *wanted) {
+  g_autofree char *name = NULL;
+  gtk_tree_model_get(model, iter, COLUMN_NAME, &name, -1);
+  g_autofree char *folded = name ? g_utf8_casefold(name, -1) : NULL;
+  return folded && strstr(folded, wanted);
+}
+
+/* Groups stay, so that one sees where a match belongs. */
+static gboolean row_visible(GtkTreeModel *model, GtkTreeIter *iter, gpointer data) {
+  SporeOutliner *self = data;
+  const char *text = gtk_entry_get_text(GTK_ENTRY(self->filter));
+  GtkTreeIter parent;
+  if (*text == '\0' || !gtk_tree_model_iter_parent(model, &parent, iter)) return TRUE;
+  g_autofree char *wanted = g_utf8_casefold(text, -1);
+  return matches(model, iter, wanted);
+}
+
+static void filter_changed(GtkSearchEntry *entry, SporeOutliner *self) {
+  self->filling = TRUE;
+  gtk_tree_model_filter_refilter(self->filtered);
+  gtk_tree_view_expand_all(GTK_TREE_VIEW(self->tree));
+  self->filling = FALSE;
+  if (self->document) show_selection(self);
+}
+
+void spore_outliner_focus_filter(SporeOutliner *self) { gtk_widget_grab_focus(self->filter); }
+
+/* Renaming and removing. */
+
+static void name_edited(GtkCellRendererText *cell, const char *path, const char *text, SporeOutliner *self) {
+  GtkTreeIter iter;
+  guint id;
+  if (!gtk_tree_model_get_iter_from_string(GTK_TREE_MODEL(self->filtered), &iter, path)) return;
+  gtk_tree_model_get(GTK_TREE_MODEL(self->filtered), &iter, COLUMN_ID, &id, -1);
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *object = spore_document_by_id(document, id);
+  g_autoptr(GError) error = NULL;
+  if (!object || g_strcmp0(spore_object_name(object), text) == 0) return;
+  if (!spore_document_rename(document, object, text, &error)) spore_report(GTK_WIDGET(self), error);
+}
+
+void spore_outliner_rename(SporeOutliner *self) {
+  GtkTreeIter iter;
+  if (!gtk_tree_selection_get_selected(self->selection, NULL, &iter)) return;
+  GtkTreePath *path = gtk_tree_model_get_path(GTK_TREE_MODEL(self->filtered), &iter);
+  gtk_widget_grab_focus(self->tree);
+  gtk_tree_view_set_cursor_on_cell(GTK_TREE_VIEW(self->tree), path, self->column, self->name, TRUE);
+  gtk_tree_path_free(path);
+}
+
+static gboolean tree_key(GtkWidget *tree, GdkEventKey *event, SporeOutliner *self) {
+  if (event->keyval == GDK_KEY_F2) spore_outliner_rename(self);
+  else if (event->keyval == GDK_KEY_Delete) spore_activate(tree, "delete", NULL);
+  else return GDK_EVENT_PROPAGATE;
+  return GDK_EVENT_STOP;
+}
+
+/* Life. */
+
+static void release_document(SporeOutliner *self) {
+  g_clear_handle_id(&self->rebuild, g_source_remove);
+  if (self->document) g_signal_handlers_disconnect_by_data(self->document, self);
+  g_clear_object(&self->document);
+}
+
+void spore_outliner_set_document(SporeOutliner *self, SporeEditorDocument *document) {
+  release_document(self);
+  self->document = g_object_ref(document);
+  g_hash_table_remove_all(self->badges);
+  g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(document, "selection-changed", G_CALLBACK(show_selection), self, G_CONNECT_SWAPPED);
+  rebuild(self);
+}
+
+static guint32 named_ancestor(SporeDocument *document, guint32 id) {
+  SporeObject *object = id ? spore_document_by_id(document, id) : NULL;
+  while (object && !spore_object_name(object)) object = spore_object_parent(object);
+  return object ? spore_object_id(object) : 0;
+}
+
+void spore_outliner_set_problems(SporeOutliner *self, GPtrArray *diagnostics) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  g_hash_table_remove_all(self->badges);
+  for (guint i = 0; i < diagnostics->len; i++) {
+    const SporeDiagnostic *diagnostic = g_ptr_array_index(diagnostics, i);
+    gpointer id = GUINT_TO_POINTER(named_ancestor(document, diagnostic->object));
+    int badge = (int)diagnostic->severity + 1;
+    if (id && badge > GPOINTER_TO_INT(g_hash_table_lookup(self->badges, id)))
+      g_hash_table_insert(self->badges, id, GINT_TO_POINTER(badge));
+  }
+  queue_rebuild(self);
+}
+
+static void spore_outliner_dispose(GObject *object) {
+  SporeOutliner *self = SPORE_OUTLINER(object);
+  release_document(self);
+  g_clear_pointer(&self->badges, g_hash_table_unref);
+  G_OBJECT_CLASS(spore_outliner_parent_class)->dispose(object);
+}
+
+static void spore_outliner_class_init(SporeOutlinerClass *class) {
+  GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+  G_OBJECT_CLASS(class)->dispose = spore_outliner_dispose;
+  gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-outliner.ui");
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, filter);
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, tree);
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, store);
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, filtered);
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, selection);
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, column);
+  gtk_widget_class_bind_template_child(widget, SporeOutliner, name);
+  gtk_widget_class_bind_template_callback(widget, filter_changed);
+  gtk_widget_class_bind_template_callback(widget, row_selected);
+  gtk_widget_class_bind_template_callback(widget, name_edited);
+  gtk_widget_class_bind_template_callback(widget, tree_key);
+}
+
+static void spore_outliner_init(SporeOutliner *self) {
+  self->badges = g_hash_table_new(NULL, NULL);
+  gtk_widget_init_template(GTK_WIDGET(self));
+  gtk_tree_model_filter_set_visible_func(self->filtered, row_visible, self, NULL);
+  gtk_tree_selection_set_select_function(self->selection, may_select, self, NULL);
+}

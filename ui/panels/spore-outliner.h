@@ -1,0 +1,22 @@
+/* Organs, instruments, links and assets of the scene as a tree. */
+#ifndef SPORE_UI_PANELS_SPORE_OUTLINER_H
+#define SPORE_UI_PANELS_SPORE_OUTLINER_H
+
+#include <gtk/gtk.h>
+
+#include "ui/document/spore-editor-document.h"
+
+G_BEGIN_DECLS
+
+#define SPORE_TYPE_OUTLINER spore_outliner_get_type()
+G_DECLARE_FINAL_TYPE(SporeOutliner, spore_outliner, SPORE, OUTLINER, GtkBox)
+
+void spore_outliner_set_document(SporeOutliner *self, SporeEditorDocument *document);
+/* Array of SporeDiagnostic *; the worst of each object becomes its badge. */
+void spore_outliner_set_problems(SporeOutliner *self, GPtrArray *diagnostics);
+/* Begins to edit the name of what is selected. */
+void spore_outliner_rename(SporeOutliner *self);
+void spore_outliner_focus_filter(SporeOutliner *self);
+
+G_END_DECLS
+#endif

@@ -1,0 +1,18 @@
+/* What is wrong with the scene. Signal: checked (GPtrArray *diagnostics, borrowed). */
+#ifndef SPORE_UI_PANELS_SPORE_PROBLEMS_H
+#define SPORE_UI_PANELS_SPORE_PROBLEMS_H
+
+#include <gtk/gtk.h>
+
+#include "core/scene/check.h"
+#include "ui/document/spore-editor-document.h"
+
+G_BEGIN_DECLS
+
+#define SPORE_TYPE_PROBLEMS spore_problems_get_type()
+G_DECLARE_FINAL_TYPE(SporeProblems, spore_problems, SPORE, PROBLEMS, GtkScrolledWindow)
+
+void spore_problems_set_document(SporeProblems *self, SporeEditorDocument *document);
+
+G_END_DECLS
+#endif

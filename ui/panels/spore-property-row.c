@@ -1,0 +1,308 @@
+#include "ui/panels/spore-property-row.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+
+#include "ui/document/edits.h"
+#include "ui/panels/report.h"
+
+#define NUMBER_CHARS 9
+#define TEXT_CHARS 15
+
+struct _SporePropertyRow {
+  GtkBox parent;
+  GtkWidget *dot, *label, *holder, *unit, *tag, *reset, *complaint;
+  GtkWidget *editor;
+  SporeEditorDocument *document;
+  char *path;
+  const SporeObjectType *type;
+  guint property;
+  char *shown; /* text that the editor was given last */
+  gboolean refreshing;
+};
+
+G_DEFINE_FINAL_TYPE(SporePropertyRow, spore_property_row, GTK_TYPE_BOX)
+
+static const SporeParameter *parameter_of(SporePropertyRow *self) {
+  return &self->type->table->parameters[self->property];
+}
+
+static gboolean is_colour(const SporeParameter *parameter) {
+  return parameter->type == SPORE_VECTOR && parameter->minimum == 0 && parameter->maximum == 1;
+}
+
+static SporeObject *object_of(SporePropertyRow *self) {
+  return spore_document_by_path(spore_editor_document_get(self->document), self->path);
+}
+
+/* The value in force as text; for an object that is not there yet the default. g_free. */
+static char *current_text(SporePropertyRow *self) {
+  const SporeParameter *parameter = parameter_of(self);
+  SporeObject *object = object_of(self);
+  if (object) return spore_value_text(parameter, spore_object_value(object, self->property));
+  SporeValue value = {0};
+  if (!spore_parameter_initial(parameter, &value)) return g_strdup("");
+  char *text = spore_value_text(parameter, &value);
+  spore_value_clear(&value);
+  return text;
+}
+
+/* Changing. */
+
+static void complain(SporePropertyRow *self, const char *message) {
+  GtkStyleContext *style = gtk_widget_get_style_context(self->editor);
+  if (message) gtk_style_context_add_class(style, "error");
+  else gtk_style_context_remove_class(style, "error");
+  gtk_label_set_text(GTK_LABEL(self->complaint), message ? message : "");
+  gtk_widget_set_visible(self->complaint, message != NULL);
+}
+
+/* text NULL: back to the default. */
+static void change(SporePropertyRow *self, const char *text) {
+  if (self->refreshing) return;
+  g_autofree char *current = current_text(self);
+  if (text && g_str_equal(text, current)) {
+    complain(self, NULL);
+    return;
+  }
+  /* The change may rebuild the panel and this row with it. */
+  g_autoptr(SporePropertyRow) held = g_object_ref(self);
+  g_autoptr(GError) error = NULL;
+  const char *name = parameter_of(self)->name;
+  SporeDocument *document = spore_editor_document_get(self->document);
+  spore_edit_set_property(document, self->path, name, text, &error);
+  if (held->editor) complain(held, error ? error->message : NULL);
+}
+
+static void reset_clicked(GtkButton *button, SporePropertyRow *self) { change(self, NULL); }
+
+/* Editors: one kind of widget a type. */
+
+static void entry_commit(SporePropertyRow *self) {
+  const char *text = gtk_entry_get_text(GTK_ENTRY(self->editor));
+  g_autofree char *trimmed = g_strstrip(g_strdup(text));
+  SporeParameterType type = parameter_of(self)->type;
+  gboolean emptied = *trimmed == '\0' && (type == SPORE_REAL || type == SPORE_INTEGER || type == SPORE_VECTOR);
+  change(self, emptied ? NULL : trimmed);
+}
+
+static gboolean entry_left(GtkWidget *entry, GdkEvent *event, SporePropertyRow *self) {
+  entry_commit(self);
+  return GDK_EVENT_PROPAGATE;
+}
+
+static gboolean entry_key(GtkWidget *entry, GdkEventKey *event, SporePropertyRow *self) {
+  if (event->keyval != GDK_KEY_Escape) return GDK_EVENT_PROPAGATE;
+  g_clear_pointer(&self->shown, g_free);
+  spore_property_row_refresh(self);
+  return GDK_EVENT_STOP;
+}
+
+static GtkWidget *new_entry(SporePropertyRow *self) {
+  SporeParameterType type = parameter_of(self)->type;
+  GtkWidget *entry = gtk_entry_new();
+  gboolean number = type == SPORE_REAL || type == SPORE_INTEGER;
+  gtk_entry_set_width_chars(GTK_ENTRY(entry), number ? NUMBER_CHARS : TEXT_CHARS);
+  if (number) gtk_entry_set_alignment(GTK_ENTRY(entry), 1);
+  g_signal_connect_swapped(entry, "activate", G_CALLBACK(entry_commit), self);
+  g_signal_connect(entry, "focus-out-event", G_CALLBACK(entry_left), self);
+  g_signal_connect(entry, "key-press-event", G_CALLBACK(entry_key), self);
+  return entry;
+}
+
+static void switch_flipped(SporePropertyRow *self) {
+  change(self, gtk_switch_get_active(GTK_SWITCH(self->editor)) ? "true" : "false");
+}
+
+static GtkWidget *new_switch(SporePropertyRow *self) {
+  GtkWidget *editor = gtk_switch_new();
+  g_signal_connect_swapped(editor, "notify::active", G_CALLBACK(switch_flipped), self);
+  return editor;
+}
+
+static void combo_chosen(SporePropertyRow *self) {
+  const char *id = gtk_combo_box_get_active_id(GTK_COMBO_BOX(self->editor));
+  if (id) change(self, *id ? id : NULL);
+}
+
+static GtkWidget *new_combo(SporePropertyRow *self) {
+  GtkWidget *editor = gtk_combo_box_text_new();
+  g_signal_connect_swapped(editor, "changed", G_CALLBACK(combo_chosen), self);
+  spore_ignore_wheel(editor);
+  return editor;
+}
+
+static void colour_chosen(SporePropertyRow *self) {
+  GdkRGBA colour;
+  char r[G_ASCII_DTOSTR_BUF_SIZE], g[G_ASCII_DTOSTR_BUF_SIZE], b[G_ASCII_DTOSTR_BUF_SIZE];
+  gtk_color_chooser_get_rgba(GTK_COLOR_CHOOSER(self->editor), &colour);
+  g_ascii_formatd(r, sizeof r, "%.3g", colour.red);
+  g_ascii_formatd(g, sizeof g, "%.3g", colour.green);
+  g_ascii_formatd(b, sizeof b, "%.3g", colour.blue);
+  g_autofree char *text = g_strjoin(" ", r, g, b, NULL);
+  change(self, text);
+}
+
+static GtkWidget *new_colour(SporePropertyRow *self) {
+  GtkWidget *editor = gtk_color_button_new();
+  g_signal_connect_swapped(editor, "color-set", G_CALLBACK(colour_chosen), self);
+  return editor;
+}
+
+static GtkWidget *new_editor(SporePropertyRow *self) {
+  const SporeParameter *parameter = parameter_of(self);
+  if (is_colour(parameter)) return new_colour(self);
+  switch (parameter->type) {
+  case SPORE_BOOLEAN:
+    return new_switch(self);
+  case SPORE_CHOICE:
+  case SPORE_REFERENCE:
+    return new_combo(self);
+  default:
+    return new_entry(self);
+  }
+}
+
+/* Showing. */
+
+static void fill_references(SporePropertyRow *self, GtkComboBoxText *combo, const char *current) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  g_auto(GStrv) elements = g_strsplit(parameter_of(self)->references, "|", -1);
+  SporeObject *root = spore_document_root(document);
+  gboolean found = *current == '\0';
+  gtk_combo_box_text_append(combo, "", _("None"));
+  for (guint s = 0; s < spore_object_child_count(root); s++) {
+    SporeObject *section = spore_object_child(root, s);
+    for (guint i = 0; i < spore_object_child_count(section); i++) {
+      SporeObject *candidate = spore_object_child(section, i);
+      const char *name = spore_object_name(candidate);
+      if (!name || !g_strv_contains((const char *const *)elements, spore_object_type(candidate)->element)) continue;
+      gtk_combo_box_text_append(combo, name, name);
+      found |= g_str_equal(name, current);
+    }
+  }
+  if (!found) gtk_combo_box_text_append(combo, current, current); /* refers to nothing; the problems say so */
+}
+
+static void show_combo(SporePropertyRow *self, const char *text) {
+  const SporeParameter *parameter = parameter_of(self);
+  GtkComboBoxText *combo = GTK_COMBO_BOX_TEXT(self->editor);
+  gtk_combo_box_text_remove_all(combo);
+  if (parameter->type == SPORE_REFERENCE) fill_references(self, combo, text);
+  for (int i = 0; parameter->type == SPORE_CHOICE && parameter->choices[i]; i++) {
+    g_autofree char *label = spore_label_of(parameter->choices[i]);
+    gtk_combo_box_text_append(combo, parameter->choices[i], label);
+  }
+  gtk_combo_box_set_active_id(GTK_COMBO_BOX(combo), text);
+}
+
+static void show_value(SporePropertyRow *self, const char *text) {
+  if (GTK_IS_COMBO_BOX_TEXT(self->editor)) {
+    show_combo(self, text);
+  } else if (GTK_IS_SWITCH(self->editor)) {
+    gtk_switch_set_active(GTK_SWITCH(self->editor), g_str_equal(text, "true"));
+  } else if (GTK_IS_COLOR_BUTTON(self->editor)) {
+    GdkRGBA colour = {0, 0, 0, 1};
+    char *end;
+    colour.red = g_ascii_strtod(text, &end);
+    colour.green = g_ascii_strtod(end, &end);
+    colour.blue = g_ascii_strtod(end, &end);
+    gtk_color_chooser_set_rgba(GTK_COLOR_CHOOSER(self->editor), &colour);
+  } else {
+    gtk_entry_set_text(GTK_ENTRY(self->editor), text);
+  }
+}
+
+void spore_property_row_refresh(SporePropertyRow *self) {
+  g_autofree char *text = current_text(self);
+  SporeObject *object = object_of(self);
+  const SporeParameter *parameter = parameter_of(self);
+  gboolean set = object && spore_object_is_set(object, self->property) && parameter->type != SPORE_NAME;
+  /* What the user is typing stays, unless the value itself has changed. References show other names too. */
+  if (g_strcmp0(text, self->shown) != 0 || parameter->type == SPORE_REFERENCE) {
+    self->refreshing = TRUE;
+    show_value(self, text);
+    self->refreshing = FALSE;
+    complain(self, NULL);
+    g_free(self->shown);
+    self->shown = g_steal_pointer(&text);
+  }
+  gtk_widget_set_opacity(self->dot, set ? 1 : 0);
+  gtk_widget_set_opacity(self->reset, set ? 1 : 0);
+  gtk_widget_set_sensitive(self->reset, set);
+}
+
+/* Label and hints, from the table. */
+
+static char *range_text(const SporeParameter *parameter) {
+  gboolean low = isfinite(parameter->minimum), high = isfinite(parameter->maximum);
+  if (parameter->type != SPORE_REAL && parameter->type != SPORE_INTEGER && parameter->type != SPORE_VECTOR) return NULL;
+  if (low && high)
+    return g_strdup_printf(_("From %g to %g %s"), parameter->minimum, parameter->maximum, parameter->unit);
+  if (low) return g_strdup_printf(_("At least %g %s"), parameter->minimum, parameter->unit);
+  if (high) return g_strdup_printf(_("At most %g %s"), parameter->maximum, parameter->unit);
+  return NULL;
+}
+
+static void describe(SporePropertyRow *self) {
+  static const char *const tags[] = {N_("live"), N_("rebuild"), N_("restart")};
+  static const char *const hints[] = {N_("A running simulation takes the change at once"),
+                                      N_("A running simulation is compiled again and goes on"),
+                                      N_("A running simulation starts again from time 0")};
+  const SporeParameter *parameter = parameter_of(self);
+  g_autofree char *label = spore_label_of(parameter->name);
+  g_autofree char *range = range_text(parameter);
+  g_autofree char *tooltip =
+      g_strconcat(parameter->doc && *parameter->doc ? _(parameter->doc) : label, range ? "\n" : NULL, range, NULL);
+  gtk_label_set_text(GTK_LABEL(self->label), label);
+  gtk_widget_set_tooltip_text(self->label, tooltip);
+  gtk_widget_set_tooltip_text(self->editor, tooltip);
+  gtk_label_set_text(GTK_LABEL(self->unit), parameter->unit);
+  gtk_label_set_text(GTK_LABEL(self->tag), _(tags[parameter->change]));
+  gtk_widget_set_tooltip_text(self->tag, _(hints[parameter->change]));
+  g_autofree char *class = g_strdup_printf("tag-%s", tags[parameter->change]);
+  gtk_style_context_add_class(gtk_widget_get_style_context(self->tag), class);
+  gtk_label_set_mnemonic_widget(GTK_LABEL(self->label), self->editor);
+}
+
+static void spore_property_row_dispose(GObject *object) {
+  SporePropertyRow *self = SPORE_PROPERTY_ROW(object);
+  /* A leaving entry must not commit into a panel that is being torn down. */
+  if (self->editor) g_signal_handlers_disconnect_by_data(self->editor, self);
+  self->editor = NULL;
+  g_clear_object(&self->document);
+  g_clear_pointer(&self->path, g_free);
+  g_clear_pointer(&self->shown, g_free);
+  G_OBJECT_CLASS(spore_property_row_parent_class)->dispose(object);
+}
+
+static void spore_property_row_class_init(SporePropertyRowClass *class) {
+  GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+  G_OBJECT_CLASS(class)->dispose = spore_property_row_dispose;
+  gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-property-row.ui");
+  gtk_widget_class_bind_template_child(widget, SporePropertyRow, dot);
+  gtk_widget_class_bind_template_child(widget, SporePropertyRow, label);
+  gtk_widget_class_bind_template_child(widget, SporePropertyRow, holder);
+  gtk_widget_class_bind_template_child(widget, SporePropertyRow, unit);
+  gtk_widget_class_bind_template_child(widget, SporePropertyRow, tag);
+  gtk_widget_class_bind_template_child(widget, SporePropertyRow, reset);
+  gtk_widget_class_bind_template_child(widget, SporePropertyRow, complaint);
+  gtk_widget_class_bind_template_callback(widget, reset_clicked);
+}
+
+static void spore_property_row_init(SporePropertyRow *self) { gtk_widget_init_template(GTK_WIDGET(self)); }
+
+GtkWidget *spore_property_row_new(SporeEditorDocument *document, const char *path, const SporeObjectType *type,
+                                  guint property) {
+  SporePropertyRow *self = g_object_new(SPORE_TYPE_PROPERTY_ROW, NULL);
+  self->document = g_object_ref(document);
+  self->path = g_strdup(path);
+  self->type = type;
+  self->property = property;
+  self->editor = new_editor(self);
+  gtk_widget_show(self->editor);
+  gtk_container_add(GTK_CONTAINER(self->holder), self->editor);
+  describe(self);
+  spore_property_row_refresh(self);
+  return GTK_WIDGET(self);
+}

@@ -1,0 +1,342 @@
+#include "ui/sim/session.h"
+
+#include <string.h>
+
+#include "core/haptic/pointer.h"
+
+/* A step asks a device once, or a few times when the monitor takes it again; drained after each step. */
+#define SAMPLES_A_STEP 64
+/* Real time further behind than this is given up, so that a slow scene runs slowly instead of ever later. */
+#define SLACK_US (G_USEC_PER_SEC / 10)
+/* The clock is read at least this often while waiting for the next step. */
+#define FACTOR_WINDOW_US (G_USEC_PER_SEC)
+
+typedef struct {
+  double time_s;
+  SporeDeviceState state;
+} Sample;
+
+/* Stands between the world and a pointer and keeps what the pointer said; while it says nothing, where the body stood,
+ * so that the recording begins at time 0. */
+typedef struct {
+  SporeDevice device;
+  SporeDevice *pointer;
+  const SporeWorld *world;
+  guint32 body;
+  guint count;
+  Sample samples[SAMPLES_A_STEP];
+} Recorder;
+
+struct SporeSession {
+  SporeSimulation *simulation;
+  SporePool *pool;
+  Recorder *recorders;
+  guint recorder_count;
+  GThread *thread;
+
+  /* Guarded by the mutex, which nobody holds during a step. */
+  GMutex mutex;
+  GCond wake, stood;
+  gboolean quit, playing, reset, standing;
+  guint steps;
+  double speed;
+  double factor;
+  SporeTrack recording;
+
+  /* The thread's own. */
+  gint64 pace_clock, factor_clock; /* us */
+  double pace_time, factor_time;   /* s, simulated */
+};
+
+static bool recorder_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
+                              SporeDeviceState *state) {
+  Recorder *recorder = (Recorder *)device;
+  bool said = recorder->pointer->type->exchange(recorder->pointer, time_s, command, state);
+  SporeDeviceState kept = {0};
+  if (said) {
+    kept = *state;
+  } else {
+    const double *q = spore_world_q(recorder->world, recorder->body);
+    memcpy(kept.position, q, sizeof kept.position);
+    memcpy(kept.orientation, q + 3, sizeof kept.orientation);
+  }
+  if (recorder->count < SAMPLES_A_STEP) recorder->samples[recorder->count++] = (Sample){time_s, kept};
+  return said;
+}
+
+/* The recorders are the session's and end with it. */
+static void recorder_close(SporeDevice *device) {}
+
+static const SporeDeviceType recorder_type = {"recorder", "", recorder_exchange, recorder_close};
+
+static gboolean has_channel(const SporeTrack *track, const char *name) {
+  return track && spore_track_channel(track, name) != NULL;
+}
+
+/* Every active body that no track drives follows the pointer. */
+static gboolean make_recorders(SporeSession *session, const SporeTrack *input, GError **error) {
+  SporeWorld *world = session->simulation->world;
+  gsize bodies = spore_world_body_count(world);
+  session->recorders = g_new0(Recorder, bodies);
+  for (guint32 body = 0; body < bodies; body++) {
+    const char *name = spore_world_body_name(world, body);
+    if (spore_world_body_role(world, body) != SPORE_ACTIVE) continue;
+    if (has_channel(session->simulation->track, name) || has_channel(input, name)) continue;
+    Recorder *recorder = &session->recorders[session->recorder_count];
+    recorder->device.type = &recorder_type;
+    recorder->world = world;
+    recorder->body = body;
+    recorder->pointer = spore_pointer_device_create();
+    if (!recorder->pointer)
+      return spore_error_raise(error, SPORE_ERROR_MEMORY, name, "not enough memory for a pointer");
+    session->recorder_count++;
+    spore_world_set_device(world, body, &recorder->device);
+  }
+  return TRUE;
+}
+
+static gboolean same_pose(const SporeDeviceState *a, const SporeDeviceState *b) {
+  return memcmp(a->position, b->position, sizeof a->position) == 0 &&
+         memcmp(a->orientation, b->orientation, sizeof a->orientation) == 0 && a->grip_rad == b->grip_rad &&
+         a->buttons == b->buttons;
+}
+
+/* Of a pose that is held, the first and the last sample are enough. */
+static void keep_sample(SporeTrackChannel *channel, const Sample *sample) {
+  size_t n = channel->count;
+  if (n > 0 && sample->time_s <= channel->time_s[n - 1]) return;
+  if (n > 1 && same_pose(&sample->state, &channel->states[n - 1]) && same_pose(&sample->state, &channel->states[n - 2]))
+    channel->time_s[n - 1] = sample->time_s;
+  else spore_track_append(channel, sample->time_s, &sample->state);
+}
+
+/* Called between steps with the mutex held. */
+static void drain_recorders(SporeSession *session) {
+  for (guint i = 0; i < session->recorder_count; i++) {
+    Recorder *recorder = &session->recorders[i];
+    if (recorder->count == 0) continue;
+    const char *name = spore_world_body_name(session->simulation->world, recorder->body);
+    SporeTrackChannel *channel = spore_track_channel(&session->recording, name);
+    if (!channel) channel = spore_track_add_channel(&session->recording, name);
+    for (guint s = 0; channel && s < recorder->count; s++) keep_sample(channel, &recorder->samples[s]);
+    recorder->count = 0;
+  }
+}
+
+static void restart_pace(SporeSession *session) {
+  session->pace_clock = session->factor_clock = g_get_monotonic_time();
+  session->pace_time = session->factor_time = spore_world_time_s(session->simulation->world);
+  session->factor = 0;
+}
+
+/* When the next step is due by the clock, us; 0: at once. */
+static gint64 next_due(SporeSession *session) {
+  if (session->speed <= 0) return 0;
+  double ahead_s = spore_world_time_s(session->simulation->world) - session->pace_time;
+  gint64 due = session->pace_clock + (gint64)(ahead_s / session->speed * G_USEC_PER_SEC);
+  gint64 now = g_get_monotonic_time();
+  if (now - due > SLACK_US) session->pace_clock += now - due;
+  return due <= now ? 0 : due;
+}
+
+static void update_factor(SporeSession *session) {
+  gint64 now = g_get_monotonic_time(), passed = now - session->factor_clock;
+  /* The first figure comes early, so that nobody waits a second to read it. */
+  if (passed < (session->factor > 0 ? FACTOR_WINDOW_US : FACTOR_WINDOW_US / 5)) return;
+  double time_s = spore_world_time_s(session->simulation->world);
+  session->factor = (time_s - session->factor_time) * G_USEC_PER_SEC / (double)passed;
+  session->factor_clock = now;
+  session->factor_time = time_s;
+}
+
+/* With the mutex held on both sides of the step. */
+static void take_step(SporeSession *session) {
+  g_mutex_unlock(&session->mutex);
+  spore_world_step(session->simulation->world);
+  g_mutex_lock(&session->mutex);
+  drain_recorders(session);
+}
+
+static void take_reset(SporeSession *session) {
+  spore_world_reset(session->simulation->world);
+  for (guint i = 0; i < session->recorder_count; i++) {
+    spore_pointer_device_release(session->recorders[i].pointer);
+    session->recorders[i].count = 0;
+  }
+  spore_track_clear(&session->recording);
+  session->reset = FALSE;
+  restart_pace(session);
+}
+
+static gpointer run(gpointer data) {
+  SporeSession *session = data;
+  g_mutex_lock(&session->mutex);
+  while (!session->quit) {
+    if (session->reset) {
+      take_reset(session);
+    } else if (session->steps > 0) {
+      take_step(session);
+      session->steps--;
+    } else if (session->playing) {
+      gint64 due = next_due(session);
+      if (due > 0) g_cond_wait_until(&session->wake, &session->mutex, due);
+      else take_step(session);
+      update_factor(session);
+    } else {
+      session->standing = TRUE;
+      g_cond_broadcast(&session->stood);
+      g_cond_wait(&session->wake, &session->mutex);
+      session->standing = FALSE;
+    }
+  }
+  g_mutex_unlock(&session->mutex);
+  return NULL;
+}
+
+static void wait_standing(SporeSession *session) {
+  session->standing = FALSE;
+  g_cond_signal(&session->wake);
+  while (!session->standing) g_cond_wait(&session->stood, &session->mutex);
+}
+
+SporeSession *spore_session_new(SporeDocument *document, int threads, const SporeTrack *input, GError **error) {
+  SporeSession *session = g_new0(SporeSession, 1);
+  g_mutex_init(&session->mutex);
+  g_cond_init(&session->wake);
+  g_cond_init(&session->stood);
+  session->speed = 1;
+  session->pool = spore_pool_create(MAX(threads, 1));
+  if (!session->pool) {
+    spore_error_raise(error, SPORE_ERROR_MEMORY, "", "no threads to be had; close other programs");
+    spore_session_free(session);
+    return NULL;
+  }
+  session->simulation = spore_simulation_new(document, session->pool, input, error);
+  if (!session->simulation || !make_recorders(session, input, error)) {
+    spore_session_free(session);
+    return NULL;
+  }
+  session->thread = g_thread_new("simulation", run, session);
+  return session;
+}
+
+void spore_session_free(SporeSession *session) {
+  if (!session) return;
+  if (session->thread) {
+    g_mutex_lock(&session->mutex);
+    session->quit = TRUE;
+    g_cond_signal(&session->wake);
+    g_mutex_unlock(&session->mutex);
+    g_thread_join(session->thread);
+  }
+  if (session->simulation) spore_simulation_free(session->simulation);
+  for (guint i = 0; i < session->recorder_count; i++)
+    session->recorders[i].pointer->type->close(session->recorders[i].pointer);
+  g_free(session->recorders);
+  if (session->pool) spore_pool_free(session->pool);
+  spore_track_clear(&session->recording);
+  g_cond_clear(&session->stood);
+  g_cond_clear(&session->wake);
+  g_mutex_clear(&session->mutex);
+  g_free(session);
+}
+
+const SporeSimulation *spore_session_simulation(const SporeSession *session) { return session->simulation; }
+
+void spore_session_play(SporeSession *session) {
+  g_mutex_lock(&session->mutex);
+  if (!session->playing) {
+    restart_pace(session);
+    session->playing = TRUE;
+    g_cond_signal(&session->wake);
+  }
+  g_mutex_unlock(&session->mutex);
+}
+
+void spore_session_pause(SporeSession *session) {
+  g_mutex_lock(&session->mutex);
+  session->playing = FALSE;
+  wait_standing(session);
+  g_mutex_unlock(&session->mutex);
+}
+
+gboolean spore_session_is_playing(const SporeSession *session) {
+  SporeSession *locked = (SporeSession *)session;
+  g_mutex_lock(&locked->mutex);
+  gboolean playing = session->playing;
+  g_mutex_unlock(&locked->mutex);
+  return playing;
+}
+
+void spore_session_step(SporeSession *session, guint steps) {
+  g_mutex_lock(&session->mutex);
+  if (!session->playing) {
+    session->steps = steps;
+    wait_standing(session);
+  }
+  g_mutex_unlock(&session->mutex);
+}
+
+void spore_session_reset(SporeSession *session) {
+  g_mutex_lock(&session->mutex);
+  gboolean playing = session->playing;
+  session->playing = FALSE;
+  session->reset = TRUE;
+  wait_standing(session);
+  session->playing = playing;
+  g_cond_signal(&session->wake);
+  g_mutex_unlock(&session->mutex);
+}
+
+void spore_session_carry_over(SporeSession *to, const SporeSession *from) {
+  spore_simulation_carry_over(to->simulation, from->simulation);
+}
+
+void spore_session_set_speed(SporeSession *session, double speed) {
+  g_mutex_lock(&session->mutex);
+  session->speed = speed;
+  /* The thread may be pacing itself right now; it only reads these with the mutex held. */
+  session->pace_clock = g_get_monotonic_time();
+  session->pace_time = spore_session_snapshot(session)->time_s;
+  g_cond_signal(&session->wake);
+  g_mutex_unlock(&session->mutex);
+}
+
+const SporeSnapshot *spore_session_snapshot(SporeSession *session) {
+  return spore_world_snapshot_acquire(session->simulation->world);
+}
+
+gboolean spore_session_post(SporeSession *session, const SporeCommand *command) {
+  return spore_world_post(session->simulation->world, command);
+}
+
+void spore_session_set_pointer(SporeSession *session, guint32 body, const SporeDeviceState *state) {
+  for (guint i = 0; i < session->recorder_count; i++)
+    if (session->recorders[i].body == body) spore_pointer_device_set(session->recorders[i].pointer, state);
+}
+
+double spore_session_real_time_factor(const SporeSession *session) {
+  SporeSession *locked = (SporeSession *)session;
+  g_mutex_lock(&locked->mutex);
+  double factor = session->playing ? session->factor : 0;
+  g_mutex_unlock(&locked->mutex);
+  return factor;
+}
+
+static void copy_channels(SporeTrack *to, const SporeTrack *from) {
+  for (size_t c = 0; c < from->channel_count; c++) {
+    const SporeTrackChannel *source = &from->channels[c];
+    SporeTrackChannel *channel = spore_track_add_channel(to, source->name);
+    for (size_t i = 0; channel && i < source->count; i++)
+      if (!spore_track_append(channel, source->time_s[i], &source->states[i])) return;
+  }
+}
+
+SporeTrack *spore_session_recording(SporeSession *session) {
+  SporeTrack *copy = g_new0(SporeTrack, 1);
+  if (session->simulation->track) copy_channels(copy, session->simulation->track);
+  g_mutex_lock(&session->mutex);
+  copy_channels(copy, &session->recording);
+  g_mutex_unlock(&session->mutex);
+  return copy;
+}

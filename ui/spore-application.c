@@ -1,0 +1,134 @@
+#include "ui/spore-application.h"
+
+#include <glib/gi18n.h>
+
+#include "models/registry.h"
+#include "ui/spore-window.h"
+
+struct _SporeApplication {
+  GtkApplication parent;
+  SporeSchema *schema;
+  char *version, *scenes;
+  gboolean recovery_offered;
+};
+
+G_DEFINE_FINAL_TYPE(SporeApplication, spore_application, GTK_TYPE_APPLICATION)
+
+static const struct {
+  const char *action;
+  const char *keys[3];
+} accelerators[] = {
+    {"win.open-dialog", {"<Control>o"}},
+    {"win.save", {"<Control>s"}},
+    {"win.save-as-dialog", {"<Control><Shift>s"}},
+    {"win.import-dialog", {"<Control>i"}},
+    {"win.new", {"<Control>n"}},
+    {"win.undo", {"<Control>z"}},
+    {"win.redo", {"<Control><Shift>z", "<Control>y"}},
+    {"win.play-pause", {"F5"}},
+    {"win.step", {"F6"}},
+    {"win.reset", {"<Shift>F5"}},
+    {"win.filter", {"<Control>f"}},
+    {"win.close", {"<Control>w"}},
+    {"app.quit", {"<Control>q"}},
+};
+
+static void load_style(void) {
+  g_autoptr(GtkCssProvider) provider = gtk_css_provider_new();
+  gtk_css_provider_load_from_resource(provider, "/org/spore/Editor/style.css");
+  gtk_style_context_add_provider_for_screen(gdk_screen_get_default(), GTK_STYLE_PROVIDER(provider),
+                                            GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
+}
+
+static void about(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeApplication *self = data;
+  gtk_show_about_dialog(gtk_application_get_active_window(GTK_APPLICATION(self)), "program-name", "SPORE", "version",
+                        self->version, "comments",
+                        _("Editor and real-time kernel for surgical simulation.\nFor training and preview only."),
+                        "license-type", GTK_LICENSE_GPL_3_0, "logo-icon-name", "org.spore.Editor", NULL);
+}
+
+static void quit(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  /* Each window may ask about unsaved changes; the program ends with the last one. */
+  g_autoptr(GList) windows = g_list_copy(gtk_application_get_windows(GTK_APPLICATION(data)));
+  for (GList *item = windows; item; item = item->next) gtk_window_close(GTK_WINDOW(item->data));
+}
+
+static void new_window(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  gtk_window_present(GTK_WINDOW(spore_window_new(SPORE_APPLICATION(data))));
+}
+
+static void spore_application_startup(GApplication *application) {
+  static const GActionEntry actions[] = {{"about", about}, {"quit", quit}, {"new-window", new_window}};
+  SporeApplication *self = SPORE_APPLICATION(application);
+  G_APPLICATION_CLASS(spore_application_parent_class)->startup(application);
+  self->schema = spore_schema_new(spore_model_registry);
+  g_object_set(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", TRUE, NULL);
+  load_style();
+  g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+  for (gsize i = 0; i < G_N_ELEMENTS(accelerators); i++)
+    gtk_application_set_accels_for_action(GTK_APPLICATION(self), accelerators[i].action, accelerators[i].keys);
+}
+
+static SporeWindow *add_window(SporeApplication *self) {
+  SporeWindow *window = spore_window_new(self);
+  gtk_window_present(GTK_WINDOW(window));
+  if (!self->recovery_offered) spore_window_offer_recovery(window);
+  self->recovery_offered = TRUE;
+  return window;
+}
+
+static void spore_application_activate(GApplication *application) {
+  GtkWindow *window = gtk_application_get_active_window(GTK_APPLICATION(application));
+  if (window) gtk_window_present(window);
+  else add_window(SPORE_APPLICATION(application));
+}
+
+static void spore_application_open(GApplication *application, GFile **files, int count, const char *hint) {
+  SporeApplication *self = SPORE_APPLICATION(application);
+  for (int i = 0; i < count; i++) {
+    GtkWindow *active = gtk_application_get_active_window(GTK_APPLICATION(self));
+    SporeWindow *window = SPORE_IS_WINDOW(active) && spore_window_is_fresh(SPORE_WINDOW(active)) ? SPORE_WINDOW(active)
+                                                                                                 : add_window(self);
+    g_autofree char *path = g_file_get_path(files[i]);
+    g_autofree char *uri = g_file_get_uri(files[i]);
+    spore_window_open(window, path ? path : uri);
+  }
+}
+
+static void spore_application_finalize(GObject *object) {
+  SporeApplication *self = SPORE_APPLICATION(object);
+  if (self->schema) spore_schema_free(self->schema);
+  g_free(self->version);
+  g_free(self->scenes);
+  G_OBJECT_CLASS(spore_application_parent_class)->finalize(object);
+}
+
+static void spore_application_class_init(SporeApplicationClass *class) {
+  G_OBJECT_CLASS(class)->finalize = spore_application_finalize;
+  G_APPLICATION_CLASS(class)->startup = spore_application_startup;
+  G_APPLICATION_CLASS(class)->activate = spore_application_activate;
+  G_APPLICATION_CLASS(class)->open = spore_application_open;
+}
+
+static void spore_application_init(SporeApplication *self) {}
+
+SporeApplication *spore_application_new(const char *version, const char *scenes) {
+  SporeApplication *self = g_object_new(SPORE_TYPE_APPLICATION, "application-id", "org.spore.Editor", "flags",
+                                        G_APPLICATION_HANDLES_OPEN, "resource-base-path", "/org/spore/Editor", NULL);
+  self->version = g_strdup(version);
+  self->scenes = g_strdup(scenes);
+  return self;
+}
+
+const SporeSchema *spore_application_get_schema(SporeApplication *self) { return self->schema; }
+
+char *spore_application_get_demo(SporeApplication *self) {
+  static const char *const names[] = {"laparoscopy.spore", "minimal.spore"};
+  for (gsize i = 0; i < G_N_ELEMENTS(names); i++) {
+    char *file = g_build_filename(self->scenes, names[i], NULL);
+    if (g_file_test(file, G_FILE_TEST_IS_REGULAR)) return file;
+    g_free(file);
+  }
+  return NULL;
+}

@@ -1,0 +1,290 @@
+#include <glib/gi18n.h>
+
+#include "ui/document/edits.h"
+#include "ui/jobs/works.h"
+#include "ui/spore-window-private.h"
+
+static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
+
+/* The selected body, else the only one that shows a mesh; complains where there is none. */
+static SporeObject *body_to_work_on(SporeWindow *self) {
+  SporeObject *selected = spore_editor_document_selected_body(self->document);
+  if (selected) return selected;
+  SporeObject *bodies = spore_document_section(document_of(self), "bodies"), *only = NULL;
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    if (!spore_edit_visual_mesh(document_of(self), body, NULL)) continue;
+    if (only) {
+      only = NULL;
+      break;
+    }
+    only = body;
+  }
+  if (!only) spore_window_complain(self, _("Select the organ first, in the outliner or in the viewport"));
+  return only;
+}
+
+/* History and objects. */
+
+static void act_undo(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_document_undo(document_of(data));
+}
+
+static void act_redo(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_document_redo(document_of(data));
+}
+
+static void act_select(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *object = spore_document_by_path(document_of(self), g_variant_get_string(parameter, NULL));
+  spore_editor_document_select(self->document, object ? spore_object_id(object) : 0);
+}
+
+static void act_rename(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *object = spore_editor_document_selected(self->document);
+  g_autoptr(GError) error = NULL;
+  if (object && !spore_document_rename(document_of(self), object, g_variant_get_string(parameter, NULL), &error))
+    spore_window_failed(self, error);
+}
+
+static void act_rename_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_outliner_rename(SPORE_OUTLINER(((SporeWindow *)data)->outliner));
+}
+
+static void act_delete(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *object = spore_editor_document_selected(self->document);
+  g_autoptr(GError) error = NULL;
+  if (object && !spore_document_remove(document_of(self), object, &error)) spore_window_failed(self, error);
+}
+
+static void act_set_property(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  const char *path, *name, *value;
+  g_autoptr(GError) error = NULL;
+  g_variant_get(parameter, "(&s&s&s)", &path, &name, &value);
+  if (!spore_edit_set_property(document_of(self), path, name, value, &error)) spore_window_failed(self, error);
+}
+
+static void act_unset_property(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  const char *path, *name;
+  g_autoptr(GError) error = NULL;
+  g_variant_get(parameter, "(&s&s)", &path, &name);
+  if (!spore_edit_set_property(document_of(self), path, name, NULL, &error)) spore_window_failed(self, error);
+}
+
+static void act_set_model(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = body_to_work_on(self);
+  g_autoptr(GError) error = NULL;
+  if (body && !spore_edit_set_model(document_of(self), body, g_variant_get_string(parameter, NULL), &error))
+    spore_window_failed(self, error);
+}
+
+static void act_add_probe(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  SporeObject *probe = spore_edit_add_probe(document_of(self), &error);
+  if (!probe) {
+    spore_window_failed(self, error);
+    return;
+  }
+  spore_editor_document_select(self->document, spore_object_id(probe));
+  g_action_group_activate_action(G_ACTION_GROUP(self), "tool", g_variant_new_string("probe"));
+}
+
+/* Generators. */
+
+/* Where the result goes; NULL, said in the log: the scene is another one by now. */
+static SporeObject *body_of_result(SporeWindow *self, const SporeGenerateWork *work, const GError *error) {
+  if (spore_window_failed(self, error) || !self->document) return NULL;
+  SporeObject *body = spore_generate_work_body(work, document_of(self));
+  if (!body) spore_window_log(self, _("The mesh changed meanwhile; the result was dropped"));
+  return body;
+}
+
+static void spheres_generated(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  SporeGenerateWork *work = data;
+  SporeObject *body = body_of_result(self, work, error);
+  g_autoptr(GError) failure = NULL;
+  if (!body) return;
+  if (!spore_edit_use_spheres(document_of(self), body, work->source, work->source_hash, &work->spheres_options,
+                              &work->spheres, &failure)) {
+    spore_window_failed(self, failure);
+    return;
+  }
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "show-spheres", g_variant_new_boolean(TRUE));
+  spore_window_log(self, _("%" G_GSIZE_FORMAT " spheres in %.1f s: coverage %.1f %%, depth error %.1f %%"),
+                   work->spheres.count, work->spheres_report.seconds, 100 * work->spheres_report.coverage,
+                   100 * work->spheres_report.depth_error);
+}
+
+static void tetrahedra_generated(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  SporeGenerateWork *work = data;
+  SporeObject *body = body_of_result(self, work, error);
+  g_autoptr(GError) failure = NULL;
+  if (!body) return;
+  if (!spore_edit_use_tetrahedra(document_of(self), body, work->source, work->source_hash,
+                                 work->tetrahedra_options.cells, &work->tetrahedra, &failure)) {
+    spore_window_failed(self, failure);
+    return;
+  }
+  spore_window_log(self, _("%" G_GSIZE_FORMAT " tetrahedra in %.1f s (%s): least angle %.1f°, error %.2f %%"),
+                   work->tetrahedra.tetrahedron_count, work->tetrahedra_report.seconds,
+                   work->tetrahedra_report.method ? work->tetrahedra_report.method : "?",
+                   work->tetrahedra_report.quality.min_dihedral_deg, 100 * work->tetrahedra_report.hausdorff);
+}
+
+static SporeGenerateWork *work_on_body(SporeWindow *self) {
+  g_autoptr(GError) error = NULL;
+  SporeObject *body = body_to_work_on(self);
+  SporeGenerateWork *work = body ? spore_generate_work_new(document_of(self), body, &error) : NULL;
+  if (error) spore_window_failed(self, error);
+  return work;
+}
+
+static void act_generate_spheres(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeGenerateWork *work = work_on_body(self);
+  if (!work) return;
+  work->spheres_options = (SporeSpheresOptions){.count = MAX(1, g_variant_get_uint32(parameter)), .seed = 1};
+  spore_window_start_job(self, _("Generating spheres"), spore_spheres_work_run, work, spore_generate_work_free,
+                         spheres_generated);
+}
+
+static void act_generate_tetrahedra(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeGenerateWork *work = work_on_body(self);
+  if (!work) return;
+  work->tetrahedra_options = (SporeTetrahedraOptions){.cells = MAX(1, g_variant_get_uint32(parameter))};
+  spore_window_start_job(self, _("Generating tetrahedra"), spore_tetrahedra_work_run, work, spore_generate_work_free,
+                         tetrahedra_generated);
+}
+
+static void act_cancel_job(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  if (self->job) spore_job_cancel(self->job);
+}
+
+/* Simulation. */
+
+static void act_play(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_player_play(((SporeWindow *)data)->player);
+}
+
+static void act_pause(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_player_pause(((SporeWindow *)data)->player);
+}
+
+static void act_play_pause(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  (spore_player_is_playing(self->player) ? spore_player_pause : spore_player_play)(self->player);
+}
+
+static void act_step(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_player_step(((SporeWindow *)data)->player);
+}
+
+static void act_reset(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_player_reset(((SporeWindow *)data)->player);
+}
+
+static void change_speed(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  const char *text = g_variant_get_string(state, NULL);
+  double speed = g_ascii_strtod(text, NULL);
+  if (!(speed >= 0 && speed <= 100)) return;
+  g_autofree char *label = speed > 0 ? g_strdup_printf("%g×", speed) : g_strdup(_("Max"));
+  gtk_button_set_label(GTK_BUTTON(self->speed_button), label);
+  spore_player_set_speed(self->player, speed);
+  g_simple_action_set_state(action, state);
+}
+
+/* View. */
+
+static void change_tool(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  gboolean probe = g_str_equal(g_variant_get_string(state, NULL), "probe");
+  spore_viewport_set_tool(SPORE_VIEWPORT(self->viewport), probe ? SPORE_TOOL_PROBE : SPORE_TOOL_SELECT);
+  g_simple_action_set_state(action, state);
+}
+
+static gboolean is_on(SporeWindow *self, const char *action) {
+  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), action);
+  return g_variant_get_boolean(state);
+}
+
+static void change_overlay(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  g_simple_action_set_state(action, state);
+  SporeStageOptions options = {.surfaces = is_on(self, "show-surfaces"),
+                               .spheres = is_on(self, "show-spheres"),
+                               .tetrahedra = is_on(self, "show-tetrahedra"),
+                               .contacts = is_on(self, "show-contacts")};
+  spore_viewport_set_options(SPORE_VIEWPORT(self->viewport), &options);
+}
+
+static void change_panel(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  g_simple_action_set_state(action, state);
+  gtk_widget_set_visible(self->outliner, is_on(self, "show-outliner"));
+  gtk_widget_set_visible(self->inspector, is_on(self, "show-inspector"));
+  gtk_widget_set_visible(self->bottom, is_on(self, "show-problems"));
+}
+
+static void act_frame(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_viewport_frame(SPORE_VIEWPORT(((SporeWindow *)data)->viewport));
+}
+
+static void act_view(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_viewport_view(SPORE_VIEWPORT(((SporeWindow *)data)->viewport), g_variant_get_string(parameter, NULL));
+}
+
+static void act_filter(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_outliner_focus_filter(SPORE_OUTLINER(((SporeWindow *)data)->outliner));
+}
+
+static void act_report(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_window_complain(data, g_variant_get_string(parameter, NULL));
+}
+
+void spore_window_add_scene_actions(SporeWindow *self) {
+  static const GActionEntry actions[] = {
+      {"undo", act_undo},
+      {"redo", act_redo},
+      {"select", act_select, "s"},
+      {"rename", act_rename, "s"},
+      {"rename-dialog", act_rename_dialog},
+      {"delete", act_delete},
+      {"set-property", act_set_property, "(sss)"},
+      {"unset-property", act_unset_property, "(ss)"},
+      {"set-model", act_set_model, "s"},
+      {"add-probe", act_add_probe},
+      {"generate-spheres", act_generate_spheres, "u"},
+      {"generate-tetrahedra", act_generate_tetrahedra, "u"},
+      {"cancel-job", act_cancel_job},
+      {"play", act_play},
+      {"pause", act_pause},
+      {"play-pause", act_play_pause},
+      {"step", act_step},
+      {"reset", act_reset},
+      {"speed", NULL, "s", "'1'", change_speed},
+      {"tool", NULL, "s", "'select'", change_tool},
+      {"show-surfaces", NULL, NULL, "true", change_overlay},
+      {"show-spheres", NULL, NULL, "false", change_overlay},
+      {"show-tetrahedra", NULL, NULL, "false", change_overlay},
+      {"show-contacts", NULL, NULL, "false", change_overlay},
+      {"show-outliner", NULL, NULL, "true", change_panel},
+      {"show-inspector", NULL, NULL, "true", change_panel},
+      {"show-problems", NULL, NULL, "true", change_panel},
+      {"frame", act_frame},
+      {"view", act_view, "s"},
+      {"filter", act_filter},
+      {"report", act_report, "s"},
+  };
+  g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+}

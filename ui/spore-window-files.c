@@ -1,0 +1,248 @@
+#include <glib/gi18n.h>
+
+#include "core/base/memory.h"
+#include "core/io/mesh_import.h"
+#include "core/io/scene_xml.h"
+#include "ui/dialogs/spore-import-dialog.h"
+#include "ui/document/asset-readers.h"
+#include "ui/document/edits.h"
+#include "ui/jobs/works.h"
+#include "ui/spore-window-private.h"
+
+static SporeApplication *application_of(SporeWindow *self) {
+  return SPORE_APPLICATION(gtk_window_get_application(GTK_WINDOW(self)));
+}
+
+/* Choosing files. g_free; NULL: the user went back. */
+
+static char *choose_file(SporeWindow *self, GtkFileChooserAction action, const char *title, const char *accept,
+                         const char *pattern, const char *pattern_name, const char *proposed) {
+  g_autoptr(GtkFileChooserNative) native =
+      gtk_file_chooser_native_new(title, GTK_WINDOW(self), action, accept, _("_Cancel"));
+  GtkFileChooser *chooser = GTK_FILE_CHOOSER(native);
+  GtkFileFilter *filter = gtk_file_filter_new();
+  gtk_file_filter_set_name(filter, pattern_name);
+  gtk_file_filter_add_pattern(filter, pattern);
+  gtk_file_chooser_add_filter(chooser, filter);
+  gtk_file_chooser_set_do_overwrite_confirmation(chooser, TRUE);
+  if (proposed) gtk_file_chooser_set_current_name(chooser, proposed);
+  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(native)) != GTK_RESPONSE_ACCEPT) return NULL;
+  return gtk_file_chooser_get_filename(chooser);
+}
+
+static char *with_extension(char *file, const char *extension) {
+  if (!file || g_str_has_suffix(file, extension)) return file;
+  char *longer = g_strconcat(file, extension, NULL);
+  g_free(file);
+  return longer;
+}
+
+/* Saving. */
+
+static gboolean save_to(SporeWindow *self, const char *file) {
+  g_autoptr(GError) error = NULL;
+  if (!spore_editor_document_save(self->document, file, &error)) return !spore_window_failed(self, error);
+  spore_recovery_keep(self->recovery, self->document, NULL);
+  spore_window_log(self, _("Saved %s"), spore_editor_document_get_save_file(self->document));
+  return TRUE;
+}
+
+static gboolean save_as(SporeWindow *self) {
+  g_autofree char *title = spore_editor_document_get_title(self->document);
+  g_autofree char *proposed = with_extension(g_strdup(title), ".spore");
+  g_autofree char *file = with_extension(choose_file(self, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save scene"), _("_Save"),
+                                                     "*.spore", _("SPORE scenes"), proposed),
+                                         ".spore");
+  return file && save_to(self, file);
+}
+
+gboolean spore_window_save(SporeWindow *self) {
+  return spore_editor_document_get_save_file(self->document) ? save_to(self, NULL) : save_as(self);
+}
+
+gboolean spore_window_may_leave(SporeWindow *self) {
+  if (!spore_editor_document_is_modified(self->document)) return TRUE;
+  g_autofree char *name = spore_editor_document_get_title(self->document);
+  GtkWidget *dialog = gtk_message_dialog_new(GTK_WINDOW(self), GTK_DIALOG_MODAL, GTK_MESSAGE_QUESTION, GTK_BUTTONS_NONE,
+                                             _("Save changes to “%s”?"), name);
+  gtk_message_dialog_format_secondary_text(GTK_MESSAGE_DIALOG(dialog), "%s",
+                                           _("What was changed since the last save is lost otherwise."));
+  gtk_dialog_add_buttons(GTK_DIALOG(dialog), _("_Discard"), GTK_RESPONSE_REJECT, _("_Cancel"), GTK_RESPONSE_CANCEL,
+                         _("_Save"), GTK_RESPONSE_ACCEPT, NULL);
+  gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_ACCEPT);
+  int response = gtk_dialog_run(GTK_DIALOG(dialog));
+  gtk_widget_destroy(dialog);
+  if (response == GTK_RESPONSE_ACCEPT) return spore_window_save(self);
+  return response == GTK_RESPONSE_REJECT;
+}
+
+/* Opening. */
+
+static void opened(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  SporeOpenWork *work = data;
+  if (spore_window_failed(self, error)) return;
+  SporeDocument *document = g_steal_pointer(&work->document);
+  g_clear_object(&self->job); /* this one is through: replacing the document cancels what still runs */
+  gtk_widget_hide(self->job_box);
+  spore_window_set_document(self, document);
+  if (work->recovered) spore_editor_document_set_recovered(self->document, work->original);
+  self->fresh = FALSE;
+  spore_window_update_actions(self);
+  g_signal_emit_by_name(self->document, "history-changed");
+  spore_window_log(self, _("Opened %s"), work->original ? work->original : work->file);
+}
+
+static void start_open(SporeWindow *self, SporeOpenWork *work) {
+  g_autofree char *base = g_path_get_basename(work->original ? work->original : work->file);
+  g_autofree char *title = g_strdup_printf(_("Opening %s"), base);
+  spore_window_start_job(self, title, spore_open_work_run, work, spore_open_work_free, opened);
+}
+
+void spore_window_open(SporeWindow *self, const char *file) {
+  if (!spore_window_may_leave(self)) return;
+  start_open(self, spore_open_work_new(spore_application_get_schema(application_of(self)), file));
+}
+
+void spore_window_recover(SporeWindow *self) {
+  if (!self->leftover || !spore_window_may_leave(self)) return;
+  SporeOpenWork *work = spore_open_work_new(spore_application_get_schema(application_of(self)), self->leftover->scene);
+  work->original = g_strdup(self->leftover->original);
+  work->recovered = TRUE;
+  start_open(self, work);
+}
+
+/* Importing. */
+
+static void imported(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  SporeImportWork *work = data;
+  g_autoptr(GError) failure = NULL;
+  if (spore_window_failed(self, error) || !self->document) return;
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *body = spore_edit_add_organ(document, work->file, work->content, work->unit, work->frame, &failure);
+  if (!body) {
+    spore_window_failed(self, failure);
+    return;
+  }
+  spore_editor_document_select(self->document, spore_object_id(body));
+  spore_window_log(self, _("Imported %s: %" G_GSIZE_FORMAT " triangles"), work->file, work->mesh.triangle_count);
+}
+
+void spore_window_start_import(SporeWindow *self, const char *file, int unit, int frame) {
+  g_autofree char *base = g_path_get_basename(file);
+  g_autofree char *title = g_strdup_printf(_("Importing %s"), base);
+  spore_window_start_job(self, title, spore_import_work_run, spore_import_work_new(file, unit, frame),
+                         spore_import_work_free, imported);
+}
+
+static void import_answered(GtkDialog *dialog, int response, SporeWindow *self) {
+  SporeImportDialog *import = SPORE_IMPORT_DIALOG(dialog);
+  g_autofree char *file = spore_import_dialog_get_file(import);
+  if (response == GTK_RESPONSE_ACCEPT && file)
+    spore_window_start_import(self, file, spore_import_dialog_get_unit(import), spore_import_dialog_get_frame(import));
+  gtk_widget_destroy(GTK_WIDGET(dialog));
+}
+
+void spore_window_show_import_dialog(SporeWindow *self, const char *file) {
+  GtkWidget *dialog = spore_import_dialog_new(GTK_WINDOW(self), file);
+  g_signal_connect_object(dialog, "response", G_CALLBACK(import_answered), self, 0);
+  gtk_window_present(GTK_WINDOW(dialog));
+}
+
+/* Actions. */
+
+static int index_of(const char *const *names, const char *name) {
+  for (int i = 0; names[i]; i++)
+    if (g_str_equal(names[i], name)) return i;
+  return -1;
+}
+
+static void act_new(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  if (self->document && !spore_window_may_leave(self)) return;
+  SporeDocument *document = spore_document_new(spore_application_get_schema(application_of(self)));
+  spore_document_set_readers(document, &spore_editor_readers);
+  spore_window_set_document(self, document);
+}
+
+static void act_open(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_window_open(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_open_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file =
+      choose_file(data, GTK_FILE_CHOOSER_ACTION_OPEN, _("Open scene"), _("_Open"), "*.spore", _("SPORE scenes"), NULL);
+  if (file) spore_window_open(data, file);
+}
+
+static void act_open_demo(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file = spore_application_get_demo(application_of(data));
+  if (file) spore_window_open(data, file);
+  else spore_window_complain(data, _("The demo scene is not installed"));
+}
+
+static void act_import(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *file, *unit, *frame;
+  g_variant_get(parameter, "(&s&s&s)", &file, &unit, &frame);
+  int unit_index = index_of(spore_length_units, unit), frame_index = index_of(spore_mesh_frames, frame);
+  if (unit_index < 0 || frame_index < 0)
+    spore_window_complain(data, _("The unit is one of m, cm, mm, um, in and the frame one of Y_UP, RAS, LPS"));
+  else spore_window_start_import(data, file, unit_index, frame_index);
+}
+
+static void act_import_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_window_show_import_dialog(data, NULL);
+}
+
+static void act_save(GSimpleAction *action, GVariant *parameter, gpointer data) { spore_window_save(data); }
+
+static void act_save_as(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  save_to(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_save_as_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) { save_as(data); }
+
+static void save_recording(SporeWindow *self, const char *file) {
+  SporeSession *session = spore_player_get_session(self->player);
+  if (!session) return;
+  SporeTrack *track = spore_session_recording(session);
+  size_t size;
+  char *text = spore_track_format(track, &size);
+  g_autoptr(GError) error = NULL;
+  if (text && !spore_write_file(file, text, size, &error)) spore_window_failed(self, error);
+  spore_free(text);
+  spore_track_clear(track);
+  g_free(track);
+}
+
+static void act_save_recording(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  save_recording(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_save_recording_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree char *file = with_extension(choose_file(data, GTK_FILE_CHOOSER_ACTION_SAVE, _("Save recorded input"),
+                                                     _("_Save"), "*.track", _("Recorded input"), "recording.track"),
+                                         ".track");
+  if (file) save_recording(data, file);
+}
+
+static void act_close(GSimpleAction *action, GVariant *parameter, gpointer data) { gtk_window_close(data); }
+
+void spore_window_add_file_actions(SporeWindow *self) {
+  static const GActionEntry actions[] = {
+      {"new", act_new},
+      {"open", act_open, "s"},
+      {"open-dialog", act_open_dialog},
+      {"open-demo", act_open_demo},
+      {"import", act_import, "(sss)"},
+      {"import-dialog", act_import_dialog},
+      {"save", act_save},
+      {"save-as", act_save_as, "s"},
+      {"save-as-dialog", act_save_as_dialog},
+      {"save-recording", act_save_recording, "s"},
+      {"save-recording-dialog", act_save_recording_dialog},
+      {"close", act_close},
+  };
+  g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+}

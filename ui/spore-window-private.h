@@ -1,0 +1,56 @@
+/* Shared by the parts of the window: frame (spore-window.c), files (spore-window-files.c) and what is done to the scene
+ * (spore-window-actions.c). */
+#ifndef SPORE_UI_SPORE_WINDOW_PRIVATE_H
+#define SPORE_UI_SPORE_WINDOW_PRIVATE_H
+
+#include "ui/document/recovery.h"
+#include "ui/jobs/spore-job.h"
+#include "ui/panels/spore-inspector.h"
+#include "ui/panels/spore-outliner.h"
+#include "ui/panels/spore-problems.h"
+#include "ui/sim/spore-player.h"
+#include "ui/spore-window.h"
+#include "ui/viewport/spore-viewport.h"
+
+struct _SporeWindow {
+  GtkApplicationWindow parent;
+  GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text;
+  GtkWidget *outliner, *viewport, *inspector, *problems, *bottom, *problems_tab, *log, *hint, *job_box, *job_label,
+      *job_bar, *renderer;
+
+  SporeEditorDocument *document;
+  SporePlayer *player;
+  SporeJob *job;
+  SporeRecovery *recovery;
+  SporeLeftover *leftover;
+  guint autosave, monitor;
+  guint64 monitor_seen;
+  gboolean fresh, sure; /* sure: the user has answered about unsaved changes */
+};
+
+/* Frame. */
+void spore_window_set_document(SporeWindow *self, SporeDocument *document);
+void spore_window_complain(SporeWindow *self, const char *message);
+void spore_window_log(SporeWindow *self, const char *format, ...) G_GNUC_PRINTF(2, 3);
+/* One job at a time; FALSE (and data freed): another is running, said to the user. */
+gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
+                                GDestroyNotify free_data, SporeJobDone done);
+/* Says an error, but not that the user cancelled. TRUE: there was one. */
+gboolean spore_window_failed(SporeWindow *self, const GError *error);
+void spore_window_update_actions(SporeWindow *self);
+void spore_window_set_enabled(SporeWindow *self, const char *action, gboolean enabled);
+
+/* Files. */
+void spore_window_add_file_actions(SporeWindow *self);
+void spore_window_start_import(SporeWindow *self, const char *file, int unit, int frame);
+void spore_window_show_import_dialog(SporeWindow *self, const char *file);
+/* Asks about unsaved changes; TRUE: go on. */
+gboolean spore_window_may_leave(SporeWindow *self);
+/* Saves, asking for a name where there is none; FALSE: not saved. */
+gboolean spore_window_save(SporeWindow *self);
+void spore_window_recover(SporeWindow *self);
+
+/* Scene. */
+void spore_window_add_scene_actions(SporeWindow *self);
+
+#endif

@@ -1,0 +1,36 @@
+/* A window on one scene.
+ *
+ * Its actions are the whole of what menus, keys and buttons do, and may be driven over D-Bus (org.gtk.Actions on
+ * /org/spore/Editor/window/N). Parameters in brackets, s: text, u: number.
+ *
+ *   files       new, open [s path], open-dialog, open-demo, import [s path, s unit, s frame], import-dialog, save,
+ *               save-as [s path], save-as-dialog, save-recording [s path], save-recording-dialog, close
+ *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
+ *               set-property [s path, s name, s value], unset-property [s path, s name], set-model [s element],
+ *               generate-spheres [u count], generate-tetrahedra [u cells], add-probe, cancel-job
+ *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state]
+ *   view        tool [s "select" or "probe"; state], show-surfaces, show-spheres, show-tetrahedra, show-contacts
+ * (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector, show-problems (state), filter
+ *   others      report [s message]
+ *
+ * Paths are those of objects: "bodies/liver/collision". */
+#ifndef SPORE_UI_SPORE_WINDOW_H
+#define SPORE_UI_SPORE_WINDOW_H
+
+#include "ui/spore-application.h"
+
+G_BEGIN_DECLS
+
+#define SPORE_TYPE_WINDOW spore_window_get_type()
+G_DECLARE_FINAL_TYPE(SporeWindow, spore_window, SPORE, WINDOW, GtkApplicationWindow)
+
+SporeWindow *spore_window_new(SporeApplication *application);
+/* Reads the scene without holding up the window. */
+void spore_window_open(SporeWindow *self, const char *file);
+/* TRUE: nothing was ever made or opened here. */
+gboolean spore_window_is_fresh(SporeWindow *self);
+/* Offers what a dead owner left, if any. */
+void spore_window_offer_recovery(SporeWindow *self);
+
+G_END_DECLS
+#endif

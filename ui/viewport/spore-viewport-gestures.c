@@ -1,0 +1,225 @@
+#include "ui/document/edits.h"
+#include "ui/viewport/camera-moves.h"
+#include "ui/viewport/spore-viewport-private.h"
+
+#define ZOOM_A_NOTCH 0.88
+/* Depth of the probe, as a part of the distance to the camera. */
+#define DEPTH_A_NOTCH 0.02
+/* A hand's pull on soft tissue. */
+#define PULL_STIFFNESS_N_M 100.0
+
+static SporeSession *session_of(SporeViewport *self) {
+  return self->player ? spore_player_get_session(self->player) : NULL;
+}
+
+static int width_of(SporeViewport *self) { return gtk_widget_get_allocated_width(self->area); }
+static int height_of(SporeViewport *self) { return gtk_widget_get_allocated_height(self->area); }
+
+static SporeVec3 under_cursor(SporeViewport *self, SporeVec3 through) {
+  return spore_camera_unproject(&self->camera, through, self->last_x, self->last_y, width_of(self), height_of(self));
+}
+
+static guint32 pick(SporeViewport *self, double x, double y, SporeVec3 *point) {
+  SporeVec3 origin, direction;
+  if (!self->stage) return 0;
+  spore_camera_ray(&self->camera, x, y, width_of(self), height_of(self), &origin, &direction);
+  return spore_stage_pick(self->stage, origin, direction, point);
+}
+
+/* Probe. */
+
+/* The selected active body, else the first one that the scene has. */
+static guint32 active_body(SporeViewport *self, const SporeSimulation *simulation) {
+  SporeObject *selected = spore_editor_document_selected_body(self->document);
+  guint32 body = selected ? spore_simulation_body_of(simulation, selected) : SPORE_NO_BODY;
+  if (body != SPORE_NO_BODY && spore_world_body_role(simulation->world, body) == SPORE_ACTIVE) return body;
+  for (body = 0; body < spore_world_body_count(simulation->world); body++)
+    if (spore_world_body_role(simulation->world, body) == SPORE_ACTIVE) return body;
+  return SPORE_NO_BODY;
+}
+
+gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *position) {
+  SporeSession *session = session_of(self);
+  if (!session) return FALSE;
+  const SporeSimulation *simulation = spore_session_simulation(session);
+  *body = active_body(self, simulation);
+  if (*body == SPORE_NO_BODY) return FALSE;
+  *position = spore_vec3_load(spore_session_snapshot(session)->q + spore_world_q_offset(simulation->world, *body));
+  return TRUE;
+}
+
+static void lead_probe(SporeViewport *self, SporeVec3 position) {
+  SporeSession *session = session_of(self);
+  const SporeWorld *world = spore_session_simulation(session)->world;
+  const double *q = spore_session_snapshot(session)->q + spore_world_q_offset(world, self->body);
+  SporeDeviceState state = {.t_ns = spore_clock_ns()};
+  spore_vec3_store(state.position, position);
+  for (int i = 0; i < 4; i++) state.orientation[i] = q[3 + i];
+  self->cursor = position;
+  spore_session_set_pointer(session, self->body, &state);
+}
+
+static gboolean begin_probe(SporeViewport *self) {
+  if (!spore_viewport_probe(self, &self->body, &self->start)) return FALSE;
+  self->drag = DRAG_PROBE;
+  self->cursor = self->start;
+  self->offset = spore_vec3_sub(self->start, under_cursor(self, self->start));
+  return TRUE;
+}
+
+static void move_probe(SporeViewport *self) {
+  lead_probe(self, spore_vec3_add(under_cursor(self, self->cursor), self->offset));
+}
+
+/* Moves in depth; the point under the cursor stays there. */
+static void deepen_probe(SporeViewport *self, double notches) {
+  SporeVec3 position, eye, right, up, forward;
+  if (!spore_viewport_probe(self, &self->body, &position)) return;
+  if (self->drag == DRAG_PROBE) position = self->cursor;
+  spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
+  double depth = spore_vec3_distance(eye, position);
+  position = spore_vec3_add_scaled(position, -notches * DEPTH_A_NOTCH * depth, forward);
+  lead_probe(self, position);
+  self->offset = spore_vec3_sub(position, under_cursor(self, position));
+}
+
+/* Pull. */
+
+static gboolean begin_pull(SporeViewport *self, double x, double y) {
+  SporeSession *session = session_of(self);
+  SporeVec3 point;
+  guint32 id = session ? pick(self, x, y, &point) : 0;
+  SporeObject *object = id ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
+  if (!object) return FALSE;
+  const SporeSimulation *simulation = spore_session_simulation(session);
+  self->body = spore_simulation_body_of(simulation, object);
+  if (self->body == SPORE_NO_BODY || spore_world_body_role(simulation->world, self->body) != SPORE_PASSIVE)
+    return FALSE;
+  self->start = self->cursor = point;
+  self->drag = DRAG_PULL;
+  return TRUE;
+}
+
+static void move_pull(SporeViewport *self) {
+  self->cursor = under_cursor(self, self->start);
+  SporeCommand command = {.kind = SPORE_COMMAND_PULL,
+                          .body = self->body,
+                          .point = self->start,
+                          .vector = self->cursor,
+                          .number = PULL_STIFFNESS_N_M};
+  spore_session_post(session_of(self), &command);
+}
+
+static void release_pull(SporeViewport *self) {
+  SporeCommand command = {.kind = SPORE_COMMAND_RELEASE, .body = self->body};
+  if (session_of(self)) spore_session_post(session_of(self), &command);
+}
+
+/* Drags. */
+
+void spore_viewport_end_drag(SporeViewport *self) {
+  if (self->drag == DRAG_PULL) release_pull(self);
+  self->drag = DRAG_NONE;
+}
+
+static void abort_drag(SporeViewport *self) {
+  if (self->drag == DRAG_ORBIT || self->drag == DRAG_PAN) self->camera = self->camera_before;
+  if (self->drag == DRAG_PROBE) lead_probe(self, self->start);
+  spore_viewport_end_drag(self);
+  spore_viewport_redraw(self);
+}
+
+static void begin_camera(SporeViewport *self, gboolean pan) {
+  self->camera_before = self->camera;
+  self->drag = pan ? DRAG_PAN : DRAG_ORBIT;
+}
+
+static void press_left(SporeViewport *self, const GdkEventButton *event) {
+  SporeVec3 point;
+  if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
+  if (self->tool == SPORE_TOOL_PROBE && begin_probe(self)) return;
+  spore_editor_document_select(self->document, pick(self, event->x, event->y, &point));
+}
+
+gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
+  gtk_widget_grab_focus(area);
+  if (self->drag != DRAG_NONE || event->type != GDK_BUTTON_PRESS || !self->document) return GDK_EVENT_STOP;
+  self->last_x = event->x;
+  self->last_y = event->y;
+  if (event->button == GDK_BUTTON_PRIMARY) press_left(self, event);
+  if (event->button == GDK_BUTTON_MIDDLE) begin_camera(self, event->state & GDK_SHIFT_MASK);
+  return GDK_EVENT_STOP;
+}
+
+gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
+  spore_viewport_end_drag(self);
+  spore_viewport_redraw(self);
+  return GDK_EVENT_STOP;
+}
+
+gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeViewport *self) {
+  double dx = event->x - self->last_x, dy = event->y - self->last_y;
+  self->last_x = event->x;
+  self->last_y = event->y;
+  switch (self->drag) {
+  case DRAG_NONE:
+    return GDK_EVENT_PROPAGATE;
+  case DRAG_ORBIT:
+    spore_camera_orbit(&self->camera, dx, dy);
+    break;
+  case DRAG_PAN:
+    spore_camera_pan(&self->camera, dx, dy, height_of(self));
+    break;
+  case DRAG_PROBE:
+    move_probe(self);
+    break;
+  case DRAG_PULL:
+    move_pull(self);
+    break;
+  }
+  spore_viewport_redraw(self);
+  return GDK_EVENT_STOP;
+}
+
+static double notches_of(const GdkEventScroll *event) {
+  if (event->direction == GDK_SCROLL_UP) return -1;
+  if (event->direction == GDK_SCROLL_DOWN) return 1;
+  return event->direction == GDK_SCROLL_SMOOTH ? event->delta_y : 0;
+}
+
+gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeViewport *self) {
+  double notches = notches_of(event);
+  if (self->tool == SPORE_TOOL_PROBE && session_of(self)) deepen_probe(self, notches);
+  else
+    spore_camera_zoom(&self->camera, pow(ZOOM_A_NOTCH, -notches), event->x, event->y, width_of(self), height_of(self));
+  spore_viewport_redraw(self);
+  return GDK_EVENT_STOP;
+}
+
+gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self) {
+  if (event->state & gtk_accelerator_get_default_mod_mask()) return GDK_EVENT_PROPAGATE;
+  switch (event->keyval) {
+  case GDK_KEY_Escape:
+    if (self->drag == DRAG_NONE) return GDK_EVENT_PROPAGATE;
+    abort_drag(self);
+    break;
+  case GDK_KEY_f:
+    spore_viewport_frame(self);
+    break;
+  case GDK_KEY_1:
+  case GDK_KEY_KP_1:
+    spore_viewport_view(self, "front");
+    break;
+  case GDK_KEY_3:
+  case GDK_KEY_KP_3:
+    spore_viewport_view(self, "right");
+    break;
+  case GDK_KEY_7:
+  case GDK_KEY_KP_7:
+    spore_viewport_view(self, "top");
+    break;
+  default:
+    return GDK_EVENT_PROPAGATE;
+  }
+  return GDK_EVENT_STOP;
+}

@@ -1,0 +1,55 @@
+/* Shared by the widget (spore-viewport.c) and its gestures (spore-viewport-gestures.c). */
+#ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
+#define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
+
+#include "ui/viewport/spore-viewport.h"
+
+typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL } SporeDrag;
+
+struct _SporeViewport {
+  GtkOverlay parent;
+  GtkWidget *area, *hud, *welcome, *failure;
+
+  SporeEditorDocument *document;
+  SporePlayer *player;
+  SporeTool tool;
+  SporeStageOptions options;
+
+  SporeOffscreen *offscreen;
+  SporeRenderer *renderer;
+  SporeStage *stage;
+  char *renderer_name;
+  cairo_surface_t *pixels;
+  gboolean stale; /* pixels are not what would be drawn now */
+  guint rebuild, tick;
+  gint64 hud_clock;
+  guint64 shown_step;
+  double draw_ms;
+
+  SporeCamera camera;
+  gboolean framed;
+
+  SporeDrag drag;
+  double last_x, last_y;
+  SporeCamera camera_before;
+  guint32 body;     /* of the world: held by the probe or pull drag */
+  SporeVec3 start;  /* probe: where it stood; pull: the point taken */
+  SporeVec3 offset; /* from the cursor's point to the probe */
+  SporeVec3 cursor; /* where the probe or the pull is led */
+};
+
+void spore_viewport_redraw(SporeViewport *self);
+
+/* Signal handlers of the drawing area, named in the template. */
+gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
+gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
+gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeViewport *self);
+gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeViewport *self);
+gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self);
+/* Ends a drag without taking it back. */
+void spore_viewport_end_drag(SporeViewport *self);
+
+/* Active body that the pointer leads, and its position (m); FALSE: none, or no simulation. */
+gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *position);
+
+#endif

@@ -1,0 +1,31 @@
+/* The scene as it stands, and the gestures on it.
+ *
+ * Left selects (with the Probe tool: moves the probe), Ctrl+left pulls tissue, middle orbits, Shift+middle pans, the
+ * wheel zooms to the cursor (with the Probe tool: moves it in depth); F frames, 1, 3, 7 look along the axes, Escape
+ * takes a drag back. */
+#ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
+#define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
+
+#include <gtk/gtk.h>
+
+#include "ui/render/stage.h"
+#include "ui/sim/spore-player.h"
+
+G_BEGIN_DECLS
+
+#define SPORE_TYPE_VIEWPORT spore_viewport_get_type()
+G_DECLARE_FINAL_TYPE(SporeViewport, spore_viewport, SPORE, VIEWPORT, GtkOverlay)
+
+typedef enum { SPORE_TOOL_SELECT, SPORE_TOOL_PROBE } SporeTool;
+
+void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
+void spore_viewport_set_tool(SporeViewport *self, SporeTool tool);
+void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
+void spore_viewport_frame(SporeViewport *self);
+/* "front", "right" or "top". */
+void spore_viewport_view(SporeViewport *self, const char *view);
+/* GL_RENDERER, or why nothing is drawn. */
+const char *spore_viewport_get_renderer(SporeViewport *self);
+
+G_END_DECLS
+#endif
