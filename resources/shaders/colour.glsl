@@ -5,7 +5,7 @@ const float PI = 3.14159265;
 // A little of the brightest channel leaks into the others, as in film: strong red light turns toward white.
 vec3 tone_map(vec3 colour) {
   float peak = max(colour.r, max(colour.g, colour.b));
-  colour += 0.06 * peak * peak / (1.0 + peak);
+  colour += 0.04 * peak * peak / (1.0 + peak);
   return colour * (colour + 0.12) / (colour * (colour + 0.46) + 0.30);
 }
 

@@ -42,8 +42,8 @@ void main() {
 #if QUALITY
     vec4 broad = noise(v_rest * 1.1 + 5.3), fine = noise(v_rest * 7.3 + 3.1);
     albedo *= 1.0 + vec3(0.16, 0.24, 0.24) * (fine.x - 0.5) * detail(7.3);
-    float thread = vessel(v_rest * 1.15 + 0.14 * grain.yzw + 0.03 * fine.yzw + 11.0, 0.030 + 0.03 * broad.x);
-    thread *= smoothstep(0.44, 0.60, v_mottle + 0.10 * (grain.x - 0.5)) * detail(6.0);
+    float thread = vessel(v_rest * 1.15 + 0.14 * grain.yzw + 0.03 * fine.yzw + 11.0, 0.022 + 0.025 * broad.x);
+    thread *= smoothstep(0.47, 0.66, v_mottle + 0.25 * (broad.x - 0.5)) * detail(6.0);
     albedo *= mix(vec3(1.0), vec3(0.72, 0.42, 0.46), 0.55 * thread);
     vec3 bump = broad.yzw * 0.16 + grain.yzw * 0.11 * detail(2.7) + fine.yzw * 0.030 * detail(7.3);
     bump += noise(v_rest * 17.0).yzw * 0.012 * detail(17.0);

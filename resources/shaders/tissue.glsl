@@ -16,6 +16,7 @@ vec3 lamp(vec3 position, out float strength) {
   vec3 to_light = light.xyz - position;
   float d2 = dot(to_light, to_light), reference = light.w * light.w;
   strength = 2.0 * reference / (reference + d2);
+  strength *= 0.4 + 0.6 * strength;
   return to_light * inversesqrt(d2);
 }
 
@@ -43,13 +44,13 @@ vec3 shade_tissue(vec3 albedo, float wetness, vec3 position, vec3 normal, vec3 f
   // Light that leaves at a low angle has travelled longer through blood: deeper colour toward the outline.
   float longer = 1.0 - n_v;
   vec3 colour = albedo * mix(vec3(1.0), vec3(0.80, 0.48, 0.46), longer * longer) * (diffuse * strength + ambient);
-  float rough = ggx(clamp(dot(normal, halfway), 0.0, 1.0), n_v, max(positive, 0.02), 0.30) * positive * 0.040;
+  float rough = ggx(clamp(dot(normal, halfway), 0.0, 1.0), n_v, max(positive, 0.02), 0.30) * positive * 0.065;
   float f_v = clamp(dot(film, view), 0.02, 1.0), f_l = clamp(dot(film, to_light), 0.0, 1.0);
   float wet = min(ggx(clamp(dot(film, halfway), 0.0, 1.0), f_v, max(f_l, 0.02), FILM_ALPHA), 60.0) * f_l * lit;
-  wet = wet * 1.8 + min(ggx(f_v, f_v, f_v, FILM_ALPHA), 60.0) * f_v * 0.30;
+  wet = wet * 2.6 + min(ggx(f_v, f_v, f_v, FILM_ALPHA), 60.0) * f_v * 0.45;
   wet *= schlick(clamp(dot(view, halfway), 0.0, 1.0), 0.028) * wetness;
   colour += (rough * lit + wet) * strength;
-  colour += room(reflect(-view, film), 3.0 * lit) * schlick(f_v, 0.028) * (0.15 + 0.85 * wetness) * open;
+  colour += room(reflect(-view, film), 1.7 * lit) * schlick(f_v, 0.028) * (0.15 + 0.85 * wetness) * open;
   return colour;
 }
 
@@ -59,8 +60,10 @@ vec3 shade_metal(vec3 tint, vec3 position, vec3 normal, vec3 streak, float open,
   vec3 view = normalize(-position), to_light = lamp(position, strength), halfway = normalize(view + to_light);
   vec3 bent = normalize(normal + streak);
   float n_v = clamp(dot(bent, view), 0.05, 1.0), n_l = clamp(dot(bent, to_light), 0.0, 1.0);
-  float lobe = ggx(clamp(dot(bent, halfway), 0.0, 1.0), n_v, max(n_l, 0.05), 0.16) * n_l;
+  float lobe = ggx(clamp(dot(bent, halfway), 0.0, 1.0), n_v, max(n_l, 0.05), 0.20) * n_l;
   vec3 reflectance = tint + (1.0 - tint) * schlick(n_v, 0.0);
-  vec3 mirror = 1.3 * room(reflect(-view, bent), 0.7) * (0.4 + 0.6 * open);
-  return reflectance * (mirror + (lobe * 0.9 + n_l * 0.25) * strength * lit);
+  vec3 mirror = room(reflect(-view, bent), 1.6) * 1.5 * (0.3 + 0.7 * open);
+  // Below, it mirrors the red of the organs.
+  mirror += vec3(0.10, 0.030, 0.024) * clamp(0.4 - dot(bent, up.xyz), 0.0, 1.0) * open;
+  return reflectance * (mirror * strength + (lobe * 1.1 + n_l * 0.18) * strength * lit);
 }
