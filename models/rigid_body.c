@@ -66,7 +66,7 @@ static bool check_closed(const SporeTriangleMesh *mesh, SporeMeshReport *report,
   if (!mesh || mesh->triangle_count == 0)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("there is no surface; a rigid body needs a closed one; give the body a mesh"));
-  if (!spore_triangle_mesh_report(mesh, report, error)) return false;
+  if (!spore_triangle_mesh_validate(mesh, error) || !spore_triangle_mesh_report(mesh, report, error)) return false;
   if (report->boundary_edges > 0)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("the surface is open at %zu edges; a rigid body needs a closed one to know its mass; "

@@ -1,0 +1,260 @@
+/* Every registered model: forces are the gradient of the energy, Jacobians those of the forces, and both know neither
+ * where the scene's axes point nor how its nodes are numbered. */
+#include "tests/conformance/specimen.h"
+
+/* U along w by central differences is -f.w, for a random state at rest speed. */
+static void check_gradient(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(1);
+  double worst = 0, step = 1e-6 * specimen->size;
+  for (int trial = 0; trial < 20; trial++) {
+    State state = state_random(model, random, 1, 0.4 * specimen->size);
+    memset(state.v, 0, state.v_count * sizeof(double));
+    double *w = vector_random(random, state.v_count, 1), *f = model_force(model, &state);
+    State ahead = state_moved(model, &state, w, step), behind = state_moved(model, &state, w, -step);
+    double difference = (model->type->potential(model, ahead.q) - model->type->potential(model, behind.q)) / (2 * step);
+    double scale = vector_length(f, state.v_count) * vector_length(w, state.v_count);
+    double error = fabs(difference + vector_dot(f, w, state.v_count));
+    worst = fmax(worst, scale > 0 ? error / scale : error);
+    state_clear(&state);
+    state_clear(&ahead);
+    state_clear(&behind);
+    g_free(w);
+    g_free(f);
+  }
+  g_test_message("%s: worst relative error %.2e", specimen->name, worst);
+  g_assert_cmpfloat(worst, <, 1e-7);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+static gboolean has_jacobian(const SporeModelType *type) { return type->jacobian != NULL; }
+
+static void make_matrix(const SporeModel *model, SporeBlockMatrix *matrix) {
+  SporeBlockPattern pattern;
+  spore_block_pattern_init(&pattern, model->block_count);
+  g_assert_true(model->type->pattern(model, &pattern));
+  g_assert_true(spore_block_matrix_create(matrix, &pattern));
+  spore_block_pattern_clear(&pattern);
+}
+
+/* Relative distance of A w from -(f(ahead) - f(behind)) / 2 step, with positions (or speeds) moved along w. */
+static double jacobian_error(const SporeModel *model, const State *state, const double *w, double step,
+                             gboolean damping) {
+  SporeBlockMatrix matrix;
+  make_matrix(model, &matrix);
+  model->type->jacobian(model, state->q, state->v, damping ? 0 : 1, damping ? 1 : 0, &matrix);
+  double *product = vector_new(state->v_count);
+  spore_block_matrix_multiply_add(&matrix, w, product);
+  State ahead = state_copy(state), behind = state_copy(state);
+  for (size_t i = 0; i < state->v_count; i++) {
+    (damping ? ahead.v : ahead.q)[i] += step * w[i];
+    (damping ? behind.v : behind.q)[i] -= step * w[i];
+  }
+  double *fa = model_force(model, &ahead), *fb = model_force(model, &behind);
+  for (size_t i = 0; i < state->v_count; i++) fa[i] = -(fa[i] - fb[i]) / (2 * step);
+  double error = vector_distance(fa, product, state->v_count) / vector_length(product, state->v_count);
+  state_clear(&ahead);
+  state_clear(&behind);
+  g_free(fa);
+  g_free(fb);
+  g_free(product);
+  spore_block_matrix_clear(&matrix);
+  return error;
+}
+
+/* Where everything is stretched nothing is clamped, and the Jacobian is exact. */
+static void check_jacobian(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(2);
+  double worst[2] = {0, 0};
+  for (int trial = 0; trial < 20; trial++) {
+    State state = state_random(model, random, 1.5, 0.05 * specimen->size);
+    double *w = vector_random(random, state.v_count, 1);
+    worst[1] = fmax(worst[1], jacobian_error(model, &state, w, 1, TRUE)); /* linear in v: any step does */
+    memset(state.v, 0, state.v_count * sizeof(double));
+    worst[0] = fmax(worst[0], jacobian_error(model, &state, w, 1e-5 * specimen->size, FALSE));
+    state_clear(&state);
+    g_free(w);
+  }
+  g_test_message("%s: worst relative error, stiffness %.2e, damping %.2e", specimen->name, worst[0], worst[1]);
+  g_assert_cmpfloat(worst[0], <, 1e-7);
+  g_assert_cmpfloat(worst[1], <, 1e-10);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+static double *dense(const SporeBlockMatrix *matrix) {
+  size_t n = 3 * matrix->block_count;
+  double *a = vector_new(n * n);
+  for (size_t i = 0; i < matrix->block_count; i++)
+    for (uint32_t k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++)
+      for (size_t e = 0; e < 9; e++)
+        a[(3 * i + e / 3) * n + 3 * matrix->column[k] + e % 3] = matrix->values[9 * (size_t)k + e];
+  return a;
+}
+
+/* Cholesky in place; false at the first pivot that is not positive. */
+static gboolean is_positive_definite(double *a, size_t n) {
+  for (size_t j = 0; j < n; j++) {
+    for (size_t k = 0; k < j; k++) a[j * n + j] -= a[j * n + k] * a[j * n + k];
+    if (!(a[j * n + j] > 0)) return FALSE;
+    a[j * n + j] = sqrt(a[j * n + j]);
+    for (size_t i = j + 1; i < n; i++) {
+      for (size_t k = 0; k < j; k++) a[i * n + j] -= a[i * n + k] * a[j * n + k];
+      a[i * n + j] /= a[j * n + j];
+    }
+  }
+  return TRUE;
+}
+
+static double asymmetry(const double *a, size_t n, double *greatest) {
+  double difference = 0;
+  *greatest = 0;
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < n; j++) {
+      difference = fmax(difference, fabs(a[i * n + j] - a[j * n + i]));
+      *greatest = fmax(*greatest, fabs(a[i * n + j]));
+    }
+  return difference;
+}
+
+/* Any state, also crushed, inverted and collapsed to a plane: symmetric, finite, not indefinite. */
+static void check_definite(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(3);
+  const double noise[] = {0, 0.1, 0.5, 2, 20};
+  for (int trial = 0; trial < 30; trial++) {
+    State state = state_random(model, random, trial % 3 ? 1 : 0.2, noise[trial % 5] * specimen->size);
+    for (size_t i = 0; trial % 6 == 5 && i < model->block_count; i++) state.q[3 * i + 1] = 0.1;
+    SporeBlockMatrix matrix;
+    make_matrix(model, &matrix);
+    model->type->jacobian(model, state.q, state.v, 1, trial % 2 ? 0.01 : 0, &matrix);
+    size_t n = 3 * matrix.block_count;
+    double *a = dense(&matrix), greatest, difference = asymmetry(a, n, &greatest);
+    g_assert_true(isfinite(greatest) && greatest > 0);
+    g_assert_cmpfloat(difference, <=, 1e-12 * greatest);
+    for (size_t i = 0; i < n; i++) a[i * n + i] += 1e-10 * greatest;
+    g_assert_true(is_positive_definite(a, n));
+    g_free(a);
+    spore_block_matrix_clear(&matrix);
+    state_clear(&state);
+  }
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+/* Internal forces of nodes, damping included, add up to no force and no torque. */
+static void check_momentum(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(4);
+  double worst = 0;
+  for (int trial = 0; trial < 20; trial++) {
+    State state = state_random(model, random, 1, 0.5 * specimen->size);
+    double *f = model_force(model, &state), scale = 0;
+    SporeVec3 force = {0, 0, 0}, torque = {0, 0, 0};
+    for (size_t i = 0; i < model->block_count; i++) {
+      SporeVec3 fi = spore_vec3_load(f + 3 * i);
+      force = spore_vec3_add(force, fi);
+      torque = spore_vec3_add(torque, spore_vec3_cross(spore_vec3_load(state.q + 3 * i), fi));
+      scale += spore_vec3_length(fi);
+    }
+    worst = fmax(worst, (spore_vec3_length(force) + spore_vec3_length(torque)) / scale);
+    g_free(f);
+    state_clear(&state);
+  }
+  g_test_message("%s: worst relative sum %.2e", specimen->name, worst);
+  g_assert_cmpfloat(worst, <, 1e-12);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+/* f and M of the moved scene are the moved f and M, and U is the same. */
+static void check_frame(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(6);
+  for (int trial = 0; trial < 10; trial++) {
+    State state = state_random(model, random, 1, 0.4 * specimen->size), moved = state_copy(&state);
+    SporePose pose = {shape_random_vector(random, 1), shape_random_rotation(random)};
+    state_transform(model, &moved, pose);
+    double *f = model_force(model, &state), *g = model_force(model, &moved);
+    double *m = vector_new(9 * model->block_count), *n = vector_new(9 * model->block_count);
+    model->type->mass(model, state.q, m);
+    model->type->mass(model, moved.q, n);
+    double u = model->type->potential(model, state.q), size = vector_length(f, state.v_count);
+    SporeMat3 r = spore_quat_to_mat3(pose.orientation);
+    g_assert_cmpfloat(fabs(u - model->type->potential(model, moved.q)), <=, 1e-9 * u);
+    for (size_t i = 0; i < model->block_count; i++) {
+      SporeVec3 turned = spore_mat3_apply(r, spore_vec3_load(f + 3 * i));
+      g_assert_cmpfloat(spore_vec3_distance(turned, spore_vec3_load(g + 3 * i)), <=, 1e-9 * size);
+      SporeMat3 block;
+      memcpy(block.m, m + 9 * i, sizeof block.m);
+      block = spore_mat3_multiply(spore_mat3_multiply(r, block), spore_mat3_transpose(r));
+      double largest = vector_length(block.m, 9);
+      g_assert_cmpfloat(vector_distance(block.m, n + 9 * i, 9), <=, 1e-9 * largest);
+    }
+    g_free(f);
+    g_free(g);
+    g_free(m);
+    g_free(n);
+    state_clear(&state);
+    state_clear(&moved);
+  }
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+static void check_labels(gconstpointer data) {
+  const Specimen *specimen = data;
+  GRand *random = g_rand_new_with_seed(7);
+  SporeModel *model = specimen_model(specimen);
+  size_t vertices = specimen->surface.vertex_count + specimen->tetrahedra.vertex_count;
+  uint32_t *order = shape_order(vertices, random);
+  Specimen *other = specimen_relabelled(specimen, order);
+  SporeModel *renamed = specimen_model(other);
+  gboolean nodal = spore_model_is_nodal(model);
+  g_assert_cmpuint(model->block_count, ==, renamed->block_count);
+  State state = state_random(model, random, 1, 0.4 * specimen->size), same = state_copy(&state);
+  for (size_t i = 0; nodal && i < model->block_count; i++)
+    for (size_t k = 0; k < 3; k++) {
+      same.q[3 * (size_t)order[i] + k] = state.q[3 * i + k];
+      same.v[3 * (size_t)order[i] + k] = state.v[3 * i + k];
+    }
+  double *f = model_force(model, &state), *g = model_force(renamed, &same);
+  double *m = vector_new(9 * model->block_count), *n = vector_new(9 * model->block_count);
+  model->type->mass(model, state.q, m);
+  renamed->type->mass(renamed, same.q, n);
+  double scale = vector_length(f, state.v_count);
+  for (size_t i = 0; i < model->block_count; i++) {
+    size_t j = nodal ? order[i] : i;
+    g_assert_cmpfloat(vector_distance(f + 3 * i, g + 3 * j, 3), <=, 1e-9 * scale);
+    g_assert_cmpfloat(vector_distance(m + 9 * i, n + 9 * j, 9), <=, 1e-9 * vector_length(m + 9 * i, 9));
+  }
+  g_free(f);
+  g_free(g);
+  g_free(m);
+  g_free(n);
+  g_free(order);
+  state_clear(&state);
+  state_clear(&same);
+  model->type->destroy(model);
+  renamed->type->destroy(renamed);
+  specimen_free(other);
+  g_rand_free(random);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  specimen_add_tests("/conformance/gradient", check_gradient, NULL);
+  specimen_add_tests("/conformance/jacobian", check_jacobian, has_jacobian);
+  specimen_add_tests("/conformance/definite", check_definite, has_jacobian);
+  specimen_add_tests("/conformance/momentum", check_momentum, has_jacobian);
+  specimen_add_tests("/conformance/frame", check_frame, NULL);
+  specimen_add_tests("/conformance/labels", check_labels, NULL);
+  return g_test_run();
+}

@@ -1,0 +1,174 @@
+/* Every registered model: points follow it, and forces on them come back without loss. */
+#include "tests/conformance/specimen.h"
+
+#include "core/sim/mapping.h"
+
+#define POINTS 40
+
+/* Points in the body's frame. `kind` 0: vertices; 1: between them and (where the body has depth) around them. */
+static double *points_of(const Specimen *specimen, GRand *random, int kind, size_t *count) {
+  const double *x = specimen->surface.vertex_count ? specimen->surface.vertices : specimen->tetrahedra.vertices;
+  size_t vertices = specimen->surface.vertex_count + specimen->tetrahedra.vertex_count;
+  if (kind == 0) {
+    *count = vertices;
+    return g_memdup2(x, 3 * vertices * sizeof(double));
+  }
+  gboolean flat = strstr(specimen->name, "flat_sheet") != NULL;
+  double *points = vector_new(3 * POINTS);
+  for (size_t i = 0; i < POINTS; i++) {
+    SporeVec3 a = spore_vec3_load(x + 3 * (size_t)g_rand_int_range(random, 0, (gint32)vertices));
+    SporeVec3 b = spore_vec3_load(x + 3 * (size_t)g_rand_int_range(random, 0, (gint32)vertices));
+    SporeVec3 p = spore_vec3_add_scaled(a, g_rand_double(random), spore_vec3_sub(b, a));
+    SporeVec3 off = shape_random_vector(random, 0.3 * specimen->size);
+    if (flat) off.z = 0;
+    spore_vec3_store(points + 3 * i, spore_vec3_add(p, off));
+  }
+  *count = POINTS;
+  return points;
+}
+
+static void map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping) {
+  SporeError error = SPORE_ERROR_INIT;
+  if (!model->type->map(model, points, count, mapping, &error)) g_error("%s: %s", error.place, error.message);
+  g_assert_cmpuint(mapping->point_count, ==, count);
+}
+
+static void check_rest(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(1);
+  double worst = 0, worst_speed = 0;
+  for (int kind = 0; kind < 2; kind++) {
+    size_t count;
+    double *points = points_of(specimen, random, kind, &count), *at = vector_new(3 * count);
+    double *speed = vector_new(3 * count);
+    SporeMapping mapping;
+    map(model, points, count, &mapping);
+    SporePose pose = {shape_random_vector(random, 0.5), shape_random_rotation(random)};
+    SporeVec3 velocity = shape_random_vector(random, 1), spin = shape_random_vector(random, 3);
+    State state = state_new(model, pose, velocity, spin);
+    spore_mapping_positions(&mapping, state.q, at);
+    spore_mapping_velocities(&mapping, state.q, state.v, speed);
+    for (size_t i = 0; i < count; i++) {
+      SporeVec3 expected = spore_pose_apply(pose, spore_vec3_load(points + 3 * i));
+      worst = fmax(worst, spore_vec3_distance(expected, spore_vec3_load(at + 3 * i)));
+      SporeVec3 arm = spore_vec3_sub(expected, pose.position);
+      SporeVec3 moving = spore_vec3_add(velocity, spore_vec3_cross(spin, arm));
+      worst_speed = fmax(worst_speed, spore_vec3_distance(moving, spore_vec3_load(speed + 3 * i)));
+    }
+    state_clear(&state);
+    spore_mapping_clear(&mapping);
+    g_free(points);
+    g_free(at);
+    g_free(speed);
+  }
+  g_test_message("%s: points off by %.2e m and %.2e m/s", specimen->name, worst, worst_speed);
+  g_assert_cmpfloat(worst, <, 1e-13);
+  g_assert_cmpfloat(worst_speed, <, 1e-12);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+static void check_virtual_work(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(2);
+  size_t count;
+  double *points = points_of(specimen, random, 1, &count), worst = 0, worst_speed = 0;
+  SporeMapping mapping;
+  map(model, points, count, &mapping);
+  for (int trial = 0; trial < 10; trial++) {
+    State state = state_random(model, random, 1.2, 0.3 * specimen->size);
+    double *force = vector_random(random, 3 * count, 1), *back = vector_new(state.v_count);
+    double *speed = vector_new(3 * count), *ahead = vector_new(3 * count), *behind = vector_new(3 * count);
+    spore_mapping_velocities(&mapping, state.q, state.v, speed);
+    spore_mapping_add_forces(&mapping, state.q, force, back);
+    double work = vector_dot(force, speed, 3 * count);
+    double scale = vector_length(force, 3 * count) * vector_length(speed, 3 * count);
+    worst = fmax(worst, fabs(work - vector_dot(back, state.v, state.v_count)) / scale);
+    /* Velocities are those of the positions. */
+    double h = 1e-6;
+    State later = state_moved(model, &state, state.v, h), sooner = state_moved(model, &state, state.v, -h);
+    spore_mapping_positions(&mapping, later.q, ahead);
+    spore_mapping_positions(&mapping, sooner.q, behind);
+    for (size_t i = 0; i < 3 * count; i++) ahead[i] = (ahead[i] - behind[i]) / (2 * h);
+    worst_speed = fmax(worst_speed, vector_distance(ahead, speed, 3 * count) / vector_length(speed, 3 * count));
+    state_clear(&state);
+    state_clear(&later);
+    state_clear(&sooner);
+    g_free(force);
+    g_free(back);
+    g_free(speed);
+    g_free(ahead);
+    g_free(behind);
+  }
+  g_test_message("%s: work lost %.2e, speed off %.2e (relative)", specimen->name, worst, worst_speed);
+  g_assert_cmpfloat(worst, <, 1e-13);
+  g_assert_cmpfloat(worst_speed, <, 1e-8);
+  spore_mapping_clear(&mapping);
+  g_free(points);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+static void check_without_memory(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(3);
+  size_t count;
+  double *points = points_of(specimen, random, 1, &count);
+  for (uint64_t n = 1;; n++) {
+    SporeError error = SPORE_ERROR_INIT;
+    SporeMapping mapping;
+    spore_allocation_fail_at(n);
+    bool mapped = model->type->map(model, points, count, &mapping, &error);
+    spore_allocation_fail_at(0);
+    if (mapped) {
+      spore_mapping_clear(&mapping);
+      break;
+    }
+    g_assert_cmpint(error.code, ==, SPORE_ERROR_MEMORY);
+  }
+  g_free(points);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+static gboolean has_drift(const SporeModelType *type) { return type->drift != NULL; }
+
+/* Free motion of a rigid frame keeps momentum and energy. */
+static void check_drift(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(4);
+  State state = state_random(model, random, 1, 0);
+  double mass[18], energy[2];
+  SporeVec3 momentum[2];
+  for (int end = 0; end < 2; end++) {
+    SporeMat3 inertia;
+    model->type->mass(model, state.q, mass);
+    memcpy(inertia.m, mass + 9, sizeof inertia.m);
+    SporeVec3 spin = spore_vec3_load(state.v + 3);
+    momentum[end] = spore_mat3_apply(inertia, spin);
+    energy[end] = 0.5 * spore_vec3_dot(spin, momentum[end]);
+    /* In place: q and v may be the same arrays before and after. */
+    for (int i = 0; end == 0 && i < 1000; i++) model->type->drift(model, state.q, state.v, 1e-2, state.q, state.v);
+  }
+  double lost = spore_vec3_distance(momentum[0], momentum[1]) / spore_vec3_length(momentum[0]);
+  double gained = fabs(energy[1] / energy[0] - 1);
+  g_test_message("%s: after 1000 steps angular momentum off by %.2e, energy by %.2e", specimen->name, lost, gained);
+  g_assert_cmpfloat(lost, <, 1e-12);
+  g_assert_cmpfloat(gained, <, 1e-6);
+  state_clear(&state);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  specimen_add_tests("/conformance/rest", check_rest, NULL);
+  specimen_add_tests("/conformance/virtual_work", check_virtual_work, NULL);
+  specimen_add_tests("/conformance/map_without_memory", check_without_memory, NULL);
+  specimen_add_tests("/conformance/drift", check_drift, has_drift);
+  return g_test_run();
+}
