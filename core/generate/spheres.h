@@ -10,6 +10,8 @@ typedef enum SporeSpheresMethod {
   SPORE_SPHERES_TETRAHEDRA /* from the cells of a tetrahedral mesh */
 } SporeSpheresMethod;
 
+#define SPORE_SPHERES_MAXIMUM 5000u /* of one set */
+
 typedef struct SporeSpheresOptions {
   size_t count;     /* wanted; > 0, or 0 to go by tolerance */
   double tolerance; /* largest mean two-sided distance, as a fraction of the diagonal, when count is 0 */
@@ -25,8 +27,9 @@ typedef struct SporeSpheresReport {
   double seconds;
 } SporeSpheresReport;
 
-/* mesh: valid; need not be watertight (winding number > 0.5 is inside), but must enclose volume. The same input and
- * options give the same spheres. */
+/* mesh: valid; need not be watertight (winding number > 0.5 is inside; one that is inside out is turned), but must
+ * enclose volume. The same input and options give the same spheres, on any number of threads. By count: exactly that
+ * many. By tolerance: the fewest found, to about 2 %. *set is empty on failure. */
 bool spore_spheres_from_mesh(const SporeTriangleMesh *mesh, const SporeSpheresOptions *options, SporeSphereSet *set,
                              SporeSpheresReport *report, const SporeProgress *progress, SporeError *error);
 bool spore_spheres_from_tetrahedra(const SporeTetrahedralMesh *mesh, const SporeSpheresOptions *options, SporeSphereSet *set,

@@ -1,0 +1,113 @@
+/* What the files that make sphere sets share. */
+#ifndef SPORE_GENERATE_SPHERES_PARTS_H
+#define SPORE_GENERATE_SPHERES_PARTS_H
+
+#include "core/generate/spheres.h"
+#include "core/mesh/bvh.h"
+
+/* Random numbers: splitmix64, the same everywhere. */
+typedef struct SporeRandom {
+  uint64_t state;
+} SporeRandom;
+static inline uint64_t spore_random_next(SporeRandom *random) {
+  uint64_t z = random->state += UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+  return z ^ z >> 31;
+}
+/* In [0, 1). */
+static inline double spore_random_unit(SporeRandom *random) {
+  return (double)(spore_random_next(random) >> 11) * 0x1p-53;
+}
+SporeVec3 spore_random_direction(SporeRandom *random);
+
+/* Part of a longer piece of work: fractions go to first .. first + share of the whole. */
+typedef struct SporeProgressPart {
+  const SporeProgress *whole;
+  double first, share;
+} SporeProgressPart;
+/* False: cancelled, and *error says so. */
+bool spore_progress_part(const SporeProgressPart *part, double fraction, const char *stage, SporeError *error);
+
+bool spore_spheres_no_memory(SporeError *error); /* false */
+
+/* The solid of a surface: where the winding number is over 0.5. A surface that is inside out is turned. */
+typedef struct SporeSolid {
+  SporeTriangleMesh mesh; /* a copy, turned outward */
+  SporeBvh *bvh;
+  double *cells;     /* cell_count x 4: lower corner and edge; together they hold the solid */
+  double *cell_end;  /* cell_count: running sum of volumes */
+  bool *cell_inside; /* cell_count: wholly inside */
+  size_t cell_count;
+  double *triangle_end;             /* triangle_count: running sum of areas */
+  double volume, diagonal, deepest; /* m^3 and m, estimates by sampling; diagonal exact */
+} SporeSolid;
+
+bool spore_solid_create(SporeSolid *solid, const SporeTriangleMesh *mesh, SporeError *error);
+void spore_solid_clear(SporeSolid *solid);
+/* count points (x y z each) spread evenly over the volume or the surface. */
+void spore_solid_interior(const SporeSolid *solid, size_t count, SporeRandom *random, double *points);
+void spore_solid_surface(const SporeSolid *solid, size_t count, SporeRandom *random, double *points,
+                         SporeVec3 *normals);
+
+/* Points in space-filling order, in blocks each with a bounding sphere, so that most spheres are ruled out for a whole
+ * block at once. */
+#define SPORE_BLOCK 32
+typedef struct SporePoints {
+  size_t count, block_count;
+  double *x, *y, *z;  /* count, padded to whole blocks with the last point */
+  double *block;      /* block_count x 4: centre and radius */
+  uint32_t *original; /* count: number before sorting */
+} SporePoints;
+bool spore_points_create(SporePoints *points, const double *xyz, size_t count);
+void spore_points_clear(SporePoints *points);
+
+/* Spheres as columns. */
+typedef struct SporeBalls {
+  size_t count;
+  double *x, *y, *z, *r;
+} SporeBalls;
+bool spore_balls_create(SporeBalls *balls, size_t count);
+void spore_balls_clear(SporeBalls *balls);
+void spore_balls_copy(SporeBalls *to, const SporeBalls *from);
+
+/* max_i (r_i - |p - c_i|) at each point: the largest, whose it is, and the second largest (-HUGE_VAL where there is one
+ * sphere). Arrays are padded to whole blocks. */
+typedef struct SporeField {
+  double *best, *second;
+  uint32_t *owner;
+  double *near_block; /* scratch, 6 x balls */
+} SporeField;
+bool spore_field_create(SporeField *field, const SporePoints *points, size_t ball_count);
+void spore_field_clear(SporeField *field);
+void spore_field_evaluate(SporeField *field, const SporePoints *points, const SporeBalls *balls);
+/* Number of balls that hold each point, padded. */
+void spore_field_multiplicity(SporeField *field, const SporePoints *points, const SporeBalls *balls, uint32_t *held);
+
+/* Samples of the signed depth: inside, on the surface, and in a band outside, in that order of kinds before sorting. */
+typedef struct SporeSamples {
+  SporePoints points;
+  double *depth, *weight; /* padded; the padding weighs nothing */
+  double band;            /* m: how far outside the samples go, about */
+  double typical;         /* m: radius of one of `count` equal balls that fill the volume */
+} SporeSamples;
+bool spore_samples_create(SporeSamples *samples, const SporeSolid *solid, size_t count, SporeRandom *random,
+                          const SporeProgressPart *progress, SporeError *error);
+void spore_samples_clear(SporeSamples *samples);
+
+/* Balls inside the solid that touch its surface, most about its medial axis. */
+bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, size_t count, SporeRandom *random,
+                             const SporeProgressPart *progress, SporeError *error);
+/* Picks balls->count of the candidates, each the one that holds most samples not yet held, and grows them a little. */
+bool spore_candidates_cover(const SporeBalls *candidates, const SporeSamples *samples, SporeBalls *balls,
+                            const SporeProgressPart *progress, SporeError *error);
+
+/* Moves the balls so that their field meets the samples' depth. */
+bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
+                       SporeBalls *balls, const SporeProgressPart *progress, SporeError *error);
+
+/* As spore_spheres_measure, on a solid that is there already. */
+bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, SporeSpheresReport *report,
+                         const SporeProgressPart *progress, SporeError *error);
+
+#endif
