@@ -2,7 +2,7 @@
 #include <glib/gi18n.h>
 #include <stdlib.h>
 
-#include "app/locale.h"
+#include "app/catalogue.h"
 #include "ui/spore-application.h"
 
 static gboolean show_version;
@@ -24,7 +24,7 @@ static const char *scenes_folder(void) {
 
 int main(int argc, char **argv) {
   gtk_disable_setlocale(); /* numbers stay in the C locale, as in files */
-  spore_locale_start();
+  spore_catalogue_start();
   g_set_prgname("spore-editor");
   g_set_application_name("SPORE");
   g_autoptr(SporeApplication) application = spore_application_new(SPORE_VERSION, scenes_folder());

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "app/cli/cli.h"
-#include "app/locale.h"
+#include "app/catalogue.h"
 #include "models/registry.h"
 
 typedef struct Command {
@@ -45,7 +45,7 @@ static int run_command(const Command *command, int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
-  spore_locale_start();
+  spore_catalogue_start();
   if (argc < 2 || g_str_equal(argv[1], "--help") || g_str_equal(argv[1], "help") || g_str_equal(argv[1], "-h")) {
     print_help();
     return argc < 2 ? SPORE_EXIT_INPUT : SPORE_EXIT_DONE;

@@ -1,4 +1,4 @@
-#include "app/locale.h"
+#include "app/catalogue.h"
 
 #include <glib.h>
 #include <libintl.h>
@@ -19,7 +19,7 @@ static char *catalogue_folder(void) {
   return g_strdup(SPORE_LOCALE_FOLDER);
 }
 
-void spore_locale_start(void) {
+void spore_catalogue_start(void) {
   setlocale(LC_ALL, "");
   setlocale(LC_NUMERIC, "C");
   g_autofree char *folder = catalogue_folder();
