@@ -28,12 +28,14 @@ struct SporeFileBatch {
 };
 
 static gboolean say_why(int fault, const char *place, GError **error) {
+  if (fault == EXDEV || fault == ELOOP)
+    return spore_error_raise(error, SPORE_ERROR_FILE, place,
+                             _("leads out of the scene's folder; nothing was changed; name a file inside it"));
   const char *remedy = _("choose another place");
   if (fault == ENOSPC || fault == EDQUOT || fault == EFBIG) remedy = _("free some space or choose another place");
   else if (fault == EACCES || fault == EPERM || fault == EROFS)
     remedy = _("check the permissions or choose another place");
   else if (fault == ENOENT) remedy = _("make the folder first");
-  else if (fault == EXDEV || fault == ELOOP) remedy = _("it leads out of the scene's folder; name a file inside it");
   return spore_error_raise(error, SPORE_ERROR_FILE, place, _("cannot be written: %s; nothing was changed; %s"),
                            g_strerror(fault), remedy);
 }

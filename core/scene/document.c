@@ -77,6 +77,7 @@ void spore_document_free(SporeDocument *document) {
   g_hash_table_unref(document->objects);
   g_array_unref(document->listeners);
   spore_assets_free(document);
+  spore_document_forget_names(document);
   g_free(document->file);
   g_free(document);
 }
@@ -139,15 +140,32 @@ gboolean spore_element_in_list(const char *elements, const char *element) {
   return FALSE;
 }
 
-SporeObject *spore_document_find(const SporeDocument *document, const char *elements, const char *name) {
-  if (!name) return NULL;
+/* Objects by name, made when it is first asked for after a change. */
+static GHashTable *index_names(const SporeDocument *document) {
+  GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, (GDestroyNotify)g_ptr_array_unref);
   for (guint s = 0; s < document->root->children->len; s++) {
     const SporeObject *section = spore_object_child(document->root, s);
     for (guint i = 0; i < section->children->len; i++) {
       SporeObject *object = spore_object_child(section, i);
-      if (g_strcmp0(spore_object_name(object), name) == 0 && spore_element_in_list(elements, object->type->element))
-        return object;
+      const char *name = spore_object_name(object);
+      if (!name) continue;
+      GPtrArray *same = g_hash_table_lookup(names, name);
+      if (!same) g_hash_table_insert(names, g_strdup(name), same = g_ptr_array_new());
+      g_ptr_array_add(same, object);
     }
+  }
+  return names;
+}
+
+void spore_document_forget_names(SporeDocument *document) { g_clear_pointer(&document->names, g_hash_table_unref); }
+
+SporeObject *spore_document_find(const SporeDocument *document, const char *elements, const char *name) {
+  if (!name) return NULL;
+  if (!document->names) ((SporeDocument *)document)->names = index_names(document);
+  const GPtrArray *same = g_hash_table_lookup(document->names, name);
+  for (guint i = 0; same && i < same->len; i++) {
+    SporeObject *object = g_ptr_array_index(same, i);
+    if (spore_element_in_list(elements, object->type->element)) return object;
   }
   return NULL;
 }

@@ -53,6 +53,7 @@ static guint position_of(const SporeObject *object, guint property) {
 
 static void swap_slot(SporeEdit *edit) {
   SporeObject *object = edit->object;
+  if (object->type->table->parameters[edit->property].type == SPORE_NAME) spore_document_forget_names(object->document);
   SporeSlot *slot = &object->slots[edit->property];
   if (slot->set) {
     slot->position = position_of(object, edit->property);
@@ -68,6 +69,7 @@ static void swap_slot(SporeEdit *edit) {
 static void swap_place(SporeEdit *edit) {
   SporeObject *object = edit->object, *parent = NULL;
   guint index = 0;
+  spore_document_forget_names(object->document);
   if (!object->detached) {
     parent = object->parent;
     g_ptr_array_find(parent->children, object, &index);

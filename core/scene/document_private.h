@@ -73,6 +73,7 @@ struct SporeDocument {
   SporeObject *root;
   GHashTable *objects; /* id -> SporeObject *, detached ones too; owns them */
   guint32 last_id;
+  GHashTable *names;    /* name -> GPtrArray of the objects that have it; NULL: to be made anew */
   gboolean declaration; /* the file begins with <?xml ...?> */
 
   GPtrArray *undo, *redo; /* SporeUndoStep * */
@@ -112,6 +113,8 @@ SporeObject *spore_object_new(SporeDocument *document, const SporeObjectType *ty
 /* Index in parent->children where an element belongs: `index` clamped, or where the fixed order wants it. */
 guint spore_object_place_for(const SporeObject *parent, const SporeObjectType *type, guint index);
 int spore_object_name_property(const SporeObject *object); /* -1: none */
+/* After a change of names or places. */
+void spore_document_forget_names(SporeDocument *document);
 /* Whether `element` is one of the names joined by | in `elements`. */
 gboolean spore_element_in_list(const char *elements, const char *element);
 

@@ -10,7 +10,8 @@ static const char canonical[] =
     "     of two lines. -->\n"
     "\n"
     "<spore version=\"1.0\">\n"
-    "  <meta description=\"a &lt; b &amp; c &gt; d &quot;e&quot; &amp;#38; f&#10;g &#x151;\" title=\"H\xC3\xA9p\xC3\xA1s\"/>\n"
+    "  <meta description=\"a &lt; b &amp; c &gt; d &quot;e&quot; &amp;#38; f&#10;g &#x151;\" "
+    "title=\"H\xC3\xA9p\xC3\xA1s\"/>\n"
     "  <environment gravity=\"0 -9.810 0e0\"/>\n"
     "  <solver/>\n"
     "\n"
@@ -54,7 +55,8 @@ static void test_round_trip(void) {
   g_assert_cmpint(spore_object_line(body), ==, 21);
   g_assert_cmpint(spore_object_column(body), ==, 5);
   g_assert_cmpfloat(spore_object_number(spore_document_by_path(document, "assets/liver-spheres"), "count"), ==, 110);
-  g_assert_cmpfloat(spore_object_number(spore_document_by_path(document, "bodies/liver/collision"), "stiffness"), ==, 1000);
+  g_assert_cmpfloat(spore_object_number(spore_document_by_path(document, "bodies/liver/collision"), "stiffness"), ==,
+                    1000);
   spore_document_free(document);
 }
 
@@ -134,7 +136,10 @@ static const Bad bad[] = {
     {"empty", "", "bad.spore", "the file is empty"},
     {"blank", " \n ", "bad.spore:", "not well-formed"},
     {"text", "solid spleen\n facet normal", "bad.spore:1:1", "not a SPORE scene"},
-    {"binary", "\x7f" "ELF\x02\x01\xff\xfe", "bad.spore:1:7", "not UTF-8"},
+    {"binary",
+     "\x7f"
+     "ELF\x02\x01\xff\xfe",
+     "bad.spore:1:7", "not UTF-8"},
     {"latin-1", SCENE("<meta title=\"Caf\xe9\"/>"), "bad.spore:2:17", "not UTF-8"},
     {"other-xml", "<!-- x -->\n <html/>", "bad.spore:2:2", "this is not a SPORE scene but <html>"},
     {"no-version", "<spore>\n</spore>", "bad.spore:1:1", "<spore> has no version"},
@@ -143,14 +148,17 @@ static const Bad bad[] = {
     {"not-a-version", "<spore version=\"one\"/>", "bad.spore:1:8", "write version=\"1.0\""},
     {"unknown-element", SCENE("  <bodies>\n    <boddy/>\n  </bodies>"), "bad.spore:3:5", "did you mean <body>?"},
     {"unknown-nothing-near", SCENE("<quux/>"), "bad.spore:2:1", "expected <meta>, <units>"},
-    {"element-elsewhere", SCENE("<bodies>\n\t<pin name=\"p\"/></bodies>"), "bad.spore:3:2", "does not belong in <bodies>"},
+    {"element-elsewhere", SCENE("<bodies>\n\t<pin name=\"p\"/></bodies>"), "bad.spore:3:2",
+     "does not belong in <bodies>"},
     {"model-outside", SCENE("<bodies><body name=\"a\"><particle/></body></bodies>"), "bad.spore:2:24", "<mechanical>"},
     {"unknown-attribute", SCENE("<bodies><body name=\"a\"\n   rol=\"active\"/></bodies>"), "bad.spore:3:4",
      "did you mean \"role\"?"},
     {"unknown-attribute-far", SCENE("<exercise zzzzzz=\"1\"/>"), "bad.spore:2:11", "expected none"},
-    {"columns-count-characters", SCENE("<meta title=\"\xC3\xA9\xC3\xA9\xC3\xA9\" zzzzzzzzz=\"1\"/>"), "bad.spore:2:19", "zzzzzzzzz"},
+    {"columns-count-characters", SCENE("<meta title=\"\xC3\xA9\xC3\xA9\xC3\xA9\" zzzzzzzzz=\"1\"/>"), "bad.spore:2:19",
+     "zzzzzzzzz"},
     {"out-of-range",
-     SCENE("<bodies><body name=\"a\"><mechanical>\n<particle note=\"x > y\" mass=\"-1\"/></mechanical></body></bodies>"),
+     SCENE(
+         "<bodies><body name=\"a\"><mechanical>\n<particle note=\"x > y\" mass=\"-1\"/></mechanical></body></bodies>"),
      "bad.spore:3:24", "mass=\"-1\" is out of range"},
     {"not-a-number", SCENE("<environment gravity=\"0 down 0\"/>"), "bad.spore:2:14", "three numbers"},
     {"infinite", SCENE("<environment gravity=\"0 1e999 0\"/>"), "bad.spore:2:14", "finite"},
@@ -162,11 +170,12 @@ static const Bad bad[] = {
     {"name", SCENE("<bodies><body name=\"my liver\"/></bodies>"), "bad.spore:2:15", "is not a name"},
     {"no-name", SCENE("<bodies>\n  <body/></bodies>"), "bad.spore:3:3", "<body> has no name"},
     {"no-file", SCENE("<assets><mesh name=\"m\"/></assets>"), "bad.spore:2:9", "<mesh> has no file"},
-    {"duplicate-name", SCENE("<bodies>\n  <body name=\"a\"/>\n  <body role=\"active\" name=\"a\"/></bodies>"), "bad.spore:4:23",
-     "taken by the body at line 3, column 3"},
+    {"duplicate-name", SCENE("<bodies>\n  <body name=\"a\"/>\n  <body role=\"active\" name=\"a\"/></bodies>"),
+     "bad.spore:4:23", "taken by the body at line 3, column 3"},
     {"duplicate-across-kinds", SCENE("<links><pin name=\"a\"/><spring name=\"a\"/></links>"), "bad.spore:2:31",
      "taken by the pin at line 2, column 8"},
-    {"outside-up", SCENE("<assets><mesh name=\"m\" file=\"../secret.off\"/></assets>"), "bad.spore:2:24", "inside the scene's folder"},
+    {"outside-up", SCENE("<assets><mesh name=\"m\" file=\"../secret.off\"/></assets>"), "bad.spore:2:24",
+     "inside the scene's folder"},
     {"outside-middle", SCENE("<assets><mesh name=\"m\" file=\"a/../../b.off\"/></assets>"), "bad.spore:2:24", "file="},
     {"outside-root", SCENE("<assets><mesh name=\"m\" file=\"/etc/passwd\"/></assets>"), "bad.spore:2:24", "file="},
     {"outside-backslash", SCENE("<assets><mesh name=\"m\" file=\"a\\b.off\"/></assets>"), "bad.spore:2:24", "file="},
@@ -174,7 +183,8 @@ static const Bad bad[] = {
     {"control-character", SCENE("<assets><mesh name=\"m\" file=\"a\x7f.off\"/></assets>"), "bad.spore:2:24", "control"},
     {"section-twice", SCENE("<bodies/>\n<bodies/>"), "bad.spore:3:1", "already holds <bodies>"},
     {"section-order", SCENE("<bodies/>\n <assets/>"), "bad.spore:3:2", "<assets> comes after <bodies>"},
-    {"unit-order", SCENE("<bodies><body name=\"a\"><visual/><collision/></body></bodies>"), "bad.spore:2:33", "move it up"},
+    {"unit-order", SCENE("<bodies><body name=\"a\"><visual/><collision/></body></bodies>"), "bad.spore:2:33",
+     "move it up"},
     {"two-models", SCENE("<bodies><body name=\"a\"><mechanical><particle/>\n<particle/></mechanical></body></bodies>"),
      "bad.spore:3:1", "at most one element"},
     {"text-inside", SCENE("<bodies>\n  liver</bodies>"), "bad.spore:3:3", "text does not belong here"},
@@ -183,11 +193,14 @@ static const Bad bad[] = {
     {"entity-in-value", SCENE("<meta title=\"&boom;\"/>"), "bad.spore:2:", "boom"},
     {"cdata", SCENE("<bodies><![CDATA[x]]></bodies>"), "bad.spore:2:9", "CDATA"},
     {"instruction", SCENE("<?run me?>"), "bad.spore:2:1", "processing instruction"},
-    {"stylesheet", "<?xml version=\"1.0\"?>\n<?xml-stylesheet href=\"x\"?><spore version=\"1.0\"/>", "bad.spore:2:1", "processing"},
-    {"document-type", "<?xml version=\"1.0\"?>\n<!DOCTYPE spore SYSTEM \"file:///etc/passwd\">\n<spore version=\"1.0\"/>",
+    {"stylesheet", "<?xml version=\"1.0\"?>\n<?xml-stylesheet href=\"x\"?><spore version=\"1.0\"/>", "bad.spore:2:1",
+     "processing"},
+    {"document-type",
+     "<?xml version=\"1.0\"?>\n<!DOCTYPE spore SYSTEM \"file:///etc/passwd\">\n<spore version=\"1.0\"/>",
      "bad.spore:2:1", "<!DOCTYPE>"},
     {"laughs",
-     "<!DOCTYPE spore [<!ENTITY a \"ha\"><!ENTITY b \"&a;&a;&a;&a;\"><!ENTITY c \"&b;&b;&b;&b;\">]>\n<spore version=\"&c;\"/>",
+     "<!DOCTYPE spore [<!ENTITY a \"ha\"><!ENTITY b \"&a;&a;&a;&a;\"><!ENTITY c \"&b;&b;&b;&b;\">]>\n<spore "
+     "version=\"&c;\"/>",
      "bad.spore:1:1", "<!DOCTYPE>"},
     {"namespace", SCENE("<bodies xmlns=\"urn:x\"/>"), "bad.spore:2:1", "namespace"},
     {"prefix", SCENE("<x:bodies xmlns:x=\"urn:x\"/>"), "bad.spore:2:1", "namespace"},
@@ -200,7 +213,8 @@ static const Bad bad[] = {
     {"open-quote", "<spore version=\"1.0>", "bad.spore:1:", "not well-formed"},
     {"open-comment", SCENE("<!-- x"), "bad.spore:", "not well-formed"},
     {"control-in-value", SCENE("<meta title=\"\x01\"/>"), "bad.spore:2:", "not well-formed"},
-    {"utf-16-said", "<?xml version=\"1.0\" encoding=\"latin1-or-so\"?>\n<spore version=\"1.0\"/>", "bad.spore:1:", "encoding"},
+    {"utf-16-said", "<?xml version=\"1.0\" encoding=\"latin1-or-so\"?>\n<spore version=\"1.0\"/>",
+     "bad.spore:1:", "encoding"},
 };
 
 static void test_bad(gconstpointer data) {
@@ -239,8 +253,8 @@ static void test_limits(void) {
   refuse_text(repeat("<spore", " a=\"1\"", 1000000, "/>"), "bad.spore:1:1", "too many attributes");
   refuse_text(repeat("<!DOCTYPE spore [", "<!ENTITY a \"b\">", 1000000, "]><spore version=\"1.0\"/>"), "bad.spore:1:1",
               "<!DOCTYPE>");
-  refuse_text(repeat("<spore version=\"1.0\">", "<!-- 0123456789 -->", (65 << 20) / 19, "</spore>"), "bad.spore: ",
-              "over 64 MiB");
+  refuse_text(repeat("<spore version=\"1.0\">", "<!-- 0123456789 -->", (65 << 20) / 19, "</spore>"),
+              "bad.spore: ", "over 64 MiB");
 }
 
 /* As large as it may be: read, and not in time that grows with the square. */

@@ -1,0 +1,176 @@
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "core/scene/check_private.h"
+#include "core/scene/document_private.h"
+#include "core/scene/schema_fields.h"
+
+void spore_diagnostic_free(SporeDiagnostic *diagnostic) {
+  if (!diagnostic) return;
+  g_free(diagnostic->place);
+  g_free(diagnostic->message);
+  g_free(diagnostic->remedy);
+  g_free(diagnostic);
+}
+
+static void add(SporeCheck *check, SporeSeverity severity, const SporeObject *object, char *message,
+                const char *remedy) {
+  SporeDiagnostic *diagnostic = g_new0(SporeDiagnostic, 1);
+  diagnostic->severity = severity;
+  diagnostic->object = object && object != spore_document_root(check->document) ? spore_object_id(object) : 0;
+  diagnostic->place = spore_object_where(object ? object : spore_document_root(check->document));
+  diagnostic->message = message;
+  diagnostic->remedy = g_strdup(remedy);
+  g_ptr_array_add(check->found, diagnostic);
+  check->faults += severity == SPORE_FAULT;
+}
+
+void spore_check_say(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const char *remedy,
+                     const char *message_format, ...) {
+  va_list arguments;
+  va_start(arguments, message_format);
+  add(check, severity, object, g_strdup_vprintf(message_format, arguments), remedy);
+  va_end(arguments);
+}
+
+/* The object of a place: "FILE:LINE:COLUMN: " or "PATH: " at the start of a message, or NULL. */
+static const SporeObject *object_at(const SporeObject *object, const char *message) {
+  g_autofree char *where = spore_object_where(object);
+  size_t length = strlen(where);
+  if (strncmp(message, where, length) == 0 && g_str_has_prefix(message + length, ": ")) return object;
+  for (guint i = 0; i < spore_object_child_count(object); i++) {
+    const SporeObject *found = object_at(spore_object_child(object, i), message);
+    if (found) return found;
+  }
+  return NULL;
+}
+
+void spore_check_say_error(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const GError *error) {
+  const SporeObject *said = object_at(spore_document_root(check->document), error->message);
+  const char *message = error->message;
+  if (said) {
+    g_autofree char *where = spore_object_where(said);
+    message += strlen(where) + 2;
+    object = said;
+  }
+  const char *end = strrchr(message, ';');
+  add(check, severity, object, end ? g_strndup(message, (gsize)(end - message)) : g_strdup(message),
+      end ? end + 1 + strspn(end + 1, " ") : _("correct it"));
+}
+
+void spore_check_each(SporeCheck *check, const char *section, const char *element, SporeCheckVisit visit) {
+  const SporeObject *above = spore_document_section(check->document, section);
+  for (guint i = 0; i < spore_object_child_count(above); i++) {
+    SporeObject *object = spore_object_child(above, i);
+    if (!element || strcmp(spore_object_type(object)->element, element) == 0) visit(check, object);
+  }
+}
+
+/* References, everywhere: what they name, and who names it. */
+static void check_reference(SporeCheck *check, SporeObject *object, const SporeParameter *parameter) {
+  const char *name = spore_object_text(object, parameter->name);
+  SporeObject *target = spore_object_reference(object, parameter->name);
+  if (target) {
+    GPtrArray *users = g_hash_table_lookup(check->users, target);
+    if (!users) g_hash_table_insert(check->users, target, users = g_ptr_array_new());
+    g_ptr_array_add(users, object);
+  } else if (name) {
+    spore_check_say(check, SPORE_FAULT, object, _("correct the name, or add what it names"),
+                    _("%s=\"%s\" names nothing; expected the name of a %s"), parameter->name, name,
+                    parameter->references);
+  }
+}
+
+static void check_references(SporeCheck *check, SporeObject *object) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  for (guint i = 0; i < table->count; i++)
+    if (table->parameters[i].type == SPORE_REFERENCE) check_reference(check, object, &table->parameters[i]);
+  for (guint i = 0; i < spore_object_child_count(object); i++) check_references(check, spore_object_child(object, i));
+}
+
+gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object, const char *elements) {
+  const GPtrArray *users = g_hash_table_lookup(check->users, object);
+  for (guint i = 0; users && i < users->len; i++)
+    if (!elements || spore_element_in_list(elements, spore_object_type(users->pdata[i])->element)) return TRUE;
+  return FALSE;
+}
+
+/* Bodies. */
+
+static void check_mechanical(SporeCheck *check, const SporeObject *body, SporeRole role) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  gboolean has_model = mechanical && spore_object_child_count(mechanical) > 0;
+  if (role == SPORE_PASSIVE && !has_model)
+    spore_check_say(check, SPORE_FAULT, body, _("choose a mechanical model, or make the role unmovable"),
+                    _("\"%s\" is passive, but has no mechanical model that moves it"), spore_object_name(body));
+  if (role != SPORE_PASSIVE && has_model)
+    spore_check_say(check, SPORE_NOTE, mechanical, _("make the role passive, or remove the model"),
+                    _("the mechanical model of \"%s\" is not used: its role is %s"), spore_object_name(body),
+                    role == SPORE_ACTIVE ? "active" : "unmovable");
+}
+
+static void check_body(SporeCheck *check, SporeObject *body) {
+  const char *name = spore_object_name(body);
+  SporeRole role = (SporeRole)spore_object_number(body, "role");
+  check_mechanical(check, body, role);
+  const SporeObject *collision = spore_object_child_of(body, "collision");
+  if (!collision || !spore_object_text(collision, "spheres"))
+    spore_check_say(check, SPORE_NOTE, body,
+                    _("generate spheres and name them in its collision unit, if it should be felt"),
+                    _("\"%s\" has no collision spheres: everything passes through it"), name);
+  if (role == SPORE_ACTIVE && !spore_check_is_used(check, body, "probe"))
+    spore_check_say(check, SPORE_WARNING, body, _("add a tool that names it, with a device"),
+                    _("\"%s\" is active, but no tool moves it"), name);
+  const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
+  if (fidelity && (int)spore_object_number(fidelity, "mode") == SPORE_FIDELITY_EFFECT)
+    spore_check_say(check, SPORE_NOTE, fidelity, _("make the mode physical until there is an effect for it"),
+                    _("\"%s\" asks to be shown as an effect, and is simulated all the same"), name);
+}
+
+/* Tools and links. */
+
+static void check_probe(SporeCheck *check, SporeObject *probe) {
+  const char *name = spore_object_name(probe);
+  const SporeObject *body = spore_object_reference(probe, "body");
+  if (!spore_object_text(probe, "body"))
+    spore_check_say(check, SPORE_WARNING, probe, _("name an active body"), _("the tool \"%s\" has no body"), name);
+  if (body && (int)spore_object_number(body, "role") != SPORE_ACTIVE)
+    spore_check_say(check, SPORE_FAULT, probe, _("make its role active, or choose another body"),
+                    _("the tool \"%s\" moves \"%s\", which is not active"), name, spore_object_name(body));
+  if (!spore_object_text(probe, "device"))
+    spore_check_say(check, SPORE_WARNING, probe, _("name a mouse or a track"),
+                    _("the tool \"%s\" has no device: nothing moves it"), name);
+}
+
+static void check_link(SporeCheck *check, SporeObject *link) {
+  const char *property = strcmp(spore_object_type(link)->element, "pin") == 0 ? "body" : "body_a";
+  if (!spore_object_text(link, property))
+    spore_check_say(check, SPORE_FAULT, link, _("name a body, or remove the link"), _("the link \"%s\" has no %s"),
+                    spore_object_name(link), property);
+}
+
+/* The whole. */
+
+static gint worst_first(gconstpointer a, gconstpointer b) {
+  const SporeDiagnostic *one = *(SporeDiagnostic *const *)a, *other = *(SporeDiagnostic *const *)b;
+  if (one->severity != other->severity) return (gint)other->severity - (gint)one->severity;
+  return 0;
+}
+
+static void free_diagnostic(gpointer data) { spore_diagnostic_free(data); }
+
+GPtrArray *spore_document_check(SporeDocument *document) {
+  SporeCheck check = {document, g_ptr_array_new_with_free_func(free_diagnostic), NULL, 0};
+  check.users = g_hash_table_new_full(NULL, NULL, NULL, (GDestroyNotify)g_ptr_array_unref);
+  check_references(&check, spore_document_root(document));
+  if (spore_object_child_count(spore_document_section(document, "bodies")) == 0)
+    spore_check_say(&check, SPORE_NOTE, NULL, _("import a mesh, or add a body"), "%s", _("the scene has no bodies"));
+  spore_check_each(&check, "bodies", NULL, check_body);
+  spore_check_each(&check, "tools", "probe", check_probe);
+  spore_check_each(&check, "links", NULL, check_link);
+  spore_check_assets(&check);
+  spore_check_motion(&check);
+  g_ptr_array_sort(check.found, worst_first); /* a merge sort: those alike stay in order */
+  g_hash_table_unref(check.users);
+  return check.found;
+}

@@ -1,0 +1,97 @@
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/scene/check_private.h"
+
+#define LARGEST_ORGAN_M 5.0
+#define SMALLEST_ORGAN_M 0.001
+#define SLIVER_DEG 5.0
+
+/* A length in the unit that people would use for it. */
+static char *say_length(double length_m) {
+  if (length_m >= 1) return g_strdup_printf("%.3g m", length_m);
+  if (length_m >= 1e-3) return g_strdup_printf("%.3g mm", length_m * 1e3);
+  return g_strdup_printf("%.3g um", length_m * 1e6);
+}
+
+static void check_size(SporeCheck *check, SporeObject *asset, double diagonal_m) {
+  if (diagonal_m <= LARGEST_ORGAN_M && diagonal_m >= SMALLEST_ORGAN_M) return;
+  g_autofree char *length = say_length(diagonal_m);
+  spore_check_say(check, SPORE_WARNING, asset,
+                  diagonal_m > LARGEST_ORGAN_M ? _("if it is an organ or a tool, its unit is wrong: try mm or cm")
+                                               : _("if it is an organ or a tool, its unit is wrong: try m or cm"),
+                  _("\"%s\" is %s across"), spore_object_name(asset), length);
+}
+
+static double diagonal(const double *points, size_t count, size_t stride) {
+  double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0;
+  for (size_t i = 0; i < count; i++)
+    for (int k = 0; k < 3; k++) {
+      lower[k] = fmin(lower[k], points[stride * i + (size_t)k]);
+      upper[k] = fmax(upper[k], points[stride * i + (size_t)k]);
+    }
+  for (int k = 0; k < 3; k++) square += (upper[k] - lower[k]) * (upper[k] - lower[k]);
+  return count ? sqrt(square) : 0;
+}
+
+static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error) {
+  const SporeTriangleMesh *mesh = spore_document_mesh(check->document, asset, error);
+  if (!mesh) return FALSE;
+  SporeMeshReport report;
+  SporeError fault = SPORE_ERROR_INIT;
+  if (!spore_triangle_mesh_report(mesh, &report, &fault)) return spore_error_propagate(&fault, error);
+  check_size(check, asset, report.diagonal);
+  if (!report.closed)
+    spore_check_say(
+        check, SPORE_NOTE, asset, _("tetrahedra can still be generated: the surface is repaired or wrapped then"),
+        _("\"%s\" is not a closed surface: %zu open, %zu non-manifold and %zu misoriented edges"),
+        spore_object_name(asset), report.boundary_edges, report.nonmanifold_edges, report.misoriented_edges);
+  return TRUE;
+}
+
+static gboolean check_tetrahedra(SporeCheck *check, SporeObject *asset, GError **error) {
+  const SporeTetrahedralMesh *mesh = spore_document_tetrahedra(check->document, asset, error);
+  if (!mesh) return FALSE;
+  SporeTetrahedraQuality quality;
+  spore_tetrahedral_mesh_quality(mesh, &quality);
+  check_size(check, asset, diagonal(mesh->vertices, mesh->vertex_count, 3));
+  if (quality.min_dihedral_deg < SLIVER_DEG)
+    spore_check_say(check, SPORE_WARNING, asset, _("generate them again with another number of cells"),
+                    _("\"%s\" has slivers: the flattest tetrahedron has an angle of %.2g degrees; expected over %g"),
+                    spore_object_name(asset), quality.min_dihedral_deg, SLIVER_DEG);
+  return TRUE;
+}
+
+static gboolean check_spheres(SporeCheck *check, SporeObject *asset, GError **error) {
+  const SporeSphereSet *set = spore_document_spheres(check->document, asset, error);
+  if (set && set->count > 1) check_size(check, asset, diagonal(set->spheres, set->count, 4));
+  return set != NULL;
+}
+
+static void check_fresh(SporeCheck *check, SporeObject *asset) {
+  SporeObject *source = spore_object_reference(asset, "source");
+  const char *then = spore_object_text(asset, "source_hash");
+  if (!source || !then) return;
+  g_autofree char *now = spore_document_asset_hash(check->document, source);
+  if (now && strcmp(now, then) != 0)
+    spore_check_say(check, SPORE_WARNING, asset, _("generate it again"),
+                    _("\"%s\" is stale: \"%s\", which it was made from, has changed"), spore_object_name(asset),
+                    spore_object_name(source));
+}
+
+static void check_asset(SporeCheck *check, SporeObject *asset) {
+  const char *element = spore_object_type(asset)->element;
+  g_autoptr(GError) error = NULL;
+  gboolean used = spore_check_is_used(check, asset, NULL), done;
+  if (strcmp(element, "mesh") == 0) done = check_mesh(check, asset, &error);
+  else if (strcmp(element, "tetrahedra") == 0) done = check_tetrahedra(check, asset, &error);
+  else done = check_spheres(check, asset, &error);
+  if (!done) spore_check_say_error(check, used ? SPORE_FAULT : SPORE_WARNING, asset, error);
+  if (!used)
+    spore_check_say(check, SPORE_NOTE, asset, _("remove it, or name it in a body"), _("nothing uses the %s \"%s\""),
+                    element, spore_object_name(asset));
+  if (strcmp(element, "mesh") != 0) check_fresh(check, asset);
+}
+
+void spore_check_assets(SporeCheck *check) { spore_check_each(check, "assets", NULL, check_asset); }
