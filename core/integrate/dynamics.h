@@ -12,10 +12,11 @@ typedef struct SporeDynamics {
   void *data;
   size_t q_count, block_count;
   void (*force)(void *data, const double *q, const double *v, double *f); /* f = all forces, N */
-  void (*kick)(void *data, const double *f, double h, double *v);         /* v += h M^-1 f */
-  /* v += (M + h D + h^2 K)^-1 h f, with the diagonal blocks of the D and K of contacts and links alone, at (q, v0): as
-   * kick where nothing touches, and stable however stiff a contact is. v may not be v0. */
-  void (*kick_terms)(void *data, const double *q, const double *v0, const double *f, double h, double *v);
+  /* The same in two parts, for explicit steps: the bodies' own forces, and those of contacts and links at (q, v), made
+   * safe for a step of h seconds however stiff they are. term_force: false, f untouched, where there are none. */
+  void (*body_force)(void *data, const double *q, const double *v, double *f);
+  bool (*term_force)(void *data, const double *q, const double *v, double h, double *f);
+  void (*kick)(void *data, const double *f, double h, double *v); /* v += h M^-1 f */
   void (*drift)(void *data, const double *q0, const double *v, double h, double *q1,
                 double *v1);                                     /* force-free motion */
   void (*mass_multiply)(void *data, const double *x, double *y); /* y = M x */

@@ -3,15 +3,16 @@
 #include "core/base/text.h"
 #include "core/integrate/integrator.h"
 
-/* v1 = v0 + h M^-1 f(q0, v0); q1 = q0 + h v1; contacts and links linearly implicit, so that the step need only suit the
- * models. */
+/* v1 = v0 + h M^-1 f(q0, v0); q1 = q0 + h v1. Contacts and links push on the velocity that the bodies' own forces
+ * lead to. */
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, double h, const double *q0,
                             const double *v0, double *q1, double *v1, double *scratch) {
   size_t n = 3 * dynamics->block_count;
   double *force = scratch, *kicked = scratch + n;
-  dynamics->force(dynamics->data, q0, v0, force);
+  dynamics->body_force(dynamics->data, q0, v0, force);
   memcpy(kicked, v0, n * sizeof *v0);
-  dynamics->kick_terms(dynamics->data, q0, v0, force, h, kicked);
+  dynamics->kick(dynamics->data, force, h, kicked);
+  if (dynamics->term_force(dynamics->data, q0, kicked, h, force)) dynamics->kick(dynamics->data, force, h, kicked);
   dynamics->drift(dynamics->data, q0, kicked, h, q1, v1);
   return (SporeStepResult){.converged = true, .force_evaluations = 1};
 }

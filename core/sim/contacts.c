@@ -90,6 +90,7 @@ static void fill_term(const SporeWorld *world, const SporeContact *contact, Spor
   term->arm_a = radius_a - 0.5 * contact->depth;
   term->arm_b = radius_b - 0.5 * contact->depth;
   term->law = spore_contact_law(&a, &b, radius_a, radius_b);
+  term->softening = (SporeSoftening){0, 0, 0};
   term->force = (SporeVec3){0, 0, 0};
 }
 

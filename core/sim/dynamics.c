@@ -64,22 +64,118 @@ static void filter(const SporeGroup *group, double *vector) {
   }
 }
 
-static void force(void *data, const double *q, const double *v, double *f) {
-  SporeGroup *group = data;
-  SporeWorld *world = group->world;
-  SporeMat3 *unused;
-  memset(f, 0, group->island->v_count * sizeof *f);
+static void add_body_forces(const SporeGroup *group, const double *q, const double *v, double *f) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = body_at(group, b, &site);
     body->model->type->force(body->model, q + site->q, v + site->v, f + site->v);
-    add_gravity(body, world->gravity, f + site->v);
+    add_gravity(body, group->world->gravity, f + site->v);
   }
+}
+
+static void add_term_forces(const SporeGroup *group, const double *q, const double *v, double *f) {
+  SporeMat3 *unused;
   for (size_t i = 0; i < group->island->contact_count; i++)
-    spore_contact_term_force(contact(group, i, &unused), world->local_sites, q, v, f);
+    spore_contact_term_force(contact(group, i, &unused), group->world->local_sites, q, v, f);
   for (size_t i = 0; i < group->island->spring_count; i++)
-    spore_spring_term_force(spring(group, i, &unused), world->local_sites, q, v, f);
+    spore_spring_term_force(spring(group, i, &unused), group->world->local_sites, q, v, f);
+}
+
+static void force(void *data, const double *q, const double *v, double *f) {
+  SporeGroup *group = data;
+  memset(f, 0, group->island->v_count * sizeof *f);
+  add_body_forces(group, q, v, f);
+  add_term_forces(group, q, v, f);
   filter(group, f);
+}
+
+static void body_force(void *data, const double *q, const double *v, double *f) {
+  SporeGroup *group = data;
+  memset(f, 0, group->island->v_count * sizeof *f);
+  add_body_forces(group, q, v, f);
+  filter(group, f);
+}
+
+/* Counts a term at each block that the end hangs on; counts: a double a block. */
+static void count_end(const SporeWorld *world, const SporeEnd *end, double *counts) {
+  if (end->prescribed) return;
+  double *local = counts + world->local_sites[end->body].v / 3;
+  const SporeMapping *mapping = end->mapping;
+  if (mapping->kind == SPORE_MAPPING_IDENTITY) local[end->point]++;
+  if (mapping->kind == SPORE_MAPPING_RIGID) local[0]++;
+  if (mapping->kind != SPORE_MAPPING_LINEAR) return;
+  for (uint32_t k = mapping->row_start[end->point]; k < mapping->row_start[end->point + 1]; k++)
+    local[mapping->block[k]]++;
+}
+
+/* Sum of n/m over those blocks, for a force that acts up to `arm` away from the end. */
+static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, double arm, const double *counts) {
+  if (end->prescribed) return 0;
+  const double *local = counts + world->local_sites[end->body].v / 3;
+  const SporeBody *body = &world->bodies[end->body];
+  const double *inverse = world->mass_inverse + 3 * body->v_offset;
+  const SporeMapping *mapping = end->mapping;
+  if (mapping->kind == SPORE_MAPPING_IDENTITY) return local[end->point] * inverse[9 * (size_t)end->point];
+  if (mapping->kind == SPORE_MAPPING_RIGID) {
+    double lever = spore_vec3_distance(end->position, spore_vec3_load(world->q + body->q_offset)) + arm;
+    return local[0] * (inverse[0] + lever * lever * (inverse[9] + inverse[13] + inverse[17]));
+  }
+  double sum = 0;
+  for (uint32_t k = mapping->row_start[end->point]; k < mapping->row_start[end->point + 1]; k++)
+    sum += mapping->weight[k] * mapping->weight[k] * local[mapping->block[k]] * inverse[9 * (size_t)mapping->block[k]];
+  return sum;
+}
+
+static void count_terms(const SporeGroup *group, double *counts) {
+  const SporeWorld *world = group->world;
+  SporeMat3 *unused;
+  memset(counts, 0, group->island->v_count / 3 * sizeof *counts);
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    const SporeContactTerm *term = contact(group, i, &unused);
+    count_end(world, &term->a, counts);
+    count_end(world, &term->b, counts);
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    const SporeSpringTerm *term = spring(group, i, &unused);
+    count_end(world, &term->a, counts);
+    count_end(world, &term->b, counts);
+  }
+}
+
+/* Sets the softening of all terms for an explicit step of h seconds. */
+static void soften_terms(const SporeGroup *group, double h) {
+  const SporeWorld *world = group->world;
+  SporeMat3 *unused;
+  double *counts = precondition_blocks(group); /* free: only implicit steps precondition */
+  count_terms(group, counts);
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    SporeContactTerm *term = contact(group, i, &unused);
+    double inverse_mass =
+        end_inverse_mass(world, &term->a, term->arm_a, counts) + end_inverse_mass(world, &term->b, term->arm_b, counts);
+    term->softening = spore_softening(h, inverse_mass, term->law.stiffness);
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    SporeSpringTerm *term = spring(group, i, &unused);
+    double inverse_mass = end_inverse_mass(world, &term->a, 0, counts) + end_inverse_mass(world, &term->b, 0, counts);
+    term->softening = spore_softening(h, inverse_mass, term->law.stiffness);
+  }
+}
+
+void spore_group_harden(SporeGroup *group) {
+  const SporeSoftening none = {0, 0, 0};
+  SporeMat3 *unused;
+  for (size_t i = 0; i < group->island->contact_count; i++) contact(group, i, &unused)->softening = none;
+  for (size_t i = 0; i < group->island->spring_count; i++) spring(group, i, &unused)->softening = none;
+}
+
+static bool term_force(void *data, const double *q, const double *v, double h, double *f) {
+  SporeGroup *group = data;
+  if (group->island->contact_count + group->island->spring_count == 0) return false;
+  soften_terms(group, h);
+  memset(f, 0, group->island->v_count * sizeof *f);
+  add_term_forces(group, q, v, f);
+  filter(group, f);
+  return true;
 }
 
 static void kick(void *data, const double *f, double h, double *v) {
@@ -124,7 +220,7 @@ static void linearise_terms(SporeGroup *group, const double *q, const double *v,
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
     SporeSpringTerm *term = spring(group, i, &jacobian);
-    *jacobian = spore_spring_term_jacobian(term, sites, q, c, c2);
+    *jacobian = spore_spring_term_jacobian(term, sites, q, v, c, c2);
   }
 }
 
@@ -244,28 +340,6 @@ static void precondition(void *data, const double *r, double *z) {
   filter(group, z);
 }
 
-/* v += (M + c D + c2 K)^-1 h f with the diagonal blocks of the terms' D and K only. Blocks that no term touches get
- * exactly h M^-1 f, and no contact or link, however stiff, can make an explicit step unstable: the terms' matrix is
- * at most twice its diagonal blocks. */
-static void kick_terms(void *data, const double *q, const double *v0, const double *f, double h, double *v) {
-  SporeGroup *group = data;
-  if (group->island->contact_count + group->island->spring_count == 0) {
-    kick(data, f, h, v);
-    return;
-  }
-  double *blocks = precondition_blocks(group);
-  linearise_terms(group, q, v0, h, h * h);
-  for (size_t b = 0; b < group->island->kept_count; b++) {
-    const SporeSite *site;
-    SporeBody *body = body_at(group, b, &site);
-    memcpy(blocks + 3 * site->v, mass_of(group, body), 9 * body->block_count * sizeof *blocks);
-  }
-  add_term_diagonals(group, blocks);
-  invert_blocks(blocks, group->island->v_count / 3);
-  add_blocks(blocks, group->island->v_count / 3, h, f, v);
-  filter(group, v);
-}
-
 /* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness. The stiffness is taken from the
  * preconditioner, which holds the inverse of A's diagonal blocks. */
 static double rounding(void *data, const double *q, double c) {
@@ -294,8 +368,9 @@ SporeDynamics spore_group_dynamics(SporeGroup *group) {
                          .q_count = group->island->q_count,
                          .block_count = group->island->v_count / 3,
                          .force = force,
+                         .body_force = body_force,
+                         .term_force = term_force,
                          .kick = kick,
-                         .kick_terms = kick_terms,
                          .drift = drift,
                          .mass_multiply = mass_multiply,
                          .linearise = linearise,

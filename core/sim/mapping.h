@@ -15,8 +15,8 @@
 typedef enum SporeMappingKind {
   SPORE_MAPPING_FIXED,    /* points never move; no degrees of freedom behind them */
   SPORE_MAPPING_IDENTITY, /* point i is block i: p = q[3i..3i+2] */
-  SPORE_MAPPING_RIGID,    /* q = position (3), quaternion wxyz (4); v = velocity (3), angular velocity (3), world axes */
-  SPORE_MAPPING_LINEAR    /* p_i = sum over the row of weight * q[3 block..], weights sum to 1 */
+  SPORE_MAPPING_RIGID, /* q = position (3), quaternion wxyz (4); v = velocity (3), angular velocity (3), world axes */
+  SPORE_MAPPING_LINEAR /* p_i = sum over the row of weight * q[3 block..], weights sum to 1 */
 } SporeMappingKind;
 
 typedef struct SporeMapping {
@@ -29,8 +29,8 @@ typedef struct SporeMapping {
 } SporeMapping;
 
 /* Constructors copy; arrays from spore_allocate. */
-bool spore_mapping_init_points(SporeMapping *mapping, SporeMappingKind fixed_or_rigid, const double *points, size_t count,
-                               SporeError *error);
+bool spore_mapping_init_points(SporeMapping *mapping, SporeMappingKind fixed_or_rigid, const double *points,
+                               size_t count, SporeError *error);
 bool spore_mapping_init_identity(SporeMapping *mapping, size_t count);
 /* Rows of equal length `width`: blocks and weights are count x width; zero weights are dropped. */
 bool spore_mapping_init_linear(SporeMapping *mapping, size_t count, size_t width, const uint32_t *blocks,

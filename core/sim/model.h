@@ -16,10 +16,10 @@
 #include "core/sim/mapping.h"
 
 typedef enum SporeGeometryKind {
-  SPORE_GEOMETRY_NONE,       /* parameters alone */
-  SPORE_GEOMETRY_SURFACE,    /* a triangle mesh, open or closed */
-  SPORE_GEOMETRY_SOLID,      /* a closed triangle mesh */
-  SPORE_GEOMETRY_TETRAHEDRA  /* a tetrahedral mesh */
+  SPORE_GEOMETRY_NONE,      /* parameters alone */
+  SPORE_GEOMETRY_SURFACE,   /* a triangle mesh, open or closed */
+  SPORE_GEOMETRY_SOLID,     /* a closed triangle mesh */
+  SPORE_GEOMETRY_TETRAHEDRA /* a tetrahedral mesh */
 } SporeGeometryKind;
 
 /* What a model is built from, in the body's frame, m. Borrowed during create; what the model does not need is NULL. */
@@ -75,7 +75,8 @@ struct SporeModelType {
 };
 
 /* Helpers for models. */
-bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t q_count, size_t block_count, SporeError *error);
+bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t q_count, size_t block_count,
+                      SporeError *error);
 void spore_model_clear(SporeModel *model);
 static inline bool spore_model_is_nodal(const SporeModel *model) { return model->q_count == 3 * model->block_count; }
 double spore_model_total_mass(const SporeModel *model);

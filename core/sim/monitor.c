@@ -68,6 +68,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, const SporeIsland *islan
   double *q1 = world->local_q1 + island->q_start, *v1 = world->local_v1 + island->v_start;
   double *scratch = world->scratch + world->scratch_per_block * (island->v_start / 3);
   double h = world->solver.time_step / (double)substeps;
+  spore_group_harden(&group);
   SporeStepResult total = {.converged = true};
   for (size_t s = 0; s < substeps; s++) {
     if (s > 0) {

@@ -100,10 +100,10 @@ static void clear(Power *power) {
   spore_free(power->z);
 }
 
-/* Root of w^2 h^2 + 2 d h = 4. */
+/* Root of w^2 h^2 + 2 d h = 3. */
 static double stable_step(double square, double damping) {
-  if (square <= 0) return damping > 0 ? 2 / damping : HUGE_VAL;
-  return (sqrt(damping * damping + 4 * square) - damping) / square;
+  if (square <= 0) return damping > 0 ? 1.5 / damping : HUGE_VAL;
+  return (sqrt(damping * damping + 3 * square) - damping) / square;
 }
 
 bool spore_step_limit(const SporeModel *model, const double *q, const double *v, const uint32_t *held,

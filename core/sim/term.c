@@ -63,13 +63,37 @@ static double depth_at(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b) {
   return term->depth + spore_vec3_dot(term->normal, moved);
 }
 
+SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) {
+  double stiff = 2 * h * h * stiffness * inverse_mass;
+  return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};
+}
+
+/* jacobian: h D + h t K */
+static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, SporeVec3 force) {
+  SporeMat3 system = spore_mat3_add(spore_mat3_identity(), spore_mat3_scale(softening->inverse_mass, jacobian));
+  SporeMat3 inverse;
+  return spore_mat3_invert(system, &inverse) ? spore_mat3_apply(inverse, force) : (SporeVec3){0, 0, 0};
+}
+
+/* Relative velocity of the ends without what is prescribed: that is where it will be already. */
+static SporeVec3 own_motion(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, const double *v) {
+  return spore_vec3_sub(gather(a, sites, v), gather(b, sites, v));
+}
+
 /* Depth, and velocity of a relative to b at the contact point. */
 static double contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                             SporeVec3 *relative) {
   SporeVec3 a = locate(&term->a, spore_vec3_scale(-term->arm_a, term->normal), sites, q);
   SporeVec3 b = locate(&term->b, spore_vec3_scale(term->arm_b, term->normal), sites, q);
   *relative = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
-  return depth_at(term, a, b);
+  return depth_at(term, a, b) -
+         term->softening.ahead * spore_vec3_dot(term->normal, own_motion(&term->a, &term->b, sites, v));
+}
+
+static SporeMat3 contact_jacobian(const SporeContactTerm *term, double depth, SporeVec3 relative, double c, double c2) {
+  SporeMat3 stiffness, damping;
+  spore_contact_jacobian(&term->law, term->normal, depth, relative, &stiffness, &damping);
+  return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
 }
 
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
@@ -77,33 +101,53 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
   SporeVec3 relative;
   double depth = contact_state(term, sites, q, v, &relative);
   term->force = spore_contact_force(&term->law, term->normal, depth, relative);
+  const SporeSoftening *softening = &term->softening;
+  if (softening->inverse_mass > 0) {
+    SporeMat3 jacobian = contact_jacobian(term, depth, relative, softening->h, softening->h * softening->ahead);
+    term->force = soften(softening, jacobian, term->force);
+  }
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double c, double c2) {
   SporeVec3 relative;
-  SporeMat3 stiffness, damping;
   double depth = contact_state(term, sites, q, v, &relative);
-  spore_contact_jacobian(&term->law, term->normal, depth, relative, &stiffness, &damping);
+  return contact_jacobian(term, depth, relative, c, c2);
+}
+
+/* Where the ends are, or will be after `ahead`. */
+static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v, SporeVec3 *a,
+                        SporeVec3 *b) {
+  const SporeVec3 none = {0, 0, 0};
+  *a = spore_vec3_add_scaled(locate(&term->a, none, sites, q), term->softening.ahead, gather(&term->a, sites, v));
+  *b = spore_vec3_add_scaled(locate(&term->b, none, sites, q), term->softening.ahead, gather(&term->b, sites, v));
+}
+
+static SporeMat3 spring_jacobian(const SporeSpring *law, SporeVec3 a, SporeVec3 b, double c, double c2) {
+  SporeMat3 stiffness, damping;
+  spore_spring_jacobian(law, a, b, &stiffness, &damping);
   return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
 }
 
 void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                              double *f) {
-  const SporeVec3 none = {0, 0, 0};
-  SporeVec3 a = locate(&term->a, none, sites, q), b = locate(&term->b, none, sites, q);
+  SporeVec3 a, b;
+  spring_ends(term, sites, q, v, &a, &b);
   term->force = spore_spring_force(&term->law, a, b, velocity(&term->a, sites, v), velocity(&term->b, sites, v));
+  const SporeSoftening *softening = &term->softening;
+  if (softening->inverse_mass > 0) {
+    SporeMat3 jacobian = spring_jacobian(&term->law, a, b, softening->h, softening->h * softening->ahead);
+    term->force = soften(softening, jacobian, term->force);
+  }
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
-SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, double c,
-                                     double c2) {
-  const SporeVec3 none = {0, 0, 0};
-  SporeMat3 stiffness, damping;
-  SporeVec3 a = locate(&term->a, none, sites, q), b = locate(&term->b, none, sites, q);
-  spore_spring_jacobian(&term->law, a, b, &stiffness, &damping);
-  return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
+SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
+                                     double c, double c2) {
+  SporeVec3 a, b;
+  spring_ends(term, sites, q, v, &a, &b);
+  return spring_jacobian(&term->law, a, b, c, c2);
 }
 
 void spore_term_multiply(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,

@@ -24,6 +24,19 @@ typedef struct SporeEnd {
                          where the force acts, at the last evaluation */
 } SporeEnd;
 
+/* How a term is kept from upsetting an explicit step of h seconds: its force is evaluated a little ahead, where the
+ * ends get to in t seconds, and f becomes (I + w (h D + h t K))^-1 f, as if the two ends alone were stepped implicitly.
+ *   w = sum over both ends of n/m, n the number of terms that share a block;  t = h 2s / (1 + 2s), s = h^2 k w
+ * Where the step resolves a term (s << 1) nothing changes; however stiff it is, all terms together add at most 1 to the
+ * 4 that symplectic Euler bears of h^2 times an eigenvalue; rest is where it is without this, and the ends get opposite
+ * forces. w = 0: the term as it is. */
+typedef struct SporeSoftening {
+  double h, ahead;     /* h, t, s */
+  double inverse_mass; /* w, 1/kg */
+} SporeSoftening;
+
+SporeSoftening spore_softening(double h, double inverse_mass, double stiffness);
+
 typedef struct SporeContactTerm {
   SporeEnd a, b; /* sphere centres */
   uint32_t sphere_a, sphere_b;
@@ -31,12 +44,14 @@ typedef struct SporeContactTerm {
   double depth;        /* m, when the step began */
   double arm_a, arm_b; /* from the centres to the contact point, m */
   SporeContactLaw law;
+  SporeSoftening softening;
   SporeVec3 force; /* on a, at the last evaluation, N */
 } SporeContactTerm;
 
 typedef struct SporeSpringTerm {
   SporeEnd a, b;
   SporeSpring law;
+  SporeSoftening softening;
   SporeVec3 force; /* on a, at the last evaluation, N */
 } SporeSpringTerm;
 
@@ -50,8 +65,8 @@ void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, cons
 /* c (-df/dv) + c2 (-df/dx) for the motion of end a relative to end b. */
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double c, double c2);
-SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, double c,
-                                     double c2);
+SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
+                                     double c, double c2);
 /* y += J^T k J x with J the relative motion of the ends, at the last evaluation. */
 void spore_term_multiply(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
                          const double *x, double *y);

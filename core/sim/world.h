@@ -29,11 +29,11 @@ extern const SporeParameterTable spore_contact_parameters;
 typedef struct SporeBodyDescription {
   const char *name;
   SporeRole role;
-  SporeModel *model;             /* passive: owned by the world once spore_world_create succeeded; else NULL */
+  SporeModel *model;              /* passive: owned by the world once spore_world_create succeeded; else NULL */
   SporeIntegratorKind integrator; /* passive; SPORE_INTEGRATOR_DEFAULT: the world's */
-  SporePose pose;                /* of the body's frame at time 0 */
-  SporeVec3 velocity, spin;      /* at time 0 */
-  const SporeSphereSet *spheres; /* body's frame at rest; borrowed; NULL: no collision unit */
+  SporePose pose;                 /* of the body's frame at time 0 */
+  SporeVec3 velocity, spin;       /* at time 0 */
+  const SporeSphereSet *spheres;  /* body's frame at rest; borrowed; NULL: no collision unit */
   SporeContactFields contact;
 } SporeBodyDescription;
 
@@ -48,9 +48,9 @@ typedef struct SporeLinkDescription {
   SporeLinkKind kind;
   uint32_t body_a, body_b;
   SporeVec3 point_a, point_b;
-  double radius;                /* pin, m */
-  double stiffness, damping;    /* spring, N/m and N s/m */
-  double rest_length;           /* spring, m; negative: the distance at time 0 */
+  double radius;             /* pin, m */
+  double stiffness, damping; /* spring, N/m and N s/m */
+  double rest_length;        /* spring, m; negative: the distance at time 0 */
 } SporeLinkDescription;
 
 typedef struct SporeWorldDescription {
@@ -62,7 +62,8 @@ typedef struct SporeWorldDescription {
 } SporeWorldDescription;
 
 /* Names are copied. On failure the models still belong to the caller. Refuses: no memory, a pin that holds nothing, a
- * spring on a body without degrees of freedom at both ends, non-finite values; place is "bodies/NAME" or "links/NAME". */
+ * spring on a body without degrees of freedom at both ends, non-finite values; place is "bodies/NAME" or "links/NAME".
+ */
 SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error);
 void spore_world_free(SporeWorld *world);
 
@@ -74,8 +75,8 @@ void spore_world_reset(SporeWorld *world);
 /* Input of an active body; borrowed; NULL leaves it where it is. */
 void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *device);
 
-/* What the device of an active body was taken to say in the last step (after the guard), and at what simulated time; for
- * recording. NULL: it has none, or that has not spoken yet. */
+/* What the device of an active body was taken to say in the last step (after the guard), and at what simulated time;
+ * for recording. NULL: it has none, or that has not spoken yet. */
 const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t body, double *time_s);
 
 size_t spore_world_body_count(const SporeWorld *world);
@@ -86,7 +87,7 @@ const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body)
 uint64_t spore_world_step_count(const SporeWorld *world);
 double spore_world_time_s(const SporeWorld *world);
 const SporeSpheres *spore_world_spheres(const SporeWorld *world); /* as of the last step's map phase */
-size_t spore_world_dof(const SporeWorld *world); /* velocity components that physics moves */
+size_t spore_world_dof(const SporeWorld *world);                  /* velocity components that physics moves */
 /* Body's state, for measuring and carrying over; valid until the next step. A body without a model has the 7 + 6 of a
  * pose. */
 const double *spore_world_q(const SporeWorld *world, uint32_t body);
@@ -112,10 +113,10 @@ uint64_t spore_world_hash(const SporeWorld *world);
 
 /* Plan: which stages this world runs, and why; which it leaves out, and why. */
 typedef struct SporePlanStage {
-  const char *name;   /* "detect" */
+  const char *name; /* "detect" */
   bool included;
-  const char *reason; /* translated */
-  size_t items;       /* what it works on: spheres, pairs, links, degrees of freedom */
+  const char *reason;               /* translated */
+  size_t items;                     /* what it works on: spheres, pairs, links, degrees of freedom */
   const SporeProfilePhase *profile; /* NULL when left out */
 } SporePlanStage;
 typedef struct SporePlanLeftOut {
@@ -136,11 +137,11 @@ typedef struct SporeMonitorMessage {
   char text[256]; /* names body and cause, translated */
 } SporeMonitorMessage;
 typedef struct SporeMonitor {
-  uint64_t recoveries;      /* steps taken again from the last good state */
-  uint64_t substeps;        /* extra steps that this cost */
-  uint64_t not_converged;   /* solver ended above its tolerance */
-  uint64_t held_inputs;     /* device states refused (not finite, or a jump) */
-  uint64_t message_count;   /* ever */
+  uint64_t recoveries;    /* steps taken again from the last good state */
+  uint64_t substeps;      /* extra steps that this cost */
+  uint64_t not_converged; /* solver ended above its tolerance */
+  uint64_t held_inputs;   /* device states refused (not finite, or a jump) */
+  uint64_t message_count; /* ever */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
 } SporeMonitor;
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);
@@ -161,9 +162,9 @@ typedef struct SporeSnapshotContact {
 typedef struct SporeSnapshot {
   uint64_t step;
   double time_s;
-  double *q, *v;           /* all bodies, by spore_world_q_offset and _v_offset */
-  double *reaction;        /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
-  size_t contact_count;    /* total; at most contact_capacity are listed */
+  double *q, *v;        /* all bodies, by spore_world_q_offset and _v_offset */
+  double *reaction;     /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
+  size_t contact_count; /* total; at most contact_capacity are listed */
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
   SporeStepCounts counts;
@@ -181,7 +182,7 @@ typedef enum SporeCommandKind {
   SPORE_COMMAND_PULL,    /* pulls the material point of `body` nearest to `point` toward `vector`, stiffness in number;
                             the point is chosen on the first PULL after a RELEASE */
   SPORE_COMMAND_RELEASE, /* ends a pull on `body` */
-  SPORE_COMMAND_RETUNE,  /* model of `body` takes `fields` (parameters.size bytes; freed by the world with spore_free) */
+  SPORE_COMMAND_RETUNE, /* model of `body` takes `fields` (parameters.size bytes; freed by the world with spore_free) */
   SPORE_COMMAND_CONTACT, /* contact law of `body`: contact */
   SPORE_COMMAND_THAW     /* a frozen body moves again */
 } SporeCommandKind;

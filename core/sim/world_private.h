@@ -181,6 +181,8 @@ typedef struct SporeGroup {
   const SporeIsland *island;
 } SporeGroup;
 SporeDynamics spore_group_dynamics(SporeGroup *group);
+/* Takes away the softening that an explicit step before has left on the island's terms. */
+void spore_group_harden(SporeGroup *group);
 void spore_body_update_mass(SporeWorld *world, const SporeBody *body);
 
 /* monitor.c */
