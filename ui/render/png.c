@@ -16,9 +16,13 @@ static gboolean file_failed(GError **error, const char *file) {
                            g_strerror(code));
 }
 
-/* Where libpng's errors jump to. It reads errno there, so that a full disk is told as one. */
+/* libpng's own handlers print; ours only leave, and errno says why. */
+static void G_GNUC_NORETURN png_failed(png_structp png, png_const_charp message) { png_longjmp(png, 1); }
+
+static void png_warned(png_structp png, png_const_charp message) {}
+
 static gboolean encode(FILE *stream, const guint8 *pixels, int width, int height, gsize stride, guint8 *row) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, png_failed, png_warned);
   png_infop info = png ? png_create_info_struct(png) : NULL;
   if (!info || setjmp(png_jmpbuf(png))) {
     png_destroy_write_struct(&png, &info);
@@ -28,7 +32,6 @@ static gboolean encode(FILE *stream, const guint8 *pixels, int width, int height
   png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  png_set_compression_level(png, 6);
   png_write_info(png, info);
   for (int y = 0; y < height; y++) {
     for (int x = 0; x < width; x++) {

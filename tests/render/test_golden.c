@@ -1,0 +1,103 @@
+/* Pictures against those kept in golden/. A driver may round otherwise, so there is a tolerance: small enough that
+ * another colour, light or outline fails. SPORE_GOLDEN=write draws them anew; look at them before they are committed.
+ */
+#include <string.h>
+
+#include "tests/render/scenery.h"
+
+#define MEAN_TOLERANCE 1.5 /* of 255 */
+#define PERCENTILE_TOLERANCE 20.0
+
+static const SporeSurfaceStyle tissue = {{0.45f, 0.09f, 0.075f}, 0.8f, FALSE, FALSE, FALSE};
+
+static void check_golden(const char *name, const Picture *picture) {
+  g_autofree char *file = g_strdup_printf("%s/golden/%s.png", SPORE_TEST_SOURCE, name);
+  if (g_strcmp0(g_getenv("SPORE_GOLDEN"), "write") == 0) {
+    GError *error = NULL;
+    spore_png_write(file, picture->pixels, picture->width, picture->height, (gsize)picture->width * 4, &error);
+    g_assert_no_error(error);
+    g_test_skip("golden picture written, not compared");
+    return;
+  }
+  Picture golden = picture_read(file);
+  g_assert_nonnull(golden.pixels);
+  PictureDifference difference = picture_compare(picture, &golden);
+  g_test_message("%s: mean %.3f, 99 %% below %.0f", name, difference.mean, difference.percentile_99);
+  g_assert_cmpfloat(difference.mean, <, MEAN_TOLERANCE);
+  g_assert_cmpfloat(difference.percentile_99, <=, PERCENTILE_TOLERANCE);
+  picture_clear(&golden);
+}
+
+static SporeCamera oblique_camera(void) {
+  return (SporeCamera){.distance = 0.24, .azimuth = 0.5, .elevation = 0.35, .field_of_view = 0.7};
+}
+
+static void draw_and_check(Bench *bench, const char *name, gboolean antialias, gboolean grid) {
+  SporeCamera camera = oblique_camera();
+  Picture picture = draw_picture(bench->renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, antialias, grid);
+  check_golden(name, &picture);
+  picture_clear(&picture);
+  bench_close(bench);
+}
+
+static void add_organ(Bench *bench, const SporeSurfaceStyle *style) {
+  SporeTriangleMesh mesh = make_organ(0.05);
+  spore_renderer_add_surface(bench->renderer, mesh.vertices, mesh.vertex_count, mesh.triangles, mesh.triangle_count,
+                             style);
+  spore_triangle_mesh_clear(&mesh);
+}
+
+static void test_tissue_fast(void) {
+  Bench bench = bench_open();
+  add_organ(&bench, &tissue);
+  draw_and_check(&bench, "tissue_fast", FALSE, FALSE);
+}
+
+static void test_tissue_full(void) {
+  Bench bench = bench_open();
+  add_organ(&bench, &tissue);
+  draw_and_check(&bench, "tissue_full", TRUE, FALSE);
+}
+
+static void test_metal_selected(void) {
+  Bench bench = bench_open();
+  SporeSurfaceStyle metal = {{0.6f, 0.6f, 0.62f}, 0, TRUE, TRUE, FALSE};
+  add_organ(&bench, &metal);
+  draw_and_check(&bench, "metal_selected", FALSE, TRUE);
+}
+
+static void test_overlays(void) {
+  static const float blue[3] = {0.03f, 0.24f, 0.36f}, yellow[3] = {0.95f, 0.62f, 0.05f};
+  Bench bench = bench_open();
+  add_organ(&bench, &tissue);
+  double spheres[4 * 12], segments[6 * 2] = {-0.08, 0, 0, 0.08, 0, 0, 0, 0, 0.03, 0, 0.02, 0.09};
+  float values[12];
+  for (int i = 0; i < 12; i++) {
+    double turn = 2 * G_PI * i / 12;
+    const double sphere[4] = {0.045 * cos(turn), 0.045 * sin(turn), 0.01, 0.012};
+    memcpy(spheres + 4 * i, sphere, sizeof sphere);
+    values[i] = (float)i / 11;
+  }
+  spore_renderer_add_spheres(bench.renderer, spheres, 12, blue, values, TRUE);
+  spore_renderer_add_lines(bench.renderer, segments, 2, yellow, 2.5f);
+  draw_and_check(&bench, "overlays", FALSE, FALSE);
+}
+
+static void test_shadow_between_bodies(void) {
+  static const float pale[3] = {0.55f, 0.40f, 0.33f};
+  Bench bench = bench_open();
+  add_organ(&bench, &tissue);
+  const double sphere[4] = {-0.018, 0.045, 0.045, 0.014};
+  spore_renderer_add_spheres(bench.renderer, sphere, 1, pale, NULL, FALSE);
+  draw_and_check(&bench, "shadow", TRUE, FALSE);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/render/golden/tissue-fast", test_tissue_fast);
+  g_test_add_func("/render/golden/tissue-full", test_tissue_full);
+  g_test_add_func("/render/golden/metal-selected", test_metal_selected);
+  g_test_add_func("/render/golden/overlays", test_overlays);
+  g_test_add_func("/render/golden/shadow", test_shadow_between_bodies);
+  return g_test_run();
+}

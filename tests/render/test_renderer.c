@@ -1,0 +1,227 @@
+/* What can be computed by hand: outlines and depth of impostors, rows and channels of the picture, handles. */
+#include <math.h>
+#include <string.h>
+
+#include "tests/render/scenery.h"
+
+static const float red[3] = {0.7f, 0.02f, 0.02f}, blue[3] = {0.02f, 0.02f, 0.7f};
+
+/* The background is a dark red, and so is the light in the shade. */
+static gboolean is_red(const Picture *picture, int x, int y) {
+  int rgb[3];
+  picture_pixel(picture, x, y, rgb);
+  return rgb[0] > rgb[2] + 30;
+}
+
+static gboolean is_blue(const Picture *picture, int x, int y) {
+  int rgb[3];
+  picture_pixel(picture, x, y, rgb);
+  return rgb[2] > rgb[0] + 6;
+}
+
+static double hit_sphere(SporeVec3 origin, SporeVec3 direction, const double *sphere) {
+  SporeVec3 to = spore_vec3_sub(spore_vec3_load(sphere), origin);
+  double along = spore_vec3_dot(to, direction);
+  double inside = sphere[3] * sphere[3] - (spore_vec3_dot(to, to) - along * along);
+  return inside >= 0 ? along - sqrt(inside) : HUGE_VAL;
+}
+
+/* Two spheres that run into each other, off the middle where perspective makes ellipses of them: each pixel must show
+ * the one that its own ray meets first. Pixels next to a border of either kind are left out. */
+static void check_impostors(gboolean antialias) {
+  static const double spheres[2][4] = {{0.030, 0.030, 0.010, 0.040}, {0.060, 0.010, 0.030, 0.030}};
+  Bench bench = bench_open();
+  spore_renderer_add_spheres(bench.renderer, spheres[0], 1, red, NULL, FALSE);
+  spore_renderer_add_spheres(bench.renderer, spheres[1], 1, blue, NULL, FALSE);
+  SporeCamera camera = {.distance = 0.20, .azimuth = 0.2, .elevation = -0.1, .field_of_view = 1.0};
+  Picture picture = draw_picture(bench.renderer, &camera, PICTURE_WIDTH, PICTURE_HEIGHT, antialias, FALSE);
+  int counts[3] = {0}, wrong = 0;
+  for (int y = 1; y < PICTURE_HEIGHT - 1; y++)
+    for (int x = 1; x < PICTURE_WIDTH - 1; x++) {
+      int kind = -1;
+      gboolean border = FALSE;
+      for (int corner = 0; corner < 9; corner++) {
+        SporeVec3 origin, direction;
+        spore_camera_ray(&camera, x + 0.5 * (corner % 3), y + 0.5 * (corner / 3), PICTURE_WIDTH, PICTURE_HEIGHT,
+                         &origin, &direction);
+        double a = hit_sphere(origin, direction, spheres[0]), b = hit_sphere(origin, direction, spheres[1]);
+        int here = a == HUGE_VAL && b == HUGE_VAL ? 0 : a < b ? 1 : 2;
+        border |= kind >= 0 && kind != here;
+        kind = here;
+      }
+      if (border) continue;
+      counts[kind]++;
+      gboolean red_here = is_red(&picture, x, y), blue_here = is_blue(&picture, x, y);
+      wrong += red_here != (kind == 1) || blue_here != (kind == 2);
+    }
+  g_assert_cmpint(counts[0], >, 10000);
+  g_assert_cmpint(counts[1], >, 2000);
+  g_assert_cmpint(counts[2], >, 2000);
+  g_assert_cmpint(wrong, <=, counts[1] / 100); /* a glint of the wet film is white */
+  picture_clear(&picture);
+  bench_close(&bench);
+}
+
+static void test_impostors_fast(void) { check_impostors(FALSE); }
+
+static void test_impostors_full(void) { check_impostors(TRUE); }
+
+static void test_rows_from_the_top(void) {
+  static const double above[4] = {-0.05, 0.05, 0, 0.02}, below[4] = {0.05, -0.05, 0, 0.02};
+  Bench bench = bench_open();
+  spore_renderer_add_spheres(bench.renderer, above, 1, red, NULL, FALSE);
+  spore_renderer_add_spheres(bench.renderer, below, 1, blue, NULL, FALSE);
+  SporeCamera camera = straight_camera(0.3);
+  for (int antialias = 0; antialias < 2; antialias++) {
+    Picture picture = draw_picture(bench.renderer, &camera, 200, 200, antialias, FALSE);
+    int half = (int)(0.05 / (0.3 * tan(0.35)) * 100);
+    g_assert_true(is_red(&picture, 100 - half, 100 - half));
+    g_assert_true(is_blue(&picture, 100 + half, 100 + half));
+    g_assert_false(is_red(&picture, 100 - half, 100 + half));
+    picture_clear(&picture);
+  }
+  bench_close(&bench);
+}
+
+/* A surface seen from its front in front of a sphere, with rows longer than the picture. */
+static void test_depth_and_stride(void) {
+  static const double square[12] = {-0.05, -0.05, 0, 0.05, -0.05, 0, 0.05, 0.05, 0, -0.05, 0.05, 0};
+  static const guint32 triangles[6] = {0, 1, 2, 0, 2, 3};
+  static const double behind[4] = {0, 0, -0.05, 0.02}, before[4] = {0, 0, 0.01, 0.02};
+  const SporeSurfaceStyle style = {{0.7f, 0.02f, 0.02f}, 0, FALSE, FALSE, FALSE};
+  Bench bench = bench_open();
+  spore_renderer_add_surface(bench.renderer, square, 4, triangles, 2, &style);
+  guint sphere = spore_renderer_add_spheres(bench.renderer, behind, 1, blue, NULL, FALSE);
+  SporeCamera camera = straight_camera(0.3);
+  const SporeRenderOptions options = {.width = 64, .height = 64};
+  guint8 *pixels = g_malloc0(64 * 400);
+  g_assert_true(spore_renderer_draw(bench.renderer, &camera, &options, pixels, 400, NULL));
+  guint32 middle;
+  memcpy(&middle, pixels + 32 * 400 + 32 * 4, 4);
+  g_assert_cmpuint(middle >> 16 & 255, >, 2 * (middle & 255));
+  for (int i = 256; i < 400; i++) g_assert_cmpint(pixels[i], ==, 0);
+  spore_renderer_move_spheres(bench.renderer, sphere, before);
+  g_assert_true(spore_renderer_draw(bench.renderer, &camera, &options, pixels, 400, NULL));
+  memcpy(&middle, pixels + 32 * 400 + 32 * 4, 4);
+  g_assert_cmpuint(middle & 255, >, 2 * (middle >> 16 & 255));
+  g_free(pixels);
+  bench_close(&bench);
+}
+
+/* Far from the world's origin single precision no longer resolves millimetres: the same picture must come out. */
+static void test_far_from_the_origin(void) {
+  const SporeSurfaceStyle style = {{0.45f, 0.09f, 0.075f}, 0.5f, FALSE, FALSE, FALSE};
+  const double away = 5e4;
+  Picture pictures[2];
+  for (int moved = 0; moved < 2; moved++) {
+    Bench bench = bench_open();
+    SporeTriangleMesh mesh = make_organ(0.05);
+    for (gsize i = 0; i < mesh.vertex_count; i++) mesh.vertices[3 * i] += moved * away;
+    spore_renderer_add_surface(bench.renderer, mesh.vertices, mesh.vertex_count, mesh.triangles, mesh.triangle_count,
+                               &style);
+    SporeCamera camera = straight_camera(0.25);
+    camera.target.x += moved * away;
+    pictures[moved] = draw_picture(bench.renderer, &camera, 200, 150, FALSE, FALSE);
+    spore_triangle_mesh_clear(&mesh);
+    bench_close(&bench);
+  }
+  PictureDifference difference = picture_compare(&pictures[0], &pictures[1]);
+  g_assert_cmpfloat(difference.mean, <, 0.2);
+  picture_clear(&pictures[0]);
+  picture_clear(&pictures[1]);
+}
+
+static void test_handles(void) {
+  static const double sphere[4] = {0, 0, 0, 0.05};
+  Bench bench = bench_open();
+  SporeCamera camera = straight_camera(0.3);
+  guint a = spore_renderer_add_spheres(bench.renderer, sphere, 1, red, NULL, FALSE);
+  guint b = spore_renderer_add_spheres(bench.renderer, sphere, 1, blue, NULL, FALSE);
+  g_assert_cmpuint(a, !=, 0);
+  g_assert_cmpuint(a, !=, b);
+  spore_renderer_remove(bench.renderer, b);
+  Picture picture = draw_picture(bench.renderer, &camera, 64, 64, FALSE, FALSE);
+  g_assert_true(is_red(&picture, 32, 32));
+  picture_clear(&picture);
+  spore_renderer_set_visible(bench.renderer, a, FALSE);
+  picture = draw_picture(bench.renderer, &camera, 64, 64, FALSE, FALSE);
+  g_assert_false(is_red(&picture, 32, 32));
+  picture_clear(&picture);
+  spore_renderer_clear(bench.renderer);
+  guint c = spore_renderer_add_spheres(bench.renderer, sphere, 1, blue, NULL, FALSE);
+  picture = draw_picture(bench.renderer, &camera, 64, 64, TRUE, TRUE);
+  g_assert_cmpuint(c, !=, 0);
+  g_assert_true(is_blue(&picture, 32, 32));
+  picture_clear(&picture);
+  bench_close(&bench);
+}
+
+static void test_bad_sizes(void) {
+  static const int sizes[][2] = {{0, 100}, {100, -1}, {1000000, 100}};
+  Bench bench = bench_open();
+  SporeCamera camera = straight_camera(0.3);
+  guint8 pixel[4];
+  for (gsize i = 0; i < G_N_ELEMENTS(sizes); i++) {
+    GError *error = NULL;
+    const SporeRenderOptions options = {.width = sizes[i][0], .height = sizes[i][1]};
+    g_assert_false(spore_renderer_draw(bench.renderer, &camera, &options, pixel, 4, &error));
+    g_assert_error(error, SPORE_ERROR, SPORE_ERROR_INPUT);
+    g_error_free(error);
+  }
+  bench_close(&bench);
+}
+
+static void test_two_contexts(void) {
+  static const double sphere[4] = {0, 0, 0, 0.05};
+  Bench first = bench_open(), second = bench_open();
+  SporeCamera camera = straight_camera(0.3);
+  spore_renderer_add_spheres(first.renderer, sphere, 1, red, NULL, FALSE);
+  spore_renderer_add_spheres(second.renderer, sphere, 1, blue, NULL, FALSE);
+  Picture a = draw_picture(first.renderer, &camera, 64, 64, FALSE, FALSE);
+  bench_close(&first); /* the display must outlive it */
+  Picture b = draw_picture(second.renderer, &camera, 64, 64, FALSE, FALSE);
+  g_assert_true(is_red(&a, 32, 32));
+  g_assert_true(is_blue(&b, 32, 32));
+  picture_clear(&a);
+  picture_clear(&b);
+  bench_close(&second);
+}
+
+static void test_camera(void) {
+  const double lower[3] = {-0.1, 0.2, -0.3}, upper[3] = {0.3, 0.4, 0.1};
+  for (int i = 0; i < 20; i++) {
+    SporeCamera camera = {.azimuth = 0.7 * i, .elevation = sin(i), .field_of_view = 0.7};
+    double aspect = i % 2 ? 1.6 : 0.6;
+    int height = 500, width = (int)(aspect * height);
+    spore_camera_frame(&camera, lower, upper, aspect);
+    SporeVec3 eye, right, up, forward, origin, direction;
+    spore_camera_eye(&camera, &eye, &right, &up, &forward);
+    g_assert_cmpfloat_with_epsilon(spore_vec3_dot(right, up), 0, 1e-12);
+    g_assert_cmpfloat_with_epsilon(spore_vec3_dot(spore_vec3_cross(right, up), forward), -1, 1e-12);
+    spore_camera_ray(&camera, width / 2.0, height / 2.0, width, height, &origin, &direction);
+    SporeVec3 reached = spore_vec3_add_scaled(origin, camera.distance, direction);
+    g_assert_cmpfloat_with_epsilon(spore_vec3_distance(reached, camera.target), 0, 1e-9);
+    for (int corner = 0; corner < 8; corner++) { /* the whole box is seen */
+      SporeVec3 p = {(corner & 1 ? upper : lower)[0], (corner & 2 ? upper : lower)[1], (corner & 4 ? upper : lower)[2]};
+      SporeVec3 to = spore_vec3_sub(p, eye);
+      double depth = spore_vec3_dot(to, forward), slope = tan(camera.field_of_view / 2);
+      g_assert_cmpfloat(depth, >, 0);
+      g_assert_cmpfloat(fabs(spore_vec3_dot(to, up)), <=, depth * slope * 1.1);
+      g_assert_cmpfloat(fabs(spore_vec3_dot(to, right)), <=, depth * slope * aspect * 1.1);
+    }
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/render/renderer/impostors-fast", test_impostors_fast);
+  g_test_add_func("/render/renderer/impostors-full", test_impostors_full);
+  g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
+  g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);
+  g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);
+  g_test_add_func("/render/renderer/handles", test_handles);
+  g_test_add_func("/render/renderer/bad-sizes", test_bad_sizes);
+  g_test_add_func("/render/renderer/two-contexts", test_two_contexts);
+  g_test_add_func("/render/renderer/camera", test_camera);
+  return g_test_run();
+}
