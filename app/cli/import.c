@@ -26,7 +26,10 @@ static SporeObject *add_body(SporeDocument *document, const char *mesh_name, GEr
   SporeObject *body =
       spore_document_insert(document, spore_document_section(document, "bodies"), "body", mesh_name, G_MAXUINT, error);
   SporeObject *visual = body ? spore_document_insert(document, body, "visual", NULL, G_MAXUINT, error) : NULL;
-  return visual && set(document, visual, "mesh", mesh_name, error) ? body : NULL;
+  /* It stays where it is until its author gives it a mechanical unit. */
+  return visual && set(document, body, "role", "unmovable", error) && set(document, visual, "mesh", mesh_name, error)
+             ? body
+             : NULL;
 }
 
 static SporeObject *add_organ(SporeCli *cli, SporeDocument *document, const char *file, const char *unit,

@@ -282,11 +282,11 @@ def bad_scenes():
     good = soft_ball().read_text()
     bomb = '<?xml version="1.0"?>\n<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">' + "".join(
         f'<!ENTITY a{i} "&a{i - 1 if i else ""};&a{i - 1 if i else ""};">' for i in range(30)) + "]>\n<spore>&a29;</spore>\n"
-    cases = [("unknown", good.replace("<collision spheres=\"one\"/>", "<colision spheres=\"one\"/>"), [":16:7:", "colision", "collision"]),
+    cases = [("unknown", good.replace("<collision spheres=\"one\"/>", "<colision spheres=\"one\"/>"), [":15:7:", "colision", "collision"]),
              ("range", good.replace('time_step="0.001"', 'time_step="-1"'), [":4:11:", "-1", "time_step"]),
              ("number", good.replace('time_step="0.001"', 'time_step="fast"'), [":4:11:", "fast"]),
              ("nan", good.replace('gravity="0 -9.81 0"', 'gravity="0 nan 0"'), [":3:16:", "nan"]),
-             ("twice", good.replace('name="floor" role', 'name="ball" role'), [":19:", "ball"]),
+             ("twice", good.replace('name="floor" role', 'name="ball" role'), [":18:", "ball"]),
              ("outside", good.replace('file="ball.off"', 'file="../secret.off"'), [":6:", "../secret.off"]),
              ("absolute", good.replace('file="ball.off"', 'file="/etc/passwd"'), [":6:", "/etc/passwd"]),
              ("newer", good.replace('version="1.0"', 'version="2.0"', 2).replace('<?xml version="2.0"', '<?xml version="1.0"'), ["2.0"]),
@@ -296,6 +296,7 @@ def bad_scenes():
              ("reference", good.replace('spheres="one"', 'spheres="won"'), ["won"]),
              ("asset", good.replace('file="ball.off"', 'file="gone.off"'), ["gone.off"])]
     for name, text, says in cases:
+        assert text != good, name
         refuses("run", file(f"soft/{name}.spore", text), "--steps", 1, says=[name + ".spore"] + says)
     refuses("run", WORK / "none.spore", says=["none.spore"])
     refuses("run", WORK, says=[str(WORK)])
