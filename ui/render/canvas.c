@@ -24,7 +24,7 @@ gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVa
   SporePrograms *programs = &canvas->programs;
   return spore_surface_pass(drawables, frame, programs, variant, error) &&
          spore_sphere_pass(drawables, frame, programs, variant, FALSE, error) && background(canvas, variant, error) &&
-         (!grid || spore_line_pass(canvas->grid, frame, programs, variant, error)) &&
+         (!grid || spore_line_pass(canvas->grid, frame, programs, variant, FALSE, error)) &&
          spore_sphere_pass(drawables, frame, programs, variant, TRUE, error) &&
-         spore_line_pass(drawables, frame, programs, variant, error);
+         spore_line_pass(drawables, frame, programs, variant, TRUE, error);
 }

@@ -49,17 +49,19 @@ static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const Spo
 }
 
 gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
-                         GError **error) {
+                         gboolean hidden, GError **error) {
   const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_LINE, variant, error);
   if (!program) return FALSE;
   glUseProgram(program->id);
   glUniform1f(program->near, (float)frame->near);
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
-  glDepthFunc(GL_GREATER);
-  glUniform1f(program->dim, HIDDEN_ALPHA);
-  draw_groups(drawables, frame, program);
-  glDepthFunc(GL_LEQUAL);
+  if (hidden) {
+    glDepthFunc(GL_GREATER);
+    glUniform1f(program->dim, HIDDEN_ALPHA);
+    draw_groups(drawables, frame, program);
+    glDepthFunc(GL_LEQUAL);
+  }
   glUniform1f(program->dim, 1);
   draw_groups(drawables, frame, program);
   glDepthMask(GL_TRUE);

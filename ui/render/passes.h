@@ -115,8 +115,9 @@ gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, Spore
 /* overlays FALSE: solid spheres; TRUE: overlays, dimmed where hidden. */
 gboolean spore_sphere_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                            gboolean overlays, GError **error);
+/* hidden: lines are drawn dimmed where something stands before them. */
 gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
-                         GError **error);
+                         gboolean hidden, GError **error);
 
 /* Floor grid and axes at y = 0 about what the camera looks at; a list of line groups. */
 GPtrArray *spore_grid_new(void);
