@@ -129,32 +129,52 @@ static void add_distance(Distances *d, double distance) {
   d->count++;
 }
 
+/* Points of the solid's surface, and for each the way straight out of its deepest ball. */
+typedef struct Projection {
+  double *surface, *way_out; /* x 3 */
+  double *value, *way_value; /* the field there */
+  uint32_t *owner;
+} Projection;
+
+static bool project_surface(Measure *m, Projection *p) {
+  *p = (Projection){SPORE_NEW_ARRAY(double, 3 * MEASURE_SAMPLES), SPORE_NEW_ARRAY(double, 3 * MEASURE_SAMPLES),
+                    SPORE_NEW_ARRAY(double, MEASURE_SAMPLES), SPORE_NEW_ARRAY(double, MEASURE_SAMPLES),
+                    SPORE_NEW_ARRAY(uint32_t, MEASURE_SAMPLES)};
+  if (!p->surface || !p->way_out || !p->value || !p->way_value || !p->owner) return false;
+  spore_solid_surface(m->solid, MEASURE_SAMPLES, &m->random, p->surface, NULL);
+  if (!field_at(m, p->surface, MEASURE_SAMPLES, p->value, p->owner, NULL)) return false;
+  for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
+    SporeVec3 c = spore_vec3(m->balls.x[p->owner[i]], m->balls.y[p->owner[i]], m->balls.z[p->owner[i]]);
+    SporeVec3 out = spore_vec3_normalise(spore_vec3_sub(spore_vec3_load(p->surface + 3 * i), c), spore_vec3(0, 0, 1));
+    spore_vec3_store(p->way_out + 3 * i, spore_vec3_add_scaled(c, m->balls.r[p->owner[i]], out));
+  }
+  return field_at(m, p->way_out, MEASURE_SAMPLES, p->way_value, NULL, NULL);
+}
+
+static void clear_projection(Projection *p) {
+  spore_free(p->surface);
+  spore_free(p->way_out);
+  spore_free(p->value);
+  spore_free(p->way_value);
+  spore_free(p->owner);
+}
+
 /* Surface of the solid to the union's. Outside the union the field is the distance; inside, the way out of the deepest
- * ball is, where no other ball covers it; else the nearest sample of the union's surface. */
-static bool from_solid(Measure *m, const SporeBvh *tree, Distances *distances) {
-  double *way_out = SPORE_NEW_ARRAY(double, 3 * MEASURE_SAMPLES), *left = SPORE_NEW_ARRAY(double, MEASURE_SAMPLES);
-  uint32_t *owner = SPORE_NEW_ARRAY(uint32_t, MEASURE_SAMPLES);
-  bool done = way_out && left && owner;
-  if (done) {
-    spore_solid_surface(m->solid, MEASURE_SAMPLES, &m->random, m->points, NULL);
-    done = field_at(m, m->points, MEASURE_SAMPLES, m->value, owner, NULL);
-  }
-  for (size_t i = 0; done && i < MEASURE_SAMPLES; i++) {
-    SporeVec3 c = spore_vec3(m->balls.x[owner[i]], m->balls.y[owner[i]], m->balls.z[owner[i]]);
-    SporeVec3 out = spore_vec3_normalise(spore_vec3_sub(spore_vec3_load(m->points + 3 * i), c), spore_vec3(0, 0, 1));
-    spore_vec3_store(way_out + 3 * i, spore_vec3_add_scaled(c, m->balls.r[owner[i]], out));
-  }
-  done = done && field_at(m, way_out, MEASURE_SAMPLES, left, NULL, NULL);
-  for (size_t i = 0; done && i < MEASURE_SAMPLES; i++) {
-    double distance = fabs(m->value[i]);
-    if (m->value[i] > 0 && left[i] > 1e-9 * m->solid->diagonal && tree)
-      distance = fmax(distance, spore_bvh_distance(tree, spore_vec3_load(m->points + 3 * i), NULL, NULL));
+ * ball is, where no other ball covers it; else the nearest known point of the union's surface (`known` so far). */
+static bool from_solid(Measure *m, const Projection *p, size_t known, Distances *distances, SporeError *error) {
+  double free_of_balls = 1e-9 * m->solid->diagonal;
+  for (size_t i = 0; i < MEASURE_SAMPLES; i++)
+    if (p->way_value[i] <= free_of_balls) memcpy(m->points + 3 * known++, p->way_out + 3 * i, 3 * sizeof(double));
+  SporeBvh *tree = known ? tree_of_points(m->points, known, error) : NULL;
+  if (known && !tree) return false;
+  for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
+    double distance = fabs(p->value[i]);
+    if (p->value[i] > 0 && p->way_value[i] > free_of_balls && tree)
+      distance = fmax(distance, spore_bvh_distance(tree, spore_vec3_load(p->surface + 3 * i), NULL, NULL));
     add_distance(distances, distance);
   }
-  spore_free(way_out);
-  spore_free(left);
-  spore_free(owner);
-  return done;
+  spore_bvh_free(tree);
+  return true;
 }
 
 static bool measure_surfaces(Measure *m, SporeSpheresReport *report, SporeError *error) {
@@ -164,9 +184,9 @@ static bool measure_surfaces(Measure *m, SporeSpheresReport *report, SporeError 
   Distances there = {0}, back = {0};
   for (size_t i = 0; i < count; i++)
     add_distance(&there, spore_bvh_distance(m->solid->bvh, spore_vec3_load(m->points + 3 * i), NULL, NULL));
-  SporeBvh *tree = count ? tree_of_points(m->points, count, error) : NULL;
-  bool done = (tree || !count) && from_solid(m, tree, &back);
-  spore_bvh_free(tree);
+  Projection projection;
+  bool done = project_surface(m, &projection) && from_solid(m, &projection, count, &back, error);
+  clear_projection(&projection);
   if (!done) return false;
   double mean = 0.5 * (back.sum / (double)back.count + (there.count ? there.sum / (double)there.count : 0));
   report->distance_mean = mean / m->solid->diagonal;
@@ -176,7 +196,7 @@ static bool measure_surfaces(Measure *m, SporeSpheresReport *report, SporeError 
 
 bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, SporeSpheresReport *report,
                          const SporeProgressPart *progress, SporeError *error) {
-  Measure m = {.solid = solid, .random = {MEASURE_SEED}, .capacity = 2 * MEASURE_SAMPLES};
+  Measure m = {.solid = solid, .random = {MEASURE_SEED}, .capacity = 3 * MEASURE_SAMPLES};
   const char *stage = _("Measuring");
   m.points = SPORE_NEW_ARRAY(double, 3 * m.capacity);
   m.value = SPORE_NEW_ARRAY(double, m.capacity);
