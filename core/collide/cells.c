@@ -113,10 +113,9 @@ static uint32_t find_or_add(SporeCells *cells, int32_t x, int32_t y, int32_t z, 
 static bool find_reach(const SporeSpheres *spheres, size_t i, double dt_s, double ball[4]) {
   SporeVec3 velocity = spore_vec3_load(spheres->velocity + 3 * i);
   SporeVec3 middle = spore_vec3_add_scaled(spore_vec3_load(spheres->centre + 3 * i), 0.5 * dt_s, velocity);
-  double speed = spore_vec3_length(velocity), size = fabs(middle.x) + fabs(middle.y) + fabs(middle.z);
   spore_vec3_store(ball, middle);
-  ball[3] = spheres->radius[i] + 0.5 * dt_s * speed + 4e-16 * size; /* the last: rounding of the middle */
-  return isfinite(size + ball[3]);
+  ball[3] = spheres->radius[i] + 0.5 * dt_s * spore_vec3_length(velocity);
+  return isfinite(fabs(middle.x) + fabs(middle.y) + fabs(middle.z) + ball[3]);
 }
 
 /* Puts a ball in its cell; SPORE_CELL_NONE where no class is wide enough. */

@@ -4,6 +4,8 @@
 
 #include "core/haptic/motion.h"
 
+#define ROUNDING 1e-6
+
 static bool all_finite(const double *values, int count) {
   for (int i = 0; i < count; i++)
     if (!isfinite(values[i])) return false;
@@ -34,8 +36,9 @@ static double allowed_part(const SporeGuard *guard, const SporeGuardLimits *limi
   double way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
   double turn = spore_vec3_length(spore_motion_turn(guard->taken.orientation, guard->target.orientation));
   double part = 1;
-  if (way > limits->speed * dt_s) part = fmin(part, limits->speed * dt_s / way);
-  if (turn > limits->spin * dt_s) part = fmin(part, limits->spin * dt_s / turn);
+  /* What was shortened to the limit once must pass as it is when it is played back. */
+  if (way > limits->speed * dt_s * (1 + ROUNDING)) part = fmin(part, limits->speed * dt_s / way);
+  if (turn > limits->spin * dt_s * (1 + ROUNDING)) part = fmin(part, limits->spin * dt_s / turn);
   return part;
 }
 
