@@ -179,10 +179,17 @@ static void write_hash(Decoded *decoded) {
   g_snprintf(decoded->hash, sizeof decoded->hash, "%016" G_GINT64_MODIFIER "x", hash);
 }
 
-static Decoded *decode(SporeDocument *document, const SporeObject *asset, const char *place, GBytes *content,
-                       GError **error) {
+/* Where a message about the content says that it stands. g_free. */
+static char *path_of(const SporeDocument *document, const char *file) {
+  if (!document->file) return g_strdup(file);
+  g_autofree char *folder = g_path_get_dirname(document->file);
+  return strcmp(folder, ".") == 0 ? g_strdup(file) : g_build_filename(folder, file, NULL);
+}
+
+static Decoded *decode(SporeDocument *document, const SporeObject *asset, GBytes *content, GError **error) {
   const SporeAssetReaders *readers = &document->readers;
   const char *element = asset->type->element, *file = spore_object_text(asset, "file");
+  g_autofree char *place = path_of(document, file);
   Decoded *decoded = g_new0(Decoded, 1);
   gboolean done;
   if (strcmp(element, "mesh") == 0 && readers->mesh)
@@ -213,7 +220,7 @@ static const Decoded *decode_content(SporeDocument *document, const SporeObject 
   g_autofree char *key = g_strdup_printf("%s %s", sum, options);
   Decoded *decoded = g_hash_table_lookup(document->decoded, key);
   if (decoded) return decoded;
-  decoded = decode(document, asset, place, content, error);
+  decoded = decode(document, asset, content, error);
   if (decoded) g_hash_table_insert(document->decoded, g_steal_pointer(&key), decoded);
   return decoded;
 }

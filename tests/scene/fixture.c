@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "models/registry.h"
+
 typedef struct ParticleFields {
   double mass, pull[3];
   int64_t samples;
@@ -44,6 +46,44 @@ const SporeSchema *fixture_schema(void) {
   static SporeSchema *schema;
   if (!schema) schema = spore_schema_new(registry);
   return schema;
+}
+
+const SporeSchema *fixture_model_schema(void) {
+  static SporeSchema *schema;
+  if (!schema) schema = spore_schema_new(spore_model_registry);
+  return schema;
+}
+
+#define CORNERS                                                                                                        \
+  "-.05 -.05 -.05\n.05 -.05 -.05\n.05 .05 -.05\n-.05 .05 -.05\n-.05 -.05 .05\n.05 -.05 .05\n.05 .05 .05\n-.05 .05 "    \
+  ".05\n"
+static const char open_off[] =
+    "OFF\n8 10 0\n" CORNERS "3 0 3 2\n3 0 2 1\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 2 3 7\n3 2 "
+    "7 6\n3 1 2 6\n3 1 6 5\n";
+static const char cube_off[] =
+    "OFF\n8 12 0\n" CORNERS "3 0 3 2\n3 0 2 1\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 2 3 7\n3 2 "
+    "7 6\n3 1 2 6\n3 1 6 5\n3 0 4 7\n3 0 7 3\n";
+static const char cube_mesh[] =
+    "MeshVersionFormatted 2\nDimension 3\nVertices 8\n-.05 -.05 -.05 0\n.05 -.05 -.05 0\n.05 .05 -.05 0\n-.05 .05 -.05 "
+    "0\n-.05 -.05 .05 0\n.05 -.05 .05 0\n.05 .05 .05 0\n-.05 .05 .05 0\nTetrahedra 5\n1 2 3 6 0\n1 3 4 8 0\n1 6 8 5 "
+    "0\n3 8 6 7 0\n1 3 8 6 0\nEnd\n";
+
+char *fixture_scene_folder_new(const char *scene) {
+  char *folder = fixture_folder_new();
+  g_free(fixture_write(folder, "cube.off", cube_off));
+  g_free(fixture_write(folder, "open.off", open_off));
+  g_free(fixture_write(folder, "cube.mesh", cube_mesh));
+  g_free(fixture_write(folder, "ball.spheres", "# one\n0 0 0 0.05\n"));
+  g_free(fixture_write(folder, "scene.spore", scene));
+  return folder;
+}
+
+SporeDocument *fixture_load(const char *folder) {
+  GError *error = NULL;
+  g_autofree char *file = g_build_filename(folder, "scene.spore", NULL);
+  SporeDocument *document = spore_scene_load(fixture_model_schema(), file, &error);
+  g_assert_no_error(error);
+  return document;
 }
 
 char *fixture_folder_new(void) {

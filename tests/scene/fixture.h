@@ -7,6 +7,13 @@
 /* A schema whose one model, `particle`, has a parameter of each type that holds a value. */
 const SporeSchema *fixture_schema(void);
 
+/* The schema of the program's own models. */
+const SporeSchema *fixture_model_schema(void);
+/* A folder with cube.off (closed, 0.1 m), open.off (a side missing), cube.mesh (five tetrahedra), ball.spheres (one of
+ * 0.05 m), and scene.spore with the text; and that scene, which must be good. */
+char *fixture_scene_folder_new(const char *scene);
+SporeDocument *fixture_load(const char *folder);
+
 /* A new folder; removed with everything in it. */
 char *fixture_folder_new(void);
 void fixture_folder_free(char *folder);
