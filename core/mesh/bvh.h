@@ -12,8 +12,9 @@ void spore_bvh_free(SporeBvh *bvh);
 
 /* Distance (m) from p to the surface, exact; *nearest and *triangle may be NULL. */
 double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, uint32_t *triangle);
-/* Generalised winding number (about 1 inside, 0 outside), far triangles by dipoles
- * (Barill et al. 2018, "Fast winding numbers for soups and clouds"). */
+/* Generalised winding number (about 1 inside, 0 outside), near triangles exactly, far ones by their
+ * first two moments, which errs by up to about 0.03 a shell (Barill et al. 2018, "Fast winding numbers for soups and
+ * clouds"). */
 double spore_bvh_winding(const SporeBvh *bvh, SporeVec3 p);
 /* Depth: distance where the winding number is over 0.5, minus distance elsewhere. */
 double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p);
