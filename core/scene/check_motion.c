@@ -6,7 +6,6 @@
 #include "core/scene/check_private.h"
 #include "core/scene/compile.h"
 #include "core/scene/schema_fields.h"
-#include "core/sim/step_limit.h"
 
 #define NOTED_OVERLAP 0.1 /* of the smaller radius: less is how things touch */
 #define WARNED_OVERLAP 0.5
@@ -28,10 +27,11 @@ typedef struct Overlap {
 typedef struct Start {
   SporeCheck *check;
   GPtrArray *bodies; /* SporeObject * */
+  GArray *roles;     /* SporeRole, of the bodies */
   GArray *balls;     /* of Ball, along x */
 } Start;
 
-static SporeRole role_of(const SporeObject *body) { return (SporeRole)spore_object_number(body, "role"); }
+static SporeRole role_of(const Start *start, guint body) { return g_array_index(start->roles, SporeRole, body); }
 
 static void place_body(Start *start, SporeObject *body) {
   guint index = start->bodies->len;
@@ -41,6 +41,8 @@ static void place_body(Start *start, SporeObject *body) {
   const SporeSphereSet *set = asset ? spore_document_spheres(start->check->document, asset, NULL) : NULL;
   SporeBodyFields fields;
   spore_object_fields(body, &fields);
+  SporeRole role = (SporeRole)fields.role;
+  g_array_append_val(start->roles, role);
   SporePose pose = {spore_vec3_load(fields.position),
                     spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))};
   for (size_t i = 0; set && i < set->count; i++) {
@@ -59,9 +61,7 @@ static gint by_left_end(gconstpointer a, gconstpointer b) {
 
 static void meet(const Start *start, const Ball *a, const Ball *b, Overlap *overlaps) {
   if (a->body == b->body) return;
-  if (role_of(start->bodies->pdata[a->body]) != SPORE_PASSIVE &&
-      role_of(start->bodies->pdata[b->body]) != SPORE_PASSIVE)
-    return;
+  if (role_of(start, a->body) != SPORE_PASSIVE && role_of(start, b->body) != SPORE_PASSIVE) return;
   double depth = a->radius + b->radius - spore_vec3_distance(a->centre, b->centre);
   Overlap *overlap = &overlaps[MAX(a->body, b->body)];
   if (depth <= overlap->depth) return;
@@ -98,7 +98,7 @@ static void check_overlaps(const Start *start) {
 
 /* Whether a ball of another body that does not fall lies in the way of this one's fall along unit vector `down`. */
 static gboolean catches(const Start *start, const Ball *falling, const Ball *under, SporeVec3 down) {
-  if (under->body == falling->body || role_of(start->bodies->pdata[under->body]) != SPORE_UNMOVABLE) return FALSE;
+  if (under->body == falling->body || role_of(start, under->body) != SPORE_UNMOVABLE) return FALSE;
   SporeVec3 apart = spore_vec3_sub(under->centre, falling->centre);
   double along = spore_vec3_dot(apart, down), reach = under->radius + falling->radius;
   return along > -reach && spore_vec3_length(spore_vec3_add_scaled(apart, -along, down)) < reach;
@@ -123,7 +123,7 @@ static void check_loose(const Start *start) {
   SporeVec3 down = spore_vec3_normalise(gravity, gravity);
   for (guint i = 0; i < start->bodies->len; i++) {
     const SporeObject *body = start->bodies->pdata[i];
-    if (role_of(body) != SPORE_PASSIVE || spore_check_is_used(start->check, body, "pin|spring") ||
+    if (role_of(start, i) != SPORE_PASSIVE || spore_check_is_used(start->check, body, "pin|spring") ||
         has_support(start, i, down))
       continue;
     spore_check_say(
@@ -132,35 +132,8 @@ static void check_loose(const Start *start) {
   }
 }
 
-/* The time step. */
-
-static gboolean is_explicit(const SporeObject *body, const SporeSolverFields *solver) {
-  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  int integrator = mechanical ? (int)spore_object_number(mechanical, "integrator") - 1 : SPORE_INTEGRATOR_DEFAULT;
-  if (integrator == SPORE_INTEGRATOR_DEFAULT) integrator = solver->integrator;
-  return integrator == SPORE_INTEGRATOR_SYMPLECTIC_EULER;
-}
-
-static void check_step(SporeCheck *check, const SporeSimulation *simulation, guint32 index,
-                       const SporeSolverFields *solver) {
-  const SporeModel *model = spore_world_body_model(simulation->world, index);
-  SporeObject *body = spore_document_by_id(check->document, simulation->body_object[index]);
-  if (!model || !model->type->jacobian || !is_explicit(body, solver)) return;
-  SporeStepLimit limit;
-  SporeError fault = SPORE_ERROR_INIT;
-  if (!spore_step_limit(model, spore_world_q(simulation->world, index), spore_world_v(simulation->world, index), NULL,
-                        0, &limit, &fault))
-    return;
-  if (solver->time_step <= limit.dt_s) return;
-  g_autofree char *remedy =
-      g_strdup_printf(_("make the solver's time_step at most %.2g s, or its integrator implicit_euler"), limit.dt_s);
-  spore_check_say(
-      check, SPORE_WARNING, body, remedy,
-      _("the time step of %g s is too large for the stiffness of \"%s\": symplectic_euler is stable up to %.3g s"),
-      solver->time_step, spore_object_name(body), limit.dt_s);
-}
-
-/* What only shows when the scene is put together. */
+/* What only shows when the scene is put together: models that refuse their geometry, pins that hold nothing, a time
+ * step too large for the stiffness. */
 static void check_compiled(SporeCheck *check) {
   GError *error = NULL;
   SporeSimulation *simulation = spore_simulation_new(check->document, NULL, NULL, &error);
@@ -169,14 +142,12 @@ static void check_compiled(SporeCheck *check) {
     g_error_free(error);
     return;
   }
-  SporeSolverFields solver;
-  spore_object_fields(spore_document_section(check->document, "solver"), &solver);
-  for (guint32 i = 0; i < spore_world_body_count(simulation->world); i++) check_step(check, simulation, i, &solver);
   spore_simulation_free(simulation);
 }
 
 void spore_check_motion(SporeCheck *check) {
-  Start start = {check, g_ptr_array_new(), g_array_new(FALSE, FALSE, sizeof(Ball))};
+  Start start = {check, g_ptr_array_new(), g_array_new(FALSE, FALSE, sizeof(SporeRole)),
+                 g_array_new(FALSE, FALSE, sizeof(Ball))};
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) place_body(&start, spore_object_child(bodies, i));
   g_array_sort(start.balls, by_left_end);
@@ -184,5 +155,6 @@ void spore_check_motion(SporeCheck *check) {
   check_loose(&start);
   if (check->faults == 0) check_compiled(check);
   g_ptr_array_unref(start.bodies);
+  g_array_unref(start.roles);
   g_array_unref(start.balls);
 }

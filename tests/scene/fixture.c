@@ -63,6 +63,8 @@ static const char open_off[] =
 static const char cube_off[] =
     "OFF\n8 12 0\n" CORNERS "3 0 3 2\n3 0 2 1\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 2 3 7\n3 2 "
     "7 6\n3 1 2 6\n3 1 6 5\n3 0 4 7\n3 0 7 3\n";
+static const char large_off[] =
+    "OFF\n4 4 0\n0 0 0\n100 0 0\n0 100 0\n100 100 100\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 static const char cube_mesh[] =
     "MeshVersionFormatted 2\nDimension 3\nVertices 8\n-.05 -.05 -.05 0\n.05 -.05 -.05 0\n.05 .05 -.05 0\n-.05 .05 -.05 "
     "0\n-.05 -.05 .05 0\n.05 -.05 .05 0\n.05 .05 .05 0\n-.05 .05 .05 0\nTetrahedra 5\n1 2 3 6 0\n1 3 4 8 0\n1 6 8 5 "
@@ -72,6 +74,7 @@ char *fixture_scene_folder_new(const char *scene) {
   char *folder = fixture_folder_new();
   g_free(fixture_write(folder, "cube.off", cube_off));
   g_free(fixture_write(folder, "open.off", open_off));
+  g_free(fixture_write(folder, "large.off", large_off));
   g_free(fixture_write(folder, "cube.mesh", cube_mesh));
   g_free(fixture_write(folder, "ball.spheres", "# one\n0 0 0 0.05\n"));
   g_free(fixture_write(folder, "scene.spore", scene));

@@ -1,0 +1,189 @@
+/* Checks: each of the common mistakes is named, once, at its place, with a remedy; a good scene has none. */
+#include <string.h>
+
+#include "core/scene/check.h"
+#include "fixture.h"
+
+#define ASSETS                                                                                                         \
+  "<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\"/></assets>\n"
+#define SCENE(content) "<spore version=\"1.0\">\n" content "</spore>\n"
+#define BALL "<collision spheres=\"ball\"/>"
+#define STONE "<mechanical geometry=\"cube\"><rigid_body/></mechanical>"
+#define FLOOR "<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\">" BALL "</body>\n"
+
+static char *check_text(const char *text) {
+  g_autofree char *folder = fixture_scene_folder_new(text);
+  SporeDocument *document = fixture_load(folder);
+  g_autoptr(GPtrArray) found = spore_document_check(document);
+  GString *said = g_string_new(NULL);
+  static const char *const severities[] = {"note", "warning", "fault"};
+  SporeSeverity worst = SPORE_FAULT;
+  for (guint i = 0; i < found->len; i++) {
+    const SporeDiagnostic *one = g_ptr_array_index(found, i);
+    g_assert_cmpint(one->severity, <=, worst); /* worst first */
+    worst = one->severity;
+    g_assert_nonnull(strstr(one->place, "scene.spore"));
+    g_assert_cmpuint(strlen(one->remedy), >, 0);
+    g_assert_true(one->object == 0 || spore_document_by_id(document, one->object));
+    g_string_append_printf(said, "%s %s: %s; %s\n", severities[one->severity], strstr(one->place, "scene.spore") + 12,
+                           one->message, one->remedy);
+  }
+  spore_document_free(document);
+  fixture_folder_free(g_steal_pointer(&folder));
+  g_test_message("%s", said->str);
+  return g_string_free(said, FALSE);
+}
+
+static void test_good(void) {
+  g_autofree char *said =
+      check_text(SCENE(ASSETS "<bodies>\n" FLOOR "<body name=\"stone\">" STONE BALL "</body>\n"
+                              "<body name=\"probe\" role=\"active\" position=\"1 0 0\">" BALL "</body>\n</bodies>\n"
+                              "<tools><probe name=\"t\" body=\"probe\" device=\"m\"/></tools>\n"
+                              "<devices><mouse name=\"m\"/></devices>\n"));
+  g_assert_cmpstr(said, ==, "");
+}
+
+typedef struct Mistake {
+  const char *name, *text;
+  const char *says[3]; /* severity, place and the start of the message */
+} Mistake;
+
+#define STAND "<body name=\"stone\">" STONE BALL "</body>\n"
+#define BODIES(content) SCENE(ASSETS "<bodies>\n" content "</bodies>\n")
+
+static const Mistake mistakes[] = {
+    {"empty", SCENE(""), {"note 1:1: the scene has no bodies"}},
+    {"dangling",
+     BODIES("<body name=\"a\" role=\"unmovable\"><visual mesh=\"gone\"/>"
+            "</body>\n" FLOOR STAND),
+     {"fault 4:33: mesh=\"gone\" names nothing", "note 4:1: \"a\" has no collision"}},
+    {"no-model",
+     BODIES(FLOOR STAND "<body name=\"a\" position=\"0 1 0\">" BALL "</body>\n"),
+     {"fault 6:1: \"a\" is passive, but has no mechanical"}},
+    {"unused-model",
+     BODIES(FLOOR "<body name=\"stone\" role=\"unmovable\" position=\"0 1 0\">" STONE BALL "</body>\n"),
+     {"note 5:54: the mechanical model of \"stone\" is not used"}},
+    {"no-spheres",
+     BODIES(FLOOR STAND "<body name=\"a\" role=\"unmovable\"/>\n"),
+     {"note 6:1: \"a\" has no collision spheres"}},
+    {"undriven",
+     BODIES(FLOOR STAND "<body name=\"a\" role=\"active\" position=\"1 0 0\">" BALL "</body>\n"),
+     {"warning 6:1: \"a\" is active, but no tool moves it"}},
+    {"effect",
+     BODIES(FLOOR "<body name=\"stone\">" STONE BALL "<fidelity mode=\"effect\"/></body>\n"),
+     {"note 5:101: \"stone\" asks to be shown as an effect"}},
+    {"tool-without-anything",
+     SCENE(ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n<tools><probe name=\"t\"/></tools>\n"),
+     {"warning 7:8: the tool \"t\" has no body", "warning 7:8: the tool \"t\" has no device"}},
+    {"tool-on-passive",
+     SCENE(ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n<tools><probe name=\"t\" body=\"stone\" device=\"m\"/></tools>"
+                  "<devices><mouse name=\"m\"/></devices>\n"),
+     {"fault 7:8: the tool \"t\" moves \"stone\", which is not active"}},
+    {"link-without-body",
+     SCENE(ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n<links><pin name=\"p\"/><spring name=\"s\"/></links>\n"),
+     {"fault 7:8: the link \"p\" has no body", "fault 7:23: the link \"s\" has no body_a"}},
+    {"unused-asset",
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\" "
+           "source=\"cube\"/>\n"
+           "<mesh name=\"spare\" file=\"cube.off\"/></assets><bodies>\n" FLOOR "</bodies>\n"),
+     {"note 3:1: nothing uses the mesh \"spare\""}},
+    {"unreadable-asset",
+     SCENE("<assets><mesh name=\"cube\" file=\"gone.off\"/><spheres name=\"ball\" "
+           "file=\"ball.spheres\"/></assets>\n<bodies>\n" FLOOR STAND "</bodies>\n"),
+     {"fault 2:9: there is no file \"gone.off\""}},
+    {"unreadable-unused-asset",
+     SCENE("<assets><mesh name=\"cube\" file=\"gone.off\"/><spheres name=\"ball\" "
+           "file=\"ball.spheres\"/></assets>\n<bodies>\n" FLOOR "</bodies>\n"),
+     {"warning 2:9: there is no file \"gone.off\"", "note 2:9: nothing uses"}},
+    {"too-large",
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\" unit=\"m\"/><mesh name=\"huge\" file=\"large.off\"/>"
+           "<spheres name=\"ball\" file=\"ball.spheres\"/></assets>\n<bodies>\n"
+           "<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\">" BALL
+           "<visual mesh=\"huge\"/></body>\n" STAND "</bodies>\n"),
+     {"warning 2:53: \"huge\" is 173 m across"}},
+    {"too-small",
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\" unit=\"um\"/><spheres name=\"ball\" "
+           "file=\"ball.spheres\"/></assets>\n"
+           "<bodies>\n<body name=\"floor\" role=\"unmovable\">" BALL "<visual mesh=\"cube\"/></body></bodies>\n"),
+     {"warning 2:9: \"cube\" is 0.173 um across"}},
+    {"open-mesh",
+     SCENE("<assets><mesh name=\"o\" file=\"open.off\"/><spheres name=\"ball\" "
+           "file=\"ball.spheres\"/></assets>\n<bodies>\n"
+           "<body name=\"floor\" role=\"unmovable\">" BALL "<visual mesh=\"o\"/></body></bodies>\n"),
+     {"note 2:9: \"o\" is not a closed surface: 4 open"}},
+    {"stale",
+     SCENE(
+         "<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\" source=\"cube\" "
+         "source_hash=\"0000000000000000\"/></assets>\n<bodies>\n" FLOOR STAND "</bodies>\n"),
+     {"warning 2:44: \"ball\" is stale"}},
+    {"overlap",
+     BODIES(FLOOR "<body name=\"stone\" position=\"0.02 -0.1 0\">" STONE BALL "</body>\n"),
+     {"warning 5:1: \"stone\" and \"floor\" overlap by 80 mm"}},
+    {"small-overlap",
+     BODIES(FLOOR "<body name=\"stone\" position=\"0 -0.01 0\">" STONE BALL "</body>\n"),
+     {"note 5:1: \"stone\" and \"floor\" overlap by 10 mm"}},
+    {"loose",
+     BODIES("<body name=\"floor\" role=\"unmovable\" position=\"1 -1 0\">" BALL "</body>\n" STAND),
+     {"note 5:1: \"stone\" is held by nothing"}},
+    {"step-too-large",
+     SCENE("<solver integrator=\"symplectic_euler\" time_step=\"0.05\"/>\n<assets><spheres name=\"ball\" "
+           "file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><corotational_tetrahedra/></mechanical>" BALL
+           "</body></bodies>\n"),
+     {"fault 6:1: a step of 0.05 s is too large for symplectic_euler"}},
+    {"cannot-run",
+     SCENE(ASSETS "<bodies>\n" FLOOR
+                  "<body name=\"stone\"><mechanical geometry=\"cube\"><corotational_tetrahedra/></mechanical>" BALL
+                  "</body>\n</bodies>\n"),
+     {"fault 5:20: geometry=\"cube\" is a mesh; corotational_tetrahedra needs tetrahedra; generate them"}},
+};
+
+static void test_mistake(gconstpointer data) {
+  const Mistake *one = data;
+  g_autofree char *said = check_text(one->text);
+  guint lines = 0, expected = 0;
+  for (const char *c = said; *c; c++) lines += *c == '\n';
+  for (guint i = 0; i < G_N_ELEMENTS(one->says) && one->says[i]; i++) {
+    const char *found = strstr(said, one->says[i]);
+    if (!found || (found != said && found[-1] != '\n')) g_error("\"%s\" is not said, but:\n%s", one->says[i], said);
+    expected++;
+  }
+  g_assert_cmpuint(lines, ==, expected); /* and nothing else */
+}
+
+/* Implicit integration takes the same step. */
+static void test_step_of_implicit(void) {
+  g_autofree char *said = check_text(
+      SCENE("<solver integrator=\"implicit_euler\" time_step=\"0.05\"/>\n<assets><spheres name=\"ball\" "
+            "file=\"ball.spheres\"/><tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+            "<body name=\"organ\"><mechanical geometry=\"cells\"><corotational_tetrahedra/></mechanical>" BALL
+            "</body></bodies>\n"));
+  g_assert_cmpstr(said, ==, "");
+}
+
+/* As many bodies, assets and references as fit: in a time that grows with their number alone. */
+static void test_large(void) {
+  GString *text = g_string_new("<spore version=\"1.0\"><assets>");
+  for (int i = 0; i < 2000; i++) g_string_append_printf(text, "<spheres name=\"s%d\" file=\"ball.spheres\"/>", i);
+  g_string_append(text, "</assets><bodies>");
+  for (int i = 0; i < 2000; i++)
+    g_string_append_printf(
+        text, "<body name=\"b%d\" role=\"unmovable\" position=\"%d 0 0\"><collision spheres=\"s%d\"/></body>", i, i, i);
+  g_string_append(text, "</bodies></spore>");
+  g_autofree char *said = check_text(text->str);
+  g_assert_cmpstr(said, ==, "");
+  g_string_free(text, TRUE);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/check/good", test_good);
+  for (guint i = 0; i < G_N_ELEMENTS(mistakes); i++) {
+    g_autofree char *path = g_strconcat("/check/", mistakes[i].name, NULL);
+    g_test_add_data_func(path, &mistakes[i], test_mistake);
+  }
+  g_test_add_func("/check/step-of-implicit", test_step_of_implicit);
+  g_test_add_func("/check/large", test_large);
+  return g_test_run();
+}
