@@ -1,7 +1,10 @@
 /* Active bodies: poses from devices, forces back to them. */
 #include <string.h>
 
+#include "core/base/text.h"
 #include "core/sim/world_private.h"
+
+static const SporeGuardLimits limits = SPORE_GUARD_LIMITS;
 
 /* Velocity that takes the body from where it is to its target in one step. It is made from the poses, not from what
  * the device says, so that a recorded track gives the same motion again. */
@@ -14,27 +17,19 @@ static void set_velocity(SporeWorld *world, const SporeBody *body) {
   spore_vec3_store(v + 3, spore_vec3_scale(rate, spore_quat_to_rotation_vector(turn)));
 }
 
-static bool spore_device_state_is_good(const SporeDeviceState *state) {
-  double sum = 0;
-  for (int k = 0; k < 3; k++) sum += state->position[k];
-  for (int k = 0; k < 4; k++) sum += state->orientation[k];
-  return isfinite(sum);
-}
-
 static void sense(SporeWorld *world, SporeBody *body) {
   double time_s = (double)(world->step + 1) * world->solver.time_step;
-  SporeDeviceState state = body->input;
-  if (!body->device->type->exchange(body->device, time_s, &body->command, &state)) return;
-  if (!spore_device_state_is_good(&state)) {
-    world->monitor.held_inputs++;
-    return;
-  }
-  body->input = state;
+  SporeDeviceState said = body->input;
+  bool spoke = body->device->type->exchange(body->device, time_s, &body->command, &said);
+  if (!spore_guard_input(&body->guard, &limits, time_s, spoke ? &said : NULL, &body->input) &&
+      world->monitor.held_inputs++ == 0)
+    spore_world_report(world, _("%s: its device said what cannot be; held, or followed at %g m/s; check the device"),
+                       body->name, limits.speed);
   body->input_time_s = time_s;
-  body->has_input = true;
+  body->has_input |= spoke;
   double *target = world->target_q + body->q_offset;
-  memcpy(target, state.position, sizeof state.position);
-  spore_quat_store(target + 3, spore_quat_normalise(spore_quat_load(state.orientation)));
+  memcpy(target, body->input.position, sizeof body->input.position);
+  spore_quat_store(target + 3, spore_quat_normalise(spore_quat_load(body->input.orientation)));
 }
 
 void spore_world_sense(SporeWorld *world) {
@@ -52,5 +47,6 @@ void spore_world_feed_back(SporeWorld *world) {
     if (body->role != SPORE_ACTIVE) continue;
     memcpy(body->command.force, world->reaction + 6 * b, sizeof body->command.force);
     memcpy(body->command.torque, world->reaction + 6 * b + 3, sizeof body->command.torque);
+    spore_guard_command(&limits, &body->command);
   }
 }

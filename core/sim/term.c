@@ -68,11 +68,17 @@ SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) 
   return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};
 }
 
-/* jacobian: h D + h t K */
+/* (I + w jacobian)^-1 force, jacobian = h D + h t K: symmetric and at least I, so the adjugate does. */
 static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, SporeVec3 force) {
-  SporeMat3 system = spore_mat3_add(spore_mat3_identity(), spore_mat3_scale(softening->inverse_mass, jacobian));
-  SporeMat3 inverse;
-  return spore_mat3_invert(system, &inverse) ? spore_mat3_apply(inverse, force) : (SporeVec3){0, 0, 0};
+  double w = softening->inverse_mass;
+  double xx = 1 + w * jacobian.m[0], yy = 1 + w * jacobian.m[4], zz = 1 + w * jacobian.m[8];
+  double xy = w * jacobian.m[1], xz = w * jacobian.m[2], yz = w * jacobian.m[5];
+  SporeVec3 row_x = {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy};
+  SporeVec3 row_y = {row_x.y, xx * zz - xz * xz, xy * xz - xx * yz};
+  SporeVec3 row_z = {row_x.z, row_y.z, xx * yy - xy * xy};
+  double scale = 1 / (xx * row_x.x + xy * row_x.y + xz * row_x.z);
+  return (SporeVec3){scale * spore_vec3_dot(row_x, force), scale * spore_vec3_dot(row_y, force),
+                     scale * spore_vec3_dot(row_z, force)};
 }
 
 /* Relative velocity of the ends without what is prescribed: that is where it will be already. */

@@ -115,6 +115,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->matrix_c = 0;
   body->has_input = false;
   body->command = (SporeDeviceCommand){0};
+  spore_guard_start(&body->guard, 0, body->rest_pose);
   if (body->model) spore_body_update_mass(world, body);
 }
 

@@ -8,6 +8,7 @@
 #include <stdatomic.h>
 
 #include "core/collide/grid.h"
+#include "core/haptic/guard.h"
 #include "core/integrate/integrator.h"
 #include "core/sim/term.h"
 #include "core/sim/world.h"
@@ -48,6 +49,7 @@ typedef struct SporeBody {
   uint64_t matrix_step;
 
   SporeDevice *device;
+  SporeGuard guard;
   SporeDeviceState input;
   SporeDeviceCommand command;
   double input_time_s;
