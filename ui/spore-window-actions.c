@@ -93,6 +93,14 @@ static void act_add_probe(GSimpleAction *action, GVariant *parameter, gpointer d
   }
   spore_editor_document_select(self->document, spore_object_id(probe));
   g_action_group_activate_action(G_ACTION_GROUP(self), "tool", g_variant_new_string("probe"));
+  spore_viewport_frame_soon(SPORE_VIEWPORT(self->viewport));
+}
+
+static void act_add_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = body_to_work_on(self);
+  g_autoptr(GError) error = NULL;
+  if (body && !spore_edit_add_pin(document_of(self), body, &error)) spore_window_failed(self, error);
 }
 
 /* Generators. */
@@ -264,6 +272,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"unset-property", act_unset_property, "(ss)"},
       {"set-model", act_set_model, "s"},
       {"add-probe", act_add_probe},
+      {"add-pin", act_add_pin},
       {"generate-spheres", act_generate_spheres, "u"},
       {"generate-tetrahedra", act_generate_tetrahedra, "u"},
       {"cancel-job", act_cancel_job},

@@ -159,6 +159,7 @@ void spore_window_update_actions(SporeWindow *self) {
   spore_window_set_enabled(self, "rename-dialog", named);
   spore_window_set_enabled(self, "generate-spheres", idle && bodies);
   spore_window_set_enabled(self, "generate-tetrahedra", idle && bodies);
+  spore_window_set_enabled(self, "add-pin", bodies);
   spore_window_set_enabled(self, "import", idle);
   spore_window_set_enabled(self, "import-dialog", idle);
   spore_window_set_enabled(self, "cancel-job", !idle);

@@ -7,7 +7,8 @@
  *               save-as [s path], save-as-dialog, save-recording [s path], save-recording-dialog, close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
  *               set-property [s path, s name, s value], unset-property [s path, s name], set-model [s element],
- *               generate-spheres [u count], generate-tetrahedra [u cells], add-probe, cancel-job
+ *               generate-spheres [u count], generate-tetrahedra [u cells], add-probe, add-pin,
+ *               cancel-job
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state]
  *   view        tool [s "select" or "probe"; state], show-surfaces, show-spheres, show-tetrahedra, show-contacts
  * (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector, show-problems (state), filter

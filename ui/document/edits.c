@@ -15,6 +15,8 @@
 #define PROBE_SHAFT_SPHERES 12
 #define PROBE_SHAFT_SPACING_M 0.005
 #define PROBE_CLEARANCE_M 0.02
+/* Radius of a new pin, as a part of the organ's diagonal. */
+#define PIN_PART 0.3
 
 /* Ends the group, or takes back what it did. */
 static gboolean finish(SporeDocument *document, gboolean done) {
@@ -54,7 +56,8 @@ static gboolean set_vector(SporeDocument *document, SporeObject *object, const c
                            GError **error) {
   char text[3][G_ASCII_DTOSTR_BUF_SIZE];
   const double component[3] = {v.x, v.y, v.z};
-  for (int i = 0; i < 3; i++) g_ascii_formatd(text[i], sizeof text[i], "%.6g", component[i]);
+  for (int i = 0; i < 3; i++)
+    g_ascii_formatd(text[i], sizeof text[i], "%.4f", component[i]); /* a tenth of a millimetre */
   g_autofree char *joined = g_strjoin(" ", text[0], text[1], text[2], NULL);
   return spore_document_set_text(document, object, property, joined, error);
 }
@@ -283,30 +286,28 @@ static void grow(double lower[3], double upper[3], SporeVec3 p, double r) {
 static SporePose body_pose(SporeObject *body) {
   const SporeParameterTable *table = spore_object_type(body)->table;
   SporePose pose = spore_pose_identity();
-  int position = spore_parameter_find(table, "position");
-  if (position >= 0) pose.position = spore_vec3_load(spore_object_value(body, (guint)position)->number);
+  int position = spore_parameter_find(table, "position"), rotation = spore_parameter_find(table, "rotation");
+  pose.position = spore_vec3_load(spore_object_value(body, (guint)position)->number);
+  pose.orientation =
+      spore_quat_from_rotation_vector(spore_vec3_load(spore_object_value(body, (guint)rotation)->number));
   return pose;
 }
 
-/* Rotation is left out: the box only has to be of the right size and place. */
-static void grow_by_body(SporeDocument *document, SporeObject *body, double lower[3], double upper[3]) {
-  SporePose pose = body_pose(body);
-  SporeObject *mesh_asset = used_asset(document, body, "visual", "mesh", "mesh");
-  const SporeTriangleMesh *mesh = mesh_asset ? spore_document_mesh(document, mesh_asset, NULL) : NULL;
-  for (gsize i = 0; mesh && i < mesh->vertex_count; i++)
-    grow(lower, upper, spore_pose_apply(pose, spore_vec3_load(mesh->vertices + 3 * i)), 0);
-  SporeObject *sphere_asset = mesh ? NULL : spore_edit_body_spheres(document, body);
-  const SporeSphereSet *set = sphere_asset ? spore_document_spheres(document, sphere_asset, NULL) : NULL;
-  for (gsize i = 0; set && i < set->count; i++)
-    grow(lower, upper, spore_pose_apply(pose, spore_vec3_load(set->spheres + 4 * i)), set->spheres[4 * i + 3]);
-}
-
-gboolean spore_edit_bounds(SporeDocument *document, double lower[3], double upper[3]) {
-  for (int i = 0; i < 3; i++) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
+/* Highest point of what the bodies show. */
+static gboolean find_top(SporeDocument *document, SporeVec3 *top) {
   SporeObject *bodies = spore_document_section(document, "bodies");
-  for (guint i = 0; i < spore_object_child_count(bodies); i++)
-    grow_by_body(document, spore_object_child(bodies, i), lower, upper);
-  return lower[0] <= upper[0];
+  gboolean found = FALSE;
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    SporeObject *asset = used_asset(document, body, "visual", "mesh", "mesh");
+    const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, NULL) : NULL;
+    for (gsize v = 0; mesh && v < mesh->vertex_count; v++) {
+      SporeVec3 p = spore_pose_apply(body_pose(body), spore_vec3_load(mesh->vertices + 3 * v));
+      if (!found || p.y > top->y) *top = p;
+      found = TRUE;
+    }
+  }
+  return found;
 }
 
 /* Tip at the origin, shaft going up. */
@@ -350,14 +351,55 @@ static gboolean insert_probe_tool(SporeDocument *document, SporeObject *body, GE
 }
 
 SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error) {
-  double lower[3], upper[3];
   SporeVec3 position = {0, 0, 0};
-  if (spore_edit_bounds(document, lower, upper))
-    position = spore_vec3((lower[0] + upper[0]) / 2, upper[1] + PROBE_CLEARANCE_M, (lower[2] + upper[2]) / 2);
+  if (find_top(document, &position)) position.y += PROBE_CLEARANCE_M;
   spore_document_begin(document, _("Add probe"));
   SporeObject *body = insert_probe(document, position, error);
   gboolean done = body && insert_probe_tool(document, body, error);
   return finish(document, done) ? body : NULL;
+}
+
+/* Pin. */
+
+/* The vertex farthest behind and below (where organs hang on the body wall), and how large the mesh is. */
+static SporeVec3 hold_point(const SporeTriangleMesh *mesh, SporePose pose, double *extent) {
+  double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  SporeVec3 best = {0, 0, 0};
+  double least = HUGE_VAL;
+  for (gsize i = 0; i < mesh->vertex_count; i++) {
+    SporeVec3 p = spore_pose_apply(pose, spore_vec3_load(mesh->vertices + 3 * i));
+    grow(lower, upper, p, 0);
+    if (p.y + p.z >= least) continue;
+    least = p.y + p.z;
+    best = p;
+  }
+  *extent = spore_vec3_distance(spore_vec3_load(lower), spore_vec3_load(upper));
+  return best;
+}
+
+static SporeObject *insert_pin(SporeDocument *document, SporeObject *body, SporeVec3 point, double radius,
+                               GError **error) {
+  char text[G_ASCII_DTOSTR_BUF_SIZE];
+  g_autofree char *name = g_strdup_printf("%s_pin", spore_object_name(body));
+  SporeObject *pin =
+      spore_document_insert(document, spore_document_section(document, "links"), "pin", name, G_MAXUINT, error);
+  g_ascii_formatd(text, sizeof text, "%.4f", radius);
+  gboolean done = pin && spore_document_set_text(document, pin, "body", spore_object_name(body), error) &&
+                  set_vector(document, pin, "point", point, error) &&
+                  spore_document_set_text(document, pin, "radius", text, error);
+  return done ? pin : NULL;
+}
+
+SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GError **error) {
+  SporeObject *asset = spore_edit_visual_mesh(document, body, error);
+  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, error) : NULL;
+  if (!mesh) return NULL;
+  double extent;
+  SporeVec3 point = hold_point(mesh, body_pose(body), &extent);
+  spore_document_begin(document, _("Hold organ"));
+  SporeObject *pin = insert_pin(document, body, point, PIN_PART * extent, error);
+  finish(document, pin != NULL);
+  return pin;
 }
 
 /* By path. */

@@ -30,17 +30,17 @@ gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const 
 /* Element of the body's model, or NULL. */
 SporeObject *spore_edit_body_model(SporeObject *body);
 
-/* A probe moved by the mouse, above the middle of what the scene shows. Returns its body. */
+/* A probe moved by the mouse, just above the highest point of what the scene shows. Returns its body. */
 SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error);
 /* First active body, or NULL. */
 SporeObject *spore_edit_find_probe(SporeDocument *document);
+
+/* Holds the organ where it lies lowest and farthest behind, so that it does not fall. Returns the pin. */
+SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GError **error);
 
 /* Sets by path ("bodies/liver/collision"), property name and text as in a file; text NULL: back to the default.
  * A unit of a body that is not there yet ("bodies/liver/collision") is made. */
 gboolean spore_edit_set_property(SporeDocument *document, const char *path, const char *property, const char *text,
                                  GError **error);
-
-/* Box of all bodies where the document puts them, m; FALSE: nothing to be seen. */
-gboolean spore_edit_bounds(SporeDocument *document, double lower[3], double upper[3]);
 
 #endif

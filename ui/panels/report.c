@@ -1,6 +1,7 @@
 #include "ui/panels/report.h"
 
 #include <glib/gi18n.h>
+#include <string.h>
 
 void spore_activate(GtkWidget *widget, const char *name, GVariant *parameter) {
   GActionGroup *group = gtk_widget_get_action_group(widget, "win");
@@ -27,6 +28,19 @@ char *spore_label_of(const char *name) {
   g_strdelimit(label, "_", ' ');
   label[0] = g_ascii_toupper(label[0]);
   return g_strdup(_(label));
+}
+
+char *spore_choice_label(const char *choice) {
+  gboolean word = strlen(choice) > 2;
+  for (const char *c = choice; *c; c++) word &= !g_ascii_isupper(*c);
+  return word ? spore_label_of(choice) : g_strdup(choice);
+}
+
+char *spore_unit_label(const char *unit) {
+  GString *label = g_string_new(unit);
+  g_string_replace(label, "^2", "²", 0);
+  g_string_replace(label, "^3", "³", 0);
+  return g_string_free(label, FALSE);
 }
 
 char *spore_value_text(const SporeParameter *parameter, const SporeValue *value) {

@@ -271,12 +271,12 @@ static void add_body(SporeInspector *self, SporeObject *body) {
 
 /* Sections of the scene that hold settings rather than objects. */
 static void add_settings(SporeInspector *self, SporeObject *object) {
-  if (spore_object_type(object)->table->count > 0)
-    add_object(self, add_section(self, _(spore_object_type(object)->label)), object);
   for (guint i = 0; i < spore_object_child_count(object); i++) {
     SporeObject *child = spore_object_child(object, i);
-    if (!spore_object_name(child) && spore_object_type(child)->table->count > 0) add_settings(self, child);
-    else if (g_str_equal(spore_object_type(child)->element, "defaults")) add_settings(self, child);
+    if (spore_object_name(child)) continue;
+    if (spore_object_type(child)->table->count > 0)
+      add_object(self, add_section(self, _(spore_object_type(child)->label)), child);
+    add_settings(self, child);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #define NUMBER_CHARS 9
 #define TEXT_CHARS 15
+#define VECTOR_CHARS 20
 
 struct _SporePropertyRow {
   GtkBox parent;
@@ -102,7 +103,7 @@ static GtkWidget *new_entry(SporePropertyRow *self) {
   SporeParameterType type = parameter_of(self)->type;
   GtkWidget *entry = gtk_entry_new();
   gboolean number = type == SPORE_REAL || type == SPORE_INTEGER;
-  gtk_entry_set_width_chars(GTK_ENTRY(entry), number ? NUMBER_CHARS : TEXT_CHARS);
+  gtk_entry_set_width_chars(GTK_ENTRY(entry), number ? NUMBER_CHARS : type == SPORE_VECTOR ? VECTOR_CHARS : TEXT_CHARS);
   if (number) gtk_entry_set_alignment(GTK_ENTRY(entry), 1);
   g_signal_connect_swapped(entry, "activate", G_CALLBACK(entry_commit), self);
   g_signal_connect(entry, "focus-out-event", G_CALLBACK(entry_left), self);
@@ -190,7 +191,7 @@ static void show_combo(SporePropertyRow *self, const char *text) {
   gtk_combo_box_text_remove_all(combo);
   if (parameter->type == SPORE_REFERENCE) fill_references(self, combo, text);
   for (int i = 0; parameter->type == SPORE_CHOICE && parameter->choices[i]; i++) {
-    g_autofree char *label = spore_label_of(parameter->choices[i]);
+    g_autofree char *label = spore_choice_label(parameter->choices[i]);
     gtk_combo_box_text_append(combo, parameter->choices[i], label);
   }
   gtk_combo_box_set_active_id(GTK_COMBO_BOX(combo), text);
@@ -257,7 +258,8 @@ static void describe(SporePropertyRow *self) {
   gtk_label_set_text(GTK_LABEL(self->label), label);
   gtk_widget_set_tooltip_text(self->label, tooltip);
   gtk_widget_set_tooltip_text(self->editor, tooltip);
-  gtk_label_set_text(GTK_LABEL(self->unit), parameter->unit);
+  g_autofree char *unit = spore_unit_label(parameter->unit);
+  gtk_label_set_text(GTK_LABEL(self->unit), unit);
   gtk_label_set_text(GTK_LABEL(self->tag), _(tags[parameter->change]));
   gtk_widget_set_tooltip_text(self->tag, _(hints[parameter->change]));
   g_autofree char *class = g_strdup_printf("tag-%s", tags[parameter->change]);

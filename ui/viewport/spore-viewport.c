@@ -251,6 +251,7 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
   g_signal_connect_object(player, "replaced", G_CALLBACK(player_replaced), self, G_CONNECT_SWAPPED);
   if (self->renderer) ensure_stage(self);
   queue_rebuild(self);
+  gtk_widget_grab_focus(self->area);
   update_hud(self);
   spore_viewport_redraw(self);
 }
@@ -276,6 +277,11 @@ void spore_viewport_frame(SporeViewport *self) {
   spore_camera_frame(&self->camera, lower, upper, (double)width / MAX(height, 1));
   self->framed = TRUE;
   spore_viewport_redraw(self);
+}
+
+void spore_viewport_frame_soon(SporeViewport *self) {
+  self->framed = FALSE;
+  queue_rebuild(self);
 }
 
 void spore_viewport_view(SporeViewport *self, const char *view) {

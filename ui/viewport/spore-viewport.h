@@ -22,6 +22,8 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
 void spore_viewport_set_tool(SporeViewport *self, SporeTool tool);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
 void spore_viewport_frame(SporeViewport *self);
+/* When what was just changed is there to be seen. */
+void spore_viewport_frame_soon(SporeViewport *self);
 /* "front", "right" or "top". */
 void spore_viewport_view(SporeViewport *self, const char *view);
 /* GL_RENDERER, or why nothing is drawn. */

@@ -1,0 +1,273 @@
+/* A session steps like a plain loop over the world, whatever it is asked meanwhile, and its recording says the same
+ * again. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/io/scene_xml.h"
+#include "models/registry.h"
+#include "ui/sim/session.h"
+
+static const char scene_text[] =
+    "<spore version=\"1.0\">\n"
+    "<solver time_step=\"0.001\"/>\n"
+    "<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\"/>\n"
+    "<spheres name=\"floor\" file=\"floor.spheres\"/><tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n"
+    "<bodies>\n"
+    "<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\"><collision spheres=\"floor\"/></body>\n"
+    "<body name=\"organ\"><mechanical geometry=\"cells\"><corotational_tetrahedra/></mechanical>"
+    "<collision spheres=\"ball\"/></body>\n"
+    "<body name=\"stone\" position=\"0.01 0.12 0\" rotation=\"0.3 0.2 0.1\"><mechanical geometry=\"cube\"><rigid_body/>"
+    "</mechanical><collision spheres=\"ball\"/></body>\n"
+    "<body name=\"probe\" role=\"active\" position=\"0.2 0 0\" rotation=\"0.1 0.7 0.3\"><collision spheres=\"ball\"/>"
+    "</body>\n"
+    "</bodies>\n"
+    "<tools><probe name=\"tool\" body=\"probe\" device=\"hand\"/></tools>\n"
+    "<devices><mouse name=\"hand\"/></devices>\n"
+    "</spore>\n";
+
+#define CORNERS(end)                                                                                                   \
+  "-.05 -.05 -.05" end "\n.05 -.05 -.05" end "\n.05 .05 -.05" end "\n-.05 .05 -.05" end "\n"                           \
+  "-.05 -.05 .05" end "\n.05 -.05 .05" end "\n.05 .05 .05" end "\n-.05 .05 .05" end "\n"
+
+static const char track_text[] =
+    "spore-track 1\ndevice probe\n"
+    "0 0.2 0 0 1 0 0 0 0 0\n0.05 0.08 0.01 0 0.8 0 0.6 0 0 0\n0.2 0.07 0 0.02 1 0 0 0 0 0\n";
+
+static void put(SporeDocument *document, const char *file, char *text) {
+  g_autoptr(GBytes) content = g_bytes_new_take(text, strlen(text));
+  spore_document_put_blob(document, file, content);
+}
+
+static SporeDocument *new_document(SporeSchema **schema) {
+  GError *error = NULL;
+  *schema = spore_schema_new(spore_model_registry);
+  SporeDocument *document = spore_scene_parse(*schema, NULL, scene_text, strlen(scene_text), &error);
+  g_assert_no_error(error);
+  put(document, "cube.off",
+      g_strdup("OFF\n8 12 0\n" CORNERS("") "3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 2 3 7\n3 2 7 6\n"
+                                           "3 1 2 6\n3 1 6 5\n3 0 4 7\n3 0 7 3\n"));
+  put(document, "cube.mesh",
+      g_strdup("MeshVersionFormatted 2\nDimension 3\nVertices\n8\n" CORNERS(
+          " 0") "Tetrahedra\n5\n1 2 3 6 0\n1 3 4 8 0\n1 6 8 5 0\n3 8 6 7 0\n1 3 8 6 0\nEnd\n"));
+  put(document, "ball.spheres", g_strdup("0 0 0 0.05\n0.03 0.03 0.03 0.02\n"));
+  put(document, "floor.spheres", g_strdup("0 0 0 0.05\n-0.06 0 0 0.05\n0.06 0 0 0.05\n"));
+  return document;
+}
+
+typedef struct {
+  SporeSchema *schema;
+  SporeDocument *document;
+  SporeTrack track;
+} Fixture;
+
+static void set_up(Fixture *fixture, gconstpointer data) {
+  SporeError error = SPORE_ERROR_INIT;
+  fixture->document = new_document(&fixture->schema);
+  if (!spore_track_parse(&fixture->track, "hand.track", track_text, strlen(track_text), &error))
+    g_error("%s: %s", error.place, error.message);
+}
+
+static void tear_down(Fixture *fixture, gconstpointer data) {
+  spore_track_clear(&fixture->track);
+  spore_document_free(fixture->document);
+  spore_schema_free(fixture->schema);
+}
+
+static guint64 loop_hash(Fixture *fixture, const SporeTrack *input, guint steps) {
+  GError *error = NULL;
+  SporeSimulation *simulation = spore_simulation_new(fixture->document, NULL, input, &error);
+  g_assert_no_error(error);
+  for (guint i = 0; i < steps; i++) spore_world_step(simulation->world);
+  guint64 hash = spore_world_hash(simulation->world);
+  spore_simulation_free(simulation);
+  return hash;
+}
+
+static SporeSession *new_session(Fixture *fixture, int threads, const SporeTrack *input) {
+  GError *error = NULL;
+  SporeSession *session = spore_session_new(fixture->document, threads, input, &error);
+  g_assert_no_error(error);
+  return session;
+}
+
+/* Plays until the step is passed, pauses there or a little later, and gives the step it stands at. */
+static guint play_past(SporeSession *session, guint steps) {
+  spore_session_play(session);
+  while (spore_session_snapshot(session)->step < steps) g_usleep(500);
+  spore_session_pause(session);
+  return (guint)spore_session_snapshot(session)->step;
+}
+
+#define STEPS 150
+
+static void test_steps_equal_loop(Fixture *fixture, gconstpointer data) {
+  guint64 expected = loop_hash(fixture, &fixture->track, STEPS);
+  g_assert_cmphex(expected, !=, loop_hash(fixture, NULL, STEPS));
+  for (int threads = 1; threads <= 2; threads++) {
+    SporeSession *session = new_session(fixture, threads, &fixture->track);
+    g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 0);
+    spore_session_step(session, 1);
+    g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 1);
+    spore_session_step(session, STEPS - 1);
+    g_assert_cmpuint(spore_session_snapshot(session)->step, ==, STEPS);
+    g_assert_cmphex(spore_session_snapshot(session)->hash, ==, expected);
+    spore_session_free(session);
+  }
+}
+
+static void test_free_run_equals_loop(Fixture *fixture, gconstpointer data) {
+  for (int threads = 1; threads <= 2; threads++) {
+    SporeSession *session = new_session(fixture, threads, &fixture->track);
+    spore_session_set_speed(session, 0);
+    guint steps = play_past(session, STEPS);
+    guint64 hash = spore_session_snapshot(session)->hash;
+    g_assert_cmphex(hash, ==, loop_hash(fixture, &fixture->track, steps));
+    spore_session_free(session);
+  }
+}
+
+static void test_paced_run_equals_loop(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, &fixture->track);
+  play_past(session, 20);
+  spore_session_set_speed(session, 0.5);
+  guint steps = play_past(session, 40);
+  g_assert_cmphex(spore_session_snapshot(session)->hash, ==, loop_hash(fixture, &fixture->track, steps));
+  spore_session_free(session);
+}
+
+static void test_pause_stands_still(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, &fixture->track);
+  g_assert_false(spore_session_is_playing(session));
+  spore_session_set_speed(session, 0);
+  guint steps = play_past(session, 10);
+  g_assert_false(spore_session_is_playing(session));
+  g_usleep(20000);
+  g_assert_cmpuint(spore_session_snapshot(session)->step, ==, steps);
+  spore_session_play(session);
+  g_assert_true(spore_session_is_playing(session));
+  spore_session_step(session, 5); /* refused while playing; must not hang */
+  spore_session_free(session);
+}
+
+static void test_reset_goes_back(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, &fixture->track);
+  guint64 start = spore_session_snapshot(session)->hash;
+  spore_session_step(session, STEPS);
+  guint64 end = spore_session_snapshot(session)->hash;
+  spore_session_reset(session);
+  g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 0);
+  g_assert_cmphex(spore_session_snapshot(session)->hash, ==, start);
+  spore_session_step(session, STEPS);
+  g_assert_cmphex(spore_session_snapshot(session)->hash, ==, end);
+  spore_session_play(session);
+  spore_session_reset(session);
+  g_assert_true(spore_session_is_playing(session));
+  spore_session_free(session);
+}
+
+static guint32 probe_of(SporeSession *session) {
+  return spore_world_find_body(spore_session_simulation(session)->world, "probe");
+}
+
+static const double *probe_q(SporeSession *session) {
+  const SporeWorld *world = spore_session_simulation(session)->world;
+  return spore_session_snapshot(session)->q + spore_world_q_offset(world, probe_of(session));
+}
+
+static void lead(SporeSession *session, double x, double y) {
+  SporeDeviceState state = {.position = {x, y, 0.003}, .orientation = {0.8, 0.1, -0.2, 0.3}};
+  spore_session_set_pointer(session, probe_of(session), &state);
+}
+
+static void test_pointer_leads_and_pushes(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, NULL);
+  spore_session_step(session, 20);
+  g_assert_cmpfloat(probe_q(session)[0], ==, 0.2);
+  lead(session, 0.07, 0);
+  spore_session_step(session, 200);
+  g_assert_cmpfloat_with_epsilon(probe_q(session)[0], 0.07, 1e-4);
+  const double *reaction = spore_session_snapshot(session)->reaction + 6 * probe_of(session);
+  g_assert_cmpfloat(hypot(hypot(reaction[0], reaction[1]), reaction[2]), >, 0.01);
+  spore_session_free(session);
+}
+
+static void test_track_wins_over_pointer(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, &fixture->track);
+  lead(session, 1, 1);
+  spore_session_step(session, STEPS);
+  g_assert_cmphex(spore_session_snapshot(session)->hash, ==, loop_hash(fixture, &fixture->track, STEPS));
+  spore_session_free(session);
+}
+
+/* A recording is input that leads to the same bits. */
+static void test_recording_repeats(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, NULL);
+  spore_session_step(session, 30);
+  lead(session, 0.08, 0.01);
+  spore_session_step(session, 60);
+  lead(session, 0.06, -0.01);
+  spore_session_step(session, 60);
+  guint64 expected = spore_session_snapshot(session)->hash;
+  SporeTrack *recording = spore_session_recording(session);
+  spore_session_free(session);
+  g_assert_cmphex(loop_hash(fixture, recording, 150), ==, expected);
+
+  /* Through the file too. */
+  size_t size;
+  SporeTrack read = {0};
+  SporeError error = SPORE_ERROR_INIT;
+  char *text = spore_track_format(recording, &size);
+  g_assert_true(spore_track_parse(&read, "recording.track", text, size, &error));
+  g_assert_cmphex(loop_hash(fixture, &read, 150), ==, expected);
+  spore_free(text);
+  spore_track_clear(&read);
+  spore_track_clear(recording);
+  g_free(recording);
+}
+
+static void test_carry_over(Fixture *fixture, gconstpointer data) {
+  SporeSession *old = new_session(fixture, 1, &fixture->track), *new = new_session(fixture, 1, &fixture->track);
+  spore_session_step(old, 50);
+  const SporeWorld *world = spore_session_simulation(old)->world;
+  size_t offset = spore_world_q_offset(world, spore_world_find_body(world, "stone"));
+  double expected = spore_session_snapshot(old)->q[offset + 1];
+  g_assert_cmpfloat(spore_session_snapshot(new)->q[offset + 1], !=, expected);
+  spore_session_carry_over(new, old);
+  g_assert_cmpfloat(spore_session_snapshot(new)->q[offset + 1], ==, expected);
+  spore_session_free(old);
+  spore_session_free(new);
+}
+
+static void test_refused_scene(Fixture *fixture, gconstpointer data) {
+  g_autoptr(GError) error = NULL;
+  SporeObject *probe = spore_document_by_path(fixture->document, "bodies/probe");
+  g_assert_true(spore_document_set_text(fixture->document, probe, "role", "unmovable", NULL));
+  g_assert_null(spore_session_new(fixture->document, 1, NULL, &error));
+  g_assert_nonnull(error);
+  g_assert_nonnull(strstr(error->message, "probe"));
+}
+
+int main(int argc, char **argv) {
+  static const struct {
+    const char *name;
+    void (*run)(Fixture *fixture, gconstpointer data);
+  } tests[] = {
+      {"steps-equal-loop", test_steps_equal_loop},
+      {"free-run-equals-loop", test_free_run_equals_loop},
+      {"paced-run-equals-loop", test_paced_run_equals_loop},
+      {"pause-stands-still", test_pause_stands_still},
+      {"reset-goes-back", test_reset_goes_back},
+      {"pointer-leads-and-pushes", test_pointer_leads_and_pushes},
+      {"track-wins-over-pointer", test_track_wins_over_pointer},
+      {"recording-repeats", test_recording_repeats},
+      {"carry-over", test_carry_over},
+      {"refused-scene", test_refused_scene},
+  };
+  g_test_init(&argc, &argv, NULL);
+  for (gsize i = 0; i < G_N_ELEMENTS(tests); i++) {
+    g_autofree char *path = g_strconcat("/session/", tests[i].name, NULL);
+    g_test_add(path, Fixture, NULL, set_up, tests[i].run, tear_down);
+  }
+  return g_test_run();
+}
