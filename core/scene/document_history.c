@@ -94,10 +94,10 @@ static void apply(SporeEdit *edit) {
 }
 
 /* A value that replaces another of the same group leaves no trace of its own. Only values: setting and unsetting
- * change the order of the properties, and names may pass from one object to another. */
+ * change the order of the properties. */
 static gboolean merges(const SporeDocument *document, const SporeEdit *edit) {
   const SporeSlot *slot = &edit->object->slots[edit->property];
-  if (edit->kind != SPORE_EDIT_SET || !edit->slot.set || !slot->set || slot->value.type == SPORE_NAME) return FALSE;
+  if (edit->kind != SPORE_EDIT_SET || !edit->slot.set || !slot->set) return FALSE;
   guint from = g_array_index(document->marks, guint, document->marks->len - 1);
   for (guint i = document->open->len; i > from; i--) {
     const SporeEdit *earlier = &g_array_index(document->open, SporeEdit, i - 1);

@@ -223,6 +223,28 @@ static void test_groups_merge(void) {
   spore_document_free(document);
 }
 
+/* The order of the properties comes back too, however they were set and unset in between. */
+static void test_group_keeps_order(void) {
+  SporeDocument *document = fixture_parse("<spore version=\"1.0\"><bodies><body position=\"1 0 0\" spin=\"0 0 1\" "
+                                          "velocity=\"1 1 1\" name=\"a\"/></bodies></spore>");
+  g_autofree char *before = fixture_format(document);
+  SporeObject *body = spore_document_by_path(document, "bodies/a");
+  spore_document_begin(document, "Group");
+  spore_document_unset(document, body, 2, NULL);
+  spore_document_unset(document, body, 4, NULL);
+  set(document, body, "position", "2 0 0");
+  set(document, body, "position", "3 0 0");
+  spore_document_end(document);
+  g_autofree char *between = fixture_format(document);
+  spore_document_undo(document);
+  g_autofree char *after = fixture_format(document);
+  g_assert_cmpstr(after, ==, before);
+  spore_document_redo(document);
+  g_autofree char *again = fixture_format(document);
+  g_assert_cmpstr(again, ==, between);
+  spore_document_free(document);
+}
+
 static void test_abort_restores(void) {
   SporeDocument *document = spore_document_new(fixture_schema());
   SporeObject *body = insert(document, "bodies", "body", "liver");
@@ -441,6 +463,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/document/rename-follows-references", test_rename_follows_references);
   g_test_add_func("/document/defaults-are-inherited", test_defaults_are_inherited);
   g_test_add_func("/document/groups-merge", test_groups_merge);
+  g_test_add_func("/document/group-keeps-order", test_group_keeps_order);
   g_test_add_func("/document/abort-restores", test_abort_restores);
   g_test_add_func("/document/modified", test_modified);
   g_test_add_func("/document/listeners", test_listeners);
