@@ -225,8 +225,9 @@ static void test_groups_merge(void) {
 
 /* The order of the properties comes back too, however they were set and unset in between. */
 static void test_group_keeps_order(void) {
-  SporeDocument *document = fixture_parse("<spore version=\"1.0\"><bodies><body position=\"1 0 0\" spin=\"0 0 1\" "
-                                          "velocity=\"1 1 1\" name=\"a\"/></bodies></spore>");
+  SporeDocument *document =
+      fixture_parse("<spore version=\"1.0\"><bodies><body name=\"a\" position=\"1 0 0\" spin=\"0 0 1\" "
+                    "velocity=\"1 1 1\"/></bodies></spore>");
   g_autofree char *before = fixture_format(document);
   SporeObject *body = spore_document_by_path(document, "bodies/a");
   spore_document_begin(document, "Group");
