@@ -20,9 +20,10 @@ typedef struct RunOptions {
 } RunOptions;
 
 typedef struct RunResult {
-  double energy_start, energy_end, energy_drift; /* J; largest change from the start */
-  double contacts_mean;
-  gsize contacts_max;
+  double energy_start, energy_end, energy_drift;  /* J; largest change from the start */
+  double contacts_mean, newton_mean, linear_mean; /* a step */
+  gsize contacts_max, newton_max, linear_max;
+  double residual_max; /* relative, of the solves */
 } RunResult;
 
 static double total_energy(const SporeWorld *world) {
@@ -34,6 +35,17 @@ static void wait_until(guint64 start_ns, double time_s) {
   guint64 due = start_ns + (guint64)(1e9 * time_s);
   struct timespec at = {.tv_sec = (time_t)(due / 1000000000u), .tv_nsec = (long)(due % 1000000000u)};
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL);
+}
+
+/* Adds up the counts of the step just done: the means are sums until the run has ended. */
+static void count_step(RunResult *result, SporeStepCounts counts) {
+  result->contacts_mean += (double)counts.contacts;
+  result->newton_mean += (double)counts.newton_iterations;
+  result->linear_mean += (double)counts.linear_iterations;
+  result->contacts_max = MAX(result->contacts_max, counts.contacts);
+  result->newton_max = MAX(result->newton_max, counts.newton_iterations);
+  result->linear_max = MAX(result->linear_max, counts.linear_iterations);
+  result->residual_max = fmax(result->residual_max, counts.residual);
 }
 
 /* Appends what each device was taken to say in the step just done. */
@@ -54,15 +66,12 @@ static RunResult run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps,
   RunResult result = {.energy_start = total_energy(world)};
   gint64 stride = MAX(1, steps / ENERGY_SAMPLES);
   guint64 start_ns = spore_clock_ns();
-  double contacts = 0;
   gint64 done = 0;
   while (done < steps && !spore_cli_interrupted()) {
     spore_world_step(world);
     done++;
     if (recording && !record_inputs(world, recording)) break;
-    gsize now = spore_world_counts(world).contacts;
-    contacts += (double)now;
-    result.contacts_max = MAX(result.contacts_max, now);
+    count_step(&result, spore_world_counts(world));
     if (done % stride == 0) {
       double drift = fabs(total_energy(world) - result.energy_start);
       result.energy_drift = fmax(result.energy_drift, drift);
@@ -71,7 +80,10 @@ static RunResult run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps,
     if (realtime) wait_until(start_ns, spore_world_time_s(world));
   }
   result.energy_end = total_energy(world);
-  result.contacts_mean = done ? contacts / (double)done : 0;
+  double count = (double)MAX(done, 1);
+  result.contacts_mean /= count;
+  result.newton_mean /= count;
+  result.linear_mean /= count;
   return result;
 }
 
@@ -93,6 +105,20 @@ static void report_stages(SporeCli *cli, const SporePlan *plan) {
                   total_us > 0 ? 100 * median_us / total_us : 0);
   }
   spore_cli_close_array(cli);
+}
+
+static void report_solver(SporeCli *cli, const RunResult *result) {
+  spore_cli_open(cli, "solver");
+  spore_cli_number(cli, "newton_mean", result->newton_mean);
+  spore_cli_count(cli, "newton_max", (gint64)result->newton_max);
+  spore_cli_number(cli, "linear_mean", result->linear_mean);
+  spore_cli_count(cli, "linear_max", (gint64)result->linear_max);
+  spore_cli_number(cli, "residual_max", result->residual_max);
+  spore_cli_close(cli);
+  if (result->newton_max > 0)
+    spore_cli_say(
+        cli, _("solver: %.1f Newton and %.1f linear iterations a step (most %zu and %zu), residual %.1e at worst\n"),
+        result->newton_mean, result->linear_mean, result->newton_max, result->linear_max, result->residual_max);
 }
 
 /* Number of frozen bodies. */
@@ -153,6 +179,7 @@ static int report(SporeCli *cli, const char *scene, const SporeWorld *world, con
   spore_cli_close(cli);
   spore_cli_say(cli, _("contacts: mean %.1f, most %zu; energy: %.6g J at the start, %.6g J at the end\n"),
                 result->contacts_mean, result->contacts_max, result->energy_start, result->energy_end);
+  report_solver(cli, result);
   guint frozen = report_monitor(cli, world);
   spore_cli_text(cli, "state_hash", hash);
   spore_cli_say(cli, _("state hash %s\n"), hash);

@@ -18,6 +18,7 @@ namespace with = CGAL::parameters;
 namespace {
 
 using spore::Kernel;
+using spore::Point;
 using Domain = CGAL::Polyhedral_mesh_domain_3<spore::Surface, Kernel>;
 using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Sequential_tag>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
@@ -26,24 +27,54 @@ using Progress = void (*)(double, const char *);
 
 constexpr double least_angle = 10;  /* degrees, wanted */
 constexpr double sliver_angle = 14; /* degrees, asked of the optimisers */
-constexpr int most_sizes = 7;       /* meshes made to hit the number of cells */
+constexpr int most_sizes = 8;       /* meshes made to hit the number of cells */
 constexpr double size_tolerance = 0.1;
+constexpr int rays = 4000;            /* that look for the surface */
+constexpr double least_volume = 0.75; /* of the surface's: a mesh below lost a part that is thinner than its cells */
+
+struct Solid {
+  const Domain &domain;
+  double volume;
+  std::vector<std::pair<Point, Domain::Index>> found; /* by rays: points of the surface in random order */
+};
 
 /* All criteria follow one length, the circumradius bound of cells, so that meshes of two lengths look alike. */
 Criteria criteria_of(double length) {
-  return Criteria(with::facet_angle = 25, with::facet_size = length, with::facet_distance = 0.15 * length,
+  return Criteria(with::facet_angle = 25, with::facet_size = length, with::facet_distance = 0.1 * length,
                   with::cell_radius_edge_ratio = 2, with::cell_size = length);
 }
 
-Complex refined(const Domain &domain, double length) {
-  return CGAL::make_mesh_3<Complex>(domain, criteria_of(length), with::no_perturb(), with::no_exude());
+/* Points of the surface no nearer to each other than `distance`: refinement starts from all over it, and so misses no
+ * thin part. */
+void insert_cover(const Solid &solid, double distance, Complex &mesh) {
+  std::vector<Point> taken;
+  const auto weighted = mesh.triangulation().geom_traits().construct_weighted_point_3_object();
+  for (const auto &[point, index] : solid.found) {
+    bool near = false;
+    for (const Point &other : taken) near = near || CGAL::squared_distance(other, point) < distance * distance;
+    if (near) continue;
+    taken.push_back(point);
+    const auto vertex = mesh.triangulation().insert(weighted(point));
+    mesh.set_dimension(vertex, 2);
+    mesh.set_index(vertex, index);
+  }
+}
+
+/* FALSE: it takes more than `most_vertices`. */
+bool refine(const Solid &solid, double length, std::size_t most_vertices, Complex &mesh) {
+  CGAL::Mesh_error_code status = CGAL::CGAL_MESH_3_NO_ERROR;
+  insert_cover(solid, 1.5 * length, mesh);
+  CGAL::refine_mesh_3(
+      mesh, solid.domain, criteria_of(length), with::no_perturb(), with::no_exude(), with::no_reset_c3t3(),
+      with::mesh_3_options(with::maximal_number_of_vertices = most_vertices, with::pointer_to_error_code = &status));
+  return status == CGAL::CGAL_MESH_3_NO_ERROR;
 }
 
 double smallest_angle(const Complex &mesh) {
   double least = 180;
   const auto &triangulation = mesh.triangulation();
   for (auto cell = mesh.cells_in_complex_begin(); cell != mesh.cells_in_complex_end(); ++cell) {
-    spore::Point p[4];
+    Point p[4];
     for (int i = 0; i < 4; i++) p[i] = triangulation.geom_traits().construct_point_3_object()(cell->vertex(i)->point());
     static const int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
     for (const int *e : edges)
@@ -52,44 +83,67 @@ double smallest_angle(const Complex &mesh) {
   return least;
 }
 
+double volume_of(const Complex &mesh) {
+  double volume = 0;
+  for (auto cell = mesh.cells_in_complex_begin(); cell != mesh.cells_in_complex_end(); ++cell)
+    volume += mesh.triangulation().tetrahedron(cell).volume();
+  return volume;
+}
+
 /* The length that gives about `cells`: secant steps on the logarithm of the number, which is nearly a line of slope -3
- * (solid) to -2 (thin wall). Too few cells for the shape cannot be had; the nearest is taken. */
-double length_for(const Domain &domain, std::size_t cells, double volume, Progress progress) {
-  double length = std::cbrt(volume / (0.12 * static_cast<double>(cells))) * 0.62, best = length, best_gap = 1e300;
+ * (solid) to -2 (thin wall). Where so few cells cannot make the shape, the fewest that do are taken. */
+double length_for(const Solid &solid, std::size_t cells, Progress progress) {
+  const std::size_t most_vertices = 3 * cells + 3000;
+  double length = 1.25 * std::cbrt(solid.volume / static_cast<double>(cells)), best = 0, best_gap = 1e300;
   double known_length = 0, known_count = 0, slope = -2.8;
-  for (int i = 0; i < most_sizes; i++) {
+  for (int i = 0; i < most_sizes && best_gap > size_tolerance; i++) {
     progress(0.1 + 0.4 * i / most_sizes, N_("finding the size of the cells"));
-    const double count =
-        static_cast<double>(std::max<std::size_t>(refined(domain, length).number_of_cells_in_complex(), 1));
+    Complex mesh;
+    if (!refine(solid, length, most_vertices, mesh)) {
+      length *= 1.6;
+      continue;
+    }
+    const double count = static_cast<double>(mesh.number_of_cells_in_complex());
+    if (volume_of(mesh) < least_volume * solid.volume) {
+      length *= 0.8;
+      continue;
+    }
     const double gap = std::log(count / static_cast<double>(cells));
     if (std::abs(gap) < best_gap) best_gap = std::abs(gap), best = length;
-    if (best_gap < size_tolerance) break;
     if (known_length > 0 && std::abs(std::log(length / known_length)) > 1e-3)
       slope = std::log(count / known_count) / std::log(length / known_length);
     slope = std::clamp(slope, -4.0, -1.0);
     known_length = length, known_count = count;
     length *= std::exp(std::clamp(-gap / slope, -1.0, 1.0));
   }
+  if (best == 0)
+    throw spore::Refusal{SPORE_ERROR_NUMERICAL,
+                         N_("the surface is too thin or too creased for so few cells; expected cells "
+                            "finer than its walls; ask for more, or simplify the surface"),
+                         ""};
   return best;
 }
 
 /* Ways to better a mesh, tried in turn until the angles are wide enough. None depends on the clock. */
-Complex bettered(const Domain &domain, double length, int way) {
-  Complex mesh = refined(domain, way == 2 ? 0.97 * length : length);
-  if (way != 1) CGAL::odt_optimize_mesh_3(mesh, domain, with::max_iteration_number = 50);
-  CGAL::perturb_mesh_3(mesh, domain, with::sliver_bound = sliver_angle);
-  CGAL::exude_mesh_3(mesh, with::sliver_bound = sliver_angle);
-  return mesh;
-}
+const struct {
+  double length;
+  bool smooth;
+} ways[] = {{1, true}, {1, false}, {0.97, true}, {1.03, true}, {0.94, true}};
 
-Complex best_of(const Domain &domain, double length, Progress progress) {
+Complex best_of(const Solid &solid, double length, std::size_t most_vertices, Progress progress) {
   Complex best;
-  double best_angle = -1;
-  for (int way = 0; way < 3 && best_angle < least_angle; way++) {
-    progress(0.5 + 0.15 * way, N_("meshing and bettering the cells"));
-    Complex mesh = bettered(domain, length, way);
+  double best_angle = -1, fraction = 0.5;
+  for (const auto &way : ways) {
+    progress(fraction, N_("meshing and bettering the cells"));
+    fraction += 0.1;
+    Complex mesh;
+    if (!refine(solid, way.length * length, most_vertices, mesh) || !mesh.number_of_cells_in_complex()) continue;
+    if (way.smooth) CGAL::odt_optimize_mesh_3(mesh, solid.domain, with::max_iteration_number = 50);
+    CGAL::perturb_mesh_3(mesh, solid.domain, with::sliver_bound = sliver_angle);
+    CGAL::exude_mesh_3(mesh, with::sliver_bound = sliver_angle);
     const double angle = mesh.number_of_cells_in_complex() ? smallest_angle(mesh) : -1;
     if (angle > best_angle) best_angle = angle, best.swap(mesh);
+    if (best_angle >= least_angle) break;
   }
   return best;
 }
@@ -104,7 +158,7 @@ SporeFlatMesh flattened(const Complex &mesh) {
       const auto known = number.emplace(cell->vertex(i), static_cast<uint32_t>(number.size()));
       corners.push_back(known.first->second);
       if (!known.second) continue;
-      const spore::Point p = traits.construct_point_3_object()(cell->vertex(i)->point());
+      const Point p = traits.construct_point_3_object()(cell->vertex(i)->point());
       vertices.insert(vertices.end(), {p.x(), p.y(), p.z()});
     }
   SporeFlatMesh flat = {vertices.size() / 3, corners.size() / 4, spore::allocate<double>(vertices.size()),
@@ -122,8 +176,11 @@ bool spore_cgal_tetrahedra(const SporeFlatMesh *mesh, std::size_t cells, double 
     spore::Surface surface;
     PMP::polygon_soup_to_polygon_mesh(spore::points_of(*mesh), spore::polygons_of(*mesh), surface);
     const Domain domain(surface, &CGAL::get_default_random());
-    const double length = cells ? length_for(domain, cells, std::abs(PMP::volume(surface)), progress) : 0.7 * size;
-    const Complex best = best_of(domain, length, progress);
+    Solid solid = {domain, std::abs(PMP::volume(surface)), {}};
+    domain.construct_initial_points_object()(std::back_inserter(solid.found), rays);
+    const double length = cells ? length_for(solid, cells, progress) : 0.7 * size;
+    const double expected = cells ? static_cast<double>(cells) : solid.volume / (0.12 * size * size * size);
+    const Complex best = best_of(solid, length, static_cast<std::size_t>(10 * expected) + 10000, progress);
     if (!best.number_of_cells_in_complex())
       throw spore::Refusal{SPORE_ERROR_NUMERICAL,
                            N_("no cell fits in; expected cells finer than the walls; ask for more cells "

@@ -56,14 +56,14 @@ def bench_net(build, work):
   <solver time_step="0.001" integrator="symplectic_euler"/>
   <assets>
     <mesh name="net" file="net.off"/>
-    <spheres name="net" file="net.spheres"/>
+    <spheres name="net-spheres" file="net.spheres"/>
   </assets>
   <bodies>
     <body name="net" role="passive">
       <mechanical geometry="net">
         <mass_spring_net/>
       </mechanical>
-      <collision spheres="net" self="true"/>
+      <collision spheres="net-spheres" self="true"/>
     </body>
   </bodies>
   <links>
