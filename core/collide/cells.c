@@ -11,11 +11,9 @@
 
 /* A k >= 0 with ratio <= 2^k, the smallest but for powers of two; none is large enough where the ratio is huge. */
 static int class_of_ratio(double ratio) {
-  int exponent = 0;
   if (ratio <= 1) return 0;
   if (!(ratio < 1e300)) return SPORE_CELL_CLASSES;
-  frexp(ratio, &exponent);
-  return exponent;
+  return ilogb(ratio) + 1;
 }
 
 SporeCellScale spore_cell_scale(SporeVec3 origin, double smallest_radius, double usual_radius) {
@@ -97,25 +95,21 @@ static uint32_t find_or_add(SporeCells *cells, int32_t x, int32_t y, int32_t z, 
     cells->class_count[class] = 0;
     cells->class_reach[class] = 0;
   }
-  cells->cells[index] = (SporeCell){.x = x,
-                                    .y = y,
-                                    .z = z,
-                                    .class = class,
-                                    .next_in_class = cells->class_head[class],
-                                    .lower = {INFINITY, INFINITY, INFINITY},
-                                    .upper = {-INFINITY, -INFINITY, -INFINITY}};
+  cells->cells[index] = (SporeCell){
+      .x = x, .y = y, .z = z, .class = class, .next_in_class = cells->class_head[class], .bounds = SPORE_BOUNDS_EMPTY};
   cells->class_head[class] = index;
   cells->class_count[class]++;
   return index;
 }
 
-/* Ball that a sphere stays in during the step; false where it is not finite. */
-static bool find_reach(const SporeSpheres *spheres, size_t i, double dt_s, double ball[4]) {
-  SporeVec3 velocity = spore_vec3_load(spheres->velocity + 3 * i);
-  SporeVec3 middle = spore_vec3_add_scaled(spore_vec3_load(spheres->centre + 3 * i), 0.5 * dt_s, velocity);
-  spore_vec3_store(ball, middle);
-  ball[3] = spheres->radius[i] + 0.5 * dt_s * spore_vec3_length(velocity);
-  return isfinite(fabs(middle.x) + fabs(middle.y) + fabs(middle.z) + ball[3]);
+void spore_cells_find_balls(const SporeSpheres *spheres, size_t first, size_t count, double dt_s, double *balls) {
+  for (size_t i = first; i < first + count; i++, balls += 4) {
+    SporeVec3 velocity = spore_vec3_load(spheres->velocity + 3 * i);
+    SporeVec3 middle = spore_vec3_add_scaled(spore_vec3_load(spheres->centre + 3 * i), 0.5 * dt_s, velocity);
+    double reach = spheres->radius[i] + 0.5 * dt_s * spore_vec3_length(velocity);
+    spore_vec3_store(balls, middle);
+    balls[3] = isfinite(fabs(middle.x) + fabs(middle.y) + fabs(middle.z) + reach) ? reach : -1;
+  }
 }
 
 /* Puts a ball in its cell; SPORE_CELL_NONE where no class is wide enough. */
@@ -133,14 +127,6 @@ static uint32_t place_ball(SporeCells *cells, const SporeCellScale *scale, const
                                spore_cell_index(z, inverse), class);
   if (ball[3] > cells->class_reach[class]) cells->class_reach[class] = ball[3];
   return index;
-}
-
-static void widen(SporeCell *cell, const double ball[4]) {
-  for (int k = 0; k < 3; k++) {
-    double lower = ball[k] - ball[3], upper = ball[k] + ball[3];
-    if (lower < cell->lower[k]) cell->lower[k] = lower;
-    if (upper > cell->upper[k]) cell->upper[k] = upper;
-  }
 }
 
 /* Sorted arrays from cell_of and unsorted. */
@@ -161,19 +147,19 @@ static void sort_by_cell(SporeCells *cells, const SporeSpheres *spheres, size_t 
     for (int k = 0; k < 4; k++) cells->middle[4 * at + (size_t)k] = ball[k];
     cells->sphere[at] = (uint32_t)(first + i);
     cells->body[at] = body;
-    widen(cell, ball);
+    spore_bounds_add_ball(&cell->bounds, ball);
   }
 }
 
 void spore_cells_fill(SporeCells *cells, const SporeCellScale *scale, const SporeSpheres *spheres, size_t first,
-                      size_t count, double dt_s) {
+                      size_t count, const SporeBounds *regions) {
   cells->stamp++;
   cells->cell_count = 0;
   cells->classes = 0;
   for (size_t i = 0; i < count; i++) {
-    double *ball = cells->unsorted + 4 * i;
-    bool usable = find_reach(spheres, first + i, dt_s, ball);
-    uint32_t cell = usable ? place_ball(cells, scale, ball) : SPORE_CELL_NONE;
+    const double *ball = cells->unsorted + 4 * i;
+    bool takes_part = ball[3] >= 0 && (!regions || spore_bounds_touch_ball(&regions[spheres->body[first + i]], ball));
+    uint32_t cell = takes_part ? place_ball(cells, scale, ball) : SPORE_CELL_NONE;
     cells->cell_of[i] = cell;
     if (cell != SPORE_CELL_NONE) cells->cells[cell].count++;
   }

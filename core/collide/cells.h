@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "core/collide/bounds.h"
 #include "core/collide/sphere.h"
 
 #define SPORE_CELL_CLASSES 64
@@ -21,11 +22,11 @@ typedef struct SporeCellScale {
 SporeCellScale spore_cell_scale(SporeVec3 origin, double smallest_radius, double usual_radius);
 
 typedef struct SporeCell {
-  int32_t x, y, z, class;    /* which cell */
-  uint32_t first, count;     /* its spheres in the sorted arrays */
-  uint32_t body;             /* the one body of all of them, or SPORE_CELL_MIXED */
-  uint32_t next_in_class;    /* another cell of the class, or SPORE_CELL_NONE */
-  double lower[3], upper[3]; /* bounds of the spheres, reach included, m */
+  int32_t x, y, z, class; /* which cell */
+  uint32_t first, count;  /* its spheres in the sorted arrays */
+  uint32_t body;          /* the one body of all of them, or SPORE_CELL_MIXED */
+  uint32_t next_in_class; /* another cell of the class, or SPORE_CELL_NONE */
+  SporeBounds bounds;     /* of its spheres with their reach */
 } SporeCell;
 
 typedef struct SporeCellSlot {
@@ -34,7 +35,7 @@ typedef struct SporeCellSlot {
   uint32_t cell;
 } SporeCellSlot;
 
-/* Spheres put in cells by `spore_cells_fill`. Sizes are fixed at creation. */
+/* Spheres in their cells. Sizes are fixed at creation. */
 typedef struct SporeCells {
   size_t capacity, cell_count;
   SporeCell *cells; /* capacity */
@@ -44,7 +45,7 @@ typedef struct SporeCells {
   uint32_t *sphere; /* index in SporeSpheres */
   uint32_t *body;
   uint32_t *cell_of; /* scratch: cell of each sphere, unsorted */
-  double *unsorted;  /* scratch: as middle */
+  double *unsorted;  /* balls before sorting, as middle */
   SporeCellSlot *slots;
   size_t slot_mask;
   uint64_t stamp;
@@ -55,9 +56,13 @@ typedef struct SporeCells {
 
 bool spore_cells_create(SporeCells *cells, size_t capacity); /* false: no memory, *cells cleared */
 void spore_cells_clear(SporeCells *cells);
-/* Spheres first..first+count-1, count <= capacity. Leaves out those that are not finite. */
+/* Balls that spheres first..first+count-1 stay in during the step (4 a sphere: middle and reach); reach < 0 where a
+ * sphere is not finite. */
+void spore_cells_find_balls(const SporeSpheres *spheres, size_t first, size_t count, double dt_s, double *balls);
+/* Puts spheres first..first+count-1, count <= capacity, with the balls in cells->unsorted, into cells: those whose ball
+ * touches the region of their body; all where regions is NULL. */
 void spore_cells_fill(SporeCells *cells, const SporeCellScale *scale, const SporeSpheres *spheres, size_t first,
-                      size_t count, double dt_s);
+                      size_t count, const SporeBounds *regions);
 /* Index of a cell, or SPORE_CELL_NONE. */
 uint32_t spore_cells_find(const SporeCells *cells, int32_t x, int32_t y, int32_t z, int32_t class);
 /* Index of the cell along one axis that a coordinate, relative to the origin, lies in; held within 32 bits. */

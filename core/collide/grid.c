@@ -23,6 +23,10 @@ struct SporeGrid {
   unsigned char *bodies; /* BODY_ flags */
   SporeCellScale scale;
   SporeCells unmovable, moving;
+  /* Spheres outside their body's region, the part of space that it shares with bodies it pairs with, need no cell.
+   * Regions are looked for only where there are so few bodies that trying every pair of them costs no more than
+   * the spheres do; else NULL. */
+  SporeBounds *bounds, *regions; /* body_count */
   /* Pairs of one body that touch at rest: for sphere a, those b > a, ascending. NULL: no body collides with itself. */
   uint32_t *excluded_start; /* count + 1 */
   uint32_t *excluded;
@@ -62,18 +66,6 @@ static inline bool balls_touch(const double *a, const double *b) {
   return x * x + y * y + z * z < reach * reach;
 }
 
-static inline bool ball_touches_bounds(const double *ball, const SporeCell *cell) {
-  for (int k = 0; k < 3; k++)
-    if (ball[k] + ball[3] < cell->lower[k] || ball[k] - ball[3] > cell->upper[k]) return false;
-  return true;
-}
-
-static bool bounds_touch(const SporeCell *a, const SporeCell *b) {
-  for (int k = 0; k < 3; k++)
-    if (a->upper[k] < b->lower[k] || a->lower[k] > b->upper[k]) return false;
-  return true;
-}
-
 /* Whether the pair filter lets through any pair of the two cells, as far as their bodies tell. */
 static bool cells_pair(const SporeGrid *grid, const SporeCell *a, const SporeCell *b) {
   return a->body == SPORE_CELL_MIXED || b->body == SPORE_CELL_MIXED || bodies_pair(grid, a->body, b->body);
@@ -81,11 +73,11 @@ static bool cells_pair(const SporeGrid *grid, const SporeCell *a, const SporeCel
 
 /* Pairs of a moving cell with another cell of `others`. */
 static void pair_cells(SporeGrid *grid, const SporeCell *cell, const SporeCells *others, const SporeCell *other) {
-  if (!cells_pair(grid, cell, other) || !bounds_touch(cell, other)) return;
+  if (!cells_pair(grid, cell, other) || !spore_bounds_touch(&cell->bounds, &other->bounds)) return;
   const SporeCells *moving = &grid->moving;
   for (uint32_t i = cell->first; i < cell->first + cell->count; i++) {
     const double *ball = moving->middle + 4 * (size_t)i;
-    if (!ball_touches_bounds(ball, other)) continue;
+    if (!spore_bounds_touch_ball(&other->bounds, ball)) continue;
     for (uint32_t j = other->first; j < other->first + other->count; j++)
       if (balls_touch(ball, others->middle + 4 * (size_t)j))
         add_pair(grid, moving->body[i], moving->sphere[i], others->body[j], others->sphere[j]);
@@ -126,8 +118,8 @@ static CellRange range_of(const SporeGrid *grid, const SporeCell *cell, double r
   double margin = reach + SLACK * grid->scale.width[class], inverse = grid->scale.inverse[class];
   CellRange range = {.count = 1};
   for (int k = 0; k < 3; k++) {
-    range.lower[k] = spore_cell_index(cell->lower[k] - margin - origin[k], inverse);
-    range.upper[k] = spore_cell_index(cell->upper[k] + margin - origin[k], inverse);
+    range.lower[k] = spore_cell_index(cell->bounds.lower[k] - margin - origin[k], inverse);
+    range.upper[k] = spore_cell_index(cell->bounds.upper[k] + margin - origin[k], inverse);
     range.count *= (double)range.upper[k] - range.lower[k] + 1;
   }
   return range;
@@ -172,6 +164,36 @@ static void find_pairs(SporeGrid *grid) {
   }
 }
 
+/* Regions. */
+
+static void add_balls_to_bounds(SporeBounds *bounds, const SporeSpheres *spheres, size_t first, size_t count,
+                                const double *balls) {
+  for (size_t i = 0; i < count; i++)
+    if (balls[4 * i + 3] >= 0) spore_bounds_add_ball(&bounds[spheres->body[first + i]], balls + 4 * i);
+}
+
+static void find_regions(SporeGrid *grid, const SporeSpheres *spheres) {
+  size_t moving = grid->count - grid->static_count;
+  const uint32_t *bodies = spheres->body + grid->static_count;
+  for (size_t i = 0; i < moving; i++) grid->bounds[bodies[i]] = SPORE_BOUNDS_EMPTY;
+  add_balls_to_bounds(grid->bounds, spheres, grid->static_count, moving, grid->moving.unsorted);
+  for (uint32_t i = 0; i < grid->body_count; i++)
+    grid->regions[i] = grid->bodies[i] & BODY_SELF ? grid->bounds[i] : SPORE_BOUNDS_EMPTY;
+  for (uint32_t i = 0; i < grid->body_count; i++)
+    for (uint32_t j = i + 1; j < grid->body_count; j++)
+      if (bodies_pair(grid, i, j) && spore_bounds_touch(&grid->bounds[i], &grid->bounds[j])) {
+        spore_bounds_add_common(&grid->regions[i], &grid->bounds[i], &grid->bounds[j]);
+        spore_bounds_add_common(&grid->regions[j], &grid->bounds[i], &grid->bounds[j]);
+      }
+}
+
+static void place_moving(SporeGrid *grid, const SporeSpheres *spheres, double dt_s) {
+  size_t count = grid->count - grid->static_count;
+  spore_cells_find_balls(spheres, grid->static_count, count, dt_s, grid->moving.unsorted);
+  if (grid->regions) find_regions(grid, spheres);
+  spore_cells_fill(&grid->moving, &grid->scale, spheres, grid->static_count, count, grid->regions);
+}
+
 /* Sorting by (a, b): two stable counting sorts, b first. */
 
 static inline uint32_t key_of(const Pair *pair, bool by_a) { return by_a ? pair->a : pair->b; }
@@ -189,7 +211,7 @@ static void sort_pairs(SporeGrid *grid) {
 }
 
 size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
-  spore_cells_fill(&grid->moving, &grid->scale, spheres, grid->static_count, grid->count - grid->static_count, dt_s);
+  place_moving(grid, spheres, dt_s);
   find_pairs(grid);
   sort_pairs(grid);
   size_t contact_count = 0;
@@ -259,6 +281,21 @@ static SporeCellScale scale_of(const SporeSpheres *spheres) {
   return spore_cell_scale(middle_of(spheres, first), smallest, fmax(usual_radius(spheres, first), smallest));
 }
 
+static bool create_regions(SporeGrid *grid) {
+  if (grid->body_count > 4 * grid->count / (grid->body_count + 1)) return true;
+  grid->bounds = SPORE_NEW_ARRAY(SporeBounds, grid->body_count);
+  grid->regions = SPORE_NEW_ARRAY(SporeBounds, grid->body_count);
+  for (size_t i = 0; grid->bounds && i < grid->body_count; i++) grid->bounds[i] = SPORE_BOUNDS_EMPTY;
+  return grid->bounds && grid->regions;
+}
+
+static void place_unmovable(SporeGrid *grid, const SporeSpheres *spheres) {
+  double *balls = grid->unmovable.unsorted;
+  spore_cells_find_balls(spheres, 0, grid->static_count, 0, balls);
+  if (grid->bounds) add_balls_to_bounds(grid->bounds, spheres, 0, grid->static_count, balls);
+  spore_cells_fill(&grid->unmovable, &grid->scale, spheres, 0, grid->static_count, NULL);
+}
+
 /* A grid without exclusions. */
 static SporeGrid *create_plain(const SporeSpheres *spheres, const unsigned char *bodies, size_t body_count,
                                size_t contact_capacity) {
@@ -272,13 +309,13 @@ static SporeGrid *create_plain(const SporeSpheres *spheres, const unsigned char 
   grid->bucket = SPORE_NEW_ARRAY(uint32_t, spheres->count + 1);
   bool complete = grid->bodies && grid->bucket && spore_cells_create(&grid->unmovable, grid->static_count) &&
                   spore_cells_create(&grid->moving, grid->count - grid->static_count) &&
-                  spore_grid_reserve(grid, contact_capacity);
+                  spore_grid_reserve(grid, contact_capacity) && create_regions(grid);
   if (!complete) {
     spore_grid_free(grid);
     return NULL;
   }
   memcpy(grid->bodies, bodies, body_count);
-  spore_cells_fill(&grid->unmovable, &grid->scale, spheres, 0, grid->static_count, 0);
+  place_unmovable(grid, spheres);
   return grid;
 }
 
@@ -306,7 +343,7 @@ static bool build_exclusions(SporeGrid *grid, const SporeSpheres *rest, double *
   for (size_t i = 0; i < grid->body_count; i++) selves[i] = grid->bodies[i] & BODY_SELF;
   SporeGrid *finder = create_plain(&spheres, selves, grid->body_count, 0);
   if (!finder) return false;
-  spore_cells_fill(&finder->moving, &finder->scale, &spheres, rest->static_count, rest->count - rest->static_count, 0);
+  place_moving(finder, &spheres, 0);
   find_pairs(finder);
   bool complete = finder->missed == 0 || spore_grid_reserve(finder, finder->capacity + finder->missed);
   if (complete) {
@@ -352,6 +389,8 @@ void spore_grid_free(SporeGrid *grid) {
   spore_cells_clear(&grid->unmovable);
   spore_cells_clear(&grid->moving);
   spore_free(grid->bodies);
+  spore_free(grid->bounds);
+  spore_free(grid->regions);
   spore_free(grid->excluded_start);
   spore_free(grid->excluded);
   spore_free(grid->contacts);

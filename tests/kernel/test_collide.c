@@ -155,6 +155,24 @@ static void test_random(void) {
   check_random(400, 100, 1e5, 1e-3, 1e4, here);
 }
 
+/* Bodies side by side: most spheres are out of reach of any other body and take no part. */
+static void test_apart(void) {
+  for (int round = 0; round < 4; round++) {
+    Scene scene;
+    scene_random(&scene, 900, 200, 1, 0.01, 0.1, (SporeVec3){0, 0, 0});
+    scene.bodies[3].self = round % 2;
+    for (size_t i = 0; i < 900; i++) {
+      scene.spheres.centre[3 * i + (size_t)round % 3] += 0.9 * scene.spheres.body[i];
+      scene.spheres.velocity[3 * i] = i < 200 ? 0 : uniform(-4, 4);
+    }
+    SporeGrid *grid = create(&scene);
+    scene.bodies[3].self = false; /* all that touch at rest are excluded, so brute force need not know them */
+    g_assert_cmpuint(check_against_brute_force(&scene, grid, 1e-3), >, 0);
+    spore_grid_free(grid);
+    scene_clear(&scene);
+  }
+}
+
 /* Small unmovable spheres under one that is a thousand times larger, and the other way round. */
 static void test_extreme_ratio(void) {
   for (int large_is_static = 0; large_is_static < 2; large_is_static++) {
@@ -407,6 +425,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   random_source = g_rand_new_with_seed(11);
   g_test_add_func("/collide/random", test_random);
+  g_test_add_func("/collide/apart", test_apart);
   g_test_add_func("/collide/extreme-ratio", test_extreme_ratio);
   g_test_add_func("/collide/moving", test_moving);
   g_test_add_func("/collide/fast-tool", test_fast_tool);
