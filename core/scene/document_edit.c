@@ -21,6 +21,18 @@ static SporeObject *sibling_of_name(const SporeObject *parent, const SporeObject
   return NULL;
 }
 
+/* A command is a step of its own, or part of the group that is open: not a group in it, so that its edits merge with
+ * those before. */
+static gboolean open_step(SporeDocument *document, const char *label) {
+  if (document->marks->len > 0) return FALSE;
+  spore_document_begin(document, label);
+  return TRUE;
+}
+
+static void close_step(SporeDocument *document, gboolean opened) {
+  if (opened) spore_document_end(document);
+}
+
 /* Properties. */
 
 /* Where a property that was not set goes in the author's order: behind those that the table has before it. */
@@ -62,9 +74,9 @@ static gboolean set_value(SporeObject *object, guint property, const SporeValue 
   if (!copy_value(object, value, &copy, error)) return FALSE;
   const char *name = object->type->table->parameters[property].name;
   g_autofree char *label = g_strdup_printf(_("Change %s"), name);
-  spore_document_begin(object->document, label);
+  gboolean opened = open_step(object->document, label);
   edit_property(object, property, &copy);
-  spore_document_end(object->document);
+  close_step(object->document, opened);
   return TRUE;
 }
 
@@ -125,9 +137,9 @@ gboolean spore_document_unset(SporeDocument *document, SporeObject *object, guin
     return refuse(object, &fault, error);
   }
   g_autofree char *label = g_strdup_printf(_("Reset %s"), parameter->name);
-  spore_document_begin(document, label);
+  gboolean opened = open_step(document, label);
   edit_property(object, property, NULL);
-  spore_document_end(document);
+  close_step(document, opened);
   return TRUE;
 }
 
@@ -168,10 +180,10 @@ gboolean spore_document_rename(SporeDocument *document, SporeObject *object, con
   }
   if (!copy_value(object, &wanted, &copy, error)) return FALSE;
   g_autofree char *old = g_strdup(spore_object_name(object));
-  spore_document_begin(document, _("Rename"));
+  gboolean opened = open_step(document, _("Rename"));
   edit_property(object, (guint)property, &copy);
   follow_references(document->root, object, old, &object->slots[property].value);
-  spore_document_end(document);
+  close_step(document, opened);
   return TRUE;
 }
 
@@ -243,14 +255,14 @@ SporeObject *spore_document_insert(SporeDocument *document, SporeObject *parent,
     return NULL;
   }
   g_autofree char *label = g_strdup_printf(_("Add %s"), _(type->label));
-  spore_document_begin(document, label);
+  gboolean opened = open_step(document, label);
   SporeEdit edit = {.kind = SPORE_EDIT_PLACE,
                     .object = object,
                     .created = TRUE,
                     .parent = parent,
                     .index = spore_object_place_for(parent, type, index)};
   spore_document_edit(document, &edit);
-  spore_document_end(document);
+  close_step(document, opened);
   return object;
 }
 
@@ -266,10 +278,10 @@ static gboolean check_movable(const SporeObject *object, GError **error) {
 gboolean spore_document_remove(SporeDocument *document, SporeObject *object, GError **error) {
   if (!check_movable(object, error)) return FALSE;
   g_autofree char *label = g_strdup_printf(_("Remove %s"), _(object->type->label));
-  spore_document_begin(document, label);
+  gboolean opened = open_step(document, label);
   SporeEdit edit = {.kind = SPORE_EDIT_PLACE, .object = object};
   spore_document_edit(document, &edit);
-  spore_document_end(document);
+  close_step(document, opened);
   return TRUE;
 }
 
@@ -285,9 +297,9 @@ gboolean spore_document_move(SporeDocument *document, SporeObject *object, Spore
     if (to == from) return TRUE;
   }
   g_autofree char *label = g_strdup_printf(_("Move %s"), _(object->type->label));
-  spore_document_begin(document, label);
+  gboolean opened = open_step(document, label);
   SporeEdit edit = {.kind = SPORE_EDIT_PLACE, .object = object, .parent = parent, .index = to};
   spore_document_edit(document, &edit);
-  spore_document_end(document);
+  close_step(document, opened);
   return TRUE;
 }

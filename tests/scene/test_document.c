@@ -1,6 +1,7 @@
 /* The document's commands: what they refuse, what they change, and that every change can be taken back. */
 #include <string.h>
 
+#include "core/scene/document_private.h"
 #include "fixture.h"
 
 static SporeObject *insert(SporeDocument *document, const char *parent, const char *element, const char *name) {
@@ -210,6 +211,8 @@ static void test_groups_merge(void) {
   g_assert_false(spore_document_can_undo(document)); /* not inside a group */
   g_assert_true(spore_document_is_modified(document));
   spore_document_end(document);
+  const SporeUndoStep *step = g_ptr_array_index(document->undo, document->undo->len - 1);
+  g_assert_cmpuint(step->edits->len, ==, 1); /* a hundred moves of the mouse */
   g_assert_cmpstr(spore_document_undo_label(document), ==, "Drag");
   spore_document_undo(document);
   g_assert_false(spore_object_is_set(body, 2));
