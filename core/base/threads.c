@@ -4,7 +4,6 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
-#include <unistd.h>
 
 #include "core/base/memory.h"
 
@@ -52,7 +51,7 @@ struct SporePool {
   _Atomic bool stop;
   Semaphore wake;
 
-  int thread_count, spins;
+  int thread_count;
   pthread_t *workers; /* thread_count - 1 */
 };
 
@@ -103,8 +102,7 @@ static void *worker_main(void *argument) {
   SporePool *pool = argument;
   uint32_t seen = 0;
   while (!atomic_load(&pool->stop)) {
-    int spins = pool->spins;
-    while (spins-- > 0 && !is_called(pool, seen)) relax();
+    for (int spins = SPINS; spins > 0 && !is_called(pool, seen); spins--) relax();
     if (!is_called(pool, seen)) sleep_until_called(pool, seen);
     seen = (uint32_t)(atomic_load(&pool->ticket) >> 32);
     help(pool);
@@ -120,7 +118,7 @@ static void wake_workers(SporePool *pool, size_t wanted) {
 }
 
 static void wait_until_done(SporePool *pool, size_t count) {
-  for (int spins = pool->spins; spins > 0; spins--) {
+  for (int spins = SPINS; spins > 0; spins--) {
     if (atomic_load(&pool->done) == count) return;
     relax();
   }
@@ -159,7 +157,6 @@ SporePool *spore_pool_create(int threads) {
   SporePool *pool = SPORE_NEW(SporePool);
   if (!pool) return NULL;
   pool->thread_count = 1;
-  pool->spins = sysconf(_SC_NPROCESSORS_ONLN) > 1 ? SPINS : 0;
   pool->workers = SPORE_NEW_ARRAY(pthread_t, threads > 1 ? (size_t)threads - 1 : 0);
   if (!pool->workers || !semaphore_init(&pool->finished)) {
     spore_free(pool->workers);
