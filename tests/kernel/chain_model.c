@@ -102,13 +102,15 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
   const Chain *chain = (const Chain *)model;
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, count);
   double *weights = SPORE_NEW_ARRAY(double, count);
-  for (size_t i = 0; i < count; i++) {
+  bool good = blocks && weights;
+  for (size_t i = 0; good && i < count; i++) {
     long nearest = lround(points[3 * i] / chain->fields.spacing);
     long last = (long)model->block_count - 1;
     blocks[i] = (uint32_t)(nearest < 0 ? 0 : nearest > last ? last : nearest);
     weights[i] = 1;
   }
-  bool good = spore_mapping_init_linear(mapping, count, 1, blocks, weights, error);
+  good = good ? spore_mapping_init_linear(mapping, count, 1, blocks, weights, error)
+              : spore_error_set(error, SPORE_ERROR_MEMORY, NULL, "no memory");
   spore_free(blocks);
   spore_free(weights);
   return good;

@@ -47,8 +47,8 @@ static SporeWorld *pile(SporeIntegratorKind integrator, SporePool *pool) {
   static const char *const names[PILE] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"};
   for (int i = 0; i < PILE; i++) {
     bodies[i] =
-        passive_body(names[i], chain(8, HUGE_VAL), (SporeVec3){2.5 * (i % 3), 0.15 + 0.3 * (i / 6), 2.0 * (i % 2)});
-    bodies[i].pose.orientation = spore_quat_from_rotation_vector((SporeVec3){0, 0.3 * i, 0.1});
+        passive_body(names[i], chain(8, HUGE_VAL), (SporeVec3){2.5 * (i % 3), 0.15 + 0.25 * (i / 6), 2.0 * (i % 2)});
+    bodies[i].pose.orientation = spore_quat_from_rotation_vector((SporeVec3){0, 0.3 * (i % 6), 0.1});
     bodies[i].spheres = &chain_set;
   }
   bodies[PILE] = (SporeBodyDescription){.name = "floor",
@@ -68,7 +68,7 @@ static void test_threads(gconstpointer data) {
     SporePool *pool = spore_pool_create(threads);
     SporeWorld *world = pile(GPOINTER_TO_INT(data), pool);
     run(world, 300);
-    g_assert_cmpuint(spore_world_counts(world).contacts, >, 50);
+    g_assert_cmpuint(spore_world_counts(world).contacts, >, 10);
     g_assert_cmpuint(spore_world_counts(world).islands, >, 1);
     g_assert_cmpuint(spore_world_counts(world).islands, <, PILE);
     if (threads == 1) expected = spore_world_hash(world);
@@ -208,8 +208,10 @@ static void test_freeze(gconstpointer data) {
   const SporeMonitor *monitor = spore_world_monitor(world);
   g_assert_cmpuint(monitor->recoveries, >=, 1);
   g_assert_cmpuint(monitor->message_count, >=, 1);
-  g_assert_nonnull(strstr(monitor->messages[0].text, "sick"));
-  g_assert_nonnull(strstr(monitor->messages[0].text, "not finite"));
+  const char *last = monitor->messages[monitor->message_count - 1].text;
+  g_assert_nonnull(strstr(last, "sick"));
+  g_assert_nonnull(strstr(last, "frozen"));
+  g_assert_nonnull(strstr(last, "not finite"));
   SporeCommand thaw = {.kind = SPORE_COMMAND_THAW, .body = 0};
   g_assert_true(spore_world_post(world, &thaw));
   spore_world_step(world);

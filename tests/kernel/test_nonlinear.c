@@ -1,0 +1,200 @@
+/* Newton and Broyden on systems whose answers are known. */
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/nonlinear/system.h"
+
+#define N 30
+
+/* r_i = b_i - (x_i + strength x_i^3) - coupling of neighbours: the gradient of a convex function, negated. */
+typedef struct Cubic {
+  double b[N], strength, coupling;
+  double diagonal[N]; /* of A, at the last linearisation */
+  bool may_reuse;
+  double stale_factor; /* how wrong the linearisation that may be used again is */
+  int linearisations, evaluations;
+} Cubic;
+
+static void residual(void *data, const double *x, double *r) {
+  Cubic *cubic = data;
+  cubic->evaluations++;
+  for (int i = 0; i < N; i++) {
+    double sides = 2 * x[i] - (i > 0 ? x[i - 1] : 0) - (i < N - 1 ? x[i + 1] : 0);
+    r[i] = cubic->b[i] - x[i] - cubic->strength * x[i] * x[i] * x[i] - cubic->coupling * sides;
+  }
+}
+
+static void fill(Cubic *cubic, const double *x, double factor) {
+  for (int i = 0; i < N; i++)
+    cubic->diagonal[i] = factor * (1 + 3 * cubic->strength * x[i] * x[i] + 2 * cubic->coupling);
+}
+
+static void linearise(void *data, const double *x) {
+  Cubic *cubic = data;
+  cubic->linearisations++;
+  fill(cubic, x, 1);
+}
+
+static bool reuse(void *data, const double *x) {
+  Cubic *cubic = data;
+  if (cubic->may_reuse) fill(cubic, x, cubic->stale_factor);
+  return cubic->may_reuse;
+}
+
+static void multiply(void *data, const double *x, double *y) {
+  Cubic *cubic = data;
+  for (int i = 0; i < N; i++)
+    y[i] = cubic->diagonal[i] * x[i] - cubic->coupling * ((i > 0 ? x[i - 1] : 0) + (i < N - 1 ? x[i + 1] : 0));
+}
+
+static void precondition(void *data, const double *r, double *z) {
+  Cubic *cubic = data;
+  for (int i = 0; i < N; i++) z[i] = r[i] / cubic->diagonal[i];
+}
+
+static SporeLinearResult solve(void *data, const double *r, double tolerance, double *dx) {
+  double scratch[SPORE_PCG_SCRATCH * N];
+  SporeLinearOperator operator= {data, N, multiply, precondition};
+  return spore_pcg(&operator, r, tolerance, 500, dx, scratch);
+}
+
+static double dot(void *data, const double *a, const double *b) {
+  double sum = 0;
+  for (int i = 0; i < N; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+static double norm(void *data, const double *r) { return sqrt(dot(data, r, r)); }
+static double rounding(void *data, const double *x) { return 1e-15; }
+
+static SporeSystem make(Cubic *cubic) {
+  for (int i = 0; i < N; i++) cubic->b[i] = 3 * sin(i * 0.7) + 1;
+  return (SporeSystem){.data = cubic,
+                       .count = N,
+                       .residual = residual,
+                       .linearise = linearise,
+                       .reuse = reuse,
+                       .solve = solve,
+                       .dot = dot,
+                       .norm = norm,
+                       .rounding = rounding};
+}
+
+static void test_newton(void) {
+  Cubic cubic = {.strength = 5, .coupling = 2};
+  SporeSystem system = make(&cubic);
+  SporeNonlinearOptions options = {50, 1e-10};
+  double x[N] = {0}, r[N], scratch[SPORE_NEWTON_SCRATCH * N];
+  SporeNonlinearResult result = spore_newton(&system, &options, x, scratch);
+  g_assert_true(result.converged);
+  g_assert_true(result.finite);
+  g_assert_false(result.indefinite);
+  g_assert_cmpuint(result.iterations, <, 12);
+  g_assert_cmpint((int)result.evaluations, ==, cubic.evaluations);
+  g_assert_cmpint((int)result.linearisations, ==, cubic.linearisations);
+  residual(&cubic, x, r);
+  g_assert_cmpfloat(norm(NULL, r), <, 1e-9 * norm(NULL, cubic.b));
+}
+
+/* From far away full steps overshoot: the line search brings it home. */
+static void test_line_search(void) {
+  Cubic cubic = {.strength = 100, .coupling = 0.1};
+  SporeSystem system = make(&cubic);
+  SporeNonlinearOptions options = {100, 1e-10};
+  double x[N], scratch[SPORE_NEWTON_SCRATCH * N];
+  for (int i = 0; i < N; i++) x[i] = i % 2 ? 1e4 : -1e4;
+  SporeNonlinearResult result = spore_newton(&system, &options, x, scratch);
+  g_assert_true(result.converged);
+}
+
+static void solve_by_broyden(Cubic *cubic, double *x, SporeNonlinearResult *result) {
+  SporeSystem system = make(cubic);
+  SporeNonlinearOptions options = {60, 1e-10};
+  static double scratch[SPORE_BROYDEN_SCRATCH * N];
+  memset(x, 0, N * sizeof *x);
+  *result = spore_broyden(&system, &options, x, scratch);
+}
+
+static void test_broyden(void) {
+  Cubic newton_cubic = {.strength = 5, .coupling = 2}, cubic = newton_cubic;
+  SporeSystem system = make(&newton_cubic);
+  SporeNonlinearOptions options = {50, 1e-10};
+  double exact[N] = {0}, x[N], scratch[SPORE_NEWTON_SCRATCH * N];
+  SporeNonlinearResult newton = spore_newton(&system, &options, exact, scratch), result;
+  g_assert_true(newton.converged);
+  solve_by_broyden(&cubic, x, &result);
+  g_assert_true(result.converged);
+  for (int i = 0; i < N; i++) g_assert_cmpfloat_with_epsilon(x[i], exact[i], 1e-8);
+}
+
+/* A linearisation that is twice too stiff: its updates make up for it, without a new one. */
+static void test_broyden_stale(void) {
+  Cubic cubic = {.strength = 0.05, .coupling = 0.05, .may_reuse = true, .stale_factor = 1.6};
+  double x[N], r[N];
+  SporeNonlinearResult result;
+  solve_by_broyden(&cubic, x, &result);
+  g_assert_true(result.converged);
+  residual(&cubic, x, r);
+  g_assert_cmpfloat(norm(NULL, r), <, 1e-9 * norm(NULL, cubic.b));
+  g_assert_cmpint(cubic.linearisations, <=, 1);
+  /* Without updates each iteration would leave 0.6 / 1.6 of the error: 24 iterations to 1e-10. */
+  g_assert_cmpuint(result.iterations, <, 15);
+}
+
+/* Far too soft a one does not contract: it is renewed. */
+static void test_broyden_renews(void) {
+  Cubic cubic = {.strength = 5, .coupling = 2, .may_reuse = true, .stale_factor = 40};
+  double x[N];
+  SporeNonlinearResult result;
+  solve_by_broyden(&cubic, x, &result);
+  g_assert_true(result.converged);
+  g_assert_cmpint(cubic.linearisations, >=, 1);
+}
+
+static void test_bad(void) {
+  Cubic cubic = {.strength = 5, .coupling = 2};
+  SporeSystem system = make(&cubic);
+  SporeNonlinearOptions options = {50, 1e-10};
+  double x[N] = {0}, scratch[SPORE_BROYDEN_SCRATCH * N];
+  cubic.b[3] = NAN;
+  SporeNonlinearResult result = spore_newton(&system, &options, x, scratch);
+  g_assert_false(result.converged);
+  g_assert_false(result.finite);
+  result = spore_broyden(&system, &options, x, scratch);
+  g_assert_false(result.converged);
+  g_assert_false(result.finite);
+  system = make(&cubic);
+  options.iterations = 1;
+  memset(x, 0, sizeof x);
+  result = spore_newton(&system, &options, x, scratch);
+  g_assert_false(result.converged);
+  g_assert_true(result.finite);
+  g_assert_cmpfloat(result.residual, >, 1e-10);
+  for (int i = 0; i < N; i++) g_assert_true(isfinite(x[i]));
+}
+
+/* The guess is the answer: nothing to do. */
+static void test_solved_already(void) {
+  Cubic cubic = {.strength = 5, .coupling = 2};
+  SporeSystem system = make(&cubic);
+  memset(cubic.b, 0, sizeof cubic.b);
+  SporeNonlinearOptions options = {50, 1e-10};
+  double x[N] = {0}, scratch[SPORE_NEWTON_SCRATCH * N];
+  SporeNonlinearResult result = spore_newton(&system, &options, x, scratch);
+  g_assert_true(result.converged);
+  g_assert_cmpuint(result.iterations, ==, 0);
+  g_assert_cmpfloat(result.residual, ==, 0);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/nonlinear/newton", test_newton);
+  g_test_add_func("/nonlinear/line-search", test_line_search);
+  g_test_add_func("/nonlinear/broyden", test_broyden);
+  g_test_add_func("/nonlinear/broyden-stale", test_broyden_stale);
+  g_test_add_func("/nonlinear/broyden-renews", test_broyden_renews);
+  g_test_add_func("/nonlinear/bad", test_bad);
+  g_test_add_func("/nonlinear/solved-already", test_solved_already);
+  return g_test_run();
+}

@@ -1,0 +1,129 @@
+/* The island's matrix, put together from models and terms without ever being formed, against a dense one by finite
+ * differences of its forces. */
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/sim/world_private.h"
+#include "tests/kernel/chain_model.h"
+
+#define PARTICLES 4
+#define N (2 * 3 * PARTICLES)
+
+static double sphere_a[4 * PARTICLES], sphere_b[4 * PARTICLES];
+
+/* Two chains in contact along their length, tied by a spring, one of them pinned at an end. */
+static SporeWorld *make(void) {
+  static SporeSphereSet sets[2] = {{PARTICLES, sphere_a}, {PARTICLES, sphere_b}};
+  SporeBodyDescription bodies[2];
+  for (int i = 0; i < PARTICLES; i++) {
+    double sphere[4] = {i, 0, 0, 0.3};
+    memcpy(sphere_a + 4 * i, sphere, sizeof sphere);
+    memcpy(sphere_b + 4 * i, sphere, sizeof sphere);
+  }
+  for (int b = 0; b < 2; b++) {
+    SporeModel *model = chain_create((ChainFields){
+        .count = PARTICLES, .mass = 0.5 + b, .spacing = 1, .stiffness = 80, .damping = 0.7, .poison_at = HUGE_VAL});
+    bodies[b] = passive_body(b ? "b" : "a", model, (SporeVec3){0.1 * b, 0.5 * b, 0.02 * b});
+    /* Together: how a damper's direction turns with its ends is left out of A too. */
+    bodies[b].velocity = (SporeVec3){0.2, -0.4, 0};
+    bodies[b].spheres = &sets[b];
+    bodies[b].contact.friction = 0; /* its change with the normal force is left out of A, which is to stay symmetric */
+  }
+  static const SporeLinkDescription links[2] = {
+      {.name = "s",
+       .kind = SPORE_LINK_SPRING,
+       .body_a = 0,
+       .body_b = 1,
+       .point_a = {1, 0, 0},
+       .point_b = {3, 0.5, 0},
+       .stiffness = 30,
+       .damping = 2,
+       .rest_length = 1.5},
+      {.name = "p", .kind = SPORE_LINK_PIN, .body_a = 0, .point_a = {3, 0, 0}, .radius = 0.1}};
+  SporeWorldDescription description = world_description(bodies, 2);
+  description.links = links;
+  description.link_count = 2;
+  SporeWorld *world = spore_world_create(&description, NULL, NULL);
+  g_assert_nonnull(world);
+  /* The phases up to grouping, by hand. */
+  spore_world_map_spheres(world);
+  spore_world_detect(world);
+  spore_world_respond(world);
+  spore_world_link(world);
+  spore_world_group(world);
+  g_assert_cmpuint(world->island_count, ==, 1);
+  g_assert_cmpuint(world->contact_count, >=, PARTICLES);
+  spore_island_gather(world, &world->islands[0]);
+  return world;
+}
+
+/* -df/dx of all forces along x by central differences; x is q or v. */
+static void column(const SporeDynamics *dynamics, double *q, double *v, double *x, int j, double *out) {
+  double plus[N], minus[N], keep = x[j], step = 1e-6;
+  x[j] = keep + step;
+  dynamics->force(dynamics->data, q, v, plus);
+  x[j] = keep - step;
+  dynamics->force(dynamics->data, q, v, minus);
+  x[j] = keep;
+  for (int i = 0; i < N; i++) out[i] = (minus[i] - plus[i]) / (2 * step);
+}
+
+static void test_dense(void) {
+  SporeWorld *world = make();
+  SporeIsland *island = &world->islands[0];
+  SporeGroup group = {world, island};
+  SporeDynamics dynamics = spore_group_dynamics(&group);
+  g_assert_cmpuint(3 * dynamics.block_count, ==, N);
+  double *q = world->local_q0, *v = world->local_v0;
+  const double c = 0.03, c2 = 0.002;
+  dynamics.linearise(dynamics.data, q, v, c, c2);
+  double worst = 0, largest = 0, asymmetry = 0, dense[N][N];
+  for (int j = 0; j < N; j++) {
+    double unit[N] = {0}, product[N], mass[N], stiffness[N], damping[N];
+    unit[j] = 1;
+    dynamics.multiply(dynamics.data, unit, product);
+    dynamics.mass_multiply(dynamics.data, unit, mass);
+    column(&dynamics, q, v, q, j, stiffness);
+    column(&dynamics, q, v, v, j, damping);
+    for (int i = 0; i < N; i++) {
+      dense[i][j] = product[i];
+      bool held_i = i >= 9 && i < 12, held_j = j >= 9 && j < 12;
+      double expected = held_i ? 0 : mass[i] + c * damping[i] + c2 * stiffness[i];
+      if (held_j) continue; /* held blocks never move, so their columns do not matter */
+      worst = fmax(worst, fabs(product[i] - expected));
+      largest = fmax(largest, fabs(expected));
+    }
+  }
+  for (int i = 0; i < N; i++)
+    for (int j = 0; j < N; j++)
+      if (!((i >= 9 && i < 12) || (j >= 9 && j < 12))) asymmetry = fmax(asymmetry, fabs(dense[i][j] - dense[j][i]));
+  g_assert_cmpfloat(asymmetry, <, 1e-12 * largest);
+  g_assert_cmpfloat(worst, <, 1e-5 * largest);
+  spore_world_free(world);
+}
+
+/* P^-1 undoes the diagonal blocks of A. */
+static void test_preconditioner(void) {
+  SporeWorld *world = make();
+  SporeGroup group = {world, &world->islands[0]};
+  SporeDynamics dynamics = spore_group_dynamics(&group);
+  dynamics.linearise(dynamics.data, world->local_q0, world->local_v0, 0.03, 0.002);
+  for (int j = 0; j < N; j++) {
+    if (j >= 9 && j < 12) continue;
+    double unit[N] = {0}, product[N], block[N] = {0}, back[N];
+    unit[j] = 1;
+    dynamics.multiply(dynamics.data, unit, product);
+    for (int k = 0; k < 3; k++) block[3 * (j / 3) + k] = product[3 * (j / 3) + k];
+    dynamics.precondition(dynamics.data, block, back);
+    for (int i = 0; i < N; i++) g_assert_cmpfloat_with_epsilon(back[i], unit[i], 1e-12);
+  }
+  spore_world_free(world);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/sim/operator/dense", test_dense);
+  g_test_add_func("/sim/operator/preconditioner", test_preconditioner);
+  return g_test_run();
+}
