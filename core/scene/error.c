@@ -4,6 +4,15 @@
 
 G_DEFINE_QUARK(spore - error - quark, spore_error)
 
+/* A message may quote what a file holds: it stays one line of text all the same. Takes over the message. */
+static char *one_line(char *message) {
+  char *valid = g_utf8_make_valid(message, -1);
+  g_free(message);
+  for (char *c = valid; *c; c++)
+    if ((unsigned char)*c < ' ' || *c == 127) *c = ' ';
+  return valid;
+}
+
 gboolean spore_error_propagate(const SporeError *from, GError **error) {
   return spore_error_raise(error, from->code, from->place, "%s", from->message);
 }
@@ -12,7 +21,7 @@ gboolean spore_error_raise(GError **error, SporeErrorCode code, const char *plac
   if (!error) return FALSE;
   va_list arguments;
   va_start(arguments, format);
-  g_autofree char *message = g_strdup_vprintf(format, arguments);
+  g_autofree char *message = one_line(g_strdup_vprintf(format, arguments));
   va_end(arguments);
   if (place && *place) g_set_error(error, SPORE_ERROR, (int)code, "%s: %s", place, message);
   else g_set_error_literal(error, SPORE_ERROR, (int)code, message);
