@@ -33,11 +33,12 @@ static void load_corpus(void) {
 static guint below(GRand *random, guint limit) { return limit ? (guint)g_rand_int_range(random, 0, (gint32)limit) : 0; }
 
 static void insert(GByteArray *input, guint at, const void *bytes, guint size) {
+  if (size == 0) return;
   g_autofree guint8 *copy = g_memdup2(bytes, size);
   guint old = input->len;
   g_byte_array_set_size(input, old + size);
   memmove(input->data + at + size, input->data + at, old - at);
-  if (size) memcpy(input->data + at, copy, size);
+  memcpy(input->data + at, copy, size);
 }
 
 static void mutate(GByteArray *input, GRand *random) {
