@@ -21,7 +21,7 @@ double spore_line_search(const SporeSystem *system, const double *x, const doubl
     *trial_norm = system->norm(system->data, trial_r);
     if (!isfinite(*trial_norm)) continue;
     if (*trial_norm <= (1 - 1e-4 * length) * norm) return length;
-    if (downhill > 0 && fabs(slope(n, trial_r, d)) <= 0.5 * downhill) return length;
+    if (downhill > 0 && slope(n, trial_r, d) >= -0.5 * downhill) return length;
   }
   return 0;
 }

@@ -4,11 +4,13 @@
 #include "core/nonlinear/convergence.h"
 #include "core/nonlinear/line_search.h"
 
+#define LOOSEST 0.03
+
 /* Forcing term: how exactly the linear system needs solving. First roughly, then as the residual falls (Eisenstat and
  * Walker 1996, choice 2), never more exactly than the answer asks for. */
 static double forcing_term(double norm, double previous, double target) {
-  double eta = previous > 0 ? 0.9 * (norm / previous) * (norm / previous) : 1e-2;
-  return fmax(fmin(eta, 1e-2), 0.3 * fmin(target / norm, 1));
+  double eta = previous > 0 ? 0.9 * (norm / previous) * (norm / previous) : LOOSEST;
+  return fmin(fmax(eta, 0.1 * target / norm), LOOSEST);
 }
 
 SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
