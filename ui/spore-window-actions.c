@@ -125,8 +125,8 @@ static void spheres_generated(SporeJob *job, gpointer data, const GError *error,
     return;
   }
   g_action_group_change_action_state(G_ACTION_GROUP(self), "show-spheres", g_variant_new_boolean(TRUE));
-  spore_window_log(self, _("%" G_GSIZE_FORMAT " spheres in %.1f s: coverage %.1f %%, depth error %.1f %%"),
-                   work->spheres.count, work->spheres_report.seconds, 100 * work->spheres_report.coverage,
+  spore_window_log(self, _("%zu spheres in %.1f s: coverage %.1f %%, depth error %.1f %%"), work->spheres.count,
+                   work->spheres_report.seconds, 100 * work->spheres_report.coverage,
                    100 * work->spheres_report.depth_error);
 }
 
@@ -141,7 +141,7 @@ static void tetrahedra_generated(SporeJob *job, gpointer data, const GError *err
     spore_window_failed(self, failure);
     return;
   }
-  spore_window_log(self, _("%" G_GSIZE_FORMAT " tetrahedra in %.1f s (%s): least angle %.1f°, error %.2f %%"),
+  spore_window_log(self, _("%zu tetrahedra in %.1f s (%s): least angle %.1f°, error %.2f %%"),
                    work->tetrahedra.tetrahedron_count, work->tetrahedra_report.seconds,
                    work->tetrahedra_report.method ? work->tetrahedra_report.method : "?",
                    work->tetrahedra_report.quality.min_dihedral_deg, 100 * work->tetrahedra_report.hausdorff);

@@ -126,7 +126,7 @@ static void imported(SporeJob *job, gpointer data, const GError *error, gpointer
     return;
   }
   spore_editor_document_select(self->document, spore_object_id(body));
-  spore_window_log(self, _("Imported %s: %" G_GSIZE_FORMAT " triangles"), work->file, work->mesh.triangle_count);
+  spore_window_log(self, _("Imported %s: %zu triangles"), work->file, work->mesh.triangle_count);
 }
 
 void spore_window_start_import(SporeWindow *self, const char *file, int unit, int frame) {

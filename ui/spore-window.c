@@ -27,7 +27,7 @@ void spore_window_log(SporeWindow *self, const char *format, ...) {
 
 void spore_window_complain(SporeWindow *self, const char *message) {
   gtk_label_set_text(GTK_LABEL(self->message), message);
-  gtk_info_bar_set_revealed(GTK_INFO_BAR(self->message_bar), TRUE);
+  gtk_widget_show(self->message_bar);
   spore_window_log(self, "%s", message);
 }
 
@@ -36,10 +36,10 @@ gboolean spore_window_failed(SporeWindow *self, const GError *error) {
   return error != NULL;
 }
 
-static void message_closed(GtkInfoBar *bar, int response, SporeWindow *self) { gtk_info_bar_set_revealed(bar, FALSE); }
+static void message_closed(GtkInfoBar *bar, int response, SporeWindow *self) { gtk_widget_hide(GTK_WIDGET(bar)); }
 
 static void recovery_answered(GtkInfoBar *bar, int response, SporeWindow *self) {
-  gtk_info_bar_set_revealed(bar, FALSE);
+  gtk_widget_hide(GTK_WIDGET(bar));
   if (response == GTK_RESPONSE_ACCEPT) spore_window_recover(self);
   else if (self->leftover) spore_leftover_remove(self->leftover);
   g_clear_pointer(&self->leftover, spore_leftover_free);
@@ -52,7 +52,7 @@ void spore_window_offer_recovery(SporeWindow *self) {
       self->leftover->original ? g_path_get_basename(self->leftover->original) : g_strdup(_("Untitled"));
   g_autofree char *text = g_strdup_printf(_("SPORE ended unexpectedly. Unsaved work on %s was kept."), name);
   gtk_label_set_text(GTK_LABEL(self->recovery_text), text);
-  gtk_info_bar_set_revealed(GTK_INFO_BAR(self->recovery_bar), TRUE);
+  gtk_widget_show(self->recovery_bar);
 }
 
 static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, SporeWindow *self) {
@@ -76,7 +76,7 @@ static gboolean poll_monitor(gpointer data) {
   for (; self->monitor_seen < count; self->monitor_seen++)
     for (guint i = 0; i < SPORE_MONITOR_MESSAGES; i++)
       if (monitor->messages[i].text[0] && monitor->messages[i].serial == self->monitor_seen + 1)
-        spore_window_log(self, _("Step %" G_GUINT64_FORMAT ": %s"), monitor->messages[i].step,
+        spore_window_log(self, _("Step %llu: %s"), (unsigned long long)monitor->messages[i].step,
                          monitor->messages[i].text);
   return G_SOURCE_CONTINUE;
 }
@@ -220,7 +220,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   spore_outliner_set_document(SPORE_OUTLINER(self->outliner), self->document);
   spore_inspector_set_document(SPORE_INSPECTOR(self->inspector), self->document);
   spore_problems_set_document(SPORE_PROBLEMS(self->problems), self->document);
-  gtk_info_bar_set_revealed(GTK_INFO_BAR(self->message_bar), FALSE);
+  gtk_widget_hide(self->message_bar);
   player_changed(self);
 }
 

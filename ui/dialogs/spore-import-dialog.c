@@ -38,8 +38,8 @@ static void show_size(SporeImportDialog *self) {
   if (!self->known) return;
   size_m(self, size);
   double largest = MAX(size[0], MAX(size[1], size[2]));
-  g_autofree char *text = g_strdup_printf(_("%.4g × %.4g × %.4g mm (wide, high, deep), %" G_GSIZE_FORMAT " triangles"),
-                                          1e3 * size[0], 1e3 * size[1], 1e3 * size[2], self->triangles);
+  g_autofree char *text = g_strdup_printf(_("%.4g × %.4g × %.4g mm (wide, high, deep), %zu triangles"), 1e3 * size[0],
+                                          1e3 * size[1], 1e3 * size[2], self->triangles);
   gtk_label_set_text(GTK_LABEL(self->preview), text);
   gboolean odd = largest < SMALLEST_M || largest > LARGEST_M;
   gtk_label_set_text(GTK_LABEL(self->warning), largest > LARGEST_M

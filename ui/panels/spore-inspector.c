@@ -100,7 +100,7 @@ static void show_mesh_facts(SporeInspector *self, SporeObject *body) {
     return;
   }
   g_autofree char *text =
-      g_strdup_printf(_("%" G_GSIZE_FORMAT " triangles, %.3g × %.3g × %.3g mm, %s"), mesh->triangle_count,
+      g_strdup_printf(_("%zu triangles, %.3g × %.3g × %.3g mm, %s"), mesh->triangle_count,
                       1e3 * (report.upper[0] - report.lower[0]), 1e3 * (report.upper[1] - report.lower[1]),
                       1e3 * (report.upper[2] - report.lower[2]), report.closed ? _("closed") : _("not closed"));
   gtk_label_set_text(GTK_LABEL(self->mesh_facts), text);
@@ -162,7 +162,7 @@ static void show_spheres(SporeInspector *self, SporeObject *body) {
     return;
   }
   GString *text = g_string_new(NULL);
-  g_string_append_printf(text, _("%" G_GSIZE_FORMAT " spheres"), set->count);
+  g_string_append_printf(text, _("%zu spheres"), set->count);
   const SporeSpheresReport *report = report_of(self, body, asset, set);
   if (report && report->coverage > 0)
     g_string_append_printf(text, _("\nCoverage %.1f %%, outside %.1f %%\nDepth error %.1f %%, distance %.2f %%"),
@@ -187,7 +187,7 @@ static void show_tetrahedra(SporeInspector *self, SporeObject *body) {
   SporeTetrahedraQuality quality;
   spore_tetrahedral_mesh_quality(mesh, &quality);
   gboolean stale = is_stale(self, asset);
-  g_autofree char *text = g_strdup_printf(_("%" G_GSIZE_FORMAT " tetrahedra, %.3g ml\nLeast angle %.1f°, mean %.1f°%s"),
+  g_autofree char *text = g_strdup_printf(_("%zu tetrahedra, %.3g ml\nLeast angle %.1f°, mean %.1f°%s"),
                                           mesh->tetrahedron_count, 1e6 * quality.volume, quality.min_dihedral_deg,
                                           quality.mean_dihedral_deg, stale ? _("\nThe mesh has changed since") : "");
   spore_generator_box_set_result(box, text, stale);

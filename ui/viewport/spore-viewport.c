@@ -184,7 +184,7 @@ static void update_hud(SporeViewport *self) {
     g_string_append_printf(text, _("%.2f × real time"), factor);
   }
   g_string_append_c(text, '\n');
-  g_string_append_printf(text, _("Contacts %" G_GSIZE_FORMAT), snapshot->contact_count);
+  g_string_append_printf(text, _("Contacts %zu"), snapshot->contact_count);
   SporeVec3 tip, force;
   if (probe_force(self, &tip, &force)) {
     g_string_append_c(text, '\n');

@@ -1,0 +1,249 @@
+"""An editor under a display, a session bus and an accessibility bus of its own, driven as a user's hands would or by its
+actions over D-Bus (named in ui/spore-window.h)."""
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+APPLICATION, WINDOW = "org.spore.Editor", "/org/spore/Editor/window/1"
+PATIENCE_S = 30
+
+
+def private_environment(folder):
+    """The caller's environment without its desktop: nothing of the user's is read or written."""
+    environment = dict(os.environ)
+    for name in ("NO_AT_BRIDGE", "GTK_MODULES", "WAYLAND_DISPLAY", "AT_SPI_BUS_ADDRESS", "DBUS_SESSION_BUS_ADDRESS", "LANGUAGE",
+                 "GTK_THEME"):
+        environment.pop(name, None)
+    run = folder / "run"
+    run.mkdir(mode=0o700)
+    environment.update(HOME=str(folder), XDG_RUNTIME_DIR=str(run), XDG_STATE_HOME=str(folder / "state"),
+                       XDG_CONFIG_HOME=str(folder / "config"), XDG_CACHE_HOME=str(folder / "cache"),
+                       XDG_DATA_HOME=str(folder / "data"), GDK_BACKEND="x11", LIBGL_ALWAYS_SOFTWARE="1",
+                       GSETTINGS_BACKEND="memory", GTK_USE_PORTAL="0", GIO_USE_VFS="local", LC_ALL="C.UTF-8")
+    return environment
+
+
+def run_privately(script, arguments):
+    """Runs the script again under Xvfb and dbus-run-session; gives its exit status."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="spore-ui-"))
+    environment = private_environment(folder)
+    read, write = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"],
+                              pass_fds=[write], stderr=subprocess.DEVNULL)
+    os.close(write)
+    try:
+        with os.fdopen(read) as pipe:
+            environment["DISPLAY"] = ":" + pipe.readline().strip()
+        environment["SPORE_TEST_FOLDER"] = str(folder)
+        return subprocess.call(["dbus-run-session", "--", sys.executable, script, *arguments], env=environment)
+    finally:
+        server.terminate()
+        server.wait()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def wait(condition, what, seconds=PATIENCE_S):
+    """Waits until condition() is true and gives what it gave; the buses are served meanwhile."""
+    from gi.repository import GLib
+    end = time.monotonic() + seconds
+    while True:
+        answer = condition()
+        if answer:
+            return answer
+        if time.monotonic() > end:
+            raise AssertionError(f"waited {seconds} s in vain for {what}")
+        while GLib.MainContext.default().iteration(False):
+            pass
+        time.sleep(0.05)
+
+
+class Editor:
+    """with Editor(program, ...) as editor: ... """
+
+    def __init__(self, program, *arguments, environment=None):
+        import gi
+        gi.require_version("Atspi", "2.0")
+        from gi.repository import Atspi, Gio
+        self.atspi, self.gio = Atspi, Gio
+        self.bus = Gio.bus_get_sync(Gio.BusType.SESSION, None)
+        self.process = subprocess.Popen([program, *map(str, arguments)], env={**os.environ, **(environment or {})},
+                                        stderr=subprocess.PIPE, text=True, errors="replace")
+
+    def __enter__(self):
+        wait(lambda: self.describe("play") is not None, "the editor's window")
+        self.application = wait(self._find_application, "the editor on the accessibility bus")
+        return self
+
+    def __exit__(self, kind, error, trace):
+        if self.process.poll() is None:
+            self.process.terminate()
+        messages = self.process.communicate(timeout=20)[1]
+        for line in messages.splitlines():
+            if kind or "CRITICAL" in line:
+                print("#", line)
+        if not kind and "CRITICAL" in messages:
+            raise AssertionError("the editor said CRITICAL")
+        wait(lambda: not self._owned(), "the editor to leave the bus")
+
+    def _owned(self):
+        from gi.repository import GLib
+        answer = self.bus.call_sync("org.freedesktop.DBus", "/", "org.freedesktop.DBus", "NameHasOwner",
+                                    GLib.Variant("(s)", (APPLICATION,)), None, 0, -1, None)
+        return answer.unpack()[0]
+
+    def _find_application(self):
+        desktop = self.atspi.get_desktop(0)
+        for i in range(desktop.get_child_count()):
+            child = desktop.get_child_at_index(i)
+            if child and child.get_process_id() == self.process.pid:
+                return child
+        return None
+
+    # Actions.
+
+    def _call(self, method, signature, values):
+        from gi.repository import GLib
+        if self.process.poll() is not None:
+            raise AssertionError(f"the editor ended with {self.process.returncode}")
+        try:
+            return self.bus.call_sync(APPLICATION, WINDOW, "org.gtk.Actions", method, GLib.Variant(signature, values), None,
+                                      0, 20000, None)
+        except GLib.Error as error:
+            if "ServiceUnknown" in str(error) or "UnknownMethod" in str(error) or "UnknownObject" in str(error):
+                return None
+            raise
+
+    def describe(self, action):
+        """(enabled, parameter type, [state]) or None: no such action, or no window."""
+        try:
+            answer = self._call("Describe", "(s)", (action,))
+        except Exception as error:
+            if "does not exist" in str(error):
+                return None
+            raise
+        return answer.unpack()[0] if answer else None
+
+    def enabled(self, action):
+        return self.describe(action)[0]
+
+    def state(self, action):
+        return self.describe(action)[2][0]
+
+    def act(self, action, signature=None, value=None):
+        from gi.repository import GLib
+        parameter = [GLib.Variant(signature, value)] if signature else []
+        wait(lambda: self.enabled(action), f"{action} to be possible")
+        self._call("Activate", "(sava{sv})", (action, parameter, {}))
+
+    # Widgets.
+
+    def walk(self, node=None):
+        node = node or self.application
+        try:
+            count = node.get_child_count()
+        except Exception:
+            return
+        for i in range(min(count, 400)):
+            try:
+                child = node.get_child_at_index(i)
+            except Exception:
+                continue
+            if child is None:
+                continue
+            yield child
+            yield from self.walk(child)
+
+    def showing(self, node):
+        return node.get_state_set().contains(self.atspi.StateType.SHOWING)
+
+    def find(self, role, name, seconds=PATIENCE_S, showing=True):
+        """First widget of that role (a regular expression too) whose name, or label, matches the regular expression; showing: not scrolled away."""
+        return wait(lambda: self.look(role, name, showing), f"a {role} “{name}”", seconds)
+
+    def look(self, role, name, showing=True):
+        self.application.clear_cache()
+        for node in self.walk():
+            try:
+                if re.fullmatch(role, node.get_role_name()) and re.search(name, self.name_of(node)) and (
+                        self.showing(node) or not showing):
+                    return node
+            except Exception:  # it went while we looked
+                continue
+        return None
+
+    def name_of(self, node):
+        name = node.get_name() or ""
+        if name:
+            return name
+        for relation in node.get_relation_set():
+            if relation.get_relation_type() == self.atspi.RelationType.LABELLED_BY:
+                return relation.get_target(0).get_name() or ""
+        return ""
+
+    def text_of(self, node):
+        return self.atspi.Text.get_text(node, 0, -1)
+
+    def press(self, node):
+        self.atspi.Action.do_action(node, 0)
+
+    def set_entry(self, node, text):
+        """Types over what the entry holds, and Enter."""
+        self.atspi.EditableText.set_text_contents(node, text)
+        self.atspi.Action.do_action(node, 0)
+
+    def set_number(self, node, value):
+        self.atspi.Value.set_current_value(node, value)
+
+    def row(self, name):
+        """Outliner row of that name, or None."""
+        return self.look("table cell", f"^{re.escape(name)}$")
+
+    def message(self):
+        """What the message bar says, or None."""
+        for node in self.walk():
+            if node.get_role_name() == "info bar" and self.showing(node):
+                for label in self.walk(node):
+                    if label.get_role_name() == "label" and label.get_name():
+                        return label.get_name()
+        return None
+
+    def hud(self, pattern):
+        """First group of the pattern in the figures over the viewport, as a number; None: not there."""
+        self.application.clear_cache()
+        for node in self.walk():
+            if node.get_role_name() == "label" and (node.get_name() or "").startswith("Time "):
+                found = re.search(pattern, node.get_name())
+                return float(found.group(1)) if found and self.showing(node) else None
+        return None
+
+    def time_s(self):
+        return self.hud(r"Time (\d+\.\d+)")
+
+    # Hands.
+
+    def focus(self, title=None):
+        """Gives the keyboard to the newest window: there is no window manager here to do so."""
+        ids = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(self.process.pid)], capture_output=True,
+                             text=True).stdout.split()
+        subprocess.run(["xdotool", "windowfocus", "--sync", ids[-1]], stderr=subprocess.DEVNULL)
+
+    def keys(self, *keys):
+        subprocess.run(["xdotool", "key", "--clearmodifiers", *keys], check=True)
+
+    def mouse(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], check=True)
+
+    def place(self, node):
+        """(x, y, width, height) on the screen."""
+        box = self.atspi.Component.get_extents(node, self.atspi.CoordType.SCREEN)
+        return box.x, box.y, box.width, box.height
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()

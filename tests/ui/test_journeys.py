@@ -1,0 +1,341 @@
+"""test_journeys.py EDITOR FEATURES: what a user does in the editor, from the empty window to the saved scene."""
+import os
+import pathlib
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent / "e2e")]
+import editor as ui
+import shapes
+from tap import Skip, check, main
+
+PROGRAM = sys.argv[1]
+FEATURES = sys.argv[2].split(",")
+
+
+def folder(name):
+    path = pathlib.Path(os.environ["SPORE_TEST_FOLDER"]) / "journeys" / name
+    path.mkdir(parents=True, exist_ok=True)
+    return path
+
+
+def ball(name="ball.off"):
+    """A ball of 60 mm, in metres."""
+    path = folder("meshes") / name
+    path.write_bytes(shapes.off(*shapes.sphere()))
+    return path
+
+
+def start(*arguments, **environment):
+    return ui.Editor(PROGRAM, *arguments, environment=environment)
+
+
+def import_ball(editor):
+    editor.act("import", "(sss)", (str(ball()), "m", "Y_UP"))
+    ui.wait(lambda: editor.row("ball"), "the organ in the outliner")
+    ui.wait(lambda: editor.enabled("generate-spheres"), "the import to end")
+
+
+def make_soft_ball(editor, count=40):
+    """Spheres and springs: works in every build."""
+    import_ball(editor)
+    editor.act("generate-spheres", "u", count)
+    ui.wait(lambda: editor.row("ball_spheres"), "the spheres in the outliner")
+    editor.act("set-model", "s", "mass_spring_net")
+    editor.act("add-pin")
+    ui.wait(lambda: editor.row("ball_pin"), "the pin in the outliner")
+
+
+def undo_all(editor):
+    count = 0
+    while editor.enabled("undo"):
+        editor.act("undo")
+        count += 1
+        assert count < 50
+    return count
+
+
+def saved(editor, name):
+    path = folder("saved") / name / "scene.spore"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    editor.act("save-as", "s", str(path))
+    ui.wait(path.exists, "the saved scene")
+    return path.read_text()
+
+
+@check
+def empty_window_says_what_to_do():
+    """the empty window says what to do, and with what it draws."""
+    with start() as editor:
+        editor.find("label", "Begin with an organ")
+        editor.find("push button", "Import mesh")
+        editor.find("push button", "Open demo")
+        editor.find("label", "llvmpipe|softpipe|Mesa|NVIDIA|AMD|Intel")
+        assert not editor.enabled("undo") and not editor.enabled("play")
+
+
+@check
+def import_undo_redo():
+    """a mesh is imported as one step that can be undone and redone."""
+    with start() as editor:
+        import_ball(editor)
+        editor.find("label", r"528 triangles, 60 × 60 × \d+.* mm, closed")
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("ball"), "the organ to go")
+        assert not editor.enabled("undo")
+        editor.act("redo")
+        ui.wait(lambda: editor.row("ball"), "the organ to come back")
+
+
+@check
+def spheres_with_their_error():
+    """spheres are generated with a count, say their error, and undo as one step."""
+    with start() as editor:
+        import_ball(editor)
+        spin = editor.find("spin button", "Number of spheres")
+        editor.set_number(spin, 30)
+        buttons = [n for n in editor.walk() if n.get_role_name() == "push button" and n.get_name() == "Generate"]
+        editor.press(buttons[0])
+        editor.find("label", r"(?s)30 spheres.*Coverage \d+.*Depth error", 60)
+        assert editor.state("show-spheres")
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("ball_spheres"), "the spheres to go")
+        assert editor.row("ball")
+
+
+@check
+def tetrahedra_and_model():
+    """tetrahedra are generated, and the model for them chosen."""
+    if "cgal" not in FEATURES:
+        raise Skip("built without CGAL")
+    with start() as editor:
+        import_ball(editor)
+        editor.act("generate-tetrahedra", "u", 200)
+        editor.find("label", r"(?s)\d+ tetrahedra, .* ml.*Least angle", 120, showing=False)
+        editor.act("set-model", "s", "corotational_tetrahedra")
+        text = saved(editor, "tetrahedra")
+        assert "<corotational_tetrahedra" in text and 'geometry="ball_tetrahedra"' in text, text
+        editor.act("generate-spheres", "u", 20)
+        ui.wait(lambda: editor.row("ball_spheres"), "spheres")
+        editor.act("add-pin")
+        editor.act("step")
+        ui.wait(lambda: editor.time_s(), "time to advance")
+
+
+@check
+def inspector_sets_a_property():
+    """a parameter set in the inspector is saved; a bad value is refused where it stands; reset takes it back."""
+    with start() as editor:
+        make_soft_ball(editor)
+        entry = editor.find("text", "^Friction$")
+        editor.set_entry(entry, "0.7")
+        ui.wait(lambda: 'friction="0.7"' in saved(editor, "property"), "the value in the file")
+        editor.set_entry(editor.find("text", "^Friction$"), "-4")
+        editor.find("label", "friction|0")
+        assert 'friction="0.7"' in saved(editor, "property")
+        editor.act("undo")
+        ui.wait(lambda: "friction" not in saved(editor, "property"), "the value to go")
+
+
+@check
+def everything_undone():
+    """all that was done to a scene can be undone to nothing and redone to the same file."""
+    with start() as editor:
+        make_soft_ball(editor)
+        editor.act("add-probe")
+        editor.act("set-property", "(sss)", ("bodies/ball/collision", "stiffness", "400"))
+        full = saved(editor, "full")
+        assert undo_all(editor) >= 6
+        ui.wait(lambda: not editor.row("ball") and not editor.row("probe"), "the empty scene")
+        while editor.enabled("redo"):
+            editor.act("redo")
+        assert saved(editor, "redone") == full
+
+
+@check
+def play_pause_step_reset():
+    """time advances while playing, stands while paused, goes one step, and back to 0."""
+    with start() as editor:
+        make_soft_ball(editor)
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.02, "time to advance")
+        editor.act("pause")
+        stood = editor.time_s()
+        time.sleep(0.3)
+        assert editor.time_s() == stood
+        editor.act("step")
+        ui.wait(lambda: 0 < editor.time_s() - stood < 0.0051, "one step")
+        editor.act("reset")
+        ui.wait(lambda: editor.time_s() == 0, "time 0")
+
+
+@check
+def edits_while_playing():
+    """an edit while playing goes on from where the simulation is, and does not leak its state into the scene."""
+    with start() as editor:
+        make_soft_ball(editor)
+        before = saved(editor, "before")
+        editor.act("speed", "s", "0.25")
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.02, "time to advance")
+        editor.act("set-property", "(sss)", ("environment", "gravity", "0 -3 0"))
+        passed = editor.time_s()
+        ui.wait(lambda: editor.time_s() > passed, "time to go on")
+        editor.act("undo")
+        editor.act("pause")
+        assert saved(editor, "after") == before
+
+
+@check
+def save_and_reopen():
+    """a saved scene opens to the same scene, from the command line and by the action."""
+    path = folder("saved") / "first" / "scene.spore"
+    with start() as editor:
+        make_soft_ball(editor)
+        first = saved(editor, "first")
+        assert not editor.enabled("save")
+        editor.act("new")
+        ui.wait(lambda: not editor.row("ball"), "the empty scene")
+        editor.act("open", "s", str(path))
+        ui.wait(lambda: editor.row("ball_pin"), "the scene")
+        assert saved(editor, "second") == first
+    with start(path) as editor:
+        ui.wait(lambda: editor.row("ball_pin"), "the scene")
+        assert saved(editor, "third") == first
+
+
+@check
+def probe_pushes():
+    """the probe follows the mouse, presses into the organ, and its force is shown."""
+    with start() as editor:
+        make_soft_ball(editor)
+        editor.act("add-probe")
+        ui.wait(lambda: editor.row("mouse"), "the probe")
+        editor.act("view", "s", "front")
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.01, "time to advance")
+        assert editor.hud(r"Probe force (\d+\.\d+)") == 0
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        middle = x + width // 2
+        editor.mouse("mousemove", middle, y + height // 3, "mousedown", 1)
+        for part in range(1, 13):
+            editor.mouse("mousemove", middle, y + height // 3 + part * height // 40)
+            time.sleep(0.05)
+        force = ui.wait(lambda: editor.hud(r"Probe force (\d+\.\d+)"), "a force on the probe")
+        editor.mouse("mouseup", 1)
+        assert force > 0
+
+
+@check
+def bad_files():
+    """bad files give one message and leave the scene as it was."""
+    bad = folder("meshes") / "text.stl"
+    bad.write_text("this is no mesh")
+    with start() as editor:
+        for path in (bad, folder("meshes"), folder("meshes") / "missing.off"):
+            editor.act("import", "(sss)", (str(path), "mm", "Y_UP"))
+            ui.wait(lambda: path.name in (editor.message() or ""), f"a message about {path.name}")
+            ui.wait(lambda: editor.enabled("import"), "the job to end")
+        assert not editor.enabled("undo")
+        scene = folder("meshes") / "broken.spore"
+        scene.write_text('<spore version="1.0">\n<bodies><body name="a" rolle="passive"/></bodies></spore>')
+        editor.act("open", "s", str(scene))
+        ui.wait(lambda: "broken.spore:2" in (editor.message() or ""), "the line of the fault")
+        editor.act("set-property", "(sss)", ("bodies/none", "role", "active"))
+        ui.wait(lambda: "bodies/none" in (editor.message() or ""), "a message about the path")
+
+
+@check
+def cancel_leaves_nothing():
+    """a generator that is cancelled leaves nothing behind."""
+    with start() as editor:
+        import_ball(editor)
+        editor.act("generate-spheres", "u", 5000)
+        editor.act("cancel-job")
+        ui.wait(lambda: editor.enabled("generate-spheres"), "the job to end")
+        assert not editor.row("ball_spheres")
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("ball"), "the import to be the last step")
+
+
+@check
+def recovery_after_a_crash():
+    """unsaved work of a killed editor is offered and comes back."""
+    with start() as editor:
+        make_soft_ball(editor)
+        editor.act("generate-spheres", "u", 10)  # a job keeps the work before it begins
+        time.sleep(0.5)
+        editor.kill()
+    with start() as editor:
+        editor.find("label", "ended unexpectedly")
+        editor.press(editor.find("push button", "^Recover$"))
+        ui.wait(lambda: editor.row("ball_pin"), "the scene that was not saved")
+        assert editor.enabled("save")
+        text = saved(editor, "recovered")
+        assert (folder("saved") / "recovered" / "ball.off").exists() and 'name="ball"' in text
+
+
+@check
+def closing_asks():
+    """closing with unsaved changes asks first; Cancel stays, Discard ends."""
+    with start() as editor:
+        import_ball(editor)
+        editor.act("close")
+        editor.press(editor.find("push button", "^Cancel$"))
+        ui.wait(lambda: not editor.look("alert", "."), "the question to go")
+        assert editor.row("ball")
+        editor.act("close")
+        editor.press(editor.find("push button", "^Discard$"))
+        ui.wait(lambda: editor.process.poll() is not None, "the editor to end")
+
+
+@check
+def french():
+    """the window speaks French from the build tree."""
+    with start(LANGUAGE="fr") as editor:
+        editor.find("push button", "^Importer$")
+        editor.find("label", "Commencez par un organe")
+
+
+@check
+def without_graphics():
+    """without OpenGL the viewport says why, and scenes are built and run all the same."""
+    with start(__EGL_VENDOR_LIBRARY_FILENAMES="/nonexistent") as editor:
+        editor.find("label", "(?s)cannot be drawn.*Everything else works")
+        make_soft_ball(editor)
+        editor.act("step")
+        ui.wait(lambda: editor.time_s(), "time to advance")
+
+
+@check
+def by_keyboard_alone():
+    """the keys open and close the import dialog, play, step, reset and undo."""
+    with start() as editor:
+        make_soft_ball(editor)
+        editor.focus()
+        editor.keys("ctrl+i")
+        editor.find("dialog", "Import mesh")
+        editor.focus()
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.look("dialog", "Import mesh"), "the dialog to close")
+        editor.focus()
+        editor.keys("F5")
+        ui.wait(lambda: editor.enabled("pause"), "F5 to play")
+        editor.keys("F5")
+        ui.wait(lambda: not editor.enabled("pause"), "F5 to pause")
+        before = editor.time_s()
+        editor.keys("F6")
+        ui.wait(lambda: editor.time_s() > before, "F6 to step")
+        editor.keys("shift+F5")
+        ui.wait(lambda: editor.time_s() == 0, "Shift+F5 to go back")
+        editor.keys("ctrl+z")
+        ui.wait(lambda: not editor.row("ball_pin"), "Ctrl+Z to undo")
+        editor.keys("ctrl+shift+z")
+        ui.wait(lambda: editor.row("ball_pin"), "Ctrl+Shift+Z to redo")
+
+
+if "SPORE_TEST_FOLDER" in os.environ:
+    main()
+else:
+    sys.exit(ui.run_privately(__file__, sys.argv[1:]))
