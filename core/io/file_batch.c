@@ -107,6 +107,7 @@ static int write_temporary(const Entry *entry, const void *content, gsize size) 
   struct stat old;
   gboolean replaces = fstatat(entry->folder, entry->name, &old, AT_SYMLINK_NOFOLLOW) == 0;
   if (replaces && S_ISDIR(old.st_mode)) return EISDIR;
+  if (replaces && !S_ISREG(old.st_mode) && !S_ISLNK(old.st_mode)) return EEXIST; /* a device is not to be replaced */
   if (replaces && S_ISREG(old.st_mode) && faccessat(entry->folder, entry->name, W_OK, AT_EACCESS) != 0) return errno;
   int descriptor = openat(entry->folder, entry->temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0) return errno;

@@ -40,7 +40,30 @@ static gboolean add_file(SporeFileBatch *batch, const char *file, const void *co
   return done;
 }
 
+/* A device or pipe (/dev/stdout): nothing there to be replaced or taken back. */
+static gboolean is_stream(const char *file) {
+  struct stat status;
+  return stat(file, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+static gboolean write_stream(const char *file, const char *content, gsize size, GError **error) {
+  int descriptor = open(file, O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  gboolean done = descriptor >= 0;
+  while (done && size > 0) {
+    ssize_t written = write(descriptor, content, size);
+    if (written > 0) content += written, size -= (gsize)written;
+    else done = written < 0 && errno == EINTR;
+  }
+  int fault = errno;
+  if (descriptor >= 0) close(descriptor);
+  return done || spore_error_raise(error, SPORE_ERROR_FILE, file,
+                                   _("cannot be written: %s; expected a file, or a device that "
+                                     "takes it; choose another place"),
+                                   g_strerror(fault));
+}
+
 gboolean spore_write_file(const char *file, const void *content, gsize size, GError **error) {
+  if (is_stream(file)) return write_stream(file, content, size, error);
   SporeFileBatch *batch = spore_file_batch_new();
   gboolean done = add_file(batch, file, content, size, error) && spore_file_batch_commit(batch, error);
   spore_file_batch_free(batch);

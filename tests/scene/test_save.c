@@ -272,6 +272,25 @@ static void test_write_file(void) {
   fixture_folder_free(folder);
 }
 
+/* A device is written to, never replaced by a file. */
+static void test_device(void) {
+  struct stat before, after;
+  GError *error = NULL;
+  g_assert_cmpint(stat("/dev/null", &before), ==, 0);
+  g_assert_true(spore_write_file("/dev/null", "new", 3, &error));
+  g_assert_false(spore_write_file("/dev/full", "new", 3, &error));
+  fixture_assert_error(error, SPORE_ERROR_FILE, "No space left on device");
+  char *folder = fixture_folder_new();
+  g_autofree char *pipe = g_build_filename(folder, "a.spore", NULL);
+  g_assert_cmpint(mkfifo(pipe, 0600), ==, 0);
+  SporeDocument *document = spore_document_new(fixture_schema());
+  fail_to_save(document, folder, "a.spore", "File exists");
+  g_assert_cmpint(stat("/dev/null", &after), ==, 0);
+  g_assert_true(S_ISCHR(after.st_mode) && after.st_ino == before.st_ino);
+  spore_document_free(document);
+  fixture_folder_free(folder);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/save/first-save", test_first_save);
@@ -286,5 +305,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/save/read-only", test_read_only);
   g_test_add_func("/save/link-out", test_link_out);
   g_test_add_func("/save/write-file", test_write_file);
+  g_test_add_func("/save/device", test_device);
   return g_test_run();
 }
