@@ -114,7 +114,8 @@ static void check_body(SporeCheck *check, SporeObject *body) {
   SporeRole role = (SporeRole)spore_object_number(body, "role");
   check_mechanical(check, body, role);
   const SporeObject *collision = spore_object_child_of(body, "collision");
-  if (!collision || !spore_object_text(collision, "spheres"))
+  gboolean backdrop = role == SPORE_UNMOVABLE && spore_object_child_of(body, "visual");
+  if ((!collision || !spore_object_text(collision, "spheres")) && !backdrop)
     spore_check_say(check, SPORE_NOTE, body,
                     _("generate spheres and name them in its collision unit, if it should be felt"),
                     _("\"%s\" has no collision spheres: everything passes through it"), name);

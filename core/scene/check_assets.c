@@ -42,7 +42,7 @@ static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error
   SporeError fault = SPORE_ERROR_INIT;
   if (!spore_triangle_mesh_report(mesh, &report, &fault)) return spore_error_propagate(&fault, error);
   check_size(check, asset, report.diagonal);
-  if (!report.closed)
+  if (!report.closed && spore_check_is_used(check, asset, "mechanical|spheres|tetrahedra")) /* more than drawn */
     spore_check_say(
         check, SPORE_NOTE, asset, _("tetrahedra can still be generated: the surface is repaired or wrapped then"),
         _("\"%s\" is not a closed surface: %zu open, %zu non-manifold and %zu misoriented edges"),
