@@ -25,7 +25,7 @@ probe_track() {
         while (k < NR - 1 && t >= time[k + 1]) k++
         s = ease((t - time[k]) / (time[k + 1] - time[k]))
         px = x[k] + s * (x[k + 1] - x[k]); py = y[k] + s * (y[k + 1] - y[k]); pz = z[k] + s * (z[k + 1] - z[k])
-        dx = 0.125 - px; dy = 0.115 - py; dz = 0.210 - pz
+        dx = 0.105 - px; dy = 0.045 - py; dz = 0.190 - pz
         length_m = sqrt(dx * dx + dy * dy + dz * dz)
         w = 1 + dz / length_m; qx = -dy / length_m; qy = dx / length_m
         norm = sqrt(w * w + qx * qx + qy * qy)
@@ -34,15 +34,15 @@ probe_track() {
     }' <<'POINTS'
 0.0 0.088 0.058 0.075
 0.5 0.086 0.054 0.070
-1.3 0.064 0.025 0.024
-1.9 0.056 0.012 0.011
-2.3 0.056 0.012 0.011
-3.0 0.066 0.026 0.030
-3.6 0.064 -0.004 0.026
-4.1 0.057 -0.003 0.012
-4.7 0.055 0.012 0.010
-5.2 0.055 0.012 0.010
-6.0 0.068 0.030 0.040
+1.3 0.062 0.024 0.030
+1.9 0.056 0.013 0.008
+2.3 0.056 0.013 0.008
+3.0 0.066 0.026 0.032
+3.6 0.062 -0.010 0.030
+4.0 0.056 -0.012 0.006
+4.7 0.054 0.012 0.004
+5.2 0.054 0.012 0.004
+6.0 0.060 -0.010 0.030
 7.0 0.088 0.058 0.075
 POINTS
 }
@@ -56,5 +56,5 @@ probe_track >laparoscopy/laparoscopy.track
 "$spore" spheres --quiet laparoscopy/uterus.off --count 110 -o laparoscopy/uterus.spheres
 for side in left right; do
   "$spore" spheres --quiet laparoscopy/ovary_$side.off --count 60 -o laparoscopy/ovary_$side.spheres
-  "$spore" tetrahedra --quiet laparoscopy/ovary_$side.off --cells 900 -o laparoscopy/ovary_$side.mesh
+  "$spore" tetrahedra --quiet laparoscopy/ovary_$side.off --cells 450 -o laparoscopy/ovary_$side.mesh
 done

@@ -38,13 +38,14 @@ void main() {
     // Blood shows through unevenly: pale and dark patches, and a fine grain.
     vec4 grain = noise(v_rest * 2.7);
     float patches = v_mottle - 0.5 + 0.22 * (grain.x - 0.5);
-    vec3 albedo = colour * (1.0 + vec3(0.75, 1.5, 1.4) * patches);
+    float blood = clamp(1.5 * (colour.r - colour.g) / (colour.r + 0.001), 0.1, 1.0);
+    vec3 albedo = colour * (1.0 + mix(vec3(0.75), vec3(0.75, 1.5, 1.4), blood) * patches);
 #if QUALITY
     vec4 broad = noise(v_rest * 1.1 + 5.3), fine = noise(v_rest * 7.3 + 3.1);
     albedo *= 1.0 + vec3(0.16, 0.24, 0.24) * (fine.x - 0.5) * detail(7.3);
     float thread = vessel(v_rest * 1.15 + 0.14 * grain.yzw + 0.03 * fine.yzw + 11.0, 0.022 + 0.025 * broad.x);
     thread *= smoothstep(0.47, 0.66, v_mottle + 0.25 * (broad.x - 0.5)) * detail(6.0);
-    albedo *= mix(vec3(1.0), vec3(0.72, 0.42, 0.46), 0.55 * thread);
+    albedo *= mix(vec3(1.0), vec3(0.72, 0.42, 0.46), 0.55 * thread * blood);
     vec3 bump = broad.yzw * 0.16 + grain.yzw * 0.11 * detail(2.7) + fine.yzw * 0.030 * detail(7.3);
     bump += noise(v_rest * 17.0).yzw * 0.012 * detail(17.0);
 #else
