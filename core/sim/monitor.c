@@ -8,6 +8,8 @@
 #include "core/sim/world_private.h"
 
 #define SUBSTEPS_MAXIMUM 8
+/* A relative residual up to this is counted and told of, but stands: a step again would cost more than it mends. */
+#define RESIDUAL_TO_STAND 1e-3
 
 static bool finite_all(const double *values, size_t count) {
   for (size_t i = 0; i < count; i++)
@@ -145,6 +147,7 @@ static SporeTrouble try_substeps(SporeWorld *world, SporeIsland *island, uint32_
 }
 
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
+  if (island->trouble == SPORE_TROUBLE_NOT_CONVERGED && island->result.residual <= RESIDUAL_TO_STAND) return;
   uint32_t offender = broken_model(world, island);
   while (island->kept_count > 0) {
     SporeTrouble trouble = SPORE_TROUBLE_NOT_FINITE;
@@ -207,7 +210,7 @@ void spore_world_report_islands(SporeWorld *world) {
   for (size_t i = 0; i < world->island_count; i++) {
     const SporeIsland *island = &world->islands[i];
     if (island->trouble == SPORE_TROUBLE_NONE) continue;
-    monitor->recoveries++;
+    monitor->recoveries += island->substeps > 0;
     monitor->substeps += island->substeps;
     monitor->not_converged += !island->result.converged;
     report_island(world, island);
