@@ -1,0 +1,195 @@
+/* The stage on the minimal scene: a ball over a floor, at rest and running. */
+#include <math.h>
+#include <string.h>
+
+#include "core/io/scene_xml.h"
+#include "models/registry.h"
+#include "tests/render/scenery.h"
+#include "ui/render/stage.h"
+
+typedef struct Setting {
+  Bench bench;
+  SporeSchema *schema;
+  SporeDocument *document;
+  SporeSimulation *simulation; /* NULL until it runs */
+  SporeStage *stage;
+} Setting;
+
+static Setting setting_open(void) {
+  GError *error = NULL;
+  Setting setting = {.bench = bench_open(), .schema = spore_schema_new(spore_model_registry)};
+  setting.document = spore_scene_load(setting.schema, SPORE_SCENES "/minimal.spore", &error);
+  g_assert_no_error(error);
+  setting.stage = spore_stage_new(setting.bench.renderer, setting.document);
+  spore_stage_rebuild(setting.stage, NULL);
+  return setting;
+}
+
+static void setting_run(Setting *setting, int steps) {
+  GError *error = NULL;
+  setting->simulation = spore_simulation_new(setting->document, NULL, NULL, &error);
+  g_assert_no_error(error);
+  spore_stage_rebuild(setting->stage, setting->simulation);
+  for (int i = 0; i < steps; i++) spore_world_step(setting->simulation->world);
+  spore_stage_update(setting->stage, spore_world_snapshot_acquire(setting->simulation->world));
+}
+
+static void setting_close(Setting *setting) {
+  spore_stage_free(setting->stage);
+  if (setting->simulation) spore_simulation_free(setting->simulation);
+  spore_document_free(setting->document);
+  spore_schema_free(setting->schema);
+  bench_close(&setting->bench);
+}
+
+static guint32 id_of(const Setting *setting, const char *body) {
+  return spore_object_id(spore_document_find(setting->document, "body", body));
+}
+
+static guint32 pick_down(const Setting *setting, double x, double z, SporeVec3 *point) {
+  return spore_stage_pick(setting->stage, spore_vec3(x, 1, z), spore_vec3(0, -1, 0), point);
+}
+
+static void test_standing(void) {
+  Setting setting = setting_open();
+  double lower[3], upper[3];
+  SporeVec3 point = {0};
+  spore_stage_bounds(setting.stage, lower, upper);
+  g_assert_cmpfloat_with_epsilon(lower[0], -0.065, 1e-9);
+  g_assert_cmpfloat_with_epsilon(upper[1], 0.08, 1e-4);
+  g_assert_cmpuint(pick_down(&setting, 0.0015, 0.001, &point), ==, id_of(&setting, "ball"));
+  g_assert_cmpfloat_with_epsilon(point.y, 0.08, 1e-4);
+  g_assert_cmpuint(pick_down(&setting, 0.05, 0.05, &point), ==, id_of(&setting, "floor"));
+  g_assert_cmpfloat_with_epsilon(point.y, 0, 1e-9);
+  g_assert_cmpuint(pick_down(&setting, 1, 1, &point), ==, 0);
+  setting_close(&setting);
+}
+
+static void test_follows_the_simulation(void) {
+  Setting setting = setting_open();
+  SporeVec3 point = {0};
+  setting_run(&setting, 0);
+  g_assert_cmpuint(pick_down(&setting, 0.0015, 0.001, &point), ==, id_of(&setting, "ball"));
+  g_assert_cmpfloat_with_epsilon(point.y, 0.08, 1e-4);
+  for (int i = 0; i < 60; i++) spore_world_step(setting.simulation->world); /* 60 ms of falling */
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(setting.simulation->world);
+  spore_stage_update(setting.stage, snapshot);
+  g_assert_cmpuint(pick_down(&setting, 0.0015, 0.001, &point), ==, id_of(&setting, "ball"));
+  double fallen = 0.5 * 9.81 * snapshot->time_s * snapshot->time_s;
+  g_assert_cmpfloat_with_epsilon(point.y, 0.08 - fallen, 4e-4);
+  setting_close(&setting);
+}
+
+/* A body without a mesh shows its spheres. */
+static void test_spheres_alone(void) {
+  Setting setting = setting_open();
+  SporeVec3 point = {0};
+  GError *error = NULL;
+  SporeObject *floor = spore_document_find(setting.document, "body", "floor");
+  spore_document_remove(setting.document, spore_object_child_of(floor, "visual"), &error);
+  g_assert_no_error(error);
+  spore_stage_rebuild(setting.stage, NULL);
+  g_assert_cmpuint(pick_down(&setting, 0.03, 0.03, &point), ==, id_of(&setting, "floor"));
+  g_assert_cmpfloat_with_epsilon(point.y, 0, 1e-6); /* the top of a sphere */
+  spore_document_undo(setting.document);
+  spore_stage_rebuild(setting.stage, NULL);
+  g_assert_cmpuint(pick_down(&setting, 0.06, 0.06, &point), ==, id_of(&setting, "floor"));
+  setting_close(&setting);
+}
+
+static int changed_pixels(const Setting *setting, const SporeStageOptions *options) {
+  static const SporeStageOptions surfaces = {.surfaces = TRUE};
+  SporeCamera camera;
+  g_assert_true(spore_stage_camera(setting->stage, NULL, 4.0 / 3, &camera, NULL));
+  Picture pictures[2];
+  for (int i = 0; i < 2; i++) {
+    spore_stage_set_options(setting->stage, i ? options : &surfaces);
+    pictures[i] = draw_picture(setting->bench.renderer, &camera, 160, 120, FALSE, FALSE);
+  }
+  int changed = 0;
+  for (int i = 0; i < 160 * 120; i++) changed += memcmp(pictures[0].pixels + 4 * i, pictures[1].pixels + 4 * i, 3) != 0;
+  picture_clear(&pictures[0]);
+  picture_clear(&pictures[1]);
+  return changed;
+}
+
+static void test_overlays(void) {
+  Setting setting = setting_open();
+  const SporeStageOptions spheres = {.surfaces = TRUE, .spheres = TRUE},
+                          contacts = {.surfaces = TRUE, .contacts = TRUE};
+  setting_run(&setting, 400);
+  g_assert_cmpint(changed_pixels(&setting, &(SporeStageOptions){.surfaces = TRUE}), ==, 0);
+  g_assert_cmpint(changed_pixels(&setting, &spheres), >, 1000);
+  spore_stage_set_options(setting.stage, &contacts);
+  spore_stage_update(setting.stage, spore_world_snapshot_acquire(setting.simulation->world));
+  g_assert_cmpint(changed_pixels(&setting, &contacts), >, 3);
+  setting_close(&setting);
+}
+
+static void test_selection_is_seen(void) {
+  Setting setting = setting_open();
+  const SporeStageOptions options = {.surfaces = TRUE};
+  SporeCamera camera;
+  g_assert_true(spore_stage_camera(setting.stage, "front", 1, &camera, NULL));
+  spore_stage_set_options(setting.stage, &options);
+  Picture before = draw_picture(setting.bench.renderer, &camera, 100, 100, FALSE, FALSE);
+  SporeObject *ball = spore_document_find(setting.document, "body", "ball");
+  spore_stage_set_selection(setting.stage, spore_object_id(spore_object_child_of(ball, "collision")));
+  Picture during = draw_picture(setting.bench.renderer, &camera, 100, 100, FALSE, FALSE);
+  spore_stage_set_selection(setting.stage, 0);
+  Picture after = draw_picture(setting.bench.renderer, &camera, 100, 100, FALSE, FALSE);
+  g_assert_cmpfloat(picture_compare(&before, &during).mean, >, 0.3);
+  g_assert_cmpfloat(picture_compare(&before, &after).mean, ==, 0);
+  picture_clear(&before);
+  picture_clear(&during);
+  picture_clear(&after);
+  setting_close(&setting);
+}
+
+static void test_cameras(void) {
+  Setting setting = setting_open();
+  SporeCamera camera;
+  GError *error = NULL;
+  g_assert_true(spore_stage_camera(setting.stage, "front", 1, &camera, &error));
+  SporeVec3 eye, right, up, forward;
+  spore_camera_eye(&camera, &eye, &right, &up, &forward);
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(eye, spore_vec3(0.09, 0.10, 0.20)), 0, 1e-9);
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(camera.target, spore_vec3(0, 0.018, 0)), 0, 1e-9);
+  g_assert_false(spore_stage_camera(setting.stage, "back", 1, &camera, &error));
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_INPUT);
+  g_error_free(error);
+  setting_close(&setting);
+}
+
+static void test_empty_scene(void) {
+  Bench bench = bench_open();
+  SporeSchema *schema = spore_schema_new(spore_model_registry);
+  SporeDocument *document = spore_document_new(schema);
+  SporeStage *stage = spore_stage_new(bench.renderer, document);
+  double lower[3], upper[3];
+  SporeVec3 point;
+  spore_stage_rebuild(stage, NULL);
+  spore_stage_bounds(stage, lower, upper);
+  g_assert_cmpfloat(lower[0], <, upper[0]);
+  g_assert_cmpuint(spore_stage_pick(stage, spore_vec3(0, 0, 1), spore_vec3(0, 0, -1), &point), ==, 0);
+  SporeCamera camera;
+  g_assert_true(spore_stage_camera(stage, NULL, 1, &camera, NULL));
+  Picture picture = draw_picture(bench.renderer, &camera, 32, 32, TRUE, TRUE);
+  picture_clear(&picture);
+  spore_stage_free(stage);
+  spore_document_free(document);
+  spore_schema_free(schema);
+  bench_close(&bench);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/render/stage/standing", test_standing);
+  g_test_add_func("/render/stage/follows-the-simulation", test_follows_the_simulation);
+  g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
+  g_test_add_func("/render/stage/overlays", test_overlays);
+  g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
+  g_test_add_func("/render/stage/cameras", test_cameras);
+  g_test_add_func("/render/stage/empty-scene", test_empty_scene);
+  return g_test_run();
+}
