@@ -7,7 +7,7 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
   *test = (SporeConvergence){options->tolerance, fmax(norm, system->scale_r), norm};
   result->finite = isfinite(norm);
   result->converged = norm == 0;
-  result->residual = norm == 0 ? 0 : norm / test->scale_r;
+  result->residual = result->converged ? 0 : result->finite ? norm / test->scale_r : INFINITY;
   return result->finite;
 }
 
