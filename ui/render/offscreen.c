@@ -12,11 +12,6 @@ struct SporeOffscreen {
   gboolean software;
 };
 
-/* A display is shared by all contexts of the process, and initialising it twice is one initialisation: it ends with the
- * last context. */
-static GMutex display_mutex;
-static guint display_users;
-
 static gboolean no_opengl(GError **error, const char *what) {
   return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, _("graphics"),
                            _("%s; pictures need EGL with OpenGL 3.3; install Mesa (libegl1, libgl1-mesa-dri) or the "
@@ -45,7 +40,8 @@ static EGLDisplay device_display(void) {
   return EGL_NO_DISPLAY;
 }
 
-/* Neither an X server nor a compositor is asked: Mesa's surfaceless platform, else the first device that opens. */
+/* The display is the process's, and others may use it (a second context, the toolkit): it is never terminated.
+ * Neither an X server nor a compositor is asked: Mesa's surfaceless platform, else the first device that opens. */
 static EGLDisplay open_display(GError **error) {
   /* epoxy ends the process when it is asked for a function that nobody provides. */
   if (!epoxy_has_egl()) {
@@ -86,20 +82,8 @@ static gboolean is_software(const char *renderer) {
          strstr(renderer, "swrast") || strstr(renderer, "SwiftShader");
 }
 
-static void close_display(EGLDisplay display) {
-  g_mutex_lock(&display_mutex);
-  if (--display_users == 0) {
-    eglTerminate(display);
-    eglReleaseThread();
-  }
-  g_mutex_unlock(&display_mutex);
-}
-
 SporeOffscreen *spore_offscreen_new(GError **error) {
-  g_mutex_lock(&display_mutex);
   EGLDisplay display = open_display(error);
-  if (display != EGL_NO_DISPLAY) display_users++;
-  g_mutex_unlock(&display_mutex);
   if (display == EGL_NO_DISPLAY) return NULL;
 
   SporeOffscreen *offscreen = g_new0(SporeOffscreen, 1);
@@ -121,7 +105,6 @@ void spore_offscreen_free(SporeOffscreen *offscreen) {
       eglMakeCurrent(offscreen->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(offscreen->display, offscreen->context);
   }
-  close_display(offscreen->display);
   g_free(offscreen->renderer);
   g_free(offscreen);
 }
