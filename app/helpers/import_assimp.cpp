@@ -60,11 +60,11 @@ class Listener : public Assimp::LogStream {
 public:
   void write(const char *text) override {
     if (std::strstr(text, "out-of-range") || std::strstr(text, "out of range") || std::strstr(text, "invalid index"))
-      complaint = text;
+      complained = true;
   }
-  static std::string complaint;
+  static bool complained;
 };
-std::string Listener::complaint;
+bool Listener::complained;
 
 void keep_one_importer(Assimp::Importer &importer, const std::string &extension) {
   std::vector<Assimp::BaseImporter *> others;
@@ -136,11 +136,11 @@ Mesh import(const char *extension, const void *content, size_t size) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, 0);
   const aiScene *scene = importer.ReadFile(name, aiProcess_Triangulate);
   const std::string said = scene ? "" : importer.GetErrorString();
-  if (!Listener::complaint.empty())
+  if (Listener::complained)
     throw Refusal{SPORE_ERROR_INPUT,
                   N_("a face names a vertex that is not there; expected indices of the mesh's own "
                      "vertices; repair or export the mesh again"),
-                  Listener::complaint};
+                  ""};
   if (!scene && !files->refused.empty())
     throw Refusal{SPORE_ERROR_INPUT,
                   N_("the mesh keeps a part in another file, which is not read; expected all in one "

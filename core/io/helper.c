@@ -19,7 +19,7 @@
 
 #define POLL_MS 20          /* how soon a wish to cancel is noticed */
 #define DEATH_S 1.0         /* a child that closed its output is given this long to end */
-#define COMPLAINT_KEPT 2000 /* bytes of what it prints, for the log */
+#define COMPLAINT_KEPT 500 /* bytes of what it prints, for the log */
 
 typedef struct {
   const char *program, *place;

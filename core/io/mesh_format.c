@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/io/off.h"
+#include "core/io/ply_check.h"
 
 const char *const spore_mesh_format_names[SPORE_MESH_FORMAT_COUNT] = {"STL", "OBJ", "PLY", "OFF", "glTF", "GLB"};
 
@@ -101,6 +102,16 @@ static gboolean check_glb(const Content *content, GError **error) {
   return TRUE;
 }
 
+/* A text that was cut still reads as fewer facets. */
+static gboolean check_stl(const Content *content, GError **error) {
+  gsize tail = MIN(content->size, 1024);
+  if (!is_text(content) || (content->size > STL_HEADER && stl_size(content) == content->size) ||
+      memmem(content->bytes + content->size - tail, tail, "endsolid", strlen("endsolid")))
+    return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_INPUT, content->place,
+                           _("the STL text is cut short: expected \"endsolid\" at its end; copy or export it again"));
+}
+
 static gboolean fail_unknown(const Content *content, GError **error) {
   if (named(content, ".stl") && !is_text(content)) {
     if (content->size < STL_HEADER) return fail_short(content, "STL", STL_HEADER, error);
@@ -126,11 +137,22 @@ gboolean spore_mesh_format_find(const char *place, const char *file, const void 
     *format = SPORE_MESH_GLB;
     return check_glb(&content, error);
   }
-  if (is_ply(&content)) *format = SPORE_MESH_PLY;
-  else if (spore_off_is(content.bytes, size)) *format = SPORE_MESH_OFF;
-  else if (is_stl(&content)) *format = SPORE_MESH_STL;
+  if (is_stl(&content)) {
+    *format = SPORE_MESH_STL;
+    return check_stl(&content, error);
+  }
+  if (is_ply(&content)) {
+    *format = SPORE_MESH_PLY;
+    return spore_ply_check(content.place, content.bytes, size, error);
+  }
+  if (spore_off_is(content.bytes, size)) *format = SPORE_MESH_OFF;
   else if (is_gltf(&content)) *format = SPORE_MESH_GLTF;
   else if (is_obj(&content)) *format = SPORE_MESH_OBJ;
   else return fail_unknown(&content, error);
   return TRUE;
+}
+
+gsize spore_mesh_format_extent(SporeMeshFormat format, const void *bytes, gsize size) {
+  Content content = {"", "", bytes, size};
+  return format == SPORE_MESH_STL && !is_text(&content) ? (gsize)stl_size(&content) : size;
 }

@@ -22,4 +22,7 @@ extern const char *const spore_mesh_format_names[SPORE_MESH_FORMAT_COUNT]; /* "S
 gboolean spore_mesh_format_find(const char *place, const char *file, const void *content, gsize size,
                                 SporeMeshFormat *format, GError **error);
 
+/* Bytes of the mesh itself: less than size for a binary STL with something behind its facets. */
+gsize spore_mesh_format_extent(SporeMeshFormat format, const void *content, gsize size);
+
 #endif

@@ -94,9 +94,6 @@ static gboolean finish(const char *place, int unit, int frame, SporeTriangleMesh
     spore_error_at(&failure, place);
     return spore_error_propagate(&failure, error);
   }
-  if (!mesh->triangle_count)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, place,
-                             _("every triangle has no area; expected a surface; export the mesh again"));
   return TRUE;
 }
 
@@ -107,6 +104,7 @@ gboolean spore_mesh_decode(const char *place, const char *file, const void *cont
   SporeMeshFormat format;
   *mesh = (SporeTriangleMesh){0};
   if (!spore_mesh_format_find(place, file, content, size, &format, error)) return FALSE;
+  size = spore_mesh_format_extent(format, content, size);
   gboolean done = format == SPORE_MESH_OFF ? spore_off_parse(place, content, size, mesh, error)
                                            : decode_in_helper(place, format, content, size, mesh, progress, error);
   if (done && finish(place, unit, frame, mesh, error)) return TRUE;
