@@ -15,8 +15,8 @@
 struct _SporeWindow {
   GtkApplicationWindow parent;
   GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text;
-  GtkWidget *outliner, *viewport, *inspector, *problems, *bottom, *problems_tab, *log, *hint, *job_box, *job_label,
-      *job_bar, *renderer;
+  GtkWidget *outliner, *viewport, *inspector, *problems, *bottom, *tabs, *log, *hint, *job_box, *job_label, *job_bar,
+      *renderer;
 
   SporeEditorDocument *document;
   SporePlayer *player;

@@ -60,7 +60,7 @@ static void problems_checked(SporeProblems *problems, GPtrArray *diagnostics, Sp
   for (guint i = 0; i < diagnostics->len; i++)
     count += ((SporeDiagnostic *)g_ptr_array_index(diagnostics, i))->severity != SPORE_NOTE;
   g_autofree char *title = count ? g_strdup_printf(_("Problems (%u)"), count) : g_strdup(_("Problems"));
-  gtk_label_set_text(GTK_LABEL(self->problems_tab), title);
+  gtk_container_child_set(GTK_CONTAINER(self->tabs), self->problems, "title", title, NULL);
   spore_outliner_set_problems(SPORE_OUTLINER(self->outliner), diagnostics);
 }
 
@@ -274,7 +274,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, inspector);
   gtk_widget_class_bind_template_child(widget, SporeWindow, problems);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);
-  gtk_widget_class_bind_template_child(widget, SporeWindow, problems_tab);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, tabs);
   gtk_widget_class_bind_template_child(widget, SporeWindow, log);
   gtk_widget_class_bind_template_child(widget, SporeWindow, hint);
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_box);

@@ -117,7 +117,7 @@ static gboolean is_stale(SporeInspector *self, SporeObject *asset) {
 static gboolean refresh(gpointer data);
 
 static void queue_refresh(SporeInspector *self) {
-  if (!self->refresh && !self->rebuild) self->refresh = g_idle_add(refresh, self);
+  if (!self->refresh && !self->rebuild) self->refresh = g_idle_add_full(G_PRIORITY_HIGH_IDLE, refresh, self, NULL);
 }
 
 static void measured(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
@@ -322,7 +322,7 @@ static gboolean refresh(gpointer data) {
 }
 
 static void queue_rebuild(SporeInspector *self) {
-  if (!self->rebuild) self->rebuild = g_idle_add(rebuild, self);
+  if (!self->rebuild) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
 }
 
 static void document_changed(SporeInspector *self, int kind, guint id, guint property) {

@@ -125,7 +125,7 @@ static gboolean rebuild(gpointer data) {
 }
 
 static void queue_rebuild(SporeOutliner *self) {
-  if (!self->rebuild && self->document) self->rebuild = g_idle_add(rebuild, self);
+  if (!self->rebuild && self->document) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
 }
 
 /* Only names, roles and what there is are shown here. */

@@ -7,12 +7,12 @@
 #include "ui/panels/report.h"
 
 #define NUMBER_CHARS 9
-#define TEXT_CHARS 15
-#define VECTOR_CHARS 20
+#define TEXT_CHARS 20
+#define LEAST_CHARS 5
 
 struct _SporePropertyRow {
   GtkBox parent;
-  GtkWidget *dot, *label, *holder, *unit, *tag, *reset, *complaint;
+  GtkWidget *label, *holder, *unit, *tag, *reset, *complaint;
   GtkWidget *editor;
   SporeEditorDocument *document;
   char *path;
@@ -103,7 +103,9 @@ static GtkWidget *new_entry(SporePropertyRow *self) {
   SporeParameterType type = parameter_of(self)->type;
   GtkWidget *entry = gtk_entry_new();
   gboolean number = type == SPORE_REAL || type == SPORE_INTEGER;
-  gtk_entry_set_width_chars(GTK_ENTRY(entry), number ? NUMBER_CHARS : type == SPORE_VECTOR ? VECTOR_CHARS : TEXT_CHARS);
+  /* A long label takes room from the entry, never the other way round. */
+  gtk_entry_set_width_chars(GTK_ENTRY(entry), LEAST_CHARS);
+  gtk_entry_set_max_width_chars(GTK_ENTRY(entry), number ? NUMBER_CHARS : TEXT_CHARS);
   if (number) gtk_entry_set_alignment(GTK_ENTRY(entry), 1);
   g_signal_connect_swapped(entry, "activate", G_CALLBACK(entry_commit), self);
   g_signal_connect(entry, "focus-out-event", G_CALLBACK(entry_left), self);
@@ -128,6 +130,9 @@ static void combo_chosen(SporePropertyRow *self) {
 
 static GtkWidget *new_combo(SporePropertyRow *self) {
   GtkWidget *editor = gtk_combo_box_text_new();
+  g_autoptr(GList) cells = gtk_cell_layout_get_cells(GTK_CELL_LAYOUT(editor));
+  g_object_set(cells->data, "ellipsize", PANGO_ELLIPSIZE_END, "width-chars", LEAST_CHARS, "max-width-chars", TEXT_CHARS,
+               NULL);
   g_signal_connect_swapped(editor, "changed", G_CALLBACK(combo_chosen), self);
   spore_ignore_wheel(editor);
   return editor;
@@ -228,7 +233,6 @@ void spore_property_row_refresh(SporePropertyRow *self) {
     g_free(self->shown);
     self->shown = g_steal_pointer(&text);
   }
-  gtk_widget_set_opacity(self->dot, set ? 1 : 0);
   gtk_widget_set_opacity(self->reset, set ? 1 : 0);
   gtk_widget_set_sensitive(self->reset, set);
 }
@@ -282,7 +286,6 @@ static void spore_property_row_class_init(SporePropertyRowClass *class) {
   GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
   G_OBJECT_CLASS(class)->dispose = spore_property_row_dispose;
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-property-row.ui");
-  gtk_widget_class_bind_template_child(widget, SporePropertyRow, dot);
   gtk_widget_class_bind_template_child(widget, SporePropertyRow, label);
   gtk_widget_class_bind_template_child(widget, SporePropertyRow, holder);
   gtk_widget_class_bind_template_child(widget, SporePropertyRow, unit);

@@ -76,7 +76,7 @@ static void document_changed(SporePlayer *self, int kind, guint id, guint proper
       return;
     if (parameter->change == SPORE_CHANGE_RESTART) self->from_start = TRUE;
   }
-  if (!self->rebuild) self->rebuild = g_idle_add(rebuild, self);
+  if (!self->rebuild) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
 }
 
 static void spore_player_dispose(GObject *object) {

@@ -60,6 +60,16 @@ static void update_stage(SporeViewport *self) {
   spore_viewport_redraw(self);
 }
 
+static double aspect_of(SporeViewport *self) {
+  return (double)gtk_widget_get_allocated_width(self->area) / MAX(gtk_widget_get_allocated_height(self->area), 1);
+}
+
+/* As the author's camera looks, where the scene has one. */
+static void look_first(SporeViewport *self) {
+  spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
+  self->framed = TRUE;
+}
+
 static gboolean rebuild(gpointer data) {
   SporeViewport *self = data;
   self->rebuild = 0;
@@ -68,13 +78,13 @@ static gboolean rebuild(gpointer data) {
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
   spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
-  if (!self->framed && has_anything(self)) spore_viewport_frame(self);
+  if (!self->framed && has_anything(self)) look_first(self);
   update_stage(self);
   return G_SOURCE_REMOVE;
 }
 
 static void queue_rebuild(SporeViewport *self) {
-  if (!self->rebuild) self->rebuild = g_idle_add_full(GDK_PRIORITY_REDRAW - 5, rebuild, self, NULL);
+  if (!self->rebuild) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
 }
 
 static void ensure_stage(SporeViewport *self) {
@@ -271,10 +281,9 @@ void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *op
 void spore_viewport_frame(SporeViewport *self) {
   if (!self->stage || !has_anything(self)) return;
   double lower[3], upper[3];
-  int width = gtk_widget_get_allocated_width(self->area), height = gtk_widget_get_allocated_height(self->area);
   spore_stage_bounds(self->stage, lower, upper);
   if (!(lower[0] <= upper[0])) return;
-  spore_camera_frame(&self->camera, lower, upper, (double)width / MAX(height, 1));
+  spore_camera_frame(&self->camera, lower, upper, aspect_of(self));
   self->framed = TRUE;
   spore_viewport_redraw(self);
 }
