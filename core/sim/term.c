@@ -102,16 +102,29 @@ static SporeMat3 contact_jacobian(const SporeContactTerm *term, double depth, Sp
   return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
 }
 
+/* Softens along the normal by the law's slopes, and gives friction what then presses. Friction's own slope is that of
+ * the chord to no slip: its force is bounded, so the tangent would let it turn the slip round. */
+static void soften_contact(SporeContactTerm *term, double depth, SporeVec3 relative) {
+  const SporeSoftening *softening = &term->softening;
+  SporeVec3 n = term->normal;
+  double pressing = spore_vec3_dot(n, term->force);
+  if (pressing <= 0) return;
+  SporeMat3 slopes = contact_jacobian(term, depth, relative, softening->h, softening->h * softening->ahead);
+  double normal_slope = spore_vec3_dot(n, spore_mat3_apply(slopes, n));
+  double softened = 1 / (1 + softening->inverse_mass * normal_slope);
+  SporeVec3 friction = spore_vec3_scale(softened, spore_vec3_add_scaled(term->force, -pressing, n));
+  SporeVec3 slip = spore_vec3_add_scaled(relative, -spore_vec3_dot(n, relative), n);
+  double speed = spore_vec3_length(slip), chord = speed > 0 ? spore_vec3_length(friction) / speed : 0;
+  double held = 1 / (1 + softening->inverse_mass * softening->h * chord);
+  term->force = spore_vec3_add_scaled(spore_vec3_scale(held, friction), softened * pressing, n);
+}
+
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                               double *f) {
   SporeVec3 relative;
   double depth = contact_state(term, sites, q, v, &relative);
   term->force = spore_contact_force(&term->law, term->normal, depth, relative);
-  const SporeSoftening *softening = &term->softening;
-  if (softening->inverse_mass > 0) {
-    SporeMat3 jacobian = contact_jacobian(term, depth, relative, softening->h, softening->h * softening->ahead);
-    term->force = soften(softening, jacobian, term->force);
-  }
+  if (term->softening.inverse_mass > 0) soften_contact(term, depth, relative);
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
