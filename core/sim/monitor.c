@@ -8,8 +8,9 @@
 #include "core/sim/world_private.h"
 
 #define SUBSTEPS_MAXIMUM 8
-/* A relative residual up to this is counted and told of, but stands: a step again would cost more than it mends. */
-#define RESIDUAL_TO_STAND 1e-3
+/* An answer that misses its tolerance by no more than this factor is counted and told of, but stands: a step again
+ * would cost more than it mends. */
+#define MISS_TO_STAND 10
 
 static bool finite_all(const double *values, size_t count) {
   for (size_t i = 0; i < count; i++)
@@ -147,7 +148,9 @@ static SporeTrouble try_substeps(SporeWorld *world, SporeIsland *island, uint32_
 }
 
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
-  if (island->trouble == SPORE_TROUBLE_NOT_CONVERGED && island->result.residual <= RESIDUAL_TO_STAND) return;
+  if (island->trouble == SPORE_TROUBLE_NOT_CONVERGED &&
+      island->result.residual <= MISS_TO_STAND * world->solver.tolerance)
+    return;
   uint32_t offender = broken_model(world, island);
   while (island->kept_count > 0) {
     SporeTrouble trouble = SPORE_TROUBLE_NOT_FINITE;

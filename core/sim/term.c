@@ -102,21 +102,38 @@ static SporeMat3 contact_jacobian(const SporeContactTerm *term, double depth, Sp
   return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
 }
 
-/* Softens along the normal by the law's slopes, and gives friction what then presses. Friction's own slope is that of
- * the chord to no slip: its force is bounded, so the tangent would let it turn the slip round. */
+/* Normal force N of one implicit step of the two ends alone: N of the law at the gap speed g that it leads to, g0 + w h
+ * N, and at the depth that belongs to it. N falls with g, so bisection finds it. */
+static double implicit_pressing(const SporeContactTerm *term, double depth, SporeVec3 relative, double most) {
+  const SporeSoftening *softening = &term->softening;
+  double gain = softening->inverse_mass * softening->h, low = 0, high = most;
+  for (int i = 0; i < 40; i++) {
+    double middle = 0.5 * (low + high), faster = gain * middle;
+    SporeVec3 after = spore_vec3_add_scaled(relative, faster, term->normal);
+    SporeVec3 force = spore_contact_force(&term->law, term->normal, depth - softening->ahead * faster, after);
+    if (spore_vec3_dot(force, term->normal) > middle) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+/* Softens along the normal by the law's slopes, or, where that would throw the ends apart so fast that the law bends,
+ * by the law itself. Friction gets what then presses; its own slope is that of the chord to no slip: its force is
+ * bounded, so the tangent would let it turn the slip round. */
 static void soften_contact(SporeContactTerm *term, double depth, SporeVec3 relative) {
   const SporeSoftening *softening = &term->softening;
+  double w = softening->inverse_mass, h = softening->h;
   SporeVec3 n = term->normal;
-  double pressing = spore_vec3_dot(n, term->force);
-  if (pressing <= 0) return;
-  SporeMat3 slopes = contact_jacobian(term, depth, relative, softening->h, softening->h * softening->ahead);
-  double normal_slope = spore_vec3_dot(n, spore_mat3_apply(slopes, n));
-  double softened = 1 / (1 + softening->inverse_mass * normal_slope);
-  SporeVec3 friction = spore_vec3_scale(softened, spore_vec3_add_scaled(term->force, -pressing, n));
+  double hard = spore_vec3_dot(n, term->force);
+  if (hard <= 0) return;
+  SporeMat3 slopes = contact_jacobian(term, depth, relative, h, h * softening->ahead);
+  double pressing = hard / (1 + w * spore_vec3_dot(n, spore_mat3_apply(slopes, n)));
+  if (spore_vec3_dot(n, relative) + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
+    pressing = implicit_pressing(term, depth, relative, pressing);
+  SporeVec3 friction = spore_vec3_scale(pressing / hard, spore_vec3_add_scaled(term->force, -hard, n));
   SporeVec3 slip = spore_vec3_add_scaled(relative, -spore_vec3_dot(n, relative), n);
   double speed = spore_vec3_length(slip), chord = speed > 0 ? spore_vec3_length(friction) / speed : 0;
-  double held = 1 / (1 + softening->inverse_mass * softening->h * chord);
-  term->force = spore_vec3_add_scaled(spore_vec3_scale(held, friction), softened * pressing, n);
+  term->force = spore_vec3_add_scaled(spore_vec3_scale(1 / (1 + w * h * chord), friction), pressing, n);
 }
 
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
