@@ -248,11 +248,12 @@ static bool retune(SporeModel *model, const void *fields, SporeError *error) {
 const SporeModelType spore_corotational_tetrahedra = {
     .name = "corotational_tetrahedra",
     .label = N_("Corotational tetrahedra"),
-    .doc =
-        N_("A solid of linear elastic tetrahedra, each in its own turned frame, so that large rotations cost nothing: "
-           "the usual choice for organs. It comes back from any deformation, also turned inside out. With few cells "
-           "across or a Poisson's ratio near 0.5 it bends less than it should: a bar 2 cells thick by half, 4 by a "
-           "fifth."),
+    .doc = N_(
+        "A solid of linear elastic tetrahedra, each in its own turned frame, so that large rotations cost nothing: "
+        "the usual choice for organs. It comes back when it was crushed flat or a corner was pushed through; a heap of "
+        "elements inside out can stay caught. With few cells "
+        "across or a Poisson's ratio near 0.5 it bends less than it should: a bar 2 cells thick by half, 4 by a "
+        "fifth."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},
     .geometry = SPORE_GEOMETRY_TETRAHEDRA,
     .create = create,

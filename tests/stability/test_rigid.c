@@ -1,0 +1,220 @@
+/* Rigid bodies that turn freely, against the closed solution: cases 25 and 26. */
+#include <math.h>
+#include <string.h>
+
+#include "tests/stability/rig.h"
+
+/* Jacobi's sn, cn, dn of u with modulus squared m in [0, 1), by the descending Landen transformation (Abramowitz and
+ * Stegun 16.4); *quarter gets the complete integral K. */
+static void jacobi(double u, double m, double *sn, double *cn, double *dn, double *quarter) {
+  double a[16], c[16], b = sqrt(1 - m);
+  int n = 0;
+  a[0] = 1, c[0] = sqrt(m);
+  while (fabs(c[n]) > 1e-17 && n < 15) {
+    a[n + 1] = 0.5 * (a[n] + b);
+    c[n + 1] = 0.5 * (a[n] - b);
+    b = sqrt(a[n] * b);
+    n++;
+  }
+  double phi = ldexp(a[n] * u, n), before = phi;
+  *quarter = G_PI / (2 * a[n]);
+  for (; n > 0; n--) {
+    before = phi;
+    phi = 0.5 * (phi + asin(c[n] / a[n] * sin(phi)));
+  }
+  *sn = sin(phi);
+  *cn = cos(phi);
+  *dn = fabs(cos(before - phi)) > 1e-8 ? cos(phi) / cos(before - phi) : sqrt(1 - m * *sn * *sn);
+}
+
+typedef struct Top {
+  double inertia[3]; /* ascending */
+  double a, b, c, p, m;
+  gboolean swapped; /* about the axis of the largest moment: cn and dn change places */
+} Top;
+
+/* numerics.md: w(t) = (a dn, b sn, c cn)(p t), or with cn and dn exchanged, from w with w2 = 0. */
+static Top top_solve(const double inertia[3], double w1, double w3) {
+  double i1 = inertia[0], i2 = inertia[1], i3 = inertia[2];
+  double t2 = i1 * w1 * w1 + i3 * w3 * w3, g = i1 * i1 * w1 * w1 + i3 * i3 * w3 * w3;
+  Top top = {.inertia = {i1, i2, i3}, .swapped = g >= t2 * i2};
+  top.a = sqrt((t2 * i3 - g) / (i1 * (i3 - i1)));
+  top.c = sqrt((g - t2 * i1) / (i3 * (i3 - i1)));
+  if (!top.swapped) {
+    top.b = sqrt((g - t2 * i1) / (i2 * (i2 - i1)));
+    top.p = sqrt((i2 - i1) * (t2 * i3 - g) / (i1 * i2 * i3));
+    top.m = (i3 - i2) * (g - t2 * i1) / ((i2 - i1) * (t2 * i3 - g));
+  } else {
+    top.b = sqrt((t2 * i3 - g) / (i2 * (i3 - i2)));
+    top.p = sqrt((i3 - i2) * (g - t2 * i1) / (i1 * i2 * i3));
+    top.m = (i2 - i1) * (t2 * i3 - g) / ((i3 - i2) * (g - t2 * i1));
+  }
+  return top;
+}
+
+static SporeVec3 top_spin(const Top *top, double t, double *quarter) {
+  double sn, cn, dn;
+  jacobi(top->p * t, top->m, &sn, &cn, &dn, quarter);
+  /* The sign of the middle axis follows from Euler's equations: i2 w2' = (i3 - i1) w3 w1 > 0. */
+  return top->swapped ? spore_vec3(top->a * cn, top->b * sn, top->c * dn)
+                      : spore_vec3(top->a * dn, top->b * sn, top->c * cn);
+}
+
+/* A box with principal axes along x, y, z and the moments ascending in that order. */
+static SporeModel *box(double x, double y, double z, double inertia[3]) {
+  SporeTriangleMesh mesh;
+  shape_box(&mesh, spore_vec3(0, 0, 0), spore_vec3(x, y, z));
+  SporeModel *model = rig_surface_model(&spore_rigid_body, &mesh, "mass", 1.0, NULL);
+  inertia[0] = (y * y + z * z) / 12;
+  inertia[1] = (x * x + z * z) / 12;
+  inertia[2] = (x * x + y * y) / 12;
+  return model;
+}
+
+static SporeVec3 body_spin(const SporeWorld *world) {
+  const double *q = spore_world_q(world, 0), *v = spore_world_v(world, 0);
+  return spore_quat_rotate(spore_quat_conjugate(spore_quat_load(q + 3)), spore_vec3_load(v + 3));
+}
+
+static SporeVec3 angular_momentum(const SporeWorld *world, const double inertia[3]) {
+  SporeVec3 w = body_spin(world), l = {inertia[0] * w.x, inertia[1] * w.y, inertia[2] * w.z};
+  return spore_quat_rotate(spore_quat_load(spore_world_q(world, 0) + 3), l);
+}
+
+static SporeWorld *spinning(Rig *rig, SporeModel *model, SporeVec3 spin, double h, SporeIntegratorKind kind) {
+  rig->description.solver.time_step = h;
+  SporeBodyDescription *body = rig_passive(rig, "top", model, NULL);
+  body->spin = spin;
+  body->integrator = kind;
+  return rig_build(rig);
+}
+
+/* Mass, centre and inertia of a box that lies off its frame's origin, turned. */
+static void inertia_of_box(void) {
+  SporeTriangleMesh mesh;
+  shape_box(&mesh, spore_vec3(3, -2, 5), spore_vec3(0.1, 0.2, 0.3));
+  SporeModel *model = rig_surface_model(&spore_rigid_body, &mesh, "density", 1000.0, NULL);
+  double q[7], v[6], blocks[18], expected[3] = {6 * 0.13 / 12, 6 * 0.10 / 12, 6 * 0.05 / 12}, worst = 0;
+  model->type->place(model, spore_pose_identity(), spore_vec3(0, 0, 0), spore_vec3(0, 0, 0), q, v);
+  model->type->mass(model, q, blocks);
+  for (int i = 0; i < 9; i++) worst = fmax(worst, fabs(blocks[9 + i] - (i % 4 ? 0 : expected[i / 4])));
+  g_test_message("box: mass %.17g kg of 6, inertia off by %.1e kg m^2, centre (%g %g %g)", blocks[0], worst, q[0], q[1],
+                 q[2]);
+  g_assert_cmpfloat(fabs(blocks[0] - 6), <, 1e-12);
+  g_assert_cmpfloat(worst, <, 1e-13);
+  g_assert_cmpfloat(spore_vec3_distance(spore_vec3_load(q), spore_vec3(3, -2, 5)), <, 1e-13);
+  model->type->destroy(model);
+}
+
+/* The whole path of the spin against the elliptic solution, about the axis of the smallest and of the largest moment.
+ */
+static void elliptic(void) {
+  for (int swapped = 0; swapped < 2; swapped++)
+    for (SporeIntegratorKind kind = SPORE_INTEGRATOR_SYMPLECTIC_EULER; kind <= SPORE_INTEGRATOR_IMPLICIT_EULER;
+         kind++) {
+      double inertia[3], w1 = swapped ? 2 : 9, w3 = swapped ? 8 : 3, worst = 0, quarter, energy, h = 2e-3;
+      SporeModel *model = box(0.3, 0.2, 0.1, inertia);
+      Top top = top_solve(inertia, w1, w3);
+      Rig *rig = rig_new();
+      SporeWorld *world = spinning(rig, model, spore_vec3(w1, 0, w3), h, kind);
+      energy = rig_energy(world);
+      SporeVec3 momentum = angular_momentum(world, inertia);
+      for (int i = 1; i <= 5000; i++) {
+        spore_world_step(world);
+        worst = fmax(worst, spore_vec3_distance(body_spin(world), top_spin(&top, i * h, &quarter)));
+      }
+      double lost = spore_vec3_distance(momentum, angular_momentum(world, inertia)) / spore_vec3_length(momentum);
+      g_test_message(
+          "free top, %s axis, %s: 10 s, %.1f periods: spin off by %.2e rad/s of %.1f, energy by %.1e, angular "
+          "momentum by %.1e",
+          swapped ? "large" : "small", spore_integrator_names[kind], 10 * top.p / (4 * quarter), worst, hypot(w1, w3),
+          rig_energy(world) / energy - 1, lost);
+      g_assert_true(top.swapped == swapped);
+      g_assert_cmpfloat(worst, <, 1e-4);
+      g_assert_cmpfloat(lost, <, 1e-12);
+      rig_free(rig);
+    }
+}
+
+static double middle_spin(const double *q, const double *v) {
+  return spore_quat_rotate(spore_quat_conjugate(spore_quat_load(q + 3)), spore_vec3_load(v + 3)).y;
+}
+
+/* Time from the state (q, v) to the moment within h at which the spin about the middle axis passes 0, by bisection. */
+static double time_to_flip(const SporeModel *model, const double *q, const double *v, double h) {
+  double low = 0, high = h, start = middle_spin(q, v), q1[7], v1[6];
+  for (int i = 0; i < 40; i++) {
+    double middle = 0.5 * (low + high);
+    model->type->drift(model, q, v, middle, q1, v1);
+    if (middle_spin(q1, v1) * start > 0) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+/* Case 25: 1e3 rad/s about the middle axis, a little off it. The body turns over each half period 2 K / p. */
+static void case_25(void) {
+  static const double steps[] = {1e-4, 1e-3, 5e-3};
+  for (unsigned s = 0; s < G_N_ELEMENTS(steps); s++) {
+    double inertia[3], w1 = 1, w2 = 1000, h = steps[s], quarter;
+    SporeModel *model = box(0.3, 0.2, 0.1, inertia);
+    /* The closed solution starts where w2 = 0: the state there with the same energy and momentum. */
+    double t2 = inertia[0] * w1 * w1 + inertia[1] * w2 * w2;
+    double g = inertia[0] * inertia[0] * w1 * w1 + inertia[1] * inertia[1] * w2 * w2;
+    double a2 = (t2 * inertia[2] - g) / (inertia[0] * (inertia[2] - inertia[0]));
+    double c2 = (g - t2 * inertia[0]) / (inertia[2] * (inertia[2] - inertia[0]));
+    Top top = top_solve(inertia, sqrt(a2), sqrt(c2));
+    top_spin(&top, 0, &quarter);
+    double period = 2 * quarter / top.p;
+    Rig *rig = rig_new();
+    SporeWorld *world = spinning(rig, model, spore_vec3(w1, w2, 0), h, SPORE_INTEGRATOR_DEFAULT);
+    double first = 0, last = 0, q[7], v[6];
+    int flips = 0;
+    for (int i = 0; flips < 21; i++) {
+      memcpy(q, spore_world_q(world, 0), sizeof q);
+      memcpy(v, spore_world_v(world, 0), sizeof v);
+      spore_world_step(world);
+      if (middle_spin(q, v) * middle_spin(spore_world_q(world, 0), spore_world_v(world, 0)) > 0) continue;
+      last = i * h + time_to_flip(model, q, v, h);
+      if (!flips++) first = last;
+    }
+    double measured = (last - first) / 20;
+    g_test_message("case 25: h %g s: turns over every %.8f s, should %.8f s (off by %.1e)", h, measured, period,
+                   measured / period - 1);
+    g_assert_cmpfloat(fabs(measured / period - 1), <, 1e-4);
+    rig_free(rig);
+  }
+}
+
+/* Case 26: a needle whose moments are as 1 to 1e6. */
+static void case_26(void) {
+  static const SporeVec3 spins[] = {{1, 1, 1}, {100, 1, 2}, {0, 3, 0}, {1000, 0, 1e-3}};
+  for (unsigned s = 0; s < G_N_ELEMENTS(spins); s++) {
+    double inertia[3], width = sqrt(0.5) * 1e-3;
+    SporeModel *model = box(1, width * 1.1, width * 0.9, inertia);
+    Rig *rig = rig_new();
+    SporeWorld *world = spinning(rig, model, spins[s], 2e-3, SPORE_INTEGRATOR_DEFAULT);
+    SporeVec3 before = angular_momentum(world, inertia);
+    double energy = rig_energy(world);
+    rig_run(world, 5000);
+    double lost = spore_vec3_distance(before, angular_momentum(world, inertia)) / spore_vec3_length(before);
+    g_test_message(
+        "case 26: moments 1 : %.3g, spin (%g %g %g): after 10 s angular momentum off by %.1e, energy by %.1e",
+        inertia[2] / inertia[0], spins[s].x, spins[s].y, spins[s].z, lost, rig_energy(world) / energy - 1);
+    g_assert_true(rig_finite(world));
+    /* The state holds the spin in world axes, to one rounding of its length. Across the needle that weighs 1e6 times as
+     * much as along it, so where the spin is mostly along, no more can be kept. */
+    double along = fabs(spins[s].x) / hypot(spins[s].y, spins[s].z);
+    g_assert_cmpfloat(lost, <, 1e-12 * fmax(1, along));
+    rig_free(rig);
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/stability/rigid/inertia", inertia_of_box);
+  g_test_add_func("/stability/rigid/elliptic", elliptic);
+  g_test_add_func("/stability/25_flip", case_25);
+  g_test_add_func("/stability/26_needle", case_26);
+  return g_test_run();
+}
