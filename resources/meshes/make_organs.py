@@ -216,7 +216,7 @@ def uterus(p):
         horn = chain(q, [[side * 0.016, 0.036, 0], [side * 0.028, 0.0400, 0], [side * 0.0375, 0.0405, 0.001]],
                      [0.0105, 0.0062, 0.0034], 0.006)
         d = smooth_union(d, horn, 0.007)
-        pole = OVARY[side] - 0.0218 * ovary_frame(side)[0]
+        pole = OVARY[side] - 0.0203 * ovary_frame(side)[0]
         root, middle = lean([side * 0.020, 0.029, 0.008]), 0.5 * lean([side * 0.022, 0.030, 0.011]) + 0.5 * pole
         cord = chain(p, [root, middle + [0, 0.0015, 0.002], pole], [0.0042, 0.0031, 0.0026], 0.004)
         d = smooth_union(d, cord, 0.005)

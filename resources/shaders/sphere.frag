@@ -34,11 +34,18 @@ void main() {
   vec3 position = ray * (along - sqrt(inside));
   vec4 clip = projection * vec4(position, 1.0);
 #endif
+#ifndef HIDDEN
   gl_FragDepth = 0.5 + 0.5 * clip.z / clip.w;
+#endif
 #if !DEPTH_ONLY
   vec3 normal = (position - v_sphere.xyz) / v_sphere.w;
   vec3 albedo = v_value >= 0.0 ? scale_colour(v_value) : colour;
+#if QUALITY
   float open = ambient_open(), lit = light_reaches(position, normal);
-  result = finish(shade_tissue(albedo, 0.35, position, normal, normal, open, lit), dim);
+  vec3 outcome = shade_tissue(albedo, 0.35, position, normal, normal, open, lit);
+#else
+  vec3 outcome = shade_plain(albedo, position, normal);
+#endif
+  result = finish(outcome, dim);
 #endif
 }

@@ -28,5 +28,9 @@ void main() {
   gl_Position = shadow * vec4(v_ray, 1.0);
 #else
   gl_Position = projection * vec4(v_ray, 1.0);
+#ifdef HIDDEN
+  float back = centre.z - radius;
+  gl_Position.z = min(-(projection[2].z * back + projection[3].z) / back, 0.99999) * gl_Position.w;
+#endif
 #endif
 }

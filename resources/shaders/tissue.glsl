@@ -54,16 +54,29 @@ vec3 shade_tissue(vec3 albedo, float wetness, vec3 position, vec3 normal, vec3 f
   return colour;
 }
 
+// As tissue, for many small things at little cost.
+vec3 shade_plain(vec3 albedo, vec3 position, vec3 normal) {
+  float strength;
+  vec3 to_light = lamp(position, strength);
+  float n_l = dot(normal, to_light), glint = clamp(n_l * 1.9 - 0.9, 0.0, 1.0);
+  vec3 diffuse = clamp((n_l + vec3(0.34, 0.10, 0.08)) / vec3(1.8, 1.21, 1.17), 0.0, 1.0);
+  glint *= glint * glint;
+  glint *= glint;
+  return albedo * (diffuse * (1.25 * strength) + 0.15 + 0.06 * dot(normal, up.xyz)) + 0.16 * glint * glint;
+}
+
 // Brushed steel: streaks run along the instrument; the lobe is stretched across them.
 vec3 shade_metal(vec3 tint, vec3 position, vec3 normal, vec3 streak, float open, float lit) {
   float strength;
   vec3 view = normalize(-position), to_light = lamp(position, strength), halfway = normalize(view + to_light);
-  vec3 bent = normalize(normal + streak);
+  vec3 bent = normalize(normal + streak), mirrored = reflect(-view, bent);
   float n_v = clamp(dot(bent, view), 0.05, 1.0), n_l = clamp(dot(bent, to_light), 0.0, 1.0);
-  float lobe = ggx(clamp(dot(bent, halfway), 0.0, 1.0), n_v, max(n_l, 0.05), 0.20) * n_l;
+  float sharp = ggx(clamp(dot(bent, halfway), 0.0, 1.0), n_v, max(n_l, 0.05), 0.10) * n_l;
+  float broad = ggx(clamp(dot(bent, halfway), 0.0, 1.0), n_v, max(n_l, 0.05), 0.35) * n_l;
   vec3 reflectance = tint + (1.0 - tint) * schlick(n_v, 0.0);
-  vec3 mirror = room(reflect(-view, bent), 1.6) * 1.5 * (0.3 + 0.7 * open);
-  // Below, it mirrors the red of the organs.
-  mirror += vec3(0.10, 0.030, 0.024) * clamp(0.4 - dot(bent, up.xyz), 0.0, 1.0) * open;
-  return reflectance * (mirror * strength + (lobe * 1.1 + n_l * 0.18) * strength * lit);
+  // A bright strip above, the dark of the cavity at the sides, the red of the organs below.
+  float height = dot(mirrored, up.xyz), strip = clamp(1.0 - abs(height - 0.55) * 2.6, 0.0, 1.0);
+  vec3 mirror = vec3(0.03, 0.022, 0.02) + vec3(0.95, 0.94, 0.92) * strip * strip;
+  mirror += vec3(0.20, 0.065, 0.05) * clamp(-0.2 - height, 0.0, 1.0) + room(mirrored, 0.5);
+  return reflectance * (mirror * (0.25 + 0.75 * open) + (0.5 * sharp + 0.8 * broad) * lit) * strength;
 }

@@ -7,12 +7,13 @@
 #define PREFIX "/spore/shaders/"
 
 typedef struct ProgramSource {
-  const char *vertex, *fragment;
+  const char *vertex, *fragment, *define; /* define: put before both, may be NULL */
 } ProgramSource;
 
 static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
     [SPORE_PROGRAM_SURFACE] = {"surface.vert", "surface.frag"},
     [SPORE_PROGRAM_SPHERE] = {"sphere.vert", "sphere.frag"},
+    [SPORE_PROGRAM_HIDDEN_SPHERE] = {"sphere.vert", "sphere.frag", "#define HIDDEN\n"},
     [SPORE_PROGRAM_LINE] = {"line.vert", "line.frag"},
     [SPORE_PROGRAM_BACKGROUND] = {"screen.vert", "background.frag"},
     [SPORE_PROGRAM_OCCLUSION] = {"screen.vert", "occlusion.frag"},
@@ -45,12 +46,12 @@ static gboolean refused(const char *name, const char *log, GError **error) {
       log);
 }
 
-static GLuint compile(GLenum stage, const char *name, SporeVariant variant, GError **error) {
+static GLuint compile(GLenum stage, const char *name, const char *define, SporeVariant variant, GError **error) {
   const char *parts[] = {"frame.glsl", "colour.glsl", "visibility.glsl", "tissue.glsl", name};
   GBytes *texts[G_N_ELEMENTS(parts)];
-  const char *strings[G_N_ELEMENTS(parts) + 1] = {preamble[variant]};
-  GLint lengths[G_N_ELEMENTS(parts) + 1] = {-1};
-  guint count = 1;
+  const char *strings[G_N_ELEMENTS(parts) + 2] = {preamble[variant], define ? define : ""};
+  GLint lengths[G_N_ELEMENTS(parts) + 2] = {-1, -1};
+  guint count = 2;
   for (guint i = 0; i < G_N_ELEMENTS(parts); i++) {
     gsize size;
     texts[i] = shader_text(parts[i]);
@@ -74,8 +75,8 @@ static GLuint compile(GLenum stage, const char *name, SporeVariant variant, GErr
 }
 
 static GLuint link_program(const ProgramSource *source, SporeVariant variant, GError **error) {
-  GLuint vertex = compile(GL_VERTEX_SHADER, source->vertex, variant, error);
-  GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, source->fragment, variant, error) : 0;
+  GLuint vertex = compile(GL_VERTEX_SHADER, source->vertex, source->define, variant, error);
+  GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, source->fragment, source->define, variant, error) : 0;
   GLuint id = 0;
   if (fragment) {
     GLint good;

@@ -67,21 +67,30 @@ static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const Spo
   }
 }
 
+/* Squares stand at the far side of their spheres, so that every hidden fragment passes the test, and the driver may
+ * test before it shades. What passes and is not hidden is drawn over by the next pass. */
+static gboolean draw_hidden(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
+                            SporeVariant variant, GError **error) {
+  const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_HIDDEN_SPHERE, variant, error);
+  if (!program) return FALSE;
+  glUseProgram(program->id);
+  glDepthFunc(GL_GREATER);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glUniform1f(program->dim, HIDDEN_ALPHA);
+  draw_groups(drawables, frame, program, TRUE);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  return TRUE;
+}
+
 gboolean spore_sphere_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                            gboolean overlays, GError **error) {
+  if (overlays && !draw_hidden(drawables, frame, programs, variant, error)) return FALSE;
   const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_SPHERE, variant, error);
   if (!program) return FALSE;
   glUseProgram(program->id);
-  if (overlays) {
-    glDepthFunc(GL_GREATER);
-    glDepthMask(GL_FALSE);
-    glEnable(GL_BLEND);
-    glUniform1f(program->dim, HIDDEN_ALPHA);
-    draw_groups(drawables, frame, program, TRUE);
-    glDisable(GL_BLEND);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_LEQUAL);
-  }
   glUniform1f(program->dim, 1);
   draw_groups(drawables, frame, program, overlays);
   return TRUE;
