@@ -86,7 +86,11 @@ static void opened(SporeJob *job, gpointer data, const GError *error, gpointer o
   g_clear_object(&self->job); /* this one is through: replacing the document cancels what still runs */
   gtk_widget_hide(self->job_box);
   spore_window_set_document(self, document);
-  if (work->recovered) spore_editor_document_set_recovered(self->document, work->original);
+  if (work->recovered) {
+    g_autofree char *folder = g_path_get_dirname(work->file);
+    spore_editor_document_set_recovered(self->document, work->original);
+    spore_recovery_adopt(self->recovery, folder);
+  }
   self->fresh = FALSE;
   spore_window_update_actions(self);
   g_signal_emit_by_name(self->document, "history-changed");

@@ -274,6 +274,9 @@ def recovery_after_a_crash():
         assert editor.enabled("save")
         text = saved(editor, "recovered")
         assert (folder("saved") / "recovered" / "ball.off").exists() and 'name="ball"' in text
+    with start() as editor:
+        editor.find("label", "Begin with an organ")
+        assert not editor.look("label", "ended unexpectedly")
 
 
 @check

@@ -77,6 +77,12 @@ static gboolean ensure_folder(SporeRecovery *recovery, GError **error) {
   return TRUE;
 }
 
+void spore_recovery_adopt(SporeRecovery *recovery, const char *folder) {
+  spore_recovery_forget(recovery);
+  recovery->lock = lock_folder(folder);
+  recovery->folder = g_strdup(folder);
+}
+
 /* Content is named by hash or imported once, so that an equal size is taken for equal content. */
 static gboolean keep_file(SporeRecovery *recovery, SporeDocument *document, const char *file, GError **error) {
   g_autoptr(GBytes) content = spore_document_read_asset(document, file, NULL);

@@ -13,6 +13,8 @@ void spore_recovery_free(SporeRecovery *recovery);
  * has changed since. */
 gboolean spore_recovery_keep(SporeRecovery *recovery, SporeEditorDocument *document, GError **error);
 void spore_recovery_forget(SporeRecovery *recovery);
+/* Goes on in the folder of a leftover whose scene was opened. */
+void spore_recovery_adopt(SporeRecovery *recovery, const char *folder);
 
 /* What a dead owner left. */
 typedef struct SporeLeftover {

@@ -57,12 +57,7 @@ static void run(GTask *task, gpointer source, gpointer data, GCancellable *cance
   SporeJob *self = source;
   SporeProgress progress = {report, self};
   GError *error = NULL;
-  gboolean done = self->work(data, &progress, &error);
-  if (done && g_cancellable_is_cancelled(cancellable)) {
-    done = FALSE;
-    spore_error_raise(&error, SPORE_ERROR_CANCELLED, "", "cancelled");
-  }
-  if (done) g_task_return_boolean(task, TRUE);
+  if (self->work(data, &progress, &error)) g_task_return_boolean(task, TRUE);
   else g_task_return_error(task, error);
 }
 
@@ -70,6 +65,9 @@ static void ended(GObject *source, GAsyncResult *result, gpointer user_data) {
   SporeJob *self = SPORE_JOB(source);
   g_autoptr(GError) error = NULL;
   g_task_propagate_boolean(G_TASK(result), &error);
+  /* Too late to stop it is still a stop: nobody wants the result. */
+  if (!error && g_cancellable_is_cancelled(self->cancellable))
+    spore_error_raise(&error, SPORE_ERROR_CANCELLED, "", "cancelled");
   self->running = FALSE;
   g_clear_handle_id(&self->timer, g_source_remove);
   self->done(self, g_task_get_task_data(G_TASK(result)), error, self->owner);

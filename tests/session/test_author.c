@@ -1,0 +1,397 @@
+/* What an author does in one gesture is one step that undoes exactly, and unsaved work survives its owner. No display.
+ */
+#include <glib/gstdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/io/mesh_import.h"
+#include "core/io/scene_xml.h"
+#include "models/registry.h"
+#include "ui/document/asset-readers.h"
+#include "ui/document/edits.h"
+#include "ui/document/recovery.h"
+#include "ui/jobs/spore-job.h"
+#include "ui/jobs/works.h"
+#include "ui/sim/spore-player.h"
+
+static const char tetrahedron_off[] =
+    "OFF\n4 4 0\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+typedef struct {
+  SporeSchema *schema;
+  SporeEditorDocument *editor;
+  SporeDocument *document; /* of the editor */
+} Fixture;
+
+static void set_up(Fixture *fixture, gconstpointer data) {
+  fixture->schema = spore_schema_new(spore_model_registry);
+  fixture->document = spore_document_new(fixture->schema);
+  spore_document_set_readers(fixture->document, &spore_editor_readers);
+  fixture->editor = spore_editor_document_new(fixture->document);
+}
+
+static void tear_down(Fixture *fixture, gconstpointer data) {
+  g_object_unref(fixture->editor);
+  spore_schema_free(fixture->schema);
+}
+
+static SporeObject *add_organ(Fixture *fixture) {
+  GError *error = NULL;
+  g_autoptr(GBytes) content = g_bytes_new_static(tetrahedron_off, strlen(tetrahedron_off));
+  SporeObject *body = spore_edit_add_organ(fixture->document, "/some/where/my organ.off", content, 0, 0, &error);
+  g_assert_no_error(error);
+  return body;
+}
+
+static char *text_of(Fixture *fixture) {
+  gsize size;
+  return spore_scene_format(fixture->document, &size);
+}
+
+/* The last edit goes and comes back as one step. */
+static void assert_one_step(Fixture *fixture, const char *before) {
+  g_autofree char *after = text_of(fixture);
+  g_assert_cmpstr(after, !=, before);
+  spore_document_undo(fixture->document);
+  g_autofree char *undone = text_of(fixture);
+  g_assert_cmpstr(undone, ==, before);
+  spore_document_redo(fixture->document);
+  g_autofree char *redone = text_of(fixture);
+  g_assert_cmpstr(redone, ==, after);
+}
+
+static void test_add_organ(Fixture *fixture, gconstpointer data) {
+  g_autofree char *before = text_of(fixture);
+  SporeObject *body = add_organ(fixture);
+  g_assert_cmpstr(spore_object_name(body), ==, "my_organ");
+  SporeObject *mesh = spore_edit_visual_mesh(fixture->document, body, NULL);
+  g_assert_nonnull(mesh);
+  g_assert_cmpuint(spore_document_mesh(fixture->document, mesh, NULL)->triangle_count, ==, 4);
+  assert_one_step(fixture, before);
+}
+
+/* Another file of the same name gets a name of its own; the same file is kept once. */
+static void test_add_twice(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeObject *first = add_organ(fixture), *second = add_organ(fixture);
+  g_assert_cmpstr(spore_object_name(second), !=, spore_object_name(first));
+  const char *file = spore_object_text(spore_edit_visual_mesh(fixture->document, first, NULL), "file");
+  g_assert_cmpstr(spore_object_text(spore_edit_visual_mesh(fixture->document, second, NULL), "file"), ==, file);
+  g_autofree char *other = g_strconcat(tetrahedron_off, "# another\n", NULL);
+  g_autoptr(GBytes) content = g_bytes_new(other, strlen(other));
+  SporeObject *third = spore_edit_add_organ(fixture->document, "my organ.off", content, 0, 0, &error);
+  g_assert_no_error(error);
+  g_assert_cmpstr(spore_object_text(spore_edit_visual_mesh(fixture->document, third, NULL), "file"), !=, file);
+}
+
+static void use_spheres(Fixture *fixture, SporeObject *body, double radius) {
+  GError *error = NULL;
+  double numbers[] = {0.02, 0.02, 0.02, radius};
+  SporeSphereSet set = {1, numbers};
+  SporeSpheresOptions options = {.count = 1, .seed = 7};
+  spore_edit_use_spheres(fixture->document, body, "my_organ", "0123456789abcdef", &options, &set, &error);
+  g_assert_no_error(error);
+}
+
+static void test_use_spheres(Fixture *fixture, gconstpointer data) {
+  SporeObject *body = add_organ(fixture);
+  g_autofree char *before = text_of(fixture);
+  use_spheres(fixture, body, 0.02);
+  assert_one_step(fixture, before);
+  /* Generated again: the same asset, other content, and undo brings the first back. */
+  body = spore_document_by_path(fixture->document, "bodies/my_organ");
+  SporeObject *asset = spore_edit_body_spheres(fixture->document, body);
+  g_autofree char *first = text_of(fixture);
+  use_spheres(fixture, body, 0.03);
+  g_assert_true(spore_edit_body_spheres(fixture->document, body) == asset);
+  g_assert_cmpfloat(spore_document_spheres(fixture->document, asset, NULL)->spheres[3], ==, 0.03);
+  assert_one_step(fixture, first);
+  spore_document_undo(fixture->document);
+  g_assert_cmpfloat(spore_document_spheres(fixture->document, asset, NULL)->spheres[3], ==, 0.02);
+}
+
+static void test_set_model(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeObject *body = add_organ(fixture);
+  g_autofree char *before = text_of(fixture);
+  g_assert_true(spore_edit_set_model(fixture->document, body, "mass_spring_net", &error));
+  g_assert_cmpstr(spore_object_type(spore_edit_body_model(body))->element, ==, "mass_spring_net");
+  g_assert_cmpstr(spore_object_text(spore_object_child_of(body, "mechanical"), "geometry"), ==, "my_organ");
+  assert_one_step(fixture, before);
+  g_autofree char *net = text_of(fixture);
+  g_assert_false(spore_edit_set_model(fixture->document, body, "no_such_model", &error));
+  g_assert_nonnull(error);
+  g_clear_error(&error);
+  g_autofree char *kept = text_of(fixture);
+  g_assert_cmpstr(kept, ==, net);
+  g_assert_true(spore_edit_set_model(fixture->document, body, "", &error));
+  g_assert_null(spore_edit_body_model(body));
+}
+
+static void test_probe_and_pin(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeObject *body = add_organ(fixture);
+  g_autofree char *before = text_of(fixture);
+  SporeObject *pin = spore_edit_add_pin(fixture->document, body, &error);
+  g_assert_no_error(error);
+  g_assert_cmpstr(spore_object_text(pin, "body"), ==, "my_organ");
+  assert_one_step(fixture, before);
+  g_autofree char *pinned = text_of(fixture);
+  SporeObject *probe = spore_edit_add_probe(fixture->document, &error);
+  g_assert_no_error(error);
+  g_assert_true(spore_edit_find_probe(fixture->document) == probe);
+  int position = spore_parameter_find(spore_object_type(probe)->table, "position");
+  g_assert_cmpfloat(spore_object_value(probe, (guint)position)->number[1], >, 0.1); /* above the highest point */
+  assert_one_step(fixture, pinned);
+  /* A second probe shares the mouse. */
+  spore_edit_add_probe(fixture->document, &error);
+  g_assert_no_error(error);
+  g_assert_cmpuint(spore_object_child_count(spore_document_section(fixture->document, "devices")), ==, 1);
+}
+
+static void test_set_property(Fixture *fixture, gconstpointer data) {
+  static const char *const refused[][3] = {
+      {"bodies/none", "role", "active"},
+      {"bodies/my_organ", "rolle", "active"},
+      {"bodies/my_organ", "role", "lazy"},
+      {"bodies/my_organ/collision", "stiffness", "-1"},
+      {"bodies/my_organ/nothing", "stiffness", "1"},
+  };
+  GError *error = NULL;
+  add_organ(fixture);
+  g_autofree char *before = text_of(fixture);
+  for (gsize i = 0; i < G_N_ELEMENTS(refused); i++) {
+    g_assert_false(spore_edit_set_property(fixture->document, refused[i][0], refused[i][1], refused[i][2], &error));
+    g_assert_nonnull(error);
+    g_clear_error(&error);
+    g_autofree char *after = text_of(fixture);
+    g_assert_cmpstr(after, ==, before);
+  }
+  /* The unit is made by the first change. */
+  g_assert_true(spore_edit_set_property(fixture->document, "bodies/my_organ/collision", "stiffness", "123", &error));
+  assert_one_step(fixture, before);
+  g_assert_true(spore_edit_set_property(fixture->document, "bodies/my_organ/collision", "stiffness", NULL, &error));
+  g_assert_true(spore_edit_set_property(fixture->document, "bodies/my_organ", "name", "spleen", &error));
+  g_assert_nonnull(spore_document_by_path(fixture->document, "bodies/spleen"));
+}
+
+static void test_selection(Fixture *fixture, gconstpointer data) {
+  SporeObject *body = add_organ(fixture);
+  SporeObject *visual = spore_object_child_of(body, "visual");
+  spore_editor_document_select(fixture->editor, spore_object_id(visual));
+  g_assert_true(spore_editor_document_selected_body(fixture->editor) == body);
+  g_assert_true(spore_document_remove(fixture->document, body, NULL));
+  g_assert_cmpuint(spore_editor_document_get_selection(fixture->editor), ==, 0);
+}
+
+/* Jobs. */
+
+static gboolean work_until_cancelled(gpointer data, const SporeProgress *progress, GError **error) {
+  for (int i = 0; i < 10000; i++) {
+    if (!spore_progress(progress, i / 1e4, "waiting"))
+      return spore_error_raise(error, SPORE_ERROR_CANCELLED, "", "cancelled");
+    g_usleep(1000);
+  }
+  return TRUE;
+}
+
+static gboolean work_at_once(gpointer data, const SporeProgress *progress, GError **error) {
+  *(int *)data = 42;
+  spore_progress(progress, 1, NULL);
+  return TRUE;
+}
+
+typedef struct {
+  GMainLoop *loop;
+  int code, value;
+} Outcome;
+
+static void work_done(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  Outcome *outcome = g_object_get_data(owner, "outcome");
+  outcome->code = error ? error->code : 0;
+  outcome->value = *(int *)data;
+  g_main_loop_quit(outcome->loop);
+}
+
+static Outcome run_job(SporeJobWork work, gboolean cancel) {
+  g_autoptr(GObject) owner = g_object_new(G_TYPE_OBJECT, NULL);
+  Outcome outcome = {.loop = g_main_loop_new(NULL, FALSE)};
+  g_object_set_data(owner, "outcome", &outcome);
+  g_autoptr(SporeJob) job = spore_job_start("Work", work, g_new0(int, 1), g_free, work_done, owner);
+  if (cancel) spore_job_cancel(job);
+  g_main_loop_run(outcome.loop);
+  g_assert_false(spore_job_is_running(job));
+  g_main_loop_unref(outcome.loop);
+  return outcome;
+}
+
+static void test_jobs(Fixture *fixture, gconstpointer data) {
+  Outcome done = run_job(work_at_once, FALSE);
+  g_assert_cmpint(done.code, ==, 0);
+  g_assert_cmpint(done.value, ==, 42);
+  g_assert_cmpint(run_job(work_until_cancelled, TRUE).code, ==, SPORE_ERROR_CANCELLED);
+  /* Also where the work does not listen. */
+  g_assert_cmpint(run_job(work_at_once, TRUE).code, ==, SPORE_ERROR_CANCELLED);
+}
+
+static void test_result_of_another_scene(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeObject *body = add_organ(fixture);
+  SporeGenerateWork *work = spore_generate_work_new(fixture->document, body, &error);
+  g_assert_no_error(error);
+  g_assert_true(spore_generate_work_body(work, fixture->document) == body);
+  SporeObject *mesh = spore_edit_visual_mesh(fixture->document, body, NULL);
+  g_assert_true(spore_document_set_text(fixture->document, mesh, "unit", "mm", NULL));
+  g_assert_null(spore_generate_work_body(work, fixture->document));
+  spore_document_undo(fixture->document);
+  g_assert_true(spore_generate_work_body(work, fixture->document) == body);
+  spore_document_undo(fixture->document);
+  g_assert_null(spore_generate_work_body(work, fixture->document));
+  spore_generate_work_free(work);
+}
+
+static void test_import_refuses(Fixture *fixture, gconstpointer data) {
+  g_autofree char *folder = g_dir_make_tmp("spore-import-XXXXXX", NULL);
+  g_autofree char *empty = g_build_filename(folder, "empty.off", NULL);
+  g_autofree char *missing = g_build_filename(folder, "missing.off", NULL);
+  g_assert_true(g_file_set_contents(empty, "", 0, NULL));
+  const char *files[] = {folder, empty, missing};
+  for (gsize i = 0; i < G_N_ELEMENTS(files); i++) {
+    g_autoptr(GError) error = NULL;
+    SporeImportWork *work = spore_import_work_new(files[i], 0, 0);
+    g_assert_false(spore_import_work_run(work, NULL, &error));
+    g_assert_true(g_str_has_prefix(error->message, files[i]));
+    spore_import_work_free(work);
+  }
+  g_unlink(empty);
+  g_rmdir(folder);
+}
+
+/* Player. */
+
+static void make_soft(Fixture *fixture) {
+  SporeObject *body = add_organ(fixture);
+  use_spheres(fixture, body, 0.02);
+  g_assert_true(spore_edit_set_model(fixture->document, body, "mass_spring_net", NULL));
+}
+
+static guint64 step_of(SporePlayer *player) { return spore_session_snapshot(spore_player_get_session(player))->step; }
+
+static void settle(void) {
+  while (g_main_context_iteration(NULL, FALSE)) continue;
+}
+
+static void test_player_follows_edits(Fixture *fixture, gconstpointer data) {
+  make_soft(fixture);
+  g_autofree char *before = text_of(fixture);
+  g_autoptr(SporePlayer) player = spore_player_new(fixture->editor);
+  g_assert_null(spore_player_get_session(player));
+  spore_player_step(player);
+  g_assert_cmpuint(step_of(player), ==, 1);
+  /* A live property goes into the running world. */
+  SporeSession *session = spore_player_get_session(player);
+  g_assert_true(spore_edit_set_property(fixture->document, "environment", "gravity", "0 -1 0", NULL));
+  settle();
+  g_assert_true(spore_player_get_session(player) == session);
+  /* Another one makes a new world in the same state. */
+  double height = spore_session_snapshot(session)->q[1];
+  g_assert_true(spore_edit_set_property(fixture->document, "solver", "time_step", "0.003", NULL));
+  settle();
+  g_assert_nonnull(spore_player_get_session(player));
+  g_assert_cmpfloat(spore_session_snapshot(spore_player_get_session(player))->q[1], ==, height);
+  spore_player_step(player);
+  spore_player_reset(player);
+  g_assert_cmpuint(step_of(player), ==, 0);
+  /* At the start, an edit ends the simulation: what is seen is the scene. */
+  spore_document_undo(fixture->document);
+  settle();
+  g_assert_null(spore_player_get_session(player));
+  spore_document_undo(fixture->document);
+  g_autofree char *after = text_of(fixture);
+  g_assert_cmpstr(after, ==, before);
+}
+
+static void count_failure(SporePlayer *player, const char *message, guint *count) { (*count)++; }
+
+static void test_player_refuses(Fixture *fixture, gconstpointer data) {
+  add_organ(fixture); /* passive, without a model */
+  g_autoptr(SporePlayer) player = spore_player_new(fixture->editor);
+  guint failures = 0;
+  g_signal_connect(player, "failed", G_CALLBACK(count_failure), &failures);
+  spore_player_play(player);
+  g_assert_cmpuint(failures, ==, 1);
+  g_assert_null(spore_player_get_session(player));
+  g_assert_false(spore_player_is_playing(player));
+}
+
+/* Recovery. The lock is held by this process, so that only what was given up is found. */
+
+static void test_recovery(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeRecovery *recovery = spore_recovery_new();
+  g_assert_true(spore_recovery_keep(recovery, fixture->editor, &error)); /* nothing unsaved: nothing kept */
+  g_assert_null(spore_leftover_find());
+  make_soft(fixture);
+  g_autofree char *text = text_of(fixture);
+  g_assert_true(spore_recovery_keep(recovery, fixture->editor, &error));
+  g_assert_no_error(error);
+  g_assert_null(spore_leftover_find()); /* its owner lives */
+  if (g_test_subprocess()) _exit(0);    /* and now it is dead */
+  spore_recovery_free(recovery);
+  g_assert_null(spore_leftover_find());
+
+  g_test_trap_subprocess(NULL, 0, G_TEST_SUBPROCESS_DEFAULT);
+  g_test_trap_assert_passed();
+  SporeLeftover *leftover = spore_leftover_find();
+  g_assert_nonnull(leftover);
+  g_assert_null(leftover->original);
+  SporeDocument *recovered = spore_scene_load(fixture->schema, leftover->scene, &error);
+  g_assert_no_error(error);
+  gsize size;
+  g_autofree char *again = spore_scene_format(recovered, &size);
+  g_assert_cmpstr(again, ==, text);
+  SporeObject *mesh = spore_document_find(recovered, "mesh", "my_organ");
+  g_assert_nonnull(spore_document_mesh(recovered, mesh, &error));
+  g_assert_no_error(error);
+  spore_document_free(recovered);
+  spore_leftover_remove(leftover);
+  spore_leftover_free(leftover);
+  g_assert_null(spore_leftover_find());
+}
+
+int main(int argc, char **argv) {
+  static const struct {
+    const char *name;
+    void (*run)(Fixture *fixture, gconstpointer data);
+  } tests[] = {
+      {"add-organ", test_add_organ},
+      {"add-twice", test_add_twice},
+      {"use-spheres", test_use_spheres},
+      {"set-model", test_set_model},
+      {"probe-and-pin", test_probe_and_pin},
+      {"set-property", test_set_property},
+      {"selection", test_selection},
+      {"jobs", test_jobs},
+      {"result-of-another-scene", test_result_of_another_scene},
+      {"import-refuses", test_import_refuses},
+      {"player-follows-edits", test_player_follows_edits},
+      {"player-refuses", test_player_refuses},
+      {"recovery", test_recovery},
+  };
+  /* Before GLib reads it; a child of g_test_trap_subprocess shares the parent's. */
+  g_autofree char *state = g_getenv("SPORE_TEST_STATE") ? NULL : g_dir_make_tmp("spore-author-XXXXXX", NULL);
+  if (state) {
+    g_setenv("SPORE_TEST_STATE", state, TRUE);
+    g_setenv("XDG_STATE_HOME", state, TRUE);
+  }
+  g_test_init(&argc, &argv, NULL);
+  for (gsize i = 0; i < G_N_ELEMENTS(tests); i++) {
+    g_autofree char *path = g_strconcat("/author/", tests[i].name, NULL);
+    g_test_add(path, Fixture, NULL, set_up, tests[i].run, tear_down);
+  }
+  int status = g_test_run();
+  g_autofree char *recovery = state ? g_build_filename(state, "spore", "recovery", NULL) : NULL;
+  g_autofree char *spore = state ? g_build_filename(state, "spore", NULL) : NULL;
+  if (state) g_rmdir(recovery), g_rmdir(spore), g_rmdir(state);
+  return status;
+}
