@@ -53,8 +53,8 @@ static bool generate(const SporeSolid *solid, size_t count, uint64_t seed, Spore
               spore_candidates_create(&candidates, solid, candidate_count, &random, &finding, error);
   if (done && !spore_balls_create(&balls, count)) done = spore_spheres_no_memory(error);
   done = done && spore_candidates_cover(&candidates, &samples, &balls, &finding, error) &&
-         spore_spheres_fit(solid, &samples, &candidates, &balls, &fitting, error) && store_balls(&balls, set, error) &&
-         spore_solid_measure(solid, set, report, &measuring, error);
+         spore_spheres_fit(solid, &samples, &candidates, &balls, seed, &fitting, error) &&
+         store_balls(&balls, set, error) && spore_solid_measure(solid, set, report, &measuring, error);
   spore_balls_clear(&balls);
   spore_balls_clear(&candidates);
   spore_samples_clear(&samples);

@@ -33,31 +33,34 @@ static bool morton_order(const double *xyz, size_t count, uint32_t *order) {
   return done;
 }
 
-/* Middle of the box, and the farthest point from it. */
-static void bound_block(const SporePoints *points, size_t b) {
-  const double *column[3] = {points->x + b * SPORE_BLOCK, points->y + b * SPORE_BLOCK, points->z + b * SPORE_BLOCK};
-  double *block = points->block + 4 * b, radius = 0;
+/* Middle of the box of the points first .. end - 1, and the farthest of them from it. */
+static void bound_points(const SporePoints *points, size_t first, size_t end, double bound[4]) {
+  const double *column[3] = {points->x, points->y, points->z};
+  double radius = 0;
   for (int k = 0; k < 3; k++) {
-    double low = column[k][0], high = low;
-    for (int i = 1; i < SPORE_BLOCK; i++) low = fmin(low, column[k][i]), high = fmax(high, column[k][i]);
-    block[k] = 0.5 * (low + high);
+    double low = column[k][first], high = low;
+    for (size_t i = first; i < end; i++) low = fmin(low, column[k][i]), high = fmax(high, column[k][i]);
+    bound[k] = 0.5 * (low + high);
   }
-  for (int i = 0; i < SPORE_BLOCK; i++)
+  for (size_t i = first; i < end; i++)
     radius =
-        fmax(radius, spore_vec3_distance(spore_vec3(column[0][i], column[1][i], column[2][i]), spore_vec3_load(block)));
-  block[3] = radius;
+        fmax(radius, spore_vec3_distance(spore_vec3(points->x[i], points->y[i], points->z[i]), spore_vec3_load(bound)));
+  bound[3] = radius;
 }
 
 bool spore_points_create(SporePoints *points, const double *xyz, size_t count) {
   size_t blocks = (count + SPORE_BLOCK - 1) / SPORE_BLOCK, padded = blocks * SPORE_BLOCK;
+  size_t groups = (blocks + SPORE_GROUP - 1) / SPORE_GROUP, wide = SPORE_GROUP * SPORE_BLOCK;
   *points = (SporePoints){.count = count,
                           .block_count = blocks,
+                          .group_count = groups,
                           .x = SPORE_NEW_ARRAY(double, padded),
                           .y = SPORE_NEW_ARRAY(double, padded),
                           .z = SPORE_NEW_ARRAY(double, padded),
                           .block = SPORE_NEW_ARRAY(double, 4 * blocks),
+                          .group = SPORE_NEW_ARRAY(double, 4 * groups),
                           .original = SPORE_NEW_ARRAY(uint32_t, count)};
-  if (!points->x || !points->y || !points->z || !points->block || !points->original ||
+  if (!points->x || !points->y || !points->z || !points->block || !points->group || !points->original ||
       !morton_order(xyz, count, points->original)) {
     spore_points_clear(points);
     return false;
@@ -66,7 +69,10 @@ bool spore_points_create(SporePoints *points, const double *xyz, size_t count) {
     const double *p = xyz + 3 * (size_t)points->original[i < count ? i : count - 1];
     points->x[i] = p[0], points->y[i] = p[1], points->z[i] = p[2];
   }
-  for (size_t b = 0; b < blocks; b++) bound_block(points, b);
+  for (size_t b = 0; b < blocks; b++)
+    bound_points(points, b * SPORE_BLOCK, (b + 1) * SPORE_BLOCK, points->block + 4 * b);
+  for (size_t g = 0; g < groups; g++)
+    bound_points(points, g * wide, (g + 1) * wide < padded ? (g + 1) * wide : padded, points->group + 4 * g);
   return true;
 }
 
@@ -75,6 +81,7 @@ void spore_points_clear(SporePoints *points) {
   spore_free(points->y);
   spore_free(points->z);
   spore_free(points->block);
+  spore_free(points->group);
   spore_free(points->original);
   *points = (SporePoints){0};
 }
@@ -97,9 +104,14 @@ void spore_balls_copy(SporeBalls *to, const SporeBalls *from) {
 
 bool spore_field_create(SporeField *field, const SporePoints *points, size_t ball_count) {
   size_t padded = points->block_count * SPORE_BLOCK;
-  *field = (SporeField){SPORE_NEW_ARRAY(double, padded), SPORE_NEW_ARRAY(double, padded),
-                        SPORE_NEW_ARRAY(uint32_t, padded), SPORE_NEW_ARRAY(double, ball_count)};
-  if (field->best && field->second && field->owner && field->near_block) return true;
+  *field = (SporeField){.best = SPORE_NEW_ARRAY(double, padded),
+                        .second = SPORE_NEW_ARRAY(double, padded),
+                        .owner = SPORE_NEW_ARRAY(uint32_t, padded),
+                        .value = SPORE_NEW_ARRAY(double, ball_count),
+                        .number = SPORE_NEW_ARRAY(uint32_t, ball_count)};
+  if (spore_balls_create(&field->near, ball_count) && field->best && field->second && field->owner && field->value &&
+      field->number)
+    return true;
   spore_field_clear(field);
   return false;
 }
@@ -108,13 +120,15 @@ void spore_field_clear(SporeField *field) {
   spore_free(field->best);
   spore_free(field->second);
   spore_free(field->owner);
-  spore_free(field->near_block);
+  spore_free(field->value);
+  spore_free(field->number);
+  spore_balls_clear(&field->near);
   *field = (SporeField){0};
 }
 
-/* r_i - distance for the middle of the block; returns the second largest (the largest when there is one ball). */
-static double block_values(const SporeBalls *balls, const double *block, double *values) {
-  double x = block[0], y = block[1], z = block[2], first = -HUGE_VAL, second = -HUGE_VAL;
+/* r_i - distance from p; returns the second largest (the largest when there is one ball). */
+static double ball_values(const SporeBalls *balls, const double p[3], double *values) {
+  double x = p[0], y = p[1], z = p[2], first = -HUGE_VAL, second = -HUGE_VAL;
   for (size_t i = 0; i < balls->count; i++) {
     double dx = balls->x[i] - x, dy = balls->y[i] - y, dz = balls->z[i] - z;
     values[i] = balls->r[i] - sqrt(dx * dx + dy * dy + dz * dz);
@@ -128,20 +142,32 @@ static double block_values(const SporeBalls *balls, const double *block, double 
   return balls->count > 1 ? second : first;
 }
 
-static void evaluate_block(const SporePoints *points, size_t b, const SporeBalls *balls, const double *values,
-                           double least, SporeField *field) {
+/* Gathers the balls whose value at the middle of the group is at least `least`. */
+static void gather_near(SporeField *field, const SporeBalls *balls, double least) {
+  size_t near = 0;
+  for (size_t i = 0; i < balls->count; i++) {
+    if (field->value[i] < least) continue;
+    field->near.x[near] = balls->x[i], field->near.y[near] = balls->y[i], field->near.z[near] = balls->z[i];
+    field->near.r[near] = balls->r[i];
+    field->number[near++] = (uint32_t)i;
+  }
+  field->near.count = near;
+}
+
+static void evaluate_block(SporeField *field, const SporePoints *points, size_t b, double least) {
   const double *x = points->x + b * SPORE_BLOCK, *y = points->y + b * SPORE_BLOCK, *z = points->z + b * SPORE_BLOCK;
+  const SporeBalls *balls = &field->near;
   double best[SPORE_BLOCK], second[SPORE_BLOCK], owner[SPORE_BLOCK];
   for (int k = 0; k < SPORE_BLOCK; k++) best[k] = second[k] = -HUGE_VAL, owner[k] = 0;
   for (size_t i = 0; i < balls->count; i++) {
-    if (values[i] < least) continue;
-    double cx = balls->x[i], cy = balls->y[i], cz = balls->z[i], r = balls->r[i], index = (double)i;
+    if (field->value[i] < least) continue;
+    double cx = balls->x[i], cy = balls->y[i], cz = balls->z[i], r = balls->r[i], number = (double)field->number[i];
     for (int k = 0; k < SPORE_BLOCK; k++) {
       double dx = cx - x[k], dy = cy - y[k], dz = cz - z[k];
       double v = r - sqrt(dx * dx + dy * dy + dz * dz), b1 = best[k], b2 = second[k];
       double lower = v > b2 ? v : b2;
       second[k] = v > b1 ? b1 : lower;
-      owner[k] = v > b1 ? index : owner[k];
+      owner[k] = v > b1 ? number : owner[k];
       best[k] = v > b1 ? v : b1;
     }
   }
@@ -150,26 +176,48 @@ static void evaluate_block(const SporePoints *points, size_t b, const SporeBalls
   for (int k = 0; k < SPORE_BLOCK; k++) field->owner[b * SPORE_BLOCK + k] = (uint32_t)owner[k];
 }
 
+/* Within R of a middle no value moves by more than R, so what is 2 R below the second largest there is third at best.
+ */
+static double least_value(double second, double radius) { return second - 2 * radius * (1 + 1e-12); }
+
+static size_t group_end(const SporePoints *points, size_t g) {
+  size_t end = (g + 1) * SPORE_GROUP;
+  return end < points->block_count ? end : points->block_count;
+}
+
 void spore_field_evaluate(SporeField *field, const SporePoints *points, const SporeBalls *balls) {
-  for (size_t b = 0; b < points->block_count; b++) {
-    const double *block = points->block + 4 * b;
-    double second = block_values(balls, block, field->near_block);
-    evaluate_block(points, b, balls, field->near_block, second - 2 * block[3] * (1 + 1e-12), field);
+  for (size_t g = 0; g < points->group_count; g++) {
+    const double *group = points->group + 4 * g;
+    gather_near(field, balls, least_value(ball_values(balls, group, field->value), group[3]));
+    for (size_t b = g * SPORE_GROUP; b < group_end(points, g); b++) {
+      const double *block = points->block + 4 * b;
+      double second = ball_values(&field->near, block, field->value);
+      evaluate_block(field, points, b, least_value(second, block[3]));
+    }
+  }
+}
+
+static void count_held(const SporePoints *points, size_t b, const SporeBalls *balls, const double *value,
+                       uint32_t *held) {
+  for (size_t i = 0; i < balls->count; i++) {
+    if (value[i] < -points->block[4 * b + 3] * (1 + 1e-12)) continue;
+    double r2 = balls->r[i] * balls->r[i] * (1 + 1e-12);
+    for (size_t k = b * SPORE_BLOCK; k < (b + 1) * SPORE_BLOCK; k++) {
+      double dx = balls->x[i] - points->x[k], dy = balls->y[i] - points->y[k], dz = balls->z[i] - points->z[k];
+      held[k] += dx * dx + dy * dy + dz * dz <= r2;
+    }
   }
 }
 
 void spore_field_multiplicity(SporeField *field, const SporePoints *points, const SporeBalls *balls, uint32_t *held) {
   memset(held, 0, points->block_count * SPORE_BLOCK * sizeof *held);
-  for (size_t b = 0; b < points->block_count; b++) {
-    size_t first = b * SPORE_BLOCK;
-    block_values(balls, points->block + 4 * b, field->near_block);
-    for (size_t i = 0; i < balls->count; i++) {
-      if (field->near_block[i] < -points->block[4 * b + 3]) continue;
-      double r2 = balls->r[i] * balls->r[i] * (1 + 1e-12);
-      for (size_t k = first; k < first + SPORE_BLOCK; k++) {
-        double dx = balls->x[i] - points->x[k], dy = balls->y[i] - points->y[k], dz = balls->z[i] - points->z[k];
-        held[k] += dx * dx + dy * dy + dz * dz <= r2;
-      }
+  for (size_t g = 0; g < points->group_count; g++) {
+    const double *group = points->group + 4 * g;
+    ball_values(balls, group, field->value);
+    gather_near(field, balls, -group[3] * (1 + 1e-12));
+    for (size_t b = g * SPORE_GROUP; b < group_end(points, g); b++) {
+      ball_values(&field->near, points->block + 4 * b, field->value);
+      count_held(points, b, &field->near, field->value, held);
     }
   }
 }

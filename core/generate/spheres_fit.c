@@ -3,45 +3,32 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "core/generate/spheres_parts.h"
+#include "core/generate/spheres_fit.h"
 
-#define ROUNDS 120
-#define LAST_ROUNDS 24 /* without relocation */
-#define RELOCATE_EVERY 6
 #define SMOOTHING 0.02    /* of the typical radius: below it the loss is quadratic, above it linear */
 #define LEAST_RADIUS 0.02 /* of the typical radius */
 #define LONGEST_STEP 0.3  /* of the typical radius */
 #define DAMPING_INITIAL 1e-2
 #define SCORED_CANDIDATES 1500
+#define FIRST_ROUNDS 60
+#define FILL_EVERY 6
+#define TRIALS 60       /* relocations tried, at most */
+#define TRIAL_WORK 8000 /* and at most this over the number of balls */
+#define TRIAL_ROUNDS 10
+#define LAST_ROUNDS 24
+#define SETTLED 1e-5 /* relative change of the loss in a round below which the last rounds end */
 
-typedef struct Fit {
-  const SporeSolid *solid;
-  const SporeSamples *samples;
-  const SporeBalls *candidates;
-  SporeBalls balls, trial, best;
-  SporeField field, trial_field;
-  double *normal;  /* balls x 14: lower triangle of the 4x4 matrix, and the right-hand side */
-  double *gain;    /* balls: loss that its removal adds */
-  uint32_t *order; /* balls */
-  double *score;   /* scored candidates */
-  uint32_t *scored, *score_order;
-  size_t scored_count;
-  double smoothing, loss, best_loss, damping;
-} Fit;
-
-static double loss_of(const Fit *fit, const SporeField *field) {
+static double loss_of(const SporeFit *fit, const SporeField *field) {
   const SporeSamples *s = fit->samples;
-  double sum = 0, eps2 = fit->smoothing * fit->smoothing;
-  for (size_t i = 0; i < s->points.count; i++) {
-    double e = field->best[i] - s->depth[i];
-    sum += s->weight[i] * sqrt(e * e + eps2);
-  }
+  double sum = 0;
+  for (size_t i = 0; i < s->points.count; i++)
+    sum += s->weight[i] * spore_fit_sample_loss(fit, field->best[i] - s->depth[i]);
   return sum;
 }
 
 /* Normal equations of each ball over the samples it owns, weighted so that a least-squares step follows the
  * nearly linear loss. */
-static void accumulate(Fit *fit) {
+static void accumulate(SporeFit *fit) {
   const SporeSamples *s = fit->samples;
   double eps2 = fit->smoothing * fit->smoothing;
   memset(fit->normal, 0, 14 * fit->balls.count * sizeof *fit->normal);
@@ -82,7 +69,7 @@ static void solve_damped(const double *m, double shift, double x[4]) {
 }
 
 /* The balls after a damped step, kept from ballooning: no deeper out than the band. */
-static void step_balls(Fit *fit) {
+static void step_balls(SporeFit *fit) {
   double typical = fit->samples->typical, largest = 0;
   for (size_t i = 0; i < fit->balls.count; i++) {
     const double *m = fit->normal + 14 * i;
@@ -102,18 +89,18 @@ static void step_balls(Fit *fit) {
   }
 }
 
-static void evaluate(Fit *fit) {
+static void evaluate(SporeFit *fit) {
   spore_field_evaluate(&fit->field, &fit->samples->points, &fit->balls);
   fit->loss = loss_of(fit, &fit->field);
 }
 
-static void keep_best(Fit *fit) {
+static void keep_best(SporeFit *fit) {
   if (!(fit->loss < fit->best_loss)) return;
   fit->best_loss = fit->loss;
   spore_balls_copy(&fit->best, &fit->balls);
 }
 
-static void take_round(Fit *fit) {
+static void take_round(SporeFit *fit) {
   accumulate(fit);
   step_balls(fit);
   spore_field_evaluate(&fit->trial_field, &fit->samples->points, &fit->trial);
@@ -131,118 +118,54 @@ static void take_round(Fit *fit) {
   keep_best(fit);
 }
 
-/* What each ball is worth: the loss its removal would add, its samples going to the second best. */
-static void score_balls(Fit *fit) {
-  const SporeSamples *s = fit->samples;
-  memset(fit->gain, 0, fit->balls.count * sizeof *fit->gain);
-  for (size_t i = 0; i < s->points.count; i++) {
-    double now = fabs(fit->field.best[i] - s->depth[i]), then = fabs(fit->field.second[i] - s->depth[i]);
-    fit->gain[fit->field.owner[i]] += s->weight[i] * (fmin(then, 1e30) - now);
-  }
-}
-
-/* Deficit that a candidate would fill: sum of weight x (its value - the field) where that is positive. */
-static double deficit_in(const Fit *fit, size_t candidate) {
-  const SporePoints *points = &fit->samples->points;
-  double x = fit->candidates->x[candidate], y = fit->candidates->y[candidate], z = fit->candidates->z[candidate];
-  double r = fit->candidates->r[candidate], sum = 0;
-  for (size_t b = 0; b < points->block_count; b++) {
-    const double *block = points->block + 4 * b;
-    double dx = block[0] - x, dy = block[1] - y, dz = block[2] - z, reach = r + block[3];
-    if (dx * dx + dy * dy + dz * dz > reach * reach) continue;
-    for (size_t k = b * SPORE_BLOCK; k < (b + 1) * SPORE_BLOCK; k++) {
-      double px = points->x[k] - x, py = points->y[k] - y, pz = points->z[k] - z;
-      double value = r - sqrt(px * px + py * py + pz * pz), more = value - fit->field.best[k];
-      sum += value > 0 && more > 0 ? fit->samples->weight[k] * more : 0;
-    }
-  }
-  return sum;
-}
-
-/* Numbers 0 .. count - 1 by ascending sign x value, equal ones in order (shell sort: counts are small). */
-static void order_by(const double *value, double sign, uint32_t *order, size_t count) {
-  for (size_t i = 0; i < count; i++) order[i] = (uint32_t)i;
-  size_t gap = 1;
-  while (gap < count / 3) gap = 3 * gap + 1;
-  for (; gap; gap /= 3)
-    for (size_t i = gap; i < count; i++) {
-      uint32_t item = order[i];
-      size_t j = i;
-      for (; j >= gap; j -= gap) {
-        uint32_t other = order[j - gap];
-        double difference = sign * (value[item] - value[other]);
-        if (difference > 0 || (difference == 0 && item > other)) break;
-        order[j] = other;
-      }
-      order[j] = item;
-    }
-}
-
-static bool near_taken(const Fit *fit, const size_t *taken, size_t count, size_t c) {
-  const SporeBalls *k = fit->candidates;
-  for (size_t i = 0; i < count; i++) {
-    size_t t = taken[i];
-    double dx = k->x[c] - k->x[t], dy = k->y[c] - k->y[t], dz = k->z[c] - k->z[t], r = 0.7 * fmax(k->r[c], k->r[t]);
-    if (dx * dx + dy * dy + dz * dz <= r * r) return true;
-  }
-  return false;
-}
-
-#define MOST_MOVED 256
-
-/* Moves the balls that are worth least to where most depth is missing. */
-static void relocate(Fit *fit) {
-  size_t wanted = fit->balls.count / 25 > 1 ? fit->balls.count / 25 : 1, moved = 0, taken[MOST_MOVED];
-  if (wanted > MOST_MOVED) wanted = MOST_MOVED;
-  score_balls(fit);
-  order_by(fit->gain, 1, fit->order, fit->balls.count);
-  for (size_t i = 0; i < fit->scored_count; i++) fit->score[i] = deficit_in(fit, fit->scored[i]);
-  order_by(fit->score, -1, fit->score_order, fit->scored_count);
-  for (size_t i = 0; i < fit->scored_count && moved < wanted; i++) {
-    uint32_t at = fit->score_order[i];
-    size_t c = fit->scored[at], ball = fit->order[moved];
-    if (near_taken(fit, taken, moved, c)) continue;
-    if (!(fit->gain[ball] < fit->score[at])) break;
-    fit->balls.x[ball] = fit->candidates->x[c], fit->balls.y[ball] = fit->candidates->y[c];
-    fit->balls.z[ball] = fit->candidates->z[c], fit->balls.r[ball] = fit->candidates->r[c];
-    taken[moved++] = c;
-  }
-  if (!moved) return;
+/* Relocates, refits for a few rounds, and goes back to the best when that did not help. Fewer are moved each time it
+ * fails, and the choice is blurred so that it differs. */
+static void try_relocation(SporeFit *fit, size_t *wanted, double *shake) {
+  spore_balls_copy(&fit->balls, &fit->best);
   evaluate(fit);
-  fit->damping = DAMPING_INITIAL;
-  keep_best(fit);
+  double before = fit->best_loss;
+  size_t moved = spore_fit_relocate(fit, *wanted, *shake);
+  if (moved) {
+    evaluate(fit);
+    fit->damping = DAMPING_INITIAL;
+    for (int round = 0; round < TRIAL_ROUNDS; round++) take_round(fit);
+  }
+  if (moved && fit->best_loss < before) return;
+  *wanted = *wanted > 1 ? *wanted * 2 / 3 : 1;
+  *shake = fmin(*shake + 0.1, 0.6);
 }
 
-/* A fresh spread of candidates to score, the same number each time. */
-static void choose_scored(Fit *fit, int round) {
-  size_t total = fit->candidates->count;
-  for (size_t i = 0; i < fit->scored_count; i++)
-    fit->scored[i] = (uint32_t)((i * total / fit->scored_count + (size_t)round * 7919u) % total);
-}
-
-static bool open_fit(Fit *fit, SporeBalls *balls) {
-  size_t n = balls->count,
-         scored = fit->candidates->count < SCORED_CANDIDATES ? fit->candidates->count : SCORED_CANDIDATES;
-  fit->scored_count = scored;
+static bool open_fit(SporeFit *fit, const SporeBalls *balls) {
+  size_t n = balls->count;
   fit->normal = SPORE_NEW_ARRAY(double, 14 * n);
-  fit->gain = SPORE_NEW_ARRAY(double, n);
+  fit->worth = SPORE_NEW_ARRAY(double, n);
+  fit->burden = SPORE_NEW_ARRAY(double, n);
+  fit->spread = SPORE_NEW_ARRAY(double, 10 * n);
   fit->order = SPORE_NEW_ARRAY(uint32_t, n);
-  fit->score = SPORE_NEW_ARRAY(double, scored);
-  fit->scored = SPORE_NEW_ARRAY(uint32_t, scored);
-  fit->score_order = SPORE_NEW_ARRAY(uint32_t, scored);
-  return fit->normal && fit->gain && fit->order && fit->score && fit->scored && fit->score_order &&
-         spore_balls_create(&fit->balls, n) && spore_balls_create(&fit->trial, n) &&
-         spore_balls_create(&fit->best, n) && spore_field_create(&fit->field, &fit->samples->points, n) &&
+  fit->heaviest = SPORE_NEW_ARRAY(uint32_t, n);
+  fit->marked = SPORE_NEW_ARRAY(bool, n);
+  fit->scored_count = fit->candidates->count < SCORED_CANDIDATES ? fit->candidates->count : SCORED_CANDIDATES;
+  fit->missing = SPORE_NEW_ARRAY(double, fit->scored_count);
+  fit->scored = SPORE_NEW_ARRAY(uint32_t, fit->scored_count);
+  fit->by_missing = SPORE_NEW_ARRAY(uint32_t, fit->scored_count);
+  return fit->normal && fit->worth && fit->burden && fit->spread && fit->order && fit->heaviest && fit->marked &&
+         fit->missing && fit->scored && fit->by_missing && spore_balls_create(&fit->balls, n) &&
+         spore_balls_create(&fit->trial, n) && spore_balls_create(&fit->best, n) &&
+         spore_field_create(&fit->field, &fit->samples->points, n) &&
          spore_field_create(&fit->trial_field, &fit->samples->points, n);
 }
 
-static void close_fit(Fit *fit) {
+static void close_fit(SporeFit *fit) {
   spore_free(fit->normal);
-  spore_free(fit->gain);
+  spore_free(fit->worth);
+  spore_free(fit->burden);
+  spore_free(fit->spread);
   spore_free(fit->order);
-  spore_free(fit->score);
+  spore_free(fit->heaviest);
+  spore_free(fit->marked);
+  spore_free(fit->missing);
   spore_free(fit->scored);
-  spore_free(fit->score_order);
+  spore_free(fit->by_missing);
   spore_balls_clear(&fit->balls);
   spore_balls_clear(&fit->trial);
   spore_balls_clear(&fit->best);
@@ -250,14 +173,57 @@ static void close_fit(Fit *fit) {
   spore_field_clear(&fit->trial_field);
 }
 
+/* Rounds in which balls of little worth go where depth is missing. */
+static bool fill(SporeFit *fit, const SporeProgressPart *progress, double from, double to, SporeError *error) {
+  for (int round = 0; round < FIRST_ROUNDS; round++) {
+    double fraction = from + (to - from) * round / FIRST_ROUNDS;
+    if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
+    take_round(fit);
+    if (round % FILL_EVERY != FILL_EVERY - 1 || !spore_fit_fill(fit, (size_t)round)) continue;
+    evaluate(fit);
+    keep_best(fit);
+    fit->damping = DAMPING_INITIAL;
+  }
+  return true;
+}
+
+/* Rounds from the best so far, until the loss settles. */
+static bool settle(SporeFit *fit, int rounds, const SporeProgressPart *progress, double from, double to,
+                   SporeError *error) {
+  spore_balls_copy(&fit->balls, &fit->best);
+  evaluate(fit);
+  fit->damping = DAMPING_INITIAL;
+  for (int round = 0; round < rounds; round++) {
+    double fraction = from + (to - from) * round / rounds, before = fit->loss;
+    if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
+    take_round(fit);
+    if (fit->loss != before && fabs(fit->loss - before) < SETTLED * before) break;
+  }
+  return true;
+}
+
+static bool relocate_all(SporeFit *fit, const SporeProgressPart *progress, double from, double to, SporeError *error) {
+  size_t wanted = fit->balls.count / 10 + 1;
+  double shake = 0;
+  if (fit->balls.count < 2) return true;
+  size_t trials = TRIAL_WORK / fit->balls.count < TRIALS ? TRIAL_WORK / fit->balls.count : TRIALS;
+  for (size_t trial = 0; trial < trials; trial++) {
+    double fraction = from + (to - from) * (double)trial / (double)trials;
+    if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
+    try_relocation(fit, &wanted, &shake);
+  }
+  return true;
+}
+
 bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
-                       SporeBalls *balls, const SporeProgressPart *progress, SporeError *error) {
-  Fit fit = {.solid = solid,
-             .samples = samples,
-             .candidates = candidates,
-             .smoothing = SMOOTHING * samples->typical,
-             .best_loss = HUGE_VAL,
-             .damping = DAMPING_INITIAL};
+                       SporeBalls *balls, uint64_t seed, const SporeProgressPart *progress, SporeError *error) {
+  SporeFit fit = {.solid = solid,
+                  .samples = samples,
+                  .candidates = candidates,
+                  .smoothing = SMOOTHING * samples->typical,
+                  .best_loss = HUGE_VAL,
+                  .damping = DAMPING_INITIAL,
+                  .random = {seed}};
   bool done = open_fit(&fit, balls);
   if (!done) spore_spheres_no_memory(error);
   if (done) {
@@ -265,15 +231,8 @@ bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, con
     evaluate(&fit);
     keep_best(&fit);
   }
-  for (int round = 0; done && round < ROUNDS; round++) {
-    done = spore_progress_part(progress, (double)round / ROUNDS, _("Fitting spheres"), error);
-    if (!done) break;
-    take_round(&fit);
-    if (round % RELOCATE_EVERY == RELOCATE_EVERY - 1 && round < ROUNDS - LAST_ROUNDS) {
-      choose_scored(&fit, round);
-      relocate(&fit);
-    }
-  }
+  done = done && fill(&fit, progress, 0, 0.2, error) && relocate_all(&fit, progress, 0.2, 0.9, error) &&
+         settle(&fit, LAST_ROUNDS, progress, 0.9, 1, error);
   if (done) spore_balls_copy(balls, &fit.best);
   close_fit(&fit);
   return done;

@@ -50,13 +50,15 @@ void spore_solid_interior(const SporeSolid *solid, size_t count, SporeRandom *ra
 void spore_solid_surface(const SporeSolid *solid, size_t count, SporeRandom *random, double *points,
                          SporeVec3 *normals);
 
-/* Points in space-filling order, in blocks each with a bounding sphere, so that most spheres are ruled out for a whole
- * block at once. */
+/* Points in space-filling order, in blocks and groups of blocks, each with a bounding sphere, so that most balls are
+ * ruled out for a whole group or block at once. */
 #define SPORE_BLOCK 32
+#define SPORE_GROUP 16 /* blocks */
 typedef struct SporePoints {
-  size_t count, block_count;
+  size_t count, block_count, group_count;
   double *x, *y, *z;  /* count, padded to whole blocks with the last point */
   double *block;      /* block_count x 4: centre and radius */
+  double *group;      /* group_count x 4: centre and radius */
   uint32_t *original; /* count: number before sorting */
 } SporePoints;
 bool spore_points_create(SporePoints *points, const double *xyz, size_t count);
@@ -76,7 +78,9 @@ void spore_balls_copy(SporeBalls *to, const SporeBalls *from);
 typedef struct SporeField {
   double *best, *second;
   uint32_t *owner;
-  double *near_block; /* scratch, 6 x balls */
+  double *value;    /* scratch, balls */
+  SporeBalls near;  /* scratch: the balls that may own a point of a group */
+  uint32_t *number; /* balls: theirs */
 } SporeField;
 bool spore_field_create(SporeField *field, const SporePoints *points, size_t ball_count);
 void spore_field_clear(SporeField *field);
@@ -103,8 +107,9 @@ bool spore_candidates_cover(const SporeBalls *candidates, const SporeSamples *sa
                             const SporeProgressPart *progress, SporeError *error);
 
 /* Moves the balls so that their field meets the samples' depth. */
+/* `candidates`: where balls may be put anew. */
 bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
-                       SporeBalls *balls, const SporeProgressPart *progress, SporeError *error);
+                       SporeBalls *balls, uint64_t seed, const SporeProgressPart *progress, SporeError *error);
 
 /* As spore_spheres_measure, on a solid that is there already. */
 bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, SporeSpheresReport *report,
