@@ -20,8 +20,9 @@ double spore_line_search(const SporeSystem *system, const double *x, const doubl
     ++*evaluations;
     *trial_norm = system->norm(system->data, trial_r);
     if (!isfinite(*trial_norm)) continue;
-    if (*trial_norm <= (1 - 1e-4 * length) * norm) return length;
-    if (downhill > 0 && slope(n, trial_r, d) >= -0.5 * downhill) return length;
+    if (*trial_norm <= 0.5 * norm) return length;
+    bool helps = downhill > 0 ? slope(n, trial_r, d) >= -0.5 * downhill : *trial_norm <= (1 - 1e-4 * length) * norm;
+    if (helps) return length;
   }
   return 0;
 }
