@@ -21,7 +21,7 @@ static void gather(const SporeTetrahedronBatch *batch, const double *x, Lanes ed
 }
 
 /* c = a b */
-static void multiply(const Lanes a[9], const Lanes b[9], Lanes c[9]) {
+static void multiply(const Lanes a[restrict 9], const Lanes b[restrict 9], Lanes c[restrict 9]) {
   for (int row = 0; row < 3; row++)
     for (int column = 0; column < 3; column++)
       for (int i = 0; i < LANES; i++)
@@ -29,7 +29,7 @@ static void multiply(const Lanes a[9], const Lanes b[9], Lanes c[9]) {
             a[3 * row][i] * b[column][i] + a[3 * row + 1][i] * b[3 + column][i] + a[3 * row + 2][i] * b[6 + column][i];
 }
 
-static void cofactor(const Lanes a[9], Lanes c[9], Lanes determinant) {
+static void cofactor(const Lanes a[restrict 9], Lanes c[restrict 9], double determinant[restrict LANES]) {
   for (int row = 0; row < 3; row++) {
     int r1 = 3 * ((row + 1) % 3), r2 = 3 * ((row + 2) % 3);
     for (int column = 0; column < 3; column++) {
@@ -108,7 +108,8 @@ static void add_viscous(const SporeTetrahedronBatch *batch, SporeElasticity elas
     for (int i = 0; i < LANES; i++) stress[k][i] += viscous[k][i];
 }
 
-static void elastic_stress(SporeElasticity elasticity, const Lanes f[9], const Lanes r[9], Lanes stress[9]) {
+static void elastic_stress(SporeElasticity elasticity, const Lanes f[restrict 9], const Lanes r[restrict 9],
+                           Lanes stress[restrict 9]) {
   Lanes factor; /* lambda (tr S - 3) - 2 mu, with tr S = R : F */
   for (int i = 0; i < LANES; i++) factor[i] = -3;
   for (int k = 0; k < 9; k++)
