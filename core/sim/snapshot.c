@@ -46,6 +46,16 @@ static void copy_contacts(const SporeWorld *world, SporeSnapshot *snapshot) {
   }
 }
 
+/* Energy costs as much as a force: it is not worth taking more often than anybody looks. */
+static SporeEnergy recent_energy(SporeWorld *world) {
+  uint64_t now = spore_clock_ns();
+  if (world->step == 0 || now - world->energy_taken_ns > SPORE_SNAPSHOT_ENERGY_AGE_NS) {
+    world->energy = spore_world_energy(world);
+    world->energy_taken_ns = now;
+  }
+  return world->energy;
+}
+
 void spore_snapshot_publish(SporeWorld *world) {
   SporeSnapshots *snapshots = &world->snapshots;
   SporeSnapshot *snapshot = &snapshots->buffers[snapshots->writing];
@@ -56,7 +66,7 @@ void spore_snapshot_publish(SporeWorld *world) {
   memcpy(snapshot->reaction, world->reaction, 6 * world->body_count * sizeof *world->reaction);
   copy_contacts(world, snapshot);
   snapshot->counts = world->counts;
-  snapshot->energy = spore_world_energy(world);
+  snapshot->energy = recent_energy(world);
   snapshot->monitor_messages = world->monitor.message_count;
   snapshot->hash = spore_world_hash(world);
   snapshot->step_us = world->step_us;

@@ -159,6 +159,7 @@ typedef struct SporeSnapshotContact {
   SporeVec3 point, force; /* on sphere a */
   uint32_t sphere_a, sphere_b;
 } SporeSnapshotContact;
+#define SPORE_SNAPSHOT_ENERGY_AGE_NS 10000000
 typedef struct SporeSnapshot {
   uint64_t step;
   double time_s;
@@ -168,7 +169,7 @@ typedef struct SporeSnapshot {
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
   SporeStepCounts counts;
-  SporeEnergy energy;
+  SporeEnergy energy;        /* of this state, or of one at most SPORE_SNAPSHOT_ENERGY_AGE_NS of wall clock before it */
   uint64_t monitor_messages; /* as SporeMonitor.message_count */
   uint64_t hash;
   double step_us;

@@ -142,7 +142,9 @@ struct SporeWorld {
   SporePlanStage plan_stages[SPORE_STAGE_MAXIMUM];
   SporePlanLeftOut left_out[SPORE_LEFT_OUT_MAXIMUM];
   SporeProfilePhase profile;
-  double step_us; /* of the step before */
+  double step_us;           /* of the step before */
+  SporeEnergy energy;       /* the last one taken for a snapshot */
+  uint64_t energy_taken_ns; /* wall clock */
 };
 
 static inline bool spore_body_moves(const SporeBody *body) { return body->role == SPORE_PASSIVE && !body->frozen; }
