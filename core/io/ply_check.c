@@ -152,7 +152,7 @@ static gboolean read_number(Ply *ply, const PlyType *type, gint64 *value) {
 }
 
 static gboolean check_property(Ply *ply, const PlyProperty *property, guint64 index) {
-  gint64 count = 1, value;
+  gint64 count = 1, value = 0;
   if (property->count && !read_number(ply, property->count, &count)) return FALSE;
   for (gint64 i = 0; i < count; i++) {
     if (!read_number(ply, property->value, &value)) return FALSE;
