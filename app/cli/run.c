@@ -7,8 +7,9 @@
 #include "app/cli/scene.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
+#include "core/measure/run_statistics.h"
 
-#define ENERGY_SAMPLES 1000 /* looks at the energy during a run: outside the step, and few enough to cost nothing */
+#define ENERGY_LOOKS 1000 /* a run: few enough to cost nothing */
 
 typedef struct RunOptions {
   double time_s, dt_s;
@@ -19,33 +20,10 @@ typedef struct RunOptions {
   SporeSceneOptions scene;
 } RunOptions;
 
-typedef struct RunResult {
-  double energy_start, energy_end, energy_drift;  /* J; largest change from the start */
-  double contacts_mean, newton_mean, linear_mean; /* a step */
-  gsize contacts_max, newton_max, linear_max;
-  double residual_max; /* relative, of the solves */
-} RunResult;
-
-static double total_energy(const SporeWorld *world) {
-  SporeEnergy energy = spore_world_energy(world);
-  return energy.kinetic + energy.internal + energy.gravity + energy.contact;
-}
-
 static void wait_until(guint64 start_ns, double time_s) {
   guint64 due = start_ns + (guint64)(1e9 * time_s);
   struct timespec at = {.tv_sec = (time_t)(due / 1000000000u), .tv_nsec = (long)(due % 1000000000u)};
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL);
-}
-
-/* Adds up the counts of the step just done: the means are sums until the run has ended. */
-static void count_step(RunResult *result, SporeStepCounts counts) {
-  result->contacts_mean += (double)counts.contacts;
-  result->newton_mean += (double)counts.newton_iterations;
-  result->linear_mean += (double)counts.linear_iterations;
-  result->contacts_max = MAX(result->contacts_max, counts.contacts);
-  result->newton_max = MAX(result->newton_max, counts.newton_iterations);
-  result->linear_max = MAX(result->linear_max, counts.linear_iterations);
-  result->residual_max = fmax(result->residual_max, counts.residual);
 }
 
 /* Appends what each device was taken to say in the step just done. */
@@ -61,30 +39,23 @@ static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
 }
 
 /* recording: NULL, or a track with a channel for each active body. */
-static RunResult run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, gboolean realtime,
-                           SporeTrack *recording) {
-  RunResult result = {.energy_start = total_energy(world)};
-  gint64 stride = MAX(1, steps / ENERGY_SAMPLES);
+static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, gboolean realtime,
+                                    SporeTrack *recording) {
+  SporeRunStatistics statistics;
+  spore_run_statistics_start(&statistics, world);
+  gint64 stride = MAX(1, steps / ENERGY_LOOKS);
   guint64 start_ns = spore_clock_ns();
-  gint64 done = 0;
-  while (done < steps && !spore_cli_interrupted()) {
+  for (gint64 done = 1; done <= steps && !spore_cli_interrupted(); done++) {
     spore_world_step(world);
-    done++;
+    spore_run_statistics_step(&statistics, world);
     if (recording && !record_inputs(world, recording)) break;
-    count_step(&result, spore_world_counts(world));
-    if (done % stride == 0) {
-      double drift = fabs(total_energy(world) - result.energy_start);
-      result.energy_drift = fmax(result.energy_drift, drift);
+    if (done % stride == 0 || done == steps) {
+      spore_run_statistics_energy(&statistics, world);
       spore_progress(spore_cli_progress(cli), (double)done / (double)steps, _("running"));
     }
     if (realtime) wait_until(start_ns, spore_world_time_s(world));
   }
-  result.energy_end = total_energy(world);
-  double count = (double)MAX(done, 1);
-  result.contacts_mean /= count;
-  result.newton_mean /= count;
-  result.linear_mean /= count;
-  return result;
+  return statistics;
 }
 
 static void report_stages(SporeCli *cli, const SporePlan *plan) {
@@ -107,18 +78,19 @@ static void report_stages(SporeCli *cli, const SporePlan *plan) {
   spore_cli_close_array(cli);
 }
 
-static void report_solver(SporeCli *cli, const RunResult *result) {
+static void report_solver(SporeCli *cli, const SporeRunStatistics *result) {
   spore_cli_open(cli, "solver");
-  spore_cli_number(cli, "newton_mean", result->newton_mean);
+  spore_cli_number(cli, "newton_mean", spore_run_statistics_mean(result, result->newton));
   spore_cli_count(cli, "newton_max", (gint64)result->newton_max);
-  spore_cli_number(cli, "linear_mean", result->linear_mean);
+  spore_cli_number(cli, "linear_mean", spore_run_statistics_mean(result, result->linear));
   spore_cli_count(cli, "linear_max", (gint64)result->linear_max);
   spore_cli_number(cli, "residual_max", result->residual_max);
   spore_cli_close(cli);
   if (result->newton_max > 0)
     spore_cli_say(
         cli, _("solver: %.1f Newton and %.1f linear iterations a step (most %zu and %zu), residual %.1e at worst\n"),
-        result->newton_mean, result->linear_mean, result->newton_max, result->linear_max, result->residual_max);
+        spore_run_statistics_mean(result, result->newton), spore_run_statistics_mean(result, result->linear),
+        result->newton_max, result->linear_max, result->residual_max);
 }
 
 /* Number of frozen bodies. */
@@ -149,7 +121,7 @@ static guint report_monitor(SporeCli *cli, const SporeWorld *world) {
   return frozen;
 }
 
-static int report(SporeCli *cli, const char *scene, const SporeWorld *world, const RunResult *result) {
+static int report(SporeCli *cli, const char *scene, const SporeWorld *world, const SporeRunStatistics *result) {
   SporeProfileSummary step = spore_profile_summary(spore_world_profile(world));
   g_autofree char *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_world_hash(world));
   gint64 steps = (gint64)spore_world_step_count(world);
@@ -159,7 +131,7 @@ static int report(SporeCli *cli, const char *scene, const SporeWorld *world, con
   spore_cli_count(cli, "dof", (gint64)spore_world_dof(world));
   spore_cli_count(cli, "spheres", (gint64)spore_world_spheres(world)->count);
   spore_cli_open(cli, "contacts");
-  spore_cli_number(cli, "mean", result->contacts_mean);
+  spore_cli_number(cli, "mean", spore_run_statistics_mean(result, result->contacts));
   spore_cli_count(cli, "max", (gint64)result->contacts_max);
   spore_cli_close(cli);
   spore_cli_open(cli, "step_us");
@@ -178,7 +150,8 @@ static int report(SporeCli *cli, const char *scene, const SporeWorld *world, con
   spore_cli_number(cli, "max_drift", result->energy_drift);
   spore_cli_close(cli);
   spore_cli_say(cli, _("contacts: mean %.1f, most %zu; energy: %.6g J at the start, %.6g J at the end\n"),
-                result->contacts_mean, result->contacts_max, result->energy_start, result->energy_end);
+                spore_run_statistics_mean(result, result->contacts), result->contacts_max, result->energy_start,
+                result->energy_end);
   report_solver(cli, result);
   guint frozen = report_monitor(cli, world);
   spore_cli_text(cli, "state_hash", hash);
@@ -214,7 +187,7 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   if (options->record && !add_channels(world, &recording)) return spore_cli_usage(_("--record: not enough memory"));
   double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
   gint64 steps = options->time_s > 0 ? (gint64)ceil(options->time_s / dt_s - 1e-9) : options->steps;
-  RunResult result = run_steps(cli, world, steps, options->realtime, options->record ? &recording : NULL);
+  SporeRunStatistics result = run_steps(cli, world, steps, options->realtime, options->record ? &recording : NULL);
   int status = spore_cli_finish(cli, report(cli, scene, world, &result));
   if (options->record) status = MAX(status, save_recording(&recording, options->record));
   spore_track_clear(&recording);

@@ -1,0 +1,36 @@
+#include "core/measure/run_statistics.h"
+
+#include <math.h>
+
+double spore_total_energy(const SporeWorld *world) {
+  SporeEnergy energy = spore_world_energy(world);
+  return energy.kinetic + energy.internal + energy.gravity + energy.contact;
+}
+
+void spore_run_statistics_start(SporeRunStatistics *statistics, const SporeWorld *world) {
+  double energy = spore_total_energy(world);
+  *statistics = (SporeRunStatistics){.energy_start = energy, .energy_end = energy};
+}
+
+static size_t larger(size_t a, size_t b) { return a > b ? a : b; }
+
+void spore_run_statistics_step(SporeRunStatistics *statistics, const SporeWorld *world) {
+  SporeStepCounts counts = spore_world_counts(world);
+  statistics->steps++;
+  statistics->contacts += (double)counts.contacts;
+  statistics->newton += (double)counts.newton_iterations;
+  statistics->linear += (double)counts.linear_iterations;
+  statistics->contacts_max = larger(statistics->contacts_max, counts.contacts);
+  statistics->newton_max = larger(statistics->newton_max, counts.newton_iterations);
+  statistics->linear_max = larger(statistics->linear_max, counts.linear_iterations);
+  statistics->residual_max = fmax(statistics->residual_max, counts.residual);
+}
+
+void spore_run_statistics_energy(SporeRunStatistics *statistics, const SporeWorld *world) {
+  statistics->energy_end = spore_total_energy(world);
+  statistics->energy_drift = fmax(statistics->energy_drift, fabs(statistics->energy_end - statistics->energy_start));
+}
+
+double spore_run_statistics_mean(const SporeRunStatistics *statistics, double sum) {
+  return statistics->steps ? sum / (double)statistics->steps : 0;
+}
