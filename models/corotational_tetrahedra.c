@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "models/corotation.h"
+#include "models/fields.h"
 #include "models/nodal.h"
 #include "models/registry.h"
 #include "models/tetrahedra_map.h"
@@ -28,16 +29,16 @@ typedef struct Tetrahedra {
 } Tetrahedra;
 
 static const SporeParameter parameters[] = {
-    SPORE_NODAL_REAL(TetrahedraFields, young_modulus, "Pa", 1e-3, 1e15, 5000, SPORE_CHANGE_LIVE,
+    SPORE_REAL_FIELD(TetrahedraFields, young_modulus, "Pa", 1e-3, 1e15, 5000, SPORE_CHANGE_LIVE,
                      N_("Young's modulus, 2 (1 + Poisson's ratio) times the shear modulus; shear moduli: stomach 0.64, "
                         "liver 1.8, gallbladder 85, bile duct 166, hepatic artery 210 kPa (PMC6925591).")),
-    SPORE_NODAL_REAL(TetrahedraFields, poisson_ratio, "", 0, 0.499, 0.4, SPORE_CHANGE_LIVE,
+    SPORE_REAL_FIELD(TetrahedraFields, poisson_ratio, "", 0, 0.499, 0.4, SPORE_CHANGE_LIVE,
                      N_("Poisson's ratio; near 0.5 volume is kept, and these elements become too stiff in bending.")),
-    SPORE_NODAL_REAL(TetrahedraFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
+    SPORE_REAL_FIELD(TetrahedraFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
                      N_("Mass per volume; 1060 is soft tissue.")),
-    SPORE_NODAL_REAL(TetrahedraFields, mass_damping, "1/s", 0, 1e6, 0, SPORE_CHANGE_LIVE,
+    SPORE_REAL_FIELD(TetrahedraFields, mass_damping, "1/s", 0, 1e6, 0, SPORE_CHANGE_LIVE,
                      N_("Damping of all motion, as by a surrounding fluid: force per mass and speed.")),
-    SPORE_NODAL_REAL(TetrahedraFields, stiffness_damping, "s", 0, 1e3, 0.01, SPORE_CHANGE_LIVE,
+    SPORE_REAL_FIELD(TetrahedraFields, stiffness_damping, "s", 0, 1e3, 0.01, SPORE_CHANGE_LIVE,
                      N_("Damping of deformation: viscous stress is this time times the stress of the strain rate.")),
 };
 

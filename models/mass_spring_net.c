@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "models/fields.h"
 #include "models/nodal.h"
 #include "models/registry.h"
 #include "models/springs.h"
@@ -22,18 +23,18 @@ typedef struct Net {
 } Net;
 
 static const SporeParameter parameters[] = {
-    SPORE_NODAL_REAL(NetFields, surface_density, "kg/m^2", 1e-6, 1e6, 1.06, SPORE_CHANGE_REBUILD,
+    SPORE_REAL_FIELD(NetFields, surface_density, "kg/m^2", 1e-6, 1e6, 1.06, SPORE_CHANGE_REBUILD,
                      N_("Mass per area: density times thickness; 1.06 is 1 mm of soft tissue (1060 kg/m^3). Not used "
                         "where mass is set.")),
-    SPORE_NODAL_REAL(NetFields, mass, "kg", 0, 1e9, 0, SPORE_CHANGE_REBUILD,
+    SPORE_REAL_FIELD(NetFields, mass, "kg", 0, 1e9, 0, SPORE_CHANGE_REBUILD,
                      N_("Mass of the whole net; 0 takes it from surface density and area.")),
-    SPORE_NODAL_REAL(NetFields, structural_stiffness, "N/m", 0, 1e15, 100, SPORE_CHANGE_LIVE,
+    SPORE_REAL_FIELD(NetFields, structural_stiffness, "N/m", 0, 1e15, 100, SPORE_CHANGE_LIVE,
                      N_("Stiffness of each spring along an edge.")),
-    SPORE_NODAL_REAL(NetFields, shear_stiffness, "N/m", 0, 1e15, 50, SPORE_CHANGE_LIVE,
+    SPORE_REAL_FIELD(NetFields, shear_stiffness, "N/m", 0, 1e15, 50, SPORE_CHANGE_LIVE,
                      N_("Stiffness of each spring across the common edge of two triangles.")),
-    SPORE_NODAL_REAL(NetFields, bending_stiffness, "N/m", 0, 1e15, 10, SPORE_CHANGE_LIVE,
+    SPORE_REAL_FIELD(NetFields, bending_stiffness, "N/m", 0, 1e15, 10, SPORE_CHANGE_LIVE,
                      N_("Stiffness of each spring that skips a vertex: resists folding.")),
-    SPORE_NODAL_REAL(NetFields, damping, "N s/m", 0, 1e12, 0.01, SPORE_CHANGE_LIVE,
+    SPORE_REAL_FIELD(NetFields, damping, "N s/m", 0, 1e12, 0.01, SPORE_CHANGE_LIVE,
                      N_("Damping of each spring along its direction.")),
 };
 

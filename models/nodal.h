@@ -2,15 +2,7 @@
 #ifndef SPORE_MODELS_NODAL_H
 #define SPORE_MODELS_NODAL_H
 
-#include "core/base/parameter.h"
 #include "core/sim/model.h"
-
-/* Entry of a parameter table for a number that is zero or positive; `live`: a running world takes a change. */
-#define SPORE_NODAL_REAL(Fields, field, unit_, minimum_, maximum_, initial_, change_, doc_)                            \
-  {                                                                                                                    \
-    .name = #field, .type = SPORE_REAL, .unit = unit_, .minimum = minimum_, .maximum = maximum_,                       \
-    .initial = {initial_}, .offset = offsetof(Fields, field), .change = change_, .doc = doc_                           \
-  }
 
 /* Node i at pose applied to rest (3 a node), moving with the frame. */
 void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q,

@@ -4,7 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "models/nodal.h"
+#include "models/fields.h"
 #include "models/registry.h"
 
 typedef struct RigidBodyFields {
@@ -22,9 +22,9 @@ typedef struct RigidBody {
 } RigidBody;
 
 static const SporeParameter parameters[] = {
-    SPORE_NODAL_REAL(RigidBodyFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
+    SPORE_REAL_FIELD(RigidBodyFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
                      N_("Mass per volume; 1060 is soft tissue, 7900 surgical steel. Not used where mass is set.")),
-    SPORE_NODAL_REAL(RigidBodyFields, mass, "kg", 0, 1e9, 0, SPORE_CHANGE_REBUILD,
+    SPORE_REAL_FIELD(RigidBodyFields, mass, "kg", 0, 1e9, 0, SPORE_CHANGE_REBUILD,
                      N_("Mass of the whole body; 0 takes it from density and volume.")),
 };
 
