@@ -192,6 +192,15 @@ static void grasp(SporeWorld *world, size_t index, const SporeBody *body, SporeV
   term->law.damping = 2 * sqrt(stiffness * mass);
 }
 
+/* The plan has a link stage while there is something to link. */
+static void set_pulled(SporeWorld *world, size_t index, bool pulled) {
+  if (world->spring_active[index] == pulled) return;
+  world->spring_active[index] = pulled;
+  if (pulled) world->pull_count++;
+  else world->pull_count--;
+  spore_world_make_plan(world);
+}
+
 void spore_world_pull(SporeWorld *world, const SporeCommand *command) {
   const SporeBody *body = &world->bodies[command->body];
   bool good = finite3(command->point) && finite3(command->vector) && command->number >= 0 && isfinite(command->number);
@@ -201,10 +210,10 @@ void spore_world_pull(SporeWorld *world, const SporeCommand *command) {
   if (!world->spring_active[index]) grasp(world, index, body, command->point, command->number);
   term->law.stiffness = command->number;
   spore_vec3_store(world->spring_mappings[2 * index + 1].points, command->vector);
-  world->spring_active[index] = true;
+  set_pulled(world, index, true);
 }
 
-void spore_world_release(SporeWorld *world, uint32_t body) { world->spring_active[world->link_count + body] = false; }
+void spore_world_release(SporeWorld *world, uint32_t body) { set_pulled(world, world->link_count + body, false); }
 
 void spore_world_link(SporeWorld *world) {
   size_t count = spore_world_spring_count(world);

@@ -25,7 +25,7 @@ static size_t active_bodies(const SporeWorld *world) { return count_bodies(world
 static size_t moving_spheres(const SporeWorld *world) { return world->spheres.count - world->spheres.static_count; }
 static size_t all_spheres(const SporeWorld *world) { return world->spheres.count; }
 static size_t contacts(const SporeWorld *world) { return world->contact_count; }
-static size_t links(const SporeWorld *world) { return world->link_count; }
+static size_t links(const SporeWorld *world) { return world->link_count + world->pull_count; }
 static size_t islands(const SporeWorld *world) { return world->island_count; }
 static size_t degrees_of_freedom(const SporeWorld *world) { return world->dof; }
 static size_t bodies(const SporeWorld *world) { return world->body_count; }
@@ -33,14 +33,13 @@ static size_t bodies(const SporeWorld *world) { return world->body_count; }
 static void add(SporeWorld *world, const char *name, bool included, const char *reason, void (*run)(SporeWorld *),
                 size_t (*items)(const SporeWorld *)) {
   size_t index = world->plan.stage_count++;
-  world->plan_stages[index] = (SporePlanStage){.name = name, .included = included, .reason = reason};
-  if (!included) return;
-  SporeStage *stage = &world->stages[world->stage_count++];
+  SporeStage *stage = &world->stages[index];
   stage->run = run;
   stage->items = items;
-  stage->plan_index = index;
   stage->profile.name = name;
-  world->plan_stages[index].profile = &stage->profile;
+  world->plan_stages[index] = (SporePlanStage){
+      .name = name, .included = included, .reason = reason, .profile = included ? &stage->profile : NULL};
+  if (included) world->run[world->run_count++] = stage;
 }
 
 static void leave_out(SporeWorld *world, const char *what, const char *reason) {
@@ -70,15 +69,20 @@ static void plan_numerics(SporeWorld *world, const Census *census) {
 }
 
 void spore_world_make_plan(SporeWorld *world) {
+  world->plan.stage_count = world->plan.left_out_count = world->run_count = 0;
   Census census = count_bodies(world);
   bool active = census.active > 0, linked = world->link_count > 0, moves = census.passive > 0;
+  bool pulled = world->pull_count > 0;
   bool coupled = moves && (linked || world->grid);
   const char *no_active = _("no body is driven by a device or a track");
   add(world, "command", true, _("parameters and pulls may change while it runs"), spore_world_apply_commands, no_items);
   add(world, "sense", active, active ? _("active bodies follow their devices") : no_active, spore_world_sense,
       active_bodies);
   plan_collision(world, &census);
-  add(world, "link", moves, linked ? _("springs tie bodies together") : _("a viewer may pull at a body"),
+  add(world, "link", moves && (linked || pulled),
+      linked   ? _("springs tie bodies together")
+      : pulled ? _("a viewer pulls at a body")
+               : _("no spring ties bodies, and nobody pulls at one"),
       spore_world_link, links);
   plan_numerics(world, &census);
   add(world, "react", coupled, coupled ? _("contacts and links push back") : _("nothing touches and nothing is tied"),
@@ -87,7 +91,7 @@ void spore_world_make_plan(SporeWorld *world) {
       active_bodies);
   add(world, "commit", true, _("checks, accepts and publishes the new state"), spore_world_commit, bodies);
   if (!active) leave_out(world, _("devices and feedback"), no_active);
-  if (!linked) leave_out(world, _("links"), _("the scene has none"));
+  if (!linked && !pulled) leave_out(world, _("links"), _("the scene has none"));
   world->plan.stages = world->plan_stages;
   world->plan.left_out = world->left_out;
 }
@@ -95,8 +99,9 @@ void spore_world_make_plan(SporeWorld *world) {
 /* One step: each stage of the plan in its order, timed. */
 void spore_world_run_plan(SporeWorld *world) {
   uint64_t start = spore_clock_ns(), before = start;
-  for (size_t i = 0; i < world->stage_count; i++) {
-    SporeStage *stage = &world->stages[i];
+  /* The first stage applies commands, which may put a stage behind it in or out. */
+  for (size_t i = 0; i < world->run_count; i++) {
+    SporeStage *stage = world->run[i];
     stage->run(world);
     uint64_t after = spore_clock_ns();
     spore_profile_add(&stage->profile, after - before);
@@ -109,7 +114,7 @@ void spore_world_run_plan(SporeWorld *world) {
 const SporePlan *spore_world_plan(const SporeWorld *world) {
   /* What a stage works on changes from step to step; the plan is brought up to date when somebody looks. */
   SporeWorld *plan_owner = (SporeWorld *)(uintptr_t)world;
-  for (size_t i = 0; i < world->stage_count; i++)
-    plan_owner->plan_stages[world->stages[i].plan_index].items = world->stages[i].items(world);
+  for (size_t i = 0; i < world->plan.stage_count; i++)
+    if (world->plan_stages[i].included) plan_owner->plan_stages[i].items = world->stages[i].items(world);
   return &world->plan;
 }

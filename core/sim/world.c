@@ -124,7 +124,7 @@ void spore_world_reset(SporeWorld *world) {
   memcpy(world->v, world->rest_v, world->v_count * sizeof *world->v);
   memcpy(world->target_q, world->rest_q, world->q_count * sizeof *world->q);
   memset(world->reaction, 0, 6 * world->body_count * sizeof *world->reaction);
-  memset(world->spring_active + world->link_count, 0, world->body_count * sizeof *world->spring_active);
+  for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
   world->step = 0;
   world->contact_count = 0;
   world->counts = (SporeStepCounts){0};

@@ -73,7 +73,6 @@ typedef struct SporeIsland {
 typedef struct SporeStage {
   void (*run)(SporeWorld *world);
   size_t (*items)(const SporeWorld *world);
-  size_t plan_index;
   SporeProfilePhase profile;
 } SporeStage;
 
@@ -136,10 +135,12 @@ struct SporeWorld {
   SporeSnapshots snapshots;
   SporeMonitor monitor;
 
-  SporeStage stages[SPORE_STAGE_MAXIMUM];
-  size_t stage_count;
   SporePlan plan;
   SporePlanStage plan_stages[SPORE_STAGE_MAXIMUM];
+  SporeStage stages[SPORE_STAGE_MAXIMUM]; /* as plan_stages */
+  SporeStage *run[SPORE_STAGE_MAXIMUM];   /* those included, in order: what a step calls */
+  size_t run_count;
+  size_t pull_count; /* pulls held now */
   SporePlanLeftOut left_out[SPORE_LEFT_OUT_MAXIMUM];
   SporeProfilePhase profile;
   double step_us;           /* of the step before */
@@ -204,7 +205,7 @@ void spore_snapshots_clear(SporeSnapshots *snapshots);
 void spore_snapshot_publish(SporeWorld *world);
 
 /* plan.c */
-void spore_world_make_plan(SporeWorld *world);
+void spore_world_make_plan(SporeWorld *world); /* at create, and again when a pull begins or ends */
 void spore_world_run_plan(SporeWorld *world);
 
 /* step_limit.c */

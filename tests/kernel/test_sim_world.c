@@ -151,8 +151,8 @@ static void test_plan(void) {
   SporeWorld *world = create(&description, NULL);
   run(world, 3);
   const SporePlan *plan = spore_world_plan(world);
-  const char *const out[] = {"sense", "map", "detect", "respond", "react", "feedback"};
-  const char *const in[] = {"command", "link", "group", "integrate", "commit"};
+  const char *const out[] = {"sense", "map", "detect", "respond", "link", "react", "feedback"};
+  const char *const in[] = {"command", "group", "integrate", "commit"};
   for (size_t i = 0; i < G_N_ELEMENTS(out); i++) {
     g_assert_false(stage(plan, out[i])->included);
     g_assert_null(stage(plan, out[i])->profile);
@@ -165,6 +165,15 @@ static void test_plan(void) {
   g_assert_cmpuint(stage(plan, "integrate")->items, ==, 24);
   g_assert_cmpuint(plan->left_out_count, ==, 3);
   g_assert_cmpuint(spore_world_profile(world)->count, ==, 3);
+  const SporeCommand pull = {.kind = SPORE_COMMAND_PULL, .vector = {0, 1, 0}, .number = 10},
+                     let_go = {SPORE_COMMAND_RELEASE};
+  g_assert_true(spore_world_post(world, &pull));
+  run(world, 2);
+  g_assert_true(stage(spore_world_plan(world), "link")->included);
+  g_assert_cmpuint(stage(plan, "link")->profile->count, ==, 2);
+  g_assert_true(spore_world_post(world, &let_go));
+  run(world, 1);
+  g_assert_false(stage(spore_world_plan(world), "link")->included);
   spore_world_free(world);
 
   world = pile(SPORE_INTEGRATOR_SYMPLECTIC_EULER, NULL);
