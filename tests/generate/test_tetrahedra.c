@@ -1,0 +1,314 @@
+/* Tetrahedra in sound and in dirty surfaces: the method that must be used, the number of cells, their quality, volume.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/profile.h"
+#include "core/generate/tetrahedra.h"
+#include "tests/mesh/shapes.h"
+
+typedef struct {
+  SporeTetrahedralMesh mesh;
+  SporeTetrahedraReport report;
+} Result;
+
+static const double low[3] = {0, 0, 0}, high[3] = {0.1, 0.1, 0.1};
+
+/* Meshes and checks what holds for every result; clears the surface. */
+static Result fill(SporeTriangleMesh *surface, SporeTetrahedraOptions options, const char *method) {
+  Result result;
+  GError *error = NULL;
+  gboolean done = spore_tetrahedra_from_mesh("organ", surface, &options, &result.mesh, &result.report, NULL, &error);
+  g_assert_no_error(error);
+  g_assert_true(done);
+  SporeError invalid = SPORE_ERROR_INIT;
+  g_assert_true(spore_tetrahedral_mesh_validate(&result.mesh, &invalid));
+  g_test_message("%s: %" G_GSIZE_FORMAT " cells, least angle %.1f, Hausdorff %.2f%%, volume %+.1f%%",
+                 result.report.method, result.mesh.tetrahedron_count, result.report.quality.min_dihedral_deg,
+                 100 * result.report.hausdorff, 100 * result.report.volume_change);
+  g_assert_cmpstr(result.report.method, ==, method);
+  g_assert_cmpfloat(result.report.quality.min_dihedral_deg, >=, 10);
+  g_assert_cmpfloat(result.report.seconds, >, 0);
+  spore_triangle_mesh_clear(surface);
+  return result;
+}
+
+static void check_cells(Result *result, double wanted) {
+  g_assert_cmpfloat((double)result->mesh.tetrahedron_count, >=, 0.75 * wanted);
+  g_assert_cmpfloat((double)result->mesh.tetrahedron_count, <=, 1.25 * wanted);
+}
+
+static void test_ball(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 12);
+  shape_move(&surface, 1, -2, 3); /* far from the origin */
+  Result result = fill(&surface, (SporeTetrahedraOptions){.cells = 1000}, "direct");
+  check_cells(&result, 1000);
+  g_assert_cmpfloat(result.report.hausdorff, <, 0.02);
+  g_assert_cmpfloat(fabs(result.report.volume_change), <, 0.05);
+  for (gsize i = 0; i < result.mesh.vertex_count; i++) {
+    SporeVec3 p = spore_vec3_load(result.mesh.vertices + 3 * i);
+    g_assert_cmpfloat(spore_vec3_distance(p, spore_vec3(1, -2, 3)), <=, 0.05 + 1e-6);
+  }
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* The same in millimetres: the mesh is the same, a thousand times as large. */
+static void test_scale(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 50, 12);
+  Result large = fill(&surface, (SporeTetrahedraOptions){.cells = 500}, "direct");
+  check_cells(&large, 500);
+  spore_tetrahedral_mesh_clear(&large.mesh);
+}
+
+static void test_cube(void) {
+  SporeTriangleMesh surface = {0};
+  shape_box(&surface, low, high, 4);
+  Result result = fill(&surface, (SporeTetrahedraOptions){.cells = 2000}, "direct");
+  check_cells(&result, 2000);
+  g_assert_cmpfloat(result.report.hausdorff, <, 0.06); /* corners are cut */
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+static void test_torus(void) {
+  SporeTriangleMesh surface = {0};
+  shape_torus(&surface, 0.05, 0.02, 40, 20);
+  Result result = fill(&surface, (SporeTetrahedraOptions){.cells = 1500}, "direct");
+  check_cells(&result, 1500);
+  g_assert_cmpfloat(fabs(result.report.volume_change), <, 0.12);
+  uint32_t *triangles;
+  size_t count, edges;
+  uint32_t *pairs;
+  g_assert_true(spore_tetrahedral_mesh_boundary(&result.mesh, &triangles, &count));
+  g_assert_true(spore_edges_of_triangles(triangles, count, &pairs, &edges));
+  gsize outer = 0;
+  char *seen = g_malloc0(result.mesh.vertex_count);
+  for (gsize i = 0; i < 3 * count; i++) outer += !seen[triangles[i]], seen[triangles[i]] = 1;
+  g_assert_cmpint((int)outer - (int)edges + (int)count, ==, 0); /* the hole is still there */
+  g_free(seen);
+  spore_free(pairs);
+  spore_free(triangles);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* By size: edges of about that length. */
+static void test_size(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 12);
+  Result result = fill(&surface, (SporeTetrahedraOptions){.size = 0.015}, "direct");
+  uint32_t *pairs;
+  size_t edges;
+  double sum = 0;
+  g_assert_true(spore_edges_of_tetrahedra(result.mesh.tetrahedra, result.mesh.tetrahedron_count, &pairs, &edges));
+  for (gsize i = 0; i < edges; i++)
+    sum += spore_vec3_distance(spore_vec3_load(result.mesh.vertices + 3 * (gsize)pairs[2 * i]),
+                               spore_vec3_load(result.mesh.vertices + 3 * (gsize)pairs[2 * i + 1]));
+  g_assert_cmpfloat(sum / (double)edges, >, 0.75 * 0.015);
+  g_assert_cmpfloat(sum / (double)edges, <, 1.25 * 0.015);
+  spore_free(pairs);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* A surface turned inside out bounds the same solid. */
+static void test_inside_out(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 8);
+  shape_turn(&surface);
+  Result result = fill(&surface, (SporeTetrahedraOptions){.cells = 500}, "direct");
+  check_cells(&result, 500);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* A cavity stays one. */
+static void test_cavity(void) {
+  SporeTriangleMesh surface = {0}, cavity = {0};
+  shape_ball(&surface, 0.05, 12);
+  shape_ball(&cavity, 0.03, 12);
+  shape_turn(&cavity);
+  shape_append(&surface, &cavity);
+  spore_triangle_mesh_clear(&cavity);
+  Result result = fill(&surface, (SporeTetrahedraOptions){.cells = 3000}, "direct");
+  g_assert_cmpfloat(fabs(result.report.volume_change), <, 0.1);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* Two cubes that overlap by a half: one solid of one and a half. */
+static void test_overlapping_cubes(void) {
+  const double shifted_low[3] = {0.05, 0.013, 0.017}, shifted_high[3] = {0.15, 0.113, 0.117};
+  SporeTriangleMesh surface = {0}, other = {0};
+  shape_box(&surface, low, high, 3);
+  shape_box(&other, shifted_low, shifted_high, 3);
+  shape_append(&surface, &other);
+  spore_triangle_mesh_clear(&other);
+  Result result = fill(&surface, (SporeTetrahedraOptions){.cells = 2000}, "wrapped");
+  check_cells(&result, 2000);
+  const double both = 2e-3 - 0.05 * 0.087 * 0.083;
+  g_assert_cmpfloat(fabs(result.report.quality.volume / both - 1), <, 0.1);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* A box without one triangle is closed again. */
+static void test_hole(void) {
+  SporeTriangleMesh surface = {0};
+  shape_box(&surface, low, high, 4);
+  surface.triangle_count--;
+  Result result = fill(&surface, (SporeTetrahedraOptions){.cells = 1000}, "repaired");
+  check_cells(&result, 1000);
+  g_assert_cmpfloat(fabs(result.report.quality.volume / 1e-3 - 1), <, 0.1);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+/* No two triangles share a vertex, and some are turned over: as STL from a bad exporter. */
+static void test_soup(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 8);
+  shape_unweld(&surface);
+  for (gsize i = 0; i < surface.triangle_count; i += 5) {
+    uint32_t *corner = surface.triangles + 3 * i, kept = corner[1];
+    corner[1] = corner[2], corner[2] = kept;
+  }
+  Result result = fill(&surface, (SporeTetrahedraOptions){.cells = 500}, "repaired");
+  check_cells(&result, 500);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
+static void test_repeatable(void) {
+  SporeTriangleMesh surface = {0};
+  shape_torus(&surface, 0.05, 0.02, 24, 12);
+  SporeTriangleMesh same = {0};
+  g_assert_true(spore_triangle_mesh_copy(&same, &surface, NULL));
+  Result a = fill(&surface, (SporeTetrahedraOptions){.cells = 600}, "direct");
+  Result b = fill(&same, (SporeTetrahedraOptions){.cells = 600}, "direct");
+  g_assert_cmpmem(a.mesh.vertices, a.mesh.vertex_count * 24, b.mesh.vertices, b.mesh.vertex_count * 24);
+  g_assert_cmpmem(a.mesh.tetrahedra, a.mesh.tetrahedron_count * 16, b.mesh.tetrahedra, b.mesh.tetrahedron_count * 16);
+  g_assert_cmpfloat(a.report.hausdorff, ==, b.report.hausdorff);
+  spore_tetrahedral_mesh_clear(&a.mesh);
+  spore_tetrahedral_mesh_clear(&b.mesh);
+}
+
+static void check_refused(SporeTriangleMesh *surface, SporeTetrahedraOptions options, int code, const char *words) {
+  SporeTetrahedralMesh mesh;
+  GError *error = NULL;
+  g_assert_false(spore_tetrahedra_from_mesh("organ", surface, &options, &mesh, NULL, NULL, &error));
+  g_assert_error(error, SPORE_ERROR, code);
+  if (!strstr(error->message, words)) g_error("\"%s\" does not say \"%s\"", error->message, words);
+  g_assert_true(g_str_has_prefix(error->message, "organ: "));
+  g_assert_null(strchr(error->message, '\n'));
+  g_assert_null(mesh.vertices);
+  g_test_message("%s", error->message);
+  g_error_free(error);
+}
+
+static void test_refused(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 4);
+  check_refused(&surface, (SporeTetrahedraOptions){0}, SPORE_ERROR_INPUT, "or a number of cells");
+  check_refused(&surface, (SporeTetrahedraOptions){.size = -1}, SPORE_ERROR_INPUT, "expected a length above 0");
+  check_refused(&surface, (SporeTetrahedraOptions){.size = NAN}, SPORE_ERROR_INPUT, "expected a length above 0");
+  check_refused(&surface, (SporeTetrahedraOptions){.size = 1e-6}, SPORE_ERROR_INPUT, "expected at most 5000000");
+  check_refused(&surface, (SporeTetrahedraOptions){.cells = 1000000000}, SPORE_ERROR_INPUT, "expected at most 5000000");
+  surface.vertices[4] = NAN;
+  check_refused(&surface, (SporeTetrahedraOptions){.cells = 100}, SPORE_ERROR_INPUT, "vertex 1");
+  spore_triangle_mesh_clear(&surface);
+}
+
+typedef struct {
+  guint calls, cancel_at;
+  double last;
+  gboolean falls;
+  guint64 cancelled_ns;
+} Watch;
+
+static bool watch(void *data, double fraction, const char *stage) {
+  Watch *seen = data;
+  if (fraction > 1 || !(fraction >= 0)) seen->falls = TRUE;
+  seen->last = fraction;
+  if (++seen->calls < seen->cancel_at || !seen->cancel_at) return true;
+  if (!seen->cancelled_ns) seen->cancelled_ns = spore_clock_ns();
+  return false;
+}
+
+/* Cells for minutes of work; the wish to cancel must not wait for them. */
+static void test_cancel(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 12);
+  Watch seen = {.cancel_at = 10};
+  SporeProgress progress = {watch, &seen};
+  SporeTetrahedraOptions options = {.cells = 2000000};
+  SporeTetrahedralMesh mesh;
+  GError *error = NULL;
+  g_assert_false(spore_tetrahedra_from_mesh("organ", &surface, &options, &mesh, NULL, &progress, &error));
+  g_assert_cmpuint(spore_clock_ns() - seen.cancelled_ns, <, (guint64)5 * 1000000000);
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_CANCELLED);
+  g_assert_cmpuint(seen.calls, ==, 10);
+  g_error_free(error);
+  spore_triangle_mesh_clear(&surface);
+}
+
+static void test_progress(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 8);
+  Watch seen = {0};
+  SporeProgress progress = {watch, &seen};
+  SporeTetrahedraOptions options = {.cells = 300};
+  SporeTetrahedralMesh mesh;
+  GError *error = NULL;
+  g_assert_true(spore_tetrahedra_from_mesh("organ", &surface, &options, &mesh, NULL, &progress, &error));
+  g_assert_no_error(error);
+  g_assert_false(seen.falls);
+  g_assert_cmpfloat(seen.last, >, 0.9);
+  spore_tetrahedral_mesh_clear(&mesh);
+  spore_triangle_mesh_clear(&surface);
+}
+
+/* Cancelled while the result is measured, after the helper has ended. */
+static bool stop_measuring(void *data, double fraction, const char *stage) { return fraction < 0.95; }
+
+static void test_cancel_late(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 8);
+  SporeProgress progress = {stop_measuring, NULL};
+  SporeTetrahedraOptions options = {.cells = 300};
+  SporeTetrahedralMesh mesh;
+  GError *error = NULL;
+  g_assert_false(spore_tetrahedra_from_mesh("organ", &surface, &options, &mesh, NULL, &progress, &error));
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_CANCELLED);
+  g_assert_null(mesh.vertices);
+  g_error_free(error);
+  spore_triangle_mesh_clear(&surface);
+}
+
+/* Says what is missing rather than fail somewhere inside. */
+static void test_not_in_this_build(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 4);
+  check_refused(&surface, (SporeTetrahedraOptions){.cells = 100}, SPORE_ERROR_UNSUPPORTED, "install libcgal-dev");
+  spore_triangle_mesh_clear(&surface);
+}
+
+static void add_tests(void) {
+  g_test_add_func("/tetrahedra/ball", test_ball);
+  g_test_add_func("/tetrahedra/scale", test_scale);
+  g_test_add_func("/tetrahedra/cube", test_cube);
+  g_test_add_func("/tetrahedra/torus", test_torus);
+  g_test_add_func("/tetrahedra/size", test_size);
+  g_test_add_func("/tetrahedra/inside-out", test_inside_out);
+  g_test_add_func("/tetrahedra/cavity", test_cavity);
+  g_test_add_func("/tetrahedra/overlapping-cubes", test_overlapping_cubes);
+  g_test_add_func("/tetrahedra/hole", test_hole);
+  g_test_add_func("/tetrahedra/soup", test_soup);
+  g_test_add_func("/tetrahedra/repeatable", test_repeatable);
+  g_test_add_func("/tetrahedra/refused", test_refused);
+  g_test_add_func("/tetrahedra/cancel", test_cancel);
+  g_test_add_func("/tetrahedra/cancel-late", test_cancel_late);
+  g_test_add_func("/tetrahedra/progress", test_progress);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  if (SPORE_HAVE_CGAL) add_tests();
+  else g_test_add_func("/tetrahedra/not-in-this-build", test_not_in_this_build);
+  return g_test_run();
+}
