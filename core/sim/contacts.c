@@ -1,5 +1,6 @@
 /* Spheres from the state, contacts from the spheres, terms from the contacts. */
 #include "core/base/memory.h"
+#include "core/base/text.h"
 #include "core/sim/world_private.h"
 
 /* An active body's spheres have the velocity that takes them to its target in one step. */
@@ -22,10 +23,6 @@ void spore_world_map_spheres(SporeWorld *world) {
   }
 }
 
-void spore_world_detect(SporeWorld *world) {
-  world->contact_count = spore_grid_detect(world->grid, &world->spheres, world->solver.time_step, &world->missed);
-}
-
 bool spore_world_reserve_contacts(SporeWorld *world) {
   size_t old = world->contact_capacity, wanted = spore_grid_capacity(world->grid) + world->missed;
   if (world->missed) wanted += wanted / 2;
@@ -41,6 +38,25 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   world->contact_capacity = wanted;
   world->missed = 0;
   return true;
+}
+
+static void find_contacts(SporeWorld *world) {
+  world->contact_count = spore_grid_detect(world->grid, &world->spheres, world->solver.time_step, &world->missed);
+}
+
+/* A contact without room would be a body that falls through another, and a run that cannot be repeated: room is made at
+ * once. It is the one place where a step may allocate, and since room only grows, seldom. */
+void spore_world_detect(SporeWorld *world) {
+  find_contacts(world);
+  while (world->missed && spore_world_reserve_contacts(world)) find_contacts(world);
+  if (!world->missed) return;
+  find_contacts(world); /* a reservation that failed half-way lost what was found */
+  if (world->contact_count > world->contact_capacity) {
+    world->missed += world->contact_count - world->contact_capacity;
+    world->contact_count = world->contact_capacity;
+  }
+  spore_world_report(world, _("%zu contacts are left out: there is no memory for them; use fewer or smaller spheres"),
+                     world->missed);
 }
 
 void spore_world_fill_end(const SporeWorld *world, SporeEnd *end) {

@@ -103,11 +103,7 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   return world;
 }
 
-void spore_world_step(SporeWorld *world) {
-  spore_world_run_plan(world);
-  /* Contacts that found no room are rare, and cost this step nothing: room is made before the next one. */
-  if (world->missed) spore_world_reserve_contacts(world);
-}
+void spore_world_step(SporeWorld *world) { spore_world_run_plan(world); }
 
 static void reset_body(SporeWorld *world, SporeBody *body) {
   body->frozen = false;

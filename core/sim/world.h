@@ -1,4 +1,5 @@
-/* The world: a scene compiled for running. Flat arrays sized exactly; a step allocates, locks and prints nothing.
+/* The world: a scene compiled for running. Flat arrays sized exactly; a step allocates, locks and prints nothing (room
+ * for more contacts than ever before apart).
  *
  * Threads: one thread steps a world. Other threads read spore_world_snapshot_acquire (one reader) and write
  * spore_world_post (one writer). */
