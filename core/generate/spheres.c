@@ -8,8 +8,8 @@
 #include "core/base/text.h"
 #include "core/generate/spheres_parts.h"
 
-#define CANDIDATES_LEAST 8000
-#define CANDIDATES_PER_SPHERE 8
+#define CANDIDATES_LEAST 1500
+#define CANDIDATES_PER_SPHERE 12
 
 static bool check_options(const SporeSpheresOptions *options, SporeError *error) {
   if (options->count > SPORE_SPHERES_MAXIMUM)

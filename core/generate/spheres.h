@@ -20,10 +20,10 @@ typedef struct SporeSpheresOptions {
 
 /* Measured on samples other than those of the fit. Distances in fractions of the bounding box diagonal. */
 typedef struct SporeSpheresReport {
-  double coverage;       /* volume of the solid that is inside the spheres / volume */
-  double outside;        /* volume of the union that is outside the solid / volume of the solid */
+  double coverage;                    /* volume of the solid that is inside the spheres / volume */
+  double outside;                     /* volume of the union that is outside the solid / volume of the solid */
   double distance_mean, distance_max; /* two-sided, surface of the solid to surface of the union */
-  double depth_error;    /* mean |depth - max_i(r_i - d_i)+| inside / largest depth */
+  double depth_error;                 /* mean |depth - max_i(r_i - d_i)+| inside / largest depth */
   double seconds;
 } SporeSpheresReport;
 
@@ -32,8 +32,9 @@ typedef struct SporeSpheresReport {
  * many. By tolerance: the fewest found, to about 2 %. *set is empty on failure. */
 bool spore_spheres_from_mesh(const SporeTriangleMesh *mesh, const SporeSpheresOptions *options, SporeSphereSet *set,
                              SporeSpheresReport *report, const SporeProgress *progress, SporeError *error);
-bool spore_spheres_from_tetrahedra(const SporeTetrahedralMesh *mesh, const SporeSpheresOptions *options, SporeSphereSet *set,
-                                   SporeSpheresReport *report, const SporeProgress *progress, SporeError *error);
+bool spore_spheres_from_tetrahedra(const SporeTetrahedralMesh *mesh, const SporeSpheresOptions *options,
+                                   SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
+                                   SporeError *error);
 /* Measures any set against a solid. */
 bool spore_spheres_measure(const SporeTriangleMesh *mesh, const SporeSphereSet *set, SporeSpheresReport *report,
                            SporeError *error);

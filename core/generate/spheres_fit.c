@@ -15,6 +15,7 @@
 #define TRIALS 60       /* relocations tried, at most */
 #define TRIAL_WORK 8000 /* and at most this over the number of balls */
 #define TRIAL_ROUNDS 10
+#define PATIENCE 12 /* trials in vain, after which no more are made */
 #define LAST_ROUNDS 24
 #define SETTLED 1e-5 /* relative change of the loss in a round below which the last rounds end */
 
@@ -120,7 +121,7 @@ static void take_round(SporeFit *fit) {
 
 /* Relocates, refits for a few rounds, and goes back to the best when that did not help. Fewer are moved each time it
  * fails, and the choice is blurred so that it differs. */
-static void try_relocation(SporeFit *fit, size_t *wanted, double *shake) {
+static bool try_relocation(SporeFit *fit, size_t *wanted, double *shake) {
   spore_balls_copy(&fit->balls, &fit->best);
   evaluate(fit);
   double before = fit->best_loss;
@@ -130,9 +131,10 @@ static void try_relocation(SporeFit *fit, size_t *wanted, double *shake) {
     fit->damping = DAMPING_INITIAL;
     for (int round = 0; round < TRIAL_ROUNDS; round++) take_round(fit);
   }
-  if (moved && fit->best_loss < before) return;
+  if (moved && fit->best_loss < before) return true;
   *wanted = *wanted > 1 ? *wanted * 2 / 3 : 1;
   *shake = fmin(*shake + 0.1, 0.6);
+  return false;
 }
 
 static bool open_fit(SporeFit *fit, const SporeBalls *balls) {
@@ -173,13 +175,23 @@ static void close_fit(SporeFit *fit) {
   spore_field_clear(&fit->trial_field);
 }
 
+/* The last round was taken, and changed next to nothing. */
+static bool settled(const SporeFit *fit, double before) {
+  return fit->loss != before && fabs(fit->loss - before) < SETTLED * before;
+}
+
 /* Rounds in which balls of little worth go where depth is missing. */
 static bool fill(SporeFit *fit, const SporeProgressPart *progress, double from, double to, SporeError *error) {
   for (int round = 0; round < FIRST_ROUNDS; round++) {
     double fraction = from + (to - from) * round / FIRST_ROUNDS;
     if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
+    double before = fit->loss;
     take_round(fit);
-    if (round % FILL_EVERY != FILL_EVERY - 1 || !spore_fit_fill(fit, (size_t)round)) continue;
+    if (round % FILL_EVERY != FILL_EVERY - 1) continue;
+    if (!spore_fit_fill(fit, (size_t)round)) {
+      if (settled(fit, before)) break;
+      continue;
+    }
     evaluate(fit);
     keep_best(fit);
     fit->damping = DAMPING_INITIAL;
@@ -197,20 +209,21 @@ static bool settle(SporeFit *fit, int rounds, const SporeProgressPart *progress,
     double fraction = from + (to - from) * round / rounds, before = fit->loss;
     if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
     take_round(fit);
-    if (fit->loss != before && fabs(fit->loss - before) < SETTLED * before) break;
+    if (settled(fit, before)) break;
   }
   return true;
 }
 
 static bool relocate_all(SporeFit *fit, const SporeProgressPart *progress, double from, double to, SporeError *error) {
   size_t wanted = fit->balls.count / 10 + 1;
+  int failures = 0;
   double shake = 0;
   if (fit->balls.count < 2) return true;
   size_t trials = TRIAL_WORK / fit->balls.count < TRIALS ? TRIAL_WORK / fit->balls.count : TRIALS;
-  for (size_t trial = 0; trial < trials; trial++) {
+  for (size_t trial = 0; trial < trials && failures < PATIENCE; trial++) {
     double fraction = from + (to - from) * (double)trial / (double)trials;
     if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
-    try_relocation(fit, &wanted, &shake);
+    failures = try_relocation(fit, &wanted, &shake) ? 0 : failures + 1;
   }
   return true;
 }

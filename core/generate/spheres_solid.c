@@ -5,9 +5,9 @@
 #include "core/base/text.h"
 #include "core/generate/spheres_parts.h"
 
-#define CELL_BUDGET 24000 /* cells are divided while fewer than this are on the boundary */
+#define CELL_BUDGET 12000 /* cells are divided while fewer than this are on the boundary */
 #define CELL_LEVELS 12
-#define VOLUME_TRIES 65536 /* points that estimate the volume */
+#define VOLUME_TRIES 32768 /* points that estimate the volume */
 #define LEAST_FILLING 1e-3 /* of the cells, below which the surface is taken not to enclose anything */
 
 bool spore_spheres_no_memory(SporeError *error) {

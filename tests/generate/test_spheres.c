@@ -1,0 +1,355 @@
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/generate/spheres.h"
+#include "tests/mesh/shapes.h"
+
+#define CLOSE(a, b, tolerance) g_assert_cmpfloat_with_epsilon(a, b, tolerance)
+
+static SporeSphereSet make(const SporeTriangleMesh *mesh, size_t count, uint64_t seed, SporeSpheresReport *report) {
+  SporeSpheresOptions options = {.count = count, .seed = seed};
+  SporeError error = SPORE_ERROR_INIT;
+  SporeSphereSet set;
+  bool done = spore_spheres_from_mesh(mesh, &options, &set, report, NULL, &error);
+  g_assert_cmpstr(error.message, ==, "");
+  g_assert_true(done);
+  g_assert_cmpuint(set.count, ==, count);
+  g_assert_true(spore_sphere_set_validate(&set, NULL));
+  g_test_message("%zu spheres: coverage %.4f outside %.4f distance %.4f %% depth %.4f, %.2f s", count, report->coverage,
+                 report->outside, 100 * report->distance_mean, report->depth_error, report->seconds);
+  return set;
+}
+
+static void test_ball(void) {
+  SporeTriangleMesh ball;
+  SporeSpheresReport report;
+  shape_ball(&ball, 0.05, 24);
+  shape_move(&ball, 1, 2, 3);
+  SporeSphereSet set = make(&ball, 1, 1, &report);
+  const double expected[4] = {1, 2, 3, 0.05};
+  for (int k = 0; k < 4; k++) CLOSE(set.spheres[k], expected[k], 1e-3 * 0.05);
+  g_assert_cmpfloat(report.coverage, >, 0.997);
+  g_assert_cmpfloat(report.outside, <, 0.003);
+  g_assert_cmpfloat(report.distance_mean, <, 2e-4);
+  g_assert_cmpfloat(report.depth_error, <, 1e-3);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&ball);
+}
+
+/* Turned inside out it is the same ball. */
+static void test_inside_out(void) {
+  SporeTriangleMesh ball;
+  SporeSpheresReport report;
+  shape_ball(&ball, 0.05, 12);
+  SporeSphereSet right = make(&ball, 2, 1, &report);
+  shape_turn(&ball);
+  SporeSphereSet wrong = make(&ball, 2, 1, &report);
+  g_assert_cmpfloat(report.coverage, >, 0.98);
+  spore_sphere_set_clear(&right);
+  spore_sphere_set_clear(&wrong);
+  spore_triangle_mesh_clear(&ball);
+}
+
+/* Centres lie on the ring, and each radius is that of the tube. */
+static void test_torus(void) {
+  SporeTriangleMesh torus;
+  SporeSpheresReport report;
+  shape_torus(&torus, 0.06, 0.02, 64, 32);
+  SporeSphereSet set = make(&torus, 24, 1, &report);
+  for (size_t i = 0; i < set.count; i++) {
+    const double *s = set.spheres + 4 * i;
+    CLOSE(hypot(hypot(s[0], s[1]) - 0.06, s[2]), 0, 0.1 * 0.02);
+    CLOSE(s[3], 0.02, 0.1 * 0.02);
+  }
+  g_assert_cmpfloat(report.coverage, >, 0.95);
+  g_assert_cmpfloat(report.outside, <, 0.04);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&torus);
+}
+
+static void test_capsule(void) {
+  SporeTriangleMesh capsule;
+  SporeSpheresReport report;
+  shape_capsule(&capsule, 0.02, 0.05, 12);
+  SporeSphereSet set = make(&capsule, 12, 1, &report);
+  for (size_t i = 0; i < set.count; i++) CLOSE(hypot(set.spheres[4 * i], set.spheres[4 * i + 1]), 0, 0.05 * 0.02);
+  g_assert_cmpfloat(report.coverage, >, 0.97);
+  g_assert_cmpfloat(report.outside, <, 0.03);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&capsule);
+}
+
+static void cube_shell(SporeTriangleMesh *shell, double half, double wall) {
+  const double o = half, i = half - wall;
+  SporeTriangleMesh inner;
+  shape_box(shell, (double[3]){-o, -o, -o}, (double[3]){o, o, o}, 8);
+  shape_box(&inner, (double[3]){-i, -i, -i}, (double[3]){i, i, i}, 8);
+  shape_turn(&inner);
+  shape_append(shell, &inner);
+  spore_triangle_mesh_clear(&inner);
+}
+
+/* The hollow stays hollow. */
+static void test_shell(void) {
+  SporeTriangleMesh shell;
+  SporeSpheresReport report;
+  cube_shell(&shell, 0.05, 0.02);
+  SporeSphereSet set = make(&shell, 120, 1, &report);
+  for (size_t i = 0; i < set.count; i++) {
+    const double *s = set.spheres + 4 * i;
+    double far = fmax(fabs(s[0]), fmax(fabs(s[1]), fabs(s[2])));
+    g_assert_cmpfloat(far, >, 0.03);
+    g_assert_cmpfloat(far, <, 0.05);
+  }
+  g_assert_cmpfloat(report.coverage, >, 0.93);
+  g_assert_cmpfloat(report.outside, <, 0.08);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&shell);
+}
+
+static void test_two_components(void) {
+  SporeTriangleMesh a, b;
+  SporeSpheresReport report;
+  shape_ball(&a, 0.04, 16);
+  shape_ball(&b, 0.02, 16);
+  shape_move(&b, 0.2, 0, 0);
+  shape_append(&a, &b);
+  SporeSphereSet set = make(&a, 2, 1, &report);
+  const double *large = set.spheres[3] > set.spheres[7] ? set.spheres : set.spheres + 4;
+  const double *small = large == set.spheres ? set.spheres + 4 : set.spheres;
+  CLOSE(large[0], 0, 1e-4);
+  CLOSE(large[3], 0.04, 1e-4);
+  CLOSE(small[0], 0.2, 1e-4);
+  CLOSE(small[3], 0.02, 1e-4);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&a);
+  spore_triangle_mesh_clear(&b);
+}
+
+static void test_seed(void) {
+  SporeTriangleMesh torus;
+  SporeSpheresReport a, b, c;
+  shape_torus(&torus, 0.06, 0.02, 24, 12);
+  SporeSphereSet first = make(&torus, 16, 5, &a), again = make(&torus, 16, 5, &b), other = make(&torus, 16, 6, &c);
+  a.seconds = b.seconds = 0;
+  g_assert_cmpmem(first.spheres, 64 * sizeof(double), again.spheres, 64 * sizeof(double));
+  g_assert_cmpmem(&a, sizeof a, &b, sizeof b);
+  g_assert_true(memcmp(first.spheres, other.spheres, 64 * sizeof(double)) != 0);
+  spore_sphere_set_clear(&first);
+  spore_sphere_set_clear(&again);
+  spore_sphere_set_clear(&other);
+  spore_triangle_mesh_clear(&torus);
+}
+
+static double field(const SporeSphereSet *set, SporeVec3 p) {
+  double best = -HUGE_VAL;
+  for (size_t i = 0; i < set->count; i++)
+    best = fmax(best, set->spheres[4 * i + 3] - spore_vec3_distance(p, spore_vec3_load(set->spheres + 4 * i)));
+  return best;
+}
+
+/* A symmetric solid gives a set that is symmetric to within its own error: the depth at mirrored points. */
+static void test_symmetry(void) {
+  SporeTriangleMesh box;
+  SporeSpheresReport report;
+  shape_box(&box, (double[3]){-0.05, -0.03, -0.02}, (double[3]){0.05, 0.03, 0.02}, 8);
+  SporeSphereSet set = make(&box, 60, 1, &report);
+  GRand *random = g_rand_new_with_seed(3);
+  double difference[3] = {0};
+  for (int i = 0; i < 2000; i++) {
+    double p[3] = {g_rand_double_range(random, -0.05, 0.05), g_rand_double_range(random, -0.03, 0.03),
+                   g_rand_double_range(random, -0.02, 0.02)};
+    double here = field(&set, spore_vec3_load(p));
+    for (int k = 0; k < 3; k++) {
+      double mirrored[3] = {p[0], p[1], p[2]};
+      mirrored[k] = -p[k];
+      difference[k] += fabs(here - field(&set, spore_vec3_load(mirrored))) / 2000 / 0.02;
+    }
+  }
+  g_test_message("depth at mirrored points differs by %.4f %.4f %.4f of the largest depth; depth error %.4f",
+                 difference[0], difference[1], difference[2], report.depth_error);
+  for (int k = 0; k < 3; k++) g_assert_cmpfloat(difference[k], <, 2 * report.depth_error);
+  g_rand_free(random);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&box);
+}
+
+static void test_tolerance(void) {
+  SporeTriangleMesh torus;
+  SporeSpheresReport report, fewer;
+  SporeSphereSet set;
+  SporeSpheresOptions options = {.tolerance = 0.004, .seed = 1};
+  shape_torus(&torus, 0.06, 0.02, 24, 12);
+  g_assert_true(spore_spheres_from_mesh(&torus, &options, &set, &report, NULL, NULL));
+  g_assert_cmpfloat(report.distance_mean, <=, 0.004);
+  SporeSphereSet less = make(&torus, set.count * 9 / 10, 1, &fewer);
+  g_assert_cmpfloat(fewer.distance_mean, >, 0.004);
+  spore_sphere_set_clear(&less);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&torus);
+}
+
+/* Four triangles, with few and with far more spheres than they ask for. */
+static void test_tetrahedron(void) {
+  double vertices[] = {0, 0, 0, 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.1};
+  uint32_t triangles[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  SporeTriangleMesh mesh = {4, 4, vertices, triangles};
+  SporeSpheresReport one, many;
+  SporeSphereSet a = make(&mesh, 1, 1, &one), b = make(&mesh, 200, 1, &many);
+  g_assert_cmpfloat(many.coverage, >, 0.97);
+  g_assert_cmpfloat(many.distance_mean, <, 0.3 * one.distance_mean);
+  spore_sphere_set_clear(&a);
+  spore_sphere_set_clear(&b);
+}
+
+static void refuse(const SporeTriangleMesh *mesh, SporeSpheresOptions options, const char *expected) {
+  SporeSphereSet set;
+  SporeSpheresReport report;
+  SporeError error = SPORE_ERROR_INIT;
+  g_assert_false(spore_spheres_from_mesh(mesh, &options, &set, &report, NULL, &error));
+  g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
+  g_assert_nonnull(strstr(error.message, expected));
+  g_assert_null(set.spheres);
+}
+
+static void test_refused(void) {
+  double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  uint32_t sheet[] = {0, 1, 2, 1, 3, 2}, doubled[] = {0, 1, 2, 0, 2, 1}, wrong[] = {0, 1, 9};
+  SporeSpheresOptions ten = {.count = 10};
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, ten, "encloses no volume");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, doubled}, ten, "encloses no volume");
+  refuse(&(SporeTriangleMesh){4, 1, vertices, wrong}, ten, "triangle 0 uses vertex 9");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.count = 5001}, "too many");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){0}, "tolerance");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.tolerance = NAN}, "tolerance");
+}
+
+/* A ball with a hole in it still has an inside. */
+static void test_open(void) {
+  SporeTriangleMesh ball;
+  SporeSpheresReport report;
+  shape_ball(&ball, 0.05, 16);
+  ball.triangle_count -= 40;
+  SporeSphereSet set = make(&ball, 1, 1, &report);
+  CLOSE(set.spheres[3], 0.05, 0.05 * 0.05);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&ball);
+}
+
+/* Concentric with a unit ball, k its radius: coverage min(1, k^3), outside max(0, k^3 - 1), distance |1 - k| over the
+ * diagonal 2 sqrt 3, depth error |1 - k| for k > 1 and (1 - k) k^3 + (1 - k^3) - 3 (1 - k^4) / 4 for k < 1. */
+static void test_measure_concentric(void) {
+  SporeTriangleMesh ball;
+  shape_ball(&ball, 1, 32);
+  const double radii[] = {0.6, 0.9, 1.2};
+  for (int i = 0; i < 3; i++) {
+    double k = radii[i], cube = k * k * k, sphere[4] = {0, 0, 0, k},
+           less = (1 - k) * cube + (1 - cube) - 0.75 * (1 - k * cube);
+    SporeSphereSet set = {1, sphere};
+    SporeSpheresReport report;
+    g_assert_true(spore_spheres_measure(&ball, &set, &report, NULL));
+    CLOSE(report.coverage, fmin(1, cube), 0.006);
+    CLOSE(report.outside, fmax(0, cube - 1), 0.006);
+    CLOSE(report.distance_mean, fabs(1 - k) / (2 * sqrt(3)), 3e-4);
+    CLOSE(report.distance_max, fabs(1 - k) / (2 * sqrt(3)), 1e-3);
+    CLOSE(report.depth_error, k > 1 ? k - 1 : less, 0.006);
+  }
+  spore_triangle_mesh_clear(&ball);
+}
+
+/* Two balls of radius 1/2 a distance 1/2 apart in a unit ball: the lens that they share counts once. */
+static void test_measure_overlap(void) {
+  SporeTriangleMesh ball;
+  SporeSpheresReport report;
+  shape_ball(&ball, 1, 32);
+  double spheres[] = {-0.25, 0, 0, 0.5, 0.25, 0, 0, 0.5}, r = 0.5, d = 0.5;
+  double lens = (4 * r + d) * (2 * r - d) * (2 * r - d) / 16; /* over 4 pi / 3 */
+  SporeSphereSet set = {2, spheres};
+  g_assert_true(spore_spheres_measure(&ball, &set, &report, NULL));
+  CLOSE(report.coverage, 2 * r * r * r - lens, 0.008);
+  CLOSE(report.outside, 0, 1e-12);
+  for (int i = 0; i < 8; i += 4) spheres[i] += 10; /* far away: all outside */
+  g_assert_true(spore_spheres_measure(&ball, &set, &report, NULL));
+  g_assert_cmpfloat(report.coverage, ==, 0);
+  CLOSE(report.outside, 2 * r * r * r - lens, 0.008);
+  spore_triangle_mesh_clear(&ball);
+}
+
+/* The solid of the cells, with fewer spheres than cells. */
+static void test_tetrahedra(void) {
+  SporeTetrahedralMesh mesh;
+  SporeSphereSet set;
+  SporeSpheresReport report;
+  SporeSpheresOptions options = {.count = 40, .seed = 1};
+  shape_tetrahedral_box(&mesh, 4, 0.02);
+  g_assert_true(spore_spheres_from_tetrahedra(&mesh, &options, &set, &report, NULL, NULL));
+  g_assert_cmpuint(set.count, ==, 40);
+  g_assert_cmpfloat(report.coverage, >, 0.95);
+  g_assert_cmpfloat(report.outside, <, 0.07);
+  spore_sphere_set_clear(&set);
+  mesh.tetrahedra[3] = 1000;
+  SporeError error = SPORE_ERROR_INIT;
+  g_assert_false(spore_spheres_from_tetrahedra(&mesh, &options, &set, &report, NULL, &error));
+  g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
+  spore_tetrahedral_mesh_clear(&mesh);
+}
+
+typedef struct Stop {
+  int calls, stop_at;
+  double last;
+} Stop;
+
+static bool report_progress(void *data, double fraction, const char *stage) {
+  Stop *stop = data;
+  g_assert_cmpfloat(fraction, >=, stop->last - 1e-12); /* never goes back */
+  g_assert_cmpfloat(fraction, <=, 1);
+  g_assert_nonnull(stage);
+  stop->last = fraction;
+  return ++stop->calls != stop->stop_at;
+}
+
+static void test_cancel(void) {
+  SporeTriangleMesh torus;
+  SporeSpheresOptions options = {.count = 3, .seed = 1};
+  shape_torus(&torus, 0.06, 0.02, 12, 8);
+  Stop whole = {0};
+  SporeProgress progress = {report_progress, &whole};
+  SporeSphereSet set;
+  SporeSpheresReport report;
+  g_assert_true(spore_spheres_from_mesh(&torus, &options, &set, &report, &progress, NULL));
+  spore_sphere_set_clear(&set);
+  g_assert_cmpint(whole.calls, >, 30);
+  for (int k = 0; k < 5; k++) {
+    Stop stop = {.stop_at = 1 + (whole.calls - 1) * k / 4};
+    SporeError error = SPORE_ERROR_INIT;
+    progress.data = &stop;
+    g_assert_false(spore_spheres_from_mesh(&torus, &options, &set, &report, &progress, &error));
+    g_assert_cmpint(error.code, ==, SPORE_ERROR_CANCELLED);
+    g_assert_cmpint(stop.calls, ==, stop.stop_at);
+    g_assert_null(set.spheres);
+  }
+  spore_triangle_mesh_clear(&torus);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/generate/spheres/ball", test_ball);
+  g_test_add_func("/generate/spheres/inside-out", test_inside_out);
+  g_test_add_func("/generate/spheres/torus", test_torus);
+  g_test_add_func("/generate/spheres/capsule", test_capsule);
+  g_test_add_func("/generate/spheres/shell", test_shell);
+  g_test_add_func("/generate/spheres/two-components", test_two_components);
+  g_test_add_func("/generate/spheres/seed", test_seed);
+  g_test_add_func("/generate/spheres/symmetry", test_symmetry);
+  g_test_add_func("/generate/spheres/tolerance", test_tolerance);
+  g_test_add_func("/generate/spheres/tetrahedron", test_tetrahedron);
+  g_test_add_func("/generate/spheres/refused", test_refused);
+  g_test_add_func("/generate/spheres/open", test_open);
+  g_test_add_func("/generate/spheres/measure-concentric", test_measure_concentric);
+  g_test_add_func("/generate/spheres/measure-overlap", test_measure_overlap);
+  g_test_add_func("/generate/spheres/tetrahedra", test_tetrahedra);
+  g_test_add_func("/generate/spheres/cancel", test_cancel);
+  return g_test_run();
+}

@@ -1,0 +1,97 @@
+/* Each allocation of each part fails in turn: an error, no crash, nothing lost (the sanitizer looks). */
+#include <glib.h>
+
+#include "core/base/memory.h"
+#include "core/generate/spheres_parts.h"
+#include "tests/mesh/shapes.h"
+
+static const SporeProgressPart quiet = {NULL, 0, 1};
+
+typedef struct Fixture {
+  SporeTriangleMesh mesh;
+  SporeSolid solid;
+  SporeSamples samples;
+  SporeBalls candidates;
+} Fixture;
+
+static void set_up(Fixture *f, gconstpointer data) {
+  SporeRandom random = {1};
+  shape_torus(&f->mesh, 0.06, 0.02, 12, 8);
+  g_assert_true(spore_solid_create(&f->solid, &f->mesh, NULL));
+  g_assert_true(spore_samples_create(&f->samples, &f->solid, 2, &random, &quiet, NULL));
+  g_assert_true(spore_candidates_create(&f->candidates, &f->solid, 64, &random, &quiet, NULL));
+}
+
+static void tear_down(Fixture *f, gconstpointer data) {
+  spore_triangle_mesh_clear(&f->mesh);
+  spore_solid_clear(&f->solid);
+  spore_samples_clear(&f->samples);
+  spore_balls_clear(&f->candidates);
+}
+
+static bool solid(Fixture *f, SporeError *error) {
+  SporeSolid made;
+  bool done = spore_solid_create(&made, &f->mesh, error);
+  if (done) spore_solid_clear(&made);
+  return done;
+}
+
+static bool samples(Fixture *f, SporeError *error) {
+  SporeRandom random = {1};
+  SporeSamples made;
+  bool done = spore_samples_create(&made, &f->solid, 2, &random, &quiet, error);
+  if (done) spore_samples_clear(&made);
+  return done;
+}
+
+static bool candidates(Fixture *f, SporeError *error) {
+  SporeRandom random = {1};
+  SporeBalls made;
+  bool done = spore_candidates_create(&made, &f->solid, 64, &random, &quiet, error);
+  if (done) spore_balls_clear(&made);
+  return done;
+}
+
+static bool cover_and_fit(Fixture *f, SporeError *error) {
+  SporeBalls balls;
+  if (!spore_balls_create(&balls, 2)) return spore_spheres_no_memory(error);
+  bool done = spore_candidates_cover(&f->candidates, &f->samples, &balls, &quiet, error) &&
+              spore_spheres_fit(&f->solid, &f->samples, &f->candidates, &balls, 1, &quiet, error);
+  spore_balls_clear(&balls);
+  return done;
+}
+
+static bool measure(Fixture *f, SporeError *error) {
+  double sphere[4] = {0.06, 0, 0, 0.02};
+  SporeSphereSet set = {1, sphere};
+  SporeSpheresReport report;
+  return spore_solid_measure(&f->solid, &set, &report, &quiet, error);
+}
+
+static void fail_each(Fixture *f, gconstpointer data) {
+  bool (*work)(Fixture *, SporeError *) = *(bool (*const *)(Fixture *, SporeError *))data;
+  bool done = false;
+  for (uint64_t n = 1; !done; n++) {
+    SporeError error = SPORE_ERROR_INIT;
+    spore_allocation_fail_at(n);
+    done = work(f, &error);
+    spore_allocation_fail_at(0);
+    g_assert_cmpint(error.code, ==, done ? SPORE_ERROR_NONE : SPORE_ERROR_MEMORY);
+    g_assert_cmpuint(n, <, 200);
+  }
+}
+
+int main(int argc, char **argv) {
+  static const struct {
+    const char *path;
+    bool (*work)(Fixture *, SporeError *);
+  } parts[] = {{"/generate/spheres-memory/solid", solid},
+               {"/generate/spheres-memory/samples", samples},
+               {"/generate/spheres-memory/candidates", candidates},
+               {"/generate/spheres-memory/cover-and-fit", cover_and_fit},
+               {"/generate/spheres-memory/measure", measure}};
+  g_test_init(&argc, &argv, NULL);
+  for (size_t i = 0; i < G_N_ELEMENTS(parts); i++)
+    g_test_add(parts[i].path, Fixture, &parts[i].work, set_up, fail_each, tear_down);
+  return g_test_run();
+}
