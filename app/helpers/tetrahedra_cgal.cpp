@@ -26,7 +26,7 @@ using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 using Progress = void (*)(double, const char *);
 
 constexpr double least_angle = 10;  /* degrees, wanted */
-constexpr double sliver_angle = 14; /* degrees, asked of the optimisers */
+constexpr double sliver_angle = 12; /* degrees, asked of the optimisers */
 constexpr int most_sizes = 8;       /* meshes made to hit the number of cells */
 constexpr double size_tolerance = 0.1;
 constexpr int rays = 4000;            /* that look for the surface */
