@@ -81,6 +81,7 @@ gboolean spore_window_may_leave(SporeWindow *self) {
 static void opened(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeWindow *self = owner;
   SporeOpenWork *work = data;
+  spore_viewport_set_waiting(SPORE_VIEWPORT(self->viewport), FALSE);
   if (spore_window_failed(self, error)) return;
   SporeDocument *document = g_steal_pointer(&work->document);
   g_clear_object(&self->job); /* this one is through: replacing the document cancels what still runs */
@@ -100,7 +101,8 @@ static void opened(SporeJob *job, gpointer data, const GError *error, gpointer o
 static void start_open(SporeWindow *self, SporeOpenWork *work) {
   g_autofree char *base = g_path_get_basename(work->original ? work->original : work->file);
   g_autofree char *title = g_strdup_printf(_("Opening %s"), base);
-  spore_window_start_job(self, title, spore_open_work_run, work, spore_open_work_free, opened);
+  if (spore_window_start_job(self, title, spore_open_work_run, work, spore_open_work_free, opened))
+    spore_viewport_set_waiting(SPORE_VIEWPORT(self->viewport), TRUE);
 }
 
 void spore_window_open(SporeWindow *self, const char *file) {

@@ -9,6 +9,7 @@
 #include "models/registry.h"
 #include "ui/document/asset-readers.h"
 #include "ui/document/edits.h"
+#include "ui/document/labels.h"
 #include "ui/document/recovery.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/jobs/works.h"
@@ -359,6 +360,30 @@ static void test_recovery(Fixture *fixture, gconstpointer data) {
   g_assert_null(spore_leftover_find());
 }
 
+/* Translators find the names of the tables in po/labels.c. */
+
+static void assert_label(const char *labels, const char *name) {
+  g_autofree char *label = spore_label_of_name(name);
+  g_autofree char *marked = g_strdup_printf("N_(\"%s\")", label);
+  if (!strstr(labels, marked)) g_error("po/labels.c lacks %s; add it", marked);
+}
+
+static void assert_labels(const char *labels, const SporeObjectType *type) {
+  for (gsize i = 0; i < type->table->count; i++) {
+    const SporeParameter *parameter = &type->table->parameters[i];
+    assert_label(labels, parameter->name);
+    for (int k = 0; parameter->type == SPORE_CHOICE && parameter->choices[k]; k++)
+      if (spore_name_is_word(parameter->choices[k])) assert_label(labels, parameter->choices[k]);
+  }
+  for (guint i = 0; i < type->children->len; i++) assert_labels(labels, g_ptr_array_index(type->children, i));
+}
+
+static void test_labels(Fixture *fixture, gconstpointer data) {
+  g_autofree char *labels = NULL;
+  g_assert_true(g_file_get_contents(SPORE_LABELS, &labels, NULL, NULL));
+  assert_labels(labels, spore_schema_root(fixture->schema));
+}
+
 int main(int argc, char **argv) {
   static const struct {
     const char *name;
@@ -377,6 +402,7 @@ int main(int argc, char **argv) {
       {"player-follows-edits", test_player_follows_edits},
       {"player-refuses", test_player_refuses},
       {"recovery", test_recovery},
+      {"labels", test_labels},
   };
   /* Before GLib reads it; a child of g_test_trap_subprocess shares the parent's. */
   g_autofree char *state = g_getenv("SPORE_TEST_STATE") ? NULL : g_dir_make_tmp("spore-author-XXXXXX", NULL);

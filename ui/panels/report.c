@@ -1,7 +1,8 @@
 #include "ui/panels/report.h"
 
 #include <glib/gi18n.h>
-#include <string.h>
+
+#include "ui/document/labels.h"
 
 void spore_activate(GtkWidget *widget, const char *name, GVariant *parameter) {
   GActionGroup *group = gtk_widget_get_action_group(widget, "win");
@@ -24,16 +25,12 @@ static gboolean pass_on(GtkWidget *widget, GdkEventScroll *event, gpointer data)
 void spore_ignore_wheel(GtkWidget *widget) { g_signal_connect(widget, "scroll-event", G_CALLBACK(pass_on), NULL); }
 
 char *spore_label_of(const char *name) {
-  g_autofree char *label = g_strdup(name);
-  g_strdelimit(label, "_", ' ');
-  label[0] = g_ascii_toupper(label[0]);
+  g_autofree char *label = spore_label_of_name(name);
   return g_strdup(_(label));
 }
 
 char *spore_choice_label(const char *choice) {
-  gboolean word = strlen(choice) > 2;
-  for (const char *c = choice; *c; c++) word &= !g_ascii_isupper(*c);
-  return word ? spore_label_of(choice) : g_strdup(choice);
+  return spore_name_is_word(choice) ? spore_label_of(choice) : g_strdup(choice);
 }
 
 char *spore_unit_label(const char *unit) {

@@ -27,7 +27,7 @@ struct _SporeViewport {
   double draw_ms;
 
   SporeCamera camera;
-  gboolean framed;
+  gboolean framed, waiting;
 
   SporeDrag drag;
   double last_x, last_y;

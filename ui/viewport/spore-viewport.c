@@ -60,6 +60,11 @@ static void update_stage(SporeViewport *self) {
   spore_viewport_redraw(self);
 }
 
+static void show_welcome(SporeViewport *self) {
+  gtk_widget_set_visible(self->welcome,
+                         !self->waiting && !has_anything(self) && !gtk_widget_get_visible(self->failure));
+}
+
 static double aspect_of(SporeViewport *self) {
   return (double)gtk_widget_get_allocated_width(self->area) / MAX(gtk_widget_get_allocated_height(self->area), 1);
 }
@@ -73,7 +78,7 @@ static void look_first(SporeViewport *self) {
 static gboolean rebuild(gpointer data) {
   SporeViewport *self = data;
   self->rebuild = 0;
-  gtk_widget_set_visible(self->welcome, !has_anything(self) && !gtk_widget_get_visible(self->failure));
+  show_welcome(self);
   if (!self->stage) return G_SOURCE_REMOVE;
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
@@ -264,6 +269,11 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
   gtk_widget_grab_focus(self->area);
   update_hud(self);
   spore_viewport_redraw(self);
+}
+
+void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting) {
+  self->waiting = waiting;
+  show_welcome(self);
 }
 
 void spore_viewport_set_tool(SporeViewport *self, SporeTool tool) {

@@ -19,6 +19,8 @@ G_DECLARE_FINAL_TYPE(SporeViewport, spore_viewport, SPORE, VIEWPORT, GtkOverlay)
 typedef enum { SPORE_TOOL_SELECT, SPORE_TOOL_PROBE } SporeTool;
 
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
+/* A scene is on its way: do not offer to begin with another. */
+void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
 void spore_viewport_set_tool(SporeViewport *self, SporeTool tool);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
 void spore_viewport_frame(SporeViewport *self);
