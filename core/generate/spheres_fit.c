@@ -13,7 +13,7 @@
 #define FIRST_ROUNDS 60
 #define FILL_EVERY 6
 #define TRIALS 60       /* relocations tried, at most */
-#define TRIAL_WORK 8000 /* and at most this over the number of balls */
+#define TRIAL_WORK 6000 /* and at most this over the number of balls */
 #define TRIAL_ROUNDS 10
 #define PATIENCE 12 /* trials in vain, after which no more are made */
 #define LAST_ROUNDS 24
