@@ -63,8 +63,9 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) {
     SporeSpheresOptions options = {.count = (size_t)MAX(count, 0), .tolerance = tolerance, .seed = (uint64_t)seed};
-    if (count < 0 || count > 100000 || (count == 0) == !(tolerance > 0 && tolerance < 1))
-      status = spore_cli_usage(_("spore spheres: expected either --count 1 to 100000 or --tolerance between 0 and 1"));
+    if (count < 0 || count > SPORE_SPHERES_MAXIMUM || (count == 0) == !(tolerance > 0 && tolerance < 1))
+      status = spore_cli_usage(_("spore spheres: expected either --count 1 to %d or --tolerance between 0 and 1"),
+                               SPORE_SPHERES_MAXIMUM);
     else status = generate(cli, argv[1], &options, unit, frame, output);
   }
   g_free(unit);
