@@ -2,6 +2,7 @@
 import os
 import pathlib
 import sys
+import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -27,8 +28,10 @@ def ball(name="ball.off"):
     return path
 
 
-def start(*arguments, **environment):
-    return ui.Editor(PROGRAM, *arguments, environment=environment)
+def start(*arguments, state=None, **environment):
+    """An editor that knows of no other one's unsaved work, unless `state` is the folder of its state."""
+    state = state or tempfile.mkdtemp(dir=folder("state"))
+    return ui.Editor(PROGRAM, *arguments, environment={"XDG_STATE_HOME": str(state), **environment})
 
 
 def import_ball(editor):
@@ -262,19 +265,20 @@ def cancel_leaves_nothing():
 @check
 def recovery_after_a_crash():
     """unsaved work of a killed editor is offered and comes back."""
-    with start() as editor:
+    state = folder("crash")
+    with start(state=state) as editor:
         make_soft_ball(editor)
         editor.act("generate-spheres", "u", 10)  # a job keeps the work before it begins
         time.sleep(0.5)
         editor.kill()
-    with start() as editor:
+    with start(state=state) as editor:
         editor.find("label", "ended unexpectedly")
         editor.press(editor.find("push button", "^Recover$"))
         ui.wait(lambda: editor.row("ball_pin"), "the scene that was not saved")
         assert editor.enabled("save")
         text = saved(editor, "recovered")
         assert (folder("saved") / "recovered" / "ball.off").exists() and 'name="ball"' in text
-    with start() as editor:
+    with start(state=state) as editor:
         editor.find("label", "Begin with an organ")
         assert not editor.look("label", "ended unexpectedly")
 
@@ -299,6 +303,7 @@ def french():
     with start(LANGUAGE="fr") as editor:
         editor.find("push button", "^Importer$")
         editor.find("label", "Commencez par un organe")
+        editor.find("label", "^Gravité$")
 
 
 @check
