@@ -141,7 +141,7 @@ static const SporeParameter spheres_parameters[] = {
      .type = SPORE_INTEGER,
      .unit = "",
      1,
-     100000,
+     5000,
      .initial = {100},
      FIELD(SporeSpheresFields, count),
      .change = SPORE_CHANGE_LIVE,
