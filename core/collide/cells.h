@@ -18,7 +18,7 @@ typedef struct SporeCellScale {
   double width[SPORE_CELL_CLASSES], inverse[SPORE_CELL_CLASSES];
 } SporeCellScale;
 
-/* Class 0 is as wide as spheres of the smallest radius, and some class fits spheres of the usual radius tightly. */
+/* Class 0 is made for spheres of the smallest radius, and some class fits those of the usual radius tightly. */
 SporeCellScale spore_cell_scale(SporeVec3 origin, double smallest_radius, double usual_radius);
 
 typedef struct SporeCell {
