@@ -114,7 +114,7 @@ static guint report_monitor(SporeCli *cli, const SporeWorld *world) {
   for (guint64 serial = monitor->message_count - kept; serial < monitor->message_count; serial++) {
     const SporeMonitorMessage *message = &monitor->messages[serial % SPORE_MONITOR_MESSAGES];
     spore_cli_text(cli, NULL, message->text);
-    spore_cli_say(cli, _("  step %" G_GUINT64_FORMAT ": %s\n"), message->step, message->text);
+    spore_cli_say(cli, _("  step %llu: %s\n"), (unsigned long long)message->step, message->text);
   }
   spore_cli_close_array(cli);
   spore_cli_close(cli);
@@ -139,7 +139,7 @@ static int report(SporeCli *cli, const char *scene, const SporeWorld *world, con
   spore_cli_number(cli, "p99", step.p99_us);
   spore_cli_number(cli, "max", step.max_us);
   spore_cli_close(cli);
-  spore_cli_say(cli, _("%s: %" G_GINT64_FORMAT " steps, %g s, %zu degrees of freedom, %zu spheres\n"), scene, steps,
+  spore_cli_say(cli, _("%s: %lld steps, %g s, %zu degrees of freedom, %zu spheres\n"), scene, (long long)steps,
                 spore_world_time_s(world), spore_world_dof(world), spore_world_spheres(world)->count);
   spore_cli_say(cli, _("step: median %.2f us, 99th percentile %.2f us, longest %.2f us\n"), step.median_us, step.p99_us,
                 step.max_us);
@@ -210,7 +210,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
     if (options.time_s < 0 || !isfinite(options.time_s))
       status = spore_cli_usage(_("--time: %g s; expected a time of 0 s or more"), options.time_s);
     else if (options.steps < 0)
-      status = spore_cli_usage(_("--steps: %" G_GINT64_FORMAT "; expected 0 or more"), options.steps);
+      status = spore_cli_usage(_("--steps: %lld; expected 0 or more"), (long long)options.steps);
     else if (options.threads < 1 || options.threads > 256)
       status = spore_cli_usage(_("--threads: %d; expected 1 to 256"), options.threads);
     else status = run(cli, argv[1], &options);

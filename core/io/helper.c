@@ -17,8 +17,8 @@
 #include "core/base/profile.h"
 #include "core/io/helper_wire.h"
 
-#define POLL_MS 20          /* how soon a wish to cancel is noticed */
-#define DEATH_S 1.0         /* a child that closed its output is given this long to end */
+#define POLL_MS 20         /* how soon a wish to cancel is noticed */
+#define DEATH_S 1.0        /* a child that closed its output is given this long to end */
 #define COMPLAINT_KEPT 500 /* bytes of what it prints, for the log */
 
 typedef struct {
@@ -204,9 +204,8 @@ static gboolean open_frame(HelperRun *run) {
                 run->program);
   if (run->head.size > most)
     return fail(run, SPORE_ERROR_INPUT,
-                _("the result has %" G_GUINT64_FORMAT " bytes; expected at most %" G_GUINT64_FORMAT
-                  "; give a smaller input or ask for less"),
-                run->head.size, most);
+                _("the result has %llu bytes; expected at most %llu; give a smaller input or ask for less"),
+                (unsigned long long)run->head.size, (unsigned long long)most);
   run->body = g_try_malloc(run->head.size + 1);
   if (!run->body)
     return fail(run, SPORE_ERROR_MEMORY, _("there is not enough memory for the result; close other programs"));

@@ -77,9 +77,9 @@ static gboolean is_gltf(const Content *content) {
 
 static gboolean fail_short(const Content *content, const char *format, guint64 said, GError **error) {
   return spore_error_raise(error, SPORE_ERROR_INPUT, content->place,
-                           _("the %s file is cut short: it says it has %" G_GUINT64_FORMAT
-                             " bytes but has %" G_GSIZE_FORMAT "; expected the whole file; copy or export it again"),
-                           format, said, content->size);
+                           _("the %s file is cut short: it says it has %llu bytes but has %zu; expected the whole "
+                             "file; copy or export it again"),
+                           format, (unsigned long long)said, content->size);
 }
 
 /* Lengths of the container and of its chunks (glTF 2.0, "GLB file format specification"). */

@@ -57,8 +57,8 @@ static gboolean read_answer(const char *place, GBytes *answer, SporeTriangleMesh
   memcpy(mesh->vertices, bytes + sizeof head, vertex_bytes);
   memcpy(mesh->triangles, bytes + sizeof head + vertex_bytes, triangle_bytes);
   if (head.passed_over)
-    g_message(_("%s: %" G_GUINT64_FORMAT " points and lines were passed over; only triangles are read"), place,
-              head.passed_over);
+    g_message(_("%s: %llu points and lines were passed over; only triangles are read"), place,
+              (unsigned long long)head.passed_over);
   return TRUE;
 }
 

@@ -62,10 +62,10 @@ static gboolean read_body(SporeScanner *scanner, GArray *vertices, GArray *trian
       !spore_scanner_integer(scanner, _("a number of edges"), 0, G_MAXUINT32, &edge_count, error))
     return FALSE;
   if (!vertex_count || !face_count)
-    return spore_scanner_fail(scanner, error,
-                              _("the file has %" G_GSIZE_FORMAT " vertices and %" G_GSIZE_FORMAT
-                                " faces; expected a surface; export it again with its faces"),
-                              vertex_count, face_count);
+    return spore_scanner_fail(
+        scanner, error,
+        _("the file has %zu vertices and %zu faces; expected a surface; export it again with its faces"), vertex_count,
+        face_count);
   if (!read_vertices(scanner, vertex_count, vertices, error)) return FALSE;
   for (gsize i = 0; i < face_count; i++)
     if (!read_face(scanner, vertex_count, triangles, error)) return FALSE;

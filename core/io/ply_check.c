@@ -157,10 +157,10 @@ static gboolean check_property(Ply *ply, const PlyProperty *property, guint64 in
   for (gint64 i = 0; i < count; i++) {
     if (!read_number(ply, property->value, &value)) return FALSE;
     if (property->is_corners && (value < 0 || (guint64)value >= ply->vertex_count))
-      return spore_error_raise(ply->error, SPORE_ERROR_INPUT, ply->scanner.place,
-                               _("face %" G_GUINT64_FORMAT " names vertex %" G_GINT64_FORMAT " of %" G_GUINT64_FORMAT
-                                 "; expected the index of a vertex; repair or export the mesh again"),
-                               index, value, ply->vertex_count);
+      return spore_error_raise(
+          ply->error, SPORE_ERROR_INPUT, ply->scanner.place,
+          _("face %llu names vertex %lld of %llu; expected the index of a vertex; repair or export the mesh again"),
+          (unsigned long long)index, (long long)value, (unsigned long long)ply->vertex_count);
   }
   return TRUE;
 }

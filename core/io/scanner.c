@@ -123,9 +123,8 @@ gboolean spore_scanner_integer(SporeScanner *scanner, const char *what, guint64 
                        what);
   else
     spore_scanner_fail(scanner, error,
-                       _("\"%s\" is not %s; expected a whole number from %" G_GUINT64_FORMAT " to %" G_GUINT64_FORMAT
-                         "; correct the file"),
-                       shown, what, minimum, maximum);
+                       _("\"%s\" is not %s; expected a whole number from %llu to %llu; correct the file"), shown, what,
+                       (unsigned long long)minimum, (unsigned long long)maximum);
   g_free(shown);
   return FALSE;
 }
@@ -135,9 +134,9 @@ gboolean spore_scanner_count(SporeScanner *scanner, const char *what, gsize byte
   if (!spore_scanner_integer(scanner, what, 0, SPORE_MESH_MAXIMUM, &number, error)) return FALSE;
   if (number > spore_scanner_left(scanner) / bytes + 1)
     return spore_scanner_fail(scanner, error,
-                              _("the file is too short for %s of %" G_GUINT64_FORMAT
-                                "; expected all of them; write or copy the file again, it may be cut short"),
-                              what, number);
+                              _("the file is too short for %s of %llu; expected all of them; write or copy the file "
+                                "again, it may be cut short"),
+                              what, (unsigned long long)number);
   *count = (gsize)number;
   return TRUE;
 }
