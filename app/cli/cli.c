@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/io/mesh_import.h"
@@ -128,6 +129,15 @@ const SporeProgress *spore_cli_progress(const SporeCli *cli) {
   static SporeProgress progress = {.report = report_progress};
   progress.data = (void *)cli;
   return &progress;
+}
+
+gboolean spore_cli_keeps(const char *output, const char *input, GError **error) {
+  struct stat one, other;
+  if (stat(output, &one) != 0 || stat(input, &other) != 0 || !S_ISREG(one.st_mode) || one.st_dev != other.st_dev ||
+      one.st_ino != other.st_ino)
+    return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_INPUT, output,
+                           _("this is the input; expected another file to write to; name one"));
 }
 
 int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error) {

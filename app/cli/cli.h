@@ -60,6 +60,8 @@ const SporeProgress *spore_cli_progress(const SporeCli *cli);
 gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
                              SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
                              GError **error);
+/* TRUE unless writing output would destroy input: the same file, be it by another name. */
+gboolean spore_cli_keeps(const char *output, const char *input, GError **error);
 /* Index of text in a NULL-terminated list; -1 with a GError that lists it. */
 int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error);
 

@@ -85,7 +85,8 @@ static int import(SporeCli *cli, char **meshes, const char *unit, const char *fr
   SporeDocument *document = spore_document_new(cli->schema);
   spore_document_set_readers(document, &spore_io_readers);
   gboolean done = TRUE;
-  for (char **mesh = meshes; *mesh && done; mesh++) done = add_organ(cli, document, *mesh, unit, frame, &error) != NULL;
+  for (char **mesh = meshes; *mesh && done; mesh++)
+    done = spore_cli_keeps(output, *mesh, &error) && add_organ(cli, document, *mesh, unit, frame, &error) != NULL;
   done = done && make_folder_of(output, &error) && spore_scene_save(document, output, &error);
   if (done) {
     spore_cli_say(cli, _("%s: written\n"), output);

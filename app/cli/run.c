@@ -180,6 +180,9 @@ static int save_recording(const SporeTrack *recording, const char *file) {
 
 static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   GError *error = NULL;
+  if (options->record && (!spore_cli_keeps(options->record, scene, &error) ||
+                          (options->scene.input && !spore_cli_keeps(options->record, options->scene.input, &error))))
+    return spore_cli_fail(error);
   g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, options->threads, &error);
   if (!run) return spore_cli_fail(error);
   SporeWorld *world = run->simulation->world;
@@ -189,7 +192,8 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   gint64 steps = options->time_s > 0 ? (gint64)ceil(options->time_s / dt_s - 1e-9) : options->steps;
   SporeRunStatistics result = run_steps(cli, world, steps, options->realtime, options->record ? &recording : NULL);
   int status = spore_cli_finish(cli, report(cli, scene, world, &result));
-  if (options->record) status = MAX(status, save_recording(&recording, options->record));
+  int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
+  status = MAX(status, saved);
   spore_track_clear(&recording);
   return spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : status;
 }

@@ -52,6 +52,9 @@ static gboolean read_track(const char *file, SporeTrack *track, GError **error) 
   g_autoptr(GError) cause = NULL;
   gsize size = 0;
   SporeError fault = SPORE_ERROR_INIT;
+  if (g_file_test(file, G_FILE_TEST_EXISTS) && !g_file_test(file, G_FILE_TEST_IS_REGULAR))
+    return spore_error_raise(error, SPORE_ERROR_FILE, file,
+                             _("is not a regular file; expected a track; name a .track file"));
   if (!g_file_get_contents(file, &text, &size, &cause))
     return spore_error_raise(error, SPORE_ERROR_FILE, file, _("cannot be read (%s); expected a track; check the path"),
                              cause->message);

@@ -30,7 +30,8 @@ static int generate(SporeCli *cli, const char *file, const SporeSpheresOptions *
   SporeTriangleMesh mesh = {0};
   SporeSphereSet set = {0};
   SporeSpheresReport figures = {0};
-  gboolean done = spore_cli_read_mesh(cli, file, unit, frame, &mesh, NULL, NULL, NULL, &error);
+  gboolean done = (!output || spore_cli_keeps(output, file, &error)) &&
+                  spore_cli_read_mesh(cli, file, unit, frame, &mesh, NULL, NULL, NULL, &error);
   if (done && !spore_spheres_from_mesh(&mesh, options, &set, &figures, spore_cli_progress(cli), &fault)) {
     spore_error_at(&fault, file);
     done = spore_error_propagate(&fault, &error);

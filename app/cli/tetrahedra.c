@@ -37,7 +37,8 @@ static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOption
   SporeTriangleMesh surface = {0};
   SporeTetrahedralMesh mesh = {0};
   SporeTetrahedraReport figures = {0};
-  gboolean done = spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
+  gboolean done = (!output || spore_cli_keeps(output, file, &error)) &&
+                  spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
                   spore_tetrahedra_from_mesh(file, &surface, options, &mesh, &figures, spore_cli_progress(cli), &error);
   if (done && output) {
     gsize size = 0;

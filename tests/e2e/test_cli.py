@@ -316,6 +316,33 @@ def disk_full_leaves_things_as_they_were():
 
 
 @check
+def no_output_destroys_an_input():
+    """No command writes over what it reads, also by another name; nor is what is no regular file read or replaced."""
+    mesh = file("ball.off", shapes.off(*shapes.sphere()))
+    (WORK / "other-name.off").unlink(missing_ok=True)
+    (WORK / "other-name.off").symlink_to("ball.off")
+    before = mesh.read_bytes()
+    for output in ("ball.off", "other-name.off"):
+        refuses("import", "ball.off", "-o", output, says=[output, "input"])
+        refuses("spheres", "ball.off", "--count", 5, "-o", output, says=[output, "input"])
+    assert mesh.read_bytes() == before
+    scene = soft_ball()
+    before = scene.read_bytes()
+    refuses("run", scene, "--steps", 1, "--record", scene, says=[scene.name])
+    if "render" in FEATURES:
+        refuses("render", scene, "-o", scene, says=[scene.name])
+    assert scene.read_bytes() == before
+    os.mkfifo(WORK / "pipe")
+    refuses("run", scene, "--steps", 1, "--input", "pipe", says=["pipe", "track"])
+    if "render" in FEATURES:
+        refuses("render", scene, "-o", "pipe", says=["pipe"])
+        assert (WORK / "pipe").is_fifo()
+    (WORK / "pipe").unlink()
+    done = spore("run", scene, "--steps", 1, "--record", "no/such/folder.track", status=2)
+    assert done.stderr.count("folder.track") == 1, done.stderr
+
+
+@check
 def interruption_is_quick():
     """Ctrl-C ends long work within half a second and leaves no half-written file."""
     file("fine.off", shapes.off(*shapes.sphere(rings=60, sectors=120)))

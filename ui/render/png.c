@@ -64,6 +64,9 @@ static gboolean write_stream(int descriptor, const guint8 *pixels, int width, in
 
 gboolean spore_png_write(const char *file, const guint8 *pixels, int width, int height, gsize stride, GError **error) {
   g_return_val_if_fail(width > 0 && height > 0 && stride >= 4 * (gsize)width, FALSE);
+  if (g_file_test(file, G_FILE_TEST_EXISTS) && !g_file_test(file, G_FILE_TEST_IS_REGULAR))
+    return spore_error_raise(error, SPORE_ERROR_FILE, file,
+                             _("this is no regular file; a picture to write was expected; choose another place"));
   char *temporary = g_strdup_printf("%s.XXXXXX", file);
   int descriptor = g_mkstemp_full(temporary, O_RDWR | O_CLOEXEC, 0666);
   gboolean good = descriptor >= 0;
