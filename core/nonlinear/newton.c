@@ -30,6 +30,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     SporeLinearResult linear =
         system->solve(system->data, r, forcing_term(test.norm, previous, options->tolerance * test.scale_r), d);
     result.linear_iterations += linear.iterations;
+    result.unsolved += linear.status != SPORE_LINEAR_CONVERGED;
     result.indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
     if (linear.status == SPORE_LINEAR_BREAKDOWN) break;
     double trial_norm;

@@ -36,6 +36,7 @@ typedef struct SporeNonlinearOptions {
 typedef struct SporeNonlinearResult {
   bool converged, finite;
   size_t iterations, linear_iterations, evaluations, linearisations;
+  size_t unsolved; /* linear systems that did not reach their tolerance */
   double residual; /* relative, at the x returned */
   bool indefinite; /* the linear solver met a direction of negative curvature */
 } SporeNonlinearResult;

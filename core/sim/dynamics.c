@@ -259,7 +259,15 @@ static void invert_blocks(double *blocks, size_t count) {
   }
 }
 
+/* The body's own matrix with the diagonal blocks of the terms; where it is not positive definite in floating point,
+ * block-Jacobi stands in. */
+static void factorise(SporeBody *body, const double *blocks, bool alone) {
+  body->factor_alone = alone;
+  body->factor_ready = spore_block_cholesky_factorise(&body->factor, &body->matrix, blocks, body->held_flags);
+}
+
 static void make_preconditioner(SporeGroup *group) {
+  bool alone = group->island->contact_count + group->island->spring_count == 0;
   double *blocks = precondition_blocks(group);
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
@@ -267,6 +275,13 @@ static void make_preconditioner(SporeGroup *group) {
     body_diagonal(group, body, blocks + 3 * site->v);
   }
   add_term_diagonals(group, blocks);
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = body_at(group, b, &site);
+    bool current = body->factor_ready && body->factor_alone && alone;
+    if (!body->choice.factorised) body->factor_ready = false;
+    else if (!current) factorise(body, blocks + 3 * site->v, alone);
+  }
   invert_blocks(blocks, group->island->v_count / 3);
 }
 
@@ -279,6 +294,7 @@ static void assemble(const SporeGroup *group, SporeBody *body, const double *q, 
     double *block = body->matrix.values + 9 * (size_t)body->matrix.diagonal[i];
     for (int e = 0; e < 9; e++) block[e] += mass[9 * i + e];
   }
+  body->factor_ready = false;
   body->matrix_c = c;
   body->matrix_c2 = c2;
   body->matrix_step = group->world->step;
@@ -336,7 +352,13 @@ static void multiply(void *data, const double *x, double *y) {
 
 static void precondition(void *data, const double *r, double *z) {
   SporeGroup *group = data;
-  apply_blocks(precondition_blocks(group), group->island->v_count / 3, r, z);
+  const double *inverse = precondition_blocks(group);
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = body_at(group, b, &site);
+    if (body->factor_ready) spore_block_cholesky_solve(&body->factor, r + site->v, z + site->v);
+    else apply_blocks(inverse + 3 * site->v, body->block_count, r + site->v, z + site->v);
+  }
   filter(group, z);
 }
 
