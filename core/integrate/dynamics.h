@@ -27,8 +27,9 @@ typedef struct SporeDynamics {
   bool (*reuse)(void *data, const double *q, const double *v, double c, double c2);
   void (*multiply)(void *data, const double *x, double *y);     /* y = A x */
   void (*precondition)(void *data, const double *r, double *z); /* z = P^-1 r, P near A */
-  /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries at q, by the diagonal of the current A. */
-  double (*rounding)(void *data, const double *q, double c);
+  /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries at q, by the diagonal of the current A: along the soft axes
+   * alone, or along the stiff ones too. */
+  double (*rounding)(void *data, const double *q, double c, bool stiff_axes);
   double gravity_momentum; /* (M g . g)^1/2, N / kg^1/2: how big a force is worth looking at */
 } SporeDynamics;
 

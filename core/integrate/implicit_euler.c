@@ -70,9 +70,9 @@ static double dual_norm(void *data, const double *r) {
   return sqrt(dot(n, r, stage->work));
 }
 
-static double rounding(void *data, const double *v) {
+static double rounding(void *data, const double *v, bool stiff_axes) {
   Stage *stage = data;
-  return stage->dynamics->rounding(stage->dynamics->data, stage->q, stage->c);
+  return stage->dynamics->rounding(stage->dynamics->data, stage->q, stage->c, stiff_axes);
 }
 
 static SporeSystem stage_system(Stage *stage) {

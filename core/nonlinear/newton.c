@@ -41,5 +41,6 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     previous = test.norm;
     spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
   }
+  spore_convergence_end(&test, system, x, &result);
   return result;
 }

@@ -56,7 +56,8 @@ static void free_arrays(SporeWorld *world) {
                     world->local_q1,
                     world->local_v1,
                     world->scratch,
-                    world->precondition};
+                    world->precondition,
+                    world->block_stiffness};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
 }
 

@@ -142,7 +142,8 @@ struct SporeWorld {
   double *local_q0, *local_v0, *local_q1, *local_v1;
   double *scratch; /* of the integrators, scratch_per_block doubles a block */
   size_t scratch_per_block;
-  double *precondition; /* 9 a block, as local_v0 */
+  double *precondition;    /* 9 a block, as local_v0 */
+  double *block_stiffness; /* 1 a block */
 
   SporeCommands commands;
   SporeSnapshots snapshots;
