@@ -11,7 +11,7 @@
 #define GAIN 1.25             /* what a change must promise */
 #define PATIENCE 4            /* steps in a row that must promise it */
 #define PATIENCE_MAXIMUM 256
-#define TRIAL_STEPS 128      /* a factor that is not needed is put to the question so often */
+#define TRIAL_STEPS 128      /* a factor is put to the question so often */
 #define FACTOR_ITERATIONS 2. /* expected of conjugate gradients with the factor, a Newton iteration */
 
 /* Of one iteration without its preconditioner: the product, and six vector operations. */
@@ -66,7 +66,13 @@ static bool factor_disappoints(const SporeBody *body, const SporeStepResult *res
 
 static void choose(SporeBody *body, const SporeStepResult *result) {
   SporeFactorChoice *choice = &body->choice;
-  if (choice->needed) return;
+  if (choice->needed) {
+    /* What once did not converge without a factor may do now; where not, that step is taken again. */
+    if (++choice->steps < TRIAL_STEPS) return;
+    choice->needed = false;
+    change(body, 0);
+    return;
+  }
   if (result->newton_iterations == 0) return; /* at rest: nothing to learn */
   double iterations = (double)result->linear_iterations / (double)result->newton_iterations;
   bool other = choice->factorised ? factor_disappoints(body, result) : factor_pays(body, result);
