@@ -20,15 +20,16 @@ typedef struct SporeDynamics {
   void (*drift)(void *data, const double *q0, const double *v, double h, double *q1,
                 double *v1);                                     /* force-free motion */
   void (*mass_multiply)(void *data, const double *x, double *y); /* y = M x */
-  /* Assembles A = M + c D + c2 K at (q, v), D = -df/dv, K = -df/dq; multiply and precondition (block-Jacobi) then
-   * stand for this A. */
+  /* Assembles A = M + c D + c2 K at (q, v), D = -df/dv, K = -df/dq; multiply and precondition then stand for
+   * this A. */
   void (*linearise)(void *data, const double *q, const double *v, double c, double c2);
   /* True when the A of an earlier step, made with the same c and c2, may be used again; it is then the current one. */
   bool (*reuse)(void *data, const double *q, const double *v, double c, double c2);
   void (*multiply)(void *data, const double *x, double *y);     /* y = A x */
-  void (*precondition)(void *data, const double *r, double *z); /* z = diagonal blocks of A, inverted, times r */
-  /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries at q, by the diagonal of the current A. */
-  double (*rounding)(void *data, const double *q, double c);
+  void (*precondition)(void *data, const double *r, double *z); /* z = P^-1 r, P near A */
+  /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries at q, by the diagonal of the current A: along the soft axes
+   * alone, or along the stiff ones too. */
+  double (*rounding)(void *data, const double *q, double c, bool stiff_axes);
   double gravity_momentum; /* (M g . g)^1/2, N / kg^1/2: how big a force is worth looking at */
 } SporeDynamics;
 

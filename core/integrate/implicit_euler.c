@@ -70,9 +70,9 @@ static double dual_norm(void *data, const double *r) {
   return sqrt(dot(n, r, stage->work));
 }
 
-static double rounding(void *data, const double *v) {
+static double rounding(void *data, const double *v, bool stiff_axes) {
   Stage *stage = data;
-  return stage->dynamics->rounding(stage->dynamics->data, stage->q, stage->c);
+  return stage->dynamics->rounding(stage->dynamics->data, stage->q, stage->c, stiff_axes);
 }
 
 static SporeSystem stage_system(Stage *stage) {
@@ -119,8 +119,13 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
                                     ? spore_broyden(&system, &options, v, nonlinear)
                                     : spore_newton(&system, &options, v, nonlinear);
   dynamics->drift(dynamics->data, q0, v, h, q1, v1);
-  return (SporeStepResult){result.converged, result.iterations, result.linear_iterations, result.evaluations + 2,
-                           result.residual};
+  return (SporeStepResult){.converged = result.converged,
+                           .newton_iterations = result.iterations,
+                           .linear_iterations = result.linear_iterations,
+                           .force_evaluations = result.evaluations + 2,
+                           .linearisations = result.linearisations,
+                           .unsolved = result.unsolved,
+                           .residual = result.residual};
 }
 
 const SporeIntegrator spore_implicit_euler = {

@@ -8,7 +8,8 @@
 typedef struct SporeStepResult {
   bool converged; /* explicit ones always do */
   size_t newton_iterations, linear_iterations, force_evaluations;
-  double residual; /* relative */
+  size_t linearisations, unsolved; /* unsolved: linear systems that did not reach their tolerance */
+  double residual;                 /* relative */
 } SporeStepResult;
 
 typedef struct SporeIntegrator {

@@ -53,6 +53,7 @@ static bool next_direction(History *history, const double *r, SporeNonlinearResu
   double *d = step_at(history, history->count);
   SporeLinearResult linear = system->solve(system->data, r, INNER_TOLERANCE, d);
   result->linear_iterations += linear.iterations;
+  result->unsolved += linear.status != SPORE_LINEAR_CONVERGED;
   result->indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
   if (linear.status == SPORE_LINEAR_BREAKDOWN) return false;
   if (history->count == 0) return true;
@@ -74,6 +75,7 @@ static SporeNonlinearResult hand_over(const SporeSystem *system, const SporeNonl
   result.linear_iterations += so_far.linear_iterations;
   result.evaluations += so_far.evaluations;
   result.linearisations += so_far.linearisations;
+  result.unsolved += so_far.unsolved;
   result.indefinite |= so_far.indefinite;
   return result;
 }

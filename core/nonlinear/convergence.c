@@ -13,9 +13,14 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
 
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                                 SporeNonlinearResult *result) {
-  if (test->norm > system->rounding(system->data, x)) return false;
+  if (test->norm > system->rounding(system->data, x, false)) return false;
   result->converged = true;
   return true;
+}
+
+void spore_convergence_end(const SporeConvergence *test, const SporeSystem *system, const double *x,
+                           SporeNonlinearResult *result) {
+  if (result->linearisations > 0 && test->norm <= system->rounding(system->data, x, true)) result->converged = true;
 }
 
 void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,

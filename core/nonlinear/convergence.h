@@ -15,6 +15,9 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
 /* True, and convergence, when the residual is down to rounding. Needs a current linearisation. */
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                                 SporeNonlinearResult *result);
+/* At the end: a residual down to rounding along the stiff axes counts as convergence too. */
+void spore_convergence_end(const SporeConvergence *test, const SporeSystem *system, const double *x,
+                           SporeNonlinearResult *result);
 /* After x moved by length * d to a residual of norm `norm`: counts the iteration and tests. */
 void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,
                             double length, double norm, SporeNonlinearResult *result);

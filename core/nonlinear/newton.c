@@ -30,6 +30,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     SporeLinearResult linear =
         system->solve(system->data, r, forcing_term(test.norm, previous, options->tolerance * test.scale_r), d);
     result.linear_iterations += linear.iterations;
+    result.unsolved += linear.status != SPORE_LINEAR_CONVERGED;
     result.indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
     if (linear.status == SPORE_LINEAR_BREAKDOWN) break;
     double trial_norm;
@@ -40,5 +41,6 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     previous = test.norm;
     spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
   }
+  spore_convergence_end(&test, system, x, &result);
   return result;
 }

@@ -24,8 +24,9 @@ typedef struct SporeSystem {
   double (*norm)(void *data, const double *r);
   /* Size of x below which a change is not one, and of r below which it is: sums over what r is made of. */
   double scale_x, scale_r;
-  /* Norm of the rounding in r at x, by the current linearisation: no solver can get below it. */
-  double (*rounding)(void *data, const double *x);
+  /* Norm of the rounding in r at x, by the current linearisation. Along the soft axes alone: below it nothing is left
+   * to solve. Along the stiff ones too: no solver can be sure to get below it, though what is soft may get better. */
+  double (*rounding)(void *data, const double *x, bool stiff_axes);
 } SporeSystem;
 
 typedef struct SporeNonlinearOptions {
@@ -36,6 +37,7 @@ typedef struct SporeNonlinearOptions {
 typedef struct SporeNonlinearResult {
   bool converged, finite;
   size_t iterations, linear_iterations, evaluations, linearisations;
+  size_t unsolved; /* linear systems that did not reach their tolerance */
   double residual; /* relative, at the x returned */
   bool indefinite; /* the linear solver met a direction of negative curvature */
 } SporeNonlinearResult;

@@ -26,6 +26,7 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
     return;
   }
   body->matrix_c = 0;
+  spore_body_reset_choice(body);
   body->total_mass = spore_model_total_mass(body->model);
   spore_body_update_mass(world, body);
 }

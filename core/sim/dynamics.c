@@ -28,6 +28,10 @@ static double *precondition_blocks(const SporeGroup *group) {
   return group->world->precondition + 3 * group->island->v_start;
 }
 
+static double *block_stiffness(const SporeGroup *group) {
+  return group->world->block_stiffness + group->island->v_start / 3;
+}
+
 static const double *mass_of(const SporeGroup *group, const SporeBody *body) {
   return group->world->mass + 3 * body->v_offset;
 }
@@ -259,7 +263,24 @@ static void invert_blocks(double *blocks, size_t count) {
   }
 }
 
+/* The body's own matrix with the diagonal blocks of the terms; where it is not positive definite in floating point,
+ * block-Jacobi stands in. */
+static void factorise(SporeBody *body, const double *blocks, bool alone) {
+  body->factor_alone = alone;
+  body->factor_ready = spore_block_cholesky_factorise(&body->factor, &body->matrix, blocks, body->held_flags);
+}
+
+/* Root mean square of the eigenvalues of A - M in each diagonal block. */
+static void measure_stiffness(const double *blocks, const double *mass, size_t count, double *stiffness) {
+  for (size_t i = 0; i < count; i++, blocks += 9, mass += 9) {
+    double sum = 0;
+    for (int e = 0; e < 9; e++) sum += (blocks[e] - mass[e]) * (blocks[e] - mass[e]);
+    stiffness[i] = sqrt(sum / 3);
+  }
+}
+
 static void make_preconditioner(SporeGroup *group) {
+  bool alone = group->island->contact_count + group->island->spring_count == 0;
   double *blocks = precondition_blocks(group);
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
@@ -267,6 +288,15 @@ static void make_preconditioner(SporeGroup *group) {
     body_diagonal(group, body, blocks + 3 * site->v);
   }
   add_term_diagonals(group, blocks);
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = body_at(group, b, &site);
+    measure_stiffness(blocks + 3 * site->v, mass_of(group, body), body->block_count,
+                      block_stiffness(group) + site->v / 3);
+    bool current = body->factor_ready && body->factor_alone && alone;
+    if (!body->choice.factorised) body->factor_ready = false;
+    else if (!current) factorise(body, blocks + 3 * site->v, alone);
+  }
   invert_blocks(blocks, group->island->v_count / 3);
 }
 
@@ -279,6 +309,7 @@ static void assemble(const SporeGroup *group, SporeBody *body, const double *q, 
     double *block = body->matrix.values + 9 * (size_t)body->matrix.diagonal[i];
     for (int e = 0; e < 9; e++) block[e] += mass[9 * i + e];
   }
+  body->factor_ready = false;
   body->matrix_c = c;
   body->matrix_c2 = c2;
   body->matrix_step = group->world->step;
@@ -336,13 +367,24 @@ static void multiply(void *data, const double *x, double *y) {
 
 static void precondition(void *data, const double *r, double *z) {
   SporeGroup *group = data;
-  apply_blocks(precondition_blocks(group), group->island->v_count / 3, r, z);
+  const double *inverse = precondition_blocks(group);
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = body_at(group, b, &site);
+    if (body->factor_ready) spore_block_cholesky_solve(&body->factor, r + site->v, z + site->v);
+    else apply_blocks(inverse + 3 * site->v, body->block_count, r + site->v, z + site->v);
+  }
   filter(group, z);
 }
 
-/* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness. The stiffness is taken from the
- * preconditioner, which holds the inverse of A's diagonal blocks. */
-static double rounding(void *data, const double *q, double c) {
+/* How stiff a block is along its soft axes, from the preconditioner, which holds the inverse of A's diagonal blocks. */
+static double softest_stiffness(const double *inverse, double weight) {
+  double flexible = (inverse[0] + inverse[4] + inverse[8]) / 3;
+  return fmax(1 / flexible - 1 / weight, 0);
+}
+
+/* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness. */
+static double rounding(void *data, const double *q, double c, bool stiff_axes) {
   SporeGroup *group = data;
   const double *inverse = precondition_blocks(group);
   double sum = 0;
@@ -352,9 +394,11 @@ static double rounding(void *data, const double *q, double c) {
     const double *mass_inverse = group->world->mass_inverse + 3 * body->v_offset;
     bool nodal = body->q_count == 3 * body->block_count;
     for (size_t i = 0; i < body->block_count; i++) {
-      const double *z = inverse + 3 * site->v + 9 * i, *w = mass_inverse + 9 * i;
-      double weight = (w[0] + w[4] + w[8]) / 3, flexible = (z[0] + z[4] + z[8]) / 3;
-      double stiff = fmax(1 / flexible - 1 / weight, 0) / c;
+      const double *w = mass_inverse + 9 * i;
+      double weight = (w[0] + w[4] + w[8]) / 3;
+      double stiff = stiff_axes ? block_stiffness(group)[site->v / 3 + i]
+                                : softest_stiffness(inverse + 3 * site->v + 9 * i, weight);
+      stiff /= c;
       double size = nodal ? spore_vec3_length(spore_vec3_load(q + site->q + 3 * i))
                           : 1 + spore_vec3_length(spore_vec3_load(q + site->q));
       sum += weight * stiff * stiff * size * size;

@@ -6,6 +6,10 @@ static void integrate_island(void *data, size_t index) {
   SporeIsland *island = &world->islands[index];
   spore_island_gather(world, island);
   island->result = spore_island_advance(world, island, island->integrator, 1);
+  if (spore_island_choose(world, island)) {
+    spore_island_gather(world, island);
+    island->result = spore_island_advance(world, island, island->integrator, 1);
+  }
   uint32_t offender;
   island->trouble = spore_island_examine(world, island, &offender);
   if (island->trouble != SPORE_TROUBLE_NONE) spore_island_recover(world, island);

@@ -84,6 +84,8 @@ SporeStepResult spore_island_advance(SporeWorld *world, const SporeIsland *islan
     total.newton_iterations += result.newton_iterations;
     total.linear_iterations += result.linear_iterations;
     total.force_evaluations += result.force_evaluations;
+    total.linearisations += result.linearisations;
+    total.unsolved += result.unsolved;
     total.residual = fmax(total.residual, result.residual);
   }
   return total;

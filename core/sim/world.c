@@ -13,6 +13,8 @@ static void clear_body(SporeBody *body) {
   spore_mapping_clear(&body->spheres);
   spore_free(body->held);
   spore_block_matrix_clear(&body->matrix);
+  spore_block_cholesky_clear(&body->factor);
+  spore_free(body->held_flags);
   if (body->model) body->model->type->destroy(body->model);
 }
 
@@ -54,7 +56,8 @@ static void free_arrays(SporeWorld *world) {
                     world->local_q1,
                     world->local_v1,
                     world->scratch,
-                    world->precondition};
+                    world->precondition,
+                    world->block_stiffness};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
 }
 
@@ -91,8 +94,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   world->profile.name = "step";
   bool made = spore_world_compile_bodies(world, description, error) &&
               spore_world_compile_spheres(world, description, error) &&
-              spore_world_compile_links(world, description, error) && spore_world_allocate_vectors(world, error) &&
-              spore_world_check_step(world, error);
+              spore_world_compile_links(world, description, error) && spore_world_compile_factors(world, error) &&
+              spore_world_allocate_vectors(world, error) && spore_world_check_step(world, error);
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));
@@ -109,6 +112,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->frozen = false;
   body->told = SPORE_TROUBLE_NONE;
   body->matrix_c = 0;
+  spore_body_reset_choice(body);
   body->has_input = false;
   body->command = (SporeDeviceCommand){0};
   spore_guard_start(&body->guard, 0, body->rest_pose);
@@ -140,6 +144,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   memcpy(world->v + body->v_offset, v, 3 * body->block_count * sizeof *v);
   spore_pin_filter(body->held, body->held_count, world->v + body->v_offset);
   body->matrix_c = 0;
+  spore_body_reset_choice(body);
   world->contact_count = 0; /* they belong to the state before */
   if (body->model) spore_body_update_mass(world, body);
   spore_world_map_spheres(world);

@@ -10,6 +10,7 @@
 #include "core/collide/grid.h"
 #include "core/haptic/guard.h"
 #include "core/integrate/integrator.h"
+#include "core/linalg/block_cholesky.h"
 #include "core/sim/term.h"
 #include "core/sim/world.h"
 
@@ -26,6 +27,14 @@ typedef enum SporeTrouble { /* worst last */
                             SPORE_TROUBLE_SPEED,
                             SPORE_TROUBLE_NOT_FINITE
 } SporeTrouble;
+
+/* Whether a body's matrix is factorised for the preconditioner, and what led to it: see factor.c. */
+typedef struct SporeFactorChoice {
+  bool factorised, needed;  /* needed: conjugate gradients alone did not solve a step */
+  uint32_t votes, patience; /* for the other way, in a row; how many it takes */
+  uint32_t steps;           /* since the last change */
+  double iterations;        /* a Newton iteration, before the change */
+} SporeFactorChoice;
 
 typedef struct SporeBody {
   char *name;
@@ -47,6 +56,10 @@ typedef struct SporeBody {
   SporeBlockMatrix matrix;    /* M + c D + c2 K of the model alone; empty where that is M */
   double matrix_c, matrix_c2; /* as assembled; 0: not */
   uint64_t matrix_step;
+  SporeBlockCholesky factor; /* without blocks: not worth it for this body */
+  uint8_t *held_flags;       /* a block, for the factor */
+  SporeFactorChoice choice;
+  bool factor_ready, factor_alone; /* the factor is that of the current A; no terms were in it */
 
   SporeDevice *device;
   SporeGuard guard;
@@ -129,7 +142,8 @@ struct SporeWorld {
   double *local_q0, *local_v0, *local_q1, *local_v1;
   double *scratch; /* of the integrators, scratch_per_block doubles a block */
   size_t scratch_per_block;
-  double *precondition; /* 9 a block, as local_v0 */
+  double *precondition;    /* 9 a block, as local_v0 */
+  double *block_stiffness; /* 1 a block */
 
   SporeCommands commands;
   SporeSnapshots snapshots;
@@ -189,6 +203,13 @@ SporeDynamics spore_group_dynamics(SporeGroup *group);
 /* Takes away the softening that an explicit step before has left on the island's terms. */
 void spore_group_harden(SporeGroup *group);
 void spore_body_update_mass(SporeWorld *world, const SporeBody *body);
+
+/* factor.c */
+bool spore_world_compile_factors(SporeWorld *world, SporeError *error);
+void spore_body_reset_choice(SporeBody *body);
+/* Chooses again how each body of the island is preconditioned, after a step that went like its result. True where the
+ * step failed for want of a factor and should be taken again. */
+bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 
 /* monitor.c */
 SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *island, uint32_t *offender);

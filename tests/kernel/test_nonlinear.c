@@ -66,7 +66,9 @@ static double dot(void *data, const double *a, const double *b) {
 }
 
 static double norm(void *data, const double *r) { return sqrt(dot(data, r, r)); }
-static double rounding(void *data, const double *x) { return 1e-15; }
+static double rounding(void *data, const double *x, bool stiff_axes) { return 1e-15; }
+
+static double coarse_rounding(void *data, const double *x, bool stiff_axes) { return stiff_axes ? 1e-4 : 1e-15; }
 
 static SporeSystem make(Cubic *cubic) {
   for (int i = 0; i < N; i++) cubic->b[i] = 3 * sin(i * 0.7) + 1;
@@ -95,6 +97,23 @@ static void test_newton(void) {
   g_assert_cmpint((int)result.linearisations, ==, cubic.linearisations);
   residual(&cubic, x, r);
   g_assert_cmpfloat(norm(NULL, r), <, 1e-9 * norm(NULL, cubic.b));
+}
+
+/* Rounding along stiff axes stops nobody, but counts at the end. */
+static void test_rounding(void) {
+  bool reached = false;
+  for (size_t iterations = 1; !reached; iterations++) {
+    Cubic cubic = {.strength = 5, .coupling = 2};
+    SporeSystem system = make(&cubic);
+    system.rounding = coarse_rounding;
+    SporeNonlinearOptions options = {iterations, 1e-10};
+    double x[N] = {0}, r[N], scratch[SPORE_NEWTON_SCRATCH * N];
+    SporeNonlinearResult result = spore_newton(&system, &options, x, scratch);
+    residual(&cubic, x, r);
+    reached = norm(NULL, r) <= 1e-4;
+    g_assert_cmpuint(result.iterations, ==, iterations);
+    g_assert_cmpint(result.converged, ==, reached);
+  }
 }
 
 /* From far away full steps overshoot: the line search brings it home. */
@@ -190,6 +209,7 @@ static void test_solved_already(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/nonlinear/newton", test_newton);
+  g_test_add_func("/nonlinear/rounding", test_rounding);
   g_test_add_func("/nonlinear/line-search", test_line_search);
   g_test_add_func("/nonlinear/broyden", test_broyden);
   g_test_add_func("/nonlinear/broyden-stale", test_broyden_stale);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/base/memory.h"
 #include "core/sim/world_private.h"
 #include "tests/kernel/chain_model.h"
 
@@ -121,9 +122,94 @@ static void test_preconditioner(void) {
   spore_world_free(world);
 }
 
+/* With a factor P^-1 undoes all of A but what ties one body to another. */
+static void test_factor(void) {
+  SporeWorld *world = make();
+  SporeGroup group = {world, &world->islands[0]};
+  SporeDynamics dynamics = spore_group_dynamics(&group);
+  for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = true;
+  dynamics.linearise(dynamics.data, world->local_q0, world->local_v0, 0.03, 0.002);
+  for (int b = 0; b < 2; b++) g_assert_true(world->bodies[b].factor_ready);
+  for (int j = 0; j < N; j++) {
+    if (j >= 9 && j < 12) continue;
+    double unit[N] = {0}, product[N], back[N];
+    unit[j] = 1;
+    dynamics.multiply(dynamics.data, unit, product);
+    for (int i = 0; i < N; i++)
+      if (i / (N / 2) != j / (N / 2)) product[i] = 0;
+    dynamics.precondition(dynamics.data, product, back);
+    for (int i = 0; i < N; i++) g_assert_cmpfloat_with_epsilon(back[i], unit[i], 1e-12);
+  }
+  spore_world_free(world);
+}
+
+#define STIFF_CHAINS 3
+
+/* Chains apart from each other, so stiff for the step that conjugate gradients alone go on and on. */
+static SporeWorld *make_stiff(SporePool *pool, double stiffness) {
+  SporeBodyDescription bodies[STIFF_CHAINS];
+  SporeLinkDescription links[STIFF_CHAINS];
+  static const char *const names[STIFF_CHAINS] = {"a", "b", "c"};
+  for (int b = 0; b < STIFF_CHAINS; b++) {
+    SporeModel *model = chain_create((ChainFields){.count = 60 + 20 * b,
+                                                   .mass = 0.01,
+                                                   .spacing = 0.1,
+                                                   .stiffness = stiffness,
+                                                   .damping = 0.01,
+                                                   .poison_at = HUGE_VAL});
+    bodies[b] = passive_body(names[b], model, (SporeVec3){0, 0, b});
+    bodies[b].velocity = (SporeVec3){1 + b, 0.1, 0};
+    links[b] = (SporeLinkDescription){
+        .name = names[b], .kind = SPORE_LINK_PIN, .body_a = (uint32_t)b, .point_a = {0, 0, b}, .radius = 0.05};
+  }
+  SporeWorldDescription description = world_description(bodies, STIFF_CHAINS);
+  description.gravity = (SporeVec3){0, -9.81, 0};
+  description.links = links;
+  description.link_count = STIFF_CHAINS;
+  SporeWorld *world = spore_world_create(&description, pool, NULL);
+  g_assert_nonnull(world);
+  return world;
+}
+
+static void run(SporeWorld *world, int steps) {
+  for (int i = 0; i < steps; i++) spore_world_step(world);
+}
+
+/* Stiff bodies get a factor, soft ones do not; the choice takes no memory, and is the same on any number of threads and
+ * again after a reset. */
+static void test_choice(void) {
+  SporeWorld *soft = make_stiff(NULL, 1);
+  run(soft, 40);
+  for (int b = 0; b < STIFF_CHAINS; b++) g_assert_false(soft->bodies[b].choice.factorised);
+  spore_world_free(soft);
+  uint64_t expected = 0;
+  for (int threads = 1; threads <= 2; threads++) {
+    SporePool *pool = spore_pool_create(threads);
+    SporeWorld *world = make_stiff(pool, 1e7);
+    uint64_t allocations = spore_allocation_count();
+    run(world, 40);
+    g_assert_cmpuint(spore_allocation_count(), ==, allocations);
+    SporeStepCounts counts = spore_world_counts(world);
+    g_test_message("%zu Newton and %zu linear iterations with factors", (size_t)counts.newton_iterations,
+                   (size_t)counts.linear_iterations);
+    for (int b = 0; b < STIFF_CHAINS; b++) g_assert_true(world->bodies[b].choice.factorised);
+    g_assert_cmpuint(counts.linear_iterations, <=, 4 * counts.newton_iterations);
+    if (threads == 1) expected = spore_world_hash(world);
+    g_assert_cmpuint(spore_world_hash(world), ==, expected);
+    spore_world_reset(world);
+    for (int b = 0; b < STIFF_CHAINS; b++) g_assert_false(world->bodies[b].choice.factorised);
+    run(world, 40);
+    g_assert_cmpuint(spore_world_hash(world), ==, expected);
+    spore_world_free(world);
+    spore_pool_free(pool);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/sim/operator/dense", test_dense);
   g_test_add_func("/sim/operator/preconditioner", test_preconditioner);
+  g_test_add_func("/sim/operator/factor", test_factor);
+  g_test_add_func("/sim/operator/choice", test_choice);
   return g_test_run();
 }

@@ -1,0 +1,54 @@
+/* Sparse Cholesky factor L L^T of a symmetric positive definite matrix of 3x3 blocks.
+ *
+ * The pattern is analysed once: fill-reducing order, elimination tree, supernodes. Numbers are then put in as often as
+ * they change, by dense fronts from the leaves of the tree to its root (multifrontal method: J. W. H. Liu, "The
+ * multifrontal method for sparse matrix solution", SIAM Review 34, 1992). */
+#ifndef SPORE_LINALG_BLOCK_CHOLESKY_H
+#define SPORE_LINALG_BLOCK_CHOLESKY_H
+
+#include "core/linalg/block_matrix.h"
+
+/* Columns `first`.. of L that are kept together as one dense panel. */
+typedef struct SporeSupernode {
+  uint32_t first, column_count;  /* in elimination order */
+  uint32_t row_start, row_count; /* in `rows`: the rows below those columns */
+  uint32_t child_count;
+  uint32_t sibling;                /* the child of the same parent before this one */
+  uint32_t entry_start, entry_end; /* in `entries` */
+  size_t panel;                    /* in `values`: 3 (column_count + row_count) x 3 column_count, column-major */
+} SporeSupernode;
+
+/* A block of the matrix and where it goes in a panel. */
+typedef struct SporeFactorEntry {
+  uint32_t block;       /* of the matrix */
+  uint32_t row, column; /* of the matrix, in blocks */
+  size_t target;        /* in `values` */
+} SporeFactorEntry;
+
+typedef struct SporeBlockCholesky {
+  size_t block_count; /* 0: there is no factor */
+  double factor_flops, solve_flops;
+  size_t supernode_count;
+  SporeSupernode *supernodes; /* children before parents */
+  uint32_t *order;            /* block_count: the matrix's block that is eliminated at each place */
+  uint32_t *rows;             /* in elimination order */
+  uint32_t *targets;          /* as rows: where a row lies in the parent's front, in blocks */
+  SporeFactorEntry *entries;
+  double *values; /* panels */
+  double *stack;  /* update matrices that wait for their parents */
+  double *work;   /* 3 block_count, and one front's rows */
+} SporeBlockCholesky;
+
+/* Analyses the pattern and takes all memory that factorising and solving need. Where factorising would take more than
+ * about most_flops there is no factor: true, and block_count 0. False: no memory. */
+bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, double most_flops);
+void spore_block_cholesky_clear(SporeBlockCholesky *factor);
+/* Factorises the matrix, of the pattern analysed, with its diagonal blocks replaced by `diagonal` (9 a block) unless
+ * that is NULL, and with rows and columns of held blocks (a flag a block, or NULL) replaced by those of the identity.
+ * False, and no factor to solve with, where a pivot is not positive. Reads one triangle. */
+bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
+                                    const uint8_t *held);
+/* x = A^-1 b; may be the same vector. */
+void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x);
+
+#endif

@@ -1,0 +1,278 @@
+/* What of a factorisation depends on the pattern alone. */
+#include <stdlib.h>
+
+#include "core/base/memory.h"
+#include "core/linalg/block_cholesky.h"
+#include "core/linalg/minimum_degree.h"
+
+#define NONE UINT32_MAX
+/* Zeros that a supernode may store so that it has more columns: in blocks, and as a part of all that it stores. */
+#define ZEROS_ALLOWED 8
+#define ZEROS_FRACTION 0.25
+
+typedef struct Analysis {
+  const SporeBlockMatrix *pattern;
+  uint32_t count;
+  uint32_t *place;           /* of the matrix's blocks in elimination order */
+  uint32_t *parent;          /* in the elimination tree */
+  uint32_t *child, *sibling; /* lists of children, ascending */
+  uint32_t *other, *mark;
+  size_t *start; /* count + 1: rows of each column of L below its diagonal, in `row` */
+  uint32_t *row;
+  uint32_t *owner; /* supernode of a column */
+} Analysis;
+
+static bool make(Analysis *analysis, const SporeBlockMatrix *pattern, size_t fill) {
+  size_t n = pattern->block_count;
+  uint32_t **arrays[] = {&analysis->place, &analysis->parent, &analysis->child, &analysis->sibling,
+                         &analysis->other, &analysis->mark,   &analysis->owner};
+  *analysis = (Analysis){.pattern = pattern, .count = (uint32_t)n};
+  bool made = true;
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+    made = (*arrays[i] = SPORE_NEW_ARRAY(uint32_t, n)) != NULL && made;
+  analysis->start = SPORE_NEW_ARRAY(size_t, n + 1);
+  analysis->row = SPORE_NEW_ARRAY(uint32_t, fill);
+  return made && analysis->start && analysis->row;
+}
+
+static void drop(Analysis *analysis) {
+  void *arrays[] = {analysis->place, analysis->parent, analysis->child, analysis->sibling, analysis->other,
+                    analysis->mark,  analysis->owner,  analysis->start, analysis->row};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
+}
+
+static void place_blocks(Analysis *analysis, const uint32_t *order) {
+  for (uint32_t j = 0; j < analysis->count; j++) analysis->place[order[j]] = j;
+}
+
+/* Elimination tree with path compression (J. W. H. Liu, 1986). */
+static void find_parents(Analysis *analysis, const uint32_t *order) {
+  uint32_t *ancestor = analysis->other;
+  const SporeBlockMatrix *pattern = analysis->pattern;
+  for (uint32_t j = 0; j < analysis->count; j++) {
+    analysis->parent[j] = ancestor[j] = NONE;
+    for (uint32_t k = pattern->row_start[order[j]]; k < pattern->row_start[order[j] + 1]; k++) {
+      uint32_t i = analysis->place[pattern->column[k]];
+      while (i < j && ancestor[i] != j) {
+        uint32_t next = ancestor[i];
+        ancestor[i] = j;
+        if (next == NONE) analysis->parent[i] = j;
+        i = next == NONE ? j : next;
+      }
+    }
+  }
+}
+
+static void list_children(Analysis *analysis) {
+  for (uint32_t j = 0; j < analysis->count; j++) analysis->child[j] = NONE;
+  for (uint32_t j = analysis->count; j-- > 0;) {
+    if (analysis->parent[j] == NONE) continue;
+    analysis->sibling[j] = analysis->child[analysis->parent[j]];
+    analysis->child[analysis->parent[j]] = j;
+  }
+}
+
+/* Renumbers the tree from the root j so that each subtree is numbered without gaps, root last. */
+static uint32_t number_tree(Analysis *analysis, uint32_t root, uint32_t next) {
+  uint32_t j = root;
+  for (;;) {
+    while (analysis->child[j] != NONE) j = analysis->child[j];
+    for (;;) {
+      analysis->other[j] = next++;
+      if (j == root) return next;
+      if (analysis->sibling[j] != NONE) break;
+      j = analysis->parent[j];
+    }
+    j = analysis->sibling[j];
+  }
+}
+
+static void postorder(Analysis *analysis, uint32_t *order) {
+  uint32_t n = analysis->count, next = 0, *number = analysis->other, *moved = analysis->mark;
+  list_children(analysis);
+  for (uint32_t j = 0; j < n; j++)
+    if (analysis->parent[j] == NONE) next = number_tree(analysis, j, next);
+  for (uint32_t j = 0; j < n; j++) moved[number[j]] = order[j];
+  for (uint32_t j = 0; j < n; j++) order[j] = moved[j];
+  for (uint32_t j = 0; j < n; j++) moved[number[j]] = analysis->parent[j] == NONE ? NONE : number[analysis->parent[j]];
+  for (uint32_t j = 0; j < n; j++) analysis->parent[j] = moved[j];
+  place_blocks(analysis, order);
+  list_children(analysis);
+}
+
+static void add_row(Analysis *analysis, uint32_t column, uint32_t row) {
+  if (row <= column || analysis->mark[row] == column + 1) return;
+  analysis->mark[row] = column + 1;
+  analysis->row[analysis->start[column + 1]++] = row;
+}
+
+static int ascending(const void *a, const void *b) {
+  uint32_t i = *(const uint32_t *)a, j = *(const uint32_t *)b;
+  return (i > j) - (i < j);
+}
+
+/* A column of L has the rows of the matrix's column and those of its children in the tree. */
+static void find_rows(Analysis *analysis, const uint32_t *order) {
+  const SporeBlockMatrix *pattern = analysis->pattern;
+  for (uint32_t j = 0; j < analysis->count; j++) analysis->mark[j] = 0;
+  for (uint32_t j = 0; j < analysis->count; j++) {
+    analysis->start[j + 1] = analysis->start[j];
+    for (uint32_t k = pattern->row_start[order[j]]; k < pattern->row_start[order[j] + 1]; k++)
+      add_row(analysis, j, analysis->place[pattern->column[k]]);
+    for (uint32_t c = analysis->child[j]; c != NONE; c = analysis->sibling[c])
+      for (size_t k = analysis->start[c]; k < analysis->start[c + 1]; k++) add_row(analysis, j, analysis->row[k]);
+    qsort(analysis->row + analysis->start[j], analysis->start[j + 1] - analysis->start[j], sizeof(uint32_t), ascending);
+  }
+}
+
+static size_t rows_below(const Analysis *analysis, uint32_t j) { return analysis->start[j + 1] - analysis->start[j]; }
+
+/* Joins each column to the one before where that is its child and few zeros come in. */
+static uint32_t find_supernodes(Analysis *analysis) {
+  uint32_t count = 0;
+  size_t width = 0, real = 0;
+  for (uint32_t j = 0; j < analysis->count; j++) {
+    size_t below = rows_below(analysis, j);
+    size_t stored = (width + 1) * (width + 2) / 2 + (width + 1) * below, zeros = stored - (real + 1 + below);
+    bool join = j > 0 && analysis->parent[j - 1] == j &&
+                ((double)zeros <= ZEROS_FRACTION * (double)stored || zeros <= ZEROS_ALLOWED);
+    if (!join) {
+      count++;
+      width = real = 0;
+    }
+    width++;
+    real += 1 + below;
+    analysis->owner[j] = count - 1;
+  }
+  return count;
+}
+
+static uint32_t row_in_front(const SporeBlockCholesky *factor, const SporeSupernode *node, uint32_t row) {
+  if (row < node->first + node->column_count) return row - node->first;
+  uint32_t low = 0, high = node->row_count;
+  while (low < high) {
+    uint32_t middle = low + (high - low) / 2;
+    if (factor->rows[node->row_start + middle] < row) low = middle + 1;
+    else high = middle;
+  }
+  return node->column_count + low;
+}
+
+static void fill_supernodes(const Analysis *analysis, SporeBlockCholesky *factor) {
+  uint32_t rows = 0;
+  for (uint32_t j = 0; j < analysis->count; j++) {
+    SporeSupernode *node = &factor->supernodes[analysis->owner[j]];
+    if (node->column_count++ == 0) *node = (SporeSupernode){.first = j, .column_count = 1, .sibling = NONE};
+    bool last = j + 1 == analysis->count || analysis->owner[j + 1] != analysis->owner[j];
+    if (!last) continue;
+    node->row_start = rows;
+    node->row_count = (uint32_t)rows_below(analysis, j);
+    for (size_t k = analysis->start[j]; k < analysis->start[j + 1]; k++) factor->rows[rows++] = analysis->row[k];
+  }
+}
+
+/* Ties supernodes to their parents, and lays out the panels. Gives the sizes of values and stack, and the most rows of
+ * a front. */
+static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t *values, size_t *stack, size_t *most) {
+  uint32_t *last_child = analysis->other;
+  size_t height = 0;
+  *values = *stack = *most = 0;
+  for (uint32_t s = 0; s < factor->supernode_count; s++) last_child[s] = NONE;
+  for (uint32_t s = 0; s < factor->supernode_count; s++) {
+    SporeSupernode *node = &factor->supernodes[s];
+    size_t front = 3 * ((size_t)node->column_count + node->row_count);
+    size_t update = 9 * (size_t)node->row_count * node->row_count;
+    node->panel = *values;
+    *values += front * 3 * node->column_count;
+    factor->solve_flops += 4.0 * (double)front * 3 * node->column_count;
+    for (uint32_t c = 0; c < 3 * node->column_count; c++) factor->factor_flops += (double)((front - c) * (front - c));
+    if (height + update > *stack) *stack = height + update;
+    if (front > *most) *most = front;
+    for (uint32_t c = last_child[s]; c != NONE; c = factor->supernodes[c].sibling)
+      height -= 9 * (size_t)factor->supernodes[c].row_count * factor->supernodes[c].row_count;
+    height += update;
+    if (node->row_count == 0) continue;
+    uint32_t parent = analysis->owner[factor->rows[node->row_start]];
+    for (uint32_t k = node->row_start; k < node->row_start + node->row_count; k++)
+      factor->targets[k] = row_in_front(factor, &factor->supernodes[parent], factor->rows[k]);
+    node->sibling = last_child[parent];
+    last_child[parent] = s;
+    factor->supernodes[parent].child_count++;
+  }
+}
+
+static void place_entries(const Analysis *analysis, SporeBlockCholesky *factor) {
+  const SporeBlockMatrix *pattern = analysis->pattern;
+  uint32_t count = 0;
+  for (uint32_t s = 0; s < factor->supernode_count; s++) {
+    SporeSupernode *node = &factor->supernodes[s];
+    size_t front = 3 * ((size_t)node->column_count + node->row_count);
+    node->entry_start = count;
+    for (uint32_t j = 0; j < node->column_count; j++) {
+      uint32_t column = factor->order[node->first + j];
+      for (uint32_t k = pattern->row_start[column]; k < pattern->row_start[column + 1]; k++) {
+        uint32_t row = pattern->column[k], place = analysis->place[row];
+        if (place < node->first + j) continue;
+        size_t target = node->panel + 3 * (size_t)j * front + 3 * (size_t)row_in_front(factor, node, place);
+        /* Block (row, column): the pattern is symmetric, so it exists. */
+        uint32_t block = (uint32_t)spore_block_matrix_find(pattern, row, column);
+        factor->entries[count++] = (SporeFactorEntry){block, row, column, target};
+      }
+    }
+    node->entry_end = count;
+  }
+}
+
+static size_t all_rows(const Analysis *analysis) {
+  size_t rows = 0;
+  for (uint32_t j = 0; j < analysis->count; j++)
+    if (j + 1 == analysis->count || analysis->owner[j + 1] != analysis->owner[j]) rows += rows_below(analysis, j);
+  return rows;
+}
+
+static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
+  const SporeBlockMatrix *pattern = analysis->pattern;
+  size_t n = analysis->count, values, stack, most;
+  place_blocks(analysis, factor->order);
+  find_parents(analysis, factor->order);
+  postorder(analysis, factor->order);
+  find_rows(analysis, factor->order);
+  factor->block_count = n;
+  factor->supernode_count = find_supernodes(analysis);
+  factor->supernodes = SPORE_NEW_ARRAY(SporeSupernode, factor->supernode_count);
+  factor->rows = SPORE_NEW_ARRAY(uint32_t, all_rows(analysis));
+  factor->targets = SPORE_NEW_ARRAY(uint32_t, all_rows(analysis));
+  factor->entries = SPORE_NEW_ARRAY(SporeFactorEntry, (pattern->row_start[n] + n) / 2);
+  if (!factor->supernodes || !factor->rows || !factor->targets || !factor->entries) return false;
+  fill_supernodes(analysis, factor);
+  lay_out(analysis, factor, &values, &stack, &most);
+  place_entries(analysis, factor);
+  factor->values = SPORE_NEW_ARRAY(double, values);
+  factor->stack = SPORE_NEW_ARRAY(double, stack);
+  factor->work = SPORE_NEW_ARRAY(double, 3 * n + most);
+  return factor->values && factor->stack && factor->work;
+}
+
+bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, double most_flops) {
+  const double flops_of_square = 27; /* three columns of 3 c numbers each, squared */
+  SporeFill fill;
+  *factor = (SporeBlockCholesky){0};
+  if (pattern->block_count == 0) return true;
+  factor->order = SPORE_NEW_ARRAY(uint32_t, pattern->block_count);
+  bool made = factor->order && spore_minimum_degree(pattern, most_flops / flops_of_square, factor->order, &fill);
+  bool wanted = made && fill.squares <= most_flops / flops_of_square;
+  if (wanted) {
+    Analysis analysis;
+    made = make(&analysis, pattern, fill.blocks) && build(&analysis, factor);
+    drop(&analysis);
+  }
+  if (!made || !wanted) spore_block_cholesky_clear(factor);
+  return made;
+}
+
+void spore_block_cholesky_clear(SporeBlockCholesky *factor) {
+  void *arrays[] = {factor->supernodes, factor->order,  factor->rows,  factor->targets,
+                    factor->entries,    factor->values, factor->stack, factor->work};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
+  *factor = (SporeBlockCholesky){0};
+}

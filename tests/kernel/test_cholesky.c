@@ -1,0 +1,255 @@
+/* The sparse factor against a dense one. */
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/linalg/block_cholesky.h"
+
+/* Weakly dominant, so positive definite: the block (i, j) is a random one, the diagonal outweighs its row. */
+static void fill_matrix(SporeBlockMatrix *matrix, GRand *random) {
+  for (uint32_t i = 0; i < matrix->block_count; i++)
+    for (uint32_t k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
+      uint32_t j = matrix->column[k];
+      if (j >= i) continue;
+      double *lower = matrix->values + 9 * (size_t)k;
+      double *upper = matrix->values + 9 * spore_block_matrix_find(matrix, j, i);
+      double *di = matrix->values + 9 * (size_t)matrix->diagonal[i],
+             *dj = matrix->values + 9 * (size_t)matrix->diagonal[j];
+      for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+          double a = g_rand_double_range(random, -1, 1);
+          lower[3 * r + c] = upper[3 * c + r] = a;
+          di[4 * r] += fabs(a);
+          dj[4 * c] += fabs(a);
+        }
+    }
+  for (uint32_t i = 0; i < matrix->block_count; i++)
+    for (int r = 0; r < 3; r++) matrix->values[9 * (size_t)matrix->diagonal[i] + 4 * (size_t)r] += 1e-3;
+}
+
+/* Dense Cholesky, in place of x. */
+static void dense_solve(const SporeBlockMatrix *matrix, double *x) {
+  size_t n = 3 * matrix->block_count;
+  double *a = g_new0(double, n *n);
+  for (uint32_t i = 0; i < matrix->block_count; i++)
+    for (uint32_t k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++)
+      for (size_t e = 0; e < 9; e++)
+        a[(3 * i + e / 3) * n + 3 * matrix->column[k] + e % 3] = matrix->values[9 * (size_t)k + e];
+  for (size_t j = 0; j < n; j++) {
+    for (size_t k = 0; k < j; k++)
+      for (size_t i = j; i < n; i++) a[i * n + j] -= a[i * n + k] * a[j * n + k];
+    double root = sqrt(a[j * n + j]);
+    for (size_t i = j; i < n; i++) a[i * n + j] /= root;
+  }
+  for (size_t j = 0; j < n; j++) {
+    for (size_t k = 0; k < j; k++) x[j] -= a[j * n + k] * x[k];
+    x[j] /= a[j * n + j];
+  }
+  for (size_t j = n; j-- > 0;) {
+    for (size_t i = j + 1; i < n; i++) x[j] -= a[i * n + j] * x[i];
+    x[j] /= a[j * n + j];
+  }
+  g_free(a);
+}
+
+static double farthest(size_t n, const double *a, const double *b) {
+  double worst = 0;
+  for (size_t i = 0; i < n; i++) worst = fmax(worst, fabs(a[i] - b[i]));
+  return worst;
+}
+
+/* Factorises twice, with other numbers, and solves against the dense factor; no memory is taken meanwhile. */
+static void compare(const char *name, SporeBlockPattern *pattern) {
+  SporeBlockMatrix matrix;
+  SporeBlockCholesky factor;
+  GRand *random = g_rand_new_with_seed(7);
+  g_assert_true(spore_block_matrix_create(&matrix, pattern));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  g_assert_cmpuint(factor.block_count, ==, matrix.block_count);
+  size_t n = 3 * matrix.block_count;
+  double *b = g_new(double, n), *x = g_new(double, n), *dense = g_new(double, n);
+  for (int pass = 0; pass < 2; pass++) {
+    spore_block_matrix_zero(&matrix);
+    fill_matrix(&matrix, random);
+    for (size_t i = 0; i < n; i++) dense[i] = b[i] = g_rand_double_range(random, -1, 1);
+    uint64_t allocations = spore_allocation_count();
+    g_assert_true(spore_block_cholesky_factorise(&factor, &matrix, NULL, NULL));
+    spore_block_cholesky_solve(&factor, b, x);
+    g_assert_cmpuint(spore_allocation_count(), ==, allocations);
+    dense_solve(&matrix, dense);
+    double size = 0;
+    for (size_t i = 0; i < n; i++) size = fmax(size, fabs(dense[i]));
+    double error = farthest(n, x, dense) / size;
+    g_test_message("%s: %zu blocks, %zu supernodes, %.3g flops, %.3g a solve, off by %.1e", name, matrix.block_count,
+                   factor.supernode_count, factor.factor_flops, factor.solve_flops, error);
+    g_assert_cmpfloat(error, <, 1e-10);
+    spore_block_cholesky_solve(&factor, b, b);
+    g_assert_cmpfloat(farthest(n, x, b), ==, 0);
+  }
+  g_free(b);
+  g_free(x);
+  g_free(dense);
+  g_rand_free(random);
+  spore_block_cholesky_clear(&factor);
+  spore_block_matrix_clear(&matrix);
+  spore_block_pattern_clear(pattern);
+}
+
+static void tie(SporeBlockPattern *pattern, size_t i, size_t j) {
+  g_assert_true(spore_block_pattern_add(pattern, (uint32_t)i, (uint32_t)j));
+}
+
+/* A net of side x side nodes with diagonals and springs over two edges. */
+static void net_pattern(SporeBlockPattern *pattern, size_t side) {
+  spore_block_pattern_init(pattern, side * side);
+  for (size_t i = 0; i < side * side; i++) {
+    size_t x = i % side, y = i / side;
+    if (x + 1 < side) tie(pattern, i, i + 1);
+    if (y + 1 < side) tie(pattern, i, i + side);
+    if (x + 1 < side && y + 1 < side) tie(pattern, i, i + side + 1);
+    if (x + 2 < side) tie(pattern, i, i + 2);
+    if (y + 2 < side) tie(pattern, i, i + 2 * side);
+  }
+}
+
+static void test_shapes(void) {
+  SporeBlockPattern pattern;
+  spore_block_pattern_init(&pattern, 1);
+  compare("one", &pattern);
+  spore_block_pattern_init(&pattern, 40);
+  compare("diagonal", &pattern);
+  spore_block_pattern_init(&pattern, 100);
+  for (size_t i = 0; i + 1 < 100; i++) tie(&pattern, i, i + 1);
+  compare("chain", &pattern);
+  net_pattern(&pattern, 10);
+  compare("grid", &pattern);
+  spore_block_pattern_init(&pattern, 20);
+  for (size_t i = 0; i < 20; i++)
+    for (size_t j = 0; j < i; j++) tie(&pattern, i, j);
+  compare("dense", &pattern);
+  spore_block_pattern_init(&pattern, 60); /* everything hangs on one block */
+  for (size_t i = 1; i < 60; i++) tie(&pattern, 0, i);
+  compare("star", &pattern);
+}
+
+static void test_random(void) {
+  GRand *random = g_rand_new_with_seed(11);
+  for (size_t k = 0; k < 60; k++) {
+    SporeBlockPattern pattern;
+    size_t n = 1 + (size_t)g_rand_int_range(random, 0, 70);
+    spore_block_pattern_init(&pattern, n);
+    size_t pairs = (size_t)g_rand_int_range(random, 0, (gint32)(3 * n));
+    for (size_t p = 0; p < pairs; p++)
+      tie(&pattern, (size_t)g_rand_int_range(random, 0, (gint32)n), (size_t)g_rand_int_range(random, 0, (gint32)n));
+    compare("random", &pattern);
+  }
+  g_rand_free(random);
+}
+
+/* Of the order of a net: the elimination of 1600 blocks in their natural order would take 27 x 80^2 x 1600 flops. */
+static void test_fill(void) {
+  SporeBlockPattern pattern;
+  SporeBlockMatrix matrix;
+  SporeBlockCholesky factor;
+  net_pattern(&pattern, 40);
+  g_assert_true(spore_block_matrix_create(&matrix, &pattern));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  g_test_message("net of 40 x 40: %.3g flops, %.3g a solve", factor.factor_flops, factor.solve_flops);
+  g_assert_cmpfloat(factor.factor_flops, <, 0.5 * 27 * 80 * 80 * 1600);
+  double flops = factor.factor_flops;
+  spore_block_cholesky_clear(&factor);
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, flops / 10)); /* too dear: no factor, no error */
+  g_assert_cmpuint(factor.block_count, ==, 0);
+  spore_block_matrix_clear(&matrix);
+  spore_block_pattern_clear(&pattern);
+}
+
+/* Diagonal blocks and held blocks in place of the matrix's own. */
+static void test_replaced(void) {
+  SporeBlockPattern pattern;
+  SporeBlockMatrix matrix;
+  SporeBlockCholesky factor;
+  GRand *random = g_rand_new_with_seed(3);
+  net_pattern(&pattern, 5);
+  g_assert_true(spore_block_matrix_create(&matrix, &pattern));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  fill_matrix(&matrix, random);
+  double diagonal[25 * 9], b[75], x[75], product[75] = {0};
+  uint8_t held[25] = {0};
+  held[3] = held[12] = 1;
+  for (size_t i = 0; i < 25; i++)
+    for (size_t e = 0; e < 9; e++)
+      diagonal[9 * i + e] = matrix.values[9 * (size_t)matrix.diagonal[i] + e] + (e % 4 == 0 ? (double)i : 0);
+  for (size_t i = 0; i < 75; i++) b[i] = held[i / 3] ? 0 : g_rand_double_range(random, -1, 1);
+  g_assert_true(spore_block_cholesky_factorise(&factor, &matrix, diagonal, held));
+  spore_block_cholesky_solve(&factor, b, x);
+  for (size_t i = 0; i < 25; i++)
+    memcpy(matrix.values + 9 * (size_t)matrix.diagonal[i], diagonal + 9 * i, 9 * sizeof(double));
+  spore_block_matrix_multiply_add(&matrix, x, product);
+  for (size_t i = 0; i < 75; i++) {
+    if (held[i / 3]) g_assert_cmpfloat(x[i], ==, 0);
+    else g_assert_cmpfloat(fabs(product[i] - b[i]), <, 1e-12);
+  }
+  g_rand_free(random);
+  spore_block_cholesky_clear(&factor);
+  spore_block_matrix_clear(&matrix);
+  spore_block_pattern_clear(&pattern);
+}
+
+/* What is not positive definite is refused, wherever it shows; afterwards the factor works again. */
+static void test_not_positive(void) {
+  SporeBlockPattern pattern;
+  SporeBlockMatrix matrix;
+  SporeBlockCholesky factor;
+  GRand *random = g_rand_new_with_seed(5);
+  net_pattern(&pattern, 6);
+  g_assert_true(spore_block_matrix_create(&matrix, &pattern));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  fill_matrix(&matrix, random);
+  const double bad[] = {-1e3, -INFINITY, INFINITY, NAN};
+  for (size_t i = 0; i < 36; i++)
+    for (size_t axis = 0; axis < 3; axis++)
+      for (size_t k = 0; k < 4; k++) {
+        double *entry = &matrix.values[9 * (size_t)matrix.diagonal[i] + 4 * axis], kept = *entry;
+        *entry = bad[k];
+        g_assert_false(spore_block_cholesky_factorise(&factor, &matrix, NULL, NULL));
+        *entry = kept;
+      }
+  g_assert_true(spore_block_cholesky_factorise(&factor, &matrix, NULL, NULL));
+  g_rand_free(random);
+  spore_block_cholesky_clear(&factor);
+  spore_block_matrix_clear(&matrix);
+  spore_block_pattern_clear(&pattern);
+}
+
+static void test_without_memory(void) {
+  SporeBlockPattern pattern;
+  SporeBlockMatrix matrix;
+  SporeBlockCholesky factor;
+  net_pattern(&pattern, 6);
+  g_assert_true(spore_block_matrix_create(&matrix, &pattern));
+  bool made = false;
+  uint64_t refused = 0;
+  while (!made) {
+    spore_allocation_fail_at(++refused);
+    made = spore_block_cholesky_create(&factor, &matrix, HUGE_VAL);
+    spore_allocation_fail_at(0);
+    if (!made) g_assert_null(factor.order);
+  }
+  g_assert_cmpuint(refused, >, 20);
+  spore_block_cholesky_clear(&factor);
+  spore_block_matrix_clear(&matrix);
+  spore_block_pattern_clear(&pattern);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/cholesky/shapes", test_shapes);
+  g_test_add_func("/cholesky/random", test_random);
+  g_test_add_func("/cholesky/fill", test_fill);
+  g_test_add_func("/cholesky/replaced", test_replaced);
+  g_test_add_func("/cholesky/not-positive", test_not_positive);
+  g_test_add_func("/cholesky/without-memory", test_without_memory);
+  return g_test_run();
+}
