@@ -29,7 +29,7 @@ typedef struct SporeArena {
   size_t capacity, used, high_water; /* bytes */
 } SporeArena;
 
-bool spore_arena_reserve(SporeArena *arena, size_t bytes); /* only when nothing is taken; false: no memory */
+bool spore_arena_reserve(SporeArena *arena, size_t bytes);            /* only when nothing is taken; false: no memory */
 void *spore_arena_take(SporeArena *arena, size_t count, size_t size); /* not zeroed, aligned to 64 */
 static inline size_t spore_arena_mark(const SporeArena *arena) { return arena->used; }
 static inline void spore_arena_release(SporeArena *arena, size_t mark) { arena->used = mark; }

@@ -29,7 +29,7 @@ typedef enum SporeParameterChange {
 } SporeParameterChange;
 
 typedef struct SporeParameter {
-  const char *name;           /* as in the file: lower case, words joined by _ */
+  const char *name; /* as in the file: lower case, words joined by _ */
   SporeParameterType type;
   const char *unit;           /* "m", "N/m", "kg/m^3", ...; "" without a unit */
   double minimum, maximum;    /* inclusive, for numbers and each component of a vector; -HUGE_VAL, HUGE_VAL: open */
@@ -40,7 +40,7 @@ typedef struct SporeParameter {
   size_t offset;              /* of the field in the structure that the table describes */
   bool required;              /* the author must set it: there is no sensible default */
   SporeParameterChange change;
-  const char *doc;            /* one sentence, translatable (N_) */
+  const char *doc; /* one sentence, translatable (N_) */
 } SporeParameter;
 
 typedef struct SporeParameterTable {
@@ -63,7 +63,7 @@ int spore_parameter_find(const SporeParameterTable *table, const char *name);
 const char *spore_parameter_nearest(const SporeParameterTable *table, const char *name);
 
 void spore_value_clear(SporeValue *value);
-bool spore_value_copy(SporeValue *to, const SporeValue *from); /* `to` holds nothing before; false: no memory */
+bool spore_value_copy(SporeValue *to, const SporeValue *from);    /* `to` holds nothing before; false: no memory */
 bool spore_value_equal(const SporeValue *a, const SporeValue *b); /* bitwise for numbers */
 
 /* The default of a parameter. */

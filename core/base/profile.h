@@ -12,8 +12,8 @@ uint64_t spore_clock_ns(void);
 
 typedef struct SporeProfilePhase {
   const char *name;
-  uint64_t count;                          /* samples ever taken */
-  uint32_t recent[SPORE_PROFILE_SAMPLES];  /* ns, ring */
+  uint64_t count;                         /* samples ever taken */
+  uint32_t recent[SPORE_PROFILE_SAMPLES]; /* ns, ring */
   uint64_t total_ns, max_ns;
 } SporeProfilePhase;
 

@@ -158,9 +158,10 @@ gboolean spore_tetrahedra_from_mesh(const char *place, const SporeTriangleMesh *
   *report = (SporeTetrahedraReport){0};
   *result = (SporeTetrahedralMesh){0};
   if (!SPORE_HAVE_CGAL)
-    return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, place,
-                             _("this build of SPORE makes no tetrahedra; expected CGAL; install libcgal-dev and build SPORE "
-                               "again, or give a .mesh file"));
+    return spore_error_raise(
+        error, SPORE_ERROR_UNSUPPORTED, place,
+        _("this build of SPORE makes no tetrahedra; expected CGAL; install libcgal-dev and build SPORE "
+          "again, or give a .mesh file"));
   if (!spore_triangle_mesh_validate(surface, &failure) || !spore_triangle_mesh_report(surface, &task.report, &failure))
     return raise_at(place, &failure, error);
   if (!(task.report.diagonal > 0))

@@ -14,17 +14,17 @@ typedef struct SporeTetrahedraOptions {
 } SporeTetrahedraOptions;
 
 typedef struct SporeTetrahedraReport {
-  const char *method;       /* "direct", "repaired" or "wrapped" */
+  const char *method; /* "direct", "repaired" or "wrapped" */
   SporeTetrahedraQuality quality;
-  double hausdorff;         /* sampled, both ways, against the given surface / diagonal */
-  double volume_change;     /* against the given surface, fraction; only meaningful when that was closed */
+  double hausdorff;     /* sampled, both ways, against the given surface / diagonal */
+  double volume_change; /* against the given surface, fraction; only meaningful when that was closed */
   double seconds;
 } SporeTetrahedraReport;
 
 /* Chain: direct when the surface is closed, oriented and free of self-intersections; else repaired; else wrapped. The
  * first that works is used and said. */
-gboolean spore_tetrahedra_from_mesh(const char *place, const SporeTriangleMesh *mesh, const SporeTetrahedraOptions *options,
-                                    SporeTetrahedralMesh *result, SporeTetrahedraReport *report,
-                                    const SporeProgress *progress, GError **error);
+gboolean spore_tetrahedra_from_mesh(const char *place, const SporeTriangleMesh *mesh,
+                                    const SporeTetrahedraOptions *options, SporeTetrahedralMesh *result,
+                                    SporeTetrahedraReport *report, const SporeProgress *progress, GError **error);
 
 #endif

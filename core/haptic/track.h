@@ -9,7 +9,7 @@
 #include "core/haptic/device.h"
 
 typedef struct SporeTrackChannel {
-  char *name;               /* of the active body */
+  char *name; /* of the active body */
   size_t count, capacity;
   double *time_s;           /* count, strictly increasing */
   SporeDeviceState *states; /* count */

@@ -15,7 +15,8 @@ static inline SporeMat3 spore_mat3_diagonal(double a, double b, double c) {
 }
 static inline SporeMat3 spore_mat3_identity(void) { return spore_mat3_diagonal(1, 1, 1); }
 static inline SporeMat3 spore_mat3_outer(SporeVec3 a, SporeVec3 b) {
-  return (SporeMat3){{a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y, a.y * b.z, a.z * b.x, a.z * b.y, a.z * b.z}};
+  return (SporeMat3){
+      {a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y, a.y * b.z, a.z * b.x, a.z * b.y, a.z * b.z}};
 }
 /* [a]x, so that [a]x b = a x b */
 static inline SporeMat3 spore_mat3_skew(SporeVec3 a) { return (SporeMat3){{0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0}}; }
@@ -54,7 +55,8 @@ static inline SporeVec3 spore_mat3_column(SporeMat3 a, int j) { return (SporeVec
 static inline SporeMat3 spore_mat3_from_columns(SporeVec3 a, SporeVec3 b, SporeVec3 c) {
   return (SporeMat3){{a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z}};
 }
-/* Inverse; false, *inverse untouched, when |det| <= 1e-14 of the product of the row lengths (singular at that scale). */
+/* Inverse; false, *inverse untouched, when |det| <= 1e-14 of the product of the row lengths (singular at that scale).
+ */
 bool spore_mat3_invert(SporeMat3 a, SporeMat3 *inverse);
 /* Eigenvalues (ascending) and orthonormal eigenvectors (columns, right-handed) of a symmetric matrix, cyclic Jacobi. */
 void spore_mat3_eigen_symmetric(SporeMat3 a, double values[3], SporeMat3 *vectors);
