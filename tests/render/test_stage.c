@@ -155,6 +155,11 @@ static void test_cameras(void) {
   spore_camera_eye(&camera, &eye, &right, &up, &forward);
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(eye, spore_vec3(0.09, 0.10, 0.20)), 0, 1e-9);
   g_assert_cmpfloat_with_epsilon(spore_vec3_distance(camera.target, spore_vec3(0, 0.018, 0)), 0, 1e-9);
+  SporeCamera wide, narrow; /* what a picture of 16:9 shows at the sides, a narrower one shows too */
+  g_assert_true(spore_stage_camera(setting.stage, "front", 16.0 / 9, &wide, &error));
+  g_assert_true(spore_stage_camera(setting.stage, "front", 0.9, &narrow, &error));
+  g_assert_cmpfloat_with_epsilon(tan(narrow.field_of_view / 2) * 0.9, tan(wide.field_of_view / 2) * 16 / 9, 1e-12);
+  g_assert_cmpfloat_with_epsilon(wide.field_of_view, 0.6, 1e-12);
   g_assert_false(spore_stage_camera(setting.stage, "back", 1, &camera, &error));
   g_assert_error(error, SPORE_ERROR, SPORE_ERROR_INPUT);
   g_error_free(error);

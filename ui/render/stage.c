@@ -123,6 +123,9 @@ static const SporeObject *find_camera(const SporeStage *stage, const char *name)
   return spore_object_child_of(spore_document_section(stage->document, "tools"), "camera");
 }
 
+/* A camera of the scene was placed for a picture as wide as this; a narrower one shows as much to the sides. */
+#define AUTHORED_ASPECT (16.0 / 9)
+
 gboolean spore_stage_camera(const SporeStage *stage, const char *name, double aspect, SporeCamera *camera,
                             GError **error) {
   const SporeObject *object = find_camera(stage, name);
@@ -148,6 +151,8 @@ gboolean spore_stage_camera(const SporeStage *stage, const char *name, double as
                           .azimuth = atan2(back.x, back.z),
                           .elevation = asin(CLAMP(back.y / spore_vec3_length(back), -1, 1)),
                           .field_of_view = fields.field_of_view};
+  if (aspect < AUTHORED_ASPECT)
+    camera->field_of_view = 2 * atan(tan(fields.field_of_view / 2) * AUTHORED_ASPECT / aspect);
   return TRUE;
 }
 

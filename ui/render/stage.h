@@ -21,6 +21,7 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot);
 void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options);
 void spore_stage_set_selection(SporeStage *stage, guint32 object_id);
 /* The scene's camera of that name (tools > camera); NULL: its first, else one that sees everything at this aspect.
+ * Below 16:9 a camera of the scene opens wider, so that nothing is lost at the sides.
  * FALSE with a GError when there is none of that name. */
 gboolean spore_stage_camera(const SporeStage *stage, const char *name, double aspect, SporeCamera *camera,
                             GError **error);
