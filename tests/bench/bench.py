@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -109,6 +110,24 @@ def bench_spheres(build, work):
         yield row("spheres", f"{count} spheres, {len(triangles)} triangles", report["seconds"], "s", 5, error_ours=report["depth_error"])
 
 
+def bench_interrupt(build, work):
+    """From Ctrl-C to the end of long work."""
+    (work / "fine.off").write_bytes(shapes.off(*shapes.sphere(rings=60, sectors=120)))
+    scene = HERE.parent.parent / "resources/scenes/laparoscopy.spore"
+    for case, arguments in (("run", ["run", scene, "--steps", "1000000000"]),
+                            ("spheres", ["spheres", work / "fine.off", "--count", "3000"]),
+                            ("tetrahedra", ["tetrahedra", work / "fine.off", "--cells", "1000000"])):
+        worst = 0
+        for wait in (0.2, 0.6, 1.0):
+            process = subprocess.Popen([build / "app/spore", *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(wait)
+            process.send_signal(signal.SIGINT)
+            start = time.monotonic()
+            process.wait()
+            worst = max(worst, time.monotonic() - start)
+        yield row("interrupt", f"{case}, worst of 3", worst, "s", 0.5)
+
+
 def bench_render(build, work):
     """A frame of an organ with 500 spheres at 1280x720, read back."""
     program = build / "tests/bench/bench_render"
@@ -127,7 +146,7 @@ def bench_start(build, work):
 
 
 BENCHES = {"net": bench_net, "scenes": bench_scenes, "import": bench_import, "spheres": bench_spheres,
-           "render": bench_render, "start": bench_start}
+           "interrupt": bench_interrupt, "render": bench_render, "start": bench_start}
 
 
 def show(rows):

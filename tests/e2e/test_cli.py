@@ -343,18 +343,16 @@ def no_output_destroys_an_input():
 
 
 @check
-def interruption_is_quick():
-    """Ctrl-C ends long work within half a second and leaves no half-written file."""
+def interruption_ends_work():
+    """Ctrl-C ends long work with status 130 and leaves no half-written file (how soon: the benchmark `interrupt`)."""
     file("fine.off", shapes.off(*shapes.sphere(rings=60, sectors=120)))
-    for arguments in (["run", str(soft_ball()), "--steps", "100000000"],
+    for arguments in (["run", str(soft_ball()), "--steps", "1000000000"],
                       ["spheres", "fine.off", "--count", "3000", "-o", "never.spheres"]):
         process = subprocess.Popen([SPORE, *arguments], cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        time.sleep(1.5)
+        time.sleep(1)
         assert process.poll() is None, f"{arguments} ended by itself: {process.communicate()}"
         process.send_signal(signal.SIGINT)
-        start = time.monotonic()
         process.communicate(timeout=60)
-        assert time.monotonic() - start < (0.5 if "Sanitizer" not in os.environ.get("SPORE_BUILD", "") else 5)
         assert process.returncode == 130, process.returncode
     assert not (WORK / "never.spheres").exists()
 
