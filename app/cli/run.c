@@ -9,6 +9,8 @@
 #include "core/io/scene_xml.h"
 #include "core/measure/run_statistics.h"
 
+#define USUAL_STEPS 1000
+#define NOT_GIVEN G_MININT64
 #define ENERGY_LOOKS 1000 /* a run: few enough to cost nothing */
 
 typedef struct RunOptions {
@@ -102,6 +104,10 @@ static guint report_monitor(SporeCli *cli, const SporeWorld *world) {
   spore_cli_count(cli, "substeps", (gint64)monitor->substeps);
   spore_cli_count(cli, "not_converged", (gint64)monitor->not_converged);
   spore_cli_count(cli, "held_inputs", (gint64)monitor->held_inputs);
+  if (monitor->not_converged || monitor->recoveries)
+    spore_cli_say(cli, _("monitor: %llu steps above the solver's tolerance, %llu taken again with %llu substeps\n"),
+                  (unsigned long long)monitor->not_converged, (unsigned long long)monitor->recoveries,
+                  (unsigned long long)monitor->substeps);
   spore_cli_open_array(cli, "frozen");
   for (guint body = 0; body < spore_world_body_count(world); body++)
     if (spore_world_body_frozen(world, body)) {
@@ -189,7 +195,8 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   SporeTrack recording = {0};
   if (options->record && !add_channels(world, &recording)) return spore_cli_usage(_("--record: not enough memory"));
   double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
-  gint64 steps = options->time_s > 0 ? (gint64)ceil(options->time_s / dt_s - 1e-9) : options->steps;
+  gint64 steps = options->steps != NOT_GIVEN ? options->steps : USUAL_STEPS;
+  if (!isnan(options->time_s)) steps = (gint64)ceil(options->time_s / dt_s - 1e-9);
   SporeRunStatistics result = run_steps(cli, world, steps, options->realtime, options->record ? &recording : NULL);
   int status = spore_cli_finish(cli, report(cli, scene, world, &result));
   int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
@@ -200,20 +207,22 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
 
 int spore_command_run(SporeCli *cli, int argc, char **argv) {
   static const SporeCommandInfo info = {"run", "SCENE", N_("Runs a scene and says how it went."), 1, 1};
-  RunOptions options = {.steps = 1000, .threads = 1};
+  RunOptions options = {.time_s = NAN, .steps = NOT_GIVEN, .threads = 1};
   const GOptionEntry entries[] = {
       {"time", 't', 0, G_OPTION_ARG_DOUBLE, &options.time_s, N_("Simulated time"), "S"},
       {"steps", 'n', 0, G_OPTION_ARG_INT64, &options.steps, N_("Number of steps (default 1000)"), "N"},
-      {"threads", 'j', 0, G_OPTION_ARG_INT, &options.threads, N_("Threads (default 1); the result is the same"), "N"},
+      {"threads", 0, 0, G_OPTION_ARG_INT, &options.threads, N_("Threads (default 1); the result is the same"), "N"},
       {"realtime", 0, 0, G_OPTION_ARG_NONE, &options.realtime, N_("Keep pace with the clock"), NULL},
       {"record", 0, 0, G_OPTION_ARG_FILENAME, &options.record, N_("Write the devices' input as a track"), "FILE"},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) {
-    if (options.time_s < 0 || !isfinite(options.time_s))
+    if (!isnan(options.time_s) && options.steps != NOT_GIVEN)
+      status = spore_cli_usage(_("--time, --steps: both given; expected one of them; leave one out"));
+    else if (options.time_s < 0 || isinf(options.time_s))
       status = spore_cli_usage(_("--time: %g s; expected a time of 0 s or more"), options.time_s);
-    else if (options.steps < 0)
+    else if (options.steps != NOT_GIVEN && options.steps < 0)
       status = spore_cli_usage(_("--steps: %lld; expected 0 or more"), (long long)options.steps);
     else if (options.threads < 1 || options.threads > 256)
       status = spore_cli_usage(_("--threads: %d; expected 1 to 256"), options.threads);

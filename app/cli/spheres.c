@@ -64,8 +64,10 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) {
     SporeSpheresOptions options = {.count = (size_t)MAX(count, 0), .tolerance = tolerance, .seed = (uint64_t)seed};
-    if (count < 0 || count > SPORE_SPHERES_MAXIMUM || (count == 0) == !(tolerance > 0 && tolerance < 1))
-      status = spore_cli_usage(_("spore spheres: expected either --count 1 to %d or --tolerance between 0 and 1"),
+    if (count < 0 || count > SPORE_SPHERES_MAXIMUM || (count == 0) == !(tolerance >= 1e-4 && tolerance < 1))
+      status = spore_cli_usage(_("spore spheres: neither number of spheres nor tolerance is one; expected either "
+                                 "--count 1 to %d or --tolerance "
+                                 "0.0001 to 1; give one of them"),
                                SPORE_SPHERES_MAXIMUM);
     else status = generate(cli, argv[1], &options, unit, frame, output);
   }

@@ -67,7 +67,9 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
   if (status == SPORE_EXIT_DONE) {
     SporeTetrahedraOptions options = {.cells = (size_t)MAX(cells, 0), .size = size};
     if (cells < 0 || cells > 5000000 || (cells == 0) == !(size > 0))
-      status = spore_cli_usage(_("spore tetrahedra: expected either --cells 1 to 5000000 or --size in metres above 0"));
+      status = spore_cli_usage(_("spore tetrahedra: neither number of cells nor size is one; expected either --cells 1 "
+                                 "to 5000000 or --size in "
+                                 "metres above 0; give one of them"));
     else if (output && !formatter_of(output))
       status =
           spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .vtu, .msh or .mesh"), output);

@@ -164,9 +164,11 @@ gboolean spore_tetrahedra_from_mesh(const char *place, const SporeTriangleMesh *
           "again, or give a .mesh file"));
   if (!spore_triangle_mesh_validate(surface, &failure) || !spore_triangle_mesh_report(surface, &task.report, &failure))
     return raise_at(place, &failure, error);
-  if (!(task.report.diagonal > 0))
-    return spore_error_raise(error, SPORE_ERROR_INPUT, place,
-                             _("the surface has no extent; expected one that encloses a volume; give another mesh"));
+  if (!(task.report.diagonal > 0) || surface->triangle_count < 4)
+    return spore_error_raise(
+        error, SPORE_ERROR_INPUT, place,
+        _("the surface of %zu triangles encloses nothing; expected one that encloses a volume; give another mesh"),
+        surface->triangle_count);
   for (int axis = 0; axis < 3; axis++) task.centre[axis] = 0.5 * (task.report.lower[axis] + task.report.upper[axis]);
   if (!check_options(place, &task, error) || !run_chain(&task, place, result, report, error)) return FALSE;
   if (!measure(&task, result, report, &failure)) {

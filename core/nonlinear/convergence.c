@@ -11,16 +11,23 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
   return result->finite;
 }
 
+/* A residual down to rounding counts as solved only where that is this part of what there was to solve: where rounding
+ * is as large as the load itself, nothing has been computed, and it must be said. */
+#define ROUNDING_OF_LOAD 0.1
+
+static bool within_load(const SporeConvergence *test) { return test->norm <= ROUNDING_OF_LOAD * test->scale_r; }
+
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                                 SporeNonlinearResult *result) {
   if (test->norm > system->rounding(system->data, x, false)) return false;
-  result->converged = true;
+  result->converged = within_load(test);
   return true;
 }
 
 void spore_convergence_end(const SporeConvergence *test, const SporeSystem *system, const double *x,
                            SporeNonlinearResult *result) {
-  if (result->linearisations > 0 && test->norm <= system->rounding(system->data, x, true)) result->converged = true;
+  if (result->linearisations > 0 && within_load(test) && test->norm <= system->rounding(system->data, x, true))
+    result->converged = true;
 }
 
 void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,

@@ -12,7 +12,8 @@ typedef struct SporeConvergence {
  * A residual of zero is convergence already. */
 bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, const SporeNonlinearOptions *options,
                              double norm, SporeNonlinearResult *result);
-/* True, and convergence, when the residual is down to rounding. Needs a current linearisation. */
+/* True when the residual is down to rounding, so that nothing is left to gain: convergence too, unless rounding is as
+ * large as the load. Needs a current linearisation. */
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                                 SporeNonlinearResult *result);
 /* At the end: a residual down to rounding along the stiff axes counts as convergence too. */

@@ -146,6 +146,8 @@ def time_and_dt():
     refuses("run", soft_ball(), "--set", "solver/time_stop=1", says=["time_stop", "time_step"])
     refuses("run", soft_ball(), "--integrator", "magic", says=["magic", "implicit_euler"])
     refuses("run", soft_ball(), "--steps", "-4", says=["-4"])
+    refuses("run", soft_ball(), "--steps", 4, "--time", 1, says=["--time", "--steps"])
+    assert report("run", soft_ball(), "--time", 0)["steps"] == 0
 
 
 @check
@@ -256,6 +258,8 @@ def tetrahedra_command():
         spore("tetrahedra", "ball.off", "--cells", 300, "-o", name)
         assert mark in (WORK / name).read_text()
     refuses("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.xyz", says=["ball.xyz", ".vtu"])
+    file("one.off", shapes.off([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
+    refuses("tetrahedra", "one.off", "--cells", 300, says=["one.off", "volume"])
 
 
 @check

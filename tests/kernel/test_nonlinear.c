@@ -116,6 +116,21 @@ static void test_rounding(void) {
   }
 }
 
+static double hopeless_rounding(void *data, const double *x, bool stiff_axes) { return 1e6; }
+
+/* Where rounding is as large as the load itself, it stops, and does not call that solved. */
+static void test_hopeless(void) {
+  Cubic cubic = {.strength = 5, .coupling = 2};
+  SporeSystem system = make(&cubic);
+  system.rounding = hopeless_rounding;
+  SporeNonlinearOptions options = {50, 1e-10};
+  double x[N] = {0}, scratch[SPORE_NEWTON_SCRATCH * N];
+  SporeNonlinearResult result = spore_newton(&system, &options, x, scratch);
+  g_assert_false(result.converged);
+  g_assert_cmpuint(result.iterations, ==, 0);
+  g_assert_cmpfloat(result.residual, ==, 1);
+}
+
 /* From far away full steps overshoot: the line search brings it home. */
 static void test_line_search(void) {
   Cubic cubic = {.strength = 100, .coupling = 0.1};
@@ -210,6 +225,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/nonlinear/newton", test_newton);
   g_test_add_func("/nonlinear/rounding", test_rounding);
+  g_test_add_func("/nonlinear/hopeless", test_hopeless);
   g_test_add_func("/nonlinear/line-search", test_line_search);
   g_test_add_func("/nonlinear/broyden", test_broyden);
   g_test_add_func("/nonlinear/broyden-stale", test_broyden_stale);
