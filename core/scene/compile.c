@@ -52,10 +52,11 @@ static gboolean resolve(Compiler *compiler, const SporeObject *object, const cha
   const char *elements = spore_object_type(object)->table->parameters[index].references;
   const char *nearest = nearest_name(compiler->document, elements, name);
   if (nearest)
-    return refuse(compiler, object, _("%s=\"%s\" names nothing; expected a %s; did you mean \"%s\"?"), property, name,
-                  elements, nearest);
-  return refuse(compiler, object, _("%s=\"%s\" names nothing; expected a %s; add one or correct the name"), property,
-                name, elements);
+    return refuse(compiler, object, _("%s=\"%s\" names nothing; expected the name of a <%s>; did you mean \"%s\"?"),
+                  property, name, elements, nearest);
+  return refuse(compiler, object,
+                _("%s=\"%s\" names nothing; expected the name of a <%s>; add one or correct the name"), property, name,
+                elements);
 }
 
 /* Bodies. */

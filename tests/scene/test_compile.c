@@ -94,7 +94,7 @@ static const Bad bad[] = {
     {"no-mesh", MODEL("", "rigid_body"), "5:16", "expected a mesh"},
     {"geometry-missing", MODEL(" geometry=\"cub\"", "rigid_body"), "5:16", "did you mean \"cube\"?"},
     {"geometry-far", MODEL(" geometry=\"wholly-other\"", "rigid_body"), "5:16",
-     "names nothing; expected a mesh|tetrahedra"},
+     "names nothing; expected the name of a <mesh|tetrahedra>"},
     {"mesh-for-tetrahedra", MODEL(" geometry=\"cube\"", "corotational_tetrahedra"), "5:16",
      "needs tetrahedra; generate them"},
     {"tetrahedra-for-mesh", MODEL(" geometry=\"cells\"", "mass_spring_net"), "5:16", "needs a mesh"},
@@ -103,7 +103,7 @@ static const Bad bad[] = {
     {"spheres-missing", BODIES("<body name=\"b\" role=\"active\"><collision spheres=\"bal\"/></body>"), "5:30",
      "did you mean \"ball\"?"},
     {"spheres-are-mesh", BODIES("<body name=\"b\" role=\"active\"><collision spheres=\"cube\"/></body>"), "5:30",
-     "expected a spheres"},
+     "expected the name of a <spheres>"},
     {"asset-missing",
      "<spore version=\"1.0\"><assets><mesh name=\"m\" file=\"gone.off\"/></assets><bodies><body name=\"b\"><mechanical "
      "geometry=\"m\"><rigid_body/></mechanical></body></bodies></spore>",

@@ -5,6 +5,8 @@
 char *spore_label_of_name(const char *name) {
   char *label = g_strdelimit(g_strdup(name), "_", ' ');
   label[0] = g_ascii_toupper(label[0]);
+  char *person = strstr(label, " euler");
+  if (person) person[1] = 'E';
   return label;
 }
 

@@ -14,7 +14,7 @@ void spore_report(GtkWidget *widget, const GError *error);
 void spore_ignore_wheel(GtkWidget *widget);
 /* "Contact stiffness" of "contact_stiffness", translated. g_free. */
 char *spore_label_of(const char *name);
-/* "Implicit euler" of "implicit_euler"; abbreviations such as mm or LPS stay as they are. g_free. */
+/* "Implicit Euler" of "implicit_euler"; abbreviations such as mm or LPS stay as they are. g_free. */
 char *spore_choice_label(const char *choice);
 /* "m/s²" of "m/s^2". g_free. */
 char *spore_unit_label(const char *unit);
