@@ -148,22 +148,29 @@ int spore_cli_choice(const char *option, const char *text, const char *const *ch
   return -1;
 }
 
+GBytes *spore_cli_read_file(const char *file, const char *expected, GError **error) {
+  char *bytes = NULL;
+  gsize size = 0;
+  g_autoptr(GError) cause = NULL;
+  if (g_file_test(file, G_FILE_TEST_EXISTS) && !g_file_test(file, G_FILE_TEST_IS_REGULAR))
+    spore_error_raise(error, SPORE_ERROR_FILE, file, _("is not a regular file; expected %s; name such a file"),
+                      expected);
+  else if (!g_file_get_contents(file, &bytes, &size, &cause))
+    spore_error_raise(error, SPORE_ERROR_FILE, file, _("cannot be read (%s); expected %s; check the path"),
+                      cause->message, expected);
+  return bytes ? g_bytes_new_take(bytes, size) : NULL;
+}
+
 gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
                              SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
                              GError **error) {
   int unit_chosen = spore_cli_choice("--unit", unit ? unit : "m", spore_length_units, error);
   int frame_chosen = frame ? spore_cli_choice("--frame", frame, spore_mesh_frames, error) : 0;
   if (unit_chosen < 0 || frame_chosen < 0) return FALSE;
-  char *bytes = NULL;
+  g_autoptr(GBytes) read = spore_cli_read_file(file, _("a mesh"), error);
+  if (!read) return FALSE;
   gsize size = 0;
-  g_autoptr(GError) cause = NULL;
-  if (g_file_test(file, G_FILE_TEST_EXISTS) && !g_file_test(file, G_FILE_TEST_IS_REGULAR))
-    return spore_error_raise(error, SPORE_ERROR_FILE, file,
-                             _("is not a regular file; expected a mesh; name a mesh file"));
-  if (!g_file_get_contents(file, &bytes, &size, &cause))
-    return spore_error_raise(error, SPORE_ERROR_FILE, file, _("cannot be read (%s); expected a mesh; check the path"),
-                             cause->message);
-  g_autoptr(GBytes) read = g_bytes_new_take(bytes, size);
+  const char *bytes = g_bytes_get_data(read, &size);
   int hint = spore_mesh_frame_hint(bytes, size);
   if (!frame && hint >= 0) frame_chosen = hint;
   if (!spore_mesh_decode(file, file, bytes, size, unit_chosen, frame_chosen, mesh, spore_cli_progress(cli), error))

@@ -56,6 +56,8 @@ gboolean spore_cli_interrupted(void);
 /* Progress on stderr when that is a terminal; cancels on interruption. */
 const SporeProgress *spore_cli_progress(const SporeCli *cli);
 
+/* Content of a regular file. expected: what it should be, translated ("a mesh"), for messages. */
+GBytes *spore_cli_read_file(const char *file, const char *expected, GError **error);
 /* Reads a mesh file from anywhere; --unit and --frame by name (frame NULL: what the file says, else Y_UP). */
 gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
                              SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,

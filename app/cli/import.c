@@ -1,56 +1,22 @@
 /* spore import: a new scene from organ meshes. */
+#include <errno.h>
 #include <glib/gi18n.h>
-#include <math.h>
-#include <string.h>
 
 #include "app/cli/cli.h"
-#include "core/io/mesh_import.h"
+#include "core/io/organ.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
 
-static gboolean set(SporeDocument *document, SporeObject *object, const char *property, const char *value,
-                    GError **error) {
-  return object && spore_document_set_text(document, object, property, value, error);
-}
-
-/* A name for an object from a file's: letters, digits, _ . - alone, not beginning with a digit. */
-static char *object_name(const char *file) {
-  g_autofree char *base = g_path_get_basename(file);
-  char *dot = strrchr(base, '.');
-  if (dot && dot != base) *dot = '\0';
-  g_strcanon(base, G_CSET_a_2_z G_CSET_A_2_Z G_CSET_DIGITS "_.-", '_');
-  return g_ascii_isalpha(base[0]) || base[0] == '_' ? g_strdup(base) : g_strconcat("organ_", base, NULL);
-}
-
-static SporeObject *add_body(SporeDocument *document, const char *mesh_name, GError **error) {
-  SporeObject *body =
-      spore_document_insert(document, spore_document_section(document, "bodies"), "body", mesh_name, G_MAXUINT, error);
-  SporeObject *visual = body ? spore_document_insert(document, body, "visual", NULL, G_MAXUINT, error) : NULL;
-  /* It stays where it is until its author gives it a mechanical unit. */
-  return visual && set(document, body, "role", "unmovable", error) && set(document, visual, "mesh", mesh_name, error)
-             ? body
-             : NULL;
-}
-
-static SporeObject *add_organ(SporeCli *cli, SporeDocument *document, const char *file, const char *unit,
-                              const char *frame, GError **error) {
+/* The organ stays where it is until its author gives it a mechanical unit. */
+static gboolean add_organ(SporeCli *cli, SporeDocument *document, const char *file, const char *unit, const char *frame,
+                          GError **error) {
   SporeTriangleMesh mesh = {0};
   g_autoptr(GBytes) content = NULL;
   int unit_index = 0, frame_index = 0;
-  if (!spore_cli_read_mesh(cli, file, unit, frame, &mesh, &content, &unit_index, &frame_index, error)) return NULL;
+  if (!spore_cli_read_mesh(cli, file, unit, frame, &mesh, &content, &unit_index, &frame_index, error)) return FALSE;
   spore_triangle_mesh_clear(&mesh);
-  g_autofree char *name = object_name(file);
-  SporeObject *asset =
-      spore_document_insert(document, spore_document_section(document, "assets"), "mesh", name, G_MAXUINT, error);
-  if (!asset) return NULL;
-  const char *extension = strrchr(file, '.');
-  g_autofree char *stored = g_strconcat(spore_object_name(asset), extension ? extension : "", NULL);
-  spore_document_put_blob(document, stored, content);
-  if (!set(document, asset, "file", stored, error) ||
-      !set(document, asset, "unit", spore_length_units[unit_index], error) ||
-      !set(document, asset, "frame", spore_mesh_frames[frame_index], error))
-    return NULL;
-  return add_body(document, spore_object_name(asset), error);
+  SporeObject *body = spore_organ_insert(document, file, content, unit_index, frame_index, error);
+  return body && spore_document_set_text(document, body, "role", "unmovable", error);
 }
 
 static void report(SporeCli *cli, SporeDocument *document) {
@@ -86,7 +52,7 @@ static int import(SporeCli *cli, char **meshes, const char *unit, const char *fr
   spore_document_set_readers(document, &spore_io_readers);
   gboolean done = TRUE;
   for (char **mesh = meshes; *mesh && done; mesh++)
-    done = spore_cli_keeps(output, *mesh, &error) && add_organ(cli, document, *mesh, unit, frame, &error) != NULL;
+    done = spore_cli_keeps(output, *mesh, &error) && add_organ(cli, document, *mesh, unit, frame, &error);
   done = done && make_folder_of(output, &error) && spore_scene_save(document, output, &error);
   if (done) {
     spore_cli_say(cli, _("%s: written\n"), output);

@@ -48,16 +48,11 @@ SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneO
 }
 
 static gboolean read_track(const char *file, SporeTrack *track, GError **error) {
-  g_autofree char *text = NULL;
-  g_autoptr(GError) cause = NULL;
+  g_autoptr(GBytes) content = spore_cli_read_file(file, _("a track"), error);
+  if (!content) return FALSE;
   gsize size = 0;
+  const char *text = g_bytes_get_data(content, &size);
   SporeError fault = SPORE_ERROR_INIT;
-  if (g_file_test(file, G_FILE_TEST_EXISTS) && !g_file_test(file, G_FILE_TEST_IS_REGULAR))
-    return spore_error_raise(error, SPORE_ERROR_FILE, file,
-                             _("is not a regular file; expected a track; name a .track file"));
-  if (!g_file_get_contents(file, &text, &size, &cause))
-    return spore_error_raise(error, SPORE_ERROR_FILE, file, _("cannot be read (%s); expected a track; check the path"),
-                             cause->message);
   return spore_track_parse(track, file, text, size, &fault) || spore_error_propagate(&fault, error);
 }
 

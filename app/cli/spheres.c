@@ -23,32 +23,59 @@ static void report(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresR
                 100 * report->distance_max, report->depth_error, report->seconds);
 }
 
+/* A .mesh file holds tetrahedra, in metres; everything else is a surface. */
+static gboolean from_tetrahedra(SporeCli *cli, const char *file, const SporeSpheresOptions *options,
+                                SporeSphereSet *set, SporeSpheresReport *figures, GError **error) {
+  g_autoptr(GBytes) content = spore_cli_read_file(file, _("a mesh"), error);
+  if (!content) return FALSE;
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeTetrahedralMesh mesh = {0};
+  gsize size = 0;
+  const char *text = g_bytes_get_data(content, &size);
+  gboolean done = spore_medit_parse(file, text, size, &mesh, error);
+  if (done && !spore_spheres_from_tetrahedra(&mesh, options, set, figures, spore_cli_progress(cli), &fault)) {
+    spore_error_at(&fault, file);
+    done = spore_error_propagate(&fault, error);
+  }
+  spore_tetrahedral_mesh_clear(&mesh);
+  return done;
+}
+
+static gboolean from_surface(SporeCli *cli, const char *file, const SporeSpheresOptions *options, const char *unit,
+                             const char *frame, SporeSphereSet *set, SporeSpheresReport *figures, GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeTriangleMesh mesh = {0};
+  gboolean done = spore_cli_read_mesh(cli, file, unit, frame, &mesh, NULL, NULL, NULL, error);
+  if (done && !spore_spheres_from_mesh(&mesh, options, set, figures, spore_cli_progress(cli), &fault)) {
+    spore_error_at(&fault, file);
+    done = spore_error_propagate(&fault, error);
+  }
+  spore_triangle_mesh_clear(&mesh);
+  return done;
+}
+
 static int generate(SporeCli *cli, const char *file, const SporeSpheresOptions *options, const char *unit,
                     const char *frame, const char *output) {
   GError *error = NULL;
-  SporeError fault = SPORE_ERROR_INIT;
-  SporeTriangleMesh mesh = {0};
   SporeSphereSet set = {0};
   SporeSpheresReport figures = {0};
-  gboolean done = (!output || spore_cli_keeps(output, file, &error)) &&
-                  spore_cli_read_mesh(cli, file, unit, frame, &mesh, NULL, NULL, NULL, &error);
-  if (done && !spore_spheres_from_mesh(&mesh, options, &set, &figures, spore_cli_progress(cli), &fault)) {
-    spore_error_at(&fault, file);
-    done = spore_error_propagate(&fault, &error);
-  }
+  gboolean done = !output || spore_cli_keeps(output, file, &error);
+  if (done)
+    done = g_str_has_suffix(file, ".mesh") ? from_tetrahedra(cli, file, options, &set, &figures, &error)
+                                           : from_surface(cli, file, options, unit, frame, &set, &figures, &error);
   if (done && output) {
     gsize size = 0;
     g_autofree char *text = spore_spheres_format(&set, &size);
     done = spore_write_file(output, text, size, &error);
   }
   if (done) report(cli, &set, &figures);
-  spore_triangle_mesh_clear(&mesh);
   spore_sphere_set_clear(&set);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
 int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"spheres", "MESH", N_("Fits collision spheres to a mesh."), 1, 1};
+  static const SporeCommandInfo info = {
+      "spheres", "MESH", N_("Fits collision spheres to a mesh, or to the tetrahedra of a .mesh file."), 1, 1};
   char *unit = NULL, *frame = NULL, *output = NULL;
   gint64 count = 0, seed = 1;
   double tolerance = 0;

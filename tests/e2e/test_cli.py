@@ -247,13 +247,16 @@ def spheres_command():
 
 @check
 def tetrahedra_command():
-    """tetrahedra fills a mesh in each format, or says what this build lacks."""
+    """tetrahedra fills a mesh in each format, spheres fill tetrahedra; or it says what this build lacks."""
     file("ball.off", shapes.off(*shapes.sphere()))
     if "cgal" not in FEATURES:
         refuses("tetrahedra", "ball.off", "--cells", 300, says=["CGAL"])
         return
     answer = report("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.mesh")
     assert answer["tetrahedra"] > 100 and answer["min_dihedral_deg"] > 5 and answer["method"] == "direct"
+    answer = report("spheres", "ball.mesh", "--count", 20, "-o", "cells.spheres")
+    assert answer["count"] == 20 and answer["coverage"] > 0.9
+    refuses("spheres", file("bad.mesh", "MeshVersionFormatted 2\nnonsense\n"), "--count", 20, says=["bad.mesh:3", "Tetrahedra"])
     for name, mark in (("ball.vtu", "UnstructuredGrid"), ("ball.msh", "$MeshFormat"), ("ball.mesh", "Tetrahedra")):
         spore("tetrahedra", "ball.off", "--cells", 300, "-o", name)
         assert mark in (WORK / name).read_text()
