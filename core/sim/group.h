@@ -1,0 +1,83 @@
+/* An island as the integrators see it, for dynamics.c (forces, motion) and linearise.c (matrices). */
+#ifndef SPORE_SIM_GROUP_H
+#define SPORE_SIM_GROUP_H
+
+#include <string.h>
+
+#include "core/constraint/pin.h"
+#include "core/sim/world_private.h"
+
+/* The i-th body of the island, and where its part begins in the local vectors. */
+static inline SporeBody *spore_group_body(const SporeGroup *group, size_t i, const SporeSite **site) {
+  uint32_t index = group->world->island_bodies[group->island->body_start + i];
+  *site = &group->world->local_sites[index];
+  return &group->world->bodies[index];
+}
+
+static inline SporeContactTerm *spore_group_contact(const SporeGroup *group, size_t i, SporeMat3 **jacobian) {
+  uint32_t index = group->world->contact_order[group->island->contact_start + i];
+  *jacobian = &group->world->contact_jacobians[index];
+  return &group->world->contacts[index];
+}
+
+static inline SporeSpringTerm *spore_group_spring(const SporeGroup *group, size_t i, SporeMat3 **jacobian) {
+  uint32_t index = group->world->spring_order[group->island->spring_start + i];
+  *jacobian = &group->world->spring_jacobians[index];
+  return &group->world->springs[index];
+}
+
+static inline double *spore_group_precondition_blocks(const SporeGroup *group) {
+  return group->world->precondition + 3 * group->island->v_start;
+}
+
+static inline const double *spore_group_mass(const SporeGroup *group, const SporeBody *body) {
+  return group->world->mass + 3 * body->v_offset;
+}
+
+/* y = blocks x, or y += scale blocks x */
+static inline void spore_blocks_apply(const double *blocks, size_t count, const double *x, double *y) {
+  for (size_t i = 0; i < count; i++, blocks += 9, x += 3, y += 3) {
+    double a = x[0], b = x[1], c = x[2];
+    y[0] = blocks[0] * a + blocks[1] * b + blocks[2] * c;
+    y[1] = blocks[3] * a + blocks[4] * b + blocks[5] * c;
+    y[2] = blocks[6] * a + blocks[7] * b + blocks[8] * c;
+  }
+}
+
+static inline void spore_blocks_add(const double *blocks, size_t count, double scale, const double *x, double *y) {
+  for (size_t i = 0; i < count; i++, blocks += 9, x += 3, y += 3) {
+    double a = scale * x[0], b = scale * x[1], c = scale * x[2];
+    y[0] += blocks[0] * a + blocks[1] * b + blocks[2] * c;
+    y[1] += blocks[3] * a + blocks[4] * b + blocks[5] * c;
+    y[2] += blocks[6] * a + blocks[7] * b + blocks[8] * c;
+  }
+}
+
+/* A block without an inverse gets that of its trace: a preconditioner may be rough, but not singular. */
+static inline void spore_blocks_invert(double *blocks, size_t count) {
+  for (size_t i = 0; i < count; i++, blocks += 9) {
+    SporeMat3 block, inverse;
+    memcpy(block.m, blocks, sizeof block.m);
+    double mean = spore_mat3_trace(block) / 3;
+    if (!spore_mat3_invert(block, &inverse) || spore_mat3_determinant(block) <= 0)
+      inverse = spore_mat3_scale(mean > 0 ? 1 / mean : 1, spore_mat3_identity());
+    memcpy(blocks, inverse.m, sizeof inverse.m);
+  }
+}
+
+static inline void spore_group_filter(const SporeGroup *group, double *vector) {
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_group_body(group, b, &site);
+    spore_pin_filter(body->held, body->held_count, vector + site->v);
+  }
+}
+
+/* linearise.c: the slots of SporeDynamics that stand for A = M + c D + c2 K. */
+void spore_group_linearise(void *data, const double *q, const double *v, double c, double c2);
+bool spore_group_reuse(void *data, const double *q, const double *v, double c, double c2);
+void spore_group_multiply(void *data, const double *x, double *y);
+void spore_group_precondition(void *data, const double *r, double *z);
+double spore_group_rounding(void *data, const double *q, double c, bool stiff_axes);
+
+#endif

@@ -1,0 +1,190 @@
+/* The matrix A = M + c D + c2 K of an island: the models' block by block, terms matrix-free on top, and what
+ * preconditions it. */
+#include <float.h>
+#include <string.h>
+
+#include "core/sim/group.h"
+
+static double *block_stiffness(const SporeGroup *group) {
+  return group->world->block_stiffness + group->island->v_start / 3;
+}
+
+static void linearise_terms(SporeGroup *group, const double *q, const double *v, double c, double c2) {
+  const SporeSite *sites = group->world->local_sites;
+  SporeMat3 *jacobian;
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    SporeContactTerm *term = spore_group_contact(group, i, &jacobian);
+    *jacobian = spore_contact_term_jacobian(term, sites, q, v, c, c2);
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    SporeSpringTerm *term = spore_group_spring(group, i, &jacobian);
+    *jacobian = spore_spring_term_jacobian(term, sites, q, v, c, c2);
+  }
+}
+
+static void add_term_diagonals(SporeGroup *group, double *blocks) {
+  const SporeSite *sites = group->world->local_sites;
+  SporeMat3 *jacobian;
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_group_contact(group, i, &jacobian);
+    spore_term_diagonal(&term->a, &term->b, jacobian, sites, blocks);
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_group_spring(group, i, &jacobian);
+    spore_term_diagonal(&term->a, &term->b, jacobian, sites, blocks);
+  }
+}
+
+/* Diagonal blocks of the models' part of A; M alone where there is no matrix. */
+static void body_diagonal(const SporeGroup *group, const SporeBody *body, double *blocks) {
+  if (body->matrix.block_count == 0) {
+    memcpy(blocks, spore_group_mass(group, body), 9 * body->block_count * sizeof *blocks);
+    return;
+  }
+  for (size_t i = 0; i < body->block_count; i++)
+    memcpy(blocks + 9 * i, body->matrix.values + 9 * (size_t)body->matrix.diagonal[i], 9 * sizeof *blocks);
+}
+
+/* The body's own matrix with the diagonal blocks of the terms; where it is not positive definite in floating point,
+ * block-Jacobi stands in. */
+static void factorise(SporeBody *body, const double *blocks, bool alone) {
+  body->factor_alone = alone;
+  body->factor_ready = spore_block_cholesky_factorise(&body->factor, &body->matrix, blocks, body->held_flags);
+}
+
+/* Root mean square of the eigenvalues of A - M in each diagonal block. */
+static void measure_stiffness(const double *blocks, const double *mass, size_t count, double *stiffness) {
+  for (size_t i = 0; i < count; i++, blocks += 9, mass += 9) {
+    double sum = 0;
+    for (int e = 0; e < 9; e++) sum += (blocks[e] - mass[e]) * (blocks[e] - mass[e]);
+    stiffness[i] = sqrt(sum / 3);
+  }
+}
+
+static void make_preconditioner(SporeGroup *group) {
+  bool alone = group->island->contact_count + group->island->spring_count == 0;
+  double *blocks = spore_group_precondition_blocks(group);
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_group_body(group, b, &site);
+    body_diagonal(group, body, blocks + 3 * site->v);
+  }
+  add_term_diagonals(group, blocks);
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_group_body(group, b, &site);
+    measure_stiffness(blocks + 3 * site->v, spore_group_mass(group, body), body->block_count,
+                      block_stiffness(group) + site->v / 3);
+    bool current = body->factor_ready && body->factor_alone && alone;
+    if (!body->choice.factorised) body->factor_ready = false;
+    else if (!current) factorise(body, blocks + 3 * site->v, alone);
+  }
+  spore_blocks_invert(blocks, group->island->v_count / 3);
+}
+
+static void assemble(const SporeGroup *group, SporeBody *body, const double *q, const double *v, double c, double c2) {
+  if (body->matrix.block_count == 0) return;
+  spore_block_matrix_zero(&body->matrix);
+  body->model->type->jacobian(body->model, q, v, c2, c, &body->matrix);
+  const double *mass = spore_group_mass(group, body);
+  for (size_t i = 0; i < body->block_count; i++) {
+    double *block = body->matrix.values + 9 * (size_t)body->matrix.diagonal[i];
+    for (int e = 0; e < 9; e++) block[e] += mass[9 * i + e];
+  }
+  body->factor_ready = false;
+  body->matrix_c = c;
+  body->matrix_c2 = c2;
+  body->matrix_step = group->world->step;
+}
+
+void spore_group_linearise(void *data, const double *q, const double *v, double c, double c2) {
+  SporeGroup *group = data;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_group_body(group, b, &site);
+    assemble(group, body, q + site->q, v + site->v, c, c2);
+  }
+  linearise_terms(group, q, v, c, c2);
+  make_preconditioner(group);
+}
+
+bool spore_group_reuse(void *data, const double *q, const double *v, double c, double c2) {
+  SporeGroup *group = data;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_group_body(group, b, &site);
+    if (body->matrix.block_count == 0) continue;
+    bool same = body->matrix_c == c && body->matrix_c2 == c2;
+    if (!same || group->world->step - body->matrix_step >= SPORE_MATRIX_STEPS) return false;
+  }
+  linearise_terms(group, q, v, c, c2);
+  make_preconditioner(group);
+  return true;
+}
+
+void spore_group_multiply(void *data, const double *x, double *y) {
+  SporeGroup *group = data;
+  const SporeSite *sites = group->world->local_sites;
+  SporeMat3 *jacobian;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_group_body(group, b, &site);
+    if (body->matrix.block_count == 0) {
+      spore_blocks_apply(spore_group_mass(group, body), body->block_count, x + site->v, y + site->v);
+      continue;
+    }
+    memset(y + site->v, 0, 3 * body->block_count * sizeof *y);
+    spore_block_matrix_multiply_add(&body->matrix, x + site->v, y + site->v);
+  }
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_group_contact(group, i, &jacobian);
+    spore_term_multiply(&term->a, &term->b, jacobian, sites, x, y);
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_group_spring(group, i, &jacobian);
+    spore_term_multiply(&term->a, &term->b, jacobian, sites, x, y);
+  }
+  spore_group_filter(group, y);
+}
+
+void spore_group_precondition(void *data, const double *r, double *z) {
+  SporeGroup *group = data;
+  const double *inverse = spore_group_precondition_blocks(group);
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_group_body(group, b, &site);
+    if (body->factor_ready) spore_block_cholesky_solve(&body->factor, r + site->v, z + site->v);
+    else spore_blocks_apply(inverse + 3 * site->v, body->block_count, r + site->v, z + site->v);
+  }
+  spore_group_filter(group, z);
+}
+
+/* How stiff a block is along its soft axes, from the preconditioner, which holds the inverse of A's diagonal blocks. */
+static double softest_stiffness(const double *inverse, double weight) {
+  double flexible = (inverse[0] + inverse[4] + inverse[8]) / 3;
+  return fmax(1 / flexible - 1 / weight, 0);
+}
+
+/* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness. */
+double spore_group_rounding(void *data, const double *q, double c, bool stiff_axes) {
+  SporeGroup *group = data;
+  const double *inverse = spore_group_precondition_blocks(group);
+  double sum = 0;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_group_body(group, b, &site);
+    const double *mass_inverse = group->world->mass_inverse + 3 * body->v_offset;
+    bool nodal = body->q_count == 3 * body->block_count;
+    for (size_t i = 0; i < body->block_count; i++) {
+      const double *w = mass_inverse + 9 * i;
+      double weight = (w[0] + w[4] + w[8]) / 3;
+      double stiff = stiff_axes ? block_stiffness(group)[site->v / 3 + i]
+                                : softest_stiffness(inverse + 3 * site->v + 9 * i, weight);
+      stiff /= c;
+      double size = nodal ? spore_vec3_length(spore_vec3_load(q + site->q + 3 * i))
+                          : 1 + spore_vec3_length(spore_vec3_load(q + site->q));
+      sum += weight * stiff * stiff * size * size;
+    }
+  }
+  return 4 * DBL_EPSILON * sqrt(sum);
+}
