@@ -1,0 +1,90 @@
+/* Vector kernels: right, and the same bits with every instruction set that this machine has. */
+#include <float.h>
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/math/vector.h"
+
+enum { LONGEST = 133 };
+
+static GRand *random_source;
+
+static void fill(double *x) {
+  for (size_t i = 0; i < LONGEST; i++)
+    x[i] = g_rand_double_range(random_source, -1, 1) * pow(10, g_rand_double_range(random_source, -8, 8));
+}
+
+static void test_names(void) {
+  spore_cpu_limit(SPORE_CPU_BASELINE);
+  g_assert_cmpint(spore_cpu_level(), ==, SPORE_CPU_BASELINE);
+  for (int level = 0; level < SPORE_CPU_LEVELS; level++) {
+    spore_cpu_limit(level);
+    g_test_message("%s: %s", spore_cpu_level_name(level), (int)spore_cpu_level() == level ? "tried" : "not here");
+    g_assert_cmpint(spore_cpu_level(), <=, level);
+  }
+}
+
+static void test_values(void) {
+  double a[LONGEST], b[LONGEST], y[LONGEST];
+  for (size_t n = 0; n <= LONGEST; n++) {
+    fill(a);
+    fill(b);
+    long double sum = 0, size = 0;
+    for (size_t i = 0; i < n; i++) sum += (long double)a[i] * b[i], size += fabsl((long double)a[i] * b[i]);
+    g_assert_cmpfloat(fabs((double)(sum - spore_vector_dot(n, a, b))), <=, 1e-15 * (double)size);
+    memcpy(y, b, sizeof y);
+    spore_vector_add_scaled(n, y, 0.3, a);
+    for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < n ? b[i] + 0.3 * a[i] : b[i]));
+    memcpy(y, b, sizeof y);
+    spore_vector_scale_add(n, y, 0.3, a);
+    for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < n ? 0.3 * b[i] + a[i] : b[i]));
+  }
+}
+
+static void test_within(void) {
+  const double bad[] = {NAN, INFINITY, -INFINITY, 2.5, -2.5};
+  double x[LONGEST] = {0};
+  for (size_t n = 1; n <= LONGEST; n++)
+    for (size_t i = 0; i < n; i++) {
+      for (size_t k = 0; k < G_N_ELEMENTS(bad); k++) {
+        x[i] = bad[k];
+        g_assert_false(spore_vector_within(n, x, 2));
+        g_assert_true(spore_vector_within(n, x, DBL_MAX) == (isfinite(bad[k]) != 0));
+      }
+      x[i] = -2;
+      g_assert_true(spore_vector_within(n, x, 2));
+      x[i] = 0;
+    }
+}
+
+static void test_levels(void) {
+  double a[LONGEST], b[LONGEST], y[2][LONGEST];
+  for (size_t n = 0; n <= LONGEST; n++) {
+    fill(a);
+    fill(b);
+    double dot = 0;
+    for (int level = 0; level < SPORE_CPU_LEVELS; level++) {
+      spore_cpu_limit(level);
+      double *result = y[level > 0], sum = spore_vector_dot(n, a, b);
+      memcpy(result, b, sizeof y[0]);
+      spore_vector_add_scaled(n, result, 0.7, a);
+      spore_vector_scale_add(n, result, -1.3, a);
+      if (level == 0) dot = sum;
+      g_assert_cmpmem(&dot, sizeof dot, &sum, sizeof sum);
+      g_assert_cmpmem(y[0], sizeof y[0], result, sizeof y[0]);
+    }
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  random_source = g_rand_new_with_seed(1);
+  g_test_add_func("/vector/names", test_names);
+  g_test_add_func("/vector/values", test_values);
+  g_test_add_func("/vector/within", test_within);
+  g_test_add_func("/vector/levels", test_levels);
+  int status = g_test_run();
+  g_rand_free(random_source);
+  return status;
+}
