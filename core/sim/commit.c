@@ -3,14 +3,32 @@
 
 #include "core/sim/world_private.h"
 
+static void accept_body(SporeWorld *world, const SporeIsland *island, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  const SporeSite *site = &world->local_sites[index];
+  spore_body_mark_changed(world, body);
+  if (island->in_place) return;
+  memcpy(world->next_q + body->q_offset, island->q1 + site->q, body->q_count * sizeof(double));
+  memcpy(world->next_v + body->v_offset, island->v1 + site->v, 3 * body->block_count * sizeof(double));
+}
+
+/* A body that this step has frozen stays where it was good. */
+static void hold_body(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  spore_body_mark_changed(world, body);
+  memcpy(world->next_q + body->q_offset, world->q + body->q_offset, body->q_count * sizeof(double));
+  memset(world->next_v + body->v_offset, 0, 3 * body->block_count * sizeof(double));
+}
+
 static void accept_island(SporeWorld *world, const SporeIsland *island) {
+  const uint32_t *bodies = world->island_bodies + island->body_start;
+  for (size_t i = 0; i < island->kept_count; i++) accept_body(world, island, bodies[i]);
+  for (size_t i = island->kept_count; i < island->body_count; i++) hold_body(world, bodies[i]);
+}
+
+static void update_masses(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
-    uint32_t b = world->island_bodies[island->body_start + i];
-    const SporeBody *body = &world->bodies[b];
-    const SporeSite *site = &world->local_sites[b];
-    memcpy(world->q + body->q_offset, world->local_q1 + island->q_start + site->q, body->q_count * sizeof(double));
-    memcpy(world->v + body->v_offset, world->local_v1 + island->v_start + site->v,
-           3 * body->block_count * sizeof(double));
+    const SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     if (!spore_model_is_nodal(body->model)) spore_body_update_mass(world, body);
   }
 }
@@ -18,11 +36,13 @@ static void accept_island(SporeWorld *world, const SporeIsland *island) {
 void spore_world_commit(SporeWorld *world) {
   for (size_t i = 0; i < world->island_count; i++) accept_island(world, &world->islands[i]);
   for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_ACTIVE)
-      memcpy(world->q + body->q_offset, world->target_q + body->q_offset, body->q_count * sizeof(double));
-    if (body->frozen) memset(world->v + body->v_offset, 0, 3 * body->block_count * sizeof(double));
+    SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_ACTIVE) continue;
+    spore_body_mark_changed(world, body); /* its velocity is what sensing found */
+    memcpy(world->next_q + body->q_offset, world->target_q + body->q_offset, body->q_count * sizeof(double));
   }
+  spore_world_advance_state(world);
+  for (size_t i = 0; i < world->island_count; i++) update_masses(world, &world->islands[i]);
   spore_world_report_islands(world);
   world->step++;
   spore_snapshot_publish(world);

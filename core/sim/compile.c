@@ -192,8 +192,6 @@ bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription 
 bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   size_t n = world->body_count, q = world->q_count, v = world->v_count;
   world->scratch_per_block = spore_integrator_scratch();
-  world->q = SPORE_NEW_ARRAY(double, q);
-  world->v = SPORE_NEW_ARRAY(double, v);
   world->target_q = SPORE_NEW_ARRAY(double, q);
   world->mass = SPORE_NEW_ARRAY(double, 3 * v);
   world->mass_inverse = SPORE_NEW_ARRAY(double, 3 * v);
@@ -211,7 +209,7 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   world->islands = SPORE_NEW_ARRAY(SporeIsland, n);
   world->local_sites = SPORE_NEW_ARRAY(SporeSite, n);
   world->commands.ring = SPORE_NEW_ARRAY(SporeCommand, SPORE_COMMAND_CAPACITY);
-  bool made = world->q && world->v && world->target_q && world->mass && world->mass_inverse && world->precondition &&
+  bool made = world->target_q && world->mass && world->mass_inverse && world->precondition &&
               world->block_stiffness && world->local_q0 && world->local_q1 && world->local_v0 && world->local_v1 &&
               world->scratch && world->reaction && world->parent && world->island_of && world->island_bodies &&
               world->islands && world->local_sites && world->commands.ring;

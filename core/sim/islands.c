@@ -120,20 +120,51 @@ void spore_world_group(SporeWorld *world) {
   fill_islands(world, springs);
 }
 
-void spore_island_gather(SporeWorld *world, SporeIsland *island) {
-  double mass = 0;
+/* Gives the bodies their places next to each other; true when that is how they lie in the world's vectors. */
+static bool place_bodies(SporeWorld *world, SporeIsland *island) {
+  const uint32_t *bodies = world->island_bodies + island->body_start;
+  const SporeBody *first = &world->bodies[bodies[0]];
+  bool adjoin = true;
   island->q_count = island->v_count = 0;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    const SporeBody *body = &world->bodies[bodies[i]];
+    world->local_sites[bodies[i]] = (SporeSite){island->q_count, island->v_count};
+    adjoin &=
+        body->q_offset - first->q_offset == island->q_count && body->v_offset - first->v_offset == island->v_count;
+    island->q_count += body->q_count;
+    island->v_count += 3 * body->block_count;
+  }
+  return adjoin;
+}
+
+static void copy_together(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->island_bodies[island->body_start + i];
     const SporeBody *body = &world->bodies[b];
-    world->local_sites[b] = (SporeSite){island->q_count, island->v_count};
-    memcpy(world->local_q0 + island->q_start + island->q_count, world->q + body->q_offset,
-           body->q_count * sizeof(double));
-    memcpy(world->local_v0 + island->v_start + island->v_count, world->v + body->v_offset,
+    const SporeSite *site = &world->local_sites[b];
+    memcpy(world->local_q0 + island->q_start + site->q, world->q + body->q_offset, body->q_count * sizeof(double));
+    memcpy(world->local_v0 + island->v_start + site->v, world->v + body->v_offset,
            3 * body->block_count * sizeof(double));
-    island->q_count += body->q_count;
-    island->v_count += 3 * body->block_count;
-    mass += body->total_mass;
   }
+}
+
+void spore_island_gather(SporeWorld *world, SporeIsland *island) {
+  const uint32_t *bodies = world->island_bodies + island->body_start;
+  const SporeBody *first = &world->bodies[bodies[0]];
+  double mass = 0;
+  for (size_t i = 0; i < island->kept_count; i++) mass += world->bodies[bodies[i]].total_mass;
   island->gravity_momentum = sqrt(mass) * spore_vec3_length(world->gravity);
+  island->in_place = place_bodies(world, island);
+  if (island->in_place) {
+    island->q0 = world->q + first->q_offset;
+    island->v0 = world->v + first->v_offset;
+    island->q1 = world->next_q + first->q_offset;
+    island->v1 = world->next_v + first->v_offset;
+    return;
+  }
+  copy_together(world, island);
+  island->q0 = world->local_q0 + island->q_start;
+  island->v0 = world->local_v0 + island->v_start;
+  island->q1 = world->local_q1 + island->q_start;
+  island->v1 = world->local_v1 + island->v_start;
 }

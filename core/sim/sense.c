@@ -10,7 +10,7 @@ static const SporeGuardLimits limits = SPORE_GUARD_LIMITS;
  * the device says, so that a recorded track gives the same motion again. */
 static void set_velocity(SporeWorld *world, const SporeBody *body) {
   const double *from = world->q + body->q_offset, *to = world->target_q + body->q_offset;
-  double rate = 1 / world->solver.time_step, *v = world->v + body->v_offset;
+  double rate = 1 / world->solver.time_step, *v = world->next_v + body->v_offset;
   SporeVec3 moved = spore_vec3_sub(spore_vec3_load(to), spore_vec3_load(from));
   SporeQuat turn = spore_quat_multiply(spore_quat_load(to + 3), spore_quat_conjugate(spore_quat_load(from + 3)));
   spore_vec3_store(v, spore_vec3_scale(rate, moved));

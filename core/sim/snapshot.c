@@ -1,36 +1,51 @@
-/* Snapshots through a triple buffer: the writer fills one, the reader holds one, the third waits in the middle. */
+/* Snapshots through a triple buffer: the writer fills one, the reader holds one, the third waits in the middle.
+ *
+ * The state of the world is the one in the newest snapshot: the writer reads it there, as the reader does, and writes
+ * the next one into the buffer that is its own. A body that stood still since that buffer was last written is there
+ * already: states are numbered, and a body keeps the number of the one that it changed in. */
 #include <string.h>
 
+#include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/sim/world_private.h"
 
-#define FRESH 4u /* in `middle`: the reader has not had it yet */
 #define CONTACTS_MAXIMUM 4096
 
-static bool init_buffer(const SporeWorld *world, SporeSnapshot *snapshot) {
+static bool init_buffer(SporeWorld *world, int index) {
+  SporeSnapshots *snapshots = &world->snapshots;
+  SporeSnapshot *snapshot = &snapshots->buffers[index];
   size_t capacity = 2 * world->spheres.count;
   snapshot->contact_capacity = world->grid ? (capacity < CONTACTS_MAXIMUM ? capacity : CONTACTS_MAXIMUM) : 0;
-  snapshot->q = SPORE_NEW_ARRAY(double, world->q_count);
-  snapshot->v = SPORE_NEW_ARRAY(double, world->v_count);
+  snapshot->q = snapshots->q[index] = SPORE_NEW_ARRAY(double, world->q_count);
+  snapshot->v = snapshots->v[index] = SPORE_NEW_ARRAY(double, world->v_count);
+  snapshot->q_count = world->q_count;
+  snapshot->v_count = world->v_count;
   snapshot->reaction = SPORE_NEW_ARRAY(double, 6 * world->body_count);
   snapshot->contacts = SPORE_NEW_ARRAY(SporeSnapshotContact, snapshot->contact_capacity);
   return snapshot->q && snapshot->v && snapshot->reaction && snapshot->contacts;
 }
 
+static void set_next(SporeWorld *world) {
+  SporeSnapshots *snapshots = &world->snapshots;
+  world->next_q = snapshots->q[snapshots->triple.writing];
+  world->next_v = snapshots->v[snapshots->triple.writing];
+}
+
 bool spore_snapshots_init(SporeWorld *world) {
   SporeSnapshots *snapshots = &world->snapshots;
-  snapshots->writing = 0;
-  snapshots->reading = 1;
-  atomic_init(&snapshots->middle, 2);
+  snapshots->triple = SPORE_TRIPLE_INIT;
   for (int i = 0; i < 3; i++)
-    if (!init_buffer(world, &snapshots->buffers[i])) return false;
+    if (!init_buffer(world, i)) return false;
+  world->q = snapshots->q[snapshots->triple.reading];
+  world->v = snapshots->v[snapshots->triple.reading];
+  set_next(world);
   return true;
 }
 
 void spore_snapshots_clear(SporeSnapshots *snapshots) {
   for (int i = 0; i < 3; i++) {
-    spore_free(snapshots->buffers[i].q);
-    spore_free(snapshots->buffers[i].v);
+    spore_free(snapshots->q[i]);
+    spore_free(snapshots->v[i]);
     spore_free(snapshots->buffers[i].reaction);
     spore_free(snapshots->buffers[i].contacts);
   }
@@ -46,39 +61,63 @@ static void copy_contacts(const SporeWorld *world, SporeSnapshot *snapshot) {
   }
 }
 
-/* Energy costs as much as a force: it is not worth taking more often than anybody looks. */
-static SporeEnergy recent_energy(SporeWorld *world) {
-  uint64_t now = spore_clock_ns();
-  if (world->step == 0 || now - world->energy_taken_ns > SPORE_SNAPSHOT_ENERGY_AGE_NS) {
-    world->energy = spore_world_energy(world);
-    world->energy_taken_ns = now;
+void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) { body->changed = world->snapshots.newest + 1; }
+
+void spore_world_advance_state(SporeWorld *world) {
+  SporeSnapshots *snapshots = &world->snapshots;
+  uint64_t *there = &snapshots->number[snapshots->triple.writing];
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->changed > snapshots->newest || body->changed <= *there) continue;
+    memcpy(world->next_q + body->q_offset, world->q + body->q_offset, body->q_count * sizeof(double));
+    memcpy(world->next_v + body->v_offset, world->v + body->v_offset, 3 * body->block_count * sizeof(double));
   }
+  *there = ++snapshots->newest;
+  world->q = world->next_q;
+  world->v = world->next_v;
+}
+
+/* Energy costs as much as a force: it is not worth taking when nobody looks. */
+static SporeEnergy recent_energy(SporeWorld *world) {
+  if (atomic_exchange_explicit(&world->snapshots.energy_wanted, false, memory_order_relaxed) || world->step == 0)
+    world->energy = spore_world_energy(world);
   return world->energy;
 }
 
 void spore_snapshot_publish(SporeWorld *world) {
   SporeSnapshots *snapshots = &world->snapshots;
-  SporeSnapshot *snapshot = &snapshots->buffers[snapshots->writing];
+  SporeSnapshot *snapshot = &snapshots->buffers[snapshots->triple.writing];
   snapshot->step = world->step;
   snapshot->time_s = spore_world_time_s(world);
-  memcpy(snapshot->q, world->q, world->q_count * sizeof *world->q);
-  memcpy(snapshot->v, world->v, world->v_count * sizeof *world->v);
   memcpy(snapshot->reaction, world->reaction, 6 * world->body_count * sizeof *world->reaction);
   copy_contacts(world, snapshot);
   snapshot->counts = world->counts;
   snapshot->energy = recent_energy(world);
   snapshot->monitor_messages = world->monitor.message_count;
-  snapshot->hash = spore_world_hash(world);
   snapshot->step_us = world->step_us;
-  unsigned old = atomic_exchange_explicit(&snapshots->middle, snapshots->writing | FRESH, memory_order_acq_rel);
-  snapshots->writing = old & ~FRESH;
+  spore_triple_publish(&snapshots->triple);
+  set_next(world);
 }
 
 const SporeSnapshot *spore_world_snapshot_acquire(SporeWorld *world) {
   SporeSnapshots *snapshots = &world->snapshots;
-  if (atomic_load_explicit(&snapshots->middle, memory_order_acquire) & FRESH) {
-    unsigned old = atomic_exchange_explicit(&snapshots->middle, snapshots->reading, memory_order_acq_rel);
-    snapshots->reading = old & ~FRESH;
-  }
-  return &snapshots->buffers[snapshots->reading];
+  if (spore_triple_acquire(&snapshots->triple))
+    atomic_store_explicit(&snapshots->energy_wanted, true, memory_order_relaxed);
+  return &snapshots->buffers[snapshots->triple.reading];
+}
+
+static uint64_t hash_state(const double *q, size_t q_count, const double *v, size_t v_count, uint64_t step,
+                           double time_s) {
+  uint64_t hash = spore_hash(SPORE_HASH_INIT, q, q_count * sizeof *q);
+  hash = spore_hash(hash, v, v_count * sizeof *v);
+  hash = spore_hash(hash, &step, sizeof step);
+  return spore_hash(hash, &time_s, sizeof time_s);
+}
+
+uint64_t spore_snapshot_hash(const SporeSnapshot *snapshot) {
+  return hash_state(snapshot->q, snapshot->q_count, snapshot->v, snapshot->v_count, snapshot->step, snapshot->time_s);
+}
+
+uint64_t spore_world_hash(const SporeWorld *world) {
+  return hash_state(world->q, world->q_count, world->v, world->v_count, world->step, spore_world_time_s(world));
 }

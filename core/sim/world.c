@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/constraint/pin.h"
@@ -26,38 +25,14 @@ static void clear_commands(SporeCommands *commands) {
 }
 
 static void free_arrays(SporeWorld *world) {
-  void *arrays[] = {world->rest_q,
-                    world->rest_v,
-                    world->world_sites,
-                    world->q,
-                    world->v,
-                    world->target_q,
-                    world->mass,
-                    world->mass_inverse,
-                    world->spheres.centre,
-                    world->spheres.velocity,
-                    world->spheres.radius,
-                    world->spheres.body,
-                    world->reaction,
-                    world->contacts,
-                    world->springs,
-                    world->spring_active,
-                    world->contact_jacobians,
-                    world->spring_jacobians,
-                    world->parent,
-                    world->island_of,
-                    world->island_bodies,
-                    world->islands,
-                    world->contact_order,
-                    world->spring_order,
-                    world->local_sites,
-                    world->local_q0,
-                    world->local_v0,
-                    world->local_q1,
-                    world->local_v1,
-                    world->scratch,
-                    world->precondition,
-                    world->block_stiffness};
+  void *arrays[] = {world->rest_q,         world->rest_v,         world->world_sites,       world->target_q,
+                    world->mass,           world->mass_inverse,   world->spheres.centre,    world->spheres.velocity,
+                    world->spheres.radius, world->spheres.body,   world->reaction,          world->contacts,
+                    world->springs,        world->spring_active,  world->contact_jacobians, world->spring_jacobians,
+                    world->parent,         world->island_of,      world->island_bodies,     world->islands,
+                    world->contact_order,  world->spring_order,   world->local_sites,       world->local_q0,
+                    world->local_v0,       world->local_q1,       world->local_v1,          world->scratch,
+                    world->precondition,   world->block_stiffness};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
 }
 
@@ -120,8 +95,10 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
 }
 
 void spore_world_reset(SporeWorld *world) {
-  memcpy(world->q, world->rest_q, world->q_count * sizeof *world->q);
-  memcpy(world->v, world->rest_v, world->v_count * sizeof *world->v);
+  memcpy(world->next_q, world->rest_q, world->q_count * sizeof *world->q);
+  memcpy(world->next_v, world->rest_v, world->v_count * sizeof *world->v);
+  for (size_t b = 0; b < world->body_count; b++) spore_body_mark_changed(world, &world->bodies[b]);
+  spore_world_advance_state(world);
   memcpy(world->target_q, world->rest_q, world->q_count * sizeof *world->q);
   memset(world->reaction, 0, 6 * world->body_count * sizeof *world->reaction);
   for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
@@ -139,10 +116,12 @@ void spore_world_reset(SporeWorld *world) {
 
 void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, const double *v) {
   SporeBody *body = &world->bodies[index];
-  memcpy(world->q + body->q_offset, q, body->q_count * sizeof *q);
+  memcpy(world->next_q + body->q_offset, q, body->q_count * sizeof *q);
   memcpy(world->target_q + body->q_offset, q, body->q_count * sizeof *q);
-  memcpy(world->v + body->v_offset, v, 3 * body->block_count * sizeof *v);
-  spore_pin_filter(body->held, body->held_count, world->v + body->v_offset);
+  memcpy(world->next_v + body->v_offset, v, 3 * body->block_count * sizeof *v);
+  spore_pin_filter(body->held, body->held_count, world->next_v + body->v_offset);
+  spore_body_mark_changed(world, body);
+  spore_world_advance_state(world);
   body->matrix_c = 0;
   spore_body_reset_choice(body);
   world->contact_count = 0; /* they belong to the state before */
@@ -186,14 +165,6 @@ const double *spore_world_v(const SporeWorld *world, uint32_t body) { return wor
 const SporeProfilePhase *spore_world_profile(const SporeWorld *world) { return &world->profile; }
 const SporeMonitor *spore_world_monitor(const SporeWorld *world) { return &world->monitor; }
 SporeStepCounts spore_world_counts(const SporeWorld *world) { return world->counts; }
-
-uint64_t spore_world_hash(const SporeWorld *world) {
-  double time_s = spore_world_time_s(world);
-  uint64_t hash = spore_hash(SPORE_HASH_INIT, world->q, world->q_count * sizeof *world->q);
-  hash = spore_hash(hash, world->v, world->v_count * sizeof *world->v);
-  hash = spore_hash(hash, &world->step, sizeof world->step);
-  return spore_hash(hash, &time_s, sizeof time_s);
-}
 
 /* Points of an unmovable body stand where its pose puts them. */
 static bool map_fixed(const SporeBody *body, const double *points, size_t count, SporeMapping *mapping,

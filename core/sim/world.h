@@ -160,21 +160,22 @@ typedef struct SporeSnapshotContact {
   SporeVec3 point, force; /* on sphere a */
   uint32_t sphere_a, sphere_b;
 } SporeSnapshotContact;
-#define SPORE_SNAPSHOT_ENERGY_AGE_NS 10000000
 typedef struct SporeSnapshot {
   uint64_t step;
   double time_s;
-  double *q, *v;        /* all bodies, by spore_world_q_offset and _v_offset */
+  size_t q_count, v_count;
+  const double *q, *v;  /* all bodies, by spore_world_q_offset and _v_offset */
   double *reaction;     /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
   size_t contact_count; /* total; at most contact_capacity are listed */
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
   SporeStepCounts counts;
-  SporeEnergy energy;        /* of this state, or of one at most SPORE_SNAPSHOT_ENERGY_AGE_NS of wall clock before it */
+  SporeEnergy energy;        /* of this state, or of the first one after the snapshot before was acquired */
   uint64_t monitor_messages; /* as SporeMonitor.message_count */
-  uint64_t hash;
   double step_us;
 } SporeSnapshot;
+/* spore_world_hash of the state that is shown. */
+uint64_t spore_snapshot_hash(const SporeSnapshot *snapshot);
 /* The newest snapshot; stays valid until the next call. Never NULL: before the first step it is time 0. */
 const SporeSnapshot *spore_world_snapshot_acquire(SporeWorld *world);
 

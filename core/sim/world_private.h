@@ -1,12 +1,15 @@
 /* Inside of a world, for the files of core/sim.
  *
- * The last good state lies in `q` and `v`, body by body. A step sorts the bodies that move into islands, copies each
- * island's state next to each other into the local vectors, integrates there, and copies back what is good. */
+ * The last good state lies in `q` and `v`, body by body; a step only reads it, and writes the next one into `next_q`
+ * and `next_v`. Both are buffers of the snapshots, so that to publish a state nothing is copied. A step sorts the
+ * bodies that move into islands. An island whose bodies lie next to each other is integrated from the one pair of
+ * vectors to the other; the state of any other is copied together into the local vectors, and back from there. */
 #ifndef SPORE_SIM_WORLD_PRIVATE_H
 #define SPORE_SIM_WORLD_PRIVATE_H
 
 #include <stdatomic.h>
 
+#include "core/base/triple.h"
 #include "core/collide/grid.h"
 #include "core/haptic/guard.h"
 #include "core/integrate/integrator.h"
@@ -51,6 +54,7 @@ typedef struct SporeBody {
   size_t held_count;
 
   bool frozen;
+  uint64_t changed;  /* number of the state that its own last differed in from the one before: see snapshot.c */
   SporeTrouble told; /* the worst that the monitor has said of it */
 
   SporeBlockMatrix matrix;    /* M + c D + c2 K of the model alone; empty where that is M */
@@ -74,6 +78,10 @@ typedef struct SporeIsland {
   size_t contact_start, contact_count;       /* in contact_order */
   size_t spring_start, spring_count;         /* in spring_order */
   size_t q_start, q_count, v_start, v_count; /* in the local vectors */
+  /* From where to where a step takes it: see spore_island_gather. */
+  const double *q0, *v0;
+  double *q1, *v1;
+  bool in_place; /* q1 and v1 lie in next_q and next_v */
   SporeIntegratorKind integrator;
   double gravity_momentum; /* (M g . g)^1/2 */
   /* What came of it. */
@@ -91,8 +99,10 @@ typedef struct SporeStage {
 
 typedef struct SporeSnapshots {
   SporeSnapshot buffers[3];
-  unsigned writing, reading; /* buffer of each side; the third is in `middle` */
-  _Atomic unsigned middle;   /* its index, and SPORE_SNAPSHOT_FRESH when the reader has not seen it */
+  SporeTriple triple;
+  double *q[3], *v[3];        /* the buffers' own */
+  uint64_t number[3], newest; /* of the state in each buffer; of the last one made */
+  atomic_bool energy_wanted;  /* somebody looks */
 } SporeSnapshots;
 
 typedef struct SporeCommands {
@@ -113,7 +123,8 @@ struct SporeWorld {
   /* State. */
   uint64_t step;
   SporeVec3 gravity;
-  double *q, *v;               /* the last good state */
+  const double *q, *v;         /* the last good state */
+  double *next_q, *next_v;     /* the one that the step makes */
   double *target_q;            /* where active bodies are to be at the end of the step */
   double *mass, *mass_inverse; /* 9 a block, at 3 x the block's place in v */
   SporeSpheres spheres;
@@ -157,9 +168,8 @@ struct SporeWorld {
   size_t pull_count; /* pulls held now */
   SporePlanLeftOut left_out[SPORE_LEFT_OUT_MAXIMUM];
   SporeProfilePhase profile;
-  double step_us;           /* of the step before */
-  SporeEnergy energy;       /* the last one taken for a snapshot */
-  uint64_t energy_taken_ns; /* wall clock */
+  double step_us;     /* of the step before */
+  SporeEnergy energy; /* the last one taken for a snapshot */
 };
 
 static inline bool spore_body_moves(const SporeBody *body) { return body->role == SPORE_PASSIVE && !body->frozen; }
@@ -192,7 +202,7 @@ void spore_world_commit(SporeWorld *world);    /* commit.c */
 void spore_world_fill_end(const SporeWorld *world, SporeEnd *end);
 bool spore_world_reserve_contacts(SporeWorld *world);
 
-/* islands.c: places of the bodies of an island in the local vectors, and their state there. */
+/* islands.c: places of the bodies of an island in its vectors, and their last good state there. */
 void spore_island_gather(SporeWorld *world, SporeIsland *island);
 /* dynamics.c: the island as the integrators see it. `group` lives as long as the dynamics. */
 typedef struct SporeGroup {
@@ -214,7 +224,7 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 /* monitor.c */
 SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *island, uint32_t *offender);
 void spore_island_recover(SporeWorld *world, SporeIsland *island);
-/* One step of the world in `substeps` parts, from local_q0 and local_v0 (spoilt) to local_q1 and local_v1. */
+/* One step of the world in `substeps` parts, from q0 and v0 of the island to q1 and v1; spoils the local vectors. */
 SporeStepResult spore_island_advance(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind,
                                      size_t substeps);
 void spore_world_report(SporeWorld *world, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -223,6 +233,11 @@ void spore_world_report_islands(SporeWorld *world);
 /* snapshot.c */
 bool spore_snapshots_init(SporeWorld *world);
 void spore_snapshots_clear(SporeSnapshots *snapshots);
+/* A body whose part of the next state was written: number it. */
+void spore_body_mark_changed(const SporeWorld *world, SporeBody *body);
+/* Fills what was not written of the next state from the last one, and makes it the state. */
+void spore_world_advance_state(SporeWorld *world);
+/* Shows the state to the reader; the next one can be written now. */
 void spore_snapshot_publish(SporeWorld *world);
 
 /* plan.c */

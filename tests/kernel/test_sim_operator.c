@@ -76,7 +76,9 @@ static void test_dense(void) {
   SporeGroup group = {world, island};
   SporeDynamics dynamics = spore_group_dynamics(&group);
   g_assert_cmpuint(3 * dynamics.block_count, ==, N);
-  double *q = world->local_q0, *v = world->local_v0;
+  double q[N], v[N];
+  memcpy(q, island->q0, sizeof q);
+  memcpy(v, island->v0, sizeof v);
   const double c = 0.03, c2 = 0.002;
   dynamics.linearise(dynamics.data, q, v, c, c2);
   double worst = 0, largest = 0, asymmetry = 0, dense[N][N];
@@ -109,7 +111,7 @@ static void test_preconditioner(void) {
   SporeWorld *world = make();
   SporeGroup group = {world, &world->islands[0]};
   SporeDynamics dynamics = spore_group_dynamics(&group);
-  dynamics.linearise(dynamics.data, world->local_q0, world->local_v0, 0.03, 0.002);
+  dynamics.linearise(dynamics.data, world->islands[0].q0, world->islands[0].v0, 0.03, 0.002);
   for (int j = 0; j < N; j++) {
     if (j >= 9 && j < 12) continue;
     double unit[N] = {0}, product[N], block[N] = {0}, back[N];
@@ -128,7 +130,7 @@ static void test_factor(void) {
   SporeGroup group = {world, &world->islands[0]};
   SporeDynamics dynamics = spore_group_dynamics(&group);
   for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = true;
-  dynamics.linearise(dynamics.data, world->local_q0, world->local_v0, 0.03, 0.002);
+  dynamics.linearise(dynamics.data, world->islands[0].q0, world->islands[0].v0, 0.03, 0.002);
   for (int b = 0; b < 2; b++) g_assert_true(world->bodies[b].factor_ready);
   for (int j = 0; j < N; j++) {
     if (j >= 9 && j < 12) continue;

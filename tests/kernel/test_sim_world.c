@@ -73,7 +73,7 @@ static void test_threads(gconstpointer data) {
     g_assert_cmpuint(spore_world_counts(world).islands, <, PILE);
     if (threads == 1) expected = spore_world_hash(world);
     g_assert_cmpuint(spore_world_hash(world), ==, expected);
-    g_assert_cmpuint(spore_world_snapshot_acquire(world)->hash, ==, expected);
+    g_assert_cmpuint(spore_snapshot_hash(spore_world_snapshot_acquire(world)), ==, expected);
     spore_world_free(world);
     spore_pool_free(pool);
   }

@@ -111,7 +111,7 @@ static void test_steps_equal_loop(Fixture *fixture, gconstpointer data) {
     g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 1);
     spore_session_step(session, STEPS - 1);
     g_assert_cmpuint(spore_session_snapshot(session)->step, ==, STEPS);
-    g_assert_cmphex(spore_session_snapshot(session)->hash, ==, expected);
+    g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), ==, expected);
     spore_session_free(session);
   }
 }
@@ -121,7 +121,7 @@ static void test_free_run_equals_loop(Fixture *fixture, gconstpointer data) {
     SporeSession *session = new_session(fixture, threads, &fixture->track);
     spore_session_set_speed(session, 0);
     guint steps = play_past(session, STEPS);
-    guint64 hash = spore_session_snapshot(session)->hash;
+    guint64 hash = spore_snapshot_hash(spore_session_snapshot(session));
     g_assert_cmphex(hash, ==, loop_hash(fixture, &fixture->track, steps));
     spore_session_free(session);
   }
@@ -132,7 +132,7 @@ static void test_paced_run_equals_loop(Fixture *fixture, gconstpointer data) {
   play_past(session, 20);
   spore_session_set_speed(session, 0.5);
   guint steps = play_past(session, 40);
-  g_assert_cmphex(spore_session_snapshot(session)->hash, ==, loop_hash(fixture, &fixture->track, steps));
+  g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), ==, loop_hash(fixture, &fixture->track, steps));
   spore_session_free(session);
 }
 
@@ -152,14 +152,14 @@ static void test_pause_stands_still(Fixture *fixture, gconstpointer data) {
 
 static void test_reset_goes_back(Fixture *fixture, gconstpointer data) {
   SporeSession *session = new_session(fixture, 1, &fixture->track);
-  guint64 start = spore_session_snapshot(session)->hash;
+  guint64 start = spore_snapshot_hash(spore_session_snapshot(session));
   spore_session_step(session, STEPS);
-  guint64 end = spore_session_snapshot(session)->hash;
+  guint64 end = spore_snapshot_hash(spore_session_snapshot(session));
   spore_session_reset(session);
   g_assert_cmpuint(spore_session_snapshot(session)->step, ==, 0);
-  g_assert_cmphex(spore_session_snapshot(session)->hash, ==, start);
+  g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), ==, start);
   spore_session_step(session, STEPS);
-  g_assert_cmphex(spore_session_snapshot(session)->hash, ==, end);
+  g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), ==, end);
   spore_session_play(session);
   spore_session_reset(session);
   g_assert_true(spore_session_is_playing(session));
@@ -196,7 +196,7 @@ static void test_track_wins_over_pointer(Fixture *fixture, gconstpointer data) {
   SporeSession *session = new_session(fixture, 1, &fixture->track);
   lead(session, 1, 1);
   spore_session_step(session, STEPS);
-  g_assert_cmphex(spore_session_snapshot(session)->hash, ==, loop_hash(fixture, &fixture->track, STEPS));
+  g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), ==, loop_hash(fixture, &fixture->track, STEPS));
   spore_session_free(session);
 }
 
@@ -208,7 +208,7 @@ static void test_recording_repeats(Fixture *fixture, gconstpointer data) {
   spore_session_step(session, 60);
   lead(session, 0.06, -0.01);
   spore_session_step(session, 60);
-  guint64 expected = spore_session_snapshot(session)->hash;
+  guint64 expected = spore_snapshot_hash(spore_session_snapshot(session));
   SporeTrack *recording = spore_session_recording(session);
   spore_session_free(session);
   g_assert_cmphex(loop_hash(fixture, recording, 150), ==, expected);
