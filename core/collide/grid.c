@@ -1,226 +1,103 @@
-#include "core/collide/grid.h"
+#include "core/collide/grid_private.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "core/collide/cells.h"
 #include "core/collide/narrow.h"
 
-#define SLACK 1e-6  /* of a cell's width, added to every range of cells: more than any rounding of a bound */
 #define LARGEST 1e9 /* m: of radii and of the coordinates of what never moves */
 #define SMALLEST_RADIUS 1e-9
 
-enum { BODY_PASSIVE = 1, BODY_SELF = 2 };
+/* Pairs are looked for among balls that are larger than the spheres need by a skin, and the list of them serves for as
+ * long as every sphere stays within its ball: the narrow phase alone decides what touches, so that the contacts are
+ * those of a fresh search. */
+#define SKIN_STEPS 8       /* the skin lasts for so many steps at the speed of now */
+#define SKIN_SMALLEST 0.05 /* of the radius */
+#define SKIN_LARGEST 1.0   /* of the radius */
+#define LIST_STEPS 3       /* a list that serves for fewer steps does not pay */
+#define PAUSE_LONGEST 128
+#define CONTACT_PAIRS 3 /* room for pairs, per contact that there is room for */
 
-typedef struct Pair {
-  uint32_t a, b; /* a < b */
-} Pair;
+/* Lists. */
 
-struct SporeGrid {
-  size_t count, static_count, body_count, capacity;
-  unsigned char *bodies; /* BODY_ flags */
-  SporeCellScale scale;
-  SporeCells unmovable, moving;
-  /* Spheres outside their body's region, the part of space that it shares with bodies it pairs with, need no cell.
-   * Regions are looked for only where there are so few bodies that trying every pair of them costs no more than
-   * the spheres do; else NULL. */
-  SporeBounds *bounds, *regions; /* body_count */
-  /* Pairs of one body that touch at rest: for sphere a, those b > a, ascending. NULL: no body collides with itself. */
-  uint32_t *excluded_start; /* count + 1 */
-  uint32_t *excluded;
-
-  SporeContact *contacts; /* capacity */
-  size_t pair_count, missed;
-  Pair *pairs, *sorted_pairs; /* capacity */
-  uint32_t *bucket;           /* count + 1 */
-};
-
-/* Pair filter. */
-
-static inline bool bodies_pair(const SporeGrid *grid, uint32_t a, uint32_t b) {
-  if (a == b) return grid->bodies[a] & BODY_SELF;
-  return (grid->bodies[a] | grid->bodies[b]) & BODY_PASSIVE;
-}
-
-static bool touched_at_rest(const SporeGrid *grid, uint32_t a, uint32_t b) {
-  if (!grid->excluded_start) return false;
-  for (uint32_t k = grid->excluded_start[a]; k < grid->excluded_start[a + 1] && grid->excluded[k] <= b; k++)
-    if (grid->excluded[k] == b) return true;
-  return false;
-}
-
-static void add_pair(SporeGrid *grid, uint32_t body_a, uint32_t sphere_a, uint32_t body_b, uint32_t sphere_b) {
-  if (!bodies_pair(grid, body_a, body_b)) return;
-  uint32_t a = sphere_a < sphere_b ? sphere_a : sphere_b, b = sphere_a < sphere_b ? sphere_b : sphere_a;
-  if (body_a == body_b && touched_at_rest(grid, a, b)) return;
-  if (grid->pair_count < grid->capacity) grid->pairs[grid->pair_count++] = (Pair){a, b};
-  else grid->missed++;
-}
-
-/* Broad phase. */
-
-static inline bool balls_touch(const double *a, const double *b) {
-  double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], reach = a[3] + b[3];
-  return x * x + y * y + z * z < reach * reach;
-}
-
-/* Whether the pair filter lets through any pair of the two cells, as far as their bodies tell. */
-static bool cells_pair(const SporeGrid *grid, const SporeCell *a, const SporeCell *b) {
-  return a->body == SPORE_CELL_MIXED || b->body == SPORE_CELL_MIXED || bodies_pair(grid, a->body, b->body);
-}
-
-/* Pairs of a moving cell with another cell of `others`. */
-static void pair_cells(SporeGrid *grid, const SporeCell *cell, const SporeCells *others, const SporeCell *other) {
-  if (!cells_pair(grid, cell, other) || !spore_bounds_touch(&cell->bounds, &other->bounds)) return;
-  const SporeCells *moving = &grid->moving;
-  for (uint32_t i = cell->first; i < cell->first + cell->count; i++) {
-    const double *ball = moving->middle + 4 * (size_t)i;
-    if (!spore_bounds_touch_ball(&other->bounds, ball)) continue;
-    for (uint32_t j = other->first; j < other->first + other->count; j++)
-      if (balls_touch(ball, others->middle + 4 * (size_t)j))
-        add_pair(grid, moving->body[i], moving->sphere[i], others->body[j], others->sphere[j]);
-  }
-}
-
-static void pair_within_cell(SporeGrid *grid, const SporeCell *cell) {
-  if (!cells_pair(grid, cell, cell)) return;
-  const SporeCells *moving = &grid->moving;
-  for (uint32_t i = cell->first; i < cell->first + cell->count; i++)
-    for (uint32_t j = i + 1; j < cell->first + cell->count; j++)
-      if (balls_touch(moving->middle + 4 * (size_t)i, moving->middle + 4 * (size_t)j))
-        add_pair(grid, moving->body[i], moving->sphere[i], moving->body[j], moving->sphere[j]);
-}
-
-/* The half of the 26 neighbours that comes after a cell in order of x, y, z: each pair of cells is met once. */
-static void pair_with_neighbours(SporeGrid *grid, const SporeCell *cell) {
-  static const signed char AFTER[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
-                                           {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
-                                           {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
-  const SporeCells *moving = &grid->moving;
-  if (moving->class_count[cell->class] < 2) return;
-  for (int k = 0; k < 13; k++) {
-    uint32_t other =
-        spore_cells_find(moving, cell->x + AFTER[k][0], cell->y + AFTER[k][1], cell->z + AFTER[k][2], cell->class);
-    if (other != SPORE_CELL_NONE) pair_cells(grid, cell, moving, &moving->cells[other]);
-  }
-}
-
-/* Cells of a class whose spheres may touch a cell's. */
-typedef struct CellRange {
-  int32_t lower[3], upper[3];
-  double count;
-} CellRange;
-
-static CellRange range_of(const SporeGrid *grid, const SporeCell *cell, double reach, int class) {
-  const double origin[3] = {grid->scale.origin.x, grid->scale.origin.y, grid->scale.origin.z};
-  double margin = reach + SLACK * grid->scale.width[class], inverse = grid->scale.inverse[class];
-  CellRange range = {.count = 1};
-  for (int k = 0; k < 3; k++) {
-    range.lower[k] = spore_cell_index(cell->bounds.lower[k] - margin - origin[k], inverse);
-    range.upper[k] = spore_cell_index(cell->bounds.upper[k] + margin - origin[k], inverse);
-    range.count *= (double)range.upper[k] - range.lower[k] + 1;
-  }
-  return range;
-}
-
-/* Within one class nothing touches beyond the next cell. */
-static void keep_to_neighbours(CellRange *range, const SporeCell *cell) {
-  const int32_t at[3] = {cell->x, cell->y, cell->z};
-  for (int k = 0; k < 3; k++) {
-    if (range->lower[k] < at[k] - 1) range->lower[k] = at[k] - 1;
-    if (range->upper[k] > at[k] + 1) range->upper[k] = at[k] + 1;
-  }
-}
-
-/* Pairs of a moving cell with all those of one class of `others`. */
-static void pair_with_class(SporeGrid *grid, const SporeCell *cell, const SporeCells *others, int class) {
-  CellRange range = range_of(grid, cell, others->class_reach[class], class);
-  if (class == cell->class) keep_to_neighbours(&range, cell);
-  if (range.count > others->class_count[class]) { /* fewer cells exist than the range spans */
-    for (uint32_t c = others->class_head[class]; c != SPORE_CELL_NONE; c = others->cells[c].next_in_class)
-      pair_cells(grid, cell, others, &others->cells[c]);
-    return;
-  }
-  for (int32_t x = range.lower[0]; x <= range.upper[0]; x++)
-    for (int32_t y = range.lower[1]; y <= range.upper[1]; y++)
-      for (int32_t z = range.lower[2]; z <= range.upper[2]; z++) {
-        uint32_t other = spore_cells_find(others, x, y, z, class);
-        if (other != SPORE_CELL_NONE) pair_cells(grid, cell, others, &others->cells[other]);
-      }
-}
-
-static void find_pairs(SporeGrid *grid) {
-  grid->pair_count = grid->missed = 0;
-  for (size_t c = 0; c < grid->moving.cell_count; c++) {
-    const SporeCell *cell = &grid->moving.cells[c];
-    pair_within_cell(grid, cell);
-    pair_with_neighbours(grid, cell);
-    for (int class = cell->class + 1; class < SPORE_CELL_CLASSES && grid->moving.classes >> class; class ++)
-      if (grid->moving.classes >> class & 1) pair_with_class(grid, cell, &grid->moving, class);
-    for (int class = 0; class < SPORE_CELL_CLASSES && grid->unmovable.classes >> class; class ++)
-      if (grid->unmovable.classes >> class & 1) pair_with_class(grid, cell, &grid->unmovable, class);
-  }
-}
-
-/* Regions. */
-
-static void add_balls_to_bounds(SporeBounds *bounds, const SporeSpheres *spheres, size_t first, size_t count,
-                                const double *balls) {
-  for (size_t i = 0; i < count; i++)
-    if (balls[4 * i + 3] >= 0) spore_bounds_add_ball(&bounds[spheres->body[first + i]], balls + 4 * i);
-}
-
-static void find_regions(SporeGrid *grid, const SporeSpheres *spheres) {
+/* The balls of this step with a skin: steps at the speed of now, within bounds; steps = 0: none. */
+static void add_skins(SporeGrid *grid, const SporeSpheres *spheres, double steps) {
   size_t moving = grid->count - grid->static_count;
-  const uint32_t *bodies = spheres->body + grid->static_count;
-  for (size_t i = 0; i < moving; i++) grid->bounds[bodies[i]] = SPORE_BOUNDS_EMPTY;
-  add_balls_to_bounds(grid->bounds, spheres, grid->static_count, moving, grid->moving.unsorted);
-  for (uint32_t i = 0; i < grid->body_count; i++)
-    grid->regions[i] = grid->bodies[i] & BODY_SELF ? grid->bounds[i] : SPORE_BOUNDS_EMPTY;
-  for (uint32_t i = 0; i < grid->body_count; i++)
-    for (uint32_t j = i + 1; j < grid->body_count; j++)
-      if (bodies_pair(grid, i, j) && spore_bounds_touch(&grid->bounds[i], &grid->bounds[j])) {
-        spore_bounds_add_common(&grid->regions[i], &grid->bounds[i], &grid->bounds[j]);
-        spore_bounds_add_common(&grid->regions[j], &grid->bounds[i], &grid->bounds[j]);
-      }
+  const double *ball = grid->balls + 4 * grid->static_count, *radius = spheres->radius + grid->static_count;
+  double *skinned = grid->moving.unsorted;
+  for (size_t i = 0; i < moving; i++, ball += 4, skinned += 4) {
+    double travel = 2 * (ball[3] - radius[i]);
+    double skin = fmin(fmax(steps * travel, SKIN_SMALLEST * radius[i]), SKIN_LARGEST * radius[i]);
+    for (int k = 0; k < 4; k++) skinned[k] = ball[k];
+    if (steps > 0 && ball[3] >= 0) skinned[3] += skin;
+  }
 }
 
-static void place_moving(SporeGrid *grid, const SporeSpheres *spheres, double dt_s) {
-  size_t count = grid->count - grid->static_count;
-  spore_cells_find_balls(spheres, grid->static_count, count, dt_s, grid->moving.unsorted);
-  if (grid->regions) find_regions(grid, spheres);
-  spore_cells_fill(&grid->moving, &grid->scale, spheres, grid->static_count, count, grid->regions);
+/* Whether every sphere stays within the ball that the list was made for. */
+static bool list_serves(const SporeGrid *grid) {
+  const double *ball = grid->balls + 4 * grid->static_count, *skinned = grid->moving.unsorted;
+  size_t moving = grid->count - grid->static_count, outside = 0;
+  for (size_t i = 0; i < moving; i++, ball += 4, skinned += 4) {
+    double x = ball[0] - skinned[0], y = ball[1] - skinned[1], z = ball[2] - skinned[2], room = skinned[3] - ball[3];
+    bool both = ball[3] >= 0 && room >= 0 && x * x + y * y + z * z <= room * room * (1 - 1e-9);
+    outside += !(both || (ball[3] < 0 && skinned[3] < 0));
+  }
+  return outside == 0;
 }
 
-/* Sorting by (a, b): two stable counting sorts, b first. */
-
-static inline uint32_t key_of(const Pair *pair, bool by_a) { return by_a ? pair->a : pair->b; }
-
-static void counting_sort(SporeGrid *grid, const Pair *from, Pair *to, bool by_a) {
-  memset(grid->bucket, 0, (grid->count + 1) * sizeof *grid->bucket);
-  for (size_t i = 0; i < grid->pair_count; i++) grid->bucket[key_of(&from[i], by_a) + 1]++;
-  for (size_t i = 0; i < grid->count; i++) grid->bucket[i + 1] += grid->bucket[i];
-  for (size_t i = 0; i < grid->pair_count; i++) to[grid->bucket[key_of(&from[i], by_a)]++] = from[i];
+static void list_pairs(SporeGrid *grid, const SporeSpheres *spheres, double skin_steps) {
+  add_skins(grid, spheres, skin_steps);
+  spore_grid_find_pairs(grid, spheres);
 }
 
-static void sort_pairs(SporeGrid *grid) {
-  counting_sort(grid, grid->pairs, grid->sorted_pairs, false);
-  counting_sort(grid, grid->sorted_pairs, grid->pairs, true);
+/* Without lists for a while: they do not pay, or have no room. */
+static void pause_lists(SporeGrid *grid) {
+  grid->pause_left = grid->pause;
+  if (grid->pause < PAUSE_LONGEST) grid->pause *= 2;
+}
+
+static void renew_list(SporeGrid *grid, const SporeSpheres *spheres) {
+  if (grid->pause_left > 0) grid->pause_left--;
+  else if (grid->listed && grid->list_steps < LIST_STEPS) pause_lists(grid);
+  else if (grid->listed) grid->pause = SPORE_GRID_SHORTEST_PAUSE;
+  bool skinned = grid->pause_left == 0;
+  list_pairs(grid, spheres, skinned ? SKIN_STEPS : 0);
+  if (skinned && grid->missed_pairs) {
+    pause_lists(grid);
+    list_pairs(grid, spheres, 0);
+  }
+  spore_grid_sort_pairs(grid);
+  grid->listed = grid->missed_pairs == 0;
+  grid->list_steps = 0;
+}
+
+/* Contacts of the listed pairs; *missed: those without room. */
+static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
+  size_t contact_count = 0;
+  SporeContact beyond;
+  for (size_t i = 0; i < grid->pair_count; i++) {
+    const SporePair *pair = &grid->pairs[i];
+    if (!spore_balls_touch(grid->balls + 4 * (size_t)pair->a, grid->balls + 4 * (size_t)pair->b)) continue;
+    bool room = contact_count < grid->capacity;
+    SporeContact *contact = room ? &grid->contacts[contact_count] : &beyond;
+    if (!spore_narrow_contact(spheres, pair->a, pair->b, dt_s, contact)) continue;
+    if (room) contact_count++;
+    else ++*missed;
+  }
+  return contact_count;
 }
 
 size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
-  place_moving(grid, spheres, dt_s);
-  find_pairs(grid);
-  sort_pairs(grid);
-  size_t contact_count = 0;
-  for (size_t i = 0; i < grid->pair_count; i++) {
-    const Pair *pair = &grid->pairs[i];
-    if (spore_narrow_contact(spheres, pair->a, pair->b, dt_s, &grid->contacts[contact_count])) contact_count++;
-  }
-  *missed = grid->missed;
-  return contact_count;
+  spore_cells_find_balls(spheres, grid->static_count, grid->count - grid->static_count, dt_s,
+                         grid->balls + 4 * grid->static_count);
+  if (!grid->listed || !list_serves(grid)) renew_list(grid, spheres);
+  grid->list_steps++;
+  *missed = 0;
+  size_t count = find_contacts(grid, spheres, dt_s, missed);
+  if (grid->missed_pairs) *missed = grid->pair_count + grid->missed_pairs - count;
+  return count;
 }
 
 /* Creation. */
@@ -292,7 +169,8 @@ static bool create_regions(SporeGrid *grid) {
 static void place_unmovable(SporeGrid *grid, const SporeSpheres *spheres) {
   double *balls = grid->unmovable.unsorted;
   spore_cells_find_balls(spheres, 0, grid->static_count, 0, balls);
-  if (grid->bounds) add_balls_to_bounds(grid->bounds, spheres, 0, grid->static_count, balls);
+  memcpy(grid->balls, balls, 4 * grid->static_count * sizeof *balls);
+  if (grid->bounds) spore_grid_add_bounds(grid->bounds, spheres, 0, grid->static_count, balls);
   spore_cells_fill(&grid->unmovable, &grid->scale, spheres, 0, grid->static_count, NULL);
 }
 
@@ -305,9 +183,12 @@ static SporeGrid *create_plain(const SporeSpheres *spheres, const unsigned char 
   grid->static_count = spheres->static_count;
   grid->body_count = body_count;
   grid->scale = scale_of(spheres);
+  grid->pause = SPORE_GRID_SHORTEST_PAUSE;
+  grid->balls = SPORE_NEW_ARRAY(double, 4 * spheres->count);
   grid->bodies = SPORE_NEW_ARRAY(unsigned char, body_count);
   grid->bucket = SPORE_NEW_ARRAY(uint32_t, spheres->count + 1);
-  bool complete = grid->bodies && grid->bucket && spore_cells_create(&grid->unmovable, grid->static_count) &&
+  bool complete = grid->bodies && grid->balls && grid->bucket &&
+                  spore_cells_create(&grid->unmovable, grid->static_count) &&
                   spore_cells_create(&grid->moving, grid->count - grid->static_count) &&
                   spore_grid_reserve(grid, contact_capacity) && create_regions(grid);
   if (!complete) {
@@ -340,15 +221,15 @@ static bool build_exclusions(SporeGrid *grid, const SporeSpheres *rest, double *
   spheres.radius = wider;
   spheres.velocity = still;
   for (size_t i = 0; i < rest->count; i++) wider[i] = rest->radius[i] * (1 + SPORE_GRID_SELF_MARGIN);
-  for (size_t i = 0; i < grid->body_count; i++) selves[i] = grid->bodies[i] & BODY_SELF;
+  for (size_t i = 0; i < grid->body_count; i++) selves[i] = grid->bodies[i] & SPORE_GRID_SELF;
   SporeGrid *finder = create_plain(&spheres, selves, grid->body_count, 0);
   if (!finder) return false;
-  place_moving(finder, &spheres, 0);
-  find_pairs(finder);
-  bool complete = finder->missed == 0 || spore_grid_reserve(finder, finder->capacity + finder->missed);
+  spore_cells_find_balls(&spheres, 0, finder->count, 0, finder->balls);
+  list_pairs(finder, &spheres, 0);
+  bool complete = finder->missed_pairs == 0 || spore_grid_reserve(finder, finder->pair_capacity + finder->missed_pairs);
   if (complete) {
-    find_pairs(finder);
-    sort_pairs(finder);
+    spore_grid_find_pairs(finder, &spheres);
+    spore_grid_sort_pairs(finder);
     complete = take_exclusions(grid, finder);
   }
   spore_grid_free(finder);
@@ -356,7 +237,7 @@ static bool build_exclusions(SporeGrid *grid, const SporeSpheres *rest, double *
 }
 
 static bool exclude_rest_contacts(SporeGrid *grid, const SporeSpheres *rest) {
-  if (!memchr(grid->bodies, BODY_PASSIVE | BODY_SELF, grid->body_count)) return true;
+  if (!memchr(grid->bodies, SPORE_GRID_PASSIVE | SPORE_GRID_SELF, grid->body_count)) return true;
   double *still = SPORE_NEW_ARRAY(double, 3 * rest->count), *wider = SPORE_NEW_ARRAY(double, rest->count);
   unsigned char *selves = SPORE_NEW_ARRAY(unsigned char, grid->body_count);
   bool complete = still && wider && selves && build_exclusions(grid, rest, still, wider, selves);
@@ -368,7 +249,7 @@ static bool exclude_rest_contacts(SporeGrid *grid, const SporeSpheres *rest) {
 
 static unsigned char flags_of(const SporeGridBody *body) {
   if (!body->passive) return 0;
-  return body->self ? BODY_PASSIVE | BODY_SELF : BODY_PASSIVE;
+  return body->self ? SPORE_GRID_PASSIVE | SPORE_GRID_SELF : SPORE_GRID_PASSIVE;
 }
 
 SporeGrid *spore_grid_create(const SporeSpheres *rest, const SporeGridBody *bodies, size_t body_count,
@@ -389,6 +270,7 @@ void spore_grid_free(SporeGrid *grid) {
   spore_cells_clear(&grid->unmovable);
   spore_cells_clear(&grid->moving);
   spore_free(grid->bodies);
+  spore_free(grid->balls);
   spore_free(grid->bounds);
   spore_free(grid->regions);
   spore_free(grid->excluded_start);
@@ -402,8 +284,10 @@ void spore_grid_free(SporeGrid *grid) {
 
 bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity) {
   if (contact_capacity == 0) contact_capacity = 4 * (grid->count - grid->static_count) + 64;
+  size_t pair_capacity = CONTACT_PAIRS * contact_capacity;
   SporeContact *contacts = SPORE_NEW_ARRAY(SporeContact, contact_capacity);
-  Pair *pairs = SPORE_NEW_ARRAY(Pair, contact_capacity), *sorted_pairs = SPORE_NEW_ARRAY(Pair, contact_capacity);
+  SporePair *pairs = SPORE_NEW_ARRAY(SporePair, pair_capacity),
+            *sorted_pairs = SPORE_NEW_ARRAY(SporePair, pair_capacity);
   if (!contacts || !pairs || !sorted_pairs) {
     spore_free(contacts);
     spore_free(pairs);
@@ -417,6 +301,8 @@ bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity) {
   grid->pairs = pairs;
   grid->sorted_pairs = sorted_pairs;
   grid->capacity = contact_capacity;
+  grid->pair_capacity = pair_capacity;
+  grid->listed = false;
   return true;
 }
 

@@ -4,7 +4,11 @@
  * as those of the class below and at least as wide as the spheres in them), so that any mixture of radii costs O(n)
  * time and memory. Table entries carry the number of the step that wrote them and count as empty in any other: the
  * table is never emptied. Unmovable spheres have a table of their own, filled at creation. A pair is looked for from
- * its smaller class, among unmovable spheres from the moving one, and so is found exactly once. */
+ * its smaller class, among unmovable spheres from the moving one, and so is found exactly once.
+ *
+ * The grid remembers pairs that are near and looks for new ones only when a sphere has moved out of the ball that it
+ * was near in (L. Verlet, "Computer 'Experiments' on Classical Fluids I", Phys. Rev. 159, 1967); what it finds does not
+ * depend on that. */
 #ifndef SPORE_COLLIDE_GRID_H
 #define SPORE_COLLIDE_GRID_H
 

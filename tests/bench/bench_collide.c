@@ -67,7 +67,7 @@ static void measure(Case *self, const char *name, const double *centre) {
   enum { RUNS = 5 };
   SporeGrid *grid = spore_grid_create(&self->spheres, self->bodies, self->body_count, 16 * self->spheres.count, NULL);
   if (centre) memcpy(self->spheres.centre, centre, 3 * self->spheres.count * sizeof *centre);
-  size_t contacts = 0, missed = 0, steps = 4 + 400000 / (self->spheres.count + 1);
+  size_t contacts = 0, missed = 0, steps = 32 + 400000 / (self->spheres.count + 1);
   if (steps > 400) steps = 400;
   double best = HUGE_VAL;
   for (int run = 0; run < RUNS; run++) {

@@ -173,6 +173,35 @@ static void test_apart(void) {
   }
 }
 
+/* Step after step, the grid that remembers finds bit for bit what one finds that was made just now: at every speed,
+ * when spheres stop, jump, come to be not finite and come back. */
+static void test_remembers(void) {
+  for (int round = 0; round < 6; round++) {
+    Scene scene;
+    scene_random(&scene, 500, 150, 1, 0.02, 0.08, (SporeVec3){0, 0, 0});
+    SporeSpheres *spheres = &scene.spheres;
+    SporeGrid *grid = create(&scene);
+    double fastest = 1e-3 * pow(10, 0.5 * round), dt_s = 1e-2;
+    for (size_t i = 3 * 150; i < 3 * 500; i++) spheres->velocity[i] = uniform(-fastest, fastest);
+    for (int step = 0; step < 60; step++) {
+      double old = spheres->centre[3 * 200];
+      if (step == 20) memset(spheres->velocity, 0, 3 * 500 * sizeof(double));
+      if (step == 30) spheres->centre[3 * 300] += 0.5;
+      if (step > 40 && step < 50) spheres->centre[3 * 200] = NAN;
+      SporeGrid *fresh = create(&scene);
+      size_t count = check_against_brute_force(&scene, grid, dt_s);
+      g_assert_cmpuint(detect(fresh, spheres, dt_s), ==, count);
+      g_assert_cmpmem(spore_grid_contacts(grid), count * sizeof(SporeContact), spore_grid_contacts(fresh),
+                      count * sizeof(SporeContact));
+      spore_grid_free(fresh);
+      spheres->centre[3 * 200] = old;
+      for (size_t i = 3 * 150; i < 3 * 500; i++) spheres->centre[i] += dt_s * spheres->velocity[i];
+    }
+    spore_grid_free(grid);
+    scene_clear(&scene);
+  }
+}
+
 /* Small unmovable spheres under one that is a thousand times larger, and the other way round. */
 static void test_extreme_ratio(void) {
   for (int large_is_static = 0; large_is_static < 2; large_is_static++) {
@@ -426,6 +455,7 @@ int main(int argc, char **argv) {
   random_source = g_rand_new_with_seed(11);
   g_test_add_func("/collide/random", test_random);
   g_test_add_func("/collide/apart", test_apart);
+  g_test_add_func("/collide/remembers", test_remembers);
   g_test_add_func("/collide/extreme-ratio", test_extreme_ratio);
   g_test_add_func("/collide/moving", test_moving);
   g_test_add_func("/collide/fast-tool", test_fast_tool);

@@ -1,0 +1,53 @@
+/* Inside of the grid. Private to core/collide. */
+#ifndef SPORE_COLLIDE_GRID_PRIVATE_H
+#define SPORE_COLLIDE_GRID_PRIVATE_H
+
+#include "core/collide/cells.h"
+#include "core/collide/grid.h"
+
+enum { SPORE_GRID_PASSIVE = 1, SPORE_GRID_SELF = 2 };
+
+typedef struct SporePair {
+  uint32_t a, b; /* a < b */
+} SporePair;
+
+/* Steps without lists after one that did not pay; twice as many for each in a row. */
+#define SPORE_GRID_SHORTEST_PAUSE 8
+
+struct SporeGrid {
+  size_t count, static_count, body_count, capacity;
+  unsigned char *bodies; /* SPORE_GRID_ flags */
+  SporeCellScale scale;
+  SporeCells unmovable, moving; /* moving.unsorted: balls with their skins */
+  double *balls;                /* count x 4: ball that a sphere stays in during this step; reach < 0: not finite */
+  /* Spheres outside their body's region, the part of space that it shares with bodies it pairs with, need no cell.
+   * Regions are looked for only where there are so few bodies that trying every pair of them costs no more than
+   * the spheres do; else NULL. */
+  SporeBounds *bounds, *regions; /* body_count */
+  /* Pairs of one body that touch at rest: for sphere a, those b > a, ascending. NULL: no body collides with itself. */
+  uint32_t *excluded_start; /* count + 1 */
+  uint32_t *excluded;
+
+  SporeContact *contacts; /* capacity */
+  size_t pair_capacity, pair_count, missed_pairs;
+  SporePair *pairs, *sorted_pairs; /* pair_capacity; pairs: by (a, b) once found */
+  uint32_t *bucket;                /* count + 1 */
+  bool listed;                     /* pairs belong to the balls in moving.unsorted */
+  uint32_t list_steps;             /* that they have served for */
+  uint32_t pause, pause_left;      /* steps */
+};
+
+/* broad_phase.c */
+/* Whether two balls, x y z reach, touch. */
+static inline bool spore_balls_touch(const double *a, const double *b) {
+  double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], reach = a[3] + b[3];
+  return x * x + y * y + z * z < reach * reach;
+}
+void spore_grid_add_bounds(SporeBounds *bounds, const SporeSpheres *spheres, size_t first, size_t count,
+                           const double *balls);
+/* Pairs that the filter lets through whose balls touch: moving ones of moving.unsorted. Not in order. */
+void spore_grid_find_pairs(SporeGrid *grid, const SporeSpheres *spheres);
+/* By (a, b). */
+void spore_grid_sort_pairs(SporeGrid *grid);
+
+#endif
