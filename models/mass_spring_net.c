@@ -7,6 +7,7 @@
 #include "models/fields.h"
 #include "models/nodal.h"
 #include "models/registry.h"
+#include "models/spring_pairs.h"
 #include "models/springs.h"
 #include "models/surface_map.h"
 
@@ -14,12 +15,13 @@ typedef struct NetFields {
   double surface_density, mass, structural_stiffness, shear_stiffness, bending_stiffness, damping;
 } NetFields;
 
+enum { STRUCTURAL, SHEAR, BENDING, KINDS };
+
 typedef struct Net {
   SporeModel base;
   double *rest; /* node_count x 3, body's frame */
   SporeTriangleMesh mesh;
-  SporeSprings springs;
-  size_t structural_end, shear_end; /* springs by kind: structural, shear, bending */
+  SporeSprings springs[KINDS];
 } Net;
 
 static const SporeParameter parameters[] = {
@@ -45,7 +47,7 @@ static bool no_memory(SporeError *error) {
 static void destroy(SporeModel *model) {
   Net *net = (Net *)model;
   spore_triangle_mesh_clear(&net->mesh);
-  spore_springs_clear(&net->springs);
+  for (int kind = 0; kind < KINDS; kind++) spore_springs_clear(&net->springs[kind]);
   spore_model_clear(&net->base);
   spore_free(net);
 }
@@ -74,12 +76,47 @@ static bool set_masses(Net *net, const NetFields *fields, SporeError *error) {
 }
 
 static void tune(Net *net, const NetFields *fields) {
-  const double by_kind[3] = {fields->structural_stiffness, fields->shear_stiffness, fields->bending_stiffness};
-  for (size_t s = 0; s < net->springs.count; s++) {
-    int kind = s < net->structural_end ? 0 : s < net->shear_end ? 1 : 2;
-    net->springs.stiffness[s] = by_kind[kind];
+  net->springs[STRUCTURAL].stiffness = fields->structural_stiffness;
+  net->springs[SHEAR].stiffness = fields->shear_stiffness;
+  net->springs[BENDING].stiffness = fields->bending_stiffness;
+  for (int kind = 0; kind < KINDS; kind++) net->springs[kind].damping = fields->damping;
+}
+
+static bool make_pairs(SporePairs pairs[KINDS], const SporeTriangleMesh *mesh) {
+  return spore_pairs_structural(&pairs[STRUCTURAL], mesh) &&
+         spore_pairs_shear(&pairs[SHEAR], mesh, &pairs[STRUCTURAL]) &&
+         spore_pairs_bending(&pairs[BENDING], mesh, &pairs[STRUCTURAL], &pairs[SHEAR]);
+}
+
+static bool make_springs(Net *net) {
+  SporePairs pairs[KINDS] = {0};
+  bool made = make_pairs(pairs, &net->mesh);
+  for (int kind = 0; kind < KINDS; kind++) {
+    made = made && spore_springs_create(&net->springs[kind], pairs[kind].keys, pairs[kind].count, net->rest,
+                                        net->base.block_count);
+    spore_pairs_clear(&pairs[kind]);
   }
-  net->springs.damping = fields->damping;
+  return made;
+}
+
+static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
+  const Net *net = (const Net *)model;
+  for (int kind = 0; kind < KINDS; kind++)
+    if (!spore_springs_pattern(&net->springs[kind], blocks)) return false;
+  return true;
+}
+
+/* Looks up each spring's blocks once, in a matrix of the pattern that the world will make too. */
+static bool find_blocks(Net *net) {
+  SporeBlockPattern blocks;
+  SporeBlockMatrix matrix;
+  spore_block_pattern_init(&blocks, net->base.block_count);
+  bool made = pattern(&net->base, &blocks) && spore_block_matrix_create(&matrix, &blocks);
+  spore_block_pattern_clear(&blocks);
+  if (!made) return false;
+  for (int kind = 0; kind < KINDS; kind++) spore_springs_find_blocks(&net->springs[kind], &matrix);
+  spore_block_matrix_clear(&matrix);
+  return true;
 }
 
 static bool build(Net *net, const SporeTriangleMesh *mesh, const NetFields *fields, SporeError *error) {
@@ -88,8 +125,7 @@ static bool build(Net *net, const SporeTriangleMesh *mesh, const NetFields *fiel
     return false;
   net->rest = net->mesh.vertices;
   if (!set_masses(net, fields, error)) return false;
-  if (!spore_springs_of_triangles(&net->springs, &net->mesh, &net->structural_end, &net->shear_end))
-    return no_memory(error);
+  if (!make_springs(net) || !find_blocks(net)) return no_memory(error);
   tune(net, fields);
   return true;
 }
@@ -118,20 +154,22 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 }
 
 static void force(const SporeModel *model, const double *q, const double *v, double *f) {
-  spore_springs_force(&((const Net *)model)->springs, q, v, f);
+  const Net *net = (const Net *)model;
+  for (int kind = 0; kind < KINDS; kind++) spore_springs_force(&net->springs[kind], q, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
-  return spore_springs_potential(&((const Net *)model)->springs, q);
-}
-
-static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
-  return spore_springs_pattern(&((const Net *)model)->springs, blocks);
+  const Net *net = (const Net *)model;
+  double sum = 0;
+  for (int kind = 0; kind < KINDS; kind++) sum += spore_springs_potential(&net->springs[kind], q);
+  return sum;
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
                      double damping_scale, SporeBlockMatrix *matrix) {
-  spore_springs_jacobian(&((const Net *)model)->springs, q, stiffness_scale, damping_scale, matrix);
+  const Net *net = (const Net *)model;
+  for (int kind = 0; kind < KINDS; kind++)
+    spore_springs_jacobian(&net->springs[kind], q, stiffness_scale, damping_scale, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {

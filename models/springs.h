@@ -1,34 +1,57 @@
-/* Springs between the nodes of a model. */
+/* Springs of one kind between the nodes of a model, laid out by node. */
 #ifndef SPORE_MODELS_SPRINGS_H
 #define SPORE_MODELS_SPRINGS_H
 
 #include "core/linalg/block_matrix.h"
-#include "core/mesh/mesh.h"
+#include "core/math/simd.h"
 
 /* A spring between nodes at distance l pulls with stiffness (l - length) along the line between them, and damps the
- * speed of that distance. Where the nodes meet and there is no line, it works along `direction`, that of rest. */
+ * speed of that distance. Where the nodes meet and there is no line, it works along that of rest.
+ *
+ * Each node's springs lie together, so that its force is added up in registers and written once: every spring is
+ * computed at both of its ends, which costs less than two ends that wait for each other in memory. Nodes with as many
+ * springs are put in groups of SPORE_LANES; a slot of a group holds one spring of each of its nodes. */
 typedef struct SporeSprings {
-  size_t count;
-  uint32_t *nodes;   /* count x 2 */
-  double *length;    /* count, at rest, m */
-  double *direction; /* count x 3, unit, from the second node to the first at rest; 0 where length is 0 */
-  double *stiffness; /* count, N/m */
-  double damping;    /* N s/m, of each */
-  size_t *blocks;    /* count x 4: where (a,a), (b,b), (a,b), (b,a) lie in the values of the model's matrix */
+  size_t node_count;    /* that have springs of this kind */
+  uint32_t *node;       /* group_count x SPORE_LANES, those with most springs first; behind node_count: node 0 */
+  size_t group_count;   /* node_count / SPORE_LANES, rounded up */
+  uint32_t *slot_start; /* group_count + 1 */
+  uint32_t *neighbour;  /* slot x lane: the node at the other end; the node itself where it has no more springs */
+  double *length;       /* slot x lane, at rest, m; -0.0 where it has no more springs */
+  uint32_t *block;      /* slot x lane: where (node, neighbour) lies in the model's matrix */
+  uint32_t *diagonal;   /* as node: where (node, node) lies */
+  const double *rest;   /* positions of nodes at rest, borrowed */
+  double stiffness;     /* N/m, of each; 0: there are none */
+  double damping;       /* N s/m, of each */
 } SporeSprings;
 
-/* Structural springs along the edges, then from *structural_end shear springs across each edge with two triangles,
- * then from *shear_end bending springs from a neighbour of a vertex to the one straight opposite. No pair twice.
- * Stiffness and damping are left 0. False: no memory; *springs may then be cleared. */
-bool spore_springs_of_triangles(SporeSprings *springs, const SporeTriangleMesh *mesh, size_t *structural_end,
-                                size_t *shear_end);
+/* One spring for each pair of nodes, `keys` as in SporePairs; no pair twice. rest: node_count x 3, borrowed. Stiffness
+ * and damping are left 0. False: no memory; *springs may then be cleared. */
+bool spore_springs_create(SporeSprings *springs, const uint64_t *keys, size_t count, const double *rest,
+                          size_t node_count);
 void spore_springs_clear(SporeSprings *springs);
 
-void spore_springs_force(const SporeSprings *springs, const double *q, const double *v, double *f);
-double spore_springs_potential(const SporeSprings *springs, const double *q);
 bool spore_springs_pattern(const SporeSprings *springs, SporeBlockPattern *pattern);
+/* Looks up where the springs' blocks lie, once the matrix of all of the model's patterns is known. */
+void spore_springs_find_blocks(SporeSprings *springs, const SporeBlockMatrix *matrix);
+
+SPORE_DECLARE_KERNEL(void, spore_springs_force, const SporeSprings *springs, const double *q, const double *v,
+                     double *f);
+SPORE_DECLARE_KERNEL(double, spore_springs_potential, const SporeSprings *springs, const double *q);
+SPORE_DECLARE_KERNEL(void, spore_springs_jacobian, const SporeSprings *springs, const double *q, double stiffness_scale,
+                     double damping_scale, SporeBlockMatrix *matrix);
+
+/* f += the springs' forces. */
+static inline void spore_springs_force(const SporeSprings *springs, const double *q, const double *v, double *f) {
+  if (springs->stiffness > 0) SPORE_KERNEL(spore_springs_force)(springs, q, v, f);
+}
+static inline double spore_springs_potential(const SporeSprings *springs, const double *q) {
+  return springs->stiffness > 0 ? SPORE_KERNEL(spore_springs_potential)(springs, q) : 0;
+}
 /* Under compression the stiffness across the spring is negative and left out. */
-void spore_springs_jacobian(const SporeSprings *springs, const double *q, double stiffness_scale, double damping_scale,
-                            SporeBlockMatrix *matrix);
+static inline void spore_springs_jacobian(const SporeSprings *springs, const double *q, double stiffness_scale,
+                                          double damping_scale, SporeBlockMatrix *matrix) {
+  if (springs->stiffness > 0) SPORE_KERNEL(spore_springs_jacobian)(springs, q, stiffness_scale, damping_scale, matrix);
+}
 
 #endif

@@ -9,18 +9,15 @@
 typedef struct Chain {
   SporeModel base;
   double *rest;
-  SporeSprings springs;
+  size_t count;
+  SporeSprings *springs; /* one each, as they differ in stiffness */
 } Chain;
 
 static void destroy(SporeModel *model) {
   Chain *chain = (Chain *)model;
-  SporeSprings *springs = &chain->springs;
+  for (size_t i = 0; i < chain->count; i++) spore_springs_clear(&chain->springs[i]);
+  g_free(chain->springs);
   g_free(chain->rest);
-  g_free(springs->nodes);
-  g_free(springs->length);
-  g_free(springs->direction);
-  g_free(springs->stiffness);
-  g_free(springs->blocks);
   spore_model_clear(&chain->base);
   g_free(chain);
 }
@@ -30,20 +27,28 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 }
 
 static void force(const SporeModel *model, const double *q, const double *v, double *f) {
-  spore_springs_force(&((const Chain *)model)->springs, q, v, f);
+  const Chain *chain = (const Chain *)model;
+  for (size_t i = 0; i < chain->count; i++) spore_springs_force(&chain->springs[i], q, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
-  return spore_springs_potential(&((const Chain *)model)->springs, q);
+  const Chain *chain = (const Chain *)model;
+  double sum = 0;
+  for (size_t i = 0; i < chain->count; i++) sum += spore_springs_potential(&chain->springs[i], q);
+  return sum;
 }
 
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
-  return spore_springs_pattern(&((const Chain *)model)->springs, blocks);
+  for (uint32_t i = 0; i + 1 < model->block_count; i++)
+    if (!spore_block_pattern_add(blocks, i, i + 1)) return false;
+  return true;
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
                      double damping_scale, SporeBlockMatrix *matrix) {
-  spore_springs_jacobian(&((const Chain *)model)->springs, q, stiffness_scale, damping_scale, matrix);
+  const Chain *chain = (const Chain *)model;
+  for (size_t i = 0; i < chain->count; i++)
+    spore_springs_jacobian(&chain->springs[i], q, stiffness_scale, damping_scale, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
@@ -65,38 +70,33 @@ static const SporeModelType type = {.name = "chain",
                                     .pattern = pattern,
                                     .jacobian = jacobian};
 
-/* A chain's rows hold the node before, the node itself and the one after. */
-static void set_blocks(size_t count, size_t *blocks) {
-  for (size_t i = 0; i < count; i++) {
-    size_t diagonal = i == 0 ? 0 : 3 * i, next = diagonal + 1;
-    blocks[4 * i] = diagonal;
-    blocks[4 * i + 1] = 3 * (i + 1);
-    blocks[4 * i + 2] = next;
-    blocks[4 * i + 3] = 3 * (i + 1) - 1;
-  }
+static void find_blocks(Chain *chain) {
+  SporeBlockPattern blocks;
+  SporeBlockMatrix matrix;
+  spore_block_pattern_init(&blocks, chain->base.block_count);
+  g_assert_true(pattern(&chain->base, &blocks) && spore_block_matrix_create(&matrix, &blocks));
+  for (size_t i = 0; i < chain->count; i++) spore_springs_find_blocks(&chain->springs[i], &matrix);
+  spore_block_pattern_clear(&blocks);
+  spore_block_matrix_clear(&matrix);
 }
 
 SporeModel *chain_new(size_t count, double spacing, const double *stiffness, const double *mass, double damping) {
   Chain *chain = g_new0(Chain, 1);
   g_assert_true(spore_model_init(&chain->base, &type, 3 * (count + 1), count + 1, NULL));
+  chain->count = count;
   chain->rest = g_new0(double, 3 * (count + 1));
-  SporeSprings *springs = &chain->springs;
-  springs->count = count;
-  springs->damping = damping;
-  springs->nodes = g_new(uint32_t, 2 * count);
-  springs->length = g_new(double, count);
-  springs->direction = g_new0(double, 3 * count);
-  springs->stiffness = g_memdup2(stiffness, count * sizeof(double));
-  springs->blocks = g_new(size_t, 4 * count);
-  set_blocks(count, springs->blocks);
+  chain->springs = g_new0(SporeSprings, count);
   for (size_t i = 0; i <= count; i++) {
     chain->rest[3 * i + 1] = -spacing * (double)i;
     chain->base.block_mass[i] = mass[i];
-    if (i == count) break;
-    springs->nodes[2 * i] = (uint32_t)i, springs->nodes[2 * i + 1] = (uint32_t)i + 1;
-    springs->length[i] = spacing;
-    springs->direction[3 * i + 1] = 1;
   }
+  for (size_t i = 0; i < count; i++) {
+    uint64_t key = (uint64_t)i << 32 | (i + 1);
+    g_assert_true(spore_springs_create(&chain->springs[i], &key, 1, chain->rest, count + 1));
+    chain->springs[i].stiffness = stiffness[i];
+    chain->springs[i].damping = damping;
+  }
+  find_blocks(chain);
   return &chain->base;
 }
 

@@ -1,0 +1,154 @@
+#include "models/springs.h"
+
+#include <math.h>
+
+/* Below this part of the rest length a spring has no direction of its own. */
+#define SHORT 1e-9
+
+/* Lines of the lanes that have none: that of rest, at a length at which nothing is lost to rounding. */
+static __attribute__((noinline)) SporeVd3 lines_at_rest(const SporeSprings *springs, const uint32_t *node, size_t slot,
+                                                        SporeVd3 line, SporeVl is_short) {
+  for (int i = 0; i < SPORE_WIDTH; i++) {
+    if (!is_short[i]) continue;
+    SporeVec3 a = spore_vec3_load(springs->rest + 3 * (size_t)node[i]);
+    SporeVec3 b = spore_vec3_load(springs->rest + 3 * (size_t)springs->neighbour[slot + (size_t)i]);
+    SporeVec3 along = spore_vec3_normalise(spore_vec3_sub(a, b), (SporeVec3){0, 0, 0});
+    along = spore_vec3_scale(SHORT * springs->length[slot + (size_t)i], along);
+    line.x[i] = along.x, line.y[i] = along.y, line.z[i] = along.z;
+  }
+  return line;
+}
+
+/* From the neighbours in the slot to the nodes; *square: of its length, not 0. */
+SPORE_INLINE SporeVd3 line_of(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 position,
+                              const double *q, SporeVd length, SporeVd *square) {
+  SporeVd3 line = spore_vd3_sub(position, spore_vd3_gather(q, springs->neighbour + slot));
+  *square = spore_vd3_dot(line, line);
+  SporeVl is_short = *square < SHORT * SHORT * length * length;
+  if (__builtin_expect(spore_vl_any(is_short), 0)) {
+    line = lines_at_rest(springs, node, slot, line, is_short);
+    *square = spore_vd3_dot(line, line);
+  }
+  *square += 1e-300;
+  return line;
+}
+
+/* How many of the SPORE_WIDTH lanes from `first` hold nodes. */
+SPORE_INLINE size_t lanes_from(const SporeSprings *springs, size_t first) {
+  size_t left = springs->node_count > first ? springs->node_count - first : 0;
+  return left < SPORE_WIDTH ? left : SPORE_WIDTH;
+}
+
+/* f = -(k (1 - L/l) + c (d . w) / l^2) d. Nodes that meet with L = 0 feel nothing. */
+SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const double *v, double *f, int damped) {
+  for (size_t first = 0; first < springs->node_count; first += SPORE_WIDTH) {
+    const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
+    SporeVd3 position = spore_vd3_gather(q, node), velocity, sum = {0};
+    if (damped) velocity = spore_vd3_gather(v, node);
+    for (size_t s = start[0]; s < start[1]; s++) {
+      size_t slot = s * SPORE_LANES + first % SPORE_LANES;
+      SporeVd length = spore_vd_load(springs->length + slot), square;
+      SporeVd3 line = line_of(springs, node, slot, position, q, length, &square);
+      SporeVd pull = springs->stiffness * (1 - length / spore_vd_sqrt(square));
+      if (damped) {
+        SporeVd3 speed = spore_vd3_sub(velocity, spore_vd3_gather(v, springs->neighbour + slot));
+        pull += springs->damping * spore_vd3_dot(line, speed) / square;
+      }
+      sum.x += pull * line.x, sum.y += pull * line.y, sum.z += pull * line.z;
+    }
+    double rows[4 * SPORE_WIDTH];
+    spore_vd3_store_rows(rows, sum);
+    for (size_t i = 0; i < lanes_from(springs, first); i++) {
+      double *force = f + 3 * (size_t)node[i];
+      for (int k = 0; k < 3; k++) force[k] -= rows[4 * i + (size_t)k];
+    }
+  }
+}
+
+void SPORE_LEVEL_NAME(spore_springs_force)(const SporeSprings *springs, const double *q, const double *v, double *f) {
+  if (springs->damping > 0) add_forces(springs, q, v, f, 1);
+  else add_forces(springs, q, v, f, 0);
+}
+
+/* Each spring comes twice, hence a quarter of k (l - L)^2. */
+double SPORE_LEVEL_NAME(spore_springs_potential)(const SporeSprings *springs, const double *q) {
+  double lanes[SPORE_LANES] = {0};
+  for (size_t first = 0; first < springs->node_count; first += SPORE_WIDTH) {
+    const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
+    double *lane = lanes + first % SPORE_LANES;
+    SporeVd3 position = spore_vd3_gather(q, node);
+    SporeVd sum = spore_vd_load(lane);
+    for (size_t s = start[0]; s < start[1]; s++) {
+      size_t slot = s * SPORE_LANES + first % SPORE_LANES;
+      SporeVd3 line = spore_vd3_sub(position, spore_vd3_gather(q, springs->neighbour + slot));
+      SporeVd stretch = spore_vd_sqrt(spore_vd3_dot(line, line)) - spore_vd_load(springs->length + slot);
+      sum += stretch * stretch;
+    }
+    spore_vd_store(lane, sum);
+  }
+  return 0.25 * springs->stiffness * spore_lanes_sum(lanes);
+}
+
+/* A symmetric 3x3 matrix a lane. */
+typedef struct Symmetric {
+  SporeVd xx, xy, xz, yy, yz, zz;
+} Symmetric;
+
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+
+/* The matrices as SPORE_WIDTH x 3 rows of 4. */
+SPORE_INLINE void store_matrices(double rows[3][4 * SPORE_WIDTH], const Symmetric *a) {
+  spore_vd3_store_rows(rows[0], (SporeVd3){a->xx, a->xy, a->xz});
+  spore_vd3_store_rows(rows[1], (SporeVd3){a->xy, a->yy, a->yz});
+  spore_vd3_store_rows(rows[2], (SporeVd3){a->xz, a->yz, a->zz});
+}
+
+/* block += sign x row i of each of the three: a row is four numbers, of which the last is 0 and falls on the next row,
+ * which is loaded before and stored after it. */
+SPORE_INLINE void add_to_block(double *block, double rows[3][4 * SPORE_WIDTH], size_t i, double sign) {
+  Four first = *(Four *)block + sign * *(const Four *)(rows[0] + 4 * i);
+  Four second = *(Four *)(block + 3) + sign * *(const Four *)(rows[1] + 4 * i);
+  double third[3];
+  for (int k = 0; k < 3; k++) third[k] = block[6 + k] + sign * rows[2][4 * i + (size_t)k];
+  *(Four *)block = first;
+  *(Four *)(block + 3) = second;
+  for (int k = 0; k < 3; k++) block[6 + k] = third[k];
+}
+
+/* k (1 - L/l)+ (I - nn^T) + (k + c) nn^T; where there is no line (k + c) nn^T alone. */
+SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd square, SporeVd length, double stiffness, double damping) {
+  SporeVd inverse = 1 / spore_vd_sqrt(square), none = {0};
+  SporeVl empty = (SporeVl)length < 0;
+  SporeVd nx = line.x * inverse, ny = line.y * inverse, nz = line.z * inverse;
+  SporeVd across = spore_vd_select(empty, none, stiffness * spore_vd_max(1 - length * inverse, none));
+  SporeVd along = stiffness - across + damping;
+  SporeVd ax = along * nx, ay = along * ny, az = along * nz;
+  return (Symmetric){ax * nx + across, ax * ny, ax * nz, ay * ny + across, ay * nz, az * nz + across};
+}
+
+void SPORE_LEVEL_NAME(spore_springs_jacobian)(const SporeSprings *springs, const double *q, double stiffness_scale,
+                                              double damping_scale, SporeBlockMatrix *matrix) {
+  double stiffness = stiffness_scale * springs->stiffness, damping = damping_scale * springs->damping;
+  double rows[3][4 * SPORE_WIDTH];
+  for (size_t first = 0; first < springs->node_count; first += SPORE_WIDTH) {
+    const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
+    size_t lanes = lanes_from(springs, first);
+    SporeVd3 position = spore_vd3_gather(q, node);
+    Symmetric sum = {0};
+    for (size_t s = start[0]; s < start[1]; s++) {
+      size_t slot = s * SPORE_LANES + first % SPORE_LANES;
+      SporeVd length = spore_vd_load(springs->length + slot), square;
+      SporeVd3 line = line_of(springs, node, slot, position, q, length, &square);
+      Symmetric block = stiffness_of(line, square, length, stiffness, damping);
+      sum.xx += block.xx, sum.xy += block.xy, sum.xz += block.xz;
+      sum.yy += block.yy, sum.yz += block.yz, sum.zz += block.zz;
+      store_matrices(rows, &block);
+      /* A lane without a spring adds nothing, to the diagonal block of its node. */
+      for (size_t i = 0; i < lanes; i++)
+        add_to_block(matrix->values + 9 * (size_t)springs->block[slot + i], rows, i, -1);
+    }
+    store_matrices(rows, &sum);
+    for (size_t i = 0; i < lanes; i++)
+      add_to_block(matrix->values + 9 * (size_t)springs->diagonal[first + i], rows, i, 1);
+  }
+}

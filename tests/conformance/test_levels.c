@@ -1,0 +1,54 @@
+/* Every registered model computes the same bits with every instruction set that this machine has. */
+#include "core/base/cpu.h"
+#include "tests/conformance/specimen.h"
+
+/* What a model says of a state, all in one array. */
+static double *answers(const SporeModel *model, const State *state, size_t *count) {
+  SporeBlockMatrix matrix = {0};
+  size_t blocks = 0;
+  if (model->type->jacobian) {
+    SporeBlockPattern pattern;
+    spore_block_pattern_init(&pattern, model->block_count);
+    g_assert_true(model->type->pattern(model, &pattern) && spore_block_matrix_create(&matrix, &pattern));
+    spore_block_pattern_clear(&pattern);
+    model->type->jacobian(model, state->q, state->v, 0.3, 0.7, &matrix);
+    blocks = matrix.row_start[matrix.block_count];
+  }
+  *count = state->v_count + 1 + 9 * blocks;
+  double *all = vector_new(*count);
+  model->type->force(model, state->q, state->v, all);
+  all[state->v_count] = model->type->potential(model, state->q);
+  memcpy(all + state->v_count + 1, matrix.values, 9 * blocks * sizeof(double));
+  spore_block_matrix_clear(&matrix);
+  return all;
+}
+
+static void check_levels(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(8);
+  const double noise[] = {0, 0.1, 0.5, 2, 20};
+  for (int trial = 0; trial < 30; trial++) {
+    State state = state_random(model, random, trial % 3 ? 1 : 0.2, noise[trial % 5] * specimen->size);
+    for (size_t i = 0; trial % 6 == 5 && i < model->block_count; i++) state.q[3 * i + 1] = 0.1;
+    size_t count;
+    spore_cpu_limit(SPORE_CPU_BASELINE);
+    double *expected = answers(model, &state, &count);
+    for (int level = 0; level < SPORE_CPU_LEVELS; level++) {
+      spore_cpu_limit(level);
+      double *found = answers(model, &state, &count);
+      g_assert_cmpmem(expected, count * sizeof(double), found, count * sizeof(double));
+      g_free(found);
+    }
+    g_free(expected);
+    state_clear(&state);
+  }
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  specimen_add_tests("/conformance/levels", check_levels, NULL);
+  return g_test_run();
+}
