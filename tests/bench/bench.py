@@ -11,9 +11,10 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "e2e"))
 import commands
 import editor
 import kernel
+import kernels
 import table
 
-BENCHES = {**kernel.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **kernels.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():
