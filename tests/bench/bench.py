@@ -11,10 +11,11 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "e2e"))
 import commands
 import editor
 import kernel
+import sofa
 import kernels
 import table
 
-BENCHES = {**kernel.BENCHES, **kernels.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():

@@ -1,0 +1,233 @@
+/* bench_sofa [--steps N] [--repeats N] [NAME]: SOFA's cases on our kernel, one line of JSON a case, those whose names
+ * begin with NAME.
+ *
+ * Time is the thread's CPU time of a step: the least of some runs that are equal bit by bit, then the median over the
+ * steps. Beside it stands what it bought: the worst residual, how many steps were not solved, and the distance from the
+ * same steps solved to 1e-12. For SOFA's way (sofa_step.h) the same distance, by our own run of it. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "tests/bench/sofa/cases.h"
+#include "tests/bench/sofa/hardware.h"
+#include "tests/bench/sofa/sofa_step.h"
+
+static unsigned repeats = 3, steps_at_most = 1000;
+
+static double cpu_ms(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+static Rig *start(const Case *self, double tolerance) {
+  Rig *rig = rig_new();
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
+  rig->description.solver.tolerance = tolerance;
+  self->build(rig, self);
+  rig_build(rig);
+  return rig;
+}
+
+/* What a case's steps cost, and how well they were solved. */
+typedef struct Outcome {
+  double ms, residual, newton, linear, evaluations, contacts;
+  unsigned unsolved; /* steps that missed their tolerance or had to be taken again */
+  size_t dof, island_count;
+  size_t blocks; /* of the bodies' own matrices */
+} Outcome;
+
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return x < y ? -1 : x > y;
+}
+
+static void count(const SporeWorld *world, Outcome *outcome, double share) {
+  SporeStepCounts counts = spore_world_counts(world);
+  outcome->residual = fmax(outcome->residual, counts.residual);
+  outcome->newton += share * (double)counts.newton_iterations;
+  outcome->linear += share * (double)counts.linear_iterations;
+  outcome->evaluations += share * (double)counts.force_evaluations;
+  outcome->contacts += share * (double)counts.contacts;
+  outcome->island_count = counts.islands;
+}
+
+static size_t matrix_blocks(const SporeModel *model) {
+  SporeBlockPattern pattern;
+  SporeBlockMatrix matrix;
+  if (!model || !model->type->pattern) return 0;
+  spore_block_pattern_init(&pattern, model->block_count);
+  g_assert_true(model->type->pattern(model, &pattern) && spore_block_matrix_create(&matrix, &pattern));
+  size_t blocks = matrix.row_start[matrix.block_count];
+  spore_block_pattern_clear(&pattern);
+  spore_block_matrix_clear(&matrix);
+  return blocks;
+}
+
+/* The least time for the work that was counted, ms: what it must read and write through the cache that holds it, or its
+ * operations, whichever takes longer. */
+static double hardware_ms(const Case *self, const Outcome *outcome) {
+  double dof = (double)outcome->dof, blocks = (double)outcome->blocks, elements = (double)self->elements;
+  double matrix_bytes = 76 * blocks + 120 * outcome->contacts, vectors_bytes = 10 * 8 * dof;
+  double bytes = outcome->linear * (matrix_bytes + vectors_bytes) + outcome->newton * 2 * matrix_bytes +
+                 outcome->evaluations * (100 * elements + 4 * 8 * dof);
+  double flops = outcome->linear * (18 * blocks + 60 * outcome->contacts + 15 * dof) +
+                 outcome->evaluations * (self->force_flops * elements + 100 * outcome->contacts + 10 * dof) +
+                 outcome->newton * (self->jacobian_flops * elements + 100 * outcome->contacts);
+  double by_bytes = bytes / hardware_bandwidth((size_t)(matrix_bytes + vectors_bytes) + 1);
+  return 1e-6 * fmax(by_bytes, flops / hardware_peak());
+}
+
+static unsigned troubles(const SporeWorld *world) {
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  return (unsigned)(monitor->not_converged + monitor->recoveries);
+}
+
+static Outcome measure(const Case *self, unsigned steps) {
+  double *ms = g_new(double, steps);
+  Outcome outcome = {0};
+  for (unsigned i = 0; i < steps; i++) ms[i] = HUGE_VAL;
+  for (unsigned repeat = 0; repeat < repeats; repeat++) {
+    Rig *rig = start(self, 1e-6);
+    rig_run(rig->world, MIN(self->before, steps_at_most));
+    unsigned before = troubles(rig->world);
+    for (unsigned i = 0; i < steps; i++) {
+      double begin = cpu_ms();
+      spore_world_step(rig->world);
+      ms[i] = fmin(ms[i], cpu_ms() - begin);
+      if (repeat == 0) count(rig->world, &outcome, 1.0 / steps);
+    }
+    outcome.unsolved = troubles(rig->world) - before;
+    outcome.dof = spore_world_dof(rig->world);
+    outcome.blocks = 0;
+    for (uint32_t b = 0; b < spore_world_body_count(rig->world); b++)
+      outcome.blocks += matrix_blocks(spore_world_body_model(rig->world, b));
+    rig_free(rig);
+  }
+  qsort(ms, steps, sizeof *ms, compare);
+  outcome.ms = ms[steps / 2];
+  g_free(ms);
+  return outcome;
+}
+
+/* Where the one body of a case is after its steps. */
+typedef struct End {
+  size_t count;
+  double *q;
+  double height; /* mean y of its nodes, m */
+} End;
+
+static End end_of(size_t nodes, const double *q) {
+  End end = {3 * nodes, g_memdup2(q, 3 * nodes * sizeof *q), 0};
+  for (size_t i = 0; i < nodes; i++) end.height += q[3 * i + 1] / (double)nodes;
+  return end;
+}
+
+static End solved(const Case *self, unsigned steps, double tolerance) {
+  Rig *rig = start(self, tolerance);
+  rig_run(rig->world, steps);
+  End end = end_of(spore_world_body_model(rig->world, 0)->block_count, spore_world_q(rig->world, 0));
+  rig_free(rig);
+  return end;
+}
+
+static void mark_held(const Rig *rig, const double *q, size_t nodes, uint8_t *held) {
+  for (guint i = 0; i < rig->links->len; i++) {
+    const SporeLinkDescription *pin = &g_array_index(rig->links, SporeLinkDescription, i);
+    for (size_t n = 0; n < nodes; n++)
+      held[n] |= spore_vec3_distance(spore_vec3_load(q + 3 * n), pin->point_a) <= pin->radius;
+  }
+}
+
+static End truncated(const Case *self, unsigned steps, double *residual) {
+  Rig *rig = start(self, 1e-6);
+  const SporeModel *model = spore_world_body_model(rig->world, 0);
+  size_t nodes = model->block_count;
+  double *q = g_memdup2(spore_world_q(rig->world, 0), 3 * nodes * sizeof *q);
+  double *v = g_memdup2(spore_world_v(rig->world, 0), 3 * nodes * sizeof *v);
+  uint8_t *held = g_new0(uint8_t, nodes);
+  mark_held(rig, q, nodes, held);
+  *residual =
+      sofa_run(model, rig->description.gravity, held, rig->description.solver.time_step, steps, SOFA_ITERATIONS, q, v);
+  End end = end_of(nodes, q);
+  g_free(q);
+  g_free(v);
+  g_free(held);
+  rig_free(rig);
+  return end;
+}
+
+/* Root mean square distance of the nodes over the size of the body. */
+static double distance(const End *a, const End *b) {
+  double sum = 0, lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < a->count; i++) {
+    sum += (a->q[i] - b->q[i]) * (a->q[i] - b->q[i]);
+    lower[i % 3] = fmin(lower[i % 3], b->q[i]);
+    upper[i % 3] = fmax(upper[i % 3], b->q[i]);
+  }
+  double size = spore_vec3_distance(spore_vec3_load(lower), spore_vec3_load(upper));
+  return sqrt(3 * sum / (double)a->count) / size;
+}
+
+static void print_number(const char *name, double value) {
+  if (isfinite(value)) printf(", \"%s\": %.6g", name, value);
+  else printf(", \"%s\": null", name);
+}
+
+static void compare_truncated(const Case *self, unsigned steps) {
+  double residual;
+  End exact = solved(self, steps, 1e-12), ours = solved(self, steps, 1e-6), sofa = truncated(self, steps, &residual);
+  print_number("error_ours", distance(&ours, &exact));
+  print_number("error_peer", distance(&sofa, &exact));
+  print_number("height_ours", ours.height);
+  print_number("height_peer", sofa.height);
+  print_number("residual_peer", residual);
+  g_free(exact.q);
+  g_free(ours.q);
+  g_free(sofa.q);
+}
+
+static void run(const Case *self) {
+  unsigned steps = MIN(self->steps, steps_at_most);
+  Outcome outcome = measure(self, steps);
+  printf("{\"case\": \"%s\", \"sofa\": \"%s\"", self->name, self->sofa);
+  print_number("ours", outcome.ms);
+  print_number("peer", self->sofa_ms);
+  print_number("required", self->required_ms > 0 ? self->required_ms : NAN);
+  print_number("hardware", hardware_ms(self, &outcome));
+  print_number("dof", (double)outcome.dof);
+  print_number("contacts", outcome.contacts);
+  print_number("newton", outcome.newton);
+  print_number("linear", outcome.linear);
+  print_number("residual", outcome.residual);
+  print_number("unsolved", outcome.unsolved);
+  print_number("islands", (double)outcome.island_count);
+  if (self->truncated) compare_truncated(self, steps);
+  printf("}\n");
+  fflush(stdout);
+}
+
+static void run_all(const Case *cases, const char *prefix) {
+  for (; cases->name; cases++)
+    if (g_str_has_prefix(cases->name, prefix)) run(cases);
+}
+
+int main(int argc, char **argv) {
+  const char *prefix = "";
+  for (int i = 1; i < argc; i++) {
+    if (!strcmp(argv[i], "--steps") && i + 1 < argc) steps_at_most = (unsigned)strtoul(argv[++i], NULL, 10);
+    else if (!strcmp(argv[i], "--repeats") && i + 1 < argc) repeats = (unsigned)strtoul(argv[++i], NULL, 10);
+    else prefix = argv[i];
+  }
+  if (steps_at_most < 1 || repeats < 1) {
+    fprintf(stderr, "bench_sofa: at least one step and one run are needed\n");
+    return 2;
+  }
+  run_all(solid_cases, prefix);
+  run_all(net_cases, prefix);
+  run_all(contact_cases, prefix);
+  return 0;
+}
