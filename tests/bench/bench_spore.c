@@ -1,0 +1,171 @@
+/* The cases of case.h by us. Besides what they share: integrator=NAME newton=N tolerance=X linear=N for the solver. */
+#include <math.h>
+
+#include "core/sim/world.h"
+#include "models/registry.h"
+#include "tests/bench/case.h"
+#include "tests/stability/chain.h"
+#include "tests/stability/rig.h"
+
+static const char *option(const CaseRun *run, const char *name) {
+  size_t length = strlen(name);
+  for (int i = 2; i < run->argc; i++)
+    if (!strncmp(run->argv[i], name, length) && run->argv[i][length] == '=') return run->argv[i] + length + 1;
+  return NULL;
+}
+
+static Rig *begin(const CaseRun *run, const char *integrator) {
+  Rig *rig = rig_new();
+  SporeSolverFields *solver = &rig->description.solver;
+  const char *wanted = option(run, "integrator");
+  rig->description.gravity = spore_vec3(0, -CASE_GRAVITY, 0);
+  solver->time_step = case_time_step(run);
+  solver->integrator = SPORE_INTEGRATOR_DEFAULT;
+  for (int k = 0; spore_integrator_names[k]; k++)
+    if (!strcmp(spore_integrator_names[k], wanted ? wanted : integrator)) solver->integrator = k;
+  if (solver->integrator == SPORE_INTEGRATOR_DEFAULT) g_error("there is no integrator %s", wanted);
+  solver->newton_iterations = (int64_t)case_number(run, "newton", (double)solver->newton_iterations);
+  solver->linear_iterations = (int64_t)case_number(run, "linear", (double)solver->linear_iterations);
+  solver->tolerance = case_number(run, "tolerance", solver->tolerance);
+  solver->maximum_speed = 1e3;
+  return rig;
+}
+
+/* Depth of the contacts over `radius`, the mean of those listed in the snapshot. */
+static double mean_depth(SporeWorld *world, double radius) {
+  const SporeSpheres *spheres = spore_world_spheres(world);
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
+  double sum = 0;
+  size_t count = MIN(snapshot->contact_count, snapshot->contact_capacity);
+  for (size_t i = 0; i < count; i++) {
+    uint32_t a = snapshot->contacts[i].sphere_a, b = snapshot->contacts[i].sphere_b;
+    sum += spheres->radius[a] + spheres->radius[b] -
+           spore_vec3_distance(spore_vec3_load(spheres->centre + 3 * (size_t)a),
+                               spore_vec3_load(spheres->centre + 3 * (size_t)b));
+  }
+  return count ? sum / (double)count / radius : 0;
+}
+
+/* Runs, answers and ends. A body of nodes tells where they are, another where it is. */
+static void finish(CaseRun *run, Rig *rig) {
+  SporeWorld *world = rig->world;
+  double iterations = 0, residual = 0;
+  uint32_t bodies = (uint32_t)spore_world_body_count(world);
+  for (unsigned count; (count = case_next_frame(run));) {
+    rig_run(world, count);
+    case_stop(run);
+    SporeStepCounts counts = spore_world_counts(world);
+    iterations += (double)counts.linear_iterations / run->frames;
+    residual = fmax(residual, counts.residual);
+    for (uint32_t b = 0; b < bodies; b++) {
+      const SporeModel *model = spore_world_body_model(world, b);
+      const double *q = spore_world_q(world, b);
+      size_t nodes = !model ? 0 : spore_model_is_nodal(model) ? model->block_count : 1;
+      for (size_t i = 0; i < nodes; i++) case_node(run, q[3 * i], q[3 * i + 1], q[3 * i + 2]);
+    }
+  }
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  char more[256];
+  snprintf(more, sizeof more,
+           ", \"contacts\": %zu, \"depth\": %.6g, \"linear_iterations\": %.3g, \"residual\": %.3g, \"mended\": %llu",
+           spore_world_counts(world).contacts, mean_depth(world, PILE_RADIUS), iterations, residual,
+           (unsigned long long)(monitor->recoveries + monitor->not_converged));
+  case_end(run, more);
+  rig_free(rig);
+}
+
+static void cloth(CaseRun *run) {
+  SporeTriangleMesh mesh;
+  g_assert_true(spore_triangle_mesh_allocate(&mesh, CLOTH_NODES * CLOTH_NODES, CLOTH_TRIANGLES, NULL));
+  for (unsigned i = 0; i < CLOTH_NODES * CLOTH_NODES; i++) cloth_node(i, mesh.vertices + 3 * i);
+  for (unsigned t = 0; t < CLOTH_TRIANGLES; t++) cloth_triangle(t, mesh.triangles + 3 * t);
+  Rig *rig = begin(run, "symplectic_euler");
+  SporeModel *model = rig_surface_model(&spore_mass_spring_net, &mesh, "mass", CLOTH_MASS, "structural_stiffness",
+                                        case_number(run, "stiffness", 100), "shear_stiffness", 0.0, "bending_stiffness",
+                                        0.0, "damping", CLOTH_DAMPING, NULL);
+  rig_passive(rig, "cloth", model, NULL);
+  rig_pin(rig, 0, spore_vec3(-CLOTH_SIDE / 2, 0, -CLOTH_SIDE / 2), 1e-3);
+  rig_pin(rig, 0, spore_vec3(CLOTH_SIDE / 2, 0, -CLOTH_SIDE / 2), 1e-3);
+  rig_build(rig);
+  finish(run, rig);
+}
+
+static void rope(CaseRun *run) {
+  enum { SPRINGS = ROPE_NODES - 1 };
+  double stiffness[SPRINGS], mass[ROPE_NODES];
+  for (int i = 0; i < SPRINGS; i++) stiffness[i] = case_number(run, "stiffness", 1000);
+  for (int i = 0; i < ROPE_NODES; i++) mass[i] = ROPE_MASS / ROPE_NODES;
+  Rig *rig = begin(run, "symplectic_euler");
+  SporeModel *model = chain_new(SPRINGS, ROPE_LENGTH / SPRINGS, stiffness, mass, case_number(run, "damping", 0));
+  rig_passive(rig, "rope", model, NULL)->pose.orientation = spore_quat_from_rotation_vector(spore_vec3(0, 0, G_PI / 2));
+  rig_pin(rig, 0, spore_vec3(0, 0, 0), 1e-3);
+  rig_build(rig);
+  finish(run, rig);
+}
+
+static void bar(CaseRun *run) {
+  SporeTetrahedralMesh mesh;
+  g_assert_true(spore_tetrahedral_mesh_allocate(&mesh, BAR_NODES, BAR_TETRAHEDRA, NULL));
+  for (unsigned i = 0; i < BAR_NODES; i++) bar_node(i, mesh.vertices + 3 * i);
+  for (unsigned t = 0; t < BAR_TETRAHEDRA; t++) bar_tetrahedron(t, mesh.tetrahedra + 4 * t);
+  Rig *rig = begin(run, "implicit_euler");
+  SporeModel *model =
+      rig_tetrahedra_model(&mesh, "young_modulus", BAR_YOUNG_MODULUS, "poisson_ratio", BAR_POISSON_RATIO, "density",
+                           BAR_DENSITY, "stiffness_damping", BAR_VISCOSITY, NULL);
+  rig_passive(rig, "bar", model, NULL);
+  for (int j = 0; j <= BAR_CELLS_Y; j++)
+    for (int k = 0; k <= BAR_CELLS_Z; k++)
+      rig_pin(rig, 0, spore_vec3(0, j * BAR_THICKNESS / BAR_CELLS_Y, k * BAR_THICKNESS / BAR_CELLS_Z), 1e-3);
+  rig_build(rig);
+  finish(run, rig);
+}
+
+/* A wall is one unmovable sphere, so big that over the pile it is a plane to within 1e-6 m. */
+#define WALL_RADIUS 1e5
+static void add_wall(Rig *rig, const char *name, SporeVec3 normal, double distance, const SporeContactFields *contact) {
+  SporeBodyDescription *wall = rig_unmovable(rig, name, rig_sphere(rig, WALL_RADIUS));
+  wall->pose.position = spore_vec3_scale(-(distance + WALL_RADIUS), normal);
+  wall->contact = *contact;
+}
+
+/* Mass and inertia of a ball, those of the latter by a cube. */
+static SporeModel *make_ball(void) {
+  double side = sqrt(2.4) * PILE_RADIUS, mass = PILE_DENSITY * 4 / 3 * G_PI * pow(PILE_RADIUS, 3);
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0, 0), spore_vec3(side, side, side));
+  return rig_surface_model(&spore_rigid_body, &cube, "mass", mass, NULL);
+}
+
+static void pile(CaseRun *run) {
+  Rig *rig = begin(run, "symplectic_euler");
+  const SporeContactFields contact = {.stiffness = case_number(run, "stiffness", 2e5),
+                                      .damping = case_number(run, "damping", 100),
+                                      .friction = PILE_FRICTION};
+  const SporeSphereSet *sphere = rig_sphere(rig, PILE_RADIUS);
+  for (unsigned i = 0; i < PILE_SPHERES; i++) {
+    double centre[3];
+    pile_start(i, centre);
+    SporeBodyDescription *body = rig_passive(rig, "sphere", make_ball(), sphere);
+    body->pose.position = spore_vec3_load(centre);
+    body->contact = contact;
+  }
+  add_wall(rig, "floor", spore_vec3(0, 1, 0), 0, &contact);
+  add_wall(rig, "left", spore_vec3(1, 0, 0), PILE_HALF, &contact);
+  add_wall(rig, "right", spore_vec3(-1, 0, 0), PILE_HALF, &contact);
+  add_wall(rig, "back", spore_vec3(0, 0, 1), PILE_HALF, &contact);
+  add_wall(rig, "front", spore_vec3(0, 0, -1), PILE_HALF, &contact);
+  rig_build(rig);
+  rig_run(rig->world, (unsigned)case_number(run, "settle", 2000));
+  finish(run, rig);
+}
+
+int main(int argc, char **argv) {
+  CaseRun run = case_begin(argc, argv);
+  const char *name = argc > 1 ? argv[1] : "";
+  if (!strcmp(name, "cloth")) cloth(&run);
+  else if (!strcmp(name, "bar")) bar(&run);
+  else if (!strcmp(name, "rope")) rope(&run);
+  else if (!strcmp(name, "pile")) pile(&run);
+  else return 2;
+  return 0;
+}

@@ -1,0 +1,150 @@
+/* The cases that we and other programs run, and how a program is asked and answers; C and C++.
+ *
+ *   PROGRAM CASE [NAME=NUMBER...] [trajectory=FILE]
+ *
+ * steps=N steps of time/N seconds each. Answers one line of JSON: the CPU seconds of the steps alone, and what else the
+ * case counts. FILE takes the positions at `frames` even times after 0, the last one at the end: doubles, x y z a node.
+ */
+#ifndef SPORE_TESTS_BENCH_CASE_H
+#define SPORE_TESTS_BENCH_CASE_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define CASE_GRAVITY 9.81 /* m/s^2, along -y */
+
+/* Cloth: a square sheet of nodes in the plane y = 0, rows along z, two corners of one side held. The springs are the
+ * edges of its triangles, whose diagonals alternate; a triangle's mass goes to its corners. */
+enum { CLOTH_NODES = 20 };
+#define CLOTH_SIDE 1.0     /* m */
+#define CLOTH_MASS 1.0     /* kg */
+#define CLOTH_DAMPING 0.01 /* N s/m, of each spring, along it */
+
+/* Rope: nodes in a row along x, the first held. */
+enum { ROPE_NODES = 64 };
+#define ROPE_LENGTH 1.0 /* m */
+#define ROPE_MASS 0.1   /* kg */
+
+/* Pile: spheres that fell into a box, open above. */
+enum { PILE_ACROSS = 8, PILE_SPHERES = 500 };
+#define PILE_RADIUS 0.05 /* m */
+#define PILE_DENSITY 1000.0
+#define PILE_FRICTION 0.5
+#define PILE_SPACING 0.105 /* m, at the start */
+
+/* Bar: cells of six tetrahedra each along x, held at x = 0. */
+enum { BAR_CELLS_X = 20, BAR_CELLS_Y = 4, BAR_CELLS_Z = 4 };
+#define BAR_LENGTH 1.0    /* m */
+#define BAR_THICKNESS 0.2 /* m */
+#define BAR_YOUNG_MODULUS 1e5
+#define BAR_POISSON_RATIO 0.3
+#define BAR_DENSITY 1000.0
+#define BAR_VISCOSITY 0.01 /* s: viscous stress per stress of the strain rate */
+
+/* Corners of triangle t of the cloth; node (column, row) is at row * CLOTH_NODES + column. */
+enum { CLOTH_TRIANGLES = 2 * (CLOTH_NODES - 1) * (CLOTH_NODES - 1) };
+static inline void cloth_triangle(unsigned t, unsigned corners[3]) {
+  static const unsigned char paths[2][2][3] = {{{0, 1, 2}, {1, 3, 2}}, {{0, 1, 3}, {0, 3, 2}}};
+  unsigned column = t / 2 % (CLOTH_NODES - 1), row = t / 2 / (CLOTH_NODES - 1), first = row * CLOTH_NODES + column;
+  for (int k = 0; k < 3; k++) {
+    unsigned corner = paths[(row + column) % 2][t % 2][k];
+    corners[k] = first + corner % 2 + corner / 2 * CLOTH_NODES;
+  }
+}
+static inline void cloth_node(unsigned i, double x[3]) {
+  x[0] = (i % CLOTH_NODES * 1.0 / (CLOTH_NODES - 1) - 0.5) * CLOTH_SIDE;
+  x[1] = 0;
+  x[2] = (i / CLOTH_NODES * 1.0 / (CLOTH_NODES - 1) - 0.5) * CLOTH_SIDE;
+}
+
+/* Corners of tetrahedron t of the bar: the six paths along the edges of a cell from its first corner to its last. */
+enum {
+  BAR_NODES = (BAR_CELLS_X + 1) * (BAR_CELLS_Y + 1) * (BAR_CELLS_Z + 1),
+  BAR_TETRAHEDRA = 6 * BAR_CELLS_X * BAR_CELLS_Y * BAR_CELLS_Z
+};
+static inline void bar_tetrahedron(unsigned t, unsigned corners[4]) {
+  static const unsigned char paths[6][4] = {{0, 4, 6, 7}, {0, 6, 2, 7}, {0, 2, 3, 7},
+                                            {0, 3, 1, 7}, {0, 1, 5, 7}, {0, 5, 4, 7}};
+  unsigned cell = t / 6, i = cell / (BAR_CELLS_Y * BAR_CELLS_Z), j = cell / BAR_CELLS_Z % BAR_CELLS_Y;
+  unsigned k = cell % BAR_CELLS_Z;
+  for (int c = 0; c < 4; c++) {
+    unsigned n = paths[t % 6][c];
+    corners[c] = ((i + n / 4) * (BAR_CELLS_Y + 1) + j + n / 2 % 2) * (BAR_CELLS_Z + 1) + k + n % 2;
+  }
+}
+static inline void bar_node(unsigned i, double x[3]) {
+  x[0] = i / ((BAR_CELLS_Y + 1) * (BAR_CELLS_Z + 1)) * BAR_LENGTH / BAR_CELLS_X;
+  x[1] = i / (BAR_CELLS_Z + 1) % (BAR_CELLS_Y + 1) * BAR_THICKNESS / BAR_CELLS_Y;
+  x[2] = i % (BAR_CELLS_Z + 1) * BAR_THICKNESS / BAR_CELLS_Z;
+}
+
+/* Where sphere i of the pile starts: layers a little askew, so that they do not stand on each other. Box: |x| and |z|
+ * up to PILE_HALF, y from 0. */
+#define PILE_HALF (0.5 * PILE_ACROSS * PILE_SPACING)
+static inline void pile_start(unsigned i, double centre[3]) {
+  unsigned column = i % PILE_ACROSS, row = i / PILE_ACROSS % PILE_ACROSS, layer = i / (PILE_ACROSS * PILE_ACROSS);
+  double askew = 0.002 * (layer % 3) - 0.002;
+  centre[0] = (column + 0.5) * PILE_SPACING - PILE_HALF + askew * (row % 2 ? 1 : -1);
+  centre[1] = (layer + 0.5) * 1.1 * PILE_SPACING;
+  centre[2] = (row + 0.5) * PILE_SPACING - PILE_HALF + askew * (column % 2 ? 1 : -1);
+}
+
+typedef struct CaseRun {
+  int argc;
+  char **argv;
+  unsigned steps, frames, frame, done;
+  double time, cpu_s, since;
+  FILE *trajectory;
+} CaseRun;
+
+/* A number of the command line, or `otherwise`. */
+static inline double case_number(const CaseRun *run, const char *name, double otherwise) {
+  size_t length = strlen(name);
+  for (int i = 2; i < run->argc; i++)
+    if (!strncmp(run->argv[i], name, length) && run->argv[i][length] == '=') return atof(run->argv[i] + length + 1);
+  return otherwise;
+}
+
+static inline CaseRun case_begin(int argc, char **argv) {
+  CaseRun run = {argc, argv, 0, 0, 0, 0, 0, 0, 0, NULL};
+  run.time = case_number(&run, "time", 1);
+  run.steps = (unsigned)case_number(&run, "steps", 1000);
+  run.frames = (unsigned)case_number(&run, "frames", 20);
+  if (run.frames > run.steps) run.frames = run.steps;
+  for (int i = 2; i < argc; i++)
+    if (!strncmp(argv[i], "trajectory=", 11)) run.trajectory = fopen(argv[i] + 11, "wb");
+  return run;
+}
+
+static inline double case_time_step(const CaseRun *run) { return run->time / run->steps; }
+
+static inline double case_cpu_s(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Steps of the next frame, now to be timed; 0: the run is at its end. No more frames than steps. */
+static inline unsigned case_next_frame(CaseRun *run) {
+  if (run->frame == run->frames) return 0;
+  run->frame++;
+  unsigned end = (unsigned)((unsigned long long)run->frame * run->steps / run->frames), count = end - run->done;
+  run->done = end;
+  run->since = case_cpu_s();
+  return count;
+}
+static inline void case_stop(CaseRun *run) { run->cpu_s += case_cpu_s() - run->since; }
+static inline void case_node(CaseRun *run, double x, double y, double z) {
+  const double position[3] = {x, y, z};
+  if (run->trajectory) fwrite(position, sizeof position, 1, run->trajectory);
+}
+
+/* The answer; `more` is what else there is to say, as `, "name": value`. */
+static inline void case_end(CaseRun *run, const char *more) {
+  printf("{\"cpu_s\": %.9g, \"steps\": %u, \"time_s\": %.9g%s}\n", run->cpu_s, run->steps, run->time, more);
+  if (run->trajectory) fclose(run->trajectory);
+}
+
+#endif
