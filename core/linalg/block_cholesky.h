@@ -15,7 +15,7 @@ typedef struct SporeSupernode {
   uint32_t child_count;
   uint32_t sibling;                /* the child of the same parent before this one */
   uint32_t entry_start, entry_end; /* in `entries` */
-  size_t panel;                    /* in `values`: 3 (column_count + row_count) x 3 column_count, column-major */
+  size_t panel;                    /* in `values`: L11^-1 and L21, as in core/linalg/cholesky_kernels.h */
 } SporeSupernode;
 
 /* A block of the matrix and where it goes in a panel. */
@@ -34,9 +34,10 @@ typedef struct SporeBlockCholesky {
   uint32_t *rows;             /* in elimination order */
   uint32_t *targets;          /* as rows: where a row lies in the parent's front, in blocks */
   SporeFactorEntry *entries;
-  double *values; /* panels */
-  double *stack;  /* update matrices that wait for their parents */
-  double *work;   /* 3 block_count, and one front's rows */
+  double *values;   /* panels */
+  double *stack;    /* update matrices that wait for their parents */
+  size_t most_rows; /* of a panel's L21, padded */
+  double *work;     /* 3 block_count and padding, most_rows, and the most columns of a panel three times, padded */
 } SporeBlockCholesky;
 
 /* Analyses the pattern and takes all memory that factorising and solving need. Where factorising would take more than

@@ -3,6 +3,7 @@
 
 #include "core/base/memory.h"
 #include "core/linalg/block_cholesky.h"
+#include "core/linalg/cholesky_kernels.h"
 #include "core/linalg/minimum_degree.h"
 
 #define NONE UINT32_MAX
@@ -171,26 +172,29 @@ static void fill_supernodes(const Analysis *analysis, SporeBlockCholesky *factor
   }
 }
 
-/* Ties supernodes to their parents, and lays out the panels. Gives the sizes of values and stack, and the most rows of
- * a front. */
-static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t *values, size_t *stack, size_t *most) {
+static size_t update_size(const SporeSupernode *node) {
+  return 3 * (size_t)node->row_count * spore_cholesky_pad(3 * (size_t)node->row_count);
+}
+
+/* Ties supernodes to their parents, and lays out the panels. Gives the sizes of values, stack and work. */
+static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t *values, size_t *stack, size_t *work) {
   uint32_t *last_child = analysis->other;
-  size_t height = 0;
-  *values = *stack = *most = 0;
+  size_t height = 0, most_columns = 0;
+  *values = *stack = 0;
   for (uint32_t s = 0; s < factor->supernode_count; s++) last_child[s] = NONE;
   for (uint32_t s = 0; s < factor->supernode_count; s++) {
     SporeSupernode *node = &factor->supernodes[s];
-    size_t front = 3 * ((size_t)node->column_count + node->row_count);
-    size_t update = 9 * (size_t)node->row_count * node->row_count;
+    size_t columns = 3 * (size_t)node->column_count, rows = 3 * (size_t)node->row_count, front = columns + rows;
     node->panel = *values;
-    *values += front * 3 * node->column_count;
-    factor->solve_flops += 4.0 * (double)front * 3 * node->column_count;
-    for (uint32_t c = 0; c < 3 * node->column_count; c++) factor->factor_flops += (double)((front - c) * (front - c));
-    if (height + update > *stack) *stack = height + update;
-    if (front > *most) *most = front;
+    *values += columns * (spore_cholesky_pad(columns) + spore_cholesky_pad(rows));
+    factor->solve_flops += 4.0 * (double)((columns / 2 + rows) * columns);
+    for (size_t c = 0; c < columns; c++) factor->factor_flops += (double)((front - c) * (front - c));
+    if (height + update_size(node) > *stack) *stack = height + update_size(node);
+    if (columns > most_columns) most_columns = columns;
+    if (spore_cholesky_pad(rows) > factor->most_rows) factor->most_rows = spore_cholesky_pad(rows);
     for (uint32_t c = last_child[s]; c != NONE; c = factor->supernodes[c].sibling)
-      height -= 9 * (size_t)factor->supernodes[c].row_count * factor->supernodes[c].row_count;
-    height += update;
+      height -= update_size(&factor->supernodes[c]);
+    height += update_size(node);
     if (node->row_count == 0) continue;
     uint32_t parent = analysis->owner[factor->rows[node->row_start]];
     for (uint32_t k = node->row_start; k < node->row_start + node->row_count; k++)
@@ -199,6 +203,7 @@ static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t
     last_child[parent] = s;
     factor->supernodes[parent].child_count++;
   }
+  *work = 3 * (size_t)analysis->count + SPORE_LANES + factor->most_rows + 3 * spore_cholesky_pad(most_columns);
 }
 
 static void place_entries(const Analysis *analysis, SporeBlockCholesky *factor) {
@@ -206,14 +211,18 @@ static void place_entries(const Analysis *analysis, SporeBlockCholesky *factor) 
   uint32_t count = 0;
   for (uint32_t s = 0; s < factor->supernode_count; s++) {
     SporeSupernode *node = &factor->supernodes[s];
-    size_t front = 3 * ((size_t)node->column_count + node->row_count);
+    size_t columns = 3 * (size_t)node->column_count, ldt = spore_cholesky_pad(columns),
+           ld = spore_cholesky_pad(3 * (size_t)node->row_count);
     node->entry_start = count;
     for (uint32_t j = 0; j < node->column_count; j++) {
       uint32_t column = factor->order[node->first + j];
       for (uint32_t k = pattern->row_start[column]; k < pattern->row_start[column + 1]; k++) {
         uint32_t row = pattern->column[k], place = analysis->place[row];
         if (place < node->first + j) continue;
-        size_t target = node->panel + 3 * (size_t)j * front + 3 * (size_t)row_in_front(factor, node, place);
+        size_t at = row_in_front(factor, node, place);
+        size_t target =
+            node->panel +
+            (at < node->column_count ? 3 * (j * ldt + at) : columns * ldt + 3 * (j * ld + at - node->column_count));
         /* Block (row, column): the pattern is symmetric, so it exists. */
         uint32_t block = (uint32_t)spore_block_matrix_find(pattern, row, column);
         factor->entries[count++] = (SporeFactorEntry){block, row, column, target};
@@ -232,7 +241,7 @@ static size_t all_rows(const Analysis *analysis) {
 
 static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
   const SporeBlockMatrix *pattern = analysis->pattern;
-  size_t n = analysis->count, values, stack, most;
+  size_t n = analysis->count, values, stack, work;
   place_blocks(analysis, factor->order);
   find_parents(analysis, factor->order);
   postorder(analysis, factor->order);
@@ -245,11 +254,11 @@ static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
   factor->entries = SPORE_NEW_ARRAY(SporeFactorEntry, (pattern->row_start[n] + n) / 2);
   if (!factor->supernodes || !factor->rows || !factor->targets || !factor->entries) return false;
   fill_supernodes(analysis, factor);
-  lay_out(analysis, factor, &values, &stack, &most);
+  lay_out(analysis, factor, &values, &stack, &work);
   place_entries(analysis, factor);
   factor->values = SPORE_NEW_ARRAY(double, values);
   factor->stack = SPORE_NEW_ARRAY(double, stack);
-  factor->work = SPORE_NEW_ARRAY(double, 3 * n + most);
+  factor->work = SPORE_NEW_ARRAY(double, work);
   return factor->values && factor->stack && factor->work;
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/base/cpu.h"
 #include "core/base/memory.h"
 #include "core/linalg/block_cholesky.h"
 
@@ -59,6 +60,20 @@ static double farthest(size_t n, const double *a, const double *b) {
   return worst;
 }
 
+/* Every instruction set gives the bits of x. */
+static void same_at_every_level(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *b,
+                                const double *x) {
+  size_t n = 3 * matrix->block_count;
+  double *again = g_new(double, n);
+  for (SporeCpuLevel level = 0; level < SPORE_CPU_LEVELS; level++) {
+    spore_cpu_limit(level);
+    g_assert_true(spore_block_cholesky_factorise(factor, matrix, NULL, NULL));
+    spore_block_cholesky_solve(factor, b, again);
+    g_assert_cmpmem(again, n * sizeof *x, x, n * sizeof *x);
+  }
+  g_free(again);
+}
+
 /* Factorises twice, with other numbers, and solves against the dense factor; no memory is taken meanwhile. */
 static void compare(const char *name, SporeBlockPattern *pattern) {
   SporeBlockMatrix matrix;
@@ -84,6 +99,7 @@ static void compare(const char *name, SporeBlockPattern *pattern) {
     g_test_message("%s: %zu blocks, %zu supernodes, %.3g flops, %.3g a solve, off by %.1e", name, matrix.block_count,
                    factor.supernode_count, factor.factor_flops, factor.solve_flops, error);
     g_assert_cmpfloat(error, <, 1e-10);
+    same_at_every_level(&factor, &matrix, b, x);
     spore_block_cholesky_solve(&factor, b, b);
     g_assert_cmpfloat(farthest(n, x, b), ==, 0);
   }

@@ -1,0 +1,184 @@
+#include "core/linalg/cholesky_kernels.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PARTS (SPORE_LANES / SPORE_WIDTH)
+#define DOWN(row) ((row) / SPORE_LANES * SPORE_LANES)
+
+/* Sums over k of a(i, k) b(j, k), for `vectors` vectors of rows i and `columns` columns j. a: column k at k lda; b: the
+ * j of a k next to each other, at k ldb. */
+SPORE_INLINE void sum_products(int vectors, int columns, size_t depth, const double *a, size_t lda, const double *b,
+                               size_t ldb, SporeVd sum[6][2]) {
+  for (int j = 0; j < columns; j++)
+    for (int p = 0; p < vectors; p++) sum[j][p] = (SporeVd){0};
+  for (size_t k = 0; k < depth; k++, a += lda, b += ldb) {
+    SporeVd rows[2];
+    for (int p = 0; p < vectors; p++) rows[p] = spore_vd_load(a + p * SPORE_WIDTH);
+    for (int j = 0; j < columns; j++)
+      for (int p = 0; p < vectors; p++) sum[j][p] += rows[p] * b[j];
+  }
+}
+
+SPORE_INLINE void subtract_tile(int vectors, int columns, size_t depth, const double *a, size_t lda, const double *b,
+                                size_t ldb, double *c, size_t ldc) {
+  SporeVd sum[6][2];
+  sum_products(vectors, columns, depth, a, lda, b, ldb, sum);
+  for (int j = 0; j < columns; j++)
+    for (int p = 0; p < vectors; p++) {
+      double *place = c + (size_t)j * ldc + p * SPORE_WIDTH;
+      spore_vd_store(place, spore_vd_load(place) - sum[j][p]);
+    }
+}
+
+/* c -= a b^T for the rows from `first`, a multiple of the lanes, to `end`, and three or six columns. */
+SPORE_INLINE void subtract_rows(int columns, size_t first, size_t end, size_t depth, const double *a, size_t lda,
+                                const double *b, size_t ldb, double *c, size_t ldc) {
+  size_t i = first;
+  for (; i + 2 * SPORE_WIDTH <= end; i += 2 * SPORE_WIDTH)
+    subtract_tile(2, columns, depth, a + i, lda, b, ldb, c + i, ldc);
+  if (i < end) subtract_tile(1, columns, depth, a + i, lda, b, ldb, c + i, ldc);
+}
+
+/* The Cholesky factor of the 3x3 block on the diagonal: l00, l10, l20, l11, l21, l22. */
+static bool factorise_block(const double *t, size_t ld, double l[6]) {
+  if (!(t[0] > 0)) return false;
+  l[0] = sqrt(t[0]), l[1] = t[1] / l[0], l[2] = t[2] / l[0];
+  double d1 = t[ld + 1] - l[1] * l[1];
+  if (!(d1 > 0)) return false;
+  l[3] = sqrt(d1), l[4] = (t[ld + 2] - l[2] * l[1]) / l[3];
+  double d2 = t[2 * ld + 2] - l[2] * l[2] - l[4] * l[4];
+  if (!(d2 > 0) || !isfinite(l[0] + l[3] + d2)) return false;
+  l[5] = sqrt(d2);
+  return true;
+}
+
+/* Cholesky's factor of the triangle in t, but its diagonal blocks inverted already. */
+SPORE_INLINE bool factorise_triangle(size_t columns, size_t ld, double *t) {
+  for (size_t j = 0; j < columns; j += 3) {
+    double *c = t + j * ld, l[6];
+    if (j > 0) subtract_rows(3, DOWN(j), ld, j, t, ld, t + j, ld, c, ld);
+    if (!factorise_block(c + j, ld, l)) return false;
+    double i0 = 1 / l[0], i1 = 1 / l[3], i2 = 1 / l[5];
+    for (size_t i = DOWN(j + 3); i < ld; i += SPORE_WIDTH) {
+      SporeVd x = spore_vd_load(c + i) * i0, y = (spore_vd_load(c + ld + i) - x * l[1]) * i1;
+      SporeVd z = (spore_vd_load(c + 2 * ld + i) - x * l[2] - y * l[4]) * i2;
+      spore_vd_store(c + i, x), spore_vd_store(c + ld + i, y), spore_vd_store(c + 2 * ld + i, z);
+    }
+    double *d = c + j;
+    d[0] = i0, d[1] = -l[1] * i0 * i1, d[2] = -(l[2] * i0 + l[4] * d[1]) * i2;
+    d[ld] = 0, d[ld + 1] = i1, d[ld + 2] = -l[4] * i1 * i2;
+    d[2 * ld] = d[2 * ld + 1] = 0, d[2 * ld + 2] = i2;
+  }
+  return true;
+}
+
+/* The whole inverse, from the last columns to the first: T21 = -T22 L21 T11. */
+SPORE_INLINE void invert_triangle(size_t columns, size_t ld, double *t, double *work) {
+  for (size_t j = columns; j > 0;) {
+    j -= 3;
+    double *c = t + j * ld, d[9], *below = c + j + 3;
+    size_t depth = columns - j - 3;
+    for (int e = 0; e < 9; e++) d[e] = c[j + (size_t)(e / 3) * ld + (size_t)(e % 3)];
+    for (size_t k = 0; k < depth; k++) {
+      double x = below[k], y = below[ld + k], z = below[2 * ld + k];
+      work[3 * k] = -(x * d[0] + y * d[1] + z * d[2]);
+      work[3 * k + 1] = -(y * d[4] + z * d[5]);
+      work[3 * k + 2] = -(z * d[8]);
+    }
+    for (size_t i = DOWN(j + 3); i < ld && depth > 0; i += SPORE_WIDTH) {
+      SporeVd sum[6][2];
+      sum_products(1, 3, depth, t + (j + 3) * ld + i, ld, work, 3, sum);
+      for (size_t e = 0; e < 3; e++) spore_vd_store(c + e * ld + i, sum[e][0]);
+    }
+    for (size_t e = 0; e < 3; e++) memset(c + e * ld, 0, j * sizeof *c);
+    for (int e = 0; e < 9; e++) c[j + (size_t)(e / 3) * ld + (size_t)(e % 3)] = d[e];
+  }
+}
+
+/* b = b t^T in place: the columns of a tile come from those up to it, so the last goes first. */
+SPORE_INLINE void apply_tile(int vectors, int width, size_t j, const double *t, size_t ldt, double *b, size_t ldb) {
+  SporeVd sum[6][2];
+  sum_products(vectors, width, j + (size_t)width, b, ldb, t + j, ldt, sum);
+  for (int e = 0; e < width; e++)
+    for (int p = 0; p < vectors; p++) spore_vd_store(b + (j + (size_t)e) * ldb + p * SPORE_WIDTH, sum[e][p]);
+}
+
+SPORE_INLINE void apply_columns(int vectors, size_t columns, const double *t, size_t ldt, double *b, size_t ldb) {
+  size_t j = columns;
+  if (columns % 6) apply_tile(vectors, 3, j -= 3, t, ldt, b, ldb);
+  while (j > 0) apply_tile(vectors, 6, j -= 6, t, ldt, b, ldb);
+}
+
+bool SPORE_LEVEL_NAME(spore_cholesky_eliminate)(size_t columns, size_t rows, double *t, double *b, double *u,
+                                                double *work) {
+  size_t ldt = spore_cholesky_pad(columns), ld = spore_cholesky_pad(rows), i = 0, j = 0;
+  if (!factorise_triangle(columns, ldt, t)) return false;
+  invert_triangle(columns, ldt, t, work);
+  for (; i + 2 * SPORE_WIDTH <= ld; i += 2 * SPORE_WIDTH) apply_columns(2, columns, t, ldt, b + i, ld);
+  if (i < ld) apply_columns(1, columns, t, ldt, b + i, ld);
+  for (; j + 6 <= rows; j += 6) subtract_rows(6, DOWN(j), ld, columns, b, ld, b + j, ld, u + j * ld, ld);
+  if (j < rows) subtract_rows(3, DOWN(j), ld, columns, b, ld, b + j, ld, u + j * ld, ld);
+  return true;
+}
+
+/* y = a x for rows in `vectors` vectors. */
+SPORE_INLINE void multiply_tile(int vectors, size_t columns, const double *a, size_t lda, const double *x, double *y) {
+  SporeVd sum[4];
+  for (int p = 0; p < vectors; p++) sum[p] = (SporeVd){0};
+  for (size_t k = 0; k < columns; k++, a += lda)
+    for (int p = 0; p < vectors; p++) sum[p] += spore_vd_load(a + p * SPORE_WIDTH) * x[k];
+  for (int p = 0; p < vectors; p++) spore_vd_store(y + p * SPORE_WIDTH, sum[p]);
+}
+
+/* lower: a is a lower triangle, and a row ends on its diagonal. */
+SPORE_INLINE void multiply(size_t columns, size_t ld, const double *a, const double *x, double *y, bool lower) {
+  size_t i = 0;
+  for (; i + 4 * SPORE_WIDTH <= ld; i += 4 * SPORE_WIDTH) {
+    size_t end = i + 4 * SPORE_WIDTH;
+    multiply_tile(4, lower && end < columns ? end : columns, a + i, ld, x, y + i);
+  }
+  if (i + 2 * SPORE_WIDTH <= ld) {
+    multiply_tile(2, columns, a + i, ld, x, y + i);
+    i += 2 * SPORE_WIDTH;
+  }
+  if (i < ld) multiply_tile(1, columns, a + i, ld, x, y + i);
+}
+
+void SPORE_LEVEL_NAME(spore_cholesky_forward)(size_t columns, size_t rows, const double *t, const double *b, double *x,
+                                              double *below, double *work) {
+  size_t ldt = spore_cholesky_pad(columns);
+  multiply(columns, ldt, t, x, work, true);
+  memcpy(x, work, columns * sizeof *x);
+  multiply(columns, spore_cholesky_pad(rows), b, work, below, false);
+}
+
+/* y_j = start_j + sign times the sum over rows of a(i, j) x(i), for three or six columns. */
+SPORE_INLINE void dot_tile(int columns, size_t first, size_t ld, const double *a, const double *x, double *y) {
+  SporeVd sum[6][PARTS] = {0};
+  for (size_t i = first; i < ld; i += SPORE_LANES)
+    for (int j = 0; j < columns; j++)
+      for (int p = 0; p < PARTS; p++)
+        sum[j][p] += spore_vd_load(a + (size_t)j * ld + i + p * SPORE_WIDTH) * spore_vd_load(x + i + p * SPORE_WIDTH);
+  for (int j = 0; j < columns; j++) {
+    double lanes[SPORE_LANES];
+    for (int p = 0; p < PARTS; p++) spore_vd_store(lanes + p * SPORE_WIDTH, sum[j][p]);
+    y[j] = spore_lanes_sum(lanes);
+  }
+}
+
+SPORE_INLINE void multiply_transposed(size_t columns, size_t ld, const double *a, const double *x, double *y,
+                                      bool lower) {
+  size_t j = 0;
+  for (; j + 6 <= columns; j += 6) dot_tile(6, lower ? DOWN(j) : 0, ld, a + j * ld, x, y + j);
+  if (j < columns) dot_tile(3, lower ? DOWN(j) : 0, ld, a + j * ld, x, y + j);
+}
+
+void SPORE_LEVEL_NAME(spore_cholesky_backward)(size_t columns, size_t rows, const double *t, const double *b, double *x,
+                                               const double *below, double *work) {
+  size_t ldt = spore_cholesky_pad(columns);
+  multiply_transposed(columns, spore_cholesky_pad(rows), b, below, work, false);
+  for (size_t j = 0; j < columns; j++) work[j] = x[j] - work[j];
+  for (size_t j = columns; j < ldt; j++) work[j] = 0;
+  multiply_transposed(columns, ldt, t, work, x, true);
+}
