@@ -127,6 +127,13 @@ static guint report_monitor(SporeCli *cli, const SporeWorld *world) {
   return frozen;
 }
 
+/* Number of bodies asleep at the end. */
+static guint count_asleep(const SporeWorld *world) {
+  guint asleep = 0;
+  for (guint body = 0; body < spore_world_body_count(world); body++) asleep += spore_world_body_asleep(world, body);
+  return asleep;
+}
+
 static int report(SporeCli *cli, const char *scene, const SporeWorld *world, const SporeRunStatistics *result) {
   SporeProfileSummary step = spore_profile_summary(spore_world_profile(world));
   g_autofree char *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_world_hash(world));
@@ -150,6 +157,9 @@ static int report(SporeCli *cli, const char *scene, const SporeWorld *world, con
   spore_cli_say(cli, _("step: median %.2f us, 99th percentile %.2f us, longest %.2f us\n"), step.median_us, step.p99_us,
                 step.max_us);
   report_stages(cli, spore_world_plan(world));
+  guint asleep = count_asleep(world);
+  spore_cli_count(cli, "asleep", asleep);
+  if (asleep > 0) spore_cli_say(cli, _("asleep at the end: %u bodies\n"), asleep);
   spore_cli_open(cli, "energy");
   spore_cli_number(cli, "start", result->energy_start);
   spore_cli_number(cli, "end", result->energy_end);

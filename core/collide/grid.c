@@ -73,12 +73,27 @@ static void renew_list(SporeGrid *grid, const SporeSpheres *spheres) {
   grid->list_steps = 0;
 }
 
+void spore_grid_set_asleep(SporeGrid *grid, uint32_t body, bool asleep) {
+  unsigned char flags = grid->bodies[body];
+  if ((flags & SPORE_GRID_ASLEEP) == (asleep ? SPORE_GRID_ASLEEP : 0)) return;
+  grid->bodies[body] = flags ^ SPORE_GRID_ASLEEP;
+  if (asleep) grid->sleeping++;
+  else grid->sleeping--;
+}
+
+/* Unmovable spheres come first, so that only a can be one. */
+static bool pair_sleeps(const SporeGrid *grid, const SporeSpheres *spheres, const SporePair *pair) {
+  if (!(grid->bodies[spheres->body[pair->b]] & SPORE_GRID_ASLEEP)) return false;
+  return pair->a < grid->static_count || grid->bodies[spheres->body[pair->a]] & SPORE_GRID_ASLEEP;
+}
+
 /* Contacts of the listed pairs; *missed: those without room. */
 static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
   size_t contact_count = 0;
   SporeContact beyond;
   for (size_t i = 0; i < grid->pair_count; i++) {
     const SporePair *pair = &grid->pairs[i];
+    if (grid->sleeping > 0 && pair_sleeps(grid, spheres, pair)) continue;
     if (!spore_balls_touch(grid->balls + 4 * (size_t)pair->a, grid->balls + 4 * (size_t)pair->b)) continue;
     bool room = contact_count < grid->capacity;
     SporeContact *contact = room ? &grid->contacts[contact_count] : &beyond;

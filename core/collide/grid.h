@@ -51,6 +51,9 @@ bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity);
  * with spore_grid_capacity + missed, and detect again). */
 size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed);
 
+/* Two bodies that do not move, asleep or unmovable, are not looked at for contacts with each other. */
+void spore_grid_set_asleep(SporeGrid *grid, uint32_t body, bool asleep);
+
 /* Those of the last detection; valid until the next one. */
 const SporeContact *spore_grid_contacts(const SporeGrid *grid);
 size_t spore_grid_capacity(const SporeGrid *grid);

@@ -5,7 +5,7 @@
 #include "core/collide/cells.h"
 #include "core/collide/grid.h"
 
-enum { SPORE_GRID_PASSIVE = 1, SPORE_GRID_SELF = 2 };
+enum { SPORE_GRID_PASSIVE = 1, SPORE_GRID_SELF = 2, SPORE_GRID_ASLEEP = 4 };
 
 typedef struct SporePair {
   uint32_t a, b; /* a < b */
@@ -16,6 +16,7 @@ typedef struct SporePair {
 
 struct SporeGrid {
   size_t count, static_count, body_count, capacity;
+  size_t sleeping;       /* bodies */
   unsigned char *bodies; /* SPORE_GRID_ flags */
   SporeCellScale scale;
   SporeCells unmovable, moving; /* moving.unsorted: balls with their skins */

@@ -73,6 +73,17 @@ static const SporeParameter parameters[] = {
      .offset = offsetof(SporeSolverFields, maximum_speed),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Speed above which the monitor steps in.")},
+    {.name = "sleep_speed",
+     .type = SPORE_REAL,
+     .unit = "m/s",
+     .minimum = 0,
+     .maximum = 1,
+     .initial = {1e-6},
+     .offset = offsetof(SporeSolverFields, sleep_speed),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc =
+         N_("Bodies that stay slower than this for half a second sleep, and cost nothing, until something that moves "
+            "touches them; 0: never.")},
 };
 
 const SporeParameterTable spore_solver_parameters = {parameters, sizeof parameters / sizeof *parameters,

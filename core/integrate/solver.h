@@ -22,6 +22,7 @@ typedef struct SporeSolverFields {
   int64_t linear_iterations; /* at most, a Newton iteration */
   double tolerance;          /* relative residual to reach */
   double maximum_speed;      /* m/s: above it the monitor steps in */
+  double sleep_speed;        /* m/s: what stays slower for a while sleeps; 0: nothing does */
 } SporeSolverFields;
 extern const SporeParameterTable spore_solver_parameters;
 

@@ -38,8 +38,12 @@ static void set_contact(SporeWorld *world, SporeBody *body, const SporeContactFi
 }
 
 static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
-  if (isfinite(gravity.x + gravity.y + gravity.z)) world->gravity = gravity;
-  else spore_world_report(world, _("gravity is not finite; expected a vector in m/s^2; kept as it was"));
+  if (!isfinite(gravity.x + gravity.y + gravity.z)) {
+    spore_world_report(world, _("gravity is not finite; expected a vector in m/s^2; kept as it was"));
+    return;
+  }
+  world->gravity = gravity;
+  spore_world_wake_all(world);
 }
 
 static void thaw(SporeBody *body) {
@@ -54,6 +58,9 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
   }
   if (command->body >= world->body_count) return;
   SporeBody *body = &world->bodies[command->body];
+  /* Others may lie on what does not move by physics. */
+  if (body->role == SPORE_PASSIVE && !body->frozen) spore_world_wake(world, command->body);
+  else spore_world_wake_all(world);
   switch (command->kind) {
   case SPORE_COMMAND_PULL:
     spore_world_pull(world, command);

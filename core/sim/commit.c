@@ -20,17 +20,20 @@ static void hold_body(SporeWorld *world, uint32_t index) {
   memset(world->next_v + body->v_offset, 0, 3 * body->block_count * sizeof(double));
 }
 
-static void accept_island(SporeWorld *world, const SporeIsland *island) {
+static void accept_island(SporeWorld *world, SporeIsland *island) {
   const uint32_t *bodies = world->island_bodies + island->body_start;
   for (size_t i = 0; i < island->kept_count; i++) accept_body(world, island, bodies[i]);
   for (size_t i = island->kept_count; i < island->body_count; i++) hold_body(world, bodies[i]);
+  spore_island_let_sleep(world, island);
 }
 
-static void update_masses(SporeWorld *world, const SporeIsland *island) {
+/* Where the island's new state is the world's. */
+static void settle_island(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     const SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     if (!spore_model_is_nodal(body->model)) spore_body_update_mass(world, body);
   }
+  if (island->falls_asleep) spore_island_keep_energy(world, island);
 }
 
 void spore_world_commit(SporeWorld *world) {
@@ -42,7 +45,7 @@ void spore_world_commit(SporeWorld *world) {
     memcpy(world->next_q + body->q_offset, world->target_q + body->q_offset, body->q_count * sizeof(double));
   }
   spore_world_advance_state(world);
-  for (size_t i = 0; i < world->island_count; i++) update_masses(world, &world->islands[i]);
+  for (size_t i = 0; i < world->island_count; i++) settle_island(world, &world->islands[i]);
   spore_world_report_islands(world);
   world->step++;
   spore_snapshot_publish(world);

@@ -209,9 +209,9 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   world->islands = SPORE_NEW_ARRAY(SporeIsland, n);
   world->local_sites = SPORE_NEW_ARRAY(SporeSite, n);
   world->commands.ring = SPORE_NEW_ARRAY(SporeCommand, SPORE_COMMAND_CAPACITY);
-  bool made = world->target_q && world->mass && world->mass_inverse && world->precondition &&
-              world->block_stiffness && world->local_q0 && world->local_q1 && world->local_v0 && world->local_v1 &&
-              world->scratch && world->reaction && world->parent && world->island_of && world->island_bodies &&
-              world->islands && world->local_sites && world->commands.ring;
+  bool made = world->target_q && world->mass && world->mass_inverse && world->precondition && world->block_stiffness &&
+              world->local_q0 && world->local_q1 && world->local_v0 && world->local_v1 && world->scratch &&
+              world->reaction && world->parent && world->island_of && world->island_bodies && world->islands &&
+              world->local_sites && world->commands.ring;
   return made || no_memory(error);
 }

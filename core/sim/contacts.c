@@ -13,7 +13,7 @@ static void map_active(SporeWorld *world, const SporeBody *body, double *centre,
 void spore_world_map_spheres(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_UNMOVABLE || body->spheres.point_count == 0) continue;
+    if (body->role == SPORE_UNMOVABLE || body->spheres.point_count == 0 || body->changed <= world->mapped) continue;
     const double *q = world->q + body->q_offset, *v = world->v + body->v_offset;
     double *centre = world->spheres.centre + 3 * body->sphere_start;
     double *velocity = world->spheres.velocity + 3 * body->sphere_start;
@@ -21,6 +21,7 @@ void spore_world_map_spheres(SporeWorld *world) {
     if (body->role == SPORE_ACTIVE) map_active(world, body, centre, velocity);
     else spore_mapping_velocities(&body->spheres, q, v, velocity);
   }
+  world->mapped = world->snapshots.newest;
 }
 
 bool spore_world_reserve_contacts(SporeWorld *world) {

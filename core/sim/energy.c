@@ -23,6 +23,7 @@ SporeEnergy spore_world_energy(const SporeWorld *world) {
     const SporeBody *body = &world->bodies[b];
     if (!body->model) continue;
     energy.kinetic += kinetic(world, body);
+    energy.contact += body->sleep_energy;
     energy.gravity += gravitational(world, body);
     energy.internal += body->model->type->potential(body->model, world->q + body->q_offset);
   }

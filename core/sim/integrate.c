@@ -13,12 +13,14 @@ static void integrate_island(void *data, size_t index) {
   uint32_t offender;
   island->trouble = spore_island_examine(world, island, &offender);
   if (island->trouble != SPORE_TROUBLE_NONE) spore_island_recover(world, island);
+  island->rests = spore_island_rests(world, island);
 }
 
 void spore_world_integrate(SporeWorld *world) {
   spore_pool_run(world->pool, world->island_count, integrate_island, world);
   SporeStepCounts *counts = &world->counts;
-  *counts = (SporeStepCounts){.contacts = world->contact_count, .islands = world->island_count};
+  *counts = (SporeStepCounts){
+      .contacts = world->contact_count, .islands = world->island_count, .sleeping = world->sleeping_count};
   for (size_t i = 0; i < world->island_count; i++) {
     const SporeStepResult *result = &world->islands[i].result;
     counts->newton_iterations += result->newton_iterations;

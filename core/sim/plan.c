@@ -26,6 +26,7 @@ static size_t moving_spheres(const SporeWorld *world) { return world->spheres.co
 static size_t all_spheres(const SporeWorld *world) { return world->spheres.count; }
 static size_t contacts(const SporeWorld *world) { return world->contact_count; }
 static size_t links(const SporeWorld *world) { return world->link_count + world->pull_count; }
+static size_t sleeping(const SporeWorld *world) { return world->sleeping_count; }
 static size_t islands(const SporeWorld *world) { return world->island_count; }
 static size_t degrees_of_freedom(const SporeWorld *world) { return world->dof; }
 static size_t bodies(const SporeWorld *world) { return world->body_count; }
@@ -46,12 +47,22 @@ static void leave_out(SporeWorld *world, const char *what, const char *reason) {
   world->left_out[world->plan.left_out_count++] = (SporePlanLeftOut){what, reason};
 }
 
+static void plan_sleep(SporeWorld *world, const Census *census) {
+  bool sleep = census->passive > 0 && world->solver.sleep_speed > 0;
+  add(world, "wake", sleep,
+      sleep                 ? _("bodies at rest sleep until something that moves touches them")
+      : census->passive > 0 ? _("bodies never sleep: sleep_speed is 0")
+                            : _("no body moves by physics"),
+      spore_world_wake_up, sleeping);
+}
+
 static void plan_collision(SporeWorld *world, const Census *census) {
   bool collide = world->grid != NULL;
   const char *why = collide ? _("bodies that move have spheres to touch") : _("no two bodies can touch");
   if (census->spheres_bodies == 0) why = _("no body has spheres");
   add(world, "map", collide, why, spore_world_map_spheres, moving_spheres);
   add(world, "detect", collide, why, spore_world_detect, all_spheres);
+  plan_sleep(world, census);
   add(world, "respond", collide, why, spore_world_respond, contacts);
   if (!collide) leave_out(world, _("collision"), why);
   else if (world->spheres.static_count)

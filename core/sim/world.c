@@ -76,6 +76,7 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));
     return give_up(world);
   }
+  spore_world_compile_sleep(world);
   spore_world_make_plan(world);
   spore_world_reset(world);
   return world;
@@ -85,6 +86,7 @@ void spore_world_step(SporeWorld *world) { spore_world_run_plan(world); }
 
 static void reset_body(SporeWorld *world, SporeBody *body) {
   body->frozen = false;
+  body->rest_steps = 0;
   body->told = SPORE_TROUBLE_NONE;
   body->matrix_c = 0;
   spore_body_reset_choice(body);
@@ -95,6 +97,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
 }
 
 void spore_world_reset(SporeWorld *world) {
+  spore_world_wake_all(world);
   memcpy(world->next_q, world->rest_q, world->q_count * sizeof *world->q);
   memcpy(world->next_v, world->rest_v, world->v_count * sizeof *world->v);
   for (size_t b = 0; b < world->body_count; b++) spore_body_mark_changed(world, &world->bodies[b]);
@@ -116,6 +119,7 @@ void spore_world_reset(SporeWorld *world) {
 
 void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, const double *v) {
   SporeBody *body = &world->bodies[index];
+  spore_world_wake_all(world);
   memcpy(world->next_q + body->q_offset, q, body->q_count * sizeof *q);
   memcpy(world->target_q + body->q_offset, q, body->q_count * sizeof *q);
   memcpy(world->next_v + body->v_offset, v, 3 * body->block_count * sizeof *v);
@@ -154,6 +158,7 @@ const char *spore_world_body_name(const SporeWorld *world, uint32_t body) { retu
 SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body) { return world->bodies[body].role; }
 const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body) { return world->bodies[body].model; }
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body) { return world->bodies[body].frozen; }
+bool spore_world_body_asleep(const SporeWorld *world, uint32_t body) { return world->bodies[body].asleep; }
 uint64_t spore_world_step_count(const SporeWorld *world) { return world->step; }
 double spore_world_time_s(const SporeWorld *world) { return (double)world->step * world->solver.time_step; }
 const SporeSpheres *spore_world_spheres(const SporeWorld *world) { return &world->spheres; }

@@ -147,10 +147,13 @@ typedef struct SporeMonitor {
 } SporeMonitor;
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);
+bool spore_world_body_asleep(const SporeWorld *world, uint32_t body);
 
 /* Counts of the last step. */
 typedef struct SporeStepCounts {
-  size_t contacts, islands, newton_iterations, linear_iterations, force_evaluations;
+  size_t contacts, islands; /* of bodies that are awake */
+  size_t sleeping;          /* bodies asleep during the step */
+  size_t newton_iterations, linear_iterations, force_evaluations;
   double residual; /* worst relative residual of the islands' solves; 0 for explicit ones */
 } SporeStepCounts;
 SporeStepCounts spore_world_counts(const SporeWorld *world);
@@ -166,7 +169,7 @@ typedef struct SporeSnapshot {
   size_t q_count, v_count;
   const double *q, *v;  /* all bodies, by spore_world_q_offset and _v_offset */
   double *reaction;     /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
-  size_t contact_count; /* total; at most contact_capacity are listed */
+  size_t contact_count; /* total of bodies that are awake; at most contact_capacity are listed */
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
   SporeStepCounts counts;

@@ -54,6 +54,12 @@ typedef struct SporeBody {
   size_t held_count;
 
   bool frozen;
+  /* Rest: see sleep.c. */
+  bool asleep;
+  uint32_t sleep_next;          /* the next of those that fell asleep together, round and round */
+  uint64_t rest_steps;          /* in a row */
+  double rest_speed, rest_spin; /* m/s and 1/s: at rest below */
+  double sleep_energy;          /* of the contacts that sleep with it, kept with the first body of an island, J */
   uint64_t changed;  /* number of the state that its own last differed in from the one before: see snapshot.c */
   SporeTrouble told; /* the worst that the monitor has said of it */
 
@@ -89,6 +95,7 @@ typedef struct SporeIsland {
   SporeTrouble trouble; /* that was met, mended or not */
   uint64_t substeps;    /* that the mending cost; 0: none needed */
   size_t kept_count;    /* bodies behind these were frozen by this step */
+  bool rests, falls_asleep;
 } SporeIsland;
 
 typedef struct SporeStage {
@@ -165,14 +172,19 @@ struct SporeWorld {
   SporeStage stages[SPORE_STAGE_MAXIMUM]; /* as plan_stages */
   SporeStage *run[SPORE_STAGE_MAXIMUM];   /* those included, in order: what a step calls */
   size_t run_count;
-  size_t pull_count; /* pulls held now */
+  size_t pull_count;     /* pulls held now */
+  size_t sleeping_count; /* bodies */
+  uint64_t mapped;       /* number of the state that the spheres were last mapped from */
   SporePlanLeftOut left_out[SPORE_LEFT_OUT_MAXIMUM];
   SporeProfilePhase profile;
   double step_us;     /* of the step before */
   SporeEnergy energy; /* the last one taken for a snapshot */
 };
 
-static inline bool spore_body_moves(const SporeBody *body) { return body->role == SPORE_PASSIVE && !body->frozen; }
+/* By physics, in this step. */
+static inline bool spore_body_moves(const SporeBody *body) {
+  return body->role == SPORE_PASSIVE && !body->frozen && !body->asleep;
+}
 static inline size_t spore_world_spring_count(const SporeWorld *world) { return world->link_count + world->body_count; }
 
 /* compile.c: parts of spore_world_create. */
@@ -191,7 +203,8 @@ void spore_world_sense(SporeWorld *world);          /* sense.c */
 void spore_world_feed_back(SporeWorld *world);
 void spore_world_map_spheres(SporeWorld *world); /* contacts.c */
 void spore_world_detect(SporeWorld *world);
-void spore_world_respond(SporeWorld *world);
+void spore_world_wake_up(SporeWorld *world);   /* sleep.c */
+void spore_world_respond(SporeWorld *world);   /* contacts.c */
 void spore_world_link(SporeWorld *world);      /* links.c */
 void spore_world_group(SporeWorld *world);     /* islands.c */
 void spore_world_integrate(SporeWorld *world); /* integrate.c */
@@ -213,6 +226,18 @@ SporeDynamics spore_group_dynamics(SporeGroup *group);
 /* Takes away the softening that an explicit step before has left on the island's terms. */
 void spore_group_harden(SporeGroup *group);
 void spore_body_update_mass(SporeWorld *world, const SporeBody *body);
+
+/* sleep.c */
+void spore_world_compile_sleep(SporeWorld *world);
+/* Whether the step just taken left the island at rest. */
+bool spore_island_rests(const SporeWorld *world, const SporeIsland *island);
+/* Sends an island to sleep that has rested for long enough: writes the next state. */
+void spore_island_let_sleep(SporeWorld *world, SporeIsland *island);
+/* Once the island's last state is the world's: remembers the energy of its contacts, which nobody will look for. */
+void spore_island_keep_energy(SporeWorld *world, const SporeIsland *island);
+/* The body, and those that fell asleep with it. */
+void spore_world_wake(SporeWorld *world, uint32_t body);
+void spore_world_wake_all(SporeWorld *world);
 
 /* factor.c */
 bool spore_world_compile_factors(SporeWorld *world, SporeError *error);

@@ -178,6 +178,7 @@ static SporeWorld *ball_on_floor(SporeIntegratorKind integrator, double height, 
   description.gravity = GRAVITY;
   description.solver.integrator = integrator;
   description.solver.time_step = h;
+  description.solver.sleep_speed = 0;
   return create(&description);
 }
 
