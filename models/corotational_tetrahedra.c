@@ -1,5 +1,5 @@
 /* Corotational tetrahedra: the mesh's vertices are nodes, each tetrahedron a linear element. The element itself is in
- * models/corotation.c; here are the model's making, assembly and parameters. */
+ * models/corotation.h; here are the model's making, assembly and parameters. */
 #include <math.h>
 #include <stdio.h>
 
@@ -17,16 +17,14 @@ typedef struct TetrahedraFields {
   double young_modulus, poisson_ratio, density, mass_damping, stiffness_damping;
 } TetrahedraFields;
 
-typedef struct Tetrahedra {
+typedef struct Body {
   SporeModel base;
   SporeTetrahedralMesh mesh; /* at rest, body's frame */
-  size_t batch_count;
-  SporeTetrahedronBatch *batches; /* in the order of the mesh's tetrahedra */
-  uint32_t *blocks;               /* tetrahedron_count x 16: where corner pair (a, b) lies in the model's matrix */
-  uint32_t *diagonal;             /* block_count: where the diagonal blocks lie */
+  SporeTetrahedra tetrahedra;
+  uint32_t *diagonal; /* block_count: where the diagonal blocks lie */
   SporeElasticity elasticity;
   double mass_damping; /* 1/s */
-} Tetrahedra;
+} Body;
 
 static const SporeParameter parameters[] = {
     SPORE_REAL_FIELD(TetrahedraFields, young_modulus, "Pa", 1e-3, 1e15, 5000, SPORE_CHANGE_LIVE,
@@ -47,16 +45,16 @@ static bool no_memory(SporeError *error) {
 }
 
 static void destroy(SporeModel *model) {
-  Tetrahedra *body = (Tetrahedra *)model;
+  Body *body = (Body *)model;
   spore_tetrahedral_mesh_clear(&body->mesh);
-  spore_free(body->batches);
-  spore_free(body->blocks);
+  spore_free(body->tetrahedra.batches);
+  spore_free(body->tetrahedra.blocks);
   spore_free(body->diagonal);
   spore_model_clear(&body->base);
   spore_free(body);
 }
 
-static bool copy_mesh(Tetrahedra *body, const SporeTetrahedralMesh *mesh, SporeError *error) {
+static bool copy_mesh(Body *body, const SporeTetrahedralMesh *mesh, SporeError *error) {
   if (!spore_tetrahedral_mesh_allocate(&body->mesh, mesh->vertex_count, mesh->tetrahedron_count, error)) return false;
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++) body->mesh.vertices[i] = mesh->vertices[i];
   for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++) body->mesh.tetrahedra[i] = mesh->tetrahedra[i];
@@ -81,33 +79,37 @@ static bool refuse_element(size_t t, double volume, double edge, SporeError *err
                          volume, edge);
 }
 
+static void set_element(SporeTetrahedronBatch *batch, size_t lane, const uint32_t corners[4],
+                        const SporeVec3 gradient[3], double volume) {
+  for (int k = 0; k < 4; k++) batch->node[k][lane] = corners[k];
+  for (int k = 0; k < 3; k++) {
+    batch->inverse[3 * k][lane] = gradient[k].x;
+    batch->inverse[3 * k + 1][lane] = gradient[k].y;
+    batch->inverse[3 * k + 2][lane] = gradient[k].z;
+  }
+  batch->volume[lane] = volume;
+}
+
 /* Rest shape of the elements, and a quarter of their mass to each corner. */
-static bool set_elements(Tetrahedra *body, double density, SporeError *error) {
+static bool set_elements(Body *body, double density, SporeError *error) {
   const SporeTetrahedralMesh *mesh = &body->mesh;
   for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
     const uint32_t *corners = mesh->tetrahedra + 4 * t;
-    SporeTetrahedronBatch *batch = body->batches + t / SPORE_LANES;
-    size_t lane = t % SPORE_LANES;
+    size_t batch = t % body->tetrahedra.batch_count, lane = t / body->tetrahedra.batch_count;
     SporeVec3 gradient[3];
     double six_volumes = spore_tetrahedron_gradients(mesh->vertices, corners, gradient);
     double edge = longest_edge(mesh, corners);
     if (!(six_volumes > FLAT * edge * edge * edge)) return refuse_element(t, six_volumes / 6, edge, error);
-    batch->volume[lane] = six_volumes / 6;
-    for (int k = 0; k < 3; k++) {
-      batch->inverse[3 * k][lane] = gradient[k].x;
-      batch->inverse[3 * k + 1][lane] = gradient[k].y;
-      batch->inverse[3 * k + 2][lane] = gradient[k].z;
-    }
-    for (int k = 0; k < 4; k++) {
-      batch->node[k][lane] = corners[k];
-      body->base.block_mass[corners[k]] += density * six_volumes / 24;
-    }
+    set_element(body->tetrahedra.batches + batch, lane, corners, gradient, six_volumes / 6);
+    for (size_t free = lane; lane == 0 && ++free < SPORE_LANES;) /* until others come: the same without a volume */
+      set_element(body->tetrahedra.batches + batch, free, corners, gradient, 0);
+    for (int k = 0; k < 4; k++) body->base.block_mass[corners[k]] += density * six_volumes / 24;
   }
   return spore_nodal_check_mass(&body->base, "tetrahedron", error);
 }
 
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
-  const SporeTetrahedralMesh *mesh = &((const Tetrahedra *)model)->mesh;
+  const SporeTetrahedralMesh *mesh = &((const Body *)model)->mesh;
   for (size_t t = 0; t < mesh->tetrahedron_count; t++)
     for (int a = 0; a < 4; a++)
       for (int b = 0; b < a; b++)
@@ -116,42 +118,44 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 }
 
 /* Looks up each element's blocks once, in a matrix of the pattern that the world will make too. */
-static bool find_blocks(Tetrahedra *body) {
+static bool find_blocks(Body *body) {
   SporeBlockPattern blocks;
   SporeBlockMatrix matrix;
   spore_block_pattern_init(&blocks, body->base.block_count);
   bool made = pattern(&body->base, &blocks) && spore_block_matrix_create(&matrix, &blocks);
   spore_block_pattern_clear(&blocks);
   if (!made) return false;
-  for (size_t t = 0; t < body->mesh.tetrahedron_count; t++)
-    for (int a = 0; a < 4; a++)
-      for (int b = 0; b < 4; b++)
-        body->blocks[16 * t + 4 * a + b] = (uint32_t)spore_block_matrix_find(&matrix, body->mesh.tetrahedra[4 * t + a],
-                                                                             body->mesh.tetrahedra[4 * t + b]);
+  for (size_t n = 0; n < body->tetrahedra.batch_count; n++)
+    for (size_t lane = 0; lane < SPORE_LANES; lane++)
+      for (int a = 0; a < 4; a++)
+        for (int b = 0; b < 4; b++)
+          body->tetrahedra.blocks[n][lane][4 * a + b] = (uint32_t)spore_block_matrix_find(
+              &matrix, body->tetrahedra.batches[n].node[a][lane], body->tetrahedra.batches[n].node[b][lane]);
   for (size_t i = 0; i < body->base.block_count; i++) body->diagonal[i] = matrix.diagonal[i];
   spore_block_matrix_clear(&matrix);
   return true;
 }
 
 /* Lame's parameters from Young's modulus and Poisson's ratio. */
-static void tune(Tetrahedra *body, const TetrahedraFields *fields) {
+static void tune(Body *body, const TetrahedraFields *fields) {
   double e = fields->young_modulus, nu = fields->poisson_ratio;
   body->elasticity = (SporeElasticity){
       .mu = e / (2 * (1 + nu)), .lambda = e * nu / ((1 + nu) * (1 - 2 * nu)), .viscosity = fields->stiffness_damping};
   body->mass_damping = fields->mass_damping;
 }
 
-static bool build(Tetrahedra *body, const SporeTetrahedralMesh *mesh, const TetrahedraFields *fields,
-                  SporeError *error) {
+static bool build(Body *body, const SporeTetrahedralMesh *mesh, const TetrahedraFields *fields, SporeError *error) {
   size_t nodes = mesh->vertex_count, count = mesh->tetrahedron_count;
   if (!spore_model_init(&body->base, &spore_corotational_tetrahedra, 3 * nodes, nodes, error) ||
       !copy_mesh(body, mesh, error))
     return false;
-  body->batch_count = (count + SPORE_LANES - 1) / SPORE_LANES;
-  body->batches = SPORE_NEW_ARRAY(SporeTetrahedronBatch, body->batch_count);
-  body->blocks = SPORE_NEW_ARRAY(uint32_t, 16 * count);
+  SporeTetrahedra *tetrahedra = &body->tetrahedra;
+  tetrahedra->count = count;
+  tetrahedra->batch_count = (count + SPORE_LANES - 1) / SPORE_LANES;
+  tetrahedra->batches = SPORE_NEW_ARRAY(SporeTetrahedronBatch, tetrahedra->batch_count);
+  tetrahedra->blocks = spore_allocate(tetrahedra->batch_count, sizeof *tetrahedra->blocks);
   body->diagonal = SPORE_NEW_ARRAY(uint32_t, nodes);
-  if (!body->batches || !body->blocks || !body->diagonal) return no_memory(error);
+  if (!tetrahedra->batches || !tetrahedra->blocks || !body->diagonal) return no_memory(error);
   if (!set_elements(body, fields->density, error)) return false;
   if (!find_blocks(body)) return no_memory(error);
   tune(body, fields);
@@ -177,7 +181,7 @@ static bool check_mesh(const SporeTetrahedralMesh *mesh, SporeError *error) {
 
 static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   if (!check_mesh(geometry->tetrahedra, error)) return NULL;
-  Tetrahedra *body = SPORE_NEW(Tetrahedra);
+  Body *body = SPORE_NEW(Body);
   if (!body) {
     no_memory(error);
     return NULL;
@@ -188,49 +192,26 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
-  const Tetrahedra *body = (const Tetrahedra *)model;
+  const Body *body = (const Body *)model;
   spore_nodal_place(body->mesh.vertices, body->base.block_count, pose, velocity, spin, q, v);
 }
 
-static size_t lanes_of(const Tetrahedra *body, size_t batch) {
-  size_t left = body->mesh.tetrahedron_count - batch * SPORE_LANES;
-  return left < SPORE_LANES ? left : SPORE_LANES;
-}
-
 static void force(const SporeModel *model, const double *q, const double *v, double *f) {
-  const Tetrahedra *body = (const Tetrahedra *)model;
-  for (size_t b = 0; b < body->batch_count; b++)
-    spore_corotation_force(body->batches + b, lanes_of(body, b), body->elasticity, q, v, f);
+  const Body *body = (const Body *)model;
+  spore_corotation_force(&body->tetrahedra, body->elasticity, q, v, f);
   if (body->mass_damping == 0) return;
   for (size_t i = 0; i < body->base.q_count; i++) f[i] -= body->mass_damping * body->base.block_mass[i / 3] * v[i];
 }
 
 static double potential(const SporeModel *model, const double *q) {
-  const Tetrahedra *body = (const Tetrahedra *)model;
-  double sum = 0;
-  for (size_t t = 0; t < body->mesh.tetrahedron_count; t++)
-    sum += spore_corotation_potential(body->batches + t / SPORE_LANES, t % SPORE_LANES, body->elasticity, q);
-  return sum;
-}
-
-static void add_element(const uint32_t at[16], const double blocks[10][9], SporeBlockMatrix *matrix) {
-  for (int a = 0, n = 0; a < 4; a++)
-    for (int b = a; b < 4; b++, n++) {
-      double *upper = matrix->values + 9 * (size_t)at[4 * a + b], *lower = matrix->values + 9 * (size_t)at[4 * b + a];
-      for (int k = 0; k < 9; k++) upper[k] += blocks[n][k];
-      for (int k = 0; a != b && k < 9; k++) lower[k] += blocks[n][3 * (k % 3) + k / 3];
-    }
+  const Body *body = (const Body *)model;
+  return spore_corotation_potential(&body->tetrahedra, body->elasticity, q);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
                      double damping_scale, SporeBlockMatrix *matrix) {
-  const Tetrahedra *body = (const Tetrahedra *)model;
-  for (size_t t = 0; t < body->mesh.tetrahedron_count; t++) {
-    double blocks[10][9];
-    spore_corotation_jacobian(body->batches + t / SPORE_LANES, t % SPORE_LANES, body->elasticity, q, stiffness_scale,
-                              damping_scale, blocks);
-    add_element(body->blocks + 16 * t, blocks, matrix);
-  }
+  const Body *body = (const Body *)model;
+  spore_corotation_jacobian(&body->tetrahedra, body->elasticity, q, stiffness_scale, damping_scale, matrix);
   for (size_t i = 0; i < body->base.block_count; i++)
     for (int k = 0; k < 3; k++)
       matrix->values[9 * (size_t)body->diagonal[i] + 4 * k] +=
@@ -238,11 +219,11 @@ static void jacobian(const SporeModel *model, const double *q, const double *v, 
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_tetrahedra_map(&((const Tetrahedra *)model)->mesh, points, count, mapping, error);
+  return spore_tetrahedra_map(&((const Body *)model)->mesh, points, count, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
-  tune((Tetrahedra *)model, fields);
+  tune((Body *)model, fields);
   return true;
 }
 

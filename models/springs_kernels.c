@@ -1,6 +1,6 @@
 #include "models/springs.h"
 
-#include <math.h>
+#include "models/block_rows.h"
 
 /* Below this part of the rest length a spring has no direction of its own. */
 #define SHORT 1e-9
@@ -94,25 +94,11 @@ typedef struct Symmetric {
   SporeVd xx, xy, xz, yy, yz, zz;
 } Symmetric;
 
-typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
-
 /* The matrices as SPORE_WIDTH x 3 rows of 4. */
 SPORE_INLINE void store_matrices(double rows[3][4 * SPORE_WIDTH], const Symmetric *a) {
   spore_vd3_store_rows(rows[0], (SporeVd3){a->xx, a->xy, a->xz});
   spore_vd3_store_rows(rows[1], (SporeVd3){a->xy, a->yy, a->yz});
   spore_vd3_store_rows(rows[2], (SporeVd3){a->xz, a->yz, a->zz});
-}
-
-/* block += sign x row i of each of the three: a row is four numbers, of which the last is 0 and falls on the next row,
- * which is loaded before and stored after it. */
-SPORE_INLINE void add_to_block(double *block, double rows[3][4 * SPORE_WIDTH], size_t i, double sign) {
-  Four first = *(Four *)block + sign * *(const Four *)(rows[0] + 4 * i);
-  Four second = *(Four *)(block + 3) + sign * *(const Four *)(rows[1] + 4 * i);
-  double third[3];
-  for (int k = 0; k < 3; k++) third[k] = block[6 + k] + sign * rows[2][4 * i + (size_t)k];
-  *(Four *)block = first;
-  *(Four *)(block + 3) = second;
-  for (int k = 0; k < 3; k++) block[6 + k] = third[k];
 }
 
 /* k (1 - L/l)+ (I - nn^T) + (k + c) nn^T; where there is no line (k + c) nn^T alone. */
@@ -142,13 +128,14 @@ void SPORE_LEVEL_NAME(spore_springs_jacobian)(const SporeSprings *springs, const
       Symmetric block = stiffness_of(line, square, length, stiffness, damping);
       sum.xx += block.xx, sum.xy += block.xy, sum.xz += block.xz;
       sum.yy += block.yy, sum.yz += block.yz, sum.zz += block.zz;
+      block = (Symmetric){-block.xx, -block.xy, -block.xz, -block.yy, -block.yz, -block.zz};
       store_matrices(rows, &block);
       /* A lane without a spring adds nothing, to the diagonal block of its node. */
       for (size_t i = 0; i < lanes; i++)
-        add_to_block(matrix->values + 9 * (size_t)springs->block[slot + i], rows, i, -1);
+        spore_block_add_rows(matrix->values + 9 * (size_t)springs->block[slot + i], rows, i);
     }
     store_matrices(rows, &sum);
     for (size_t i = 0; i < lanes; i++)
-      add_to_block(matrix->values + 9 * (size_t)springs->diagonal[first + i], rows, i, 1);
+      spore_block_add_rows(matrix->values + 9 * (size_t)springs->diagonal[first + i], rows, i);
   }
 }

@@ -39,7 +39,7 @@ static bool prepare(Case *run) {
   if (!made) return false;
   model->type->place(model, spore_pose_identity(), (SporeVec3){0.1, 0.2, 0.3}, (SporeVec3){1, 2, 3}, run->q, run->v);
   for (size_t i = 0; i < n; i++)
-    run->q[i] += 0.005 * sin(12.9898 * (double)i), run->v[i] += 0.1 * sin(78.233 * (double)i);
+    run->q[i] += 0.002 * sin(12.9898 * (double)i), run->v[i] += 0.1 * sin(78.233 * (double)i);
   return true;
 }
 
@@ -120,9 +120,40 @@ static void net(const char *name, double damping, double others) {
   spore_triangle_mesh_clear(&mesh);
 }
 
+/* A beam of 20x4x4 cells of six tetrahedra, 5 cm thick: 525 nodes. */
+static void beam(const char *name, double damping) {
+  enum { X = 20, Y = 4, Z = 4 };
+  static const uint8_t paths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}; /* corners between 0 and 7 */
+  SporeTetrahedralMesh mesh = {0};
+  if (!spore_tetrahedral_mesh_allocate(&mesh, (X + 1) * (Y + 1) * (Z + 1), 6 * X * Y * Z, NULL)) return;
+  uint32_t *corner = mesh.tetrahedra, i = 0;
+  for (uint32_t z = 0; z <= Z; z++)
+    for (uint32_t y = 0; y <= Y; y++)
+      for (uint32_t x = 0; x <= X; x++, i++) {
+        spore_vec3_store(mesh.vertices + 3 * i, (SporeVec3){0.0125 * x, 0.0125 * y, 0.0125 * z});
+        if (x == X || y == Y || z == Z) continue;
+        uint32_t cell[8];
+        for (uint32_t k = 0; k < 8; k++) cell[k] = i + (k & 1) + (k >> 1 & 1) * (X + 1) + (k >> 2) * (X + 1) * (Y + 1);
+        for (int t = 0; t < 6; t++) {
+          *corner++ = cell[0], *corner++ = cell[paths[t][0]], *corner++ = cell[paths[t][1]], *corner++ = cell[7];
+        }
+      }
+  void *fields = new_fields(&spore_corotational_tetrahedra);
+  set(&spore_corotational_tetrahedra, fields, "stiffness_damping", damping);
+  SporeGeometry geometry = {.tetrahedra = &mesh};
+  SporeError error = SPORE_ERROR_INIT;
+  Case run = {.name = name, .model = spore_corotational_tetrahedra.create(&geometry, fields, &error)};
+  if (!run.model) fprintf(stderr, "%s: %s\n", error.place, error.message);
+  measure_model(&run);
+  spore_free(fields);
+  spore_tetrahedral_mesh_clear(&mesh);
+}
+
 int main(void) {
   net("net 20x20, 1121 springs,", 0, 0);
   net("net 20x20, 1121 damped springs,", 0.01, 0);
   net("net 20x20, all springs damped,", 0.01, 10);
+  beam("1920 tetrahedra", 0);
+  beam("1920 damped tetrahedra", 0.01);
   return 0;
 }

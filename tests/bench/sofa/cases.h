@@ -18,7 +18,7 @@ typedef struct Case {
   double force_flops, jacobian_flops;
 } Case;
 
-/* Operations of one element's force and Jacobian, counted by hand in models/corotation.c (five rounds of the polar
+/* Operations of one element's force and Jacobian, counted by hand in models/corotation_kernels.c (five rounds of the polar
  * iteration) and models/springs.c. */
 #define TETRAHEDRON_FLOPS .force_flops = 1000, .jacobian_flops = 2600
 #define SPRING_FLOPS .force_flops = 35, .jacobian_flops = 75
