@@ -105,6 +105,7 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
                             const double *v0, double *q1, double *v1, double *scratch) {
   size_t n = 3 * dynamics->block_count;
   Stage stage = {.dynamics = dynamics, .q0 = q0, .v0 = v0, .c = h};
+  dynamics->set_shape(dynamics->data, q0);
   stage.linear_iterations = (size_t)fields->linear_iterations;
   stage.q = scratch;
   stage.v = scratch + 2 * n;

@@ -76,7 +76,7 @@ static void move_prescribed(SporeWorld *world, const SporeIsland *island, double
 
 SporeStepResult spore_island_advance(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind,
                                      size_t substeps) {
-  SporeGroup group = {world, island};
+  SporeGroup group = {.world = world, .island = island};
   SporeDynamics dynamics = spore_group_dynamics(&group);
   const SporeIntegrator *integrator = spore_integrator(kind);
   const double *q0 = island->q0, *v0 = island->v0;
@@ -110,7 +110,8 @@ static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
     const SporeBody *body = &world->bodies[b];
     double *f = island->v1;
     memset(f, 0, 3 * body->block_count * sizeof *f);
-    body->model->type->force(body->model, world->q + body->q_offset, world->v + body->v_offset, f);
+    const double *q = world->q + body->q_offset;
+    body->model->type->force(body->model, q, q, world->v + body->v_offset, f);
     if (!finite_all(f, 3 * body->block_count)) return b;
   }
   return SPORE_NO_BODY;

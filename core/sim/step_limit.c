@@ -116,10 +116,10 @@ bool spore_step_limit(const SporeModel *model, const double *q, const double *v,
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory to find the largest step"));
   }
   if (invert_mass(model, q, power.inverse)) {
-    model->type->jacobian(model, q, v, 1, 0, &power.matrix);
+    model->type->jacobian(model, q, q, v, 1, 0, &power.matrix);
     double square = largest_eigenvalue(&power);
     spore_block_matrix_zero(&power.matrix);
-    model->type->jacobian(model, q, v, 0, 1, &power.matrix);
+    model->type->jacobian(model, q, q, v, 0, 1, &power.matrix);
     limit->damping = largest_eigenvalue(&power);
     limit->frequency = sqrt(square);
     limit->dt_s = 0.98 * stable_step(square, limit->damping);

@@ -221,6 +221,7 @@ void spore_island_gather(SporeWorld *world, SporeIsland *island);
 typedef struct SporeGroup {
   SporeWorld *world;
   const SporeIsland *island;
+  const double *shape; /* as q of the island: where viscous forces are taken; NULL: where each force is */
 } SporeGroup;
 SporeDynamics spore_group_dynamics(SporeGroup *group);
 /* Takes away the softening that an explicit step before has left on the island's terms. */

@@ -44,7 +44,7 @@ static double jacobian_error(const SporeModel *model, const State *state, const 
                              gboolean damping) {
   SporeBlockMatrix matrix;
   make_matrix(model, &matrix);
-  model->type->jacobian(model, state->q, state->v, damping ? 0 : 1, damping ? 1 : 0, &matrix);
+  model->type->jacobian(model, state->q, state->q, state->v, damping ? 0 : 1, damping ? 1 : 0, &matrix);
   double *product = vector_new(state->v_count);
   spore_block_matrix_multiply_add(&matrix, w, product);
   State ahead = state_copy(state), behind = state_copy(state);
@@ -132,7 +132,7 @@ static void check_definite(gconstpointer data) {
     for (size_t i = 0; trial % 6 == 5 && i < model->block_count; i++) state.q[3 * i + 1] = 0.1;
     SporeBlockMatrix matrix;
     make_matrix(model, &matrix);
-    model->type->jacobian(model, state.q, state.v, 1, trial % 2 ? 0.01 : 0, &matrix);
+    model->type->jacobian(model, state.q, state.q, state.v, 1, trial % 2 ? 0.01 : 0, &matrix);
     size_t n = 3 * matrix.block_count;
     double *a = dense(&matrix), greatest, difference = asymmetry(a, n, &greatest);
     g_assert_true(isfinite(greatest) && greatest > 0);
