@@ -121,6 +121,36 @@ static double asymmetry(const double *a, size_t n, double *greatest) {
   return difference;
 }
 
+/* Viscosity taken at another shape is linear in v there, and the Jacobian is exactly that, in any state. */
+static void check_viscosity(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(11);
+  State state = state_random(model, random, 0.8, 0.5 * specimen->size);
+  State shape = state_random(model, random, 1, 0.5 * specimen->size);
+  SporeBlockMatrix matrix;
+  make_matrix(model, &matrix);
+  model->type->jacobian(model, state.q, shape.q, state.v, 0, 1, &matrix);
+  double *product = vector_new(state.v_count), *at_rest = vector_new(state.v_count), *still = vector_new(state.v_count);
+  double *moving = vector_new(state.v_count);
+  spore_block_matrix_multiply_add(&matrix, state.v, product);
+  model->type->force(model, state.q, shape.q, still, at_rest);
+  model->type->force(model, state.q, shape.q, state.v, moving);
+  for (size_t i = 0; i < state.v_count; i++) moving[i] = at_rest[i] - moving[i];
+  g_assert_cmpfloat(vector_distance(moving, product, state.v_count), <=,
+                    1e-10 * (vector_length(product, state.v_count) + vector_length(at_rest, state.v_count)));
+  g_assert_cmpfloat(vector_dot(product, state.v, state.v_count), >, 0); /* it takes energy */
+  g_free(product);
+  g_free(at_rest);
+  g_free(still);
+  g_free(moving);
+  spore_block_matrix_clear(&matrix);
+  state_clear(&state);
+  state_clear(&shape);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
 /* Any state, also crushed, inverted and collapsed to a plane: symmetric, finite, not indefinite. */
 static void check_definite(gconstpointer data) {
   const Specimen *specimen = data;
@@ -252,6 +282,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   specimen_add_tests("/conformance/gradient", check_gradient, NULL);
   specimen_add_tests("/conformance/jacobian", check_jacobian, has_jacobian);
+  specimen_add_tests("/conformance/viscosity", check_viscosity, has_jacobian);
   specimen_add_tests("/conformance/definite", check_definite, has_jacobian);
   specimen_add_tests("/conformance/momentum", check_momentum, has_jacobian);
   specimen_add_tests("/conformance/frame", check_frame, NULL);
