@@ -169,12 +169,11 @@ SPORE_INLINE Matrix elastic_stress(SporeElasticity elasticity, const Matrix *f) 
 }
 
 void SPORE_LEVEL_NAME(spore_corotation_force)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                              const double *q, const double *shape, const double *v, double *f) {
+                                              const double *q, const double *v, double *f) {
   for (size_t b = 0; b < tetrahedra->batch_count; b++)
     for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
       Part part = part_of(tetrahedra, b, lane);
       Matrix gradient = gradient_of(&part, q), stress = elastic_stress(elasticity, &gradient);
-      if (elasticity.viscosity > 0 && shape != q) gradient = gradient_of(&part, shape);
       if (elasticity.viscosity > 0) add_viscous(&part, elasticity, &gradient, v, &stress);
       add_forces(tetrahedra, b, &part, &stress, f);
     }
@@ -396,8 +395,8 @@ SPORE_INLINE void add_blocks(const SporeTetrahedra *tetrahedra, size_t index, si
 }
 
 void SPORE_LEVEL_NAME(spore_corotation_jacobian)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                                 const double *q, const double *shape, double stiffness_scale,
-                                                 double damping_scale, SporeBlockMatrix *matrix) {
+                                                 const double *q, double stiffness_scale, double damping_scale,
+                                                 SporeBlockMatrix *matrix) {
   double viscous = damping_scale * elasticity.viscosity;
   for (size_t b = 0; b < tetrahedra->batch_count; b++)
     for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
@@ -405,7 +404,6 @@ void SPORE_LEVEL_NAME(spore_corotation_jacobian)(const SporeTetrahedra *tetrahed
       Matrix gradient = gradient_of(&part, q);
       Blocks blocks = {0};
       if (stiffness_scale != 0) add_stiffness(&part, elasticity, stiffness_scale, &gradient, &blocks);
-      if (viscous != 0 && shape != q) gradient = gradient_of(&part, shape);
       if (viscous != 0) add_viscosity(&part, elasticity, damping_scale, &gradient, &blocks);
       add_blocks(tetrahedra, b, lane, &blocks, matrix);
     }

@@ -155,7 +155,7 @@ static void mass(const SporeModel *model, const double *q, double *blocks) {
   for (int k = 0; k < 9; k++) blocks[k] = linear.m[k], blocks[9 + k] = angular.m[k];
 }
 
-static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {}
+static void force(const SporeModel *model, const double *q, const double *v, double *f) {}
 static double potential(const SporeModel *model, const double *q) { return 0; }
 
 /* Free motion. In principal axes, with a = 1 / moment and body angular momentum p, the kinetic energy is

@@ -1,5 +1,8 @@
 /* What an integrator sees: M v' = f(q, v), q moved by v, and nothing of bodies or contacts.
  *
+ * M may turn with q (a rigid body's inertia does). What integrators add up is therefore momentum: v at q0 and v at q1
+ * are compared by `carry`, and `drift` keeps momentum. Where q' = v, momentum is a constant times v and both are plain.
+ *
  * Blocks of v that are held (pins) are the dynamics' own affair: force, kick, multiply and precondition give zero
  * for them. All vectors of velocity kind have 3 block_count entries. */
 #ifndef SPORE_INTEGRATE_DYNAMICS_H
@@ -11,18 +14,22 @@
 typedef struct SporeDynamics {
   void *data;
   size_t q_count, block_count;
-  /* From here on forces are elastic where they are evaluated and viscous at `shape` (borrowed), so that the viscous
-   * ones are linear in v and A below is the whole Jacobian; first order in time. At first, and with NULL: viscous there
-   * too. */
-  void (*set_shape)(void *data, const double *shape);
   void (*force)(void *data, const double *q, const double *v, double *f); /* f = all forces, N */
-  /* The same in two parts, for explicit steps: the bodies' own forces, and those of contacts and links at (q, v), made
-   * safe for a step of h seconds however stiff they are. term_force: false, f untouched, where there are none. */
+  /* The same in two parts: f = the bodies' own forces, and f += those of contacts and links. */
   void (*body_force)(void *data, const double *q, const double *v, double *f);
-  bool (*term_force)(void *data, const double *q, const double *v, double h, double *f);
+  void (*term_force)(void *data, const double *q, const double *v, double *f);
+  /* Makes contacts and links safe for explicit steps of h seconds however stiff they are; `resolved`: but those that
+   * such a step resolves well are left exactly as they are. False: there are none. */
+  bool (*soften)(void *data, double h, bool resolved);
+  /* What is prescribed (tools) is taken to be where it will be `elapsed_s` after the start of this step; when the step
+   * begins that is its end. */
+  void (*set_time)(void *data, double elapsed_s);
+  void (*set_mass)(void *data, const double *q);                  /* M is that at q from here on; at first that at q0 */
   void (*kick)(void *data, const double *f, double h, double *v); /* v += h M^-1 f */
   void (*drift)(void *data, const double *q0, const double *v, double h, double *q1,
-                double *v1);                                     /* force-free motion */
+                double *v1); /* force-free motion; q1 and v1 may be q0 and v */
+  /* v1 += M(q1)^-1 M dv: the change of momentum that changes v by dv where M is, as a change of v at q1. */
+  void (*carry)(void *data, const double *dv, const double *q1, double *v1);
   void (*mass_multiply)(void *data, const double *x, double *y); /* y = M x */
   /* Assembles A = M + c D + c2 K at (q, v), D = -df/dv, K = -df/dq; multiply and precondition then stand for
    * this A. */
@@ -34,6 +41,8 @@ typedef struct SporeDynamics {
   /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries at q, by the diagonal of the current A: along the soft axes
    * alone, or along the stiff ones too. */
   double (*rounding)(void *data, const double *q, double c, bool stiff_axes);
+  /* Largest root mean square displacement of a body, (x.M x / mass)^1/2, m; x in m. */
+  double (*distance)(void *data, const double *x);
   double gravity_momentum; /* (M g . g)^1/2, N / kg^1/2: how big a force is worth looking at */
 } SporeDynamics;
 

@@ -1,13 +1,25 @@
 #include "core/integrate/integrator.h"
 
-static const SporeIntegrator *const integrators[] = {&spore_symplectic_euler, &spore_implicit_euler};
-#define INTEGRATOR_COUNT (sizeof integrators / sizeof *integrators)
+static const SporeIntegrator *const integrators[SPORE_INTEGRATOR_COUNT] = {
+    &spore_explicit_euler, &spore_symplectic_euler,  &spore_verlet, &spore_rk4,
+    &spore_implicit_euler, &spore_implicit_midpoint, &spore_bdf2,   &spore_tr_bdf2,
+};
 
 const SporeIntegrator *spore_integrator(SporeIntegratorKind kind) { return integrators[kind]; }
 
 size_t spore_integrator_scratch(void) {
   size_t most = 0;
-  for (size_t i = 0; i < INTEGRATOR_COUNT; i++)
+  for (size_t i = 0; i < SPORE_INTEGRATOR_COUNT; i++)
     if (integrators[i]->scratch > most) most = integrators[i]->scratch;
   return most;
+}
+
+void spore_step_result_add(SporeStepResult *total, const SporeStepResult *part) {
+  total->converged &= part->converged;
+  total->newton_iterations += part->newton_iterations;
+  total->linear_iterations += part->linear_iterations;
+  total->force_evaluations += part->force_evaluations;
+  total->linearisations += part->linearisations;
+  total->unsolved += part->unsolved;
+  if (!(part->residual <= total->residual)) total->residual = part->residual;
 }

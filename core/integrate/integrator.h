@@ -12,23 +12,48 @@ typedef struct SporeStepResult {
   double residual;                 /* relative */
 } SporeStepResult;
 
+/* Adds the counts of a part of a step; the worst residual stays. */
+void spore_step_result_add(SporeStepResult *total, const SporeStepResult *part);
+
+/* What a multistep or adaptive method remembers of the step before, at the q0 of this one. The vectors, 3 block_count
+ * each, mean what the method says. */
+typedef struct SporeHistory {
+  double step_s; /* of the step that left it; 0: nothing is known. The method sets it for the next one. */
+  double *a, *b;
+} SporeHistory;
+
+/* How sure a method is to take energy away from what it does not resolve. Bodies of several methods that are solved
+ * together move by the one that damps most. */
+typedef enum SporeDamping {
+  SPORE_DAMPING_NONE,    /* explicit */
+  SPORE_DAMPING_NEUTRAL, /* A-stable: keeps it */
+  SPORE_DAMPING_FAST,    /* L-stable: takes it, of what is smooth */
+  SPORE_DAMPING_FULL     /* contractive: takes it at every step, impacts too */
+} SporeDamping;
+
 typedef struct SporeIntegrator {
   const char *name; /* as spore_integrator_names */
   const char *doc;  /* translatable */
   bool implicit;
+  bool remembers; /* needs its SporeHistory kept */
+  SporeDamping damping;
+  /* Explicit: modes with w^2 h^2 + stable_damping d h <= stable_square stay bounded; w^2 and d are eigenvalues of
+   * M^-1 K and M^-1 D. 1 of it is for contacts and links: see SporeSoftening. 0: not of this form. */
+  double stable_square, stable_damping;
   /* Doubles of scratch a block. */
   size_t scratch;
   /* q1, v1 from q0, v0 (not aliased) after h seconds. Whatever happens q1 and v1 are written; they may not be finite.
    */
-  SporeStepResult (*step)(const SporeDynamics *dynamics, const SporeSolverFields *fields, double h, const double *q0,
-                          const double *v0, double *q1, double *v1, double *scratch);
+  SporeStepResult (*step)(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
+                          double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch);
 } SporeIntegrator;
 
-/* By kind, SPORE_INTEGRATOR_DEFAULT excepted. The higher the kind, the safer at large steps. */
+/* By kind, SPORE_INTEGRATOR_DEFAULT excepted. */
 const SporeIntegrator *spore_integrator(SporeIntegratorKind kind);
 /* Scratch a block that serves any of them. */
 size_t spore_integrator_scratch(void);
 
-extern const SporeIntegrator spore_symplectic_euler, spore_implicit_euler;
+extern const SporeIntegrator spore_explicit_euler, spore_symplectic_euler, spore_verlet, spore_rk4,
+    spore_implicit_euler, spore_implicit_midpoint, spore_bdf2, spore_tr_bdf2;
 
 #endif

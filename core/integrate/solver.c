@@ -4,7 +4,9 @@
 
 #include "core/base/text.h"
 
-const char *const spore_integrator_names[] = {"symplectic_euler", "implicit_euler", NULL};
+const char *const spore_integrator_names[] = {
+    "explicit_euler", "symplectic_euler", "verlet", "rk4", "implicit_euler", "implicit_midpoint",
+    "bdf2",           "tr_bdf2",          NULL};
 static const char *const nonlinear_names[] = {"newton", "broyden", NULL};
 
 static const SporeParameter parameters[] = {
@@ -27,6 +29,26 @@ static const SporeParameter parameters[] = {
      .offset = offsetof(SporeSolverFields, integrator),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("How bodies move that do not choose for themselves.")},
+    {.name = "substeps",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     .minimum = 1,
+     .maximum = SPORE_SUBSTEPS_MAXIMUM,
+     .initial = {1},
+     .offset = offsetof(SporeSolverFields, substeps),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Parts that a step is integrated in, for bodies that do not choose for themselves. Contacts and links "
+               "are found once a step.")},
+    {.name = "error_tolerance",
+     .type = SPORE_REAL,
+     .unit = "m",
+     .minimum = 0,
+     .maximum = 1,
+     .initial = {0},
+     .offset = offsetof(SporeSolverFields, error_tolerance),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Error of a body's displacement that one step may make, as tr_bdf2 estimates it: it takes the step in "
+               "as many parts as that needs. 0: always in one.")},
     {.name = "nonlinear",
      .type = SPORE_CHOICE,
      .unit = "",

@@ -5,8 +5,15 @@
 #include "core/base/parameter.h"
 
 typedef enum SporeIntegratorKind {
+  SPORE_INTEGRATOR_EXPLICIT_EULER,
   SPORE_INTEGRATOR_SYMPLECTIC_EULER,
+  SPORE_INTEGRATOR_VERLET,
+  SPORE_INTEGRATOR_RK4,
   SPORE_INTEGRATOR_IMPLICIT_EULER,
+  SPORE_INTEGRATOR_IMPLICIT_MIDPOINT,
+  SPORE_INTEGRATOR_BDF2,
+  SPORE_INTEGRATOR_TR_BDF2,
+  SPORE_INTEGRATOR_COUNT,
   SPORE_INTEGRATOR_DEFAULT = -1
 } SporeIntegratorKind;
 /* Names by SporeIntegratorKind, NULL-terminated: the choices of every `integrator` parameter. */
@@ -14,9 +21,13 @@ extern const char *const spore_integrator_names[];
 
 typedef enum SporeNonlinearKind { SPORE_NONLINEAR_NEWTON, SPORE_NONLINEAR_BROYDEN } SporeNonlinearKind;
 
+#define SPORE_SUBSTEPS_MAXIMUM 1000
+
 typedef struct SporeSolverFields {
   double time_step;          /* s */
   int integrator;            /* SporeIntegratorKind */
+  int64_t substeps;          /* of a step, for bodies that do not choose for themselves */
+  double error_tolerance;    /* m, of tr_bdf2; 0: it takes the step as it is */
   int nonlinear;             /* SporeNonlinearKind */
   int64_t newton_iterations; /* at most, a step */
   int64_t linear_iterations; /* at most, a Newton iteration */

@@ -124,6 +124,7 @@ static gboolean make_model(Compiler *compiler, const SporeObject *body, SporeBod
   spore_object_fields(object, fields);
   description->model = type->create(&geometry, fields, &fault);
   description->integrator = (SporeIntegratorKind)((int)spore_object_number(mechanical, "integrator") - 1);
+  description->substeps = (size_t)spore_object_number(mechanical, "substeps");
   if (description->model) return TRUE;
   return refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
 }

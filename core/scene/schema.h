@@ -26,7 +26,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *              spheres(name file source method count seed source_hash)
  *              tetrahedra(name file source cells source_hash)
  *     bodies > body(name role position rotation velocity spin)
- *                mechanical(geometry integrator) > one model element (its own table)
+ *                mechanical(geometry integrator substeps) > one model element (its own table)
  *                collision(spheres + spore_contact_parameters)
  *                visual(mesh colour wetness)
  *                fidelity(mode)

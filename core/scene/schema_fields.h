@@ -47,7 +47,8 @@ typedef struct SporeBodyFields {
 
 typedef struct SporeMechanicalFields {
   const char *geometry;
-  int integrator; /* 0: the scene's; else SporeIntegratorKind + 1 */
+  int integrator;   /* 0: the scene's; else SporeIntegratorKind + 1 */
+  int64_t substeps; /* 0: the scene's */
 } SporeMechanicalFields;
 
 typedef struct SporeCollisionFields {

@@ -247,6 +247,15 @@ static const SporeParameter mechanical_parameters[] = {
      FIELD(SporeMechanicalFields, integrator),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("How the body's motion is integrated; scene: as the solver says.")},
+    {.name = "substeps",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     .minimum = 0,
+     .maximum = SPORE_SUBSTEPS_MAXIMUM,
+     .initial = {0},
+     FIELD(SporeMechanicalFields, substeps),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Parts that the body's motion over a step is integrated in; 0: as the solver says.")},
 };
 
 static const SporeParameter collision_parameters[] = {

@@ -26,9 +26,10 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
     return;
   }
   body->matrix_c = 0;
+  body->history_s = 0;
   spore_body_reset_choice(body);
   body->total_mass = spore_model_total_mass(body->model);
-  spore_body_update_mass(world, body);
+  spore_body_update_mass(world, body, world->q + body->q_offset);
 }
 
 static void set_contact(SporeWorld *world, SporeBody *body, const SporeContactFields *contact) {
@@ -43,6 +44,7 @@ static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
     return;
   }
   world->gravity = gravity;
+  for (size_t b = 0; b < world->body_count; b++) world->bodies[b].history_s = 0;
   spore_world_wake_all(world);
 }
 

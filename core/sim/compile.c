@@ -35,6 +35,10 @@ static bool check_body(const SporeBodyDescription *body, SporeError *error) {
     return fail(error, name, _("pose or velocity is not finite; expected numbers; correct the body's pose"));
   if (body->model && body->model->q_count > 6 * body->model->block_count)
     return fail(error, name, _("the model has more than 6 configuration values a block; this is a fault of the model"));
+  if (body->substeps > SPORE_SUBSTEPS_MAXIMUM)
+    return fail(error, name, _("more than 1000 substeps; take a smaller time_step"));
+  if (body->model && !spore_model_is_nodal(body->model) && body->model->block_count > SPORE_TURNING_BLOCKS)
+    return fail(error, name, _("the model turns in more blocks than 8; this is a fault of the model"));
   SporeError reason = SPORE_ERROR_INIT;
   if (!spore_parameters_check(&spore_contact_parameters, &body->contact, &reason))
     return fail(error, name, reason.message);
@@ -68,6 +72,7 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->rest_pose = (SporePose){from->pose.position, spore_quat_normalise(from->pose.orientation)};
   body->integrator =
       from->integrator == SPORE_INTEGRATOR_DEFAULT ? (SporeIntegratorKind)world->solver.integrator : from->integrator;
+  body->substeps = from->substeps > 0 ? from->substeps : (size_t)world->solver.substeps;
   body->q_offset = world->q_count;
   body->v_offset = world->v_count;
   body->q_count = from->model ? from->model->q_count : SPORE_POSE_Q;
@@ -76,6 +81,12 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   world->v_count += 3 * body->block_count;
   body->name = copy_text(from->name);
   return body->name || no_memory(error);
+}
+
+static bool keeps_history(const SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_PASSIVE && spore_integrator(world->bodies[b].integrator)->remembers) return true;
+  return false;
 }
 
 static bool make_matrix(SporeBody *body, SporeError *error) {
@@ -189,6 +200,15 @@ bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription 
   return add_spheres(world, description, false, error) && make_grid(world, error);
 }
 
+static bool allocate_history(SporeWorld *world) {
+  if (!keeps_history(world)) return true;
+  world->history_a = SPORE_NEW_ARRAY(double, world->v_count);
+  world->history_b = SPORE_NEW_ARRAY(double, world->v_count);
+  world->local_history_a = SPORE_NEW_ARRAY(double, world->v_count);
+  world->local_history_b = SPORE_NEW_ARRAY(double, world->v_count);
+  return world->history_a && world->history_b && world->local_history_a && world->local_history_b;
+}
+
 bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   size_t n = world->body_count, q = world->q_count, v = world->v_count;
   world->scratch_per_block = spore_integrator_scratch();
@@ -212,6 +232,6 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   bool made = world->target_q && world->mass && world->mass_inverse && world->precondition && world->block_stiffness &&
               world->local_q0 && world->local_q1 && world->local_v0 && world->local_v1 && world->scratch &&
               world->reaction && world->parent && world->island_of && world->island_bodies && world->islands &&
-              world->local_sites && world->commands.ring;
+              world->local_sites && world->commands.ring && allocate_history(world);
   return made || no_memory(error);
 }

@@ -12,8 +12,7 @@ static void add_body_forces(const SporeGroup *group, const double *q, const doub
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    const double *shape = (group->shape ? group->shape : q) + site->q;
-    body->model->type->force(body->model, q + site->q, shape, v + site->v, f + site->v);
+    body->model->type->force(body->model, q + site->q, v + site->v, f + site->v);
     add_gravity(body, group->world->gravity, f + site->v);
   }
 }
@@ -25,8 +24,6 @@ static void add_term_forces(const SporeGroup *group, const double *q, const doub
   for (size_t i = 0; i < group->island->spring_count; i++)
     spore_spring_term_force(spore_group_spring(group, i, &unused), group->world->local_sites, q, v, f);
 }
-
-static void set_shape(void *data, const double *shape) { ((SporeGroup *)data)->shape = shape; }
 
 static void force(void *data, const double *q, const double *v, double *f) {
   SporeGroup *group = data;
@@ -89,23 +86,54 @@ static void count_terms(const SporeGroup *group, double *counts) {
   }
 }
 
-/* Sets the softening of all terms for an explicit step of h seconds. */
-static void soften_terms(const SporeGroup *group, double h) {
+static double contact_inverse_mass(const SporeWorld *world, const SporeContactTerm *term, const double *counts) {
+  return end_inverse_mass(world, &term->a, term->arm_a, counts) +
+         end_inverse_mass(world, &term->b, term->arm_b, counts);
+}
+
+/* A step of h seconds resolves a term well whose h^2 w k + h w d is no more than this. */
+#define RESOLVED 0.25
+
+static bool resolves(double h, double inverse_mass, double stiffness, double damping) {
+  return h * inverse_mass * (h * stiffness + damping) <= RESOLVED;
+}
+
+static SporeSoftening softening(double h, bool resolved, double inverse_mass, double stiffness, double damping) {
+  if (resolved && resolves(h, inverse_mass, stiffness, damping)) return (SporeSoftening){0, 0, 0};
+  return spore_softening(h, inverse_mass, stiffness);
+}
+
+static bool soften(void *data, double h, bool resolved) {
+  const SporeGroup *group = data;
   const SporeWorld *world = group->world;
   SporeMat3 *unused;
+  if (group->island->contact_count + group->island->spring_count == 0) return false;
   double *counts = spore_group_precondition_blocks(group); /* free: only implicit steps precondition */
   count_terms(group, counts);
   for (size_t i = 0; i < group->island->contact_count; i++) {
     SporeContactTerm *term = spore_group_contact(group, i, &unused);
-    double inverse_mass =
-        end_inverse_mass(world, &term->a, term->arm_a, counts) + end_inverse_mass(world, &term->b, term->arm_b, counts);
-    term->softening = spore_softening(h, inverse_mass, term->law.stiffness);
+    double inverse_mass = contact_inverse_mass(world, term, counts);
+    term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
     SporeSpringTerm *term = spore_group_spring(group, i, &unused);
     double inverse_mass = end_inverse_mass(world, &term->a, 0, counts) + end_inverse_mass(world, &term->b, 0, counts);
-    term->softening = spore_softening(h, inverse_mass, term->law.stiffness);
+    term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
   }
+  return true;
+}
+
+bool spore_group_resolves_contacts(const SporeGroup *group, double h) {
+  SporeMat3 *unused;
+  if (group->island->contact_count == 0) return true;
+  double *counts = spore_group_precondition_blocks(group); /* free: no matrix is made yet */
+  count_terms(group, counts);
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_group_contact(group, i, &unused);
+    double inverse_mass = contact_inverse_mass(group->world, term, counts);
+    if (!resolves(h, inverse_mass, term->law.stiffness, term->law.damping)) return false;
+  }
+  return true;
 }
 
 void spore_group_harden(SporeGroup *group) {
@@ -115,14 +143,41 @@ void spore_group_harden(SporeGroup *group) {
   for (size_t i = 0; i < group->island->spring_count; i++) spore_group_spring(group, i, &unused)->softening = none;
 }
 
-static bool term_force(void *data, const double *q, const double *v, double h, double *f) {
+static void term_force(void *data, const double *q, const double *v, double *f) {
   SporeGroup *group = data;
-  if (group->island->contact_count + group->island->spring_count == 0) return false;
-  soften_terms(group, h);
-  memset(f, 0, group->island->v_count * sizeof *f);
   add_term_forces(group, q, v, f);
   spore_group_filter(group, f);
-  return true;
+}
+
+static void move_end(SporeEnd *end, double elapsed_s) {
+  if (end->prescribed) end->offset = spore_vec3_scale(elapsed_s, end->velocity);
+}
+
+static void set_time(void *data, double elapsed_s) {
+  SporeGroup *group = data;
+  SporeMat3 *unused;
+  double at_s = group->start_s + elapsed_s;
+  if (at_s == group->now_s) return;
+  group->now_s = at_s;
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    SporeContactTerm *term = spore_group_contact(group, i, &unused);
+    move_end(&term->a, at_s);
+    move_end(&term->b, at_s);
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    SporeSpringTerm *term = spore_group_spring(group, i, &unused);
+    move_end(&term->a, at_s);
+    move_end(&term->b, at_s);
+  }
+}
+
+static void set_mass(void *data, const double *q) {
+  SporeGroup *group = data;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_group_body(group, b, &site);
+    if (!spore_model_is_nodal(body->model)) spore_body_update_mass(group->world, body, q + site->q);
+  }
 }
 
 static void kick(void *data, const double *f, double h, double *v) {
@@ -145,7 +200,28 @@ static void drift(void *data, const double *q0, const double *v, double h, doubl
       continue;
     }
     for (size_t k = 0; k < body->q_count; k++) q1[site->q + k] = q0[site->q + k] + h * v[site->v + k];
-    memcpy(v1 + site->v, v + site->v, body->q_count * sizeof *v);
+    if (v1 != v) memcpy(v1 + site->v, v + site->v, body->q_count * sizeof *v);
+  }
+}
+
+/* Of a body whose inertia turns: a rigid body's two blocks, or a few more. */
+static void carry_turning(const SporeGroup *group, const SporeBody *body, const double *dv, const double *q1,
+                          double *v1) {
+  double mass[9 * SPORE_TURNING_BLOCKS], momentum[3 * SPORE_TURNING_BLOCKS];
+  spore_blocks_apply(spore_group_mass(group, body), body->block_count, dv, momentum);
+  body->model->type->mass(body->model, q1, mass);
+  spore_blocks_invert(mass, body->block_count);
+  spore_blocks_add(mass, body->block_count, 1, momentum, v1);
+}
+
+static void carry(void *data, const double *dv, const double *q1, double *v1) {
+  SporeGroup *group = data;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_group_body(group, b, &site);
+    if (spore_model_is_nodal(body->model))
+      for (size_t k = 0; k < 3 * body->block_count; k++) v1[site->v + k] += dv[site->v + k];
+    else carry_turning(group, body, dv + site->v, q1 + site->q, v1 + site->v);
   }
 }
 
@@ -158,28 +234,51 @@ static void mass_multiply(void *data, const double *x, double *y) {
   }
 }
 
+static double distance(void *data, const double *x) {
+  const SporeGroup *group = data;
+  double most = 0;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_group_body(group, b, &site);
+    const double *mass = spore_group_mass(group, body), *local = x + site->v;
+    double square = 0;
+    for (size_t i = 0; i < body->block_count; i++, mass += 9, local += 3) {
+      double weighed[3];
+      spore_blocks_apply(mass, 1, local, weighed);
+      square += spore_vec3_dot(spore_vec3_load(local), spore_vec3_load(weighed));
+    }
+    double mean = sqrt(square / body->total_mass);
+    if (!(mean <= most)) most = mean;
+  }
+  return most;
+}
+
 SporeDynamics spore_group_dynamics(SporeGroup *group) {
   return (SporeDynamics){.data = group,
                          .q_count = group->island->q_count,
                          .block_count = group->island->v_count / 3,
-                         .set_shape = set_shape,
                          .force = force,
                          .body_force = body_force,
                          .term_force = term_force,
+                         .soften = soften,
+                         .set_time = set_time,
+                         .set_mass = set_mass,
                          .kick = kick,
                          .drift = drift,
+                         .carry = carry,
                          .mass_multiply = mass_multiply,
                          .linearise = spore_group_linearise,
                          .reuse = spore_group_reuse,
                          .multiply = spore_group_multiply,
                          .precondition = spore_group_precondition,
                          .rounding = spore_group_rounding,
+                         .distance = distance,
                          .gravity_momentum = group->island->gravity_momentum};
 }
 
-void spore_body_update_mass(SporeWorld *world, const SporeBody *body) {
+void spore_body_update_mass(SporeWorld *world, const SporeBody *body, const double *q) {
   double *mass = world->mass + 3 * body->v_offset, *inverse = world->mass_inverse + 3 * body->v_offset;
-  body->model->type->mass(body->model, world->q + body->q_offset, mass);
+  body->model->type->mass(body->model, q, mass);
   memcpy(inverse, mass, 9 * body->block_count * sizeof *mass);
   spore_blocks_invert(inverse, body->block_count);
 }

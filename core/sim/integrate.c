@@ -1,18 +1,62 @@
 /* Integrates the islands, each on its own and on any thread. */
+#include <string.h>
+
 #include "core/sim/world_private.h"
+
+SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind,
+                                     size_t substeps) {
+  SporeGroup group = {.world = world, .island = island, .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
+  SporeDynamics dynamics = spore_group_dynamics(&group);
+  const SporeIntegrator *integrator = spore_integrator(kind);
+  const double *q0 = island->q0, *v0 = island->v0;
+  double *q1 = island->q1, *v1 = island->v1;
+  double *scratch = world->scratch + world->scratch_per_block * (island->v_start / 3);
+  double h = world->solver.time_step / (double)substeps;
+  /* What one method remembers says nothing to another. */
+  if (kind != island->integrator) island->history.step_s = 0;
+  spore_group_harden(&group);
+  SporeStepResult total = {.converged = true};
+  for (size_t s = 0; s < substeps; s++) {
+    if (s > 0) {
+      q0 = memcpy(world->local_q0 + island->q_start, q1, island->q_count * sizeof *q0);
+      v0 = memcpy(world->local_v0 + island->v_start, v1, island->v_count * sizeof *v0);
+    }
+    if (s > 0 || island->attempts > 1) dynamics.set_mass(dynamics.data, q0);
+    group.start_s = (double)s * h;
+    dynamics.set_time(dynamics.data, h);
+    SporeStepResult result = integrator->step(&dynamics, &world->solver, &island->history, h, q0, v0, q1, v1, scratch);
+    dynamics.set_time(dynamics.data, h);
+    spore_step_result_add(&total, &result);
+  }
+  return total;
+}
+
+/* A contact that the step does not resolve is an impact, which no method follows to second order: those that are not
+ * damped enough throw bodies out faster than they came. Implicit Euler meets it in their place, unless the method looks
+ * after its error. */
+static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) {
+  const SporeIntegrator *integrator = spore_integrator(island->integrator);
+  bool controlled = island->integrator == SPORE_INTEGRATOR_TR_BDF2 && world->solver.error_tolerance > 0;
+  if (!integrator->implicit || integrator->damping == SPORE_DAMPING_FULL || controlled) return island->integrator;
+  const SporeGroup group = {.world = world, .island = island};
+  bool resolved = spore_group_resolves_contacts(&group, world->solver.time_step / (double)island->substeps);
+  return resolved ? island->integrator : SPORE_INTEGRATOR_IMPLICIT_EULER;
+}
 
 static void integrate_island(void *data, size_t index) {
   SporeWorld *world = data;
   SporeIsland *island = &world->islands[index];
   spore_island_gather(world, island);
-  island->result = spore_island_advance(world, island, island->integrator, 1);
+  SporeIntegratorKind kind = method(world, island);
+  island->result = spore_island_advance(world, island, kind, island->substeps);
   if (spore_island_choose(world, island)) {
     spore_island_gather(world, island);
-    island->result = spore_island_advance(world, island, island->integrator, 1);
+    island->result = spore_island_advance(world, island, kind, island->substeps);
   }
   uint32_t offender;
   island->trouble = spore_island_examine(world, island, &offender);
   if (island->trouble != SPORE_TROUBLE_NONE) spore_island_recover(world, island);
+  spore_island_remember(world, island);
   island->rests = spore_island_rests(world, island);
 }
 

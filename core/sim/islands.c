@@ -1,5 +1,6 @@
 /* Islands: bodies that terms tie together this step. What physics does not move ties nothing: it takes part in the
  * terms of every island it touches. */
+#include <math.h>
 #include <string.h>
 
 #include "core/sim/world_private.h"
@@ -25,6 +26,11 @@ static void tie_bodies(SporeWorld *world) {
     if (world->spring_active[i]) tie(world->parent, &world->springs[i].a, &world->springs[i].b);
 }
 
+/* Bodies of several methods move by the one that damps most. */
+static bool safer(SporeIntegratorKind a, SporeIntegratorKind b) {
+  return spore_integrator(a)->damping > spore_integrator(b)->damping;
+}
+
 /* Numbers the islands and counts their bodies. */
 static void number_islands(SporeWorld *world) {
   world->island_count = 0;
@@ -43,7 +49,8 @@ static void number_islands(SporeWorld *world) {
     island->body_count++;
     island->q_count += body->q_count;
     island->v_count += 3 * body->block_count;
-    if (body->integrator > island->integrator) island->integrator = body->integrator;
+    if (body->substeps > island->substeps) island->substeps = body->substeps;
+    if (safer(body->integrator, island->integrator)) island->integrator = body->integrator;
   }
 }
 
@@ -120,6 +127,43 @@ void spore_world_group(SporeWorld *world) {
   fill_islands(world, springs);
 }
 
+static bool remembers(const SporeWorld *world, const SporeIsland *island, const SporeBody *body) {
+  return body->history_s > 0 && body->history_step == world->step && body->history_kind == island->integrator;
+}
+
+/* What all bodies of the island remember, of steps of one size; the smallest where a method chooses its own. */
+static void gather_history(SporeWorld *world, SporeIsland *island) {
+  island->history =
+      (SporeHistory){.a = world->local_history_a + island->v_start, .b = world->local_history_b + island->v_start};
+  double step_s = HUGE_VAL;
+  bool own_size = island->integrator == SPORE_INTEGRATOR_TR_BDF2;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    uint32_t b = world->island_bodies[island->body_start + i];
+    const SporeBody *body = &world->bodies[b];
+    if (!remembers(world, island, body)) return;
+    if (!own_size && i > 0 && body->history_s != step_s) return;
+    step_s = fmin(step_s, body->history_s);
+    size_t at = world->local_sites[b].v, size = 3 * body->block_count * sizeof(double);
+    memcpy(island->history.a + at, world->history_a + body->v_offset, size);
+    memcpy(island->history.b + at, world->history_b + body->v_offset, size);
+  }
+  island->history.step_s = step_s;
+}
+
+void spore_island_remember(SporeWorld *world, const SporeIsland *island) {
+  if (!spore_integrator(island->integrator)->remembers) return;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    uint32_t b = world->island_bodies[island->body_start + i];
+    SporeBody *body = &world->bodies[b];
+    size_t at = world->local_sites[b].v, size = 3 * body->block_count * sizeof(double);
+    body->history_kind = island->integrator;
+    body->history_s = island->history.step_s;
+    body->history_step = world->step + 1;
+    memcpy(world->history_a + body->v_offset, island->history.a + at, size);
+    memcpy(world->history_b + body->v_offset, island->history.b + at, size);
+  }
+}
+
 /* Gives the bodies their places next to each other; true when that is how they lie in the world's vectors. */
 static bool place_bodies(SporeWorld *world, SporeIsland *island) {
   const uint32_t *bodies = world->island_bodies + island->body_start;
@@ -152,9 +196,11 @@ void spore_island_gather(SporeWorld *world, SporeIsland *island) {
   const uint32_t *bodies = world->island_bodies + island->body_start;
   const SporeBody *first = &world->bodies[bodies[0]];
   double mass = 0;
+  island->attempts++;
   for (size_t i = 0; i < island->kept_count; i++) mass += world->bodies[bodies[i]].total_mass;
   island->gravity_momentum = sqrt(mass) * spore_vec3_length(world->gravity);
   island->in_place = place_bodies(world, island);
+  if (spore_integrator(island->integrator)->remembers && island->kept_count > 0) gather_history(world, island);
   if (island->in_place) {
     island->q0 = world->q + first->q_offset;
     island->v0 = world->v + first->v_offset;

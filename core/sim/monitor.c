@@ -60,49 +60,6 @@ SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *is
   return trouble;
 }
 
-/* Where prescribed ends of the island's terms are after this part of the step. */
-static void move_prescribed(SporeWorld *world, const SporeIsland *island, double elapsed_s) {
-  for (size_t i = 0; i < island->contact_count; i++) {
-    SporeContactTerm *term = &world->contacts[world->contact_order[island->contact_start + i]];
-    if (term->a.prescribed) term->a.offset = spore_vec3_scale(elapsed_s, term->a.velocity);
-    if (term->b.prescribed) term->b.offset = spore_vec3_scale(elapsed_s, term->b.velocity);
-  }
-  for (size_t i = 0; i < island->spring_count; i++) {
-    SporeSpringTerm *term = &world->springs[world->spring_order[island->spring_start + i]];
-    if (term->a.prescribed) term->a.offset = spore_vec3_scale(elapsed_s, term->a.velocity);
-    if (term->b.prescribed) term->b.offset = spore_vec3_scale(elapsed_s, term->b.velocity);
-  }
-}
-
-SporeStepResult spore_island_advance(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind,
-                                     size_t substeps) {
-  SporeGroup group = {.world = world, .island = island};
-  SporeDynamics dynamics = spore_group_dynamics(&group);
-  const SporeIntegrator *integrator = spore_integrator(kind);
-  const double *q0 = island->q0, *v0 = island->v0;
-  double *q1 = island->q1, *v1 = island->v1;
-  double *scratch = world->scratch + world->scratch_per_block * (island->v_start / 3);
-  double h = world->solver.time_step / (double)substeps;
-  spore_group_harden(&group);
-  SporeStepResult total = {.converged = true};
-  for (size_t s = 0; s < substeps; s++) {
-    if (s > 0) {
-      q0 = memcpy(world->local_q0 + island->q_start, q1, island->q_count * sizeof *q0);
-      v0 = memcpy(world->local_v0 + island->v_start, v1, island->v_count * sizeof *v0);
-    }
-    if (substeps > 1) move_prescribed(world, island, (double)(s + 1) * h);
-    SporeStepResult result = integrator->step(&dynamics, &world->solver, h, q0, v0, q1, v1, scratch);
-    total.converged &= result.converged;
-    total.newton_iterations += result.newton_iterations;
-    total.linear_iterations += result.linear_iterations;
-    total.force_evaluations += result.force_evaluations;
-    total.linearisations += result.linearisations;
-    total.unsolved += result.unsolved;
-    total.residual = fmax(total.residual, result.residual);
-  }
-  return total;
-}
-
 /* A body whose own forces are not finite at the last good state, or SPORE_NO_BODY. Leaves v1 undefined. */
 static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
@@ -110,8 +67,7 @@ static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
     const SporeBody *body = &world->bodies[b];
     double *f = island->v1;
     memset(f, 0, 3 * body->block_count * sizeof *f);
-    const double *q = world->q + body->q_offset;
-    body->model->type->force(body->model, q, q, world->v + body->v_offset, f);
+    body->model->type->force(body->model, world->q + body->q_offset, world->v + body->v_offset, f);
     if (!finite_all(f, 3 * body->block_count)) return b;
   }
   return SPORE_NO_BODY;
@@ -129,6 +85,8 @@ static void prescribe(SporeWorld *world, SporeEnd *end, uint32_t body) {
 static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
   uint32_t *bodies = world->island_bodies + island->body_start;
   world->bodies[index].frozen = true;
+  if (!spore_model_is_nodal(world->bodies[index].model))
+    spore_body_update_mass(world, &world->bodies[index], world->q + world->bodies[index].q_offset);
   size_t at = 0;
   while (bodies[at] != index) at++;
   memmove(bodies + at, bodies + at + 1, (island->kept_count - at - 1) * sizeof *bodies);
@@ -148,7 +106,7 @@ static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
 static SporeTrouble try_again(SporeWorld *world, SporeIsland *island, size_t substeps, uint32_t *offender) {
   spore_island_gather(world, island);
   island->result = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, substeps);
-  island->substeps += substeps;
+  island->mending_substeps += substeps;
   return spore_island_examine(world, island, offender);
 }
 
@@ -217,7 +175,7 @@ static void report_island(SporeWorld *world, const SporeIsland *island) {
   first->told = island->trouble;
   if (island->result.converged)
     spore_world_report(world, _("%s: a step was taken again in %llu smaller ones, because %s"), first->name,
-                       (unsigned long long)island->substeps, cause(island->trouble));
+                       (unsigned long long)island->mending_substeps, cause(island->trouble));
   else
     spore_world_report(world, _("%s: %s (residual %.1e); take a smaller time step or more iterations"), first->name,
                        cause(SPORE_TROUBLE_NOT_CONVERGED), island->result.residual);
@@ -228,8 +186,8 @@ void spore_world_report_islands(SporeWorld *world) {
   for (size_t i = 0; i < world->island_count; i++) {
     const SporeIsland *island = &world->islands[i];
     if (island->trouble == SPORE_TROUBLE_NONE) continue;
-    monitor->recoveries += island->substeps > 0;
-    monitor->substeps += island->substeps;
+    monitor->recoveries += island->mending_substeps > 0;
+    monitor->substeps += island->mending_substeps;
     monitor->not_converged += !island->result.converged;
     report_island(world, island);
   }

@@ -97,6 +97,7 @@ static void set_asleep(SporeWorld *world, uint32_t index, bool asleep) {
   SporeBody *body = &world->bodies[index];
   body->asleep = asleep;
   body->rest_steps = 0;
+  body->history_s = 0;
   body->sleep_energy = 0;
   if (asleep) world->sleeping_count++;
   else world->sleeping_count--;

@@ -17,6 +17,7 @@ typedef struct Power {
   double *x, *y, *z;
   const uint32_t *held;
   size_t held_count;
+  double shift; /* s: the matrix is K + s M */
 } Power;
 
 static bool invert_mass(const SporeModel *model, const double *q, double *blocks) {
@@ -54,7 +55,7 @@ static void solve_mass(const Power *power, const double *x, double *y) {
   }
 }
 
-/* Largest eigenvalue of M^-1 K, as the Rayleigh quotient x.K x / x.M x. Iterates r = M x, so that M itself is not
+/* Largest eigenvalue of M^-1 K + s, as the Rayleigh quotient x.K x / x.M x. Iterates r = M x, so that M itself is not
  * needed: x = M^-1 r, r <- K x. */
 static double largest_eigenvalue(const Power *power) {
   size_t n = 3 * power->matrix.block_count;
@@ -65,7 +66,7 @@ static double largest_eigenvalue(const Power *power) {
     solve_mass(power, r, x);
     double square = dot(r, x, n); /* x.M x */
     if (!(square > 0)) return 0;
-    memset(k, 0, n * sizeof *k);
+    for (size_t e = 0; e < n; e++) k[e] = power->shift * r[e];
     spore_block_matrix_multiply_add(&power->matrix, x, k);
     spore_pin_filter(power->held, power->held_count, k);
     double next = dot(x, k, n) / square;
@@ -100,50 +101,91 @@ static void clear(Power *power) {
   spore_free(power->z);
 }
 
-/* Root of w^2 h^2 + 2 d h = 3. */
-static double stable_step(double square, double damping) {
-  if (square <= 0) return damping > 0 ? 1.5 / damping : HUGE_VAL;
-  return (sqrt(damping * damping + 3 * square) - damping) / square;
+/* Root of w^2 h^2 + b d h = a - 1. */
+static double stable_step(const SporeIntegrator *integrator, double square, double damping) {
+  double a = integrator->stable_square - 1, b = integrator->stable_damping * damping;
+  if (square <= 0) return damping > 0 ? a / b : HUGE_VAL;
+  return (sqrt(b * b + 4 * a * square) - b) / (2 * square);
 }
 
-bool spore_step_limit(const SporeModel *model, const double *q, const double *v, const uint32_t *held,
-                      size_t held_count, SporeStepLimit *limit, SporeError *error) {
+/* Whether a step of explicit Euler makes some motion grow: where h K is more than D. */
+static bool grows(Power *power, const SporeModel *model, const double *q, const double *v, double h) {
+  spore_block_matrix_zero(&power->matrix);
+  model->type->jacobian(model, q, v, h, -1, &power->matrix);
+  return largest_eigenvalue(power) > power->shift * (1 + 1e-6);
+}
+
+#define HALVINGS 14
+
+static double explicit_euler_step(Power *power, const SporeModel *model, const double *q, const double *v,
+                                  const SporeStepLimit *limit) {
+  if (limit->frequency == 0) return limit->damping > 0 ? 2 / limit->damping : HUGE_VAL;
+  if (limit->damping == 0) return 0;
+  power->shift = 1.02 * limit->damping; /* keeps it positive definite */
+  double high = fmin(2 / limit->damping, limit->damping / (limit->frequency * limit->frequency)), low = 0;
+  for (int i = 0; i < HALVINGS; i++) {
+    double middle = i == 0 ? high : 0.5 * (low + high);
+    if (grows(power, model, q, v, middle)) high = middle;
+    else low = middle;
+    if (low == high) break;
+  }
+  return low;
+}
+
+bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const double *q, const double *v,
+                      const uint32_t *held, size_t held_count, SporeStepLimit *limit, SporeError *error) {
   *limit = (SporeStepLimit){0, 0, HUGE_VAL};
   if (!model->type->jacobian) return true;
+  const SporeIntegrator *integrator = spore_integrator(kind);
   Power power = {.held = held, .held_count = held_count};
   if (!allocate(&power, model)) {
     clear(&power);
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory to find the largest step"));
   }
   if (invert_mass(model, q, power.inverse)) {
-    model->type->jacobian(model, q, q, v, 1, 0, &power.matrix);
+    model->type->jacobian(model, q, v, 1, 0, &power.matrix);
     double square = largest_eigenvalue(&power);
     spore_block_matrix_zero(&power.matrix);
-    model->type->jacobian(model, q, q, v, 0, 1, &power.matrix);
+    model->type->jacobian(model, q, v, 0, 1, &power.matrix);
     limit->damping = largest_eigenvalue(&power);
     limit->frequency = sqrt(square);
-    limit->dt_s = 0.98 * stable_step(square, limit->damping);
+    limit->dt_s = 0.98 * (integrator->stable_square > 0 ? stable_step(integrator, square, limit->damping)
+                                                        : explicit_euler_step(&power, model, q, v, limit));
   }
   clear(&power);
   return true;
 }
 
+static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_s, SporeError *error) {
+  char place[200];
+  const char *name = spore_integrator_names[body->integrator];
+  double h = world->solver.time_step / (double)body->substeps, needed = ceil(world->solver.time_step / limit_s);
+  snprintf(place, sizeof place, "bodies/%s", body->name);
+  if (limit_s == 0)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("no step is small enough for %s: something here swings without damping; expected another "
+                             "method; take integrator symplectic_euler or implicit_euler"),
+                           name);
+  if (needed <= SPORE_SUBSTEPS_MAXIMUM)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; take "
+                             "%.0f substeps, a smaller time_step or integrator implicit_euler"),
+                           h, name, limit_s, needed);
+  return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                         _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; take a "
+                           "smaller time_step or integrator implicit_euler"),
+                         h, name, limit_s);
+}
+
 bool spore_world_check_step(SporeWorld *world, SporeError *error) {
-  double h = world->solver.time_step;
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (body->role != SPORE_PASSIVE || spore_integrator(body->integrator)->implicit) continue;
     SporeStepLimit limit;
-    if (!spore_step_limit(body->model, world->rest_q + body->q_offset, world->rest_v + body->v_offset, body->held,
-                          body->held_count, &limit, error))
+    if (!spore_step_limit(body->model, body->integrator, world->rest_q + body->q_offset, world->rest_v + body->v_offset,
+                          body->held, body->held_count, &limit, error))
       return false;
-    if (h <= limit.dt_s) continue;
-    char place[200];
-    snprintf(place, sizeof place, "bodies/%s", body->name);
-    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
-                           _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; "
-                             "take a smaller time_step or integrator implicit_euler"),
-                           h, spore_integrator_names[body->integrator], limit.dt_s);
+    if (world->solver.time_step > limit.dt_s * (double)body->substeps) return refuse(world, body, limit.dt_s, error);
   }
   return true;
 }

@@ -25,14 +25,40 @@ static void clear_commands(SporeCommands *commands) {
 }
 
 static void free_arrays(SporeWorld *world) {
-  void *arrays[] = {world->rest_q,         world->rest_v,         world->world_sites,       world->target_q,
-                    world->mass,           world->mass_inverse,   world->spheres.centre,    world->spheres.velocity,
-                    world->spheres.radius, world->spheres.body,   world->reaction,          world->contacts,
-                    world->springs,        world->spring_active,  world->contact_jacobians, world->spring_jacobians,
-                    world->parent,         world->island_of,      world->island_bodies,     world->islands,
-                    world->contact_order,  world->spring_order,   world->local_sites,       world->local_q0,
-                    world->local_v0,       world->local_q1,       world->local_v1,          world->scratch,
-                    world->precondition,   world->block_stiffness};
+  void *arrays[] = {world->rest_q,
+                    world->rest_v,
+                    world->world_sites,
+                    world->target_q,
+                    world->mass,
+                    world->mass_inverse,
+                    world->spheres.centre,
+                    world->spheres.velocity,
+                    world->spheres.radius,
+                    world->spheres.body,
+                    world->reaction,
+                    world->contacts,
+                    world->springs,
+                    world->spring_active,
+                    world->contact_jacobians,
+                    world->spring_jacobians,
+                    world->parent,
+                    world->island_of,
+                    world->island_bodies,
+                    world->islands,
+                    world->contact_order,
+                    world->spring_order,
+                    world->local_sites,
+                    world->local_q0,
+                    world->local_v0,
+                    world->local_q1,
+                    world->local_v1,
+                    world->scratch,
+                    world->precondition,
+                    world->block_stiffness,
+                    world->history_a,
+                    world->history_b,
+                    world->local_history_a,
+                    world->local_history_b};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
 }
 
@@ -89,11 +115,12 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->rest_steps = 0;
   body->told = SPORE_TROUBLE_NONE;
   body->matrix_c = 0;
+  body->history_s = 0;
   spore_body_reset_choice(body);
   body->has_input = false;
   body->command = (SporeDeviceCommand){0};
   spore_guard_start(&body->guard, 0, body->rest_pose);
-  if (body->model) spore_body_update_mass(world, body);
+  if (body->model) spore_body_update_mass(world, body, world->q + body->q_offset);
 }
 
 void spore_world_reset(SporeWorld *world) {
@@ -127,9 +154,10 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   spore_body_mark_changed(world, body);
   spore_world_advance_state(world);
   body->matrix_c = 0;
+  body->history_s = 0;
   spore_body_reset_choice(body);
   world->contact_count = 0; /* they belong to the state before */
-  if (body->model) spore_body_update_mass(world, body);
+  if (body->model) spore_body_update_mass(world, body, world->q + body->q_offset);
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_snapshot_publish(world);

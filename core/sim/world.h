@@ -32,6 +32,7 @@ typedef struct SporeBodyDescription {
   SporeRole role;
   SporeModel *model;              /* passive: owned by the world once spore_world_create succeeded; else NULL */
   SporeIntegratorKind integrator; /* passive; SPORE_INTEGRATOR_DEFAULT: the world's */
+  size_t substeps;                /* of its integrator in a step; 0: the world's */
   SporePose pose;                 /* of the body's frame at time 0 */
   SporeVec3 velocity, spin;       /* at time 0 */
   const SporeSphereSet *spheres;  /* body's frame at rest; borrowed; NULL: no collision unit */

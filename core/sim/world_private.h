@@ -21,6 +21,7 @@
 #define SPORE_COMMAND_CAPACITY 1024
 #define SPORE_POSE_Q 7 /* a body without a model: position, orientation; velocity, spin */
 #define SPORE_POSE_BLOCKS 2
+#define SPORE_TURNING_BLOCKS 8 /* most of a body that is not a set of nodes */
 #define SPORE_STAGE_MAXIMUM 12
 #define SPORE_LEFT_OUT_MAXIMUM 16
 
@@ -44,6 +45,7 @@ typedef struct SporeBody {
   SporeRole role;
   SporeModel *model;
   SporeIntegratorKind integrator;
+  size_t substeps;
   SporeContactFields contact;
   SporePose rest_pose;                             /* at time 0 */
   size_t q_offset, q_count, v_offset, block_count; /* v_offset in doubles */
@@ -71,6 +73,11 @@ typedef struct SporeBody {
   SporeFactorChoice choice;
   bool factor_ready, factor_alone; /* the factor is that of the current A; no terms were in it */
 
+  /* What its integrator remembers of the step before, see SporeHistory: by which method, and for which step alone. */
+  SporeIntegratorKind history_kind;
+  double history_s;
+  uint64_t history_step;
+
   SporeDevice *device;
   SporeGuard guard;
   SporeDeviceState input;
@@ -89,12 +96,15 @@ typedef struct SporeIsland {
   double *q1, *v1;
   bool in_place; /* q1 and v1 lie in next_q and next_v */
   SporeIntegratorKind integrator;
+  size_t substeps;         /* of the integrator */
   double gravity_momentum; /* (M g . g)^1/2 */
+  SporeHistory history;    /* in the local vectors */
+  uint32_t attempts;       /* at this step */
   /* What came of it. */
   SporeStepResult result;
-  SporeTrouble trouble; /* that was met, mended or not */
-  uint64_t substeps;    /* that the mending cost; 0: none needed */
-  size_t kept_count;    /* bodies behind these were frozen by this step */
+  SporeTrouble trouble;      /* that was met, mended or not */
+  uint64_t mending_substeps; /* that the mending cost; 0: none needed */
+  size_t kept_count;         /* bodies behind these were frozen by this step */
   bool rests, falls_asleep;
 } SporeIsland;
 
@@ -158,6 +168,7 @@ struct SporeWorld {
   uint32_t *contact_order, *spring_order;
   SporeSite *local_sites; /* of the bodies in their island's part of the local vectors */
   double *local_q0, *local_v0, *local_q1, *local_v1;
+  double *history_a, *history_b, *local_history_a, *local_history_b; /* as v and local_v0; NULL: none is kept */
   double *scratch; /* of the integrators, scratch_per_block doubles a block */
   size_t scratch_per_block;
   double *precondition;    /* 9 a block, as local_v0 */
@@ -217,16 +228,21 @@ bool spore_world_reserve_contacts(SporeWorld *world);
 
 /* islands.c: places of the bodies of an island in its vectors, and their last good state there. */
 void spore_island_gather(SporeWorld *world, SporeIsland *island);
+/* What the integrator remembers of this step, for the next. */
+void spore_island_remember(SporeWorld *world, const SporeIsland *island);
 /* dynamics.c: the island as the integrators see it. `group` lives as long as the dynamics. */
 typedef struct SporeGroup {
   SporeWorld *world;
   const SporeIsland *island;
-  const double *shape; /* as q of the island: where viscous forces are taken; NULL: where each force is */
+  double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
 } SporeGroup;
 SporeDynamics spore_group_dynamics(SporeGroup *group);
+/* Whether a step of h seconds is short for all contacts of the island. */
+bool spore_group_resolves_contacts(const SporeGroup *group, double h);
 /* Takes away the softening that an explicit step before has left on the island's terms. */
 void spore_group_harden(SporeGroup *group);
-void spore_body_update_mass(SporeWorld *world, const SporeBody *body);
+/* Mass and its inverse at q, the body's own. */
+void spore_body_update_mass(SporeWorld *world, const SporeBody *body, const double *q);
 
 /* sleep.c */
 void spore_world_compile_sleep(SporeWorld *world);
@@ -247,12 +263,13 @@ void spore_body_reset_choice(SporeBody *body);
  * step failed for want of a factor and should be taken again. */
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 
+/* integrate.c */
+/* One step of the world in `substeps` parts, from q0 and v0 of the island to q1 and v1; spoils the local vectors. */
+SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps);
+
 /* monitor.c */
 SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *island, uint32_t *offender);
 void spore_island_recover(SporeWorld *world, SporeIsland *island);
-/* One step of the world in `substeps` parts, from q0 and v0 of the island to q1 and v1; spoils the local vectors. */
-SporeStepResult spore_island_advance(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind,
-                                     size_t substeps);
 void spore_world_report(SporeWorld *world, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void spore_world_report_islands(SporeWorld *world);
 

@@ -60,8 +60,7 @@ static void case_3(gconstpointer data) {
   const SporeModelType *type = data;
   static const double steps[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
   for (unsigned i = 0; i < G_N_ELEMENTS(steps); i++)
-    for (SporeIntegratorKind kind = SPORE_INTEGRATOR_SYMPLECTIC_EULER; kind <= SPORE_INTEGRATOR_IMPLICIT_EULER;
-         kind++) {
+    for (SporeIntegratorKind kind = SPORE_INTEGRATOR_SYMPLECTIC_EULER; kind < SPORE_INTEGRATOR_COUNT; kind++) {
       char *name = g_strdup_printf("case 3: %s, %s", type->name, spore_integrator_names[kind]);
       Rig *rig = fall(type, kind);
       rig->description.solver.time_step = steps[i];
@@ -69,7 +68,7 @@ static void case_3(gconstpointer data) {
       if (rig_try_build(rig, &error)) check_run(name, rig, 300);
       else {
         g_test_message("%s: %g s refused: %s: %s", name, steps[i], error.place, error.message);
-        g_assert_cmpint(kind, ==, SPORE_INTEGRATOR_SYMPLECTIC_EULER); /* only the explicit one may be */
+        g_assert_cmpint(kind, <, SPORE_INTEGRATOR_IMPLICIT_EULER); /* only explicit ones may be */
         g_assert_cmpint(error.code, ==, SPORE_ERROR_NUMERICAL);
         g_assert_nonnull(strstr(error.place, type->name));
         const char *limit = strstr(error.message, "at most ");

@@ -15,13 +15,10 @@
 
 #define CASE_GRAVITY 9.81 /* m/s^2, along -y */
 
-/* Cloth: a square sheet of nodes, held along one side, let go at an angle and swinging, so that it is stretched at all
- * times: laid flat it would buckle, and after a second nobody's answer could be told from another's. The springs are
- * the edges of its triangles, whose diagonals alternate; a triangle's mass goes to its corners. */
+/* Cloth: a square sheet of nodes in the plane y = 0, rows along z, two corners of one side held. The springs are the
+ * edges of its triangles, whose diagonals alternate; a triangle's mass goes to its corners. */
 enum { CLOTH_NODES = 20 };
-#define CLOTH_SIDE 1.0 /* m */
-#define CLOTH_FALL 0.8 /* of its side downward and aside, at the start */
-#define CLOTH_ASIDE 0.6
+#define CLOTH_SIDE 1.0     /* m */
 #define CLOTH_MASS 1.0     /* kg */
 #define CLOTH_DAMPING 0.01 /* N s/m, of each spring, along it */
 
@@ -58,8 +55,8 @@ static inline void cloth_triangle(unsigned t, unsigned corners[3]) {
 }
 static inline void cloth_node(unsigned i, double x[3]) {
   x[0] = (i % CLOTH_NODES * 1.0 / (CLOTH_NODES - 1) - 0.5) * CLOTH_SIDE;
-  x[1] = -(double)(i / CLOTH_NODES) * CLOTH_SIDE * CLOTH_FALL / (CLOTH_NODES - 1);
-  x[2] = i / CLOTH_NODES * CLOTH_SIDE * CLOTH_ASIDE / (CLOTH_NODES - 1);
+  x[1] = 0;
+  x[2] = (i / CLOTH_NODES * 1.0 / (CLOTH_NODES - 1) - 0.5) * CLOTH_SIDE;
 }
 
 /* Corners of tetrahedron t of the bar: the six paths along the edges of a cell from its first corner to its last. */

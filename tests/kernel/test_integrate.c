@@ -1,0 +1,316 @@
+/* The integrators: order, energy, cost, and what each promises, on chains about which everything is known. */
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/integrate/integrator.h"
+#include "tests/kernel/chain_model.h"
+
+#define GRAVITY ((SporeVec3){0, -9.81, 0})
+#define COUNT 4 /* particles of the chain */
+#define KINDS SPORE_INTEGRATOR_COUNT
+
+/* What each method claims. */
+static const int orders[KINDS] = {1, 1, 2, 4, 1, 2, 2, 2};
+
+static SporeWorld *create(SporeWorldDescription *description) {
+  SporeError error = SPORE_ERROR_INIT;
+  SporeWorld *world = spore_world_create(description, NULL, &error);
+  if (!world) g_error("%s: %s", error.place, error.message);
+  return world;
+}
+
+typedef struct Swing {
+  double stiffness, damping, link_stiffness, link_damping;
+  size_t substeps;
+  double error_tolerance;
+  double tolerance; /* of the solver; 0: 1e-12 */
+} Swing;
+
+/* A chain held at one end swings under gravity; a spring and a damper tie its other end to the world. */
+static SporeWorld *swing(const Swing *swing, SporeIntegratorKind kind, double h) {
+  SporeModel *model = chain_create((ChainFields){.count = COUNT,
+                                                 .mass = 0.1,
+                                                 .spacing = 0.2,
+                                                 .stiffness = swing->stiffness,
+                                                 .damping = swing->damping,
+                                                 .poison_at = HUGE_VAL});
+  SporeBodyDescription body = passive_body("chain", model, (SporeVec3){0, 0, 0});
+  SporeLinkDescription links[2] = {{.name = "pin", .kind = SPORE_LINK_PIN, .body_a = 0, .radius = 0.01},
+                                   {.name = "tie",
+                                    .kind = SPORE_LINK_SPRING,
+                                    .body_a = 0,
+                                    .body_b = SPORE_NO_BODY,
+                                    .point_a = {0.6, 0, 0},
+                                    .point_b = {0.7, 0.3, 0.1},
+                                    .stiffness = swing->link_stiffness,
+                                    .damping = swing->link_damping,
+                                    .rest_length = 0.1}};
+  SporeWorldDescription description = world_description(&body, 1);
+  description.gravity = GRAVITY;
+  description.links = links;
+  description.link_count = swing->link_stiffness > 0 ? 2 : 1;
+  description.solver.integrator = kind;
+  description.solver.time_step = h;
+  description.solver.tolerance = swing->tolerance > 0 ? swing->tolerance : 1e-12;
+  description.solver.newton_iterations = 50;
+  description.solver.substeps = swing->substeps > 0 ? (int64_t)swing->substeps : 1;
+  description.solver.error_tolerance = swing->error_tolerance;
+  return create(&description);
+}
+
+static double total(const SporeWorld *world) {
+  SporeEnergy energy = spore_world_energy(world);
+  return energy.kinetic + energy.internal + energy.gravity + energy.contact;
+}
+
+static size_t run(SporeWorld *world, int steps) {
+  size_t evaluations = 0;
+  for (int i = 0; i < steps; i++) {
+    spore_world_step(world);
+    evaluations += spore_world_counts(world).force_evaluations;
+  }
+  return evaluations;
+}
+
+static void swing_to(const Swing *how, SporeIntegratorKind kind, double h, double time_s, double *q) {
+  SporeWorld *world = swing(how, kind, h);
+  run(world, (int)lround(time_s / h));
+  memcpy(q, spore_world_q(world, 0), 3 * COUNT * sizeof *q);
+  g_assert_cmpuint(spore_world_monitor(world)->recoveries, ==, 0);
+  spore_world_free(world);
+}
+
+static double distance(const double *a, const double *b, int n) {
+  double sum = 0;
+  for (int i = 0; i < n; i++) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sqrt(sum);
+}
+
+/* Slope of log error against log step, by least squares; error: one for each step halved. */
+static double fit_slope(const double *error, int count) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (int i = 0; i < count; i++) {
+    double x = -i, y = log2(error[i]);
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+}
+
+#define LEVELS 4
+
+static double measure_order(const Swing *how, SporeIntegratorKind kind, double coarse, double time_s, double *error) {
+  static const Swing *reference_of;
+  static double exact[3 * COUNT];
+  if (reference_of != how) swing_to(how, SPORE_INTEGRATOR_RK4, 1e-5, time_s, exact);
+  reference_of = how;
+  for (int level = 0; level < LEVELS; level++) {
+    double q[3 * COUNT];
+    swing_to(how, kind, ldexp(coarse, -level), time_s, q);
+    error[level] = distance(q, exact, 3 * COUNT);
+  }
+  return fit_slope(error, LEVELS);
+}
+
+/* Coarsest step by order: small enough for the slope, large enough for rounding. */
+static double coarsest(int order) { return order == 1 ? 2.5e-4 : order == 2 ? 2e-3 : 4e-3; }
+
+/* With dampers, so that forces depend on velocity too, and with a spring and a damper between body and world: explicit
+ * methods are not to lose their order by what protects them from stiff ones. */
+static void test_order(void) {
+  static const Swing free_swing = {.stiffness = 60}, tied = {60, 0.08, 20, 0.1, 1, 0, 0};
+  for (int damped = 0; damped < 2; damped++)
+    for (SporeIntegratorKind kind = SPORE_INTEGRATOR_EXPLICIT_EULER; kind < KINDS; kind++) {
+      if (!damped && kind == SPORE_INTEGRATOR_EXPLICIT_EULER) continue; /* refused: nothing damps */
+      double error[LEVELS], slope;
+      slope = measure_order(damped ? &tied : &free_swing, kind, coarsest(orders[kind]), 0.4, error);
+      g_test_message("order: %s, %s: slope %.3f (error %.1e m at %g s, %.1e m at %g s)", spore_integrator_names[kind],
+                     damped ? "damped and tied" : "free", slope, error[0], coarsest(orders[kind]), error[LEVELS - 1],
+                     ldexp(coarsest(orders[kind]), 1 - LEVELS));
+      g_assert_cmpfloat_with_epsilon(slope, orders[kind], 0.2);
+    }
+}
+
+/* Substeps are steps where nothing is frozen for the step. */
+static void test_substeps(void) {
+  for (SporeIntegratorKind kind = SPORE_INTEGRATOR_SYMPLECTIC_EULER; kind < KINDS; kind++) {
+    const Swing once = {.stiffness = 60, .damping = 0.08}, ten = {.stiffness = 60, .damping = 0.08, .substeps = 10};
+    double a[3 * COUNT], b[3 * COUNT];
+    swing_to(&once, kind, 2e-4, 0.2, a);
+    swing_to(&ten, kind, 2e-3, 0.2, b);
+    double apart = distance(a, b, 3 * COUNT);
+    g_test_message("substeps: %s: 10 in 2 ms are %.1e m from 0.2 ms", spore_integrator_names[kind], apart);
+    g_assert_cmpfloat(apart, <, 1e-9);
+  }
+}
+
+/* Drift of the energy over 1000 swings or so of what has no damping, as part of what there is to lose. */
+static void test_energy(void) {
+  /* Verlet: bounded; RK4: loses slowly; L-stable ones: lose. */
+  const Swing how = {.stiffness = 60};
+  double drift[KINDS] = {0}, h = 5e-3;
+  for (SporeIntegratorKind kind = SPORE_INTEGRATOR_SYMPLECTIC_EULER; kind < KINDS; kind++) {
+    SporeWorld *world = swing(&how, kind, h);
+    double start = total(world), mean = 0, scale = 4 * 0.1 * 9.81 * 0.3;
+    run(world, 20000);
+    for (int i = 0; i < 2000; i++) {
+      spore_world_step(world);
+      mean += (total(world) - start) / 2000;
+    }
+    drift[kind] = mean / scale;
+    g_test_message("energy: %s: %+.2e of what swings after %g s", spore_integrator_names[kind], drift[kind], 22000 * h);
+    spore_world_free(world);
+  }
+  g_assert_cmpfloat(fabs(drift[SPORE_INTEGRATOR_SYMPLECTIC_EULER]), <, 0.05);
+  g_assert_cmpfloat(fabs(drift[SPORE_INTEGRATOR_VERLET]), <, 0.01);
+  g_assert_cmpfloat(fabs(drift[SPORE_INTEGRATOR_RK4]), <, 0.1);
+  g_assert_cmpfloat(fabs(drift[SPORE_INTEGRATOR_IMPLICIT_MIDPOINT]), <, 0.05);
+  g_assert_cmpfloat(drift[SPORE_INTEGRATOR_IMPLICIT_EULER], <, -0.5);
+  g_assert_cmpfloat(drift[SPORE_INTEGRATOR_BDF2], <, 0);
+  g_assert_cmpfloat(drift[SPORE_INTEGRATOR_TR_BDF2], <, 0);
+  g_assert_cmpfloat(drift[SPORE_INTEGRATOR_IMPLICIT_EULER], <, drift[SPORE_INTEGRATOR_BDF2]);
+}
+
+/* A step so long for the stiffness that only L-stable methods calm down: h w is 600. */
+static void test_stiff(void) {
+  static const SporeIntegratorKind kinds[] = {SPORE_INTEGRATOR_IMPLICIT_EULER, SPORE_INTEGRATOR_BDF2,
+                                              SPORE_INTEGRATOR_TR_BDF2};
+  for (unsigned i = 0; i < G_N_ELEMENTS(kinds); i++) {
+    const Swing how = {.stiffness = 1e8, .tolerance = 1e-6};
+    SporeWorld *world = swing(&how, kinds[i], 0.01);
+    double stretched = 0;
+    run(world, 500);
+    const double *q = spore_world_q(world, 0);
+    for (int p = 0; p + 1 < COUNT; p++)
+      stretched = fmax(stretched, fabs(distance(q + 3 * p, q + 3 * p + 3, 3) / 0.2 - 1));
+    g_test_message("stiff: %s: 1e8 N/m at 10 ms: stretch %.1e, %+.3e J, %u recoveries",
+                   spore_integrator_names[kinds[i]], stretched, total(world),
+                   (unsigned)spore_world_monitor(world)->recoveries);
+    g_assert_cmpfloat(stretched, <, 1e-6);
+    g_assert_cmpfloat(total(world), <, 0.01); /* it starts at 0 */
+    g_assert_cmpuint(spore_world_monitor(world)->recoveries, ==, 0);
+    spore_world_free(world);
+  }
+}
+
+/* The estimate is kept: the error at the end stays below what all steps together may make, and follows the tolerance.
+ */
+static void test_error_control(void) {
+  double exact[3 * COUNT], time_s = 0.4, h = 0.02, last = HUGE_VAL;
+  const Swing fine = {60, 0.08, 20, 0.1, 1, 0, 0};
+  swing_to(&fine, SPORE_INTEGRATOR_RK4, 1e-5, time_s, exact);
+  for (double tolerance = 1e-5; tolerance > 1e-9; tolerance /= 10) {
+    Swing how = fine;
+    double q[3 * COUNT];
+    how.error_tolerance = tolerance;
+    SporeWorld *world = swing(&how, SPORE_INTEGRATOR_TR_BDF2, h);
+    size_t evaluations = run(world, (int)lround(time_s / h));
+    memcpy(q, spore_world_q(world, 0), sizeof q);
+    double error = distance(q, exact, 3 * COUNT) / sqrt(COUNT); /* root mean square */
+    g_test_message("error control: %.0e m a step: off by %.1e m after %g steps, %zu force evaluations", tolerance,
+                   error, time_s / h, evaluations);
+    g_assert_cmpfloat(error, <, 3 * tolerance * time_s / h);
+    g_assert_cmpfloat(error, <, 0.3 * last);
+    last = error;
+    spore_world_free(world);
+  }
+}
+
+/* What a step costs, for those who choose among methods. */
+static void test_cost(void) {
+  static const double most[KINDS] = {1, 1, 1.01, 4, 6, 6, 6, 12};
+  const Swing how = {.stiffness = 60, .damping = 0.08};
+  for (SporeIntegratorKind kind = SPORE_INTEGRATOR_EXPLICIT_EULER; kind < KINDS; kind++) {
+    SporeWorld *world = swing(&how, kind, kind == SPORE_INTEGRATOR_EXPLICIT_EULER ? 2.5e-4 : 1e-3);
+    double each = (double)run(world, 400) / 400;
+    g_test_message("cost: %s: %.2f force evaluations a step", spore_integrator_names[kind], each);
+    g_assert_cmpfloat(each, <=, most[kind]);
+    spore_world_free(world);
+  }
+}
+
+/* What a multistep method remembers does not outlive a change: a state that is set, and reset. */
+static void test_restart(void) {
+  const Swing how = {.stiffness = 60};
+  for (SporeIntegratorKind kind = SPORE_INTEGRATOR_VERLET; kind < KINDS; kind++) {
+    SporeWorld *one = swing(&how, kind, 2e-3), *other = swing(&how, kind, 2e-3);
+    run(one, 50);
+    double q[3 * COUNT], v[3 * COUNT];
+    memcpy(q, spore_world_q(one, 0), sizeof q);
+    memcpy(v, spore_world_v(one, 0), sizeof v);
+    run(other, 7); /* elsewhere, with a memory of it */
+    spore_world_set_state(one, 0, q, v);
+    spore_world_set_state(other, 0, q, v);
+    run(one, 20);
+    run(other, 20);
+    g_assert_cmpmem(spore_world_q(one, 0), sizeof q, spore_world_q(other, 0), sizeof q);
+    g_assert_cmpmem(spore_world_v(one, 0), sizeof v, spore_world_v(other, 0), sizeof v);
+    spore_world_reset(one);
+    uint64_t before = spore_world_hash(one);
+    run(one, 30);
+    uint64_t first = spore_world_hash(one);
+    spore_world_reset(one);
+    g_assert_cmpuint(spore_world_hash(one), ==, before);
+    run(one, 30);
+    g_assert_cmpuint(spore_world_hash(one), ==, first);
+    spore_world_free(one);
+    spore_world_free(other);
+  }
+}
+
+/* Each explicit method stands at its limit and falls beyond it; the limit counts substeps. */
+static void test_limits(void) {
+  for (SporeIntegratorKind kind = SPORE_INTEGRATOR_EXPLICIT_EULER; kind <= SPORE_INTEGRATOR_RK4; kind++) {
+    for (int damped = 0; damped < 2; damped++) {
+      double h = 0.1, most = 0;
+      SporeBodyDescription body = {0};
+      SporeWorldDescription description;
+      SporeError error = SPORE_ERROR_INIT;
+      SporeModel *model = chain_create((ChainFields){
+          .count = COUNT, .mass = 0.1, .spacing = 0.2, .stiffness = 5e3, .damping = damped * 3, .poison_at = HUGE_VAL});
+      body = passive_body("chain", model, (SporeVec3){0, 0, 0});
+      description = world_description(&body, 1);
+      description.solver.integrator = kind;
+      description.solver.time_step = h;
+      g_assert_null(spore_world_create(&description, NULL, &error));
+      const char *limit = strstr(error.message, "at most "), *remedy = strstr(error.message, "take ");
+      g_test_message("limit: %s%s: %s", spore_integrator_names[kind], damped ? ", damped" : "", error.message);
+      if (kind == SPORE_INTEGRATOR_EXPLICIT_EULER && !damped) {
+        g_assert_null(limit);
+        model->type->destroy(model);
+        continue;
+      }
+      g_assert_nonnull(limit);
+      g_assert_nonnull(remedy);
+      double limit_s = g_ascii_strtod(limit + strlen("at most "), NULL);
+      if (limit_s * SPORE_SUBSTEPS_MAXIMUM > h)
+        description.solver.substeps = strtol(remedy + strlen("take "), NULL, 10);
+      else description.solver.time_step = limit_s;
+      SporeWorld *world = create(&description);
+      double q[3 * COUNT], v[3 * COUNT];
+      memcpy(q, spore_world_q(world, 0), sizeof q);
+      memcpy(v, spore_world_v(world, 0), sizeof v);
+      for (int k = 0; k < 3 * COUNT; k++) q[k] += 1e-4 * sin(k * k + 1.);
+      spore_world_set_state(world, 0, q, v);
+      for (int i = 0; i < 300; i++) {
+        spore_world_step(world);
+        for (int k = 0; k < 3 * COUNT; k++) most = fmax(most, fabs(spore_world_v(world, 0)[k]));
+      }
+      g_assert_cmpfloat(most, <, 0.1);
+      spore_world_free(world);
+    }
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/integrate/order", test_order);
+  g_test_add_func("/integrate/substeps", test_substeps);
+  g_test_add_func("/integrate/energy", test_energy);
+  g_test_add_func("/integrate/stiff", test_stiff);
+  g_test_add_func("/integrate/error-control", test_error_control);
+  g_test_add_func("/integrate/cost", test_cost);
+  g_test_add_func("/integrate/restart", test_restart);
+  g_test_add_func("/integrate/limits", test_limits);
+  return g_test_run();
+}
