@@ -146,7 +146,7 @@ static void tune(Body *body, const TetrahedraFields *fields) {
 
 static bool build(Body *body, const SporeTetrahedralMesh *mesh, const TetrahedraFields *fields, SporeError *error) {
   size_t nodes = mesh->vertex_count, count = mesh->tetrahedron_count;
-  if (!spore_model_init(&body->base, &spore_corotational_tetrahedra, 3 * nodes, nodes, error) ||
+  if (!spore_model_init(&body->base, &spore_corotational_tetrahedra, nodes, false, error) ||
       !copy_mesh(body, mesh, error))
     return false;
   SporeTetrahedra *tetrahedra = &body->tetrahedra;

@@ -120,7 +120,7 @@ static bool find_blocks(Net *net) {
 }
 
 static bool build(Net *net, const SporeTriangleMesh *mesh, const NetFields *fields, SporeError *error) {
-  if (!spore_model_init(&net->base, &spore_mass_spring_net, 3 * mesh->vertex_count, mesh->vertex_count, error) ||
+  if (!spore_model_init(&net->base, &spore_mass_spring_net, mesh->vertex_count, false, error) ||
       !spore_triangle_mesh_copy(&net->mesh, mesh, error))
     return false;
   net->rest = net->mesh.vertices;

@@ -124,7 +124,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a rigid body"));
     return NULL;
   }
-  if (!spore_model_init(&body->base, &spore_rigid_body, 7, 2, error) ||
+  if (!spore_model_init(&body->base, &spore_rigid_body, 1, true, error) ||
       !set_inertia(body, geometry->surface, fields, report.diagonal, error)) {
     destroy(&body->base);
     return NULL;

@@ -11,8 +11,7 @@ static double kinetic(const SporeWorld *world, const SporeBody *body) {
 static double gravitational(const SporeWorld *world, const SporeBody *body) {
   const double *q = world->q + body->q_offset;
   double energy = 0;
-  if (!spore_model_is_nodal(body->model)) return -body->total_mass * spore_vec3_dot(world->gravity, spore_vec3_load(q));
-  for (size_t i = 0; i < body->block_count; i++)
+  for (size_t i = 0; i < body->model->node_count; i++)
     energy -= body->model->block_mass[i] * spore_vec3_dot(world->gravity, spore_vec3_load(q + 3 * i));
   return energy;
 }

@@ -174,15 +174,15 @@ double spore_group_rounding(void *data, const double *q, double c, bool stiff_ax
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
     const double *mass_inverse = group->world->mass_inverse + 3 * body->v_offset;
-    bool nodal = body->q_count == 3 * body->block_count;
+    size_t nodes = body->model->node_count;
     for (size_t i = 0; i < body->block_count; i++) {
       const double *w = mass_inverse + 9 * i;
       double weight = (w[0] + w[4] + w[8]) / 3;
       double stiff = stiff_axes ? block_stiffness(group)[site->v / 3 + i]
                                 : softest_stiffness(inverse + 3 * site->v + 9 * i, weight);
       stiff /= c;
-      double size = nodal ? spore_vec3_length(spore_vec3_load(q + site->q + 3 * i))
-                          : 1 + spore_vec3_length(spore_vec3_load(q + site->q));
+      double size = spore_vec3_length(spore_vec3_load(q + site->q + 3 * (i < nodes ? i : nodes - 1)));
+      if (nodes < body->block_count) size += 1; /* an orientation is known to rounding of 1 */
       sum += weight * stiff * stiff * size * size;
     }
   }

@@ -20,13 +20,14 @@ static bool passive(const SporeWorld *world, uint32_t body) {
   return known_body(world, body) && world->bodies[body].role == SPORE_PASSIVE;
 }
 
-/* Where the blocks of a body are at time 0, count x 3. Blocks of a body that is not a set of nodes (a frame's position
- * and orientation) are all at its origin. */
+/* Where the blocks of a body are at time 0, count x 3. A frame's angular velocity is where its origin is: at the last
+ * node. */
 static double *block_positions(const SporeWorld *world, const SporeBody *body) {
   double *points = SPORE_NEW_ARRAY(double, 3 * body->block_count);
   const double *q = world->rest_q + body->q_offset;
-  bool nodal = spore_model_is_nodal(body->model);
-  for (size_t i = 0; points && i < body->block_count; i++) memcpy(points + 3 * i, nodal ? q + 3 * i : q, 3 * sizeof *q);
+  size_t last = body->model->node_count - 1;
+  for (size_t i = 0; points && i < body->block_count; i++)
+    memcpy(points + 3 * i, q + 3 * (i < last ? i : last), 3 * sizeof *q);
   return points;
 }
 
@@ -112,8 +113,8 @@ static bool make_pulls(SporeWorld *world) {
     const SporeModel *model = world->bodies[b].model;
     SporeMapping *end_a = &world->spring_mappings[2 * index], *end_b = end_a + 1;
     if (!model) continue;
-    bool made = spore_model_is_nodal(model) ? spore_mapping_init_identity(end_a, model->block_count)
-                                            : spore_mapping_init_points(end_a, SPORE_MAPPING_RIGID, origin, 1, NULL);
+    bool made = spore_model_is_rigid(model) ? spore_mapping_init_points(end_a, SPORE_MAPPING_RIGID, origin, 1, NULL)
+                                            : spore_mapping_init_identity(end_a, model->node_count);
     if (!made || !spore_mapping_init_points(end_b, SPORE_MAPPING_FIXED, origin, 1, NULL)) return false;
     world->springs[index].a = (SporeEnd){.mapping = end_a, .body = (uint32_t)b};
     world->springs[index].b = (SporeEnd){.mapping = end_b, .body = SPORE_NO_BODY};
@@ -180,8 +181,8 @@ static void grasp(SporeWorld *world, size_t index, const SporeBody *body, SporeV
   SporeSpringTerm *term = &world->springs[index];
   const double *q = world->q + body->q_offset;
   double mass;
-  if (spore_model_is_nodal(body->model)) {
-    term->a.point = (uint32_t)nearest_block(q, body->block_count, point);
+  if (!spore_model_is_rigid(body->model)) {
+    term->a.point = (uint32_t)nearest_block(q, body->model->node_count, point);
     mass = body->model->block_mass[term->a.point];
   } else {
     SporeVec3 arm = spore_vec3_sub(point, spore_vec3_load(q));

@@ -6,9 +6,11 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 
-bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t q_count, size_t block_count,
+bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node_count, bool framed,
                       SporeError *error) {
-  *model = (SporeModel){.type = type, .q_count = q_count, .block_count = block_count};
+  size_t block_count = node_count + framed;
+  *model = (SporeModel){
+      .type = type, .q_count = 3 * node_count + (framed ? 4 : 0), .block_count = block_count, .node_count = node_count};
   model->block_mass = SPORE_NEW_ARRAY(double, block_count);
   if (model->block_mass) return true;
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a model of %zu blocks"),

@@ -3,7 +3,9 @@
  * A model is immutable while it runs (retune apart); its state lies in the world's flat arrays:
  *   q  configuration, q_count doubles
  *   v  generalised velocity, block_count x 3 doubles
- * A node model has q_count = 3 block_count and q' = v. A rigid body has q_count 7, block_count 2.
+ * The first node_count blocks are material points: node i is at q[3i], and q' = v for it. A body that turns as a whole
+ * has one block more, the angular velocity (world axes) of a frame whose origin is the last node, and behind the nodes
+ * the frame's orientation (quaternion wxyz). A rigid body is one node with such a frame.
  *
  * The world solves M v' = f(q, v) + gravity + contacts + links. Models add their own internal force and, if they
  * can, its Jacobian in 3x3 blocks. Gravity is the world's: it pulls block i with block_mass[i] g. */
@@ -33,7 +35,7 @@ typedef struct SporeModelType SporeModelType;
 /* Base of every model: the first member of the model's own structure. Filled by create. */
 typedef struct SporeModel {
   const SporeModelType *type;
-  size_t q_count, block_count;
+  size_t q_count, block_count, node_count;
   double *block_mass; /* kg, block_count; 0 where a block has no weight (a rigid body's rotation) */
 } SporeModel;
 
@@ -75,10 +77,13 @@ struct SporeModelType {
 };
 
 /* Helpers for models. */
-bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t q_count, size_t block_count,
-                      SporeError *error);
+bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node_count, bool framed, SporeError *error);
 void spore_model_clear(SporeModel *model);
-static inline bool spore_model_is_nodal(const SporeModel *model) { return model->q_count == 3 * model->block_count; }
+static inline bool spore_model_is_nodal(const SporeModel *model) { return model->node_count == model->block_count; }
+/* One frame and no other node: points follow it rigidly. */
+static inline bool spore_model_is_rigid(const SporeModel *model) {
+  return model->node_count == 1 && model->block_count == 2;
+}
 double spore_model_total_mass(const SporeModel *model);
 
 /* A registry is an explicit NULL-terminated array; models/registry.c holds the one of this program. */

@@ -5,7 +5,7 @@
 
 /* What torque is about: the frame's origin, or for a set of nodes that of its frame at time 0. */
 static SporeVec3 origin(const SporeWorld *world, const SporeBody *body) {
-  bool frame = !body->model || !spore_model_is_nodal(body->model);
+  bool frame = !body->model || spore_model_is_rigid(body->model);
   return frame ? spore_vec3_load(world->q + body->q_offset) : body->rest_pose.position;
 }
 

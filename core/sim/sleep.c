@@ -36,8 +36,7 @@ static double body_extent(const SporeWorld *world, const SporeBody *body) {
   if (body->spheres.point_count > 0)
     return extent_of(spheres->centre + 3 * body->sphere_start, spheres->radius + body->sphere_start,
                      body->spheres.point_count);
-  if (!spore_model_is_nodal(body->model)) return 0;
-  return extent_of(world->rest_q + body->q_offset, NULL, body->block_count);
+  return extent_of(world->rest_q + body->q_offset, NULL, body->model->node_count);
 }
 
 void spore_world_compile_sleep(SporeWorld *world) {

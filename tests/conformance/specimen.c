@@ -109,8 +109,8 @@ void state_clear(State *state) {
 State state_random(const SporeModel *model, GRand *random, double stretch, double noise) {
   SporePose pose = {shape_random_vector(random, 0.5), shape_random_rotation(random)};
   State state = state_new(model, pose, shape_random_vector(random, 0.3), shape_random_vector(random, 2));
-  if (!spore_model_is_nodal(model)) return state;
-  for (size_t i = 0; i < model->block_count; i++) {
+  if (spore_model_is_rigid(model)) return state;
+  for (size_t i = 0; i < model->node_count; i++) {
     SporeVec3 arm = spore_vec3_sub(spore_vec3_load(state.q + 3 * i), pose.position);
     SporeVec3 moved = spore_vec3_add_scaled(pose.position, stretch, arm);
     spore_vec3_store(state.q + 3 * i, spore_vec3_add(moved, shape_random_vector(random, noise)));
@@ -120,12 +120,11 @@ State state_random(const SporeModel *model, GRand *random, double stretch, doubl
 }
 
 void state_transform(const SporeModel *model, State *state, SporePose pose) {
-  if (spore_model_is_nodal(model))
-    for (size_t i = 0; i < model->block_count; i++)
-      spore_vec3_store(state->q + 3 * i, spore_pose_apply(pose, spore_vec3_load(state->q + 3 * i)));
-  else {
-    spore_vec3_store(state->q, spore_pose_apply(pose, spore_vec3_load(state->q)));
-    spore_quat_store(state->q + 3, spore_quat_multiply(pose.orientation, spore_quat_load(state->q + 3)));
+  for (size_t i = 0; i < model->node_count; i++)
+    spore_vec3_store(state->q + 3 * i, spore_pose_apply(pose, spore_vec3_load(state->q + 3 * i)));
+  if (!spore_model_is_nodal(model)) {
+    double *orientation = state->q + 3 * model->node_count;
+    spore_quat_store(orientation, spore_quat_multiply(pose.orientation, spore_quat_load(orientation)));
   }
   for (size_t i = 0; i < model->block_count; i++)
     spore_vec3_store(state->v + 3 * i, spore_quat_rotate(pose.orientation, spore_vec3_load(state->v + 3 * i)));

@@ -41,7 +41,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
   Chain *chain = SPORE_NEW(Chain);
   chain->fields = *(const ChainFields *)fields;
   size_t n = (size_t)chain->fields.count;
-  spore_model_init(&chain->base, &chain_model, 3 * n, n, error);
+  spore_model_init(&chain->base, &chain_model, n, false, error);
   for (size_t i = 0; i < n; i++) chain->base.block_mass[i] = chain->fields.mass;
   chain->rest = SPORE_NEW_ARRAY(double, 3 * n);
   return &chain->base;

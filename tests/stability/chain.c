@@ -82,7 +82,7 @@ static void find_blocks(Chain *chain) {
 
 SporeModel *chain_new(size_t count, double spacing, const double *stiffness, const double *mass, double damping) {
   Chain *chain = g_new0(Chain, 1);
-  g_assert_true(spore_model_init(&chain->base, &type, 3 * (count + 1), count + 1, NULL));
+  g_assert_true(spore_model_init(&chain->base, &type, count + 1, false, NULL));
   chain->count = count;
   chain->rest = g_new0(double, 3 * (count + 1));
   chain->springs = g_new0(SporeSprings, count);

@@ -125,7 +125,7 @@ static const SporeModelType type = {.name = "lattice_net",
 SporeModel *lattice_net_new(const LatticeNet *net) {
   Net *model = g_new0(Net, 1);
   size_t nodes = (size_t)net->columns * net->rows;
-  g_assert_true(spore_model_init(&model->base, &type, 3 * nodes, nodes, NULL));
+  g_assert_true(spore_model_init(&model->base, &type, nodes, false, NULL));
   for (size_t i = 0; i < nodes; i++) model->base.block_mass[i] = net->mass / (double)nodes;
   model->mass_damping = net->mass_damping;
   model->start = g_new0(double, 3 * nodes);
