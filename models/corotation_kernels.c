@@ -36,13 +36,13 @@ SPORE_INLINE SporeVd product(const Matrix *a, const Matrix *b) { /* a : b */
 /* A part of a batch as wide as the instruction set. */
 typedef struct Part {
   const SporeTetrahedronBatch *batch;
-  size_t lane; /* its first */
+  size_t index, lane; /* of the batch; the part's first in it */
   Matrix inverse;
   SporeVd volume;
 } Part;
 
 SPORE_INLINE Part part_of(const SporeTetrahedra *tetrahedra, size_t batch, size_t lane) {
-  Part part = {.batch = tetrahedra->batches + batch, .lane = lane};
+  Part part = {.batch = tetrahedra->batches + batch, .index = batch, .lane = lane};
   UNROLL for (int k = 0; k < 9; k++) part.inverse.m[k] = spore_vd_load(part.batch->inverse[k] + lane);
   part.volume = spore_vd_load(part.batch->volume + lane);
   return part;
@@ -77,37 +77,87 @@ static __attribute__((noinline)) void rotate_one_by_one(const Matrix *f, SporeVl
   }
 }
 
-/* The greatest root, by Newton's method from the right, where it is monotonous: no root is greater than (3 I)^1/2. A
- * lane that is done stays as it is, whatever its neighbours need. */
-SPORE_INLINE SporeVd greatest_root(SporeVd first, SporeVd second, SporeVd determinant, SporeVl *failed) {
-  SporeVd sum = spore_vd_sqrt(3 * first);
-  SporeVl going = (SporeVl){0} - 1;
-  for (int round = 0; round < 16 && spore_vl_any(going); round++) {
-    SporeVd twice = sum * sum - first;
-    SporeVd value = twice * twice - 8 * determinant * sum - 4 * second;
-    SporeVd change = value / (4 * sum * twice - 8 * determinant);
-    sum = spore_vd_select(going, sum - change, sum);
-    going &= spore_vd_abs(change) > 1e-9 * sum; /* the error after this round is its square */
-  }
-  *failed = going;
-  return sum;
+/* What the greatest root depends on: invariants of F^T F, and det F. */
+typedef struct Invariants {
+  SporeVd first, second, determinant;
+} Invariants;
+
+SPORE_INLINE Invariants invariants_of(const Matrix *f, const Matrix *c) {
+  return (Invariants){product(f, f), product(c, c), f->m[0] * c->m[0] + f->m[1] * c->m[1] + f->m[2] * c->m[2]};
 }
 
-SPORE_INLINE Rotation rotation_of(const Matrix *f) {
-  Matrix c = cofactor(f), cauchy, turned;
-  SporeVd first = product(f, f), second = product(&c, &c);
-  SporeVd determinant = f->m[0] * c.m[0] + f->m[1] * c.m[1] + f->m[2] * c.m[2];
-  SporeVl failed;
-  Rotation rotation = {.sum = greatest_root(first, second, determinant, &failed)};
-  SporeVd pairs = 0.5 * (rotation.sum * rotation.sum - first); /* s1 s2 + s2 s3 + s3 s1 */
-  SporeVd divisor = rotation.sum * pairs - determinant;        /* (s1 + s2) (s2 + s3) (s3 + s1) */
-  UNROLL for (int i = 0; i < 3; i++) UNROLL for (int j = 0; j < 3; j++) cauchy.m[3 * i + j] =
-      f->m[i] * f->m[j] + f->m[3 + i] * f->m[3 + j] + f->m[6 + i] * f->m[6 + j];
-  turned = multiply(f, &cauchy);
-  SporeVd inverse = 1 / divisor;
-  SporeVd of_f = (pairs + first) * inverse, of_c = rotation.sum * inverse;
-  UNROLL for (int k = 0; k < 9; k++) rotation.r.m[k] = of_f * f->m[k] + of_c * c.m[k] - inverse * turned.m[k];
-  failed |= ~((divisor > 0) & (divisor * divisor > 1e-6 * first * first * first) & (first > 1e-50) & (first < 1e50));
+/* Parts whose roots are sought together: each round waits long for its own result, and not for the others'. */
+#define TOGETHER 4
+
+/* The greatest roots, by Newton's method from the right, where it is monotonous: no root is greater than (3 I)^1/2. A
+ * lane that is done stays as it is, whatever its neighbours need. */
+SPORE_INLINE void greatest_roots(const Invariants of[TOGETHER], SporeVd sum[TOGETHER], SporeVl failed[TOGETHER]) {
+  UNROLL for (int n = 0; n < TOGETHER; n++) {
+    sum[n] = spore_vd_sqrt(3 * of[n].first);
+    failed[n] = (SporeVl){0} - 1;
+  }
+  SporeVl going = failed[0];
+  for (int round = 0; round < 16 && spore_vl_any(going); round++) {
+    going = (SporeVl){0};
+    UNROLL for (int n = 0; n < TOGETHER; n++) {
+      SporeVd twice = sum[n] * sum[n] - of[n].first;
+      SporeVd value = twice * twice - (8 * of[n].determinant * sum[n] + 4 * of[n].second);
+      SporeVd change = value / (4 * sum[n] * twice - 8 * of[n].determinant);
+      sum[n] = spore_vd_select(failed[n], sum[n] - change, sum[n]);
+      failed[n] &= spore_vd_abs(change) > 1e-9 * sum[n]; /* the error after this round is its square */
+      going |= failed[n];
+    }
+  }
+}
+
+/* Some parts with their F, and what of the rotations takes longest. */
+typedef struct Chunk {
+  size_t count;
+  Matrix gradient[TOGETHER], cofactor[TOGETHER];
+  Invariants invariants[TOGETHER];
+  SporeVd sum[TOGETHER];
+  SporeVl failed[TOGETHER];
+} Chunk;
+
+SPORE_INLINE size_t part_count(const SporeTetrahedra *tetrahedra) {
+  return tetrahedra->batch_count * (SPORE_LANES / SPORE_WIDTH);
+}
+
+SPORE_INLINE Part part_at(const SporeTetrahedra *tetrahedra, size_t index) {
+  return part_of(tetrahedra, index / (SPORE_LANES / SPORE_WIDTH), index % (SPORE_LANES / SPORE_WIDTH) * SPORE_WIDTH);
+}
+
+SPORE_INLINE void begin_chunk(const SporeTetrahedra *tetrahedra, size_t first, const double *q, Chunk *chunk) {
+  size_t left = part_count(tetrahedra) - first;
+  chunk->count = left < TOGETHER ? left : TOGETHER;
+  for (size_t n = 0; n < TOGETHER; n++) { /* behind the last part: that again */
+    Part part = part_at(tetrahedra, first + (n < chunk->count ? n : chunk->count - 1));
+    chunk->gradient[n] = gradient_of(&part, q);
+    chunk->cofactor[n] = cofactor(&chunk->gradient[n]);
+    chunk->invariants[n] = invariants_of(&chunk->gradient[n], &chunk->cofactor[n]);
+  }
+  greatest_roots(chunk->invariants, chunk->sum, chunk->failed);
+}
+
+/* R of F = R S from the root i: with II_S = s1 s2 + s2 s3 + s3 s1 and C = F^T F, the derivative of the quartic is
+ * R = (F ((II_S + I) 1 - C) + i cof F) / (i II_S - J). */
+SPORE_INLINE Rotation rotation_of(const Chunk *chunk, size_t n) {
+  const Matrix *f = &chunk->gradient[n], *c = &chunk->cofactor[n];
+  Invariants of = chunk->invariants[n];
+  Rotation rotation = {.sum = chunk->sum[n]};
+  SporeVd pairs = 0.5 * (rotation.sum * rotation.sum - of.first);
+  SporeVd divisor = rotation.sum * pairs - of.determinant; /* (s1 + s2) (s2 + s3) (s3 + s1) */
+  SporeVd inverse = 1 / divisor, by_cofactor = rotation.sum * inverse;
+  Matrix factor;
+  UNROLL for (int i = 0; i < 3; i++) UNROLL for (int j = i; j < 3; j++) {
+    SporeVd entry = f->m[i] * f->m[j] + f->m[3 + i] * f->m[3 + j] + f->m[6 + i] * f->m[6 + j];
+    factor.m[3 * i + j] = factor.m[3 * j + i] = inverse * (i == j ? pairs + of.first - entry : -entry);
+  }
+  rotation.r = multiply(f, &factor);
+  UNROLL for (int k = 0; k < 9; k++) rotation.r.m[k] += by_cofactor * c->m[k];
+  SporeVl failed = chunk->failed[n];
+  failed |= ~((divisor > 0) & (divisor * divisor > 1e-6 * of.first * of.first * of.first) & (of.first > 1e-50) &
+              (of.first < 1e50));
   if (__builtin_expect(spore_vl_any(failed), 0)) {
     Matrix gradient = *f;
     Rotation mended = rotation;
@@ -134,13 +184,17 @@ SPORE_INLINE void add_viscous(const Part *part, SporeElasticity elasticity, cons
   UNROLL for (int k = 0; k < 9; k++) stress->m[k] += viscous.m[k];
 }
 
-SPORE_INLINE int has_lane(const SporeTetrahedra *tetrahedra, size_t batch, size_t lane) {
-  return lane * tetrahedra->batch_count + batch < tetrahedra->count;
+/* Lanes of the part that hold a tetrahedron. */
+SPORE_INLINE size_t lanes_of(const SporeTetrahedra *tetrahedra, const Part *part) {
+  size_t full = tetrahedra->count / tetrahedra->batch_count;
+  size_t lanes = full + (part->index < tetrahedra->count % tetrahedra->batch_count);
+  return lanes < part->lane ? 0 : lanes - part->lane < SPORE_WIDTH ? lanes - part->lane : SPORE_WIDTH;
 }
 
+typedef double Two __attribute__((vector_size(16), aligned(8), may_alias));
+
 /* f -= V P Dm^-T */
-SPORE_INLINE void add_forces(const SporeTetrahedra *tetrahedra, size_t index, const Part *part, const Matrix *stress,
-                             double *f) {
+SPORE_INLINE void add_forces(const SporeTetrahedra *tetrahedra, const Part *part, const Matrix *stress, double *f) {
   double rows[4][4 * SPORE_WIDTH];
   SporeVd3 sum = {0};
   UNROLL for (int k = 0; k < 3; k++) {
@@ -152,47 +206,53 @@ SPORE_INLINE void add_forces(const SporeTetrahedra *tetrahedra, size_t index, co
     spore_vd3_store_rows(rows[k + 1], pull);
   }
   spore_vd3_store_rows(rows[0], sum);
-  for (size_t i = 0; i < SPORE_WIDTH && has_lane(tetrahedra, index, part->lane + i); i++)
-    UNROLL for (int a = 0; a < 4; a++) {
+  for (size_t i = 0, lanes = lanes_of(tetrahedra, part); i < lanes; i++) UNROLL for (int a = 0; a < 4; a++) {
       double *corner = f + 3 * (size_t)part->batch->node[a][part->lane + i];
       const double *row = rows[a] + 4 * i;
-      corner[0] -= row[0], corner[1] -= row[1], corner[2] -= row[2];
+      *(Two *)corner -= *(const Two *)row, corner[2] -= row[2];
     }
 }
 
-SPORE_INLINE Matrix elastic_stress(SporeElasticity elasticity, const Matrix *f) {
-  Rotation rotation = rotation_of(f);
+SPORE_INLINE Matrix elastic_stress(SporeElasticity elasticity, const Matrix *f, const Rotation *rotation) {
   Matrix stress;
-  SporeVd factor = elasticity.lambda * (rotation.sum - 3) - 2 * elasticity.mu;
-  UNROLL for (int k = 0; k < 9; k++) stress.m[k] = 2 * elasticity.mu * f->m[k] + factor * rotation.r.m[k];
+  SporeVd factor = elasticity.lambda * (rotation->sum - 3) - 2 * elasticity.mu;
+  UNROLL for (int k = 0; k < 9; k++) stress.m[k] = 2 * elasticity.mu * f->m[k] + factor * rotation->r.m[k];
   return stress;
 }
 
 void SPORE_LEVEL_NAME(spore_corotation_force)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                                               const double *q, const double *v, double *f) {
-  for (size_t b = 0; b < tetrahedra->batch_count; b++)
-    for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
-      Part part = part_of(tetrahedra, b, lane);
-      Matrix gradient = gradient_of(&part, q), stress = elastic_stress(elasticity, &gradient);
+  Chunk chunk;
+  for (size_t first = 0; first < part_count(tetrahedra); first += TOGETHER) {
+    begin_chunk(tetrahedra, first, q, &chunk);
+    for (size_t n = 0; n < chunk.count; n++) {
+      Part part = part_at(tetrahedra, first + n);
+      Matrix gradient = chunk.gradient[n];
+      Rotation rotation = rotation_of(&chunk, n);
+      Matrix stress = elastic_stress(elasticity, &gradient, &rotation);
       if (elasticity.viscosity > 0) add_viscous(&part, elasticity, &gradient, v, &stress);
-      add_forces(tetrahedra, b, &part, &stress, f);
+      add_forces(tetrahedra, &part, &stress, f);
     }
+  }
 }
 
 double SPORE_LEVEL_NAME(spore_corotation_potential)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                                                     const double *q) {
   double lanes[SPORE_LANES] = {0};
-  for (size_t b = 0; b < tetrahedra->batch_count; b++)
-    for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
-      Part part = part_of(tetrahedra, b, lane);
-      Matrix gradient = gradient_of(&part, q);
-      Rotation rotation = rotation_of(&gradient);
+  Chunk chunk;
+  for (size_t first = 0; first < part_count(tetrahedra); first += TOGETHER) {
+    begin_chunk(tetrahedra, first, q, &chunk);
+    for (size_t n = 0; n < chunk.count; n++) {
+      Part part = part_at(tetrahedra, first + n);
+      Matrix strain = chunk.gradient[n];
+      Rotation rotation = rotation_of(&chunk, n);
       SporeVd volumetric = rotation.sum - 3;
-      UNROLL for (int k = 0; k < 9; k++) gradient.m[k] -= rotation.r.m[k];
-      SporeVd density =
-          elasticity.mu * product(&gradient, &gradient) + 0.5 * elasticity.lambda * volumetric * volumetric;
-      spore_vd_store(lanes + lane, spore_vd_load(lanes + lane) + part.volume * density);
+      UNROLL for (int k = 0; k < 9; k++) strain.m[k] -= rotation.r.m[k];
+      SporeVd density = elasticity.mu * product(&strain, &strain) + 0.5 * elasticity.lambda * volumetric * volumetric;
+      double *lane = lanes + part.lane;
+      spore_vd_store(lane, spore_vd_load(lane) + part.volume * density);
     }
+  }
   return spore_lanes_sum(lanes);
 }
 
@@ -295,8 +355,7 @@ typedef struct Blocks {
  * Q_k = R [s_k]x / sqrt 2, s_k an eigenvector of S, and c_k = (lambda (tr S - 3) - 2 mu) 2 / (the other two stretches).
  * 2 mu + c_k is the eigenvalue of that twist; it is clamped to be no less than 0. */
 SPORE_INLINE void add_stiffness(const Part *part, SporeElasticity elasticity, double by, const Matrix *f,
-                                Blocks *blocks) {
-  Rotation rotation = rotation_of(f);
+                                Rotation rotation, Blocks *blocks) {
   Matrix stretch;
   UNROLL for (int i = 0; i < 3; i++) UNROLL for (int j = i; j < 3; j++) {
     SporeVd3 ri = column_of(&rotation.r, i), rj = column_of(&rotation.r, j);
@@ -385,26 +444,33 @@ SPORE_INLINE void store_blocks(BlockRows rows[16], const Blocks *blocks) {
 }
 
 /* One element after the other, whatever the width. */
-SPORE_INLINE void add_blocks(const SporeTetrahedra *tetrahedra, size_t index, size_t lane, const Blocks *blocks,
+SPORE_INLINE void add_blocks(const SporeTetrahedra *tetrahedra, const Part *part, const Blocks *blocks,
                              SporeBlockMatrix *matrix) {
   BlockRows rows[16];
   store_blocks(rows, blocks);
-  for (size_t i = 0; i < SPORE_WIDTH && has_lane(tetrahedra, index, lane + i); i++)
+  for (size_t i = 0, lanes = lanes_of(tetrahedra, part); i < lanes; i++)
     for (int pair = 0; pair < 16; pair++)
-      spore_block_add_rows(matrix->values + 9 * (size_t)tetrahedra->blocks[index][lane + i][pair], rows[pair], i);
+      spore_block_add_rows(matrix->values + 9 * (size_t)tetrahedra->blocks[part->index][part->lane + i][pair],
+                           rows[pair], i);
 }
 
 void SPORE_LEVEL_NAME(spore_corotation_jacobian)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                                                  const double *q, double stiffness_scale, double damping_scale,
                                                  SporeBlockMatrix *matrix) {
   double viscous = damping_scale * elasticity.viscosity;
-  for (size_t b = 0; b < tetrahedra->batch_count; b++)
-    for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
-      Part part = part_of(tetrahedra, b, lane);
-      Matrix gradient = gradient_of(&part, q);
+  Chunk chunk;
+  for (size_t first = 0; first < part_count(tetrahedra); first += TOGETHER) {
+    begin_chunk(tetrahedra, first, q, &chunk);
+    for (size_t n = 0; n < chunk.count; n++) {
+      Part part = part_at(tetrahedra, first + n);
+      Matrix gradient = chunk.gradient[n];
       Blocks blocks = {0};
-      if (stiffness_scale != 0) add_stiffness(&part, elasticity, stiffness_scale, &gradient, &blocks);
+      if (stiffness_scale != 0) {
+        Rotation rotation = rotation_of(&chunk, n);
+        add_stiffness(&part, elasticity, stiffness_scale, &gradient, rotation, &blocks);
+      }
       if (viscous != 0) add_viscosity(&part, elasticity, damping_scale, &gradient, &blocks);
-      add_blocks(tetrahedra, b, lane, &blocks, matrix);
+      add_blocks(tetrahedra, &part, &blocks, matrix);
     }
+  }
 }
