@@ -13,9 +13,10 @@ import editor
 import kernel
 import sofa
 import kernels
+import peers
 import table
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **peers.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():

@@ -15,10 +15,13 @@
 
 #define CASE_GRAVITY 9.81 /* m/s^2, along -y */
 
-/* Cloth: a square sheet of nodes in the plane y = 0, rows along z, two corners of one side held. The springs are the
- * edges of its triangles, whose diagonals alternate; a triangle's mass goes to its corners. */
+/* Cloth: a square sheet of nodes, held along one side, let go at an angle and swinging, so that it is stretched at all
+ * times: laid flat it would buckle, and after a second nobody's answer could be told from another's. The springs are
+ * the edges of its triangles, whose diagonals alternate; a triangle's mass goes to its corners. */
 enum { CLOTH_NODES = 20 };
-#define CLOTH_SIDE 1.0     /* m */
+#define CLOTH_SIDE 1.0 /* m */
+#define CLOTH_FALL 0.8 /* of its side downward and aside, at the start */
+#define CLOTH_ASIDE 0.6
 #define CLOTH_MASS 1.0     /* kg */
 #define CLOTH_DAMPING 0.01 /* N s/m, of each spring, along it */
 
@@ -55,8 +58,8 @@ static inline void cloth_triangle(unsigned t, unsigned corners[3]) {
 }
 static inline void cloth_node(unsigned i, double x[3]) {
   x[0] = (i % CLOTH_NODES * 1.0 / (CLOTH_NODES - 1) - 0.5) * CLOTH_SIDE;
-  x[1] = 0;
-  x[2] = (i / CLOTH_NODES * 1.0 / (CLOTH_NODES - 1) - 0.5) * CLOTH_SIDE;
+  x[1] = -(double)(i / CLOTH_NODES) * CLOTH_SIDE * CLOTH_FALL / (CLOTH_NODES - 1);
+  x[2] = i / CLOTH_NODES * CLOTH_SIDE * CLOTH_ASIDE / (CLOTH_NODES - 1);
 }
 
 /* Corners of tetrahedron t of the bar: the six paths along the edges of a cell from its first corner to its last. */
@@ -80,17 +83,6 @@ static inline void bar_node(unsigned i, double x[3]) {
   x[2] = i % (BAR_CELLS_Z + 1) * BAR_THICKNESS / BAR_CELLS_Z;
 }
 
-/* Where sphere i of the pile starts: layers a little askew, so that they do not stand on each other. Box: |x| and |z|
- * up to PILE_HALF, y from 0. */
-#define PILE_HALF (0.5 * PILE_ACROSS * PILE_SPACING)
-static inline void pile_start(unsigned i, double centre[3]) {
-  unsigned column = i % PILE_ACROSS, row = i / PILE_ACROSS % PILE_ACROSS, layer = i / (PILE_ACROSS * PILE_ACROSS);
-  double askew = 0.002 * (layer % 3) - 0.002;
-  centre[0] = (column + 0.5) * PILE_SPACING - PILE_HALF + askew * (row % 2 ? 1 : -1);
-  centre[1] = (layer + 0.5) * 1.1 * PILE_SPACING;
-  centre[2] = (row + 0.5) * PILE_SPACING - PILE_HALF + askew * (column % 2 ? 1 : -1);
-}
-
 typedef struct CaseRun {
   int argc;
   char **argv;
@@ -99,12 +91,16 @@ typedef struct CaseRun {
   FILE *trajectory;
 } CaseRun;
 
-/* A number of the command line, or `otherwise`. */
-static inline double case_number(const CaseRun *run, const char *name, double otherwise) {
+/* A word or a number of the command line, or `otherwise`. */
+static inline const char *case_word(const CaseRun *run, const char *name, const char *otherwise) {
   size_t length = strlen(name);
   for (int i = 2; i < run->argc; i++)
-    if (!strncmp(run->argv[i], name, length) && run->argv[i][length] == '=') return atof(run->argv[i] + length + 1);
+    if (!strncmp(run->argv[i], name, length) && run->argv[i][length] == '=') return run->argv[i] + length + 1;
   return otherwise;
+}
+static inline double case_number(const CaseRun *run, const char *name, double otherwise) {
+  const char *word = case_word(run, name, NULL);
+  return word ? atof(word) : otherwise;
 }
 
 static inline CaseRun case_begin(int argc, char **argv) {
@@ -113,8 +109,8 @@ static inline CaseRun case_begin(int argc, char **argv) {
   run.steps = (unsigned)case_number(&run, "steps", 1000);
   run.frames = (unsigned)case_number(&run, "frames", 20);
   if (run.frames > run.steps) run.frames = run.steps;
-  for (int i = 2; i < argc; i++)
-    if (!strncmp(argv[i], "trajectory=", 11)) run.trajectory = fopen(argv[i] + 11, "wb");
+  const char *file = case_word(&run, "trajectory", NULL);
+  if (file) run.trajectory = fopen(file, "wb");
   return run;
 }
 
@@ -139,6 +135,23 @@ static inline void case_stop(CaseRun *run) { run->cpu_s += case_cpu_s() - run->s
 static inline void case_node(CaseRun *run, double x, double y, double z) {
   const double position[3] = {x, y, z};
   if (run->trajectory) fwrite(position, sizeof position, 1, run->trajectory);
+}
+
+/* Where sphere i of the pile starts: as the last frame of the trajectory in start=FILE says, or in layers a little
+ * askew, so that they do not stand on each other. Box: |x| and |z| up to PILE_HALF, y from 0. */
+#define PILE_HALF (0.5 * PILE_ACROSS * PILE_SPACING)
+static inline void pile_start(const CaseRun *run, unsigned i, double centre[3]) {
+  unsigned column = i % PILE_ACROSS, row = i / PILE_ACROSS % PILE_ACROSS, layer = i / (PILE_ACROSS * PILE_ACROSS);
+  double askew = 0.002 * (layer % 3) - 0.002;
+  centre[0] = (column + 0.5) * PILE_SPACING - PILE_HALF + askew * (row % 2 ? 1 : -1);
+  centre[1] = (layer + 0.5) * 1.1 * PILE_SPACING;
+  centre[2] = (row + 0.5) * PILE_SPACING - PILE_HALF + askew * (column % 2 ? 1 : -1);
+  const char *name = case_word(run, "start", NULL);
+  FILE *file = name ? fopen(name, "rb") : NULL;
+  if (!file) return;
+  long size = 3 * (long)sizeof(double);
+  if (fseek(file, size * ((long)i - PILE_SPHERES), SEEK_END) || fread(centre, (size_t)size, 1, file) != 1) exit(2);
+  fclose(file);
 }
 
 /* The answer; `more` is what else there is to say, as `, "name": value`. */

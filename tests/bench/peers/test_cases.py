@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""test_cases.py BENCH_SPORE: a few steps of every case, so that the benchmark's own program cannot rot."""
+"""test_cases.py BENCH_PEERS: a few steps of every case, so that the benchmark's own program cannot rot."""
 import array
 import json
 import math
@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent))
 from tap import check, main
 
 

@@ -74,14 +74,13 @@ struct Deformable {
 
 static void cloth(CaseRun *run) {
   Deformable deformable(case_number(run, "implicit", 0) != 0);
-  const double half = CLOTH_SIDE / 2;
-  btSoftBody *body = btSoftBodyHelpers::CreatePatch(deformable.world.getWorldInfo(), btVector3(-half, 0, -half),
-                                                    btVector3(half, 0, -half), btVector3(-half, 0, half),
-                                                    btVector3(half, 0, half), CLOTH_NODES, CLOTH_NODES, 0, true);
+  const double half = CLOTH_SIDE / 2, low = -CLOTH_SIDE * CLOTH_FALL, aside = CLOTH_SIDE * CLOTH_ASIDE;
+  btSoftBody *body = btSoftBodyHelpers::CreatePatch(deformable.world.getWorldInfo(), btVector3(-half, 0, 0),
+                                                    btVector3(half, 0, 0), btVector3(-half, low, aside),
+                                                    btVector3(half, low, aside), CLOTH_NODES, CLOTH_NODES, 0, true);
   prepare(body);
   body->setTotalMass(CLOTH_MASS, true);
-  body->setMass(0, 0);
-  body->setMass(CLOTH_NODES - 1, 0);
+  for (int i = 0; i < CLOTH_NODES; i++) body->setMass(i, 0);
   btDeformableMassSpringForce springs(case_number(run, "stiffness", 100), CLOTH_DAMPING, true);
   deformable.run(run, body, &springs);
   delete body;
@@ -172,7 +171,7 @@ static void pile(CaseRun *run) {
   std::vector<btRigidBody *> spheres;
   for (unsigned i = 0; i < PILE_SPHERES; i++) {
     double centre[3];
-    pile_start(i, centre);
+    pile_start(run, i, centre);
     btRigidBody::btRigidBodyConstructionInfo ball(mass, nullptr, &sphere, inertia);
     ball.m_startWorldTransform.setOrigin(btVector3(centre[0], centre[1], centre[2]));
     ball.m_friction = friction;
