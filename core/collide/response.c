@@ -42,36 +42,62 @@ static NormalForce normal_force(const SporeContactLaw *law, double depth, double
   return normal;
 }
 
-static SporeVec3 across(SporeVec3 velocity, SporeVec3 normal, double gap_speed) {
-  return spore_vec3_add_scaled(velocity, -gap_speed, normal);
+double spore_contact_pressing(const SporeContactLaw *law, double depth, double gap_speed) {
+  return normal_force(law, depth, gap_speed).force;
 }
 
-SporeVec3 spore_contact_force(const SporeContactLaw *law, SporeVec3 normal, double depth, SporeVec3 relative_velocity) {
-  double gap_speed = spore_vec3_dot(normal, relative_velocity);
-  double pressing = normal_force(law, depth, gap_speed).force;
-  SporeVec3 slip = across(relative_velocity, normal, gap_speed);
-  double slip_scale = fmax(spore_vec3_length(slip), SPORE_CONTACT_SLIP_SPEED);
-  return spore_vec3_add_scaled(spore_vec3_scale(pressing, normal), -law->friction * pressing / slip_scale, slip);
+static SporeVec3 across(const SporeContactState *state) {
+  return spore_vec3_add_scaled(state->velocity, -spore_vec3_dot(state->normal, state->velocity), state->normal);
 }
 
-void spore_contact_jacobian(const SporeContactLaw *law, SporeVec3 normal, double depth, SporeVec3 relative_velocity,
-                            SporeMat3 *stiffness, SporeMat3 *damping) {
-  double gap_speed = spore_vec3_dot(normal, relative_velocity);
-  NormalForce pressing = normal_force(law, depth, gap_speed);
-  SporeMat3 along = spore_mat3_outer(normal, normal);
+SporeVec3 spore_contact_hold(const SporeContactLaw *law, const SporeContactState *state, double *damping) {
+  double unused;
+  *damping = law->damping * smooth_step(state->depth / law->damping_depth, &unused);
+  return spore_vec3_add_scaled(spore_vec3_scale(law->stiffness, state->stretch), *damping, across(state));
+}
+
+static SporeVec3 cut(SporeVec3 vector, double longest) {
+  double length = spore_vec3_length(vector);
+  return length > longest ? spore_vec3_scale(longest / length, vector) : vector;
+}
+
+SporeVec3 spore_contact_cut(const SporeContactLaw *law, SporeVec3 hold, double pressing) {
+  return cut(hold, law->friction * pressing);
+}
+
+SporeVec3 spore_contact_slip(const SporeContactLaw *law, SporeVec3 stretch, double pressing) {
+  if (!(law->stiffness > 0 && law->friction > 0 && pressing > 0)) return (SporeVec3){0, 0, 0};
+  return cut(stretch, law->friction * pressing / law->stiffness);
+}
+
+SporeVec3 spore_contact_force(const SporeContactLaw *law, const SporeContactState *state) {
+  double damping, gap_speed = spore_vec3_dot(state->normal, state->velocity);
+  double pressing = normal_force(law, state->depth, gap_speed).force;
+  if (!(pressing > 0)) return (SporeVec3){0, 0, 0};
+  SporeVec3 hold = spore_contact_cut(law, spore_contact_hold(law, state, &damping), pressing);
+  return spore_vec3_add_scaled(spore_vec3_scale(-1, hold), pressing, state->normal);
+}
+
+void spore_contact_jacobian(const SporeContactLaw *law, const SporeContactState *state, SporeMat3 *stiffness,
+                            SporeMat3 *damping) {
+  NormalForce pressing = normal_force(law, state->depth, spore_vec3_dot(state->normal, state->velocity));
+  SporeMat3 along = spore_mat3_outer(state->normal, state->normal);
   *stiffness = spore_mat3_scale(pressing.stiffness, along);
   *damping = spore_mat3_scale(pressing.damping, along);
-  SporeVec3 slip = across(relative_velocity, normal, gap_speed);
-  double slip_speed = spore_vec3_length(slip);
-  double hold = law->friction * pressing.force / fmax(slip_speed, SPORE_CONTACT_SLIP_SPEED);
+  double hold_damping, most = law->friction * pressing.force;
+  if (!(most > 0)) return;
+  SporeVec3 hold = spore_contact_hold(law, state, &hold_damping);
+  double length = spore_vec3_length(hold), part = 1;
   SporeMat3 plane = spore_mat3_sub(spore_mat3_identity(), along);
-  if (slip_speed > SPORE_CONTACT_SLIP_SPEED) { /* slipping: the force does not change with the speed along it */
-    SporeVec3 direction = spore_vec3_scale(1 / slip_speed, slip);
+  if (length > most) { /* slipping: the force does not change along itself */
+    SporeVec3 direction = spore_vec3_scale(1 / length, hold);
     plane = spore_mat3_sub(plane, spore_mat3_outer(direction, direction));
+    part = most / length;
   }
-  *damping = spore_mat3_add(*damping, spore_mat3_scale(hold, plane));
+  *stiffness = spore_mat3_add(*stiffness, spore_mat3_scale(part * law->stiffness, plane));
+  *damping = spore_mat3_add(*damping, spore_mat3_scale(part * hold_damping, plane));
 }
 
-double spore_contact_potential(const SporeContactLaw *law, double depth) {
-  return depth > 0 ? 0.5 * law->stiffness * depth * depth : 0;
+double spore_contact_potential(const SporeContactLaw *law, double depth, SporeVec3 stretch) {
+  return depth > 0 ? 0.5 * law->stiffness * (depth * depth + spore_vec3_dot(stretch, stretch)) : 0;
 }

@@ -33,9 +33,10 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   if (terms) world->contacts = terms;
   SporeMat3 *jacobians = spore_reallocate(world->contact_jacobians, old, wanted, sizeof *jacobians);
   if (jacobians) world->contact_jacobians = jacobians;
+  bool gripped = spore_grips_reserve(world, old, wanted);
   uint32_t *order = spore_reallocate(world->contact_order, old, wanted, sizeof *order);
   if (order) world->contact_order = order;
-  if (!terms || !jacobians || !order) return false;
+  if (!terms || !jacobians || !gripped || !order) return false;
   world->contact_capacity = wanted;
   world->missed = 0;
   return true;
@@ -95,6 +96,13 @@ static SporeContactMaterial material(const SporeBody *body) {
   return (SporeContactMaterial){body->contact.stiffness, body->contact.damping, body->contact.friction};
 }
 
+/* An arm in the frame of the rigid body that it turns with. */
+static SporeVec3 frame_arm(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm) {
+  if (end->prescribed || end->mapping->kind != SPORE_MAPPING_RIGID) return (SporeVec3){0, 0, 0};
+  SporeQuat turn = spore_quat_load(world->q + world->bodies[end->body].q_offset + 3);
+  return spore_quat_rotate(spore_quat_conjugate(turn), arm);
+}
+
 static void fill_term(const SporeWorld *world, const SporeContact *contact, SporeContactTerm *term) {
   fill_sphere_end(world, contact->a, &term->a);
   fill_sphere_end(world, contact->b, &term->b);
@@ -106,17 +114,21 @@ static void fill_term(const SporeWorld *world, const SporeContact *contact, Spor
   term->depth = contact->depth;
   term->arm_a = radius_a - 0.5 * contact->depth;
   term->arm_b = radius_b - 0.5 * contact->depth;
+  term->frame_arm_a = frame_arm(world, &term->a, spore_vec3_scale(-term->arm_a, term->normal));
+  term->frame_arm_b = frame_arm(world, &term->b, spore_vec3_scale(term->arm_b, term->normal));
   term->law = spore_contact_law(&a, &b, radius_a, radius_b);
   term->softening = (SporeSoftening){0, 0, 0};
-  term->force = (SporeVec3){0, 0, 0};
+  term->stretch = term->force = (SporeVec3){0, 0, 0};
+  term->pressing = INFINITY;
 }
 
 void spore_world_respond(SporeWorld *world) {
   const SporeContact *found = spore_grid_contacts(world->grid);
+  for (size_t i = 0; i < world->contact_count; i++) fill_term(world, &found[i], &world->contacts[i]);
+  spore_world_take_grips(world);
   for (size_t i = 0; i < world->contact_count; i++) {
-    SporeContactTerm *term = &world->contacts[i];
-    fill_term(world, &found[i], term);
     /* Two bodies that physics does not move (one is frozen) still press on each other: a tool is to feel it. */
+    SporeContactTerm *term = &world->contacts[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, NULL);
   }
 }

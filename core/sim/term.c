@@ -86,70 +86,120 @@ static SporeVec3 own_motion(const SporeEnd *a, const SporeEnd *b, const SporeSit
   return spore_vec3_sub(gather(a, sites, v), gather(b, sites, v));
 }
 
-/* Depth, and velocity of a relative to b at the contact point. */
-static double contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
-                            SporeVec3 *relative) {
-  SporeVec3 a = locate(&term->a, spore_vec3_scale(-term->arm_a, term->normal), sites, q);
-  SporeVec3 b = locate(&term->b, spore_vec3_scale(term->arm_b, term->normal), sites, q);
-  *relative = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
-  return depth_at(term, a, b) -
-         term->softening.ahead * spore_vec3_dot(term->normal, own_motion(&term->a, &term->b, sites, v));
+static SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
+  return spore_vec3_add_scaled(a, -spore_vec3_dot(normal, a), normal);
 }
 
-static SporeMat3 contact_jacobian(const SporeContactTerm *term, double depth, SporeVec3 relative, double c, double c2) {
+/* How far the end's material point that was the contact point has come; `position` of the end. A node does not turn its
+ * sphere. */
+static SporeVec3 contact_point_motion(const SporeEnd *end, SporeVec3 position, SporeVec3 frame_arm, SporeVec3 arm,
+                                      const SporeSite *sites, const double *q) {
+  SporeVec3 motion = spore_vec3_sub(position, end->position);
+  if (end->prescribed || end->mapping->kind != SPORE_MAPPING_RIGID) return motion;
+  SporeVec3 turned = spore_quat_rotate(spore_quat_load(q + sites[end->body].q + 3), frame_arm);
+  return spore_vec3_add(motion, spore_vec3_sub(turned, arm));
+}
+
+/* Stretch with all slip of the step in it; a, b: positions of the ends. */
+static SporeVec3 stretch_at(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b, const SporeSite *sites,
+                            const double *q) {
+  SporeVec3 arm_a = spore_vec3_scale(-term->arm_a, term->normal), arm_b = spore_vec3_scale(term->arm_b, term->normal);
+  SporeVec3 moved = spore_vec3_sub(contact_point_motion(&term->a, a, term->frame_arm_a, arm_a, sites, q),
+                                   contact_point_motion(&term->b, b, term->frame_arm_b, arm_b, sites, q));
+  return spore_vec3_add(term->stretch, across(term->normal, moved));
+}
+
+SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
+  if (!(term->law.friction > 0)) return (SporeVec3){0, 0, 0};
+  SporeVec3 a = spore_end_position(&term->a, sites, q), b = spore_end_position(&term->b, sites, q);
+  return spore_contact_slip(&term->law, stretch_at(term, a, b, sites, q), term->pressing);
+}
+
+/* At q and v; a little ahead where the term is softened. */
+static SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q,
+                                       const double *v) {
+  SporeVec3 a = locate(&term->a, spore_vec3_scale(-term->arm_a, term->normal), sites, q);
+  SporeVec3 b = locate(&term->b, spore_vec3_scale(term->arm_b, term->normal), sites, q);
+  SporeContactState state = {term->normal, depth_at(term, a, b)};
+  state.velocity = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
+  if (term->law.friction > 0) state.stretch = stretch_at(term, a, b, sites, q);
+  if (term->softening.ahead > 0) {
+    SporeVec3 ahead = spore_vec3_scale(term->softening.ahead, own_motion(&term->a, &term->b, sites, v));
+    state.depth -= spore_vec3_dot(term->normal, ahead);
+    state.stretch = spore_vec3_add(state.stretch, across(term->normal, ahead));
+  }
+  return state;
+}
+
+static SporeMat3 contact_jacobian(const SporeContactTerm *term, const SporeContactState *state, double c, double c2) {
   SporeMat3 stiffness, damping;
-  spore_contact_jacobian(&term->law, term->normal, depth, relative, &stiffness, &damping);
+  spore_contact_jacobian(&term->law, state, &stiffness, &damping);
   return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
 }
 
-/* Normal force N of one implicit step of the two ends alone: N of the law at the gap speed g that it leads to, g0 + w h
- * N, and at the depth that belongs to it. N falls with g, so bisection finds it. */
-static double implicit_pressing(const SporeContactTerm *term, double depth, SporeVec3 relative, double most) {
-  const SporeSoftening *softening = &term->softening;
-  double gain = softening->inverse_mass * softening->h, low = 0, high = most;
-  for (int i = 0; i < 40; i++) {
-    double middle = 0.5 * (low + high), faster = gain * middle;
-    SporeVec3 after = spore_vec3_add_scaled(relative, faster, term->normal);
-    SporeVec3 force = spore_contact_force(&term->law, term->normal, depth - softening->ahead * faster, after);
-    if (spore_vec3_dot(force, term->normal) > middle) low = middle;
-    else high = middle;
+/* What is left of N when the ends alone take a step in which N' presses: the law at the gap speed and depth that it
+ * leads to, less N'. */
+static double unbalanced(const SporeContactTerm *term, double depth, double gap_speed, double pressing) {
+  double faster = term->softening.inverse_mass * term->softening.h * pressing;
+  return spore_contact_pressing(&term->law, depth - term->softening.ahead * faster, gap_speed + faster) - pressing;
+}
+
+/* Normal force N of one implicit step of the two ends alone, 0..most: it falls with the gap speed that it leads to, so
+ * false position (the Illinois variant) closes in on it. */
+static double implicit_pressing(const SporeContactTerm *term, double depth, double gap_speed, double most) {
+  double low = 0, high = most;
+  double above = unbalanced(term, depth, gap_speed, low), below = unbalanced(term, depth, gap_speed, high);
+  if (!(above > 0)) return low;
+  if (!(below < 0)) return high;
+  for (int i = 0, side = 0; i < 40 && high - low > 1e-9 * most; i++) {
+    double middle = low + (high - low) * above / (above - below), value = unbalanced(term, depth, gap_speed, middle);
+    if (value > 0) {
+      low = middle, above = value;
+      if (side == 1) below *= 0.5;
+      side = 1;
+    } else {
+      high = middle, below = value;
+      if (value == 0) return middle;
+      if (side == -1) above *= 0.5;
+      side = -1;
+    }
   }
   return low;
 }
 
 /* Softens along the normal by the law's slopes, or, where that would throw the ends apart so fast that the law bends,
- * by the law itself. Friction gets what then presses; its own slope is that of the chord to no slip: its force is
- * bounded, so the tangent would let it turn the slip round. */
-static void soften_contact(SporeContactTerm *term, double depth, SporeVec3 relative) {
+ * by the law itself. Friction's spring is softened by itself, and cut by what then presses. */
+static void soften_contact(SporeContactTerm *term, const SporeContactState *state) {
   const SporeSoftening *softening = &term->softening;
   double w = softening->inverse_mass, h = softening->h;
   SporeVec3 n = term->normal;
-  double hard = spore_vec3_dot(n, term->force);
-  if (hard <= 0) return;
-  SporeMat3 slopes = contact_jacobian(term, depth, relative, h, h * softening->ahead);
-  double pressing = hard / (1 + w * spore_vec3_dot(n, spore_mat3_apply(slopes, n)));
-  if (spore_vec3_dot(n, relative) + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
-    pressing = implicit_pressing(term, depth, relative, pressing);
-  SporeVec3 friction = spore_vec3_scale(pressing / hard, spore_vec3_add_scaled(term->force, -hard, n));
-  SporeVec3 slip = spore_vec3_add_scaled(relative, -spore_vec3_dot(n, relative), n);
-  double speed = spore_vec3_length(slip), chord = speed > 0 ? spore_vec3_length(friction) / speed : 0;
-  term->force = spore_vec3_add_scaled(spore_vec3_scale(1 / (1 + w * h * chord), friction), pressing, n);
+  if (term->pressing <= 0) return;
+  SporeMat3 slopes = contact_jacobian(term, state, h, h * softening->ahead);
+  double pressing = term->pressing / (1 + w * spore_vec3_dot(n, spore_mat3_apply(slopes, n)));
+  double gap_speed = spore_vec3_dot(n, state->velocity);
+  if (gap_speed + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
+    pressing = implicit_pressing(term, state->depth, gap_speed, pressing);
+  double damping;
+  SporeVec3 hold = spore_contact_hold(&term->law, state, &damping);
+  hold = spore_vec3_scale(1 / (1 + w * h * (damping + softening->ahead * term->law.stiffness)), hold);
+  hold = spore_contact_cut(&term->law, hold, pressing);
+  term->force = spore_vec3_add_scaled(spore_vec3_scale(-1, hold), pressing, n);
+  term->pressing = pressing;
 }
 
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                               double *f) {
-  SporeVec3 relative;
-  double depth = contact_state(term, sites, q, v, &relative);
-  term->force = spore_contact_force(&term->law, term->normal, depth, relative);
-  if (term->softening.inverse_mass > 0) soften_contact(term, depth, relative);
+  SporeContactState state = contact_state(term, sites, q, v);
+  term->force = spore_contact_force(&term->law, &state);
+  term->pressing = spore_vec3_dot(term->normal, term->force);
+  if (term->softening.inverse_mass > 0) soften_contact(term, &state);
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double c, double c2) {
-  SporeVec3 relative;
-  double depth = contact_state(term, sites, q, v, &relative);
-  return contact_jacobian(term, depth, relative, c, c2);
+  SporeContactState state = contact_state(term, sites, q, v);
+  return contact_jacobian(term, &state, c, c2);
 }
 
 /* Where the ends are, or will be after `ahead`. */
@@ -212,7 +262,7 @@ void spore_term_diagonal(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *
 
 double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
   double depth = depth_at(term, spore_end_position(&term->a, sites, q), spore_end_position(&term->b, sites, q));
-  return spore_contact_potential(&term->law, depth);
+  return spore_contact_potential(&term->law, depth, spore_contact_term_stretch(term, sites, q));
 }
 
 double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q) {

@@ -40,12 +40,15 @@ SporeSoftening spore_softening(double h, double inverse_mass, double stiffness);
 typedef struct SporeContactTerm {
   SporeEnd a, b; /* sphere centres */
   uint32_t sphere_a, sphere_b;
-  SporeVec3 normal;    /* from b to a */
-  double depth;        /* m, when the step began */
-  double arm_a, arm_b; /* from the centres to the contact point, m */
+  SporeVec3 normal;                   /* from b to a */
+  double depth;                       /* m, when the step began */
+  double arm_a, arm_b;                /* from the centres to the contact point, m */
+  SporeVec3 frame_arm_a, frame_arm_b; /* the same in the frames of moving rigid bodies when the step began */
+  SporeVec3 stretch;                  /* of friction's spring, when the step began, m */
   SporeContactLaw law;
   SporeSoftening softening;
   SporeVec3 force; /* on a, at the last evaluation, N */
+  double pressing; /* its normal part; infinite before the first */
 } SporeContactTerm;
 
 typedef struct SporeSpringTerm {
@@ -76,6 +79,9 @@ void spore_term_diagonal(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *
 /* Potential energy, J. */
 double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q);
 double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q);
+
+/* Stretch of friction's spring at q, as the next step finds it, m. */
+SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSite *sites, const double *q);
 
 /* Where an end is, m. */
 SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q);

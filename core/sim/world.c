@@ -25,40 +25,15 @@ static void clear_commands(SporeCommands *commands) {
 }
 
 static void free_arrays(SporeWorld *world) {
-  void *arrays[] = {world->rest_q,
-                    world->rest_v,
-                    world->world_sites,
-                    world->target_q,
-                    world->mass,
-                    world->mass_inverse,
-                    world->spheres.centre,
-                    world->spheres.velocity,
-                    world->spheres.radius,
-                    world->spheres.body,
-                    world->reaction,
-                    world->contacts,
-                    world->springs,
-                    world->spring_active,
-                    world->contact_jacobians,
-                    world->spring_jacobians,
-                    world->parent,
-                    world->island_of,
-                    world->island_bodies,
-                    world->islands,
-                    world->contact_order,
-                    world->spring_order,
-                    world->local_sites,
-                    world->local_q0,
-                    world->local_v0,
-                    world->local_q1,
-                    world->local_v1,
-                    world->scratch,
-                    world->precondition,
-                    world->block_stiffness,
-                    world->history_a,
-                    world->history_b,
-                    world->local_history_a,
-                    world->local_history_b};
+  void *arrays[] = {world->rest_q,         world->rest_v,        world->world_sites,       world->target_q,
+                    world->mass,           world->mass_inverse,  world->spheres.centre,    world->spheres.velocity,
+                    world->spheres.radius, world->spheres.body,  world->reaction,          world->contacts,
+                    world->springs,        world->spring_active, world->contact_jacobians, world->spring_jacobians,
+                    world->parent,         world->island_of,     world->island_bodies,     world->islands,
+                    world->grips,          world->kept_grips,    world->contact_order,     world->spring_order,
+                    world->local_sites,    world->local_q0,      world->local_v0,          world->local_q1,
+                    world->local_v1,       world->scratch,       world->precondition,      world->block_stiffness,
+                    world->history_a,      world->history_b,     world->local_history_a,   world->local_history_b};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
 }
 
@@ -133,7 +108,7 @@ void spore_world_reset(SporeWorld *world) {
   memset(world->reaction, 0, 6 * world->body_count * sizeof *world->reaction);
   for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
   world->step = 0;
-  world->contact_count = 0;
+  world->contact_count = world->grip_count = 0;
   world->counts = (SporeStepCounts){0};
   world->step_us = 0;
   for (size_t b = 0; b < world->body_count; b++) reset_body(world, &world->bodies[b]);
@@ -156,7 +131,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   body->matrix_c = 0;
   body->history_s = 0;
   spore_body_reset_choice(body);
-  world->contact_count = 0; /* they belong to the state before */
+  world->contact_count = world->grip_count = 0; /* they belong to the state before */
   if (body->model) spore_body_update_mass(world, body, world->q + body->q_offset);
   spore_world_map_spheres(world);
   spore_world_link(world);

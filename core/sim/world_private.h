@@ -108,6 +108,11 @@ typedef struct SporeIsland {
   bool rests, falls_asleep;
 } SporeIsland;
 
+typedef struct SporeGrip {
+  uint32_t sphere_a, sphere_b;
+  SporeVec3 stretch; /* m */
+} SporeGrip;
+
 typedef struct SporeStage {
   void (*run)(SporeWorld *world);
   size_t (*items)(const SporeWorld *world);
@@ -153,7 +158,9 @@ struct SporeWorld {
   size_t missed;   /* contacts without room in the last step */
   size_t contact_count, contact_capacity;
   SporeContactTerm *contacts;
-  size_t link_count; /* springs that the scene has; behind them one pull a body */
+  size_t grip_count;             /* what friction held at the end of the last step, in the order of the pairs */
+  SporeGrip *grips, *kept_grips; /* kept_grips: scratch */
+  size_t link_count;             /* springs that the scene has; behind them one pull a body */
   SporeSpringTerm *springs;
   bool *spring_active;
   SporeMapping *spring_mappings; /* two a spring: end a, end b */
@@ -225,6 +232,11 @@ void spore_world_commit(SporeWorld *world);    /* commit.c */
 /* contacts.c */
 void spore_world_fill_end(const SporeWorld *world, SporeEnd *end);
 bool spore_world_reserve_contacts(SporeWorld *world);
+
+/* grips.c: contacts take over what their pairs held when the last step ended; what they hold when this one has. */
+bool spore_grips_reserve(SporeWorld *world, size_t old_contacts, size_t contacts);
+void spore_world_take_grips(SporeWorld *world);
+void spore_world_keep_grips(SporeWorld *world);
 
 /* islands.c: places of the bodies of an island in its vectors, and their last good state there. */
 void spore_island_gather(SporeWorld *world, SporeIsland *island);

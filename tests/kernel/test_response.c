@@ -14,6 +14,22 @@ static SporeVec3 random_vec3(double size) {
 
 static const SporeContactLaw law = {.stiffness = 1000, .damping = 2, .friction = 0.4, .damping_depth = 5e-4};
 
+/* With friction's spring not stretched. */
+static SporeVec3 push(const SporeContactLaw *pair, SporeVec3 normal, double depth, SporeVec3 velocity) {
+  SporeContactState state = {normal, depth, velocity};
+  return spore_contact_force(pair, &state);
+}
+
+static SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
+  return spore_vec3_add_scaled(a, -spore_vec3_dot(normal, a), normal);
+}
+
+static SporeContactState random_state(double slowest, double fastest) {
+  SporeVec3 normal = spore_vec3_normalise(random_vec3(1), (SporeVec3){0, 1, 0});
+  return (SporeContactState){normal, uniform(-1e-3, 5e-3), random_vec3(pow(10, uniform(slowest, fastest))),
+                             across(normal, random_vec3(pow(10, uniform(-6, -3))))};
+}
+
 static void test_law(void) {
   SporeContactMaterial soft = {100, 1, 0.2}, hard = {300, 3, 0.5}, smooth = {100, 0, 0};
   SporeContactLaw pair = spore_contact_law(&soft, &hard, 0.01, 0.02),
@@ -30,16 +46,16 @@ static void test_law(void) {
 
 static void test_spring(void) {
   SporeVec3 up = {0, 1, 0}, still = {0, 0, 0};
-  SporeVec3 force = spore_contact_force(&law, up, 2e-3, still);
+  SporeVec3 force = push(&law, up, 2e-3, still);
   g_assert_cmpfloat(fabs(force.y - 2), <, 1e-12);
   g_assert_cmpfloat(force.x, ==, 0);
   static const double none[] = {0, -1e-3, NAN};
   for (size_t i = 0; i < G_N_ELEMENTS(none); i++) {
-    force = spore_contact_force(&law, up, none[i], (SporeVec3){1, -1, 0});
+    force = push(&law, up, none[i], (SporeVec3){1, -1, 0});
     g_assert_cmpfloat(spore_vec3_length(force), ==, 0);
   }
-  g_assert_cmpfloat(spore_contact_potential(&law, 2e-3), ==, 2e-3);
-  g_assert_cmpfloat(spore_contact_potential(&law, -1), ==, 0);
+  g_assert_cmpfloat(spore_contact_potential(&law, 2e-3, still), ==, 2e-3);
+  g_assert_cmpfloat(spore_contact_potential(&law, -1, still), ==, 0);
 }
 
 /* Never attractive, friction inside the cone and against the slip, energy only ever taken. */
@@ -48,7 +64,7 @@ static void test_bounds(void) {
     SporeVec3 normal = spore_vec3_normalise(random_vec3(1), (SporeVec3){0, 1, 0});
     SporeVec3 velocity = random_vec3(pow(10, uniform(-5, 1)));
     double depth = uniform(-1e-3, 5e-3), gap_speed = spore_vec3_dot(normal, velocity);
-    SporeVec3 force = spore_contact_force(&law, normal, depth, velocity);
+    SporeVec3 force = push(&law, normal, depth, velocity);
     double pressing = spore_vec3_dot(force, normal);
     SporeVec3 friction = spore_vec3_add_scaled(force, -pressing, normal);
     SporeVec3 slip = spore_vec3_add_scaled(velocity, -gap_speed, normal);
@@ -60,23 +76,36 @@ static void test_bounds(void) {
   }
 }
 
+/* Holds to the border of the cone, and slips there; never more than the cone allows. */
 static void test_friction(void) {
-  SporeVec3 up = {0, 1, 0};
-  SporeVec3 slow = spore_contact_force(&law, up, 1e-3, (SporeVec3){0.25 * SPORE_CONTACT_SLIP_SPEED, 0, 0});
-  g_assert_cmpfloat(fabs(slow.x + 0.25 * 0.4), <, 1e-12);
-  SporeVec3 fast = spore_contact_force(&law, up, 1e-3, (SporeVec3){0, 0, 3});
+  SporeContactState state = {.normal = {0, 1, 0}, .depth = 1e-3, .stretch = {0.3e-3, 0, 0}};
+  SporeVec3 held = spore_contact_force(&law, &state);
+  g_assert_cmpfloat(fabs(held.x + 0.3), <, 1e-12);
+  g_assert_cmpfloat(fabs(held.y - 1), <, 1e-12);
+  state.stretch.x = 0.5e-3;
+  g_assert_cmpfloat(fabs(spore_contact_force(&law, &state).x + 0.4), <, 1e-12);
+  g_assert_cmpfloat(fabs(spore_contact_slip(&law, state.stretch, 1).x - 0.4e-3), <, 1e-12);
+  g_assert_cmpfloat(spore_vec3_length(spore_contact_slip(&law, state.stretch, 0)), ==, 0);
+  SporeVec3 fast = push(&law, state.normal, 1e-3, (SporeVec3){0, 0, 3});
   g_assert_cmpfloat(fabs(fast.z + 0.4), <, 1e-12);
+  for (int i = 0; i < 20000; i++) {
+    state = random_state(-5, 1);
+    SporeVec3 force = spore_contact_force(&law, &state);
+    double pressing = spore_vec3_dot(force, state.normal);
+    g_assert_cmpfloat(pressing, >=, -1e-14);
+    g_assert_cmpfloat(spore_vec3_length(across(state.normal, force)), <=, law.friction * pressing * (1 + 1e-9) + 1e-14);
+  }
 }
 
 /* The force starts from nothing at first touch, however fast, and has no jump anywhere. */
 static void test_continuous(void) {
   SporeVec3 up = {0, 1, 0};
   for (double speed = -10; speed <= 3; speed += 0.01) {
-    double before = spore_contact_force(&law, up, 1e-12, (SporeVec3){0, speed, 0}).y;
+    double before = push(&law, up, 1e-12, (SporeVec3){0, speed, 0}).y;
     g_assert_cmpfloat(before, <, 1e-8);
     double after = 0;
     for (double depth = 1e-12; depth < 2e-3; depth += 1e-6) {
-      after = spore_contact_force(&law, up, depth, (SporeVec3){0, speed, 0}).y;
+      after = push(&law, up, depth, (SporeVec3){0, speed, 0}).y;
       /* k plus c s'(d) |g|, over one interval */
       g_assert_cmpfloat(fabs(after - before), <=,
                         1e-6 * (law.stiffness + 1.5 * law.damping / law.damping_depth * fabs(speed)) + 1e-9);
@@ -91,11 +120,11 @@ static void test_exit_speed(void) {
     for (double damping = 0; damping < 2; damping++) {
       SporeContactLaw pair = {stiffness, damping, 0, 5e-4};
       double mass = 1e-3, depth = 18e-3, speed = 0, dt_s = 1e-3 / sqrt(stiffness / mass), energy;
-      double start = spore_contact_potential(&pair, depth);
+      double start = spore_contact_potential(&pair, depth, (SporeVec3){0, 0, 0});
       for (int step = 0; step < 200000 && depth > 0; step++) {
-        speed += dt_s * spore_contact_force(&pair, (SporeVec3){0, 1, 0}, depth, (SporeVec3){0, speed, 0}).y / mass;
+        speed += dt_s * push(&pair, (SporeVec3){0, 1, 0}, depth, (SporeVec3){0, speed, 0}).y / mass;
         depth -= dt_s * speed;
-        energy = 0.5 * mass * speed * speed + spore_contact_potential(&pair, depth);
+        energy = 0.5 * mass * speed * speed + spore_contact_potential(&pair, depth, (SporeVec3){0, 0, 0});
         g_assert_cmpfloat(energy, <=, start * 1.001);
         g_assert_cmpfloat(speed, <=, SPORE_CONTACT_EXIT_SPEED);
       }
@@ -115,54 +144,70 @@ static gboolean is_positive_semidefinite(SporeMat3 a) {
 
 static void test_semidefinite(void) {
   for (int i = 0; i < 20000; i++) {
-    SporeVec3 normal = spore_vec3_normalise(random_vec3(1), (SporeVec3){0, 1, 0});
+    SporeContactState state = random_state(-5, 1);
     SporeMat3 stiffness, damping;
-    spore_contact_jacobian(&law, normal, uniform(-1e-3, 5e-3), random_vec3(pow(10, uniform(-5, 1))), &stiffness,
-                           &damping);
+    spore_contact_jacobian(&law, &state, &stiffness, &damping);
     g_assert_true(is_positive_semidefinite(stiffness));
     g_assert_true(is_positive_semidefinite(damping));
   }
 }
 
-/* Against differences of the force: damping in full, stiffness along the normal (friction's change with N is left
- * out, so without friction). */
-static void test_jacobian(void) {
-  for (int i = 0; i < 5000; i++) {
-    SporeContactLaw frictionless = law;
-    frictionless.friction = 0;
-    SporeVec3 normal = spore_vec3_normalise(random_vec3(1), (SporeVec3){0, 1, 0});
-    SporeVec3 slip = random_vec3(pow(10, uniform(-4, 0)));
-    double depth = uniform(1e-5, 3e-3), gap_speed = uniform(-1, 0); /* approaching: nothing is clamped */
-    slip = spore_vec3_add_scaled(slip, -spore_vec3_dot(slip, normal), normal);
-    if (fabs(spore_vec3_length(slip) - SPORE_CONTACT_SLIP_SPEED) < 1e-5) continue; /* the kink of the friction law */
-    SporeVec3 velocity = spore_vec3_add_scaled(slip, gap_speed, normal);
-    SporeMat3 stiffness, damping, frictionless_stiffness, unused;
-    spore_contact_jacobian(&law, normal, depth, velocity, &stiffness, &damping);
-    spore_contact_jacobian(&frictionless, normal, depth, velocity, &frictionless_stiffness, &unused);
-    for (int axis = 0; axis < 3; axis++) {
-      SporeVec3 step = {axis == 0, axis == 1, axis == 2};
-      double h = 1e-9;
-      SporeVec3 ahead = spore_contact_force(&frictionless, normal, depth - h * spore_vec3_dot(normal, step), velocity);
-      SporeVec3 behind = spore_contact_force(&frictionless, normal, depth + h * spore_vec3_dot(normal, step), velocity);
-      SporeVec3 slope = spore_vec3_scale(-0.5 / h, spore_vec3_sub(ahead, behind));
-      g_assert_cmpfloat(spore_vec3_distance(slope, spore_mat3_column(frictionless_stiffness, axis)), <, 0.5);
-      /* Tangential parts only: N itself changes with the approach, and friction with it. */
-      SporeVec3 across = spore_vec3_add_scaled(step, -spore_vec3_dot(step, normal), normal);
-      double dv = 1e-8;
-      ahead = spore_contact_force(&law, normal, depth, spore_vec3_add_scaled(velocity, dv, across));
-      behind = spore_contact_force(&law, normal, depth, spore_vec3_add_scaled(velocity, -dv, across));
-      slope = spore_vec3_scale(-0.5 / dv, spore_vec3_sub(ahead, behind));
-      g_assert_cmpfloat(spore_vec3_distance(slope, spore_mat3_apply(damping, across)), <,
-                        1e-4 * (1 + spore_mat3_trace(damping)));
+/* Slope of the force against motion of a, by differences: its position when `by_velocity` is false. */
+static SporeVec3 slope(const SporeContactLaw *pair, const SporeContactState *state, SporeVec3 step, double h,
+                       gboolean by_velocity) {
+  SporeVec3 force[2];
+  for (int i = 0; i < 2; i++) {
+    SporeVec3 move = spore_vec3_scale(i ? h : -h, step);
+    SporeContactState moved = *state;
+    if (by_velocity) moved.velocity = spore_vec3_add(state->velocity, move);
+    else {
+      moved.depth -= spore_vec3_dot(move, state->normal);
+      moved.stretch = spore_vec3_add(state->stretch, across(state->normal, move));
     }
-    double dv = 1e-7;
-    double ahead =
-        spore_vec3_dot(normal, spore_contact_force(&law, normal, depth, spore_vec3_add_scaled(velocity, dv, normal)));
-    double behind =
-        spore_vec3_dot(normal, spore_contact_force(&law, normal, depth, spore_vec3_add_scaled(velocity, -dv, normal)));
-    double along = spore_vec3_dot(normal, spore_mat3_apply(damping, normal));
-    g_assert_cmpfloat(fabs(-0.5 / dv * (ahead - behind) - along), <, 1e-5 * (1 + along));
+    force[i] = spore_contact_force(pair, &moved);
   }
+  return spore_vec3_scale(-0.5 / h, spore_vec3_sub(force[1], force[0]));
+}
+
+/* Whether the contact is at the border between holding and slipping, where the law has a kink. */
+static gboolean at_border(const SporeContactState *state) {
+  double damping, most = law.friction * spore_vec3_dot(state->normal, spore_contact_force(&law, state));
+  double hold = spore_vec3_length(spore_contact_hold(&law, state, &damping));
+  return fabs(hold - most) < 1e-3 * most;
+}
+
+/* Against differences of the force. Friction's change with N is left out: along the normal, without friction. */
+static void test_jacobian(void) {
+  SporeContactLaw frictionless = law;
+  frictionless.friction = 0;
+  size_t held = 0, slipped = 0;
+  for (int i = 0; i < 5000; i++) {
+    SporeContactState state = random_state(-4, 0);
+    state.depth = uniform(1e-5, 3e-3);
+    double gap_speed = uniform(-1, 0); /* approaching: nothing is clamped */
+    state.velocity = spore_vec3_add_scaled(across(state.normal, state.velocity), gap_speed, state.normal);
+    if (at_border(&state)) continue;
+    SporeVec3 force = spore_contact_force(&law, &state);
+    double most = law.friction * spore_vec3_dot(force, state.normal);
+    if (spore_vec3_length(across(state.normal, force)) < 0.999 * most) held++;
+    else slipped++;
+    SporeMat3 stiffness, damping;
+    spore_contact_jacobian(&law, &state, &stiffness, &damping);
+    for (int axis = 0; axis < 3; axis++) {
+      SporeVec3 step = across(state.normal, (SporeVec3){axis == 0, axis == 1, axis == 2});
+      SporeVec3 by_position = slope(&law, &state, step, 1e-9, FALSE),
+                by_velocity = slope(&law, &state, step, 1e-7, TRUE);
+      g_assert_cmpfloat(spore_vec3_distance(by_position, spore_mat3_apply(stiffness, step)), <, 0.5);
+      g_assert_cmpfloat(spore_vec3_distance(by_velocity, spore_mat3_apply(damping, step)), <, 1e-2);
+    }
+    spore_contact_jacobian(&frictionless, &state, &stiffness, &damping);
+    SporeVec3 by_position = slope(&frictionless, &state, state.normal, 1e-9, FALSE);
+    SporeVec3 by_velocity = slope(&frictionless, &state, state.normal, 1e-7, TRUE);
+    g_assert_cmpfloat(spore_vec3_distance(by_position, spore_mat3_apply(stiffness, state.normal)), <, 0.5);
+    g_assert_cmpfloat(spore_vec3_distance(by_velocity, spore_mat3_apply(damping, state.normal)), <, 1e-2);
+  }
+  g_assert_cmpuint(held, >, 100);
+  g_assert_cmpuint(slipped, >, 100);
 }
 
 int main(int argc, char **argv) {
