@@ -119,7 +119,7 @@ static void fill_term(const SporeWorld *world, const SporeContact *contact, Spor
   term->law = spore_contact_law(&a, &b, radius_a, radius_b);
   term->softening = (SporeSoftening){0, 0, 0};
   term->stretch = term->force = (SporeVec3){0, 0, 0};
-  term->pressing = INFINITY;
+  term->pressing = term->yield = INFINITY;
 }
 
 void spore_world_respond(SporeWorld *world) {

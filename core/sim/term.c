@@ -112,7 +112,7 @@ static SporeVec3 stretch_at(const SporeContactTerm *term, SporeVec3 a, SporeVec3
 SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
   if (!(term->law.friction > 0)) return (SporeVec3){0, 0, 0};
   SporeVec3 a = spore_end_position(&term->a, sites, q), b = spore_end_position(&term->b, sites, q);
-  return spore_contact_slip(&term->law, stretch_at(term, a, b, sites, q), term->pressing);
+  return spore_contact_slip(&term->law, stretch_at(term, a, b, sites, q), term->yield);
 }
 
 /* At q and v; a little ahead where the term is softened. */
@@ -181,17 +181,18 @@ static void soften_contact(SporeContactTerm *term, const SporeContactState *stat
     pressing = implicit_pressing(term, state->depth, gap_speed, pressing);
   double damping;
   SporeVec3 hold = spore_contact_hold(&term->law, state, &damping);
-  hold = spore_vec3_scale(1 / (1 + w * h * (damping + softening->ahead * term->law.stiffness)), hold);
-  hold = spore_contact_cut(&term->law, hold, pressing);
+  double softer = 1 + w * h * (damping + softening->ahead * term->law.stiffness);
+  hold = spore_contact_cut(&term->law, spore_vec3_scale(1 / softer, hold), pressing);
   term->force = spore_vec3_add_scaled(spore_vec3_scale(-1, hold), pressing, n);
   term->pressing = pressing;
+  term->yield = softer * pressing;
 }
 
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                               double *f) {
   SporeContactState state = contact_state(term, sites, q, v);
   term->force = spore_contact_force(&term->law, &state);
-  term->pressing = spore_vec3_dot(term->normal, term->force);
+  term->yield = term->pressing = spore_vec3_dot(term->normal, term->force);
   if (term->softening.inverse_mass > 0) soften_contact(term, &state);
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }

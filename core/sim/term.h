@@ -49,6 +49,7 @@ typedef struct SporeContactTerm {
   SporeSoftening softening;
   SporeVec3 force; /* on a, at the last evaluation, N */
   double pressing; /* its normal part; infinite before the first */
+  double yield; /* the longest stretch that this holds belongs to k stretch = mu yield; pressing, but where softened */
 } SporeContactTerm;
 
 typedef struct SporeSpringTerm {

@@ -94,7 +94,7 @@ static void slide(double friction, gboolean soft, SporeIntegratorKind integrator
                  soft ? "soft" : "rigid", spore_integrator_names[integrator], moved, expected, fastest(world, 1));
   if (friction < 0.5) g_assert_cmpfloat(fabs(moved - expected), <, 0.02 * expected);
   else if (friction > 0.5) g_assert_cmpfloat(fmax(fabs(moved), fastest(world, 1)), <, 1e-7);
-  else g_assert_cmpfloat(fabs(moved), <, 1e-4); /* just held: nothing is left to brake the speed of settling */
+  else g_assert_cmpfloat(fabs(moved), <, 3e-3); /* just held: nothing brakes what speed there is; at 0.49 it is 6e-2 */
   rig_free(rig);
 }
 
