@@ -71,6 +71,7 @@ static void slide(double friction, gboolean soft, SporeIntegratorKind integrator
   const double time_step = integrator == SPORE_INTEGRATOR_SYMPLECTIC_EULER ? explicit_step : 2e-3;
   Rig *rig = rig_new();
   rig->description.gravity = gravity_on_slope(0);
+  rig->description.solver.sleep_speed = 0; /* friction alone is to hold */
   rig->description.solver.integrator = (int)integrator;
   rig->description.solver.time_step = time_step;
   add_plane(rig, "slope", spore_vec3(0, 1, 0), friction);
@@ -135,6 +136,7 @@ static void expect_rest(Rig *rig, const char *what, uint32_t body) {
 static Rig *new_rest_rig(SporeIntegratorKind integrator) {
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.sleep_speed = 0;
   rig->description.solver.integrator = (int)integrator;
   rig->description.solver.time_step = integrator == SPORE_INTEGRATOR_SYMPLECTIC_EULER ? 2e-4 : 2e-3;
   return rig;
