@@ -6,6 +6,7 @@
 #include "core/base/text.h"
 #include "models/fields.h"
 #include "models/registry.h"
+#include "models/rigid_motion.h"
 
 typedef struct RigidBodyFields {
   double density, mass;
@@ -13,12 +14,9 @@ typedef struct RigidBodyFields {
 
 typedef struct RigidBody {
   SporeModel base;
-  double mass;              /* kg */
-  SporeVec3 centre;         /* of mass, body's frame, m */
-  SporeMat3 inertia;        /* about the centre, axes of the body's frame, kg m^2 */
-  SporeMat3 principal;      /* columns: principal axes in the body's frame, right-handed */
-  SporeQuat principal_quat; /* the same */
-  double inverse[3];        /* 1 / principal moments, smallest moment first: inverse[0] >= inverse[1] >= inverse[2] */
+  double mass;      /* kg */
+  SporeVec3 centre; /* of mass, body's frame, m */
+  SporeInertia inertia;
 } RigidBody;
 
 static const SporeParameter parameters[] = {
@@ -97,16 +95,12 @@ static bool set_inertia(RigidBody *body, const SporeTriangleMesh *mesh, const Ri
   double trace = spore_mat3_trace(second);
   body->mass = density * volume;
   body->centre = spore_vec3_add(origin, arm);
-  body->inertia = spore_mat3_scale(density, spore_mat3_sub(spore_mat3_diagonal(trace, trace, trace), second));
-  double moment[3];
-  spore_mat3_eigen_symmetric(body->inertia, moment, &body->principal);
-  if (!(body->mass > 0) || !(moment[0] > 0) || !isfinite(moment[2]))
+  SporeMat3 tensor = spore_mat3_scale(density, spore_mat3_sub(spore_mat3_diagonal(trace, trace, trace), second));
+  if (!spore_inertia_init(&body->inertia, tensor) || !(body->mass > 0))
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("mass %g kg and smallest moment of inertia %g kg m^2 were found; both must be positive; "
                              "check the mesh for parts that overlap or face inward"),
-                           body->mass, moment[0]);
-  for (int i = 0; i < 3; i++) body->inverse[i] = 1 / moment[i];
-  body->principal_quat = spore_quat_from_mat3(body->principal);
+                           body->mass, body->inertia.moment[0]);
   return true;
 }
 
@@ -142,92 +136,23 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   spore_vec3_store(v + 3, spin);
 }
 
-static SporeMat3 conjugate(SporeMat3 rotation, SporeMat3 a) {
-  return spore_mat3_multiply(spore_mat3_multiply(rotation, a), spore_mat3_transpose(rotation));
-}
-
 static void mass(const SporeModel *model, const double *q, double *blocks) {
   const RigidBody *body = (const RigidBody *)model;
   SporeMat3 linear = spore_mat3_diagonal(body->mass, body->mass, body->mass);
-  SporeMat3 angular = conjugate(spore_quat_to_mat3(spore_quat_load(q + 3)), body->inertia);
-  for (int i = 0; i < 3; i++) /* symmetric to the last bit */
-    for (int j = 0; j < i; j++) angular.m[3 * i + j] = angular.m[3 * j + i];
+  SporeMat3 angular = spore_inertia_turned(&body->inertia, spore_quat_load(q + 3));
   for (int k = 0; k < 9; k++) blocks[k] = linear.m[k], blocks[9 + k] = angular.m[k];
 }
 
 static void force(const SporeModel *model, const double *q, const double *v, double *f) {}
 static double potential(const SporeModel *model, const double *q) { return 0; }
 
-/* Free motion. In principal axes, with a = 1 / moment and body angular momentum p, the kinetic energy is
- *   |p|^2 a1/2 + p0^2 (a0 - a1)/2 + p2^2 (a2 - a1)/2.
- * The first term commutes with the others: it turns the body about the fixed world vector L by |L| a1 h. The other two
- * turn it about its own axes 0 and 2; composed symmetrically they are a symplectic map that keeps |p| and L
- * (Reich 1994; Touma and Wisdom 1994), exact for any body of revolution. Kahan and Li's composition of nine
- * (1997) makes it sixth order: a body that spins about its middle axis turns over on time. */
-typedef struct FreeTop {
-  double p[3];           /* angular momentum along the principal axes */
-  SporeQuat orientation; /* of the principal axes */
-} FreeTop;
-
-/* The body turns by `angle` about its principal axis k: p turns the other way. */
-static void turn_about(FreeTop *top, int k, double angle) {
-  double ch = cos(0.5 * angle), sh = sin(0.5 * angle), c = 1 - 2 * sh * sh, s = 2 * sh * ch;
-  double *i = &top->p[(k + 1) % 3], *j = &top->p[(k + 2) % 3], pi = *i, pj = *j;
-  *i = c * pi + s * pj;
-  *j = c * pj - s * pi;
-  double axis[3] = {0, 0, 0};
-  axis[k] = sh;
-  top->orientation = spore_quat_multiply(top->orientation, (SporeQuat){ch, axis[0], axis[1], axis[2]});
-}
-
-static void strang_step(FreeTop *top, const double inverse[3], double h) {
-  double a = inverse[0] - inverse[1], b = inverse[2] - inverse[1];
-  turn_about(top, 0, 0.5 * h * a * top->p[0]);
-  turn_about(top, 2, h * b * top->p[2]);
-  turn_about(top, 0, 0.5 * h * a * top->p[0]);
-}
-
-static void composed_step(FreeTop *top, const double inverse[3], double h) {
-  static const double part[9] = {0.39216144400731413928,  0.33259913678935943860, -0.70624617255763935981,
-                                 0.08221359629355080023,  0.79854399093482996340, 0.08221359629355080023,
-                                 -0.70624617255763935981, 0.33259913678935943860, 0.39216144400731413928};
-  for (int i = 0; i < 9; i++) strang_step(top, inverse, part[i] * h);
-}
-
-/* Substeps so that neither partial rotation passes 0.1 rad in one, by bounds that free motion keeps (the number must
- * not change along it). Above the cap the motion stays stable and keeps its momentum, but loses phase. */
-static int substeps(const FreeTop *top, const double inverse[3], double h) {
-  double square = 0, energy2 = 0;
-  for (int i = 0; i < 3; i++) square += top->p[i] * top->p[i], energy2 += top->p[i] * top->p[i] * inverse[i];
-  double fast = fmin(sqrt(square), sqrt(energy2 / inverse[0])) * (inverse[0] - inverse[1]);
-  double slow = fmin(sqrt(square), sqrt(energy2 / inverse[2])) * (inverse[1] - inverse[2]);
-  if (fmin(fast, slow) * h < 1e-12) return 1; /* of revolution: one is exact */
-  double count = ceil(fmax(fast, slow) * h / 0.1);
-  return count < 1 ? 1 : count > 1000 ? 1000 : (int)count;
-}
-
 static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {
-  const RigidBody *body = (const RigidBody *)model;
-  SporeQuat orientation = spore_quat_load(q + 3), principal = body->principal_quat;
-  SporeMat3 rotation = spore_quat_to_mat3(orientation);
-  SporeVec3 spin = spore_mat3_apply(spore_mat3_transpose(rotation), spore_vec3_load(v + 3));
-  SporeVec3 momentum = spore_mat3_apply(body->inertia, spin);
-  SporeVec3 world_momentum = spore_mat3_apply(rotation, momentum);
-  FreeTop top = {.orientation = spore_quat_multiply(orientation, principal)};
-  spore_vec3_store(top.p, spore_mat3_apply(spore_mat3_transpose(body->principal), momentum));
-
-  int count = substeps(&top, body->inverse, fabs(h));
-  for (int i = 0; i < count; i++) composed_step(&top, body->inverse, h / count);
-  SporeQuat about_momentum = spore_quat_from_rotation_vector(spore_vec3_scale(body->inverse[1] * h, world_momentum));
-  SporeQuat axes = spore_quat_normalise(spore_quat_multiply(about_momentum, top.orientation));
-
-  /* Back from the world's angular momentum, which stays, and not from p, which has gathered rounding. */
-  SporeMat3 axes1 = spore_quat_to_mat3(axes);
-  SporeVec3 p1 = spore_mat3_apply(spore_mat3_transpose(axes1), world_momentum);
-  SporeVec3 spin1 = {p1.x * body->inverse[0], p1.y * body->inverse[1], p1.z * body->inverse[2]};
+  SporeQuat orientation = spore_quat_load(q + 3);
+  SporeVec3 spin = spore_vec3_load(v + 3);
+  spore_inertia_drift(&((const RigidBody *)model)->inertia, h, &orientation, &spin);
   for (int i = 0; i < 3; i++) q1[i] = q[i] + h * v[i], v1[i] = v[i];
-  spore_quat_store(q1 + 3, spore_quat_normalise(spore_quat_multiply(axes, spore_quat_conjugate(principal))));
-  spore_vec3_store(v1 + 3, spore_mat3_apply(axes1, spin1));
+  spore_quat_store(q1 + 3, orientation);
+  spore_vec3_store(v1 + 3, spin);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
