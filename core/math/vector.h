@@ -10,6 +10,10 @@ SPORE_DECLARE_KERNEL(double, spore_vector_dot, size_t n, const double *a, const 
 SPORE_DECLARE_KERNEL(void, spore_vector_add_scaled, size_t n, double *y, double s, const double *x);
 SPORE_DECLARE_KERNEL(void, spore_vector_scale_add, size_t n, double *y, double s, const double *x);
 SPORE_DECLARE_KERNEL(bool, spore_vector_within, size_t n, const double *x, double bound);
+SPORE_DECLARE_KERNEL(void, spore_vector_move, size_t n, double *y, const double *x, double s, const double *z);
+SPORE_DECLARE_KERNEL(void, spore_nodes_weigh, size_t nodes, double *y, const double *weight, const double *x);
+SPORE_DECLARE_KERNEL(void, spore_nodes_kick, size_t nodes, double *y, double s, const double *x, const double *weight);
+SPORE_DECLARE_KERNEL(void, spore_nodes_pull, size_t nodes, double *y, const double *weight, const double g[3]);
 
 static inline double spore_vector_dot(size_t n, const double *a, const double *b) {
   return SPORE_KERNEL(spore_vector_dot)(n, a, b);
@@ -25,6 +29,24 @@ static inline void spore_vector_scale_add(size_t n, double *y, double s, const d
 /* Whether every |x| <= bound; false where one is not a number. With DBL_MAX: whether all are finite. */
 static inline bool spore_vector_within(size_t n, const double *x, double bound) {
   return SPORE_KERNEL(spore_vector_within)(n, x, bound);
+}
+/* y = x + s z */
+static inline void spore_vector_move(size_t n, double *y, const double *x, double s, const double *z) {
+  SPORE_KERNEL(spore_vector_move)(n, y, x, s, z);
+}
+
+/* Vectors of three entries a node, and a weight a node. */
+/* y = weight x */
+static inline void spore_nodes_weigh(size_t nodes, double *y, const double *weight, const double *x) {
+  SPORE_KERNEL(spore_nodes_weigh)(nodes, y, weight, x);
+}
+/* y += s x / weight */
+static inline void spore_nodes_kick(size_t nodes, double *y, double s, const double *x, const double *weight) {
+  SPORE_KERNEL(spore_nodes_kick)(nodes, y, s, x, weight);
+}
+/* y += weight g, the same g for each */
+static inline void spore_nodes_pull(size_t nodes, double *y, const double *weight, const double g[3]) {
+  SPORE_KERNEL(spore_nodes_pull)(nodes, y, weight, g);
 }
 
 #endif

@@ -50,3 +50,69 @@ bool SPORE_LEVEL_NAME(spore_vector_within)(size_t n, const double *x, double bou
   for (; i < n; i++) rest = rest && __builtin_fabs(x[i]) <= bound;
   return rest && !spore_vl_any(~good);
 }
+
+void SPORE_LEVEL_NAME(spore_vector_move)(size_t n, double *y, const double *x, double s, const double *z) {
+  size_t i = 0;
+  for (; i + SPORE_WIDTH <= n; i += SPORE_WIDTH) spore_vd_store(y + i, spore_vd_load(x + i) + s * spore_vd_load(z + i));
+  for (; i < n; i++) y[i] = x[i] + s * z[i];
+}
+
+/* The weights of SPORE_WIDTH nodes, each three times. */
+SPORE_INLINE void spread(const double *weight, SporeVd spread[3]) {
+#if SPORE_WIDTH == 8
+  __m512d w = _mm512_loadu_pd(weight);
+  spread[0] = (SporeVd)_mm512_permutexvar_pd(_mm512_setr_epi64(0, 0, 0, 1, 1, 1, 2, 2), w);
+  spread[1] = (SporeVd)_mm512_permutexvar_pd(_mm512_setr_epi64(2, 3, 3, 3, 4, 4, 4, 5), w);
+  spread[2] = (SporeVd)_mm512_permutexvar_pd(_mm512_setr_epi64(5, 5, 6, 6, 6, 7, 7, 7), w);
+#elif SPORE_WIDTH == 4
+  __m256d w = _mm256_loadu_pd(weight);
+  spread[0] = (SporeVd)_mm256_permute4x64_pd(w, 0x40);
+  spread[1] = (SporeVd)_mm256_permute4x64_pd(w, 0xa5);
+  spread[2] = (SporeVd)_mm256_permute4x64_pd(w, 0xfe);
+#else
+  spread[0] = (SporeVd){weight[0], weight[0]};
+  spread[1] = (SporeVd){weight[0], weight[1]};
+  spread[2] = (SporeVd){weight[1], weight[1]};
+#endif
+}
+
+void SPORE_LEVEL_NAME(spore_nodes_weigh)(size_t nodes, double *y, const double *weight, const double *x) {
+  size_t i = 0;
+  for (; i + SPORE_WIDTH <= nodes; i += SPORE_WIDTH) {
+    SporeVd w[3];
+    spread(weight + i, w);
+    for (size_t k = 0; k < 3; k++) {
+      size_t at = 3 * i + k * SPORE_WIDTH;
+      spore_vd_store(y + at, w[k] * spore_vd_load(x + at));
+    }
+  }
+  for (size_t k = 3 * i; k < 3 * nodes; k++) y[k] = weight[k / 3] * x[k];
+}
+
+void SPORE_LEVEL_NAME(spore_nodes_kick)(size_t nodes, double *y, double s, const double *x, const double *weight) {
+  size_t i = 0;
+  for (; i + SPORE_WIDTH <= nodes; i += SPORE_WIDTH) {
+    SporeVd w[3];
+    spread(weight + i, w);
+    for (size_t k = 0; k < 3; k++) {
+      size_t at = 3 * i + k * SPORE_WIDTH;
+      spore_vd_store(y + at, spore_vd_load(y + at) + s * spore_vd_load(x + at) / w[k]);
+    }
+  }
+  for (size_t k = 3 * i; k < 3 * nodes; k++) y[k] += s * x[k] / weight[k / 3];
+}
+
+void SPORE_LEVEL_NAME(spore_nodes_pull)(size_t nodes, double *y, const double *weight, const double g[3]) {
+  double repeated[3 * SPORE_WIDTH];
+  for (size_t k = 0; k < 3 * SPORE_WIDTH; k++) repeated[k] = g[k % 3];
+  size_t i = 0;
+  for (; i + SPORE_WIDTH <= nodes; i += SPORE_WIDTH) {
+    SporeVd w[3];
+    spread(weight + i, w);
+    for (size_t k = 0; k < 3; k++) {
+      size_t at = 3 * i + k * SPORE_WIDTH;
+      spore_vd_store(y + at, spore_vd_load(y + at) + w[k] * spore_vd_load(repeated + k * SPORE_WIDTH));
+    }
+  }
+  for (size_t k = 3 * i; k < 3 * nodes; k++) y[k] += weight[k / 3] * g[k % 3];
+}

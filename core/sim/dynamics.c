@@ -3,17 +3,13 @@
 
 #include "core/sim/group.h"
 
-static void add_gravity(const SporeBody *body, SporeVec3 gravity, double *f) {
-  for (size_t i = 0; i < body->block_count; i++)
-    spore_vec3_accumulate(f + 3 * i, spore_vec3_scale(body->model->block_mass[i], gravity));
-}
-
 static void add_body_forces(const SporeGroup *group, const double *q, const double *v, double *f) {
+  const double gravity[3] = {group->world->gravity.x, group->world->gravity.y, group->world->gravity.z};
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
     body->model->type->force(body->model, q + site->q, v + site->v, f + site->v);
-    add_gravity(body, group->world->gravity, f + site->v);
+    spore_nodes_pull(body->block_count, f + site->v, body->model->block_mass, gravity);
   }
 }
 
@@ -185,7 +181,10 @@ static void kick(void *data, const double *f, double h, double *v) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    spore_blocks_add(group->world->mass_inverse + 3 * body->v_offset, body->block_count, h, f + site->v, v + site->v);
+    if (spore_model_is_nodal(body->model))
+      spore_nodes_kick(body->block_count, v + site->v, h, f + site->v, body->model->block_mass);
+    else
+      spore_blocks_add(group->world->mass_inverse + 3 * body->v_offset, body->block_count, h, f + site->v, v + site->v);
   }
   spore_group_filter(group, v);
 }
@@ -199,7 +198,7 @@ static void drift(void *data, const double *q0, const double *v, double h, doubl
       body->model->type->drift(body->model, q0 + site->q, v + site->v, h, q1 + site->q, v1 + site->v);
       continue;
     }
-    for (size_t k = 0; k < body->q_count; k++) q1[site->q + k] = q0[site->q + k] + h * v[site->v + k];
+    spore_vector_move(body->q_count, q1 + site->q, q0 + site->q, h, v + site->v);
     if (v1 != v) memcpy(v1 + site->v, v + site->v, body->q_count * sizeof *v);
   }
 }
@@ -230,7 +229,7 @@ static void mass_multiply(void *data, const double *x, double *y) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    spore_blocks_apply(spore_group_mass(group, body), body->block_count, x + site->v, y + site->v);
+    spore_group_weigh(group, body, x + site->v, y + site->v);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/constraint/pin.h"
+#include "core/math/vector.h"
 #include "core/sim/world_private.h"
 
 /* The i-th body of the island, and where its part begins in the local vectors. */
@@ -51,6 +52,12 @@ static inline void spore_blocks_add(const double *blocks, size_t count, double s
     y[1] += blocks[3] * a + blocks[4] * b + blocks[5] * c;
     y[2] += blocks[6] * a + blocks[7] * b + blocks[8] * c;
   }
+}
+
+/* y = M x of a body */
+static inline void spore_group_weigh(const SporeGroup *group, const SporeBody *body, const double *x, double *y) {
+  if (spore_model_is_nodal(body->model)) spore_nodes_weigh(body->block_count, y, body->model->block_mass, x);
+  else spore_blocks_apply(spore_group_mass(group, body), body->block_count, x, y);
 }
 
 /* A block without an inverse gets that of its trace: a preconditioner may be rough, but not singular. */

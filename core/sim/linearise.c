@@ -130,7 +130,7 @@ void spore_group_multiply(void *data, const double *x, double *y) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
     if (body->matrix.block_count == 0) {
-      spore_blocks_apply(spore_group_mass(group, body), body->block_count, x + site->v, y + site->v);
+      spore_group_weigh(group, body, x + site->v, y + site->v);
       continue;
     }
     memset(y + site->v, 0, 3 * body->block_count * sizeof *y);

@@ -53,7 +53,8 @@ struct SporeModelType {
   void (*destroy)(SporeModel *model);
   /* State at rest when the body's frame stands at `pose`, moving with velocity (m/s) and spin (rad/s, world axes). */
   void (*place)(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v);
-  /* Block-diagonal mass at q: block_count x 9, row-major, symmetric positive definite. */
+  /* Block-diagonal mass at q: block_count x 9, row-major, symmetric positive definite; block_mass times the identity
+   * where all blocks are nodes. */
   void (*mass)(const SporeModel *model, const double *q, double *blocks);
   /* f += internal force (N; N m for a rotation block). */
   void (*force)(const SporeModel *model, const double *q, const double *v, double *f);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/text.h"
+#include "core/math/vector.h"
 #include "core/sim/world_private.h"
 
 #define SUBSTEPS_MAXIMUM 8
@@ -13,20 +14,7 @@
  * would cost more than it mends. */
 #define MISS_TO_STAND 10
 
-/* No value is larger than `limit`, and all are numbers: positive ones are ordered as their bits are, and behind the
- * largest come infinity and what is no number. Without a branch a value, for the compiler to make vectors of. */
-static bool all_within(const double *values, size_t count, double limit) {
-  uint64_t limit_bits, outside = 0;
-  memcpy(&limit_bits, &limit, sizeof limit_bits);
-  for (size_t i = 0; i < count; i++) {
-    uint64_t bits;
-    memcpy(&bits, &values[i], sizeof bits);
-    outside |= limit_bits - (bits & INT64_MAX);
-  }
-  return outside <= INT64_MAX;
-}
-
-static bool finite_all(const double *values, size_t count) { return all_within(values, count, DBL_MAX); }
+static bool finite_all(const double *values, size_t count) { return spore_vector_within(count, values, DBL_MAX); }
 
 /* Fastest block of a body that has weight, m/s. */
 static double top_speed(const SporeBody *body, const double *v) {
@@ -46,7 +34,7 @@ SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *is
     const SporeSite *site = &world->local_sites[b];
     const double *q = island->q1 + site->q, *v = island->v1 + site->v;
     /* A block this slow in each direction is slow enough; that is nearly always so. */
-    if (all_within(v, 3 * body->block_count, 0.5 * top) && finite_all(q, body->q_count)) continue;
+    if (spore_vector_within(3 * body->block_count, v, 0.5 * top) && finite_all(q, body->q_count)) continue;
     if (!finite_all(q, body->q_count) || !finite_all(v, 3 * body->block_count)) {
       *offender = b;
       return SPORE_TROUBLE_NOT_FINITE;

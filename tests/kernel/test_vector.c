@@ -25,7 +25,7 @@ static void test_names(void) {
   }
 }
 
-static void test_values(void) {
+static void check_values(void) {
   double a[LONGEST], b[LONGEST], y[LONGEST];
   for (size_t n = 0; n <= LONGEST; n++) {
     fill(a);
@@ -42,7 +42,28 @@ static void test_values(void) {
   }
 }
 
-static void test_within(void) {
+static void check_nodes(void) {
+  double a[LONGEST], b[LONGEST], w[LONGEST], y[LONGEST];
+  const double g[3] = {0.1, -9.81, 3};
+  for (size_t nodes = 0; 3 * nodes <= LONGEST; nodes++) {
+    fill(a);
+    fill(b);
+    fill(w);
+    spore_vector_move(3 * nodes, y, a, 0.3, b);
+    for (size_t i = 0; i < 3 * nodes; i++) g_assert_true(y[i] == a[i] + 0.3 * b[i]);
+    memcpy(y, b, sizeof y);
+    spore_nodes_weigh(nodes, y, w, a);
+    for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? w[i / 3] * a[i] : b[i]));
+    memcpy(y, b, sizeof y);
+    spore_nodes_kick(nodes, y, 0.3, a, w);
+    for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? b[i] + 0.3 * a[i] / w[i / 3] : b[i]));
+    memcpy(y, b, sizeof y);
+    spore_nodes_pull(nodes, y, w, g);
+    for (size_t i = 0; i < LONGEST; i++) g_assert_true(y[i] == (i < 3 * nodes ? b[i] + w[i / 3] * g[i % 3] : b[i]));
+  }
+}
+
+static void check_within(void) {
   const double bad[] = {NAN, INFINITY, -INFINITY, 2.5, -2.5};
   double x[LONGEST] = {0};
   for (size_t n = 1; n <= LONGEST; n++)
@@ -57,6 +78,17 @@ static void test_within(void) {
       x[i] = 0;
     }
 }
+
+static void at_each_level(void (*check)(void)) {
+  for (int level = 0; level < SPORE_CPU_LEVELS; level++) {
+    spore_cpu_limit(level);
+    check();
+  }
+}
+
+static void test_values(void) { at_each_level(check_values); }
+static void test_nodes(void) { at_each_level(check_nodes); }
+static void test_within(void) { at_each_level(check_within); }
 
 static void test_levels(void) {
   double a[LONGEST], b[LONGEST], y[2][LONGEST];
@@ -82,6 +114,7 @@ int main(int argc, char **argv) {
   random_source = g_rand_new_with_seed(1);
   g_test_add_func("/vector/names", test_names);
   g_test_add_func("/vector/values", test_values);
+  g_test_add_func("/vector/nodes", test_nodes);
   g_test_add_func("/vector/within", test_within);
   g_test_add_func("/vector/levels", test_levels);
   int status = g_test_run();
