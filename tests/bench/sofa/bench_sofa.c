@@ -27,6 +27,7 @@ static Rig *start(const Case *self, double tolerance) {
   rig->description.gravity = spore_vec3(0, -9.81, 0);
   rig->description.solver.integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
   rig->description.solver.tolerance = tolerance;
+  rig->description.solver.sleep_speed = 0; /* SOFA's bodies do not sleep either */
   self->build(rig, self);
   rig_build(rig);
   return rig;
