@@ -38,29 +38,30 @@ typedef struct SporeElasticity {
 } SporeElasticity;
 
 SPORE_DECLARE_KERNEL(void, spore_corotation_force, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                     const double *q, const double *v, double *f);
+                     const double *q, const double *shape, const double *v, double *f);
 SPORE_DECLARE_KERNEL(double, spore_corotation_potential, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                      const double *q);
 SPORE_DECLARE_KERNEL(void, spore_corotation_jacobian, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                     const double *q, double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+                     const double *q, const double *shape, double stiffness_scale, double damping_scale,
+                     SporeBlockMatrix *matrix);
 
-/* f += forces. */
+/* f += forces, the viscous ones with F as it is in shape. */
 static inline void spore_corotation_force(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                          const double *q, const double *v, double *f) {
-  SPORE_KERNEL(spore_corotation_force)(tetrahedra, elasticity, q, v, f);
+                                          const double *q, const double *shape, const double *v, double *f) {
+  SPORE_KERNEL(spore_corotation_force)(tetrahedra, elasticity, q, shape, v, f);
 }
 /* Energy, J. */
 static inline double spore_corotation_potential(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                                                 const double *q) {
   return SPORE_KERNEL(spore_corotation_potential)(tetrahedra, elasticity, q);
 }
-/* matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv); the viscous force's own dependence on q is left out.
- * Twist modes that would make the stiffness indefinite are clamped (Smith, De Goes and Kim 2019, "Analytic eigensystems
- * for isotropic distortion energies"). */
+/* matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv); where shape is q, the viscous force's dependence on it
+ * is left out. Twist modes that would make the stiffness indefinite are clamped (Smith, De Goes and Kim 2019, "Analytic
+ * eigensystems for isotropic distortion energies"). */
 static inline void spore_corotation_jacobian(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                             const double *q, double stiffness_scale, double damping_scale,
-                                             SporeBlockMatrix *matrix) {
-  SPORE_KERNEL(spore_corotation_jacobian)(tetrahedra, elasticity, q, stiffness_scale, damping_scale, matrix);
+                                             const double *q, const double *shape, double stiffness_scale,
+                                             double damping_scale, SporeBlockMatrix *matrix) {
+  SPORE_KERNEL(spore_corotation_jacobian)(tetrahedra, elasticity, q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 #endif

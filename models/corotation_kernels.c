@@ -221,7 +221,7 @@ SPORE_INLINE Matrix elastic_stress(SporeElasticity elasticity, const Matrix *f, 
 }
 
 void SPORE_LEVEL_NAME(spore_corotation_force)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                              const double *q, const double *v, double *f) {
+                                              const double *q, const double *shape, const double *v, double *f) {
   Chunk chunk;
   for (size_t first = 0; first < part_count(tetrahedra); first += TOGETHER) {
     begin_chunk(tetrahedra, first, q, &chunk);
@@ -230,6 +230,7 @@ void SPORE_LEVEL_NAME(spore_corotation_force)(const SporeTetrahedra *tetrahedra,
       Matrix gradient = chunk.gradient[n];
       Rotation rotation = rotation_of(&chunk, n);
       Matrix stress = elastic_stress(elasticity, &gradient, &rotation);
+      if (elasticity.viscosity > 0 && shape != q) gradient = gradient_of(&part, shape);
       if (elasticity.viscosity > 0) add_viscous(&part, elasticity, &gradient, v, &stress);
       add_forces(tetrahedra, &part, &stress, f);
     }
@@ -455,8 +456,8 @@ SPORE_INLINE void add_blocks(const SporeTetrahedra *tetrahedra, const Part *part
 }
 
 void SPORE_LEVEL_NAME(spore_corotation_jacobian)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                                 const double *q, double stiffness_scale, double damping_scale,
-                                                 SporeBlockMatrix *matrix) {
+                                                 const double *q, const double *shape, double stiffness_scale,
+                                                 double damping_scale, SporeBlockMatrix *matrix) {
   double viscous = damping_scale * elasticity.viscosity;
   Chunk chunk;
   for (size_t first = 0; first < part_count(tetrahedra); first += TOGETHER) {
@@ -469,6 +470,7 @@ void SPORE_LEVEL_NAME(spore_corotation_jacobian)(const SporeTetrahedra *tetrahed
         Rotation rotation = rotation_of(&chunk, n);
         add_stiffness(&part, elasticity, stiffness_scale, &gradient, rotation, &blocks);
       }
+      if (viscous != 0 && shape != q) gradient = gradient_of(&part, shape);
       if (viscous != 0) add_viscosity(&part, elasticity, damping_scale, &gradient, &blocks);
       add_blocks(tetrahedra, &part, &blocks, matrix);
     }

@@ -196,9 +196,9 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   spore_nodal_place(body->mesh.vertices, body->base.block_count, pose, velocity, spin, q, v);
 }
 
-static void force(const SporeModel *model, const double *q, const double *v, double *f) {
+static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Body *body = (const Body *)model;
-  spore_corotation_force(&body->tetrahedra, body->elasticity, q, v, f);
+  spore_corotation_force(&body->tetrahedra, body->elasticity, q, shape, v, f);
   if (body->mass_damping == 0) return;
   for (size_t i = 0; i < body->base.q_count; i++) f[i] -= body->mass_damping * body->base.block_mass[i / 3] * v[i];
 }
@@ -208,10 +208,10 @@ static double potential(const SporeModel *model, const double *q) {
   return spore_corotation_potential(&body->tetrahedra, body->elasticity, q);
 }
 
-static void jacobian(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
-                     double damping_scale, SporeBlockMatrix *matrix) {
+static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Body *body = (const Body *)model;
-  spore_corotation_jacobian(&body->tetrahedra, body->elasticity, q, stiffness_scale, damping_scale, matrix);
+  spore_corotation_jacobian(&body->tetrahedra, body->elasticity, q, shape, stiffness_scale, damping_scale, matrix);
   for (size_t i = 0; i < body->base.block_count; i++)
     for (int k = 0; k < 3; k++)
       matrix->values[9 * (size_t)body->diagonal[i] + 4 * k] +=

@@ -153,9 +153,9 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   spore_nodal_place(net->rest, net->base.block_count, pose, velocity, spin, q, v);
 }
 
-static void force(const SporeModel *model, const double *q, const double *v, double *f) {
+static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Net *net = (const Net *)model;
-  for (int kind = 0; kind < KINDS; kind++) spore_springs_force(&net->springs[kind], q, v, f);
+  for (int kind = 0; kind < KINDS; kind++) spore_springs_force(&net->springs[kind], q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -165,11 +165,11 @@ static double potential(const SporeModel *model, const double *q) {
   return sum;
 }
 
-static void jacobian(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
-                     double damping_scale, SporeBlockMatrix *matrix) {
+static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Net *net = (const Net *)model;
   for (int kind = 0; kind < KINDS; kind++)
-    spore_springs_jacobian(&net->springs[kind], q, stiffness_scale, damping_scale, matrix);
+    spore_springs_jacobian(&net->springs[kind], q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {

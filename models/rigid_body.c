@@ -143,7 +143,7 @@ static void mass(const SporeModel *model, const double *q, double *blocks) {
   for (int k = 0; k < 9; k++) blocks[k] = linear.m[k], blocks[9 + k] = angular.m[k];
 }
 
-static void force(const SporeModel *model, const double *q, const double *v, double *f) {}
+static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {}
 static double potential(const SporeModel *model, const double *q) { return 0; }
 
 static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {

@@ -35,23 +35,25 @@ bool spore_springs_pattern(const SporeSprings *springs, SporeBlockPattern *patte
 /* Looks up where the springs' blocks lie, once the matrix of all of the model's patterns is known. */
 void spore_springs_find_blocks(SporeSprings *springs, const SporeBlockMatrix *matrix);
 
-SPORE_DECLARE_KERNEL(void, spore_springs_force, const SporeSprings *springs, const double *q, const double *v,
-                     double *f);
+SPORE_DECLARE_KERNEL(void, spore_springs_force, const SporeSprings *springs, const double *q, const double *shape,
+                     const double *v, double *f);
 SPORE_DECLARE_KERNEL(double, spore_springs_potential, const SporeSprings *springs, const double *q);
-SPORE_DECLARE_KERNEL(void, spore_springs_jacobian, const SporeSprings *springs, const double *q, double stiffness_scale,
-                     double damping_scale, SporeBlockMatrix *matrix);
+SPORE_DECLARE_KERNEL(void, spore_springs_jacobian, const SporeSprings *springs, const double *q, const double *shape,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
 
-/* f += the springs' forces. */
-static inline void spore_springs_force(const SporeSprings *springs, const double *q, const double *v, double *f) {
-  if (springs->stiffness > 0) SPORE_KERNEL(spore_springs_force)(springs, q, v, f);
+/* f += the springs' forces, damped along the lines that they have in `shape`. */
+static inline void spore_springs_force(const SporeSprings *springs, const double *q, const double *shape,
+                                       const double *v, double *f) {
+  if (springs->stiffness > 0) SPORE_KERNEL(spore_springs_force)(springs, q, shape, v, f);
 }
 static inline double spore_springs_potential(const SporeSprings *springs, const double *q) {
   return springs->stiffness > 0 ? SPORE_KERNEL(spore_springs_potential)(springs, q) : 0;
 }
 /* Under compression the stiffness across the spring is negative and left out. */
-static inline void spore_springs_jacobian(const SporeSprings *springs, const double *q, double stiffness_scale,
-                                          double damping_scale, SporeBlockMatrix *matrix) {
-  if (springs->stiffness > 0) SPORE_KERNEL(spore_springs_jacobian)(springs, q, stiffness_scale, damping_scale, matrix);
+static inline void spore_springs_jacobian(const SporeSprings *springs, const double *q, const double *shape,
+                                          double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  if (springs->stiffness > 0)
+    SPORE_KERNEL(spore_springs_jacobian)(springs, q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 #endif

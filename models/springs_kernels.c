@@ -39,12 +39,17 @@ SPORE_INLINE size_t lanes_from(const SporeSprings *springs, size_t first) {
   return left < SPORE_WIDTH ? left : SPORE_WIDTH;
 }
 
-/* f = -(k (1 - L/l) + c (d . w) / l^2) d. Nodes that meet with L = 0 feel nothing. */
-SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const double *v, double *f, int damped) {
+enum { UNDAMPED, DAMPED_AT_Q, DAMPED_AT_SHAPE };
+
+/* f = -k (1 - L/l) d - c (e . w) / |e|^2 e, with e = d or as it is in shape. Nodes that meet with L = 0 feel nothing.
+ */
+SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const double *shape, const double *v,
+                             double *f, int damped) {
   for (size_t first = 0; first < springs->node_count; first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
-    SporeVd3 position = spore_vd3_gather(q, node), velocity, sum = {0};
+    SporeVd3 position = spore_vd3_gather(q, node), velocity, before, sum = {0};
     if (damped) velocity = spore_vd3_gather(v, node);
+    if (damped == DAMPED_AT_SHAPE) before = spore_vd3_gather(shape, node);
     for (size_t s = start[0]; s < start[1]; s++) {
       size_t slot = s * SPORE_LANES + first % SPORE_LANES;
       SporeVd length = spore_vd_load(springs->length + slot), square;
@@ -52,7 +57,12 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const
       SporeVd pull = springs->stiffness * (1 - length / spore_vd_sqrt(square));
       if (damped) {
         SporeVd3 speed = spore_vd3_sub(velocity, spore_vd3_gather(v, springs->neighbour + slot));
-        pull += springs->damping * spore_vd3_dot(line, speed) / square;
+        if (damped == DAMPED_AT_Q) pull += springs->damping * spore_vd3_dot(line, speed) / square;
+        if (damped == DAMPED_AT_SHAPE) {
+          SporeVd3 along = line_of(springs, node, slot, before, shape, length, &square);
+          SporeVd drag = springs->damping * spore_vd3_dot(along, speed) / square;
+          sum.x += drag * along.x, sum.y += drag * along.y, sum.z += drag * along.z;
+        }
       }
       sum.x += pull * line.x, sum.y += pull * line.y, sum.z += pull * line.z;
     }
@@ -65,9 +75,11 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const
   }
 }
 
-void SPORE_LEVEL_NAME(spore_springs_force)(const SporeSprings *springs, const double *q, const double *v, double *f) {
-  if (springs->damping > 0) add_forces(springs, q, v, f, 1);
-  else add_forces(springs, q, v, f, 0);
+void SPORE_LEVEL_NAME(spore_springs_force)(const SporeSprings *springs, const double *q, const double *shape,
+                                           const double *v, double *f) {
+  if (!(springs->damping > 0)) add_forces(springs, q, q, v, f, UNDAMPED);
+  else if (shape == q) add_forces(springs, q, q, v, f, DAMPED_AT_Q);
+  else add_forces(springs, q, shape, v, f, DAMPED_AT_SHAPE);
 }
 
 /* Each spring comes twice, hence a quarter of k (l - L)^2. */
@@ -112,20 +124,27 @@ SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd square, SporeVd lengt
   return (Symmetric){ax * nx + across, ax * ny, ax * nz, ay * ny + across, ay * nz, az * nz + across};
 }
 
-void SPORE_LEVEL_NAME(spore_springs_jacobian)(const SporeSprings *springs, const double *q, double stiffness_scale,
-                                              double damping_scale, SporeBlockMatrix *matrix) {
-  double stiffness = stiffness_scale * springs->stiffness, damping = damping_scale * springs->damping;
+/* damping: along the lines at q; drag: along those in shape. */
+SPORE_INLINE void add_jacobian(const SporeSprings *springs, const double *q, const double *shape, double stiffness,
+                               double damping, double drag, int damped, SporeBlockMatrix *matrix) {
   double rows[3][4 * SPORE_WIDTH];
   for (size_t first = 0; first < springs->node_count; first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
     size_t lanes = lanes_from(springs, first);
-    SporeVd3 position = spore_vd3_gather(q, node);
+    SporeVd3 position = spore_vd3_gather(q, node), before;
+    if (damped == DAMPED_AT_SHAPE) before = spore_vd3_gather(shape, node);
     Symmetric sum = {0};
     for (size_t s = start[0]; s < start[1]; s++) {
       size_t slot = s * SPORE_LANES + first % SPORE_LANES;
       SporeVd length = spore_vd_load(springs->length + slot), square;
       SporeVd3 line = line_of(springs, node, slot, position, q, length, &square);
       Symmetric block = stiffness_of(line, square, length, stiffness, damping);
+      if (damped == DAMPED_AT_SHAPE) {
+        line = line_of(springs, node, slot, before, shape, length, &square);
+        Symmetric part = stiffness_of(line, square, length, 0, drag);
+        block.xx += part.xx, block.xy += part.xy, block.xz += part.xz;
+        block.yy += part.yy, block.yz += part.yz, block.zz += part.zz;
+      }
       sum.xx += block.xx, sum.xy += block.xy, sum.xz += block.xz;
       sum.yy += block.yy, sum.yz += block.yz, sum.zz += block.zz;
       block = (Symmetric){-block.xx, -block.xy, -block.xz, -block.yy, -block.yz, -block.zz};
@@ -138,4 +157,11 @@ void SPORE_LEVEL_NAME(spore_springs_jacobian)(const SporeSprings *springs, const
     for (size_t i = 0; i < lanes; i++)
       spore_block_add_rows(matrix->values + 9 * (size_t)springs->diagonal[first + i], rows, i);
   }
+}
+
+void SPORE_LEVEL_NAME(spore_springs_jacobian)(const SporeSprings *springs, const double *q, const double *shape,
+                                              double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  double stiffness = stiffness_scale * springs->stiffness, damping = damping_scale * springs->damping;
+  if (shape == q || damping == 0) add_jacobian(springs, q, q, stiffness, damping, 0, DAMPED_AT_Q, matrix);
+  else add_jacobian(springs, q, shape, stiffness, 0, damping, DAMPED_AT_SHAPE, matrix);
 }

@@ -14,6 +14,10 @@
 typedef struct SporeDynamics {
   void *data;
   size_t q_count, block_count;
+  /* From here on forces are elastic where they are evaluated and viscous at `shape` (borrowed), so that the viscous
+   * ones are linear in v and A below is the whole Jacobian; first order in time. At first, and with NULL: viscous there
+   * too. */
+  void (*set_shape)(void *data, const double *shape);
   void (*force)(void *data, const double *q, const double *v, double *f); /* f = all forces, N */
   /* The same in two parts: f = the bodies' own forces, and f += those of contacts and links. */
   void (*body_force)(void *data, const double *q, const double *v, double *f);

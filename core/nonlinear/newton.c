@@ -26,7 +26,9 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   while (!result.converged && result.iterations < options->iterations) {
     system->linearise(system->data, x);
     result.linearisations++;
-    if (spore_convergence_rounding(&test, system, x, &result)) break;
+    /* A residual no greater than rounding may still be more than that: one more iteration takes away what is left. */
+    bool last = spore_convergence_rounding(&test, system, x, &result), solved = result.converged;
+    if (last && result.iterations == 0) break;
     SporeLinearResult linear =
         system->solve(system->data, r, forcing_term(test.norm, previous, options->tolerance * test.scale_r), d);
     result.linear_iterations += linear.iterations;
@@ -40,6 +42,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     memcpy(r, trial_r, n * sizeof *r);
     previous = test.norm;
     spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
+    result.converged |= solved;
+    if (last) break;
   }
   spore_convergence_end(&test, system, x, &result);
   return result;

@@ -8,7 +8,8 @@ static void add_body_forces(const SporeGroup *group, const double *q, const doub
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    body->model->type->force(body->model, q + site->q, v + site->v, f + site->v);
+    const double *shape = (group->shape ? group->shape : q) + site->q;
+    body->model->type->force(body->model, q + site->q, shape, v + site->v, f + site->v);
     spore_nodes_pull(body->block_count, f + site->v, body->model->block_mass, gravity);
   }
 }
@@ -20,6 +21,8 @@ static void add_term_forces(const SporeGroup *group, const double *q, const doub
   for (size_t i = 0; i < group->island->spring_count; i++)
     spore_spring_term_force(spore_group_spring(group, i, &unused), group->world->local_sites, q, v, f);
 }
+
+static void set_shape(void *data, const double *shape) { ((SporeGroup *)data)->shape = shape; }
 
 static void force(void *data, const double *q, const double *v, double *f) {
   SporeGroup *group = data;
@@ -256,6 +259,7 @@ SporeDynamics spore_group_dynamics(SporeGroup *group) {
   return (SporeDynamics){.data = group,
                          .q_count = group->island->q_count,
                          .block_count = group->island->v_count / 3,
+                         .set_shape = set_shape,
                          .force = force,
                          .body_force = body_force,
                          .term_force = term_force,

@@ -82,10 +82,11 @@ static void make_preconditioner(SporeGroup *group) {
   spore_blocks_invert(blocks, group->island->v_count / 3);
 }
 
-static void assemble(const SporeGroup *group, SporeBody *body, const double *q, const double *v, double c, double c2) {
+static void assemble(const SporeGroup *group, SporeBody *body, const double *q, const double *shape, const double *v,
+                     double c, double c2) {
   if (body->matrix.block_count == 0) return;
   spore_block_matrix_zero(&body->matrix);
-  body->model->type->jacobian(body->model, q, v, c2, c, &body->matrix);
+  body->model->type->jacobian(body->model, q, shape, v, c2, c, &body->matrix);
   const double *mass = spore_group_mass(group, body);
   for (size_t i = 0; i < body->block_count; i++) {
     double *block = body->matrix.values + 9 * (size_t)body->matrix.diagonal[i];
@@ -102,7 +103,7 @@ void spore_group_linearise(void *data, const double *q, const double *v, double 
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    assemble(group, body, q + site->q, v + site->v, c, c2);
+    assemble(group, body, q + site->q, (group->shape ? group->shape : q) + site->q, v + site->v, c, c2);
   }
   linearise_terms(group, q, v, c, c2);
   make_preconditioner(group);

@@ -56,9 +56,11 @@ struct SporeModelType {
   /* Block-diagonal mass at q: block_count x 9, row-major, symmetric positive definite; block_mass times the identity
    * where all blocks are nodes. */
   void (*mass)(const SporeModel *model, const double *q, double *blocks);
-  /* f += internal force (N; N m for a rotation block). */
-  void (*force)(const SporeModel *model, const double *q, const double *v, double *f);
-  /* Internal potential energy, J: force(q, 0) = -dU/dq. */
+  /* f += internal force (N; N m for a rotation block): elastic at the configuration q, viscous at the configuration
+   * `shape`, linear in v. Where shape is q the force is that of the state (q, v); an implicit step may instead take the
+   * viscous one at the shape that it began from, so that its Jacobian is symmetric and whole. */
+  void (*force)(const SporeModel *model, const double *q, const double *shape, const double *v, double *f);
+  /* Internal potential energy, J: force(q, q, 0) = -dU/dq. */
   double (*potential)(const SporeModel *model, const double *q);
   /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. */
   bool (*map)(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error);
@@ -66,10 +68,10 @@ struct SporeModelType {
   /* Optional. */
   /* Off-diagonal blocks that jacobian writes: calls spore_block_pattern_add(pattern, i, j) for i != j, either order. */
   bool (*pattern)(const SporeModel *model, SporeBlockPattern *pattern);
-  /* matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv), symmetric; where the exact matrix is indefinite, its
-   * positive semi-definite part. NULL: no internal stiffness (rigid). */
-  void (*jacobian)(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
-                   double damping_scale, SporeBlockMatrix *matrix);
+  /* matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv) of that force, with shape held fast, symmetric; where
+   * the exact matrix is indefinite, its positive semi-definite part. NULL: no internal stiffness (rigid). */
+  void (*jacobian)(const SporeModel *model, const double *q, const double *shape, const double *v,
+                   double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
   /* Moves q along v for h seconds, free of force: q1, v1 from q, v (may alias). NULL: q1 = q + h v, v1 = v.
    * A rigid body turns here and keeps its angular momentum. */
   void (*drift)(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1);

@@ -55,7 +55,8 @@ static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
     const SporeBody *body = &world->bodies[b];
     double *f = island->v1;
     memset(f, 0, 3 * body->block_count * sizeof *f);
-    body->model->type->force(body->model, world->q + body->q_offset, world->v + body->v_offset, f);
+    const double *q = world->q + body->q_offset;
+    body->model->type->force(body->model, q, q, world->v + body->v_offset, f);
     if (!finite_all(f, 3 * body->block_count)) return b;
   }
   return SPORE_NO_BODY;

@@ -111,7 +111,7 @@ static double stable_step(const SporeIntegrator *integrator, double square, doub
 /* Whether a step of explicit Euler makes some motion grow: where h K is more than D. */
 static bool grows(Power *power, const SporeModel *model, const double *q, const double *v, double h) {
   spore_block_matrix_zero(&power->matrix);
-  model->type->jacobian(model, q, v, h, -1, &power->matrix);
+  model->type->jacobian(model, q, q, v, h, -1, &power->matrix);
   return largest_eigenvalue(power) > power->shift * (1 + 1e-6);
 }
 
@@ -143,10 +143,10 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory to find the largest step"));
   }
   if (invert_mass(model, q, power.inverse)) {
-    model->type->jacobian(model, q, v, 1, 0, &power.matrix);
+    model->type->jacobian(model, q, q, v, 1, 0, &power.matrix);
     double square = largest_eigenvalue(&power);
     spore_block_matrix_zero(&power.matrix);
-    model->type->jacobian(model, q, v, 0, 1, &power.matrix);
+    model->type->jacobian(model, q, q, v, 0, 1, &power.matrix);
     limit->damping = largest_eigenvalue(&power);
     limit->frequency = sqrt(square);
     limit->dt_s = 0.98 * (integrator->stable_square > 0 ? stable_step(integrator, square, limit->damping)

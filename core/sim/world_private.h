@@ -246,6 +246,7 @@ void spore_island_remember(SporeWorld *world, const SporeIsland *island);
 typedef struct SporeGroup {
   SporeWorld *world;
   const SporeIsland *island;
+  const double *shape; /* as q of the island: where viscous forces are taken; NULL: where each force is */
   double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
 } SporeGroup;
 SporeDynamics spore_group_dynamics(SporeGroup *group);

@@ -51,9 +51,11 @@ static void clear(Case *run) {
   run->model->type->destroy(run->model);
 }
 
-static void force(Case *run) { run->model->type->force(run->model, run->q, run->v, run->f); }
+static void force(Case *run) { run->model->type->force(run->model, run->q, run->q, run->v, run->f); }
 static void potential(Case *run) { run->f[0] += run->model->type->potential(run->model, run->q); }
-static void jacobian(Case *run) { run->model->type->jacobian(run->model, run->q, run->v, 1e-4, 1e-2, &run->matrix); }
+static void jacobian(Case *run) {
+  run->model->type->jacobian(run->model, run->q, run->q, run->v, 1e-4, 1e-2, &run->matrix);
+}
 static void multiply(Case *run) { spore_block_matrix_multiply_add(&run->matrix, run->v, run->f); }
 static void dot(Case *run) { run->f[0] = spore_vector_dot(3 * run->model->block_count, run->q, run->v); }
 

@@ -89,10 +89,10 @@ static void bench_factor(const Case *c) {
          multiply_us = HUGE_VAL, analyse_us = now_us();
   g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
   analyse_us = now_us() - analyse_us;
-  LEAST(force_us, 20, type->force(model, q, v, f));
+  LEAST(force_us, 20, type->force(model, q, q, v, f));
   LEAST(jacobian_us, 5, {
     spore_block_matrix_zero(&matrix);
-    type->jacobian(model, q, v, h * h, h, &matrix);
+    type->jacobian(model, q, q, v, h * h, h, &matrix);
   });
   for (size_t i = 0; i < n; i++)
     for (size_t e = 0; e < 9; e++) matrix.values[9 * (size_t)matrix.diagonal[i] + e] += mass[9 * i + e];

@@ -165,6 +165,6 @@ double vector_distance(const double *a, const double *b, size_t count) {
 
 double *model_force(const SporeModel *model, const State *state) {
   double *f = vector_new(state->v_count);
-  model->type->force(model, state->q, state->v, f);
+  model->type->force(model, state->q, state->q, state->v, f);
   return f;
 }

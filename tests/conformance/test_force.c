@@ -44,7 +44,7 @@ static double jacobian_error(const SporeModel *model, const State *state, const 
                              gboolean damping) {
   SporeBlockMatrix matrix;
   make_matrix(model, &matrix);
-  model->type->jacobian(model, state->q, state->v, damping ? 0 : 1, damping ? 1 : 0, &matrix);
+  model->type->jacobian(model, state->q, state->q, state->v, damping ? 0 : 1, damping ? 1 : 0, &matrix);
   double *product = vector_new(state->v_count);
   spore_block_matrix_multiply_add(&matrix, w, product);
   State ahead = state_copy(state), behind = state_copy(state);
@@ -121,6 +121,36 @@ static double asymmetry(const double *a, size_t n, double *greatest) {
   return difference;
 }
 
+/* Viscosity taken at another shape is linear in v there, and the Jacobian is exactly that, in any state. */
+static void check_viscosity(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(11);
+  State state = state_random(model, random, 0.8, 0.5 * specimen->size);
+  State shape = state_random(model, random, 1, 0.5 * specimen->size);
+  SporeBlockMatrix matrix;
+  make_matrix(model, &matrix);
+  model->type->jacobian(model, state.q, shape.q, state.v, 0, 1, &matrix);
+  double *product = vector_new(state.v_count), *at_rest = vector_new(state.v_count), *still = vector_new(state.v_count);
+  double *moving = vector_new(state.v_count);
+  spore_block_matrix_multiply_add(&matrix, state.v, product);
+  model->type->force(model, state.q, shape.q, still, at_rest);
+  model->type->force(model, state.q, shape.q, state.v, moving);
+  for (size_t i = 0; i < state.v_count; i++) moving[i] = at_rest[i] - moving[i];
+  g_assert_cmpfloat(vector_distance(moving, product, state.v_count), <=,
+                    1e-10 * (vector_length(product, state.v_count) + vector_length(at_rest, state.v_count)));
+  g_assert_cmpfloat(vector_dot(product, state.v, state.v_count), >, 0); /* it takes energy */
+  g_free(product);
+  g_free(at_rest);
+  g_free(still);
+  g_free(moving);
+  spore_block_matrix_clear(&matrix);
+  state_clear(&state);
+  state_clear(&shape);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
 /* Any state, also crushed, inverted and collapsed to a plane: symmetric, finite, not indefinite. */
 static void check_definite(gconstpointer data) {
   const Specimen *specimen = data;
@@ -132,7 +162,7 @@ static void check_definite(gconstpointer data) {
     for (size_t i = 0; trial % 6 == 5 && i < model->block_count; i++) state.q[3 * i + 1] = 0.1;
     SporeBlockMatrix matrix;
     make_matrix(model, &matrix);
-    model->type->jacobian(model, state.q, state.v, 1, trial % 2 ? 0.01 : 0, &matrix);
+    model->type->jacobian(model, state.q, state.q, state.v, 1, trial % 2 ? 0.01 : 0, &matrix);
     size_t n = 3 * matrix.block_count;
     double *a = dense(&matrix), greatest, difference = asymmetry(a, n, &greatest);
     g_assert_true(isfinite(greatest) && greatest > 0);
@@ -252,6 +282,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   specimen_add_tests("/conformance/gradient", check_gradient, NULL);
   specimen_add_tests("/conformance/jacobian", check_jacobian, has_jacobian);
+  specimen_add_tests("/conformance/viscosity", check_viscosity, has_jacobian);
   specimen_add_tests("/conformance/definite", check_definite, has_jacobian);
   specimen_add_tests("/conformance/momentum", check_momentum, has_jacobian);
   specimen_add_tests("/conformance/frame", check_frame, NULL);

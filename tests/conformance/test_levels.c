@@ -11,12 +11,12 @@ static double *answers(const SporeModel *model, const State *state, size_t *coun
     spore_block_pattern_init(&pattern, model->block_count);
     g_assert_true(model->type->pattern(model, &pattern) && spore_block_matrix_create(&matrix, &pattern));
     spore_block_pattern_clear(&pattern);
-    model->type->jacobian(model, state->q, state->v, 0.3, 0.7, &matrix);
+    model->type->jacobian(model, state->q, state->q, state->v, 0.3, 0.7, &matrix);
     blocks = matrix.row_start[matrix.block_count];
   }
   *count = state->v_count + 1 + 9 * blocks;
   double *all = vector_new(*count);
-  model->type->force(model, state->q, state->v, all);
+  model->type->force(model, state->q, state->q, state->v, all);
   all[state->v_count] = model->type->potential(model, state->q);
   memcpy(all + state->v_count + 1, matrix.values, 9 * blocks * sizeof(double));
   spore_block_matrix_clear(&matrix);

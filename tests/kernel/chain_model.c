@@ -70,7 +70,7 @@ static void mass(const SporeModel *model, const double *q, double *blocks) {
     blocks[9 * i] = blocks[9 * i + 4] = blocks[9 * i + 8] = model->block_mass[i];
 }
 
-static void force(const SporeModel *model, const double *q, const double *v, double *f) {
+static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Chain *chain = (const Chain *)model;
   const ChainFields *fields = &chain->fields;
   for (size_t i = 0; i + 1 < model->block_count; i++) {
@@ -122,8 +122,8 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *pairs) {
   return true;
 }
 
-static void jacobian(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
-                     double damping_scale, SporeBlockMatrix *matrix) {
+static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Chain *chain = (const Chain *)model;
   for (uint32_t i = 0; i + 1 < model->block_count; i++) {
     SporeVec3 d = spore_vec3_sub(spore_vec3_load(q + 3 * i + 3), spore_vec3_load(q + 3 * i));

@@ -26,9 +26,9 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   spore_nodal_place(((const Chain *)model)->rest, model->block_count, pose, velocity, spin, q, v);
 }
 
-static void force(const SporeModel *model, const double *q, const double *v, double *f) {
+static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Chain *chain = (const Chain *)model;
-  for (size_t i = 0; i < chain->count; i++) spore_springs_force(&chain->springs[i], q, v, f);
+  for (size_t i = 0; i < chain->count; i++) spore_springs_force(&chain->springs[i], q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -44,11 +44,11 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   return true;
 }
 
-static void jacobian(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
-                     double damping_scale, SporeBlockMatrix *matrix) {
+static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Chain *chain = (const Chain *)model;
   for (size_t i = 0; i < chain->count; i++)
-    spore_springs_jacobian(&chain->springs[i], q, stiffness_scale, damping_scale, matrix);
+    spore_springs_jacobian(&chain->springs[i], q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {

@@ -59,9 +59,9 @@ static double balance(Statics *statics) {
   for (size_t i = 0; i < n; i++) load += statics->load[i] * statics->load[i];
   for (int iteration = 0; iteration < 20 && left > 1e-8; iteration++) {
     spore_block_matrix_zero(&statics->matrix);
-    statics->model->type->jacobian(statics->model, statics->q, still, 1, 0, &statics->matrix);
+    statics->model->type->jacobian(statics->model, statics->q, statics->q, still, 1, 0, &statics->matrix);
     memcpy(f, statics->load, n * sizeof(double));
-    statics->model->type->force(statics->model, statics->q, still, f);
+    statics->model->type->force(statics->model, statics->q, statics->q, still, f);
     filter(statics, f);
     left = 0;
     for (size_t i = 0; i < n; i++) left += f[i] * f[i] / load;
@@ -136,7 +136,7 @@ static void stretch(void) {
          *f = g_new0(double, 3 * nodes);
   for (size_t i = 0; i < nodes; i++) q[3 * i] *= a, q[3 * i + 1] *= b, q[3 * i + 2] *= b;
   SporeModel *model = rig_tetrahedra_model(&bar, "young_modulus", young, "poisson_ratio", nu, NULL);
-  model->type->force(model, q, v, f);
+  model->type->force(model, q, q, v, f);
   double pull = 0;
   for (size_t i = 0; i < nodes; i++) {
     gboolean end = i < face || i >= nodes - face;

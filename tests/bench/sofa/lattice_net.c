@@ -84,9 +84,9 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   spore_nodal_place(((const Net *)model)->start, model->block_count, pose, velocity, spin, q, v);
 }
 
-static void force(const SporeModel *model, const double *q, const double *v, double *f) {
+static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Net *net = (const Net *)model;
-  for (int kind = 0; kind < KINDS; kind++) spore_springs_force(&net->springs[kind], q, v, f);
+  for (int kind = 0; kind < KINDS; kind++) spore_springs_force(&net->springs[kind], q, shape, v, f);
   for (size_t i = 0; i < model->q_count; i++) f[i] -= net->mass_damping * model->block_mass[i / 3] * v[i];
 }
 
@@ -95,11 +95,11 @@ static double potential(const SporeModel *model, const double *q) {
   return spore_springs_potential(&net->springs[EDGES], q) + spore_springs_potential(&net->springs[DIAGONALS], q);
 }
 
-static void jacobian(const SporeModel *model, const double *q, const double *v, double stiffness_scale,
-                     double damping_scale, SporeBlockMatrix *matrix) {
+static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Net *net = (const Net *)model;
   for (int kind = 0; kind < KINDS; kind++)
-    spore_springs_jacobian(&net->springs[kind], q, stiffness_scale, damping_scale, matrix);
+    spore_springs_jacobian(&net->springs[kind], q, shape, stiffness_scale, damping_scale, matrix);
   for (size_t i = 0; i < model->block_count; i++)
     for (int k = 0; k < 3; k++)
       matrix->values[9 * net->diagonal[i] + 4 * k] += damping_scale * net->mass_damping * model->block_mass[i];

@@ -41,16 +41,16 @@ static double step(const SporeModel *model, SporeVec3 gravity, const uint8_t *he
   double *rhs = work, *dv = work + n, *scratch = work + 2 * n;
   memset(rhs, 0, n * sizeof *rhs);
   spore_block_matrix_zero(matrix);
-  model->type->jacobian(model, q, v, h, 0, matrix);
+  model->type->jacobian(model, q, q, v, h, 0, matrix);
   spore_block_matrix_multiply_add(matrix, v, rhs);
   for (size_t i = 0; i < n; i++) rhs[i] = -rhs[i];
-  model->type->force(model, q, v, rhs);
+  model->type->force(model, q, q, v, rhs);
   for (size_t i = 0; i < model->block_count; i++)
     spore_vec3_accumulate(rhs + 3 * i, spore_vec3_scale(model->block_mass[i], gravity));
   for (size_t i = 0; i < n; i++) rhs[i] *= h;
   filter(held, model->block_count, rhs);
   spore_block_matrix_zero(matrix);
-  model->type->jacobian(model, q, v, h * h, h, matrix);
+  model->type->jacobian(model, q, q, v, h * h, h, matrix);
   for (size_t i = 0; i < model->block_count; i++)
     for (int k = 0; k < 3; k++) matrix->values[9 * (size_t)matrix->diagonal[i] + 4 * k] += model->block_mass[i];
   Operator data = {matrix, held};
