@@ -42,6 +42,10 @@ typedef struct SporeDynamics {
   bool (*reuse)(void *data, const double *q, const double *v, double c, double c2);
   void (*multiply)(void *data, const double *x, double *y);     /* y = A x */
   void (*precondition)(void *data, const double *r, double *z); /* z = P^-1 r, P near A */
+  /* What linearise costs against a force, a precondition and the rest of a quasi-Newton iteration, where P is a factor
+   * of the bodies' part of A; 0 where it is not meant to be one. */
+  double (*factor_cost)(void *data);
+  bool (*factorised)(void *data); /* whether P is one now */
   /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries at q, by the diagonal of the current A: along the soft axes
    * alone, or along the stiff ones too. */
   double (*rounding)(void *data, const double *q, double c, bool stiff_axes);

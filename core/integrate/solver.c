@@ -7,7 +7,8 @@
 const char *const spore_integrator_names[] = {
     "explicit_euler", "symplectic_euler", "verlet", "rk4", "implicit_euler", "implicit_midpoint",
     "bdf2",           "tr_bdf2",          NULL};
-static const char *const nonlinear_names[] = {"newton", "broyden", NULL};
+static const char *const nonlinear_names[] = {"automatic", "newton", "broyden", NULL};
+static const char *const linear_names[] = {"automatic", "conjugate_gradients", "cholesky", NULL};
 
 static const SporeParameter parameters[] = {
     {.name = "time_step",
@@ -54,11 +55,24 @@ static const SporeParameter parameters[] = {
      .unit = "",
      .minimum = -HUGE_VAL,
      .maximum = HUGE_VAL,
-     .initial = {SPORE_NONLINEAR_NEWTON},
+     .initial = {SPORE_NONLINEAR_AUTOMATIC},
      .choices = nonlinear_names,
      .offset = offsetof(SporeSolverFields, nonlinear),
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("How an implicit step's equations are solved.")},
+     .doc = N_("How an implicit step's equations are solved. broyden keeps a factor of the matrix as long as that "
+               "pays; newton "
+               "makes a new matrix every iteration; automatic takes broyden where the matrix is factorised.")},
+    {.name = "linear",
+     .type = SPORE_CHOICE,
+     .unit = "",
+     .minimum = -HUGE_VAL,
+     .maximum = HUGE_VAL,
+     .initial = {SPORE_LINEAR_AUTOMATIC},
+     .choices = linear_names,
+     .offset = offsetof(SporeSolverFields, linear),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("How a body's linear equations are solved: by conjugate gradients, by a sparse Cholesky factor of its "
+               "matrix, or by what takes less work.")},
     {.name = "newton_iterations",
      .type = SPORE_INTEGER,
      .unit = "",
@@ -67,7 +81,7 @@ static const SporeParameter parameters[] = {
      .initial = {20},
      .offset = offsetof(SporeSolverFields, newton_iterations),
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("Most nonlinear iterations that a step may take.")},
+     .doc = N_("Most Newton iterations that a step may take; Broyden's, which cost less, may be twice as many.")},
     {.name = "linear_iterations",
      .type = SPORE_INTEGER,
      .unit = "",

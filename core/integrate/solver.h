@@ -19,7 +19,16 @@ typedef enum SporeIntegratorKind {
 /* Names by SporeIntegratorKind, NULL-terminated: the choices of every `integrator` parameter. */
 extern const char *const spore_integrator_names[];
 
-typedef enum SporeNonlinearKind { SPORE_NONLINEAR_NEWTON, SPORE_NONLINEAR_BROYDEN } SporeNonlinearKind;
+typedef enum SporeNonlinearKind {
+  SPORE_NONLINEAR_AUTOMATIC, /* Broyden where the island's matrix is factorised, else Newton */
+  SPORE_NONLINEAR_NEWTON,
+  SPORE_NONLINEAR_BROYDEN
+} SporeNonlinearKind;
+typedef enum SporeLinearKind {
+  SPORE_LINEAR_AUTOMATIC, /* whichever takes less work, body by body */
+  SPORE_LINEAR_CONJUGATE_GRADIENTS,
+  SPORE_LINEAR_CHOLESKY
+} SporeLinearKind;
 
 #define SPORE_SUBSTEPS_MAXIMUM 1000
 
@@ -29,6 +38,7 @@ typedef struct SporeSolverFields {
   int64_t substeps;          /* of a step, for bodies that do not choose for themselves */
   double error_tolerance;    /* m, of tr_bdf2; 0: it takes the step as it is */
   int nonlinear;             /* SporeNonlinearKind */
+  int linear;                /* SporeLinearKind */
   int64_t newton_iterations; /* at most, a step */
   int64_t linear_iterations; /* at most, a Newton iteration */
   double tolerance;          /* relative residual to reach */

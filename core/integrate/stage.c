@@ -3,6 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/math/vector.h"
+
+#define INNER_TOLERANCE 1e-3 /* of A^-1 r: rougher and the differences learn its error, finer and nothing is gained */
+
 /* The stage as a system in v. */
 typedef struct Stage {
   const SporeDynamics *dynamics;
@@ -13,12 +17,6 @@ typedef struct Stage {
   double *force, *work; /* 3 block_count each */
   double *linear;       /* SPORE_PCG_SCRATCH vectors */
 } Stage;
-
-static double dot(size_t n, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-  return sum;
-}
 
 static void residual(void *data, const double *v, double *r) {
   Stage *stage = data;
@@ -52,10 +50,31 @@ static SporeLinearResult solve(void *data, const double *r, double tolerance, do
   return spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
 }
 
+/* A factor of a linearisation that is not the present one: applied once, it serves a quasi-Newton method as well as the
+ * exact solution. */
+static SporeLinearResult approximate(void *data, const double *r, double *dv) {
+  Stage *stage = data;
+  const SporeDynamics *dynamics = stage->dynamics;
+  if (!dynamics->factorised(dynamics->data)) return solve(data, r, INNER_TOLERANCE, dv);
+  dynamics->precondition(dynamics->data, r, dv);
+  return (SporeLinearResult){SPORE_LINEAR_CONVERGED, 1, 0};
+}
+
+static double linearisation_cost(void *data) {
+  Stage *stage = data;
+  double cost = stage->dynamics->factor_cost(stage->dynamics->data);
+  return cost > 0 ? cost : 1;
+}
+
+static void weigh(void *data, const double *x, double *y) {
+  Stage *stage = data;
+  stage->dynamics->mass_multiply(stage->dynamics->data, x, y);
+}
+
 static double kinetic_dot(void *data, const double *a, const double *b) {
   Stage *stage = data;
   stage->dynamics->mass_multiply(stage->dynamics->data, b, stage->work);
-  return dot(3 * stage->dynamics->block_count, a, stage->work);
+  return spore_vector_dot(3 * stage->dynamics->block_count, a, stage->work);
 }
 
 static double dual_norm(void *data, const double *r) {
@@ -63,7 +82,7 @@ static double dual_norm(void *data, const double *r) {
   size_t n = 3 * stage->dynamics->block_count;
   memset(stage->work, 0, n * sizeof(double));
   stage->dynamics->kick(stage->dynamics->data, r, 1, stage->work);
-  return sqrt(dot(n, r, stage->work));
+  return sqrt(spore_vector_dot(n, r, stage->work));
 }
 
 static double rounding(void *data, const double *v, bool stiff_axes) {
@@ -79,6 +98,9 @@ static SporeSystem stage_system(Stage *stage) {
                        .linearise = linearise,
                        .reuse = reuse,
                        .solve = solve,
+                       .approximate = approximate,
+                       .linearisation_cost = linearisation_cost,
+                       .weigh = weigh,
                        .dot = kinetic_dot,
                        .norm = dual_norm,
                        .scale_x = gravity,
@@ -87,14 +109,29 @@ static SporeSystem stage_system(Stage *stage) {
 }
 
 /* The guess: going on as before, or standing still, whichever is nearer to the answer. Where the step is long for the
- * stiffness, going on stretches what is stiff, and only standing still starts with no more energy than there was. */
-static void guess(Stage *stage, double *v, double *r) {
+ * stiffness, going on stretches what is stiff, and only standing still starts with no more energy than there was. Where
+ * going on misses no more than gravity's part, nothing is stretched. r: the residual there. Returns evaluations. */
+static size_t guess(Stage *stage, double gravity, double *v, double *r) {
   size_t n = 3 * stage->dynamics->block_count;
+  memcpy(v, stage->va, n * sizeof *v);
+  residual(stage, v, r);
+  double going = dual_norm(stage, r);
+  if (going <= gravity) return 1;
   memset(v, 0, n * sizeof *v);
   residual(stage, v, r);
-  double still = dual_norm(stage, r);
-  residual(stage, stage->va, r);
-  if (!(still < dual_norm(stage, r))) memcpy(v, stage->va, n * sizeof *v);
+  if (dual_norm(stage, r) < going || !isfinite(going)) return 2;
+  memcpy(v, stage->va, n * sizeof *v);
+  residual(stage, v, r);
+  return 3;
+}
+
+static SporeNonlinearResult solve_system(const SporeSystem *system, const SporeSolverFields *fields, double *v,
+                                         double *r, double *scratch) {
+  const SporeDynamics *dynamics = ((const Stage *)system->data)->dynamics;
+  SporeNonlinearOptions options = {(size_t)fields->newton_iterations, fields->tolerance};
+  bool broyden = fields->nonlinear == SPORE_NONLINEAR_BROYDEN ||
+                 (fields->nonlinear == SPORE_NONLINEAR_AUTOMATIC && dynamics->factor_cost(dynamics->data) > 0);
+  return broyden ? spore_broyden(system, &options, v, r, scratch) : spore_newton(system, &options, v, r, scratch);
 }
 
 SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolverFields *fields, double c,
@@ -107,17 +144,14 @@ SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolv
   stage.force = scratch + 3 * n;
   stage.work = scratch + 4 * n;
   stage.linear = scratch + 5 * n;
-  double *nonlinear = scratch + (5 + SPORE_PCG_SCRATCH) * n;
-  guess(&stage, v, nonlinear);
+  double *r = scratch + (5 + SPORE_PCG_SCRATCH) * n;
   SporeSystem system = stage_system(&stage);
-  SporeNonlinearOptions options = {(size_t)fields->newton_iterations, fields->tolerance};
-  SporeNonlinearResult result = fields->nonlinear == SPORE_NONLINEAR_BROYDEN
-                                    ? spore_broyden(&system, &options, v, nonlinear)
-                                    : spore_newton(&system, &options, v, nonlinear);
+  size_t evaluations = guess(&stage, system.scale_r, v, r);
+  SporeNonlinearResult result = solve_system(&system, fields, v, r, r + n);
   return (SporeStepResult){.converged = result.converged,
                            .newton_iterations = result.iterations,
                            .linear_iterations = result.linear_iterations,
-                           .force_evaluations = result.evaluations + 2,
+                           .force_evaluations = result.evaluations + evaluations,
                            .linearisations = result.linearisations,
                            .unsolved = result.unsolved,
                            .residual = result.residual};

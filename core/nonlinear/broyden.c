@@ -1,76 +1,87 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/math/vector.h"
 #include "core/nonlinear/convergence.h"
 #include "core/nonlinear/line_search.h"
 
-#define INNER_TOLERANCE 1e-3 /* of A^-1 r: rougher and the updates learn its error, finer and nothing is gained */
-#define CONTRACTION 0.5
+#define MEMORY SPORE_BROYDEN_MEMORY
+#define SINGULAR 1e-12        /* of a pivot: a difference that the newer ones span already */
+#define FRESH_CONTRACTION 0.3 /* what a new linearisation promises of an iteration */
+#define SETTLED 2             /* iterations before the contraction is judged */
 
-/* Steps s_k taken so far, their lengths along the directions found, and their squared sizes. */
+/* Differences of the last iterations, in a ring: of g = A^-1 r, and of x + g. */
 typedef struct History {
   const SporeSystem *system;
-  size_t count;
-  double *steps;
-  double length[SPORE_BROYDEN_MEMORY + 1], square[SPORE_BROYDEN_MEMORY + 1];
+  size_t count, next; /* kept; place of the next */
+  double *change[MEMORY], *path[MEMORY];
+  double gram[MEMORY][MEMORY]; /* inner products of the changes */
+  double along[MEMORY];        /* of the changes with the g before */
 } History;
 
-static double *step_at(const History *history, size_t k) { return history->steps + k * history->system->count; }
+/* The k-th newest. */
+static size_t place_of(const History *history, size_t k) { return (history->next + 2 * MEMORY - 1 - k) % MEMORY; }
 
-static double dot(const History *history, const double *a, const double *b) {
-  return history->system->dot(history->system->data, a, b);
+/* weights = M g; the change that `next` holds, begun by the g before, is finished: products with it are entered. */
+static void remember(History *history, const double *weights, const double *weights_before) {
+  size_t n = history->system->count, at = history->next;
+  const double *change = history->change[at];
+  for (size_t k = 0; k < history->count; k++) {
+    size_t other = place_of(history, k);
+    if (other == at) continue;
+    double product = spore_vector_dot(n, history->change[other], weights) - history->along[other];
+    history->gram[at][other] = history->gram[other][at] = product;
+  }
+  history->gram[at][at] = spore_vector_dot(n, change, weights) - spore_vector_dot(n, change, weights_before);
+  history->next = (at + 1) % MEMORY;
+  if (history->count < MEMORY) history->count++;
 }
 
-/* z <- B_last^-1 r, given z = A^-1 r. With step s_k = l_k d_k the update of B_k^-1 is, for any z,
- *   z <- z + (s_k.z / |s_k|^2) (l_k / l_k+1 s_k+1 - (1 - l_k) s_k). */
-static void apply_updates(const History *history, double *z) {
-  size_t n = history->system->count;
-  for (size_t k = 0; k + 1 < history->count; k++) {
-    const double *s = step_at(history, k), *next = step_at(history, k + 1);
-    double length = history->length[k], next_length = history->length[k + 1];
-    double factor = dot(history, s, z) / history->square[k];
-    double a = factor * length / next_length, b = factor * (length - 1);
-    for (size_t i = 0; i < n; i++) z[i] += a * next[i] + b * s[i];
+/* How much of each difference, newest first, leaves least of g: normal equations by Cholesky's method, leaving out what
+ * is nearly spanned. */
+static void least_squares(const History *history, double *share) {
+  size_t m = history->count;
+  double l[MEMORY][MEMORY], y[MEMORY];
+  bool used[MEMORY];
+  for (size_t i = 0; i < m; i++) {
+    size_t at = place_of(history, i);
+    for (size_t j = 0; j <= i; j++) {
+      double sum = history->gram[at][place_of(history, j)];
+      for (size_t k = 0; k < j; k++)
+        if (used[k]) sum -= l[i][k] * l[j][k];
+      if (j < i) l[i][j] = used[j] ? sum / l[j][j] : 0;
+      else used[i] = sum > SINGULAR * history->gram[at][at], l[i][i] = used[i] ? sqrt(sum) : 1;
+    }
+    y[i] = used[i] ? history->along[at] : 0;
+    for (size_t k = 0; used[i] && k < i; k++)
+      if (used[k]) y[i] -= l[i][k] * y[k];
+    y[i] /= l[i][i];
+  }
+  for (size_t i = m; i-- > 0;) {
+    for (size_t k = i + 1; k < m; k++)
+      if (used[k]) y[i] -= l[k][i] * share[k];
+    share[i] = used[i] ? y[i] / l[i][i] : 0;
   }
 }
 
-/* The new direction d solves d = z + (length d - (1 - length) s) (s.z) / |s|^2 for the last step s, so that one vector
- * is kept a step. False where the update is singular. */
-static bool direction(const History *history, double *z) {
-  size_t n = history->system->count, last = history->count - 1;
-  const double *s = step_at(history, last);
-  double length = history->length[last], factor = dot(history, s, z) / history->square[last];
-  double divisor = 1 - length * factor;
-  if (!isfinite(divisor) || fabs(divisor) < 1e-2) return false;
-  double b = (1 - length) * factor;
-  for (size_t i = 0; i < n; i++) z[i] = (z[i] - b * s[i]) / divisor;
-  return true;
+/* d = g less what the differences explain. */
+static void accelerate(History *history, const double *g, const double *weights, double *d) {
+  size_t n = history->system->count;
+  double share[MEMORY];
+  for (size_t k = 0; k < history->count; k++) {
+    size_t at = place_of(history, k);
+    history->along[at] = spore_vector_dot(n, history->change[at], weights);
+  }
+  least_squares(history, share);
+  memcpy(d, g, n * sizeof *d);
+  for (size_t k = 0; k < history->count; k++)
+    if (share[k] != 0) spore_vector_add_scaled(n, d, -share[k], history->path[place_of(history, k)]);
 }
 
-/* d ~ B^-1 r into the place behind the last step; false where Broyden's matrix is of no use. */
-static bool next_direction(History *history, const double *r, SporeNonlinearResult *result) {
-  const SporeSystem *system = history->system;
-  double *d = step_at(history, history->count);
-  SporeLinearResult linear = system->solve(system->data, r, INNER_TOLERANCE, d);
-  result->linear_iterations += linear.iterations;
-  result->unsolved += linear.status != SPORE_LINEAR_CONVERGED;
-  result->indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
-  if (linear.status == SPORE_LINEAR_BREAKDOWN) return false;
-  if (history->count == 0) return true;
-  apply_updates(history, d);
-  return direction(history, d);
-}
-
-static void refresh(History *history, const double *x, SporeNonlinearResult *result) {
-  history->system->linearise(history->system->data, x);
-  result->linearisations++;
-  history->count = 0;
-}
-
-/* Newton takes over where Broyden stood, with the iterations that are left. */
+/* Newton takes over where Broyden stood, with as many iterations as it was given. */
 static SporeNonlinearResult hand_over(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
-                                      double *scratch, SporeNonlinearResult so_far) {
-  SporeNonlinearResult result = spore_newton(system, options, x, scratch);
+                                      double *r, double *scratch, SporeNonlinearResult so_far) {
+  SporeNonlinearResult result = spore_newton(system, options, x, r, scratch);
   result.iterations += so_far.iterations;
   result.linear_iterations += so_far.linear_iterations;
   result.evaluations += so_far.evaluations;
@@ -80,47 +91,89 @@ static SporeNonlinearResult hand_over(const SporeSystem *system, const SporeNonl
   return result;
 }
 
+static bool approximate(const SporeSystem *system, const double *r, double *g, SporeNonlinearResult *result) {
+  SporeLinearResult linear = system->approximate(system->data, r, g);
+  result->linear_iterations += linear.iterations;
+  result->unsolved += linear.status != SPORE_LINEAR_CONVERGED;
+  result->indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
+  return linear.status != SPORE_LINEAR_BREAKDOWN;
+}
+
+/* Whether a new linearisation costs less than the iterations that it saves, by how the residual shrank in the last
+ * `iterations` of them. */
+static bool worth_linearising(const SporeSystem *system, double start, double norm, double target, size_t iterations) {
+  if (iterations < SETTLED || !(norm > target)) return false;
+  double rate = log(start / norm) / (double)iterations, missing = log(norm / target);
+  if (rate <= 0) return true;
+  return missing / rate > missing / -log(FRESH_CONTRACTION) + system->linearisation_cost(system->data);
+}
+
 SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
-                                   double *scratch) {
-  size_t n = system->count;
-  double *r = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
-  History history = {.system = system, .steps = scratch + SPORE_NEWTON_SCRATCH * n};
+                                   double *r, double *scratch) {
+  size_t n = system->count, since = 0;
+  double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
+  double *g = scratch + 3 * n, *weights = scratch + 4 * n, *weights_before = scratch + 5 * n;
+  History history = {.system = system};
+  for (size_t k = 0; k < MEMORY; k++) {
+    history.change[k] = scratch + (6 + 2 * k) * n;
+    history.path[k] = scratch + (7 + 2 * k) * n;
+  }
   SporeNonlinearResult result = {0};
   SporeConvergence test;
-  system->residual(system->data, x, r);
-  result.evaluations++;
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
   if (result.converged) return result;
-  if (!system->reuse(system->data, x)) refresh(&history, x, &result);
+  bool fresh = !system->reuse(system->data, x), pending = false;
+  if (fresh) {
+    system->linearise(system->data, x);
+    result.linearisations++;
+  }
   if (spore_convergence_rounding(&test, system, x, &result)) return result;
-  bool stale = result.linearisations == 0;
-  while (!result.converged && result.iterations < options->iterations) {
-    double trial_norm, length = 0;
-    double *d = step_at(&history, history.count);
-    if (next_direction(&history, r, &result))
-      length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
-    if (length == 0) {
-      if (!stale && history.count == 0) return hand_over(system, options, x, scratch, result);
-      refresh(&history, x, &result);
-      stale = false;
-      continue;
+  double start = test.norm, target = test.tolerance * test.scale_r;
+  while (!result.converged && result.iterations < 2 * options->iterations) {
+    if (!approximate(system, r, g, &result)) break;
+    system->weigh(system->data, g, weights);
+    if (pending) {
+      double *change = history.change[history.next], *path = history.path[history.next];
+      spore_vector_scale_add(n, change, -1, g); /* it held the g before */
+      spore_vector_add_scaled(n, path, 1, change);
+      remember(&history, weights, weights_before);
+      pending = false;
     }
-    memcpy(x, trial, n * sizeof *x);
-    memcpy(r, trial_r, n * sizeof *r);
-    double contraction = trial_norm / test.norm;
-    spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
-    for (size_t i = 0; i < n; i++) d[i] *= length;
-    history.length[history.count] = length;
-    history.square[history.count] = dot(&history, d, d);
-    bool useless = history.square[history.count] == 0;
-    history.count++;
-    if (result.converged) break;
-    if (contraction > CONTRACTION || history.count == SPORE_BROYDEN_MEMORY || useless) {
-      refresh(&history, x, &result);
-      stale = false;
+    accelerate(&history, g, weights, d);
+    double trial_norm;
+    double length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+    if (length == 0 && history.count > 0) {
+      history.count = 0;
+      length = spore_line_search(system, x, g, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+      memcpy(d, g, n * sizeof *d);
+    }
+    if (length > 0) {
+      memcpy(history.change[history.next], g, n * sizeof *g);
+      memset(history.path[history.next], 0, n * sizeof *d);
+      spore_vector_add_scaled(n, history.path[history.next], length, d);
+      double *swap = weights;
+      weights = weights_before;
+      weights_before = swap;
+      pending = true;
+      memcpy(x, trial, n * sizeof *x);
+      memcpy(r, trial_r, n * sizeof *r);
+      spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
+      since++;
+      if (result.converged) break;
+    } else if (fresh && since == 0) {
+      break;
+    }
+    if (length == 0 || worth_linearising(system, start, test.norm, target, since)) {
+      system->linearise(system->data, x);
+      result.linearisations++;
       if (spore_convergence_rounding(&test, system, x, &result)) break;
+      history.count = 0;
+      pending = false;
+      fresh = true;
+      since = 0;
+      start = test.norm;
     }
   }
   if (result.converged || !result.finite) return result;
-  return hand_over(system, options, x, scratch, result);
+  return hand_over(system, options, x, r, scratch, result);
 }

@@ -32,12 +32,15 @@ void spore_convergence_end(const SporeConvergence *test, const SporeSystem *syst
 
 void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,
                             double length, double norm, SporeNonlinearResult *result) {
-  double change = length * sqrt(system->dot(system->data, d, d));
-  double size = fmax(sqrt(system->dot(system->data, x, x)), system->scale_x);
-  /* What is still missing: the change made, times how much the residual shrank with it. */
-  double missing = test->norm > 0 ? change * fmin(norm / test->norm, 1) : 0;
+  double before = test->norm;
   test->norm = norm;
   result->iterations++;
   result->residual = norm == 0 ? 0 : norm / test->scale_r;
-  result->converged = norm <= test->tolerance * test->scale_r && missing <= test->tolerance * size;
+  result->converged = false;
+  if (norm > test->tolerance * test->scale_r) return;
+  /* What is still missing: the change made, times how much the residual shrank with it. */
+  double change = length * sqrt(system->dot(system->data, d, d));
+  double size = fmax(sqrt(system->dot(system->data, x, x)), system->scale_x);
+  double missing = before > 0 ? change * fmin(norm / before, 1) : 0;
+  result->converged = missing <= test->tolerance * size;
 }

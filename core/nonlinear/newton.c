@@ -13,14 +13,12 @@ static double forcing_term(double norm, double previous, double target) {
   return fmin(fmax(eta, 0.1 * target / norm), LOOSEST);
 }
 
-SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
+SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x, double *r,
                                   double *scratch) {
   size_t n = system->count;
-  double *r = scratch, *d = scratch + n, *trial = scratch + 2 * n, *trial_r = scratch + 3 * n;
+  double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
   SporeNonlinearResult result = {0};
   SporeConvergence test;
-  system->residual(system->data, x, r);
-  result.evaluations++;
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
   double previous = 0;
   while (!result.converged && result.iterations < options->iterations) {

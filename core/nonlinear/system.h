@@ -20,7 +20,13 @@ typedef struct SporeSystem {
   bool (*reuse)(void *data, const double *x);
   /* dx ~ A^-1 r to a relative residual. */
   SporeLinearResult (*solve)(void *data, const double *r, double tolerance, double *dx);
+  /* dx ~ A^-1 r by an operator that is linear, or nearly, at the least cost: quasi-Newton methods mend what it lacks.
+   */
+  SporeLinearResult (*approximate)(void *data, const double *r, double *dx);
+  /* What linearising costs, counted in quasi-Newton iterations. */
+  double (*linearisation_cost)(void *data);
   double (*dot)(void *data, const double *a, const double *b);
+  void (*weigh)(void *data, const double *x, double *y); /* a.y = dot(a, x) */
   double (*norm)(void *data, const double *r);
   /* Size of x below which a change is not one, and of r below which it is: sums over what r is made of. */
   double scale_x, scale_r;
@@ -43,17 +49,20 @@ typedef struct SporeNonlinearResult {
 } SporeNonlinearResult;
 
 /* Newton's method with inexact linear solves and a line search. x holds the guess, and the answer after it; what is
- * best so far when it did not converge. scratch: SPORE_NEWTON_SCRATCH x count doubles. */
-#define SPORE_NEWTON_SCRATCH 4
-SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
+ * best so far when it did not converge. r: the residual at the guess, overwritten. scratch: SPORE_NEWTON_SCRATCH x
+ * count doubles. */
+#define SPORE_NEWTON_SCRATCH 3
+SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x, double *r,
                                   double *scratch);
 
-/* Broyden's "good" method with limited memory, one stored step an iteration (C. T. Kelley, "Iterative Methods for
- * Linear and Nonlinear Equations", SIAM 1995, chapter 7), from the linearisation that `reuse` allows. Takes a new one
- * where the residual shrinks by less than half or the memory is full, and hands over to Newton where that fails. */
-#define SPORE_BROYDEN_MEMORY 12
-#define SPORE_BROYDEN_SCRATCH (SPORE_NEWTON_SCRATCH + SPORE_BROYDEN_MEMORY + 1)
+/* Broyden's method with limited memory, in the form that meets the last differences all at once (Anderson's; H. Fang
+ * and Y. Saad, "Two classes of multisecant methods for nonlinear acceleration", Numerical Linear Algebra with
+ * Applications 16, 2009), from the linearisation that `reuse` allows. It takes a new one where that costs less than the
+ * iterations it saves, by how the residual shrinks, and hands over to Newton where that fails. Its iterations are
+ * cheap: it may take twice as many. */
+#define SPORE_BROYDEN_MEMORY 8
+#define SPORE_BROYDEN_SCRATCH (SPORE_NEWTON_SCRATCH + 3 + 2 * SPORE_BROYDEN_MEMORY)
 SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
-                                   double *scratch);
+                                   double *r, double *scratch);
 
 #endif

@@ -27,7 +27,7 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
   }
   body->matrix_c = 0;
   body->history_s = 0;
-  spore_body_reset_choice(body);
+  spore_body_reset_choice(world, body);
   body->total_mass = spore_model_total_mass(body->model);
   spore_body_update_mass(world, body, world->q + body->q_offset);
 }

@@ -274,6 +274,8 @@ SporeDynamics spore_group_dynamics(SporeGroup *group) {
                          .reuse = spore_group_reuse,
                          .multiply = spore_group_multiply,
                          .precondition = spore_group_precondition,
+                         .factor_cost = spore_group_factor_cost,
+                         .factorised = spore_group_factorised,
                          .rounding = spore_group_rounding,
                          .distance = distance,
                          .gravity_momentum = group->island->gravity_momentum};

@@ -3,6 +3,8 @@
  * Conjugate gradients with block-Jacobi are cheap where the step is short for the stiffness, and never finish where it
  * is very long. What the last steps cost one way is compared with what they would have cost the other way, counted in
  * floating-point operations and not by a clock, so that every run chooses alike. */
+#include <math.h>
+
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
@@ -13,13 +15,31 @@
 #define PATIENCE_MAXIMUM 256
 #define TRIAL_STEPS 128      /* a factor is put to the question so often */
 #define FACTOR_ITERATIONS 2. /* expected of conjugate gradients with the factor, a Newton iteration */
+#define KEEP 4               /* steps that a linearisation is kept at first, and at most */
+#define KEEP_MAXIMUM 64
+/* Work is counted in operations of a product with the matrix. Dense ones are quicker by these factors; a model's
+ * Jacobian takes so many a block, its force and the vectors of an iteration so many a node. */
+#define FACTOR_WEIGHT 0.25
+#define SOLVE_WEIGHT 0.4
+#define JACOBIAN_WORK 150.
+#define FORCE_WORK 300.
+#define BROYDEN_WORK 250.
 
 /* Of one iteration without its preconditioner: the product, and six vector operations. */
-static double product_flops(const SporeBody *body) {
+static double product_work(const SporeBody *body) {
   return 18. * body->matrix.row_start[body->matrix.block_count] + 36. * (double)body->block_count;
 }
 
-static double jacobi_flops(const SporeBody *body) { return product_flops(body) + 18. * (double)body->block_count; }
+static double jacobi_work(const SporeBody *body) { return product_work(body) + 18. * (double)body->block_count; }
+static double solve_work(const SporeBody *body) { return SOLVE_WEIGHT * body->factor.solve_flops; }
+
+double spore_body_linearisation_work(const SporeBody *body) {
+  return JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count] + FACTOR_WEIGHT * body->factor.factor_flops;
+}
+
+double spore_body_iteration_work(const SporeBody *body) {
+  return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
+}
 
 bool spore_world_compile_factors(SporeWorld *world, SporeError *error) {
   for (size_t b = 0; b < world->body_count; b++) {
@@ -27,15 +47,16 @@ bool spore_world_compile_factors(SporeWorld *world, SporeError *error) {
     if (body->matrix.block_count == 0) continue;
     body->held_flags = SPORE_NEW_ARRAY(uint8_t, body->block_count);
     if (!body->held_flags ||
-        !spore_block_cholesky_create(&body->factor, &body->matrix, WORTH_ITERATIONS * jacobi_flops(body)))
+        !spore_block_cholesky_create(&body->factor, &body->matrix, WORTH_ITERATIONS * jacobi_work(body)))
       return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
     for (size_t i = 0; i < body->held_count; i++) body->held_flags[body->held[i]] = 1;
   }
   return true;
 }
 
-void spore_body_reset_choice(SporeBody *body) {
-  body->choice = (SporeFactorChoice){.patience = PATIENCE};
+void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
+  body->choice = (SporeFactorChoice){.patience = PATIENCE, .keep = KEEP, .trial = PATIENCE};
+  body->choice.factorised = world->solver.linear == SPORE_LINEAR_CHOLESKY && body->factor.block_count > 0;
   body->factor_ready = false;
 }
 
@@ -46,25 +67,56 @@ static void change(SporeBody *body, double iterations) {
   choice->votes = choice->steps = 0;
 }
 
-/* True where the factor promises less work than block-Jacobi took. */
-static bool factor_pays(const SporeBody *body, const SporeStepResult *result) {
-  double linearisations = result->linearisations > 0 ? (double)result->linearisations : 1;
-  double before = (double)result->linear_iterations * jacobi_flops(body);
-  double after = linearisations * body->factor.factor_flops + FACTOR_ITERATIONS * (double)result->newton_iterations *
-                                                                  (body->factor.solve_flops + product_flops(body));
+/* True where the factor promises less work than block-Jacobi took. Newton makes a factor and two products with it an
+ * iteration, Broyden one factor a step. */
+static bool factor_pays(const SporeBody *body, const SporeStepResult *result, bool broyden) {
+  double matrices = result->linearisations > 0 ? (double)result->linearisations : 1;
+  double iterations = (double)result->newton_iterations;
+  double before = (double)result->linear_iterations * jacobi_work(body) +
+                  matrices * JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count];
+  double after = broyden ? spore_body_linearisation_work(body) + iterations * spore_body_iteration_work(body)
+                         : matrices * spore_body_linearisation_work(body) +
+                               FACTOR_ITERATIONS * iterations * (solve_work(body) + product_work(body));
   return before > GAIN * after;
 }
 
 /* True where the factor takes more work than block-Jacobi did before. */
 static bool factor_disappoints(const SporeBody *body, const SporeStepResult *result) {
-  double linearisations = result->linearisations > 0 ? (double)result->linearisations : 1;
-  double now = linearisations * body->factor.factor_flops +
-               (double)result->linear_iterations * (body->factor.solve_flops + product_flops(body));
-  double before = body->choice.iterations * (double)result->newton_iterations * jacobi_flops(body);
+  double iterations = (double)result->newton_iterations;
+  double now = (double)result->linearisations * spore_body_linearisation_work(body) +
+               (double)result->linear_iterations * (solve_work(body) + product_work(body));
+  double before = iterations * (body->choice.iterations * jacobi_work(body) +
+                                JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count]);
   return now > GAIN * before;
 }
 
-static void choose(SporeBody *body, const SporeStepResult *result) {
+/* A linearisation is kept as long as that costs less than a new one. Where keeping it leads to a new one in the middle
+ * of a step, it was kept too long; where that does not happen for a while, it may be kept longer. */
+static void judge_age(SporeBody *body, const SporeStepResult *result) {
+  SporeFactorChoice *choice = &body->choice;
+  SporeStart start = choice->start;
+  choice->start = SPORE_START_NONE;
+  if (start == SPORE_START_NONE) return;
+  double iterations = (double)result->newton_iterations;
+  if (start == SPORE_START_NEW) {
+    choice->fresh = iterations;
+    choice->excess = 0;
+  } else if (result->linearisations > 0) {
+    choice->keep = choice->keep > 1 ? choice->keep / 2 : 1;
+    choice->calm = 0;
+    if (choice->trial < PATIENCE_MAXIMUM) choice->trial *= 2;
+    return;
+  } else {
+    choice->excess += fmax(iterations - choice->fresh, 0) * spore_body_iteration_work(body);
+    if (choice->excess > spore_body_linearisation_work(body)) body->matrix_c = 0;
+  }
+  if (++choice->calm < choice->trial) return;
+  choice->calm = 0;
+  if (choice->keep < KEEP_MAXIMUM) choice->keep *= 2;
+  if (choice->trial > PATIENCE) choice->trial /= 2;
+}
+
+static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result) {
   SporeFactorChoice *choice = &body->choice;
   if (choice->needed) {
     /* What once did not converge without a factor may do now; where not, that step is taken again. */
@@ -75,7 +127,8 @@ static void choose(SporeBody *body, const SporeStepResult *result) {
   }
   if (result->newton_iterations == 0) return; /* at rest: nothing to learn */
   double iterations = (double)result->linear_iterations / (double)result->newton_iterations;
-  bool other = choice->factorised ? factor_disappoints(body, result) : factor_pays(body, result);
+  bool other = choice->factorised ? factor_disappoints(body, result)
+                                  : factor_pays(body, result, world->solver.nonlinear != SPORE_NONLINEAR_NEWTON);
   choice->votes = other ? choice->votes + 1 : 0;
   choice->steps++;
   if (choice->votes >= choice->patience) {
@@ -93,12 +146,14 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
     SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     SporeFactorChoice *choice = &body->choice;
     if (body->factor.block_count == 0) continue;
+    judge_age(body, result);
+    if (world->solver.linear != SPORE_LINEAR_AUTOMATIC) continue;
     if (result->unsolved > 0 && !choice->factorised) {
       change(body, 0);
       choice->needed = true;
       again |= !result->converged;
     } else {
-      choose(body, result);
+      choose(world, body, result);
     }
   }
   return again;

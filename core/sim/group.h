@@ -85,6 +85,8 @@ void spore_group_linearise(void *data, const double *q, const double *v, double 
 bool spore_group_reuse(void *data, const double *q, const double *v, double c, double c2);
 void spore_group_multiply(void *data, const double *x, double *y);
 void spore_group_precondition(void *data, const double *r, double *z);
+double spore_group_factor_cost(void *data);
+bool spore_group_factorised(void *data);
 double spore_group_rounding(void *data, const double *q, double c, bool stiff_axes);
 
 #endif

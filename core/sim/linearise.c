@@ -109,17 +109,52 @@ void spore_group_linearise(void *data, const double *q, const double *v, double 
   make_preconditioner(group);
 }
 
+/* Whether every matrix of the island is that of c and c2, and not older than it is kept. */
+static bool may_reuse(const SporeGroup *group, double c, double c2) {
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_group_body(group, b, &site);
+    if (body->matrix.block_count == 0) continue;
+    bool same = body->matrix_c == c && body->matrix_c2 == c2;
+    if (!same || group->world->step - body->matrix_step >= body->choice.keep) return false;
+  }
+  return true;
+}
+
 bool spore_group_reuse(void *data, const double *q, const double *v, double c, double c2) {
+  SporeGroup *group = data;
+  bool kept = may_reuse(group, c, c2);
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    spore_group_body(group, b, &site)->choice.start = kept ? SPORE_START_KEPT : SPORE_START_NEW;
+  }
+  if (!kept) return false;
+  linearise_terms(group, q, v, c, c2);
+  make_preconditioner(group);
+  return true;
+}
+
+double spore_group_factor_cost(void *data) {
+  SporeGroup *group = data;
+  double linearisation = 0, iteration = 0;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_group_body(group, b, &site);
+    if (body->matrix.block_count == 0) continue;
+    if (!body->choice.factorised) return 0;
+    linearisation += spore_body_linearisation_work(body);
+    iteration += spore_body_iteration_work(body);
+  }
+  return iteration > 0 ? linearisation / iteration : 0;
+}
+
+bool spore_group_factorised(void *data) {
   SporeGroup *group = data;
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
-    SporeBody *body = spore_group_body(group, b, &site);
-    if (body->matrix.block_count == 0) continue;
-    bool same = body->matrix_c == c && body->matrix_c2 == c2;
-    if (!same || group->world->step - body->matrix_step >= SPORE_MATRIX_STEPS) return false;
+    const SporeBody *body = spore_group_body(group, b, &site);
+    if (body->matrix.block_count > 0 && !body->factor_ready) return false;
   }
-  linearise_terms(group, q, v, c, c2);
-  make_preconditioner(group);
   return true;
 }
 

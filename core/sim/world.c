@@ -91,7 +91,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->told = SPORE_TROUBLE_NONE;
   body->matrix_c = 0;
   body->history_s = 0;
-  spore_body_reset_choice(body);
+  spore_body_reset_choice(world, body);
   body->has_input = false;
   body->command = (SporeDeviceCommand){0};
   spore_guard_start(&body->guard, 0, body->rest_pose);
@@ -130,7 +130,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   spore_world_advance_state(world);
   body->matrix_c = 0;
   body->history_s = 0;
-  spore_body_reset_choice(body);
+  spore_body_reset_choice(world, body);
   world->contact_count = world->grip_count = 0; /* they belong to the state before */
   if (body->model) spore_body_update_mass(world, body, world->q + body->q_offset);
   spore_world_map_spheres(world);

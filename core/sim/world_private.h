@@ -17,7 +17,6 @@
 #include "core/sim/term.h"
 #include "core/sim/world.h"
 
-#define SPORE_MATRIX_STEPS 20 /* a linearisation is kept for so many steps at most */
 #define SPORE_COMMAND_CAPACITY 1024
 #define SPORE_POSE_Q 7 /* a body without a model: position, orientation; velocity, spin */
 #define SPORE_POSE_BLOCKS 2
@@ -32,12 +31,18 @@ typedef enum SporeTrouble { /* worst last */
                             SPORE_TROUBLE_NOT_FINITE
 } SporeTrouble;
 
-/* Whether a body's matrix is factorised for the preconditioner, and what led to it: see factor.c. */
+typedef enum SporeStart { SPORE_START_NONE, SPORE_START_NEW, SPORE_START_KEPT } SporeStart;
+
+/* Whether a body's matrix is factorised, how long a linearisation is kept, and what led to it: see factor.c. */
 typedef struct SporeFactorChoice {
   bool factorised, needed;  /* needed: conjugate gradients alone did not solve a step */
   uint32_t votes, patience; /* for the other way, in a row; how many it takes */
   uint32_t steps;           /* since the last change */
   double iterations;        /* a Newton iteration, before the change */
+  SporeStart start;         /* of the present step: whether it began with a linearisation of a step before */
+  uint32_t keep;            /* steps that a linearisation is kept */
+  uint32_t calm, trial;     /* steps that this went well; after how many it may be kept longer */
+  double fresh, excess;     /* iterations of a step with a new one; what those since then took above that */
 } SporeFactorChoice;
 
 typedef struct SporeBody {
@@ -271,7 +276,11 @@ void spore_world_wake_all(SporeWorld *world);
 
 /* factor.c */
 bool spore_world_compile_factors(SporeWorld *world, SporeError *error);
-void spore_body_reset_choice(SporeBody *body);
+void spore_body_reset_choice(const SporeWorld *world, SporeBody *body);
+/* What the parts of a stage cost this body, in floating-point operations of the kind that a product with its matrix is
+ * made of. */
+double spore_body_linearisation_work(const SporeBody *body);
+double spore_body_iteration_work(const SporeBody *body);
 /* Chooses again how each body of the island is preconditioned, after a step that went like its result. True where the
  * step failed for want of a factor and should be taken again. */
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
