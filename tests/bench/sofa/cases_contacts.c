@@ -3,8 +3,8 @@
  * SOFA's contacts are springs without friction between spheres, made by whichever broad phase is named; its planes are
  * force fields. Ours are springs with damping, friction 0 here for the same physics; a plane is a sphere of 1 km, flat
  * to 0.1 mm over these scenes. Where SOFA's stiffness is not known, ours makes a body at rest sink in by about 1% of a
- * radius. SOFA's loose spheres are points of three degrees of freedom; ours are both those and rigid bodies of six, in a
- * box wide enough for as many contacts between spheres as SOFA reports, about 1900 among 2000; planes come on top. */
+ * radius. SOFA's loose spheres are points of three degrees of freedom; ours are both those and rigid bodies of six, in
+ * a box wide enough for as many contacts between spheres as SOFA reports, about 1900 among 2000; planes come on top. */
 #include <math.h>
 
 #include "tests/bench/sofa/cases.h"
@@ -110,7 +110,8 @@ static void build_sheet(Rig *rig, const Case *self) {
 
 /* f: loose spheres of 0.1 m and 0.1 kg in a box of five planes. */
 
-static const double ball_radius = 0.1, ball_mass = 0.1, ball_stiffness = 2000, ball_damping = 10;
+/* Loose points are one body: they must start so far apart that no pair counts as touching at rest. */
+static const double ball_radius = 0.1, ball_spacing = 0.26, ball_mass = 0.1, ball_stiffness = 2000, ball_damping = 10;
 
 static void add_box(Rig *rig, double half) {
   add_plane(rig, spore_vec3(0, 0, 0), spore_vec3(0, 1, 0), ball_stiffness, ball_damping);
@@ -123,7 +124,7 @@ static void add_box(Rig *rig, double half) {
 /* Layers of n x n, each next one shifted, all a little off their lattice. */
 static double *ball_points(unsigned n, unsigned count) {
   GRand *random = g_rand_new_with_seed(7);
-  double *points = g_new(double, 3 * (size_t)count), spacing = 2.1 * ball_radius;
+  double *points = g_new(double, 3 * (size_t)count), spacing = ball_spacing;
   for (unsigned i = 0; i < count; i++) {
     unsigned layer = i / (n * n), column = i % n, row = i / n % n;
     SporeVec3 place = {(column - 0.5 * n + 0.25 + 0.5 * (layer % 2)) * spacing, ball_radius + layer * spacing,
@@ -145,7 +146,7 @@ static SporeModel *ball_model(void) {
 static void build_rigid_pile(Rig *rig, const Case *self) {
   unsigned n = self->size[0], count = self->size[1];
   rig->description.solver.time_step = 0.01;
-  add_box(rig, (0.5 * n + 0.5) * 2.1 * ball_radius);
+  add_box(rig, (0.5 * n + 0.5) * ball_spacing);
   const SporeSphereSet *set = rig_sphere(rig, ball_radius);
   double *points = ball_points(n, count);
   for (unsigned i = 0; i < count; i++) {
@@ -167,7 +168,7 @@ static void place_loose(const LatticeNet *net, unsigned column, unsigned row, do
 static void build_point_pile(Rig *rig, const Case *self) {
   unsigned n = self->size[0], count = self->size[1];
   rig->description.solver.time_step = 0.01;
-  add_box(rig, (0.5 * n + 0.5) * 2.1 * ball_radius);
+  add_box(rig, (0.5 * n + 0.5) * ball_spacing);
   loose_points = ball_points(n, count);
   LatticeNet net = {
       .columns = 1, .rows = count, .spacing = 1, .mass = ball_mass * count, .tension = 0, .start = place_loose};
@@ -221,14 +222,14 @@ const Case contact_cases[] = {{.name = "c0 free organ, 180 nodes",
                                .steps = 100},
                               {.name = "f pile of 512 loose points",
                                .build = build_point_pile,
-                               .size = {15, 512},
+                               .size = {16, 512},
                                .sofa = "CG 25, incremental broad phase",
                                .sofa_ms = 0.531,
                                .before = 100,
                                .steps = 100},
                               {.name = "f pile of 2000 loose points",
                                .build = build_point_pile,
-                               .size = {30, 2000},
+                               .size = {32, 2000},
                                .sofa = "CG 25, sweep and prune",
                                .sofa_ms = 5.99,
                                .required_ms = 0.6,
@@ -236,14 +237,14 @@ const Case contact_cases[] = {{.name = "c0 free organ, 180 nodes",
                                .steps = 100},
                               {.name = "f pile of 512 rigid balls",
                                .build = build_rigid_pile,
-                               .size = {15, 512},
+                               .size = {16, 512},
                                .sofa = "points, CG 25, incremental broad phase",
                                .sofa_ms = 0.531,
                                .before = 100,
                                .steps = 100},
                               {.name = "f pile of 2000 rigid balls",
                                .build = build_rigid_pile,
-                               .size = {30, 2000},
+                               .size = {32, 2000},
                                .sofa = "points, CG 25, sweep and prune",
                                .sofa_ms = 5.99,
                                .required_ms = 0.6,
