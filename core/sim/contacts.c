@@ -31,12 +31,12 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   wanted = spore_grid_capacity(world->grid);
   SporeContactTerm *terms = spore_reallocate(world->contacts, old, wanted, sizeof *terms);
   if (terms) world->contacts = terms;
-  SporeMat3 *jacobians = spore_reallocate(world->contact_jacobians, old, wanted, sizeof *jacobians);
-  if (jacobians) world->contact_jacobians = jacobians;
+  SporeCoupling *couplings = spore_reallocate(world->contact_couplings, old, wanted, sizeof *couplings);
+  if (couplings) world->contact_couplings = couplings;
   bool gripped = spore_grips_reserve(world, old, wanted);
   uint32_t *order = spore_reallocate(world->contact_order, old, wanted, sizeof *order);
   if (order) world->contact_order = order;
-  if (!terms || !jacobians || !gripped || !order) return false;
+  if (!terms || !couplings || !gripped || !order) return false;
   world->contact_capacity = wanted;
   world->missed = 0;
   return true;

@@ -15,11 +15,10 @@ static void add_body_forces(const SporeGroup *group, const double *q, const doub
 }
 
 static void add_term_forces(const SporeGroup *group, const double *q, const double *v, double *f) {
-  SporeMat3 *unused;
   for (size_t i = 0; i < group->island->contact_count; i++)
-    spore_contact_term_force(spore_group_contact(group, i, &unused), group->world->local_sites, q, v, f);
+    spore_contact_term_force(spore_group_contact(group, i), group->world->local_sites, q, v, f);
   for (size_t i = 0; i < group->island->spring_count; i++)
-    spore_spring_term_force(spore_group_spring(group, i, &unused), group->world->local_sites, q, v, f);
+    spore_spring_term_force(spore_group_spring(group, i), group->world->local_sites, q, v, f);
 }
 
 static void set_shape(void *data, const double *shape) { ((SporeGroup *)data)->shape = shape; }
@@ -71,15 +70,14 @@ static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, dou
 
 static void count_terms(const SporeGroup *group, double *counts) {
   const SporeWorld *world = group->world;
-  SporeMat3 *unused;
   memset(counts, 0, group->island->v_count / 3 * sizeof *counts);
   for (size_t i = 0; i < group->island->contact_count; i++) {
-    const SporeContactTerm *term = spore_group_contact(group, i, &unused);
+    const SporeContactTerm *term = spore_group_contact(group, i);
     count_end(world, &term->a, counts);
     count_end(world, &term->b, counts);
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
-    const SporeSpringTerm *term = spore_group_spring(group, i, &unused);
+    const SporeSpringTerm *term = spore_group_spring(group, i);
     count_end(world, &term->a, counts);
     count_end(world, &term->b, counts);
   }
@@ -105,17 +103,16 @@ static SporeSoftening softening(double h, bool resolved, double inverse_mass, do
 static bool soften(void *data, double h, bool resolved) {
   const SporeGroup *group = data;
   const SporeWorld *world = group->world;
-  SporeMat3 *unused;
   if (group->island->contact_count + group->island->spring_count == 0) return false;
   double *counts = spore_group_precondition_blocks(group); /* free: only implicit steps precondition */
   count_terms(group, counts);
   for (size_t i = 0; i < group->island->contact_count; i++) {
-    SporeContactTerm *term = spore_group_contact(group, i, &unused);
+    SporeContactTerm *term = spore_group_contact(group, i);
     double inverse_mass = contact_inverse_mass(world, term, counts);
     term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
-    SporeSpringTerm *term = spore_group_spring(group, i, &unused);
+    SporeSpringTerm *term = spore_group_spring(group, i);
     double inverse_mass = end_inverse_mass(world, &term->a, 0, counts) + end_inverse_mass(world, &term->b, 0, counts);
     term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
   }
@@ -123,12 +120,11 @@ static bool soften(void *data, double h, bool resolved) {
 }
 
 bool spore_group_resolves_contacts(const SporeGroup *group, double h) {
-  SporeMat3 *unused;
   if (group->island->contact_count == 0) return true;
   double *counts = spore_group_precondition_blocks(group); /* free: no matrix is made yet */
   count_terms(group, counts);
   for (size_t i = 0; i < group->island->contact_count; i++) {
-    const SporeContactTerm *term = spore_group_contact(group, i, &unused);
+    const SporeContactTerm *term = spore_group_contact(group, i);
     double inverse_mass = contact_inverse_mass(group->world, term, counts);
     if (!resolves(h, inverse_mass, term->law.stiffness, term->law.damping)) return false;
   }
@@ -137,9 +133,8 @@ bool spore_group_resolves_contacts(const SporeGroup *group, double h) {
 
 void spore_group_harden(SporeGroup *group) {
   const SporeSoftening none = {0, 0, 0};
-  SporeMat3 *unused;
-  for (size_t i = 0; i < group->island->contact_count; i++) spore_group_contact(group, i, &unused)->softening = none;
-  for (size_t i = 0; i < group->island->spring_count; i++) spore_group_spring(group, i, &unused)->softening = none;
+  for (size_t i = 0; i < group->island->contact_count; i++) spore_group_contact(group, i)->softening = none;
+  for (size_t i = 0; i < group->island->spring_count; i++) spore_group_spring(group, i)->softening = none;
 }
 
 static void term_force(void *data, const double *q, const double *v, double *f) {
@@ -154,17 +149,16 @@ static void move_end(SporeEnd *end, double elapsed_s) {
 
 static void set_time(void *data, double elapsed_s) {
   SporeGroup *group = data;
-  SporeMat3 *unused;
   double at_s = group->start_s + elapsed_s;
   if (at_s == group->now_s) return;
   group->now_s = at_s;
   for (size_t i = 0; i < group->island->contact_count; i++) {
-    SporeContactTerm *term = spore_group_contact(group, i, &unused);
+    SporeContactTerm *term = spore_group_contact(group, i);
     move_end(&term->a, at_s);
     move_end(&term->b, at_s);
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
-    SporeSpringTerm *term = spore_group_spring(group, i, &unused);
+    SporeSpringTerm *term = spore_group_spring(group, i);
     move_end(&term->a, at_s);
     move_end(&term->b, at_s);
   }

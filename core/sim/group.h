@@ -2,6 +2,7 @@
 #ifndef SPORE_SIM_GROUP_H
 #define SPORE_SIM_GROUP_H
 
+#include <math.h>
 #include <string.h>
 
 #include "core/constraint/pin.h"
@@ -15,15 +16,13 @@ static inline SporeBody *spore_group_body(const SporeGroup *group, size_t i, con
   return &group->world->bodies[index];
 }
 
-static inline SporeContactTerm *spore_group_contact(const SporeGroup *group, size_t i, SporeMat3 **jacobian) {
+static inline SporeContactTerm *spore_group_contact(const SporeGroup *group, size_t i) {
   uint32_t index = group->world->contact_order[group->island->contact_start + i];
-  *jacobian = &group->world->contact_jacobians[index];
   return &group->world->contacts[index];
 }
 
-static inline SporeSpringTerm *spore_group_spring(const SporeGroup *group, size_t i, SporeMat3 **jacobian) {
+static inline SporeSpringTerm *spore_group_spring(const SporeGroup *group, size_t i) {
   uint32_t index = group->world->spring_order[group->island->spring_start + i];
-  *jacobian = &group->world->spring_jacobians[index];
   return &group->world->springs[index];
 }
 
@@ -60,14 +59,21 @@ static inline void spore_group_weigh(const SporeGroup *group, const SporeBody *b
   else spore_blocks_apply(spore_group_mass(group, body), body->block_count, x, y);
 }
 
-/* A block without an inverse gets that of its trace: a preconditioner may be rough, but not singular. */
+/* Inverses of symmetric blocks. One without an inverse gets that of its trace: a preconditioner may be rough, but not
+ * singular. */
 static inline void spore_blocks_invert(double *blocks, size_t count) {
   for (size_t i = 0; i < count; i++, blocks += 9) {
-    SporeMat3 block, inverse;
-    memcpy(block.m, blocks, sizeof block.m);
-    double mean = spore_mat3_trace(block) / 3;
-    if (!spore_mat3_invert(block, &inverse) || spore_mat3_determinant(block) <= 0)
-      inverse = spore_mat3_scale(mean > 0 ? 1 / mean : 1, spore_mat3_identity());
+    double xx = blocks[0], xy = blocks[1], xz = blocks[2], yy = blocks[4], yz = blocks[5], zz = blocks[8];
+    double a = yy * zz - yz * yz, b = xz * yz - xy * zz, c = xy * yz - xz * yy;
+    double determinant = xx * a + xy * b + xz * c, mean = (xx + yy + zz) / 3;
+    if (determinant > 0 && determinant > 1e-30 * mean * mean * mean && isfinite(1 / determinant)) {
+      double s = 1 / determinant, e = xy * xz - xx * yz;
+      double inverse[9] = {
+          a * s, b * s, c * s, b * s, (xx * zz - xz * xz) * s, e * s, c * s, e * s, (xx * yy - xy * xy) * s};
+      memcpy(blocks, inverse, sizeof inverse);
+      continue;
+    }
+    SporeMat3 inverse = spore_mat3_scale(mean > 0 ? 1 / mean : 1, spore_mat3_identity());
     memcpy(blocks, inverse.m, sizeof inverse.m);
   }
 }

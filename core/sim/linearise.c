@@ -9,29 +9,26 @@ static double *block_stiffness(const SporeGroup *group) {
   return group->world->block_stiffness + group->island->v_start / 3;
 }
 
-static void linearise_terms(SporeGroup *group, const double *q, const double *v, double c, double c2) {
-  const SporeSite *sites = group->world->local_sites;
-  SporeMat3 *jacobian;
-  for (size_t i = 0; i < group->island->contact_count; i++) {
-    SporeContactTerm *term = spore_group_contact(group, i, &jacobian);
-    *jacobian = spore_contact_term_jacobian(term, sites, q, v, c, c2);
-  }
-  for (size_t i = 0; i < group->island->spring_count; i++) {
-    SporeSpringTerm *term = spore_group_spring(group, i, &jacobian);
-    *jacobian = spore_spring_term_jacobian(term, sites, q, v, c, c2);
-  }
+static SporeCoupling *contact_couplings(const SporeGroup *group) {
+  return group->world->contact_couplings + group->island->contact_start;
 }
 
-static void add_term_diagonals(SporeGroup *group, double *blocks) {
+static SporeCoupling *spring_couplings(const SporeGroup *group) {
+  return group->world->spring_couplings + group->island->spring_start;
+}
+
+static void linearise_terms(SporeGroup *group, const double *q, const double *v, double c, double c2) {
   const SporeSite *sites = group->world->local_sites;
-  SporeMat3 *jacobian;
+  SporeCoupling *contacts = contact_couplings(group), *springs = spring_couplings(group);
   for (size_t i = 0; i < group->island->contact_count; i++) {
-    const SporeContactTerm *term = spore_group_contact(group, i, &jacobian);
-    spore_term_diagonal(&term->a, &term->b, jacobian, sites, blocks);
+    SporeContactTerm *term = spore_group_contact(group, i);
+    SporeMat3 jacobian = spore_contact_term_jacobian(term, sites, q, v, c, c2);
+    contacts[i] = spore_coupling(&term->a, &term->b, &jacobian, sites);
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
-    const SporeSpringTerm *term = spore_group_spring(group, i, &jacobian);
-    spore_term_diagonal(&term->a, &term->b, jacobian, sites, blocks);
+    SporeSpringTerm *term = spore_group_spring(group, i);
+    SporeMat3 jacobian = spore_spring_term_jacobian(term, sites, q, v, c, c2);
+    springs[i] = spore_coupling(&term->a, &term->b, &jacobian, sites);
   }
 }
 
@@ -69,7 +66,8 @@ static void make_preconditioner(SporeGroup *group) {
     SporeBody *body = spore_group_body(group, b, &site);
     body_diagonal(group, body, blocks + 3 * site->v);
   }
-  add_term_diagonals(group, blocks);
+  spore_couplings_diagonal(contact_couplings(group), group->island->contact_count, blocks);
+  spore_couplings_diagonal(spring_couplings(group), group->island->spring_count, blocks);
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
@@ -160,8 +158,6 @@ bool spore_group_factorised(void *data) {
 
 void spore_group_multiply(void *data, const double *x, double *y) {
   SporeGroup *group = data;
-  const SporeSite *sites = group->world->local_sites;
-  SporeMat3 *jacobian;
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
@@ -172,14 +168,8 @@ void spore_group_multiply(void *data, const double *x, double *y) {
     memset(y + site->v, 0, 3 * body->block_count * sizeof *y);
     spore_block_matrix_multiply_add(&body->matrix, x + site->v, y + site->v);
   }
-  for (size_t i = 0; i < group->island->contact_count; i++) {
-    const SporeContactTerm *term = spore_group_contact(group, i, &jacobian);
-    spore_term_multiply(&term->a, &term->b, jacobian, sites, x, y);
-  }
-  for (size_t i = 0; i < group->island->spring_count; i++) {
-    const SporeSpringTerm *term = spore_group_spring(group, i, &jacobian);
-    spore_term_multiply(&term->a, &term->b, jacobian, sites, x, y);
-  }
+  spore_couplings_multiply(contact_couplings(group), group->island->contact_count, x, y);
+  spore_couplings_multiply(spring_couplings(group), group->island->spring_count, x, y);
   spore_group_filter(group, y);
 }
 

@@ -129,9 +129,9 @@ static bool allocate_springs(SporeWorld *world, const SporeWorldDescription *des
   world->springs = SPORE_NEW_ARRAY(SporeSpringTerm, count);
   world->spring_active = SPORE_NEW_ARRAY(bool, count);
   world->spring_mappings = SPORE_NEW_ARRAY(SporeMapping, 2 * count);
-  world->spring_jacobians = SPORE_NEW_ARRAY(SporeMat3, count);
+  world->spring_couplings = SPORE_NEW_ARRAY(SporeCoupling, count);
   world->spring_order = SPORE_NEW_ARRAY(uint32_t, count);
-  return world->springs && world->spring_active && world->spring_mappings && world->spring_jacobians &&
+  return world->springs && world->spring_active && world->spring_mappings && world->spring_couplings &&
          world->spring_order && make_pulls(world);
 }
 

@@ -237,30 +237,6 @@ SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sit
   return spring_jacobian(&term->law, a, b, c, c2);
 }
 
-void spore_term_multiply(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
-                         const double *x, double *y) {
-  SporeVec3 relative = spore_vec3_sub(gather(a, sites, x), gather(b, sites, x));
-  scatter_pair(a, b, sites, spore_mat3_apply(*k, relative), y);
-}
-
-static void end_diagonal(const SporeEnd *end, const SporeMat3 *k, const SporeSite *sites, double *blocks) {
-  if (end->prescribed) return;
-  double *local = blocks + 3 * sites[end->body].v;
-  if (end->mapping->kind != SPORE_MAPPING_RIGID) {
-    spore_mapping_add_diagonal(end->mapping, end->point, NULL, k, local);
-    return;
-  }
-  SporeMat3 r = spore_mat3_skew(end->offset);
-  SporeMat3 turned = spore_mat3_multiply(spore_mat3_transpose(r), spore_mat3_multiply(*k, r));
-  for (int e = 0; e < 9; e++) local[e] += k->m[e], local[9 + e] += turned.m[e];
-}
-
-void spore_term_diagonal(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
-                         double *blocks) {
-  end_diagonal(a, k, sites, blocks);
-  end_diagonal(b, k, sites, blocks);
-}
-
 double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
   double depth = depth_at(term, spore_end_position(&term->a, sites, q), spore_end_position(&term->b, sites, q));
   return spore_contact_potential(&term->law, depth, spore_contact_term_stretch(term, sites, q));

@@ -71,12 +71,6 @@ SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *s
                                       double c, double c2);
 SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                                      double c, double c2);
-/* y += J^T k J x with J the relative motion of the ends, at the last evaluation. */
-void spore_term_multiply(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
-                         const double *x, double *y);
-/* Adds the diagonal blocks of J^T k J: 9 doubles a block, so 3 for each double of v. */
-void spore_term_diagonal(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites,
-                         double *blocks);
 /* Potential energy, J. */
 double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q);
 double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q);

@@ -28,7 +28,7 @@ static void free_arrays(SporeWorld *world) {
   void *arrays[] = {world->rest_q,         world->rest_v,        world->world_sites,       world->target_q,
                     world->mass,           world->mass_inverse,  world->spheres.centre,    world->spheres.velocity,
                     world->spheres.radius, world->spheres.body,  world->reaction,          world->contacts,
-                    world->springs,        world->spring_active, world->contact_jacobians, world->spring_jacobians,
+                    world->springs,        world->spring_active, world->contact_couplings, world->spring_couplings,
                     world->parent,         world->island_of,     world->island_bodies,     world->islands,
                     world->grips,          world->kept_grips,    world->contact_order,     world->spring_order,
                     world->local_sites,    world->local_q0,      world->local_v0,          world->local_q1,

@@ -14,7 +14,7 @@
 #include "core/haptic/guard.h"
 #include "core/integrate/integrator.h"
 #include "core/linalg/block_cholesky.h"
-#include "core/sim/term.h"
+#include "core/sim/coupling.h"
 #include "core/sim/world.h"
 
 #define SPORE_COMMAND_CAPACITY 1024
@@ -168,8 +168,8 @@ struct SporeWorld {
   size_t link_count;             /* springs that the scene has; behind them one pull a body */
   SporeSpringTerm *springs;
   bool *spring_active;
-  SporeMapping *spring_mappings; /* two a spring: end a, end b */
-  SporeMat3 *contact_jacobians, *spring_jacobians;
+  SporeMapping *spring_mappings;                       /* two a spring: end a, end b */
+  SporeCoupling *contact_couplings, *spring_couplings; /* in the order of contact_order and spring_order */
 
   /* Islands. */
   uint32_t *parent;        /* union-find over bodies */
@@ -251,7 +251,7 @@ void spore_island_remember(SporeWorld *world, const SporeIsland *island);
 typedef struct SporeGroup {
   SporeWorld *world;
   const SporeIsland *island;
-  const double *shape; /* as q of the island: where viscous forces are taken; NULL: where each force is */
+  const double *shape;   /* as q of the island: where viscous forces are taken; NULL: where each force is */
   double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
 } SporeGroup;
 SporeDynamics spore_group_dynamics(SporeGroup *group);
