@@ -6,6 +6,8 @@ void spore_springs_clear(SporeSprings *springs) {
   spore_free(springs->node);
   spore_free(springs->slot_start);
   spore_free(springs->neighbour);
+  spore_free(springs->is_run);
+  spore_free(springs->node_is_run);
   spore_free(springs->length);
   spore_free(springs->block);
   spore_free(springs->diagonal);
@@ -44,10 +46,14 @@ static bool make_slots(SporeSprings *springs, const uint32_t *valence) {
     springs->slot_start[g + 1] = springs->slot_start[g] + valence[springs->node[g * SPORE_LANES]];
   size_t lanes = SPORE_LANES * (size_t)springs->slot_start[springs->group_count];
   springs->neighbour = SPORE_NEW_ARRAY(uint32_t, lanes);
+  springs->is_run = SPORE_NEW_ARRAY(bool, springs->slot_start[springs->group_count]);
+  springs->node_is_run = SPORE_NEW_ARRAY(bool, springs->group_count);
   springs->length = SPORE_NEW_ARRAY(double, lanes);
   springs->block = SPORE_NEW_ARRAY(uint32_t, lanes);
   springs->diagonal = SPORE_NEW_ARRAY(uint32_t, springs->group_count * SPORE_LANES);
-  if (!springs->neighbour || !springs->length || !springs->block || !springs->diagonal) return false;
+  if (!springs->neighbour || !springs->is_run || !springs->node_is_run || !springs->length || !springs->block ||
+      !springs->diagonal)
+    return false;
   for (size_t g = 0; g < springs->group_count; g++)
     for (size_t i = SPORE_LANES * (size_t)springs->slot_start[g]; i < SPORE_LANES * (size_t)springs->slot_start[g + 1];
          i++) {
@@ -75,6 +81,18 @@ static void fill_slots(SporeSprings *springs, const uint64_t *keys, size_t count
   }
 }
 
+static bool is_run(const uint32_t number[SPORE_LANES]) {
+  for (uint32_t i = 1; i < SPORE_LANES; i++)
+    if (number[i] != number[0] + i) return false;
+  return true;
+}
+
+static void find_runs(SporeSprings *springs) {
+  for (size_t g = 0; g < springs->group_count; g++) springs->node_is_run[g] = is_run(springs->node + g * SPORE_LANES);
+  for (size_t s = 0; s < springs->slot_start[springs->group_count]; s++)
+    springs->is_run[s] = is_run(springs->neighbour + s * SPORE_LANES);
+}
+
 bool spore_springs_create(SporeSprings *springs, const uint64_t *keys, size_t count, const double *rest,
                           size_t node_count) {
   *springs = (SporeSprings){.rest = rest};
@@ -83,6 +101,7 @@ bool spore_springs_create(SporeSprings *springs, const uint64_t *keys, size_t co
   for (size_t k = 0; made && k < count; k++) valence[first_of(keys[k])]++, valence[second_of(keys[k])]++;
   made = made && order_nodes(springs, valence, node_count, place) && make_slots(springs, valence);
   if (made) fill_slots(springs, keys, count, place, valence, node_count);
+  if (made) find_runs(springs);
   spore_free(valence);
   spore_free(place);
   return made;

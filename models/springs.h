@@ -17,6 +17,8 @@ typedef struct SporeSprings {
   size_t group_count;   /* node_count / SPORE_LANES, rounded up */
   uint32_t *slot_start; /* group_count + 1 */
   uint32_t *neighbour;  /* slot x lane: the node at the other end; the node itself where it has no more springs */
+  bool *is_run;         /* slot: its neighbours' numbers follow one another, as in grids */
+  bool *node_is_run;    /* group: its nodes' numbers do */
   double *length;       /* slot x lane, at rest, m; -0.0 where it has no more springs */
   uint32_t *block;      /* slot x lane: where (node, neighbour) lies in the model's matrix */
   uint32_t *diagonal;   /* as node: where (node, node) lies */

@@ -19,10 +19,17 @@ static __attribute__((noinline)) SporeVd3 lines_at_rest(const SporeSprings *spri
   return line;
 }
 
+/* What x (three entries a node) says of the neighbours in the slot. */
+SPORE_INLINE SporeVd3 at_neighbours(const SporeSprings *springs, size_t slot, const double *x) {
+  const uint32_t *neighbour = springs->neighbour + slot;
+  return springs->is_run[slot / SPORE_LANES] ? spore_vd3_load(x + 3 * (size_t)*neighbour)
+                                             : spore_vd3_gather(x, neighbour);
+}
+
 /* From the neighbours in the slot to the nodes; *square: of its length, not 0. */
 SPORE_INLINE SporeVd3 line_of(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 position,
                               const double *q, SporeVd length, SporeVd *square) {
-  SporeVd3 line = spore_vd3_sub(position, spore_vd3_gather(q, springs->neighbour + slot));
+  SporeVd3 line = spore_vd3_sub(position, at_neighbours(springs, slot, q));
   *square = spore_vd3_dot(line, line);
   SporeVl is_short = *square < SHORT * SHORT * length * length;
   if (__builtin_expect(spore_vl_any(is_short), 0)) {
@@ -37,6 +44,15 @@ SPORE_INLINE SporeVd3 line_of(const SporeSprings *springs, const uint32_t *node,
 SPORE_INLINE size_t lanes_from(const SporeSprings *springs, size_t first) {
   size_t left = springs->node_count > first ? springs->node_count - first : 0;
   return left < SPORE_WIDTH ? left : SPORE_WIDTH;
+}
+
+SPORE_INLINE void subtract_rows(const SporeSprings *springs, size_t first, SporeVd3 sum, double *f) {
+  double rows[4 * SPORE_WIDTH];
+  spore_vd3_store_rows(rows, sum);
+  for (size_t i = 0; i < lanes_from(springs, first); i++) {
+    double *force = f + 3 * (size_t)springs->node[first + i];
+    for (int k = 0; k < 3; k++) force[k] -= rows[4 * i + (size_t)k];
+  }
 }
 
 enum { UNDAMPED, DAMPED_AT_Q, DAMPED_AT_SHAPE };
@@ -56,7 +72,7 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const
       SporeVd3 line = line_of(springs, node, slot, position, q, length, &square);
       SporeVd pull = springs->stiffness * (1 - length / spore_vd_sqrt(square));
       if (damped) {
-        SporeVd3 speed = spore_vd3_sub(velocity, spore_vd3_gather(v, springs->neighbour + slot));
+        SporeVd3 speed = spore_vd3_sub(velocity, at_neighbours(springs, slot, v));
         if (damped == DAMPED_AT_Q) pull += springs->damping * spore_vd3_dot(line, speed) / square;
         if (damped == DAMPED_AT_SHAPE) {
           SporeVd3 along = line_of(springs, node, slot, before, shape, length, &square);
@@ -66,12 +82,10 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const
       }
       sum.x += pull * line.x, sum.y += pull * line.y, sum.z += pull * line.z;
     }
-    double rows[4 * SPORE_WIDTH];
-    spore_vd3_store_rows(rows, sum);
-    for (size_t i = 0; i < lanes_from(springs, first); i++) {
-      double *force = f + 3 * (size_t)node[i];
-      for (int k = 0; k < 3; k++) force[k] -= rows[4 * i + (size_t)k];
-    }
+    if (springs->node_is_run[first / SPORE_LANES]) {
+      double *force = f + 3 * (size_t)*node;
+      spore_vd3_store(force, spore_vd3_sub(spore_vd3_load(force), sum));
+    } else subtract_rows(springs, first, sum, f);
   }
 }
 
@@ -92,7 +106,7 @@ double SPORE_LEVEL_NAME(spore_springs_potential)(const SporeSprings *springs, co
     SporeVd sum = spore_vd_load(lane);
     for (size_t s = start[0]; s < start[1]; s++) {
       size_t slot = s * SPORE_LANES + first % SPORE_LANES;
-      SporeVd3 line = spore_vd3_sub(position, spore_vd3_gather(q, springs->neighbour + slot));
+      SporeVd3 line = spore_vd3_sub(position, at_neighbours(springs, slot, q));
       SporeVd stretch = spore_vd_sqrt(spore_vd3_dot(line, line)) - spore_vd_load(springs->length + slot);
       sum += stretch * stretch;
     }

@@ -152,6 +152,48 @@ SPORE_INLINE SporeVd3 spore_vd3_gather(const double *x, const uint32_t *index) {
 #endif
 }
 
+/* Lane i from x + 3 i: a run of points. */
+SPORE_INLINE SporeVd3 spore_vd3_load(const double *x) {
+#if SPORE_WIDTH == 8
+  __m512d a = _mm512_loadu_pd(x), b = _mm512_loadu_pd(x + 8), c = _mm512_loadu_pd(x + 16);
+  __m512d first = _mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 3, 6, 9, 12, 15, 0, 0), b);
+  __m512d second = _mm512_permutex2var_pd(a, _mm512_setr_epi64(1, 4, 7, 10, 13, 0, 0, 0), b);
+  __m512d third = _mm512_permutex2var_pd(a, _mm512_setr_epi64(2, 5, 8, 11, 14, 0, 0, 0), b);
+  return (SporeVd3){(SporeVd)_mm512_permutex2var_pd(first, _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 10, 13), c),
+                    (SporeVd)_mm512_permutex2var_pd(second, _mm512_setr_epi64(0, 1, 2, 3, 4, 8, 11, 14), c),
+                    (SporeVd)_mm512_permutex2var_pd(third, _mm512_setr_epi64(0, 1, 2, 3, 4, 9, 12, 15), c)};
+#elif SPORE_WIDTH == 4
+  __m256d a = _mm256_loadu_pd(x), b = _mm256_loadu_pd(x + 4), c = _mm256_loadu_pd(x + 8);
+  __m256d xy = _mm256_permute2f128_pd(a, b, 0x30), zx = _mm256_permute2f128_pd(a, c, 0x21);
+  __m256d yz = _mm256_permute2f128_pd(b, c, 0x30);
+  return (SporeVd3){(SporeVd)_mm256_shuffle_pd(xy, zx, 0xa), (SporeVd)_mm256_shuffle_pd(xy, yz, 0x5),
+                    (SporeVd)_mm256_shuffle_pd(zx, yz, 0xa)};
+#else
+  return (SporeVd3){{x[0], x[3]}, {x[1], x[4]}, {x[2], x[5]}};
+#endif
+}
+
+/* Lane i to x + 3 i. */
+SPORE_INLINE void spore_vd3_store(double *x, SporeVd3 a) {
+#if SPORE_WIDTH == 8
+  __m512d first = _mm512_permutex2var_pd((__m512d)a.x, _mm512_setr_epi64(0, 8, 0, 1, 9, 0, 2, 10), (__m512d)a.y);
+  __m512d second = _mm512_permutex2var_pd((__m512d)a.y, _mm512_setr_epi64(0, 11, 3, 0, 12, 4, 0, 13), (__m512d)a.x);
+  __m512d third = _mm512_permutex2var_pd((__m512d)a.x, _mm512_setr_epi64(13, 0, 6, 14, 0, 7, 15, 0), (__m512d)a.y);
+  _mm512_storeu_pd(x, _mm512_permutex2var_pd(first, _mm512_setr_epi64(0, 1, 8, 3, 4, 9, 6, 7), (__m512d)a.z));
+  _mm512_storeu_pd(x + 8, _mm512_permutex2var_pd(second, _mm512_setr_epi64(10, 1, 2, 11, 4, 5, 12, 7), (__m512d)a.z));
+  _mm512_storeu_pd(x + 16, _mm512_permutex2var_pd(third, _mm512_setr_epi64(0, 13, 2, 3, 14, 5, 6, 15), (__m512d)a.z));
+#elif SPORE_WIDTH == 4
+  __m256d xy = _mm256_shuffle_pd((__m256d)a.x, (__m256d)a.y, 0x0),
+          zx = _mm256_shuffle_pd((__m256d)a.z, (__m256d)a.x, 0xa);
+  __m256d yz = _mm256_shuffle_pd((__m256d)a.y, (__m256d)a.z, 0xf);
+  _mm256_storeu_pd(x, _mm256_permute2f128_pd(xy, zx, 0x20));
+  _mm256_storeu_pd(x + 4, _mm256_permute2f128_pd(yz, xy, 0x30));
+  _mm256_storeu_pd(x + 8, _mm256_permute2f128_pd(zx, yz, 0x31));
+#else
+  for (int i = 0; i < 2; i++) x[3 * i] = a.x[i], x[3 * i + 1] = a.y[i], x[3 * i + 2] = a.z[i];
+#endif
+}
+
 /* Lane i to rows + 4 i, behind it a zero. */
 SPORE_INLINE void spore_vd3_store_rows(double *rows, SporeVd3 a) {
 #if SPORE_WIDTH == 8

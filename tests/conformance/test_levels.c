@@ -18,7 +18,7 @@ static double *answers(const SporeModel *model, const State *state, size_t *coun
   double *all = vector_new(*count);
   model->type->force(model, state->q, state->q, state->v, all);
   all[state->v_count] = model->type->potential(model, state->q);
-  memcpy(all + state->v_count + 1, matrix.values, 9 * blocks * sizeof(double));
+  for (size_t i = 0; i < 9 * blocks; i++) all[state->v_count + 1 + i] = matrix.values[i];
   spore_block_matrix_clear(&matrix);
   return all;
 }
