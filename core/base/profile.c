@@ -15,6 +15,10 @@ void spore_profile_add(SporeProfilePhase *phase, uint64_t duration_ns) {
   if (duration_ns > phase->max_ns) phase->max_ns = duration_ns;
 }
 
+uint64_t spore_profile_last_ns(const SporeProfilePhase *phase) {
+  return phase->count ? phase->recent[(phase->count - 1) % SPORE_PROFILE_SAMPLES] : 0;
+}
+
 /* The rank-th smallest (from 0), by Hoare's selection; reorders the values. */
 static uint32_t select_rank(uint32_t *values, size_t count, size_t rank) {
   size_t low = 0, high = count - 1;

@@ -21,6 +21,8 @@ typedef struct SporeProfileSummary {
   double median_us, p99_us, max_us, mean_us; /* of the samples kept; max and mean of all */
 } SporeProfileSummary;
 
+/* Of the last sample. */
+uint64_t spore_profile_last_ns(const SporeProfilePhase *phase);
 void spore_profile_add(SporeProfilePhase *phase, uint64_t duration_ns);
 SporeProfileSummary spore_profile_summary(const SporeProfilePhase *phase);
 

@@ -27,6 +27,7 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
   }
   body->matrix_c = 0;
   body->history_s = 0;
+  body->watch.started = false;
   spore_body_reset_choice(world, body);
   body->total_mass = spore_model_total_mass(body->model);
   spore_body_update_mass(world, body, world->q + body->q_offset);
@@ -44,13 +45,17 @@ static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
     return;
   }
   world->gravity = gravity;
-  for (size_t b = 0; b < world->body_count; b++) world->bodies[b].history_s = 0;
+  for (size_t b = 0; b < world->body_count; b++) {
+    world->bodies[b].history_s = 0;
+    world->bodies[b].watch.started = false;
+  }
   spore_world_wake_all(world);
 }
 
 static void thaw(SporeBody *body) {
   body->frozen = false;
   body->told = SPORE_TROUBLE_NONE;
+  body->watch.started = false;
 }
 
 static void apply(SporeWorld *world, const SporeCommand *command) {

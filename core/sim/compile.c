@@ -70,7 +70,7 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->total_mass = from->model ? spore_model_total_mass(from->model) : 0;
   body->contact = from->contact;
   body->rest_pose = (SporePose){from->pose.position, spore_quat_normalise(from->pose.orientation)};
-  body->integrator =
+  body->integrator = body->chosen =
       from->integrator == SPORE_INTEGRATOR_DEFAULT ? (SporeIntegratorKind)world->solver.integrator : from->integrator;
   body->substeps = from->substeps > 0 ? from->substeps : (size_t)world->solver.substeps;
   body->q_offset = world->q_count;

@@ -130,5 +130,6 @@ void spore_world_respond(SporeWorld *world) {
     /* Two bodies that physics does not move (one is frozen) still press on each other: a tool is to feel it. */
     SporeContactTerm *term = &world->contacts[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, NULL);
+    if (0.5 * term->depth > fmin(term->arm_a, term->arm_b)) spore_world_report_depth(world, term);
   }
 }

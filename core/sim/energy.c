@@ -1,15 +1,14 @@
 #include "core/sim/world_private.h"
 
-static double kinetic(const SporeWorld *world, const SporeBody *body) {
-  const double *mass = world->mass + 3 * body->v_offset, *v = world->v + body->v_offset;
+double spore_body_kinetic_energy(const SporeWorld *world, const SporeBody *body, const double *v) {
+  const double *mass = world->mass + 3 * body->v_offset;
   double twice = 0;
   for (size_t i = 0; i < body->block_count; i++, mass += 9, v += 3)
     for (int r = 0; r < 3; r++) twice += v[r] * (mass[3 * r] * v[0] + mass[3 * r + 1] * v[1] + mass[3 * r + 2] * v[2]);
   return 0.5 * twice;
 }
 
-static double gravitational(const SporeWorld *world, const SporeBody *body) {
-  const double *q = world->q + body->q_offset;
+double spore_body_gravity_energy(const SporeWorld *world, const SporeBody *body, const double *q) {
   double energy = 0;
   for (size_t i = 0; i < body->model->node_count; i++)
     energy -= body->model->block_mass[i] * spore_vec3_dot(world->gravity, spore_vec3_load(q + 3 * i));
@@ -21,9 +20,9 @@ SporeEnergy spore_world_energy(const SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (!body->model) continue;
-    energy.kinetic += kinetic(world, body);
+    energy.kinetic += spore_body_kinetic_energy(world, body, world->v + body->v_offset);
     energy.contact += body->sleep_energy;
-    energy.gravity += gravitational(world, body);
+    energy.gravity += spore_body_gravity_energy(world, body, world->q + body->q_offset);
     energy.internal += body->model->type->potential(body->model, world->q + body->q_offset);
   }
   size_t springs = spore_world_spring_count(world);

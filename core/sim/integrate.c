@@ -53,8 +53,9 @@ static void integrate_island(void *data, size_t index) {
     spore_island_gather(world, island);
     island->result = spore_island_advance(world, island, kind, island->substeps);
   }
-  uint32_t offender;
-  island->trouble = spore_island_examine(world, island, &offender);
+  spore_island_examine(world, island);
+  if (island->trouble == SPORE_TROUBLE_NONE && !spore_island_energy_holds(world, island))
+    island->trouble = SPORE_TROUBLE_ENERGY;
   if (island->trouble != SPORE_TROUBLE_NONE) spore_island_recover(world, island);
   spore_island_remember(world, island);
   island->rests = spore_island_rests(world, island);

@@ -24,10 +24,10 @@ static double top_speed(const SporeBody *body, const double *v) {
   return top;
 }
 
-SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *island, uint32_t *offender) {
+void spore_island_examine(SporeWorld *world, SporeIsland *island) {
   double top = world->solver.maximum_speed;
-  SporeTrouble trouble = island->result.converged ? SPORE_TROUBLE_NONE : SPORE_TROUBLE_NOT_CONVERGED;
-  *offender = world->island_bodies[island->body_start];
+  island->trouble = island->result.converged ? SPORE_TROUBLE_NONE : SPORE_TROUBLE_NOT_CONVERGED;
+  island->offender = world->island_bodies[island->body_start];
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->island_bodies[island->body_start + i];
     const SporeBody *body = &world->bodies[b];
@@ -35,17 +35,14 @@ SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *is
     const double *q = island->q1 + site->q, *v = island->v1 + site->v;
     /* A block this slow in each direction is slow enough; that is nearly always so. */
     if (spore_vector_within(3 * body->block_count, v, 0.5 * top) && finite_all(q, body->q_count)) continue;
-    if (!finite_all(q, body->q_count) || !finite_all(v, 3 * body->block_count)) {
-      *offender = b;
-      return SPORE_TROUBLE_NOT_FINITE;
-    }
-    double speed = top_speed(body, v);
+    bool finite = finite_all(q, body->q_count) && finite_all(v, 3 * body->block_count);
+    double speed = finite ? top_speed(body, v) : HUGE_VAL;
     if (speed <= top) continue;
     top = speed;
-    *offender = b;
-    trouble = SPORE_TROUBLE_SPEED;
+    island->offender = b;
+    island->trouble = finite ? SPORE_TROUBLE_SPEED : SPORE_TROUBLE_NOT_FINITE;
+    if (!finite) return;
   }
-  return trouble;
 }
 
 /* A body whose own forces are not finite at the last good state, or SPORE_NO_BODY. Leaves v1 undefined. */
@@ -92,37 +89,55 @@ static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
   }
 }
 
-static SporeTrouble try_again(SporeWorld *world, SporeIsland *island, size_t substeps, uint32_t *offender) {
+static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps) {
   spore_island_gather(world, island);
   island->result = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, substeps);
   island->mending_substeps += substeps;
-  return spore_island_examine(world, island, offender);
+  spore_island_examine(world, island);
 }
 
 /* Smaller and smaller steps. An answer that is sound but not solved to tolerance is better than a frozen body. */
-static SporeTrouble try_substeps(SporeWorld *world, SporeIsland *island, uint32_t *offender) {
-  SporeTrouble trouble = SPORE_TROUBLE_NOT_FINITE;
+static void try_substeps(SporeWorld *world, SporeIsland *island) {
   for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM; substeps *= 2) {
-    trouble = try_again(world, island, substeps, offender);
-    if (trouble == SPORE_TROUBLE_NONE) break;
+    try_again(world, island, substeps);
+    if (island->trouble == SPORE_TROUBLE_NONE) break;
   }
-  return trouble;
 }
 
+/* What an explicit step made unsound once, it makes so again: the implicit one that mended it is kept. */
+static void make_safer(SporeWorld *world, SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++) {
+    SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
+    body->watch.started = false;
+    if (spore_integrator(body->integrator)->implicit) continue;
+    body->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
+    island->made_safer = true;
+  }
+}
+
+/* Ends with what the trouble was at its worst, and the body that it was met in first. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
   if (island->trouble == SPORE_TROUBLE_NOT_CONVERGED &&
       island->result.residual <= MISS_TO_STAND * world->solver.tolerance)
     return;
-  uint32_t offender = broken_model(world, island);
+  SporeTrouble worst = island->trouble;
+  uint32_t met = island->offender, broken = broken_model(world, island);
   while (island->kept_count > 0) {
-    SporeTrouble trouble = SPORE_TROUBLE_NOT_FINITE;
-    if (offender == SPORE_NO_BODY) trouble = try_substeps(world, island, &offender);
-    if (trouble <= SPORE_TROUBLE_NOT_CONVERGED) return;
-    if (trouble > island->trouble) island->trouble = trouble;
-    freeze(world, island, offender);
-    offender = broken_model(world, island);
+    if (broken == SPORE_NO_BODY) {
+      try_substeps(world, island);
+      if (island->trouble <= SPORE_TROUBLE_NOT_CONVERGED) break;
+      broken = island->offender;
+      if (island->trouble > worst) worst = island->trouble;
+    } else {
+      worst = SPORE_TROUBLE_NOT_FINITE;
+    }
+    freeze(world, island, broken);
+    broken = broken_model(world, island);
   }
-  island->result = (SporeStepResult){.converged = true};
+  if (island->kept_count == 0) island->result = (SporeStepResult){.converged = true};
+  else if (worst > SPORE_TROUBLE_NOT_CONVERGED) make_safer(world, island);
+  island->trouble = worst;
+  island->offender = met;
 }
 
 void spore_world_report(SporeWorld *world, const char *format, ...) {
@@ -142,6 +157,8 @@ static const char *cause(SporeTrouble trouble) {
     return _("its forces or motion are not finite");
   case SPORE_TROUBLE_SPEED:
     return _("it moves faster than the maximum speed");
+  case SPORE_TROUBLE_ENERGY:
+    return _("its energy grows beyond what it was given");
   case SPORE_TROUBLE_NOT_CONVERGED:
     return _("its equations are not solved to tolerance");
   case SPORE_TROUBLE_NONE:
@@ -150,7 +167,7 @@ static const char *cause(SporeTrouble trouble) {
   return "";
 }
 
-static void report_island(SporeWorld *world, const SporeIsland *island) {
+static void report_frozen(SporeWorld *world, const SporeIsland *island) {
   const uint32_t *bodies = world->island_bodies + island->body_start;
   for (size_t i = island->kept_count; i < island->body_count; i++) {
     SporeBody *body = &world->bodies[bodies[i]];
@@ -158,16 +175,24 @@ static void report_island(SporeWorld *world, const SporeIsland *island) {
     spore_world_report(world, _("%s: frozen, because %s, in smaller steps too; reset, or change its parameters"),
                        body->name, cause(island->trouble));
   }
-  if (island->kept_count == 0) return;
-  SporeBody *first = &world->bodies[bodies[0]];
-  if (island->kept_count < island->body_count || first->told >= island->trouble) return;
-  first->told = island->trouble;
-  if (island->result.converged)
-    spore_world_report(world, _("%s: a step was taken again in %llu smaller ones, because %s"), first->name,
-                       (unsigned long long)island->mending_substeps, cause(island->trouble));
-  else
-    spore_world_report(world, _("%s: %s (residual %.1e); take a smaller time step or more iterations"), first->name,
+}
+
+/* Each body's troubles are told of once, the worst last. */
+static void report_mended(SporeWorld *world, const SporeIsland *island) {
+  SporeBody *body = &world->bodies[island->offender];
+  if (island->made_safer)
+    spore_world_report(world,
+                       _("%s: integrated by %s from now on, because %s; take a smaller time_step, or choose that "
+                         "integrator"),
+                       body->name, spore_integrator_names[SPORE_INTEGRATOR_IMPLICIT_EULER], cause(island->trouble));
+  if (body->told >= island->trouble) return;
+  body->told = island->trouble;
+  if (!island->result.converged)
+    spore_world_report(world, _("%s: %s (residual %.1e); take a smaller time step or more iterations"), body->name,
                        cause(SPORE_TROUBLE_NOT_CONVERGED), island->result.residual);
+  else if (!island->made_safer)
+    spore_world_report(world, _("%s: a step was taken again in %llu smaller ones, because %s"), body->name,
+                       (unsigned long long)island->mending_substeps, cause(island->trouble));
 }
 
 void spore_world_report_islands(SporeWorld *world) {
@@ -177,7 +202,50 @@ void spore_world_report_islands(SporeWorld *world) {
     if (island->trouble == SPORE_TROUBLE_NONE) continue;
     monitor->recoveries += island->mending_substeps > 0;
     monitor->substeps += island->mending_substeps;
+    monitor->not_finite += island->trouble == SPORE_TROUBLE_NOT_FINITE;
+    monitor->too_fast += island->trouble == SPORE_TROUBLE_SPEED;
+    monitor->energy += island->trouble == SPORE_TROUBLE_ENERGY;
     monitor->not_converged += !island->result.converged;
-    report_island(world, island);
+    if (island->kept_count < island->body_count) report_frozen(world, island);
+    else report_mended(world, island);
   }
+}
+
+void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term) {
+  SporeBody *a = &world->bodies[term->a.body], *b = &world->bodies[term->b.body];
+  world->monitor.deep_contacts++;
+  if (a->told_deep && b->told_deep) return;
+  a->told_deep = b->told_deep = true;
+  spore_world_report(world,
+                     _("%s: is %.2g m deep in %s, more than the radius of a sphere; take a stiffer contact or a "
+                       "smaller time_step"),
+                     a->name, term->depth, b->name);
+}
+
+/* The body that the solvers were busiest with, by the counts of the step. */
+static const char *busiest_body(const SporeWorld *world) {
+  const char *name = NULL;
+  size_t most = 0;
+  for (size_t i = 0; i < world->island_count; i++) {
+    const SporeIsland *island = &world->islands[i];
+    size_t work = (island->result.force_evaluations + island->result.linear_iterations) * island->v_count;
+    if (work <= most) continue;
+    most = work;
+    name = world->bodies[world->island_bodies[island->body_start]].name;
+  }
+  return name;
+}
+
+void spore_world_report_budget(SporeWorld *world) {
+  if (world->monitor.over_budget++ > 0) return;
+  const SporeProfilePhase *slowest = NULL;
+  for (size_t i = 0; i < world->run_count; i++) {
+    const SporeProfilePhase *phase = &world->run[i]->profile;
+    if (!slowest || spore_profile_last_ns(phase) > spore_profile_last_ns(slowest)) slowest = phase;
+  }
+  const char *body = busiest_body(world);
+  spore_world_report(world,
+                     _("%s: a step took %.3g us of the %.3g us it may take, most of it to %s; make the scene "
+                       "coarser, or take a larger time_step"),
+                     body ? body : "", world->step_us, world->budget_us, slowest->name);
 }

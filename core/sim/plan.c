@@ -120,6 +120,7 @@ void spore_world_run_plan(SporeWorld *world) {
   }
   spore_profile_add(&world->profile, before - start);
   world->step_us = (double)(before - start) * 1e-3;
+  if (world->budget_us > 0 && world->step_us > world->budget_us) spore_world_report_budget(world);
 }
 
 const SporePlan *spore_world_plan(const SporeWorld *world) {

@@ -86,6 +86,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
 void spore_world_step(SporeWorld *world) { spore_world_run_plan(world); }
 
 static void reset_body(SporeWorld *world, SporeBody *body) {
+  body->integrator = body->chosen;
+  body->watch.started = body->told_deep = false;
   body->frozen = false;
   body->rest_steps = 0;
   body->told = SPORE_TROUBLE_NONE;
@@ -112,8 +114,9 @@ void spore_world_reset(SporeWorld *world) {
   world->counts = (SporeStepCounts){0};
   world->step_us = 0;
   for (size_t b = 0; b < world->body_count; b++) reset_body(world, &world->bodies[b]);
-  world->monitor.recoveries = world->monitor.substeps = 0;
-  world->monitor.not_converged = world->monitor.held_inputs = 0;
+  SporeMonitor *monitor = &world->monitor;
+  monitor->recoveries = monitor->substeps = monitor->not_finite = monitor->too_fast = monitor->energy = 0;
+  monitor->not_converged = monitor->deep_contacts = monitor->over_budget = monitor->held_inputs = 0;
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_snapshot_publish(world);
@@ -130,6 +133,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   spore_world_advance_state(world);
   body->matrix_c = 0;
   body->history_s = 0;
+  body->watch.started = false;
   spore_body_reset_choice(world, body);
   world->contact_count = world->grip_count = 0; /* they belong to the state before */
   if (body->model) spore_body_update_mass(world, body, world->q + body->q_offset);
@@ -137,6 +141,8 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   spore_world_link(world);
   spore_snapshot_publish(world);
 }
+
+void spore_world_set_budget(SporeWorld *world, double budget_us) { world->budget_us = budget_us; }
 
 void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *device) {
   if (body < world->body_count) world->bodies[body].device = device;
@@ -160,6 +166,9 @@ uint32_t spore_world_find_body(const SporeWorld *world, const char *name) {
 const char *spore_world_body_name(const SporeWorld *world, uint32_t body) { return world->bodies[body].name; }
 SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body) { return world->bodies[body].role; }
 const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body) { return world->bodies[body].model; }
+bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body) {
+  return world->bodies[body].integrator != world->bodies[body].chosen;
+}
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body) { return world->bodies[body].frozen; }
 bool spore_world_body_asleep(const SporeWorld *world, uint32_t body) { return world->bodies[body].asleep; }
 uint64_t spore_world_step_count(const SporeWorld *world) { return world->step; }

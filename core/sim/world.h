@@ -132,21 +132,31 @@ typedef struct SporePlan {
 const SporePlan *spore_world_plan(const SporeWorld *world);
 const SporeProfilePhase *spore_world_profile(const SporeWorld *world); /* of whole steps */
 
-/* Monitor: what had to be mended. Messages are kept in a ring of SPORE_MONITOR_MESSAGES; `serial` counts all ever. */
+/* Monitor: what went wrong, and what was done about it. Counts are of steps, or of islands in them where several are
+ * solved in one. Messages are kept in a ring of SPORE_MONITOR_MESSAGES; `serial` counts all ever. */
 #define SPORE_MONITOR_MESSAGES 64
 typedef struct SporeMonitorMessage {
   uint64_t serial, step;
   char text[256]; /* names body and cause, translated */
 } SporeMonitorMessage;
 typedef struct SporeMonitor {
-  uint64_t recoveries;    /* steps taken again from the last good state */
+  uint64_t recoveries;    /* steps taken again from the last good state, implicitly and in smaller ones */
   uint64_t substeps;      /* extra steps that this cost */
-  uint64_t not_converged; /* solver ended above its tolerance */
+  uint64_t not_finite;    /* taken again for that; what cannot be mended is frozen */
+  uint64_t too_fast;      /* the same, above maximum_speed */
+  uint64_t energy;        /* the same, where an explicit step made energy without bound; implicit from then on */
+  uint64_t not_converged; /* solver ended above its tolerance; taken again where it did by far */
+  uint64_t deep_contacts; /* contacts deeper than the smaller sphere's radius: said, and let be */
+  uint64_t over_budget;   /* steps that took longer than the budget: said, and let be */
   uint64_t held_inputs;   /* device states refused (not finite, or a jump) */
   uint64_t message_count; /* ever */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
 } SporeMonitor;
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);
+/* Time that a step may take, us of the clock; 0: any. A longer one is counted and said, and changes nothing else. */
+void spore_world_set_budget(SporeWorld *world, double budget_us);
+/* The monitor integrates the body implicitly, which the scene does not. */
+bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body);
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);
 bool spore_world_body_asleep(const SporeWorld *world, uint32_t body);
 

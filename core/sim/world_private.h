@@ -27,6 +27,7 @@
 typedef enum SporeTrouble { /* worst last */
                             SPORE_TROUBLE_NONE,
                             SPORE_TROUBLE_NOT_CONVERGED,
+                            SPORE_TROUBLE_ENERGY,
                             SPORE_TROUBLE_SPEED,
                             SPORE_TROUBLE_NOT_FINITE
 } SporeTrouble;
@@ -45,11 +46,20 @@ typedef struct SporeFactorChoice {
   double fresh, excess;     /* iterations of a step with a new one; what those since then took above that */
 } SporeFactorChoice;
 
+/* Energy of a body in explicit steps: see energy_watch.c. J. */
+typedef struct SporeEnergyWatch {
+  bool started;
+  uint32_t steps;     /* since */
+  double own, height; /* kinetic plus strain energy, and that of gravity, at the start */
+  double given;       /* by contacts and links since */
+} SporeEnergyWatch;
+
 typedef struct SporeBody {
   char *name;
   SporeRole role;
   SporeModel *model;
-  SporeIntegratorKind integrator;
+  SporeIntegratorKind integrator; /* now */
+  SporeIntegratorKind chosen;     /* by the scene; the monitor may have taken a safer one */
   size_t substeps;
   SporeContactFields contact;
   SporePose rest_pose;                             /* at time 0 */
@@ -69,6 +79,8 @@ typedef struct SporeBody {
   double sleep_energy;          /* of the contacts that sleep with it, kept with the first body of an island, J */
   uint64_t changed;  /* number of the state that its own last differed in from the one before: see snapshot.c */
   SporeTrouble told; /* the worst that the monitor has said of it */
+  bool told_deep;    /* that it lies too deep in another */
+  SporeEnergyWatch watch;
 
   SporeBlockMatrix matrix;    /* M + c D + c2 K of the model alone; empty where that is M */
   double matrix_c, matrix_c2; /* as assembled; 0: not */
@@ -108,6 +120,8 @@ typedef struct SporeIsland {
   /* What came of it. */
   SporeStepResult result;
   SporeTrouble trouble;      /* that was met, mended or not */
+  uint32_t offender;         /* the body that it was met in */
+  bool made_safer;           /* its integrator was changed by this step */
   uint64_t mending_substeps; /* that the mending cost; 0: none needed */
   size_t kept_count;         /* bodies behind these were frozen by this step */
   bool rests, falls_asleep;
@@ -201,6 +215,7 @@ struct SporeWorld {
   SporePlanLeftOut left_out[SPORE_LEFT_OUT_MAXIMUM];
   SporeProfilePhase profile;
   double step_us;     /* of the step before */
+  double budget_us;   /* 0: none */
   SporeEnergy energy; /* the last one taken for a snapshot */
 };
 
@@ -290,10 +305,22 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps);
 
 /* monitor.c */
-SporeTrouble spore_island_examine(const SporeWorld *world, const SporeIsland *island, uint32_t *offender);
+/* Sets island->trouble and, where there is any, island->offender. */
+void spore_island_examine(SporeWorld *world, SporeIsland *island);
 void spore_island_recover(SporeWorld *world, SporeIsland *island);
 void spore_world_report(SporeWorld *world, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void spore_world_report_islands(SporeWorld *world);
+/* A contact deeper than the smaller of its spheres. */
+void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term);
+/* A step that took longer than the budget. */
+void spore_world_report_budget(SporeWorld *world);
+
+/* energy.c: of a body at q, v; J. */
+double spore_body_kinetic_energy(const SporeWorld *world, const SporeBody *body, const double *v);
+double spore_body_gravity_energy(const SporeWorld *world, const SporeBody *body, const double *q);
+
+/* energy_watch.c: false where a body of the island has more energy after the step than can be; island->offender. */
+bool spore_island_energy_holds(SporeWorld *world, SporeIsland *island);
 
 /* snapshot.c */
 bool spore_snapshots_init(SporeWorld *world);

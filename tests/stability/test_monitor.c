@@ -1,0 +1,142 @@
+/* Each trouble that the monitor knows, provoked: what it does about it, counts and says. Forces that are not finite and
+ * bodies that are too fast are in tests/kernel/test_sim_world.c. */
+#include <math.h>
+#include <string.h>
+
+#include "tests/stability/rig.h"
+
+static const SporeMonitor *quiet(const SporeWorld *world) {
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  g_assert_cmpuint(monitor->not_finite + monitor->too_fast + monitor->energy + monitor->not_converged, ==, 0);
+  g_assert_cmpuint(monitor->deep_contacts + monitor->over_budget + monitor->recoveries, ==, 0);
+  g_assert_cmpuint(monitor->message_count, ==, 0);
+  return monitor;
+}
+
+static Rig *hanging_net(SporeIntegratorKind integrator) {
+  Rig *rig = rig_new();
+  SporeTriangleMesh sheet;
+  shape_sheet(&sheet, 8, 8, 0.02, TRUE);
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.integrator = integrator;
+  rig_passive(rig, "net", rig_surface_model(&spore_mass_spring_net, &sheet, "damping", 0.0, NULL), NULL);
+  rig_pin(rig, 0, spore_vec3(0, 0, 0), 1e-3);
+  rig_pin(rig, 0, spore_vec3(0.14, 0.14, 0), 1e-3);
+  return rig;
+}
+
+/* A net that is made too stiff for its explicit step while it runs goes on implicitly, before its energy is worth
+ * mentioning; a reset gives it back what the scene says. */
+static void test_energy(void) {
+  Rig *rig = hanging_net(SPORE_INTEGRATOR_SYMPLECTIC_EULER);
+  rig->description.solver.time_step = 1e-4;
+  SporeWorld *world = rig_build(rig);
+  rig_run(world, 3000);
+  const SporeMonitor *monitor = quiet(world);
+  SporeCommand stiffen = {.kind = SPORE_COMMAND_RETUNE};
+  stiffen.fields = rig_fields(&spore_mass_spring_net, "damping", 0.0, "structural_stiffness", 1e5, NULL);
+  g_assert_true(spore_world_post(world, &stiffen));
+  spore_world_step(world);
+  SporeEnergy after = spore_world_energy(world);
+  double most = 0;
+  for (int i = 0; i < 3000; i++) {
+    spore_world_step(world);
+    most = fmax(most, spore_world_energy(world).kinetic);
+  }
+  double had = after.kinetic + after.internal;
+  g_test_message("kinetic energy at most %.2g J after %.2g J; %s", most, had, rig_last_message(world));
+  g_assert_true(rig_finite(world));
+  g_assert_false(rig_any_frozen(world));
+  g_assert_cmpuint(monitor->energy, ==, 1);
+  g_assert_cmpuint(monitor->recoveries, ==, 1);
+  g_assert_true(spore_world_body_made_safer(world, 0));
+  g_assert_true(rig_said(world, "net: "));
+  g_assert_nonnull(strstr(rig_last_message(world), "energy"));
+  g_assert_cmpfloat(most, <, 1e4 * had);
+  spore_world_reset(world);
+  g_assert_false(spore_world_body_made_safer(world, 0));
+  rig_free(rig);
+}
+
+/* Gravity, a pull, a change of stiffness that the step still bears: none of it is a fault. */
+static void test_no_false_alarm(void) {
+  Rig *rig = hanging_net(SPORE_INTEGRATOR_SYMPLECTIC_EULER);
+  rig->description.solver.time_step = 5e-4;
+  SporeWorld *world = rig_build(rig);
+  SporeCommand commands[4] = {
+      {.kind = SPORE_COMMAND_GRAVITY, .vector = {0, 30, 0}},
+      {.kind = SPORE_COMMAND_PULL, .point = {0.14, 0, 0}, .vector = {0.4, -0.2, 0.3}, .number = 200},
+      {.kind = SPORE_COMMAND_RELEASE},
+      {.kind = SPORE_COMMAND_RETUNE}};
+  commands[3].fields = rig_fields(&spore_mass_spring_net, "damping", 0.0, "structural_stiffness", 200.0, NULL);
+  for (int i = 0; i < 4; i++) {
+    g_assert_true(spore_world_post(world, &commands[i]));
+    rig_run(world, 1000);
+    quiet(world);
+  }
+  rig_free(rig);
+}
+
+static void test_not_converged(void) {
+  Rig *rig = hanging_net(SPORE_INTEGRATOR_IMPLICIT_EULER);
+  rig->description.solver.time_step = 0.02;
+  rig->description.solver.newton_iterations = 1;
+  rig->description.solver.linear_iterations = 1;
+  rig->description.solver.tolerance = 1e-10;
+  SporeWorld *world = rig_build(rig);
+  rig_run(world, 50);
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  g_test_message("%u of 50 steps not converged; %s", (unsigned)monitor->not_converged, rig_last_message(world));
+  g_assert_true(rig_finite(world));
+  g_assert_cmpuint(monitor->not_converged, >, 0);
+  g_assert_true(rig_said(world, "net: its equations"));
+  rig_free(rig);
+}
+
+static void test_deep_contact(void) {
+  Rig *rig = rig_new();
+  for (int i = 0; i < 2; i++) {
+    SporeTriangleMesh box;
+    shape_box(&box, spore_vec3(0, 0, 0), spore_vec3(0.01, 0.01, 0.01));
+    SporeModel *model = rig_surface_model(&spore_rigid_body, &box, NULL);
+    SporeBodyDescription *body = rig_passive(rig, i ? "right" : "left", model, rig_sphere(rig, 0.01));
+    body->pose.position.x = 0.009 * i; /* radius 10 mm each: 11 mm deep */
+  }
+  SporeWorld *world = rig_build(rig);
+  rig_run(world, 2000);
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  g_test_message("%u deep contacts; %s", (unsigned)monitor->deep_contacts, rig_last_message(world));
+  g_assert_cmpuint(monitor->deep_contacts, >, 0);
+  g_assert_cmpuint(monitor->message_count, ==, 1);
+  g_assert_true(rig_said(world, "left: is 0.011 m deep in right"));
+  g_assert_cmpfloat(spore_world_q(world, 1)[0] - spore_world_q(world, 0)[0], >=, 0.02);
+  rig_free(rig);
+}
+
+/* Whoever paces a run may say what a step may take; physics does not know. */
+static void test_budget(void) {
+  uint64_t hash[2];
+  for (int i = 0; i < 2; i++) {
+    Rig *rig = hanging_net(SPORE_INTEGRATOR_IMPLICIT_EULER);
+    SporeWorld *world = rig_build(rig);
+    spore_world_set_budget(world, i ? 1e-3 : 1e12);
+    rig_run(world, 20);
+    g_assert_cmpuint(spore_world_monitor(world)->over_budget, ==, i ? 20 : 0);
+    g_assert_cmpuint(spore_world_monitor(world)->message_count, ==, i);
+    if (i) g_assert_true(rig_said(world, "net: a step took"));
+    if (i) g_assert_nonnull(strstr(rig_last_message(world), "integrate"));
+    hash[i] = spore_world_hash(world);
+    rig_free(rig);
+  }
+  g_assert_cmphex(hash[0], ==, hash[1]);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/monitor/energy", test_energy);
+  g_test_add_func("/monitor/no_false_alarm", test_no_false_alarm);
+  g_test_add_func("/monitor/not_converged", test_not_converged);
+  g_test_add_func("/monitor/deep_contact", test_deep_contact);
+  g_test_add_func("/monitor/budget", test_budget);
+  return g_test_run();
+}
