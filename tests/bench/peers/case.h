@@ -2,8 +2,9 @@
  *
  *   PROGRAM CASE [NAME=NUMBER...] [trajectory=FILE]
  *
- * steps=N steps of time/N seconds each. Answers one line of JSON: the CPU seconds of the steps alone, and what else the
- * case counts. FILE takes the positions at `frames` even times after 0, the last one at the end: doubles, x y z a node.
+ * steps=N steps, a multiple of `frames`, of time/N seconds each. Answers one line of JSON: the CPU seconds of the steps
+ * alone, and what else the case counts. FILE takes the positions at `frames` even times after 0, the last one at the
+ * end: doubles, x y z a node.
  */
 #ifndef SPORE_TESTS_BENCH_CASE_H
 #define SPORE_TESTS_BENCH_CASE_H
@@ -86,7 +87,7 @@ static inline void bar_node(unsigned i, double x[3]) {
 typedef struct CaseRun {
   int argc;
   char **argv;
-  unsigned steps, frames, frame, done;
+  unsigned steps, frames, frame;
   double time, cpu_s, since;
   FILE *trajectory;
 } CaseRun;
@@ -104,11 +105,14 @@ static inline double case_number(const CaseRun *run, const char *name, double ot
 }
 
 static inline CaseRun case_begin(int argc, char **argv) {
-  CaseRun run = {argc, argv, 0, 0, 0, 0, 0, 0, 0, NULL};
+  CaseRun run = {argc, argv, 0, 0, 0, 0, 0, 0, NULL};
   run.time = case_number(&run, "time", 1);
   run.steps = (unsigned)case_number(&run, "steps", 1000);
-  run.frames = (unsigned)case_number(&run, "frames", 20);
-  if (run.frames > run.steps) run.frames = run.steps;
+  run.frames = (unsigned)case_number(&run, "frames", 10);
+  if (run.frames == 0 || run.steps % run.frames) {
+    fprintf(stderr, "%u steps cannot end on %u even times\n", run.steps, run.frames);
+    exit(2);
+  }
   const char *file = case_word(&run, "trajectory", NULL);
   if (file) run.trajectory = fopen(file, "wb");
   return run;
@@ -122,14 +126,12 @@ static inline double case_cpu_s(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Steps of the next frame, now to be timed; 0: the run is at its end. No more frames than steps. */
+/* Steps of the next frame, now to be timed; 0: the run is at its end. */
 static inline unsigned case_next_frame(CaseRun *run) {
   if (run->frame == run->frames) return 0;
   run->frame++;
-  unsigned end = (unsigned)((unsigned long long)run->frame * run->steps / run->frames), count = end - run->done;
-  run->done = end;
   run->since = case_cpu_s();
-  return count;
+  return run->steps / run->frames;
 }
 static inline void case_stop(CaseRun *run) { run->cpu_s += case_cpu_s() - run->since; }
 static inline void case_node(CaseRun *run, double x, double y, double z) {

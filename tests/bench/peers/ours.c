@@ -1,4 +1,5 @@
-/* The cases of case.h by us. Besides what they share: integrator=NAME newton=N tolerance=X linear=N for the solver. */
+/* The cases of case.h by us. Besides what they share, for the solver: integrator=NAME nonlinear=NAME substeps=N
+ * newton=N linear=N tolerance=X. */
 #include <math.h>
 
 #include "core/sim/world.h"
@@ -8,20 +9,33 @@
 #include "tests/stability/chain.h"
 #include "tests/stability/rig.h"
 
+static void refuse(const SporeError *error) {
+  fprintf(stderr, "%s: %s\n", error->place, error->message);
+  exit(1);
+}
+
+static void set_solver(SporeSolverFields *solver, const char *name, const char *text) {
+  SporeError error = SPORE_ERROR_INIT;
+  const SporeParameter *parameter =
+      spore_solver_parameters.parameters + spore_parameter_find(&spore_solver_parameters, name);
+  SporeValue value;
+  if (!spore_parameter_parse(parameter, text, &value, &error)) refuse(&error);
+  spore_parameter_store(parameter, &value, solver);
+  spore_value_clear(&value);
+}
+
 static Rig *begin(const CaseRun *run, const char *integrator) {
   Rig *rig = rig_new();
   SporeSolverFields *solver = &rig->description.solver;
-  const char *wanted = case_word(run, "integrator", NULL);
   rig->description.gravity = spore_vec3(0, -CASE_GRAVITY, 0);
+  set_solver(solver, "integrator", integrator);
+  set_solver(solver, "maximum_speed", "1000");
+  set_solver(solver, "sleep_speed", "0"); /* no peer sleeps here */
+  for (size_t p = 0; p < spore_solver_parameters.count; p++) {
+    const char *name = spore_solver_parameters.parameters[p].name, *text = case_word(run, name, NULL);
+    if (text) set_solver(solver, name, text);
+  }
   solver->time_step = case_time_step(run);
-  solver->integrator = SPORE_INTEGRATOR_DEFAULT;
-  for (int k = 0; spore_integrator_names[k]; k++)
-    if (!strcmp(spore_integrator_names[k], wanted ? wanted : integrator)) solver->integrator = k;
-  if (solver->integrator == SPORE_INTEGRATOR_DEFAULT) g_error("there is no integrator %s", wanted);
-  solver->newton_iterations = (int64_t)case_number(run, "newton", (double)solver->newton_iterations);
-  solver->linear_iterations = (int64_t)case_number(run, "linear", (double)solver->linear_iterations);
-  solver->tolerance = case_number(run, "tolerance", solver->tolerance);
-  solver->maximum_speed = 1e3;
   return rig;
 }
 
@@ -73,9 +87,7 @@ static void finish(CaseRun *run, Rig *rig) {
 /* What the kernel refuses, such as too large a step, is the caller's to know. */
 static void build(Rig *rig) {
   SporeError error = SPORE_ERROR_INIT;
-  if (rig_try_build(rig, &error)) return;
-  fprintf(stderr, "%s: %s\n", error.place, error.message);
-  exit(1);
+  if (!rig_try_build(rig, &error)) refuse(&error);
 }
 
 static void cloth(CaseRun *run) {
