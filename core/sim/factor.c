@@ -11,12 +11,13 @@
 
 #define WORTH_ITERATIONS 2000 /* a factor that costs more than so many iterations is not made */
 #define GAIN 1.25             /* what a change must promise */
-#define PATIENCE 4            /* steps in a row that must promise it */
+#define PATIENCE 4            /* steps that must promise it, taken together */
 #define PATIENCE_MAXIMUM 256
 #define TRIAL_STEPS 128      /* a factor is put to the question so often */
 #define FACTOR_ITERATIONS 2. /* expected of conjugate gradients with the factor, a Newton iteration */
 #define KEEP 4               /* steps that a linearisation is kept at first, and at most */
 #define KEEP_MAXIMUM 64
+#define TRIAL_MAXIMUM 32
 /* Work is counted in operations of a product with the matrix. Dense ones are quicker by these factors; a model's
  * Jacobian takes so many a block, its force and the vectors of an iteration so many a node. */
 #define FACTOR_WEIGHT 0.25
@@ -64,56 +65,62 @@ static void change(SporeBody *body, double iterations) {
   SporeFactorChoice *choice = &body->choice;
   choice->factorised = !choice->factorised;
   choice->iterations = iterations;
-  choice->votes = choice->steps = 0;
+  choice->steps = choice->votes = 0;
+  choice->present = choice->other = 0;
 }
 
-/* True where the factor promises less work than block-Jacobi took. Newton makes a factor and two products with it an
- * iteration, Broyden one factor a step. */
-static bool factor_pays(const SporeBody *body, const SporeStepResult *result, bool broyden) {
-  double matrices = result->linearisations > 0 ? (double)result->linearisations : 1;
-  double iterations = (double)result->newton_iterations;
-  double before = (double)result->linear_iterations * jacobi_work(body) +
-                  matrices * JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count];
-  double after = broyden ? spore_body_linearisation_work(body) + iterations * spore_body_iteration_work(body)
-                         : matrices * spore_body_linearisation_work(body) +
-                               FACTOR_ITERATIONS * iterations * (solve_work(body) + product_work(body));
-  return before > GAIN * after;
+static double jacobian_work(const SporeBody *body) {
+  return JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count];
 }
 
-/* True where the factor takes more work than block-Jacobi did before. */
-static bool factor_disappoints(const SporeBody *body, const SporeStepResult *result) {
+/* What the step took by conjugate gradients alone, and what it would take with a factor: Newton makes one and two
+ * products with it an iteration, Broyden keeps one for some steps. */
+static double work_without(const SporeBody *body, const SporeStepResult *result) {
+  return (double)result->linear_iterations * jacobi_work(body) + (double)result->linearisations * jacobian_work(body);
+}
+
+static double expected_with(const SporeBody *body, const SporeStepResult *result, bool broyden) {
   double iterations = (double)result->newton_iterations;
-  double now = (double)result->linearisations * spore_body_linearisation_work(body) +
-               (double)result->linear_iterations * (solve_work(body) + product_work(body));
-  double before = iterations * (body->choice.iterations * jacobi_work(body) +
-                                JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count]);
-  return now > GAIN * before;
+  if (broyden) return spore_body_linearisation_work(body) / KEEP + iterations * spore_body_iteration_work(body);
+  return (double)result->linearisations * spore_body_linearisation_work(body) +
+         FACTOR_ITERATIONS * iterations * (solve_work(body) + product_work(body));
+}
+
+/* What it took with a factor, and what it would take without, by the conjugate gradients of then. */
+static double work_with(const SporeBody *body, const SporeStepResult *result) {
+  return (double)result->linearisations * spore_body_linearisation_work(body) +
+         (double)result->linear_iterations * (solve_work(body) + product_work(body));
+}
+
+static double expected_without(const SporeBody *body, const SporeStepResult *result) {
+  return (double)result->newton_iterations * (body->choice.iterations * jacobi_work(body) + jacobian_work(body));
 }
 
 /* A linearisation is kept as long as that costs less than a new one. Where keeping it leads to a new one in the middle
  * of a step, it was kept too long; where that does not happen for a while, it may be kept longer. */
-static void judge_age(SporeBody *body, const SporeStepResult *result) {
+static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepResult *result) {
   SporeFactorChoice *choice = &body->choice;
   SporeStart start = choice->start;
   choice->start = SPORE_START_NONE;
   if (start == SPORE_START_NONE) return;
   double iterations = (double)result->newton_iterations;
+  uint32_t age = (uint32_t)(world->step - choice->made);
   if (start == SPORE_START_NEW) {
     choice->fresh = iterations;
     choice->excess = 0;
-  } else if (result->linearisations > 0) {
-    choice->keep = choice->keep > 1 ? choice->keep / 2 : 1;
-    choice->calm = 0;
-    if (choice->trial < PATIENCE_MAXIMUM) choice->trial *= 2;
-    return;
-  } else {
+  } else if (result->linearisations == 0) {
     choice->excess += fmax(iterations - choice->fresh, 0) * spore_body_iteration_work(body);
     if (choice->excess > spore_body_linearisation_work(body)) body->matrix_c = 0;
+  } else {
+    choice->keep = age > 1 ? age : 1;
+    choice->calm = 0;
+    choice->trial = age > 1 ? PATIENCE : choice->trial < TRIAL_MAXIMUM ? 2 * choice->trial : TRIAL_MAXIMUM;
   }
+  choice->made = body->matrix_step;
   if (++choice->calm < choice->trial) return;
   choice->calm = 0;
-  if (choice->keep < KEEP_MAXIMUM) choice->keep *= 2;
   if (choice->trial > PATIENCE) choice->trial /= 2;
+  if (choice->keep < KEEP_MAXIMUM) choice->keep += (choice->keep + 1) / 2;
 }
 
 static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result) {
@@ -127,15 +134,23 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   }
   if (result->newton_iterations == 0) return; /* at rest: nothing to learn */
   double iterations = (double)result->linear_iterations / (double)result->newton_iterations;
-  bool other = choice->factorised ? factor_disappoints(body, result)
-                                  : factor_pays(body, result, world->solver.nonlinear != SPORE_NONLINEAR_NEWTON);
-  choice->votes = other ? choice->votes + 1 : 0;
+  bool broyden = world->solver.nonlinear != SPORE_NONLINEAR_NEWTON;
+  choice->present += choice->factorised ? work_with(body, result) : work_without(body, result);
+  choice->other += choice->factorised ? expected_without(body, result) : expected_with(body, result, broyden);
   choice->steps++;
-  if (choice->votes >= choice->patience) {
-    if (choice->factorised && choice->patience < PATIENCE_MAXIMUM) choice->patience *= 2;
+  if (++choice->votes >= choice->patience) {
+    bool better = choice->present > GAIN * choice->other;
+    choice->votes = 0;
+    choice->present = choice->other = 0;
+    if (better) {
+      if (choice->factorised && choice->patience < PATIENCE_MAXIMUM) choice->patience *= 2;
+      change(body, iterations);
+      return;
+    }
+  }
+  if (choice->factorised && choice->steps >= TRIAL_STEPS) {
     change(body, iterations);
-  } else if (choice->factorised && choice->steps >= TRIAL_STEPS) {
-    change(body, iterations);
+    choice->votes = choice->patience - 1; /* one step of the other way tells */
   }
 }
 
@@ -146,7 +161,7 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
     SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     SporeFactorChoice *choice = &body->choice;
     if (body->factor.block_count == 0) continue;
-    judge_age(body, result);
+    judge_age(world, body, result);
     if (world->solver.linear != SPORE_LINEAR_AUTOMATIC) continue;
     if (result->unsolved > 0 && !choice->factorised) {
       change(body, 0);

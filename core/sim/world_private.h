@@ -37,10 +37,12 @@ typedef enum SporeStart { SPORE_START_NONE, SPORE_START_NEW, SPORE_START_KEPT } 
 /* Whether a body's matrix is factorised, how long a linearisation is kept, and what led to it: see factor.c. */
 typedef struct SporeFactorChoice {
   bool factorised, needed;  /* needed: conjugate gradients alone did not solve a step */
-  uint32_t votes, patience; /* for the other way, in a row; how many it takes */
+  uint32_t votes, patience; /* steps that work was counted in; how many it takes to judge */
+  double present, other;    /* work that they took, and would have taken the other way */
   uint32_t steps;           /* since the last change */
   double iterations;        /* a Newton iteration, before the change */
   SporeStart start;         /* of the present step: whether it began with a linearisation of a step before */
+  uint64_t made;            /* the step that the linearisation was of before the present step */
   uint32_t keep;            /* steps that a linearisation is kept */
   uint32_t calm, trial;     /* steps that this went well; after how many it may be kept longer */
   double fresh, excess;     /* iterations of a step with a new one; what those since then took above that */
