@@ -120,18 +120,3 @@ void spore_block_matrix_add(SporeBlockMatrix *matrix, uint32_t i, uint32_t j, co
   double *block = matrix->values + 9 * spore_block_matrix_find(matrix, i, j);
   for (int e = 0; e < 9; e++) block[e] += k[e];
 }
-
-void spore_block_matrix_multiply_add(const SporeBlockMatrix *matrix, const double *x, double *y) {
-  for (size_t i = 0; i < matrix->block_count; i++) {
-    double s0 = 0, s1 = 0, s2 = 0;
-    for (uint32_t k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
-      const double *a = matrix->values + 9 * (size_t)k, *b = x + 3 * (size_t)matrix->column[k];
-      s0 += a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-      s1 += a[3] * b[0] + a[4] * b[1] + a[5] * b[2];
-      s2 += a[6] * b[0] + a[7] * b[1] + a[8] * b[2];
-    }
-    y[3 * i] += s0;
-    y[3 * i + 1] += s1;
-    y[3 * i + 2] += s2;
-  }
-}

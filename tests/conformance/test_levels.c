@@ -2,7 +2,7 @@
 #include "core/base/cpu.h"
 #include "tests/conformance/specimen.h"
 
-/* What a model says of a state, all in one array. */
+/* What a model says of a state, all in one array: forces at two shapes, energy, Jacobian and its product with v. */
 static double *answers(const SporeModel *model, const State *state, size_t *count) {
   SporeBlockMatrix matrix = {0};
   size_t blocks = 0;
@@ -14,11 +14,16 @@ static double *answers(const SporeModel *model, const State *state, size_t *coun
     model->type->jacobian(model, state->q, state->q, state->v, 0.3, 0.7, &matrix);
     blocks = matrix.row_start[matrix.block_count];
   }
-  *count = state->v_count + 1 + 9 * blocks;
+  size_t n = state->v_count;
+  *count = 3 * n + 1 + 9 * blocks;
   double *all = vector_new(*count);
+  State shape = state_moved(model, state, state->v, 0.01);
   model->type->force(model, state->q, state->q, state->v, all);
-  all[state->v_count] = model->type->potential(model, state->q);
-  for (size_t i = 0; i < 9 * blocks; i++) all[state->v_count + 1 + i] = matrix.values[i];
+  model->type->force(model, state->q, shape.q, state->v, all + n);
+  if (blocks) spore_block_matrix_multiply_add(&matrix, state->v, all + 2 * n);
+  all[3 * n] = model->type->potential(model, state->q);
+  for (size_t i = 0; i < 9 * blocks; i++) all[3 * n + 1 + i] = matrix.values[i];
+  state_clear(&shape);
   spore_block_matrix_clear(&matrix);
   return all;
 }
