@@ -241,7 +241,6 @@ const SporeModelType spore_corotational_tetrahedra = {
     .create = create,
     .destroy = destroy,
     .place = place,
-    .mass = spore_nodal_mass,
     .force = force,
     .potential = potential,
     .map = map,

@@ -193,7 +193,6 @@ const SporeModelType spore_mass_spring_net = {
     .create = create,
     .destroy = destroy,
     .place = place,
-    .mass = spore_nodal_mass,
     .force = force,
     .potential = potential,
     .map = map,

@@ -14,14 +14,6 @@ void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVe
   }
 }
 
-void spore_nodal_mass(const SporeModel *model, const double *q, double *blocks) {
-  for (size_t i = 0; i < model->block_count; i++) {
-    double m = model->block_mass[i];
-    SporeMat3 block = spore_mat3_diagonal(m, m, m);
-    for (int k = 0; k < 9; k++) blocks[9 * i + k] = block.m[k];
-  }
-}
-
 bool spore_nodal_check_mass(const SporeModel *model, const char *element, SporeError *error) {
   for (size_t i = 0; i < model->block_count; i++) {
     if (model->block_mass[i] > 0) continue;

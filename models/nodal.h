@@ -7,8 +7,6 @@
 /* Node i at pose applied to rest (3 a node), moving with the frame. */
 void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q,
                        double *v);
-/* mass slot: block_mass on the diagonals. */
-void spore_nodal_mass(const SporeModel *model, const double *q, double *blocks);
 /* Refuses a node without mass: no `element` ("triangle") holds it, or only ones without size. */
 bool spore_nodal_check_mass(const SporeModel *model, const char *element, SporeError *error);
 

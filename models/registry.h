@@ -4,7 +4,8 @@
 
 #include "core/sim/model.h"
 
-extern const SporeModelType spore_rigid_body, spore_mass_spring_net, spore_corotational_tetrahedra;
+extern const SporeModelType spore_rigid_body, spore_mass_spring_net, spore_corotational_tetrahedra,
+    spore_deformable_surface;
 
 /* NULL-terminated. */
 extern const SporeModelType *const spore_model_registry[];

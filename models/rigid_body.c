@@ -136,11 +136,8 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   spore_vec3_store(v + 3, spin);
 }
 
-static void mass(const SporeModel *model, const double *q, double *blocks) {
-  const RigidBody *body = (const RigidBody *)model;
-  SporeMat3 linear = spore_mat3_diagonal(body->mass, body->mass, body->mass);
-  SporeMat3 angular = spore_inertia_turned(&body->inertia, spore_quat_load(q + 3));
-  for (int k = 0; k < 9; k++) blocks[k] = linear.m[k], blocks[9 + k] = angular.m[k];
+static SporeMat3 inertia(const SporeModel *model, const double *q) {
+  return spore_inertia_turned(&((const RigidBody *)model)->inertia, spore_quat_load(q + 3));
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {}
@@ -178,7 +175,7 @@ const SporeModelType spore_rigid_body = {
     .create = create,
     .destroy = destroy,
     .place = place,
-    .mass = mass,
+    .inertia = inertia,
     .force = force,
     .potential = potential,
     .map = map,

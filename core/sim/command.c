@@ -30,7 +30,7 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
   body->watch.started = false;
   spore_body_reset_choice(world, body);
   body->total_mass = spore_model_total_mass(body->model);
-  spore_body_update_mass(world, body, world->q + body->q_offset);
+  spore_body_set_mass(world, body);
 }
 
 static void set_contact(SporeWorld *world, SporeBody *body, const SporeContactFields *contact) {

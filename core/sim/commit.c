@@ -31,7 +31,7 @@ static void accept_island(SporeWorld *world, SporeIsland *island) {
 static void settle_island(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     const SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
-    if (!spore_model_is_nodal(body->model)) spore_body_update_mass(world, body, world->q + body->q_offset);
+    spore_body_turn_mass(world, body, world->q + body->q_offset);
   }
   if (island->falls_asleep) spore_island_keep_energy(world, island);
 }

@@ -37,8 +37,8 @@ static bool check_body(const SporeBodyDescription *body, SporeError *error) {
     return fail(error, name, _("the model has more than 6 configuration values a block; this is a fault of the model"));
   if (body->substeps > SPORE_SUBSTEPS_MAXIMUM)
     return fail(error, name, _("more than 1000 substeps; take a smaller time_step"));
-  if (body->model && !spore_model_is_nodal(body->model) && body->model->block_count > SPORE_TURNING_BLOCKS)
-    return fail(error, name, _("the model turns in more blocks than 8; this is a fault of the model"));
+  if (body->model && !spore_model_is_nodal(body->model) && !body->model->type->inertia)
+    return fail(error, name, _("the model turns, but does not say its inertia; this is a fault of the model"));
   SporeError reason = SPORE_ERROR_INIT;
   if (!spore_parameters_check(&spore_contact_parameters, &body->contact, &reason))
     return fail(error, name, reason.message);

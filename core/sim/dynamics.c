@@ -169,7 +169,7 @@ static void set_mass(void *data, const double *q) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_group_body(group, b, &site);
-    if (!spore_model_is_nodal(body->model)) spore_body_update_mass(group->world, body, q + site->q);
+    spore_body_turn_mass(group->world, body, q + site->q);
   }
 }
 
@@ -200,14 +200,15 @@ static void drift(void *data, const double *q0, const double *v, double h, doubl
   }
 }
 
-/* Of a body whose inertia turns: a rigid body's two blocks, or a few more. */
+/* Of a frame, whose inertia turns: the change of momentum is carried over. */
 static void carry_turning(const SporeGroup *group, const SporeBody *body, const double *dv, const double *q1,
                           double *v1) {
-  double mass[9 * SPORE_TURNING_BLOCKS], momentum[3 * SPORE_TURNING_BLOCKS];
-  spore_blocks_apply(spore_group_mass(group, body), body->block_count, dv, momentum);
-  body->model->type->mass(body->model, q1, mass);
-  spore_blocks_invert(mass, body->block_count);
-  spore_blocks_add(mass, body->block_count, 1, momentum, v1);
+  size_t at = body->model->node_count;
+  double momentum[3];
+  spore_blocks_apply(spore_group_mass(group, body) + 9 * at, 1, dv + 3 * at, momentum);
+  SporeMat3 inertia = body->model->type->inertia(body->model, q1);
+  spore_blocks_invert(inertia.m, 1);
+  spore_blocks_add(inertia.m, 1, 1, momentum, v1 + 3 * at);
 }
 
 static void carry(void *data, const double *dv, const double *q1, double *v1) {
@@ -215,9 +216,8 @@ static void carry(void *data, const double *dv, const double *q1, double *v1) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_group_body(group, b, &site);
-    if (spore_model_is_nodal(body->model))
-      for (size_t k = 0; k < 3 * body->block_count; k++) v1[site->v + k] += dv[site->v + k];
-    else carry_turning(group, body, dv + site->v, q1 + site->q, v1 + site->v);
+    for (size_t k = 0; k < 3 * body->model->node_count; k++) v1[site->v + k] += dv[site->v + k];
+    if (!spore_model_is_nodal(body->model)) carry_turning(group, body, dv + site->v, q1 + site->q, v1 + site->v);
   }
 }
 
@@ -275,9 +275,21 @@ SporeDynamics spore_group_dynamics(SporeGroup *group) {
                          .gravity_momentum = group->island->gravity_momentum};
 }
 
-void spore_body_update_mass(SporeWorld *world, const SporeBody *body, const double *q) {
+static void invert_mass(SporeWorld *world, const SporeBody *body, size_t start, size_t count) {
   double *mass = world->mass + 3 * body->v_offset, *inverse = world->mass_inverse + 3 * body->v_offset;
-  body->model->type->mass(body->model, q, mass);
-  memcpy(inverse, mass, 9 * body->block_count * sizeof *mass);
-  spore_blocks_invert(inverse, body->block_count);
+  memcpy(inverse + 9 * start, mass + 9 * start, 9 * count * sizeof *mass);
+  spore_blocks_invert(inverse + 9 * start, count);
+}
+
+void spore_body_set_mass(SporeWorld *world, const SporeBody *body) {
+  spore_model_mass(body->model, world->q + body->q_offset, world->mass + 3 * body->v_offset);
+  invert_mass(world, body, 0, body->block_count);
+}
+
+void spore_body_turn_mass(SporeWorld *world, const SporeBody *body, const double *q) {
+  size_t at = body->model->node_count;
+  if (spore_model_is_nodal(body->model)) return;
+  SporeMat3 inertia = body->model->type->inertia(body->model, q);
+  memcpy(world->mass + 3 * body->v_offset + 9 * at, inertia.m, sizeof inertia.m);
+  invert_mass(world, body, at, 1);
 }

@@ -22,6 +22,14 @@ void spore_model_clear(SporeModel *model) {
   *model = (SporeModel){0};
 }
 
+void spore_model_mass(const SporeModel *model, const double *q, double *blocks) {
+  for (size_t i = 0; i < model->block_count; i++) {
+    double m = model->block_mass[i];
+    SporeMat3 block = i < model->node_count ? spore_mat3_diagonal(m, m, m) : model->type->inertia(model, q);
+    memcpy(blocks + 9 * i, block.m, sizeof block.m);
+  }
+}
+
 double spore_model_total_mass(const SporeModel *model) {
   double mass = 0;
   for (size_t i = 0; i < model->block_count; i++) mass += model->block_mass[i];
@@ -40,7 +48,6 @@ static const char *missing_slot(const SporeModelType *type) {
   if (!type->create) return "create";
   if (!type->destroy) return "destroy";
   if (!type->place) return "place";
-  if (!type->mass) return "mass";
   if (!type->force) return "force";
   if (!type->potential) return "potential";
   if (!type->map) return "map";

@@ -36,7 +36,7 @@ typedef struct SporeModelType SporeModelType;
 typedef struct SporeModel {
   const SporeModelType *type;
   size_t q_count, block_count, node_count;
-  double *block_mass; /* kg, block_count; 0 where a block has no weight (a rigid body's rotation) */
+  double *block_mass; /* kg, block_count; above 0 for nodes, 0 for the turning of a frame */
 } SporeModel;
 
 struct SporeModelType {
@@ -53,9 +53,6 @@ struct SporeModelType {
   void (*destroy)(SporeModel *model);
   /* State at rest when the body's frame stands at `pose`, moving with velocity (m/s) and spin (rad/s, world axes). */
   void (*place)(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v);
-  /* Block-diagonal mass at q: block_count x 9, row-major, symmetric positive definite; block_mass times the identity
-   * where all blocks are nodes. */
-  void (*mass)(const SporeModel *model, const double *q, double *blocks);
   /* f += internal force (N; N m for a rotation block): elastic at the configuration q, viscous at the configuration
    * `shape`, linear in v. Where shape is q the force is that of the state (q, v); an implicit step may instead take the
    * viscous one at the shape that it began from, so that its Jacobian is symmetric and whole. */
@@ -64,6 +61,9 @@ struct SporeModelType {
   double (*potential)(const SporeModel *model, const double *q);
   /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. */
   bool (*map)(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error);
+
+  /* Required of a model with a frame: its inertia at q, world axes, symmetric positive definite, kg m^2. */
+  SporeMat3 (*inertia)(const SporeModel *model, const double *q);
 
   /* Optional. */
   /* Off-diagonal blocks that jacobian writes: calls spore_block_pattern_add(pattern, i, j) for i != j, either order. */
@@ -87,6 +87,8 @@ static inline bool spore_model_is_nodal(const SporeModel *model) { return model-
 static inline bool spore_model_is_rigid(const SporeModel *model) {
   return model->node_count == 1 && model->block_count == 2;
 }
+/* Block-diagonal mass at q, block_count x 9. */
+void spore_model_mass(const SporeModel *model, const double *q, double *blocks);
 double spore_model_total_mass(const SporeModel *model);
 
 /* A registry is an explicit NULL-terminated array; models/registry.c holds the one of this program. */

@@ -72,7 +72,7 @@ static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
   uint32_t *bodies = world->island_bodies + island->body_start;
   world->bodies[index].frozen = true;
   if (!spore_model_is_nodal(world->bodies[index].model))
-    spore_body_update_mass(world, &world->bodies[index], world->q + world->bodies[index].q_offset);
+    spore_body_turn_mass(world, &world->bodies[index], world->q + world->bodies[index].q_offset);
   size_t at = 0;
   while (bodies[at] != index) at++;
   memmove(bodies + at, bodies + at + 1, (island->kept_count - at - 1) * sizeof *bodies);

@@ -21,7 +21,7 @@ typedef struct Power {
 } Power;
 
 static bool invert_mass(const SporeModel *model, const double *q, double *blocks) {
-  model->type->mass(model, q, blocks);
+  spore_model_mass(model, q, blocks);
   for (size_t i = 0; i < model->block_count; i++) {
     SporeMat3 block, inverse;
     memcpy(block.m, blocks + 9 * i, sizeof block.m);

@@ -97,7 +97,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->has_input = false;
   body->command = (SporeDeviceCommand){0};
   spore_guard_start(&body->guard, 0, body->rest_pose);
-  if (body->model) spore_body_update_mass(world, body, world->q + body->q_offset);
+  if (body->model) spore_body_set_mass(world, body);
 }
 
 void spore_world_reset(SporeWorld *world) {
@@ -136,7 +136,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   body->watch.started = false;
   spore_body_reset_choice(world, body);
   world->contact_count = world->grip_count = 0; /* they belong to the state before */
-  if (body->model) spore_body_update_mass(world, body, world->q + body->q_offset);
+  if (body->model) spore_body_set_mass(world, body);
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_snapshot_publish(world);

@@ -20,7 +20,6 @@
 #define SPORE_COMMAND_CAPACITY 1024
 #define SPORE_POSE_Q 7 /* a body without a model: position, orientation; velocity, spin */
 #define SPORE_POSE_BLOCKS 2
-#define SPORE_TURNING_BLOCKS 8 /* most of a body that is not a set of nodes */
 #define SPORE_STAGE_MAXIMUM 12
 #define SPORE_LEFT_OUT_MAXIMUM 16
 
@@ -277,7 +276,9 @@ bool spore_group_resolves_contacts(const SporeGroup *group, double h);
 /* Takes away the softening that an explicit step before has left on the island's terms. */
 void spore_group_harden(SporeGroup *group);
 /* Mass and its inverse at q, the body's own. */
-void spore_body_update_mass(SporeWorld *world, const SporeBody *body, const double *q);
+/* Mass and its inverse at the world's q; and after that, of a frame that has turned. */
+void spore_body_set_mass(SporeWorld *world, const SporeBody *body);
+void spore_body_turn_mass(SporeWorld *world, const SporeBody *body, const double *q);
 
 /* sleep.c */
 void spore_world_compile_sleep(SporeWorld *world);

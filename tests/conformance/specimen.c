@@ -26,7 +26,7 @@ static Specimen *specimen_new(const SporeModelType *type, const char *name) {
   Specimen *specimen = g_new0(Specimen, 1);
   specimen->type = type;
   specimen->name = g_strdup_printf("%s/%s", type->name, name);
-  specimen->size = 0.02;
+  specimen->size = strcmp(name, "needle") ? 0.02 : 1e-3;
   specimen->fields = g_malloc0(type->parameters.size);
   spore_parameters_set_initial(&type->parameters, specimen->fields);
   shape(specimen, name);

@@ -64,12 +64,6 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   memcpy(chain->rest, q, 3 * model->block_count * sizeof *q);
 }
 
-static void mass(const SporeModel *model, const double *q, double *blocks) {
-  memset(blocks, 0, 9 * model->block_count * sizeof *blocks);
-  for (size_t i = 0; i < model->block_count; i++)
-    blocks[9 * i] = blocks[9 * i + 4] = blocks[9 * i + 8] = model->block_mass[i];
-}
-
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Chain *chain = (const Chain *)model;
   const ChainFields *fields = &chain->fields;
@@ -156,7 +150,6 @@ const SporeModelType chain_model = {
     .create = create,
     .destroy = destroy,
     .place = place,
-    .mass = mass,
     .force = force,
     .potential = potential,
     .map = map,
