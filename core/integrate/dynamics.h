@@ -51,6 +51,7 @@ typedef struct SporeDynamics {
   double (*rounding)(void *data, const double *q, double c, bool stiff_axes);
   /* Largest root mean square displacement of a body, (x.M x / mass)^1/2, m; x in m. */
   double (*distance)(void *data, const double *x);
+  bool held;               /* by pins, or by links to what does not follow from q */
   double gravity_momentum; /* (M g . g)^1/2, N / kg^1/2: how big a force is worth looking at */
 } SporeDynamics;
 

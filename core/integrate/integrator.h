@@ -35,7 +35,8 @@ typedef struct SporeIntegrator {
   const char *name; /* as spore_integrator_names */
   const char *doc;  /* translatable */
   bool implicit;
-  bool remembers; /* needs its SporeHistory kept */
+  bool chooses_step; /* step_s of its history is its own affair, and that of any body will do */
+  bool remembers;    /* needs its SporeHistory kept */
   SporeDamping damping;
   /* Explicit: modes with w^2 h^2 + stable_damping d h <= stable_square stay bounded; w^2 and d are eigenvalues of
    * M^-1 K and M^-1 D. 1 of it is for contacts and links: see SporeSoftening. 0: not of this form. */
@@ -54,6 +55,6 @@ const SporeIntegrator *spore_integrator(SporeIntegratorKind kind);
 size_t spore_integrator_scratch(void);
 
 extern const SporeIntegrator spore_explicit_euler, spore_symplectic_euler, spore_verlet, spore_rk4,
-    spore_implicit_euler, spore_implicit_midpoint, spore_bdf2, spore_tr_bdf2;
+    spore_implicit_euler, spore_implicit_midpoint, spore_bdf2, spore_tr_bdf2, spore_static;
 
 #endif

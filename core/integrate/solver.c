@@ -6,7 +6,7 @@
 
 const char *const spore_integrator_names[] = {
     "explicit_euler", "symplectic_euler", "verlet", "rk4", "implicit_euler", "implicit_midpoint",
-    "bdf2",           "tr_bdf2",          NULL};
+    "bdf2",           "tr_bdf2",          "static", NULL};
 static const char *const nonlinear_names[] = {"automatic", "newton", "broyden", NULL};
 static const char *const linear_names[] = {"automatic", "conjugate_gradients", "cholesky", NULL};
 

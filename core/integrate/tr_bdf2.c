@@ -124,6 +124,7 @@ const SporeIntegrator spore_tr_bdf2 = {
               "parts of a step where error_tolerance is set; else implicit Euler steps in where contacts are stiff."),
     .implicit = true,
     .remembers = true,
+    .chooses_step = true,
     .damping = SPORE_DAMPING_FAST,
     .scratch = 3 * (4 + SPORE_TR_BDF2_SCRATCH),
     .step = step,

@@ -217,6 +217,7 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   world->mass_inverse = SPORE_NEW_ARRAY(double, 3 * v);
   world->precondition = SPORE_NEW_ARRAY(double, 3 * v);
   world->block_stiffness = SPORE_NEW_ARRAY(double, v / 3);
+  world->still = SPORE_NEW_ARRAY(double, v);
   world->local_q0 = SPORE_NEW_ARRAY(double, q);
   world->local_q1 = SPORE_NEW_ARRAY(double, q);
   world->local_v0 = SPORE_NEW_ARRAY(double, v);
@@ -232,6 +233,6 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   bool made = world->target_q && world->mass && world->mass_inverse && world->precondition && world->block_stiffness &&
               world->local_q0 && world->local_q1 && world->local_v0 && world->local_v1 && world->scratch &&
               world->reaction && world->parent && world->island_of && world->island_bodies && world->islands &&
-              world->local_sites && world->commands.ring && allocate_history(world);
+              world->local_sites && world->commands.ring && world->still && allocate_history(world);
   return made || no_memory(error);
 }

@@ -9,7 +9,8 @@ static void add_body_forces(const SporeGroup *group, const double *q, const doub
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
     const double *shape = (group->shape ? group->shape : q) + site->q;
-    body->model->type->force(body->model, q + site->q, shape, v + site->v, f + site->v);
+    const double *velocity = spore_body_is_static(body) ? group->world->still : v + site->v;
+    body->model->type->force(body->model, q + site->q, shape, velocity, f + site->v);
     spore_nodes_pull(body->block_count, f + site->v, body->model->block_mass, gravity);
   }
 }
@@ -249,6 +250,19 @@ static double distance(void *data, const double *x) {
   return most;
 }
 
+/* Whether a pin or a link to what does not move by physics holds the island. */
+static bool is_held(const SporeGroup *group) {
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    if (spore_group_body(group, b, &site)->held_count > 0) return true;
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_group_spring(group, i);
+    if (term->a.prescribed || term->b.prescribed) return true;
+  }
+  return false;
+}
+
 SporeDynamics spore_group_dynamics(SporeGroup *group) {
   return (SporeDynamics){.data = group,
                          .q_count = group->island->q_count,
@@ -272,6 +286,7 @@ SporeDynamics spore_group_dynamics(SporeGroup *group) {
                          .factorised = spore_group_factorised,
                          .rounding = spore_group_rounding,
                          .distance = distance,
+                         .held = group->island->integrator == SPORE_INTEGRATOR_STATIC && is_held(group),
                          .gravity_momentum = group->island->gravity_momentum};
 }
 

@@ -26,9 +26,14 @@ static void tie_bodies(SporeWorld *world) {
     if (world->spring_active[i]) tie(world->parent, &world->springs[i].a, &world->springs[i].b);
 }
 
-/* Bodies of several methods move by the one that damps most. */
-static bool safer(SporeIntegratorKind a, SporeIntegratorKind b) {
-  return spore_integrator(a)->damping > spore_integrator(b)->damping;
+/* The method for bodies of two: the one that damps most; where only some have no inertia, none is without. */
+static SporeIntegratorKind together(SporeIntegratorKind a, SporeIntegratorKind b) {
+  if (a == b) return a;
+  if (a == SPORE_INTEGRATOR_STATIC || b == SPORE_INTEGRATOR_STATIC) {
+    SporeIntegratorKind other = a == SPORE_INTEGRATOR_STATIC ? b : a;
+    return spore_integrator(other)->implicit ? other : SPORE_INTEGRATOR_IMPLICIT_EULER;
+  }
+  return spore_integrator(b)->damping > spore_integrator(a)->damping ? b : a;
 }
 
 /* Numbers the islands and counts their bodies. */
@@ -50,7 +55,7 @@ static void number_islands(SporeWorld *world) {
     island->q_count += body->q_count;
     island->v_count += 3 * body->block_count;
     if (body->substeps > island->substeps) island->substeps = body->substeps;
-    if (safer(body->integrator, island->integrator)) island->integrator = body->integrator;
+    island->integrator = together(island->integrator, body->integrator);
   }
 }
 
@@ -136,7 +141,7 @@ static void gather_history(SporeWorld *world, SporeIsland *island) {
   island->history =
       (SporeHistory){.a = world->local_history_a + island->v_start, .b = world->local_history_b + island->v_start};
   double step_s = HUGE_VAL;
-  bool own_size = island->integrator == SPORE_INTEGRATOR_TR_BDF2;
+  bool own_size = spore_integrator(island->integrator)->chooses_step;
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->island_bodies[island->body_start + i];
     const SporeBody *body = &world->bodies[b];

@@ -84,7 +84,7 @@ static void assemble(const SporeGroup *group, SporeBody *body, const double *q, 
                      double c, double c2) {
   if (body->matrix.block_count == 0) return;
   spore_block_matrix_zero(&body->matrix);
-  body->model->type->jacobian(body->model, q, shape, v, c2, c, &body->matrix);
+  body->model->type->jacobian(body->model, q, shape, v, c2, spore_body_is_static(body) ? 0 : c, &body->matrix);
   const double *mass = spore_group_mass(group, body);
   for (size_t i = 0; i < body->block_count; i++) {
     double *block = body->matrix.values + 9 * (size_t)body->matrix.diagonal[i];

@@ -177,9 +177,28 @@ static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_
                          h, name, limit_s);
 }
 
+/* Whether a pin or a link may hold the body, or contacts. */
+static bool may_be_held(const SporeWorld *world, size_t index) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->held_count > 0 || body->spheres.point_count > 0) return true;
+  for (size_t i = 0; i < world->link_count; i++)
+    if (world->springs[i].a.body == index || world->springs[i].b.body == index) return true;
+  return false;
+}
+
+static bool check_static(const SporeWorld *world, size_t index, SporeError *error) {
+  char place[200];
+  if (may_be_held(world, index)) return true;
+  snprintf(place, sizeof place, "bodies/%s", world->bodies[index].name);
+  return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                         _("nothing can hold the body, so that its forces have no balance; expected a pin, a link or "
+                           "spheres; pin it, or take integrator implicit_euler"));
+}
+
 bool spore_world_check_step(SporeWorld *world, SporeError *error) {
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
+    if (body->role == SPORE_PASSIVE && spore_body_is_static(body) && !check_static(world, b, error)) return false;
     if (body->role != SPORE_PASSIVE || spore_integrator(body->integrator)->implicit) continue;
     SporeStepLimit limit;
     if (!spore_step_limit(body->model, body->integrator, world->rest_q + body->q_offset, world->rest_v + body->v_offset,

@@ -33,7 +33,8 @@ static void free_arrays(SporeWorld *world) {
                     world->grips,          world->kept_grips,    world->contact_order,     world->spring_order,
                     world->local_sites,    world->local_q0,      world->local_v0,          world->local_q1,
                     world->local_v1,       world->scratch,       world->precondition,      world->block_stiffness,
-                    world->history_a,      world->history_b,     world->local_history_a,   world->local_history_b};
+                    world->still,          world->history_a,     world->history_b,         world->local_history_a,
+                    world->local_history_b};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
 }
 

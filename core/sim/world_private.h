@@ -196,6 +196,7 @@ struct SporeWorld {
   SporeSite *local_sites; /* of the bodies in their island's part of the local vectors */
   double *local_q0, *local_v0, *local_q1, *local_v1;
   double *history_a, *history_b, *local_history_a, *local_history_b; /* as v and local_v0; NULL: none is kept */
+  double *still;   /* zeros: the velocity of the largest body, at rest */
   double *scratch; /* of the integrators, scratch_per_block doubles a block */
   size_t scratch_per_block;
   double *precondition;    /* 9 a block, as local_v0 */
@@ -224,6 +225,8 @@ struct SporeWorld {
 static inline bool spore_body_moves(const SporeBody *body) {
   return body->role == SPORE_PASSIVE && !body->frozen && !body->asleep;
 }
+/* Forces of its own do not depend on how it moves. */
+static inline bool spore_body_is_static(const SporeBody *body) { return body->integrator == SPORE_INTEGRATOR_STATIC; }
 static inline size_t spore_world_spring_count(const SporeWorld *world) { return world->link_count + world->body_count; }
 
 /* compile.c: parts of spore_world_create. */

@@ -7,8 +7,8 @@
 #include "tests/kernel/chain_model.h"
 
 #define GRAVITY ((SporeVec3){0, -9.81, 0})
-#define COUNT 4 /* particles of the chain */
-#define KINDS SPORE_INTEGRATOR_COUNT
+#define COUNT 4                       /* particles of the chain */
+#define KINDS SPORE_INTEGRATOR_STATIC /* those that move */
 
 /* What each method claims. */
 static const int orders[KINDS] = {1, 1, 2, 4, 1, 2, 2, 2};
@@ -302,6 +302,88 @@ static void test_limits(void) {
   }
 }
 
+/* A chain held at one end, or at both, that lay straight: where it hangs after one step. */
+static SporeWorld *hang(bool both, double mass, double stiffness, SporeIntegratorKind kind) {
+  SporeModel *model = chain_create((ChainFields){
+      .count = 10, .mass = mass, .spacing = 0.1, .stiffness = stiffness, .damping = 0.5, .poison_at = HUGE_VAL});
+  SporeBodyDescription body = passive_body("chain", model, (SporeVec3){0, 0, 0});
+  const SporeLinkDescription pins[2] = {
+      {.name = "left", .kind = SPORE_LINK_PIN, .body_a = 0, .radius = 0.01},
+      {.name = "right", .kind = SPORE_LINK_PIN, .body_a = 0, .point_a = {0.9, 0, 0}, .radius = 0.01}};
+  SporeWorldDescription description = world_description(&body, 1);
+  description.gravity = GRAVITY;
+  description.links = pins;
+  description.link_count = both ? 2 : 1;
+  description.solver.integrator = kind;
+  description.solver.newton_iterations = 60;
+  description.solver.tolerance = 1e-9;
+  description.solver.maximum_speed = 1e8;
+  return create(&description);
+}
+
+/* Tension of the spring behind particle i, N, as a vector. */
+static SporeVec3 tension(const double *q, int i, double stiffness) {
+  SporeVec3 d = spore_vec3_sub(spore_vec3_load(q + 3 * i + 3), spore_vec3_load(q + 3 * i));
+  return spore_vec3_scale(stiffness * (1 - 0.1 / spore_vec3_length(d)), d);
+}
+
+/* Against what statics says: each spring carries all below it, or between two pins, the same horizontal force
+ * everywhere and a vertical one that changes by each particle's weight and is 0 in the middle. From a light load to one
+ * that stretches the chain a thousandfold. */
+static void test_static(void) {
+  static const double masses[] = {1e-3, 0.1, 10, 1000};
+  for (unsigned m = 0; m < G_N_ELEMENTS(masses); m++)
+    for (int both = 0; both < 2; both++) {
+      double weight = masses[m] * 9.81, stiffness = 500, worst = 0;
+      SporeWorld *world = hang(both, masses[m], stiffness, SPORE_INTEGRATOR_STATIC);
+      spore_world_step(world);
+      const double *q = spore_world_q(world, 0), *v = spore_world_v(world, 0);
+      SporeStepCounts counts = spore_world_counts(world);
+      double moved = v[3 * 4 + 1] * 0.002 - q[3 * 4 + 1];
+      for (int i = 0; i < 9; i++) {
+        SporeVec3 t = tension(q, i, stiffness), first = tension(q, 0, stiffness);
+        double vertical = both ? (i - 4) * weight : -(9 - i) * weight;
+        worst = fmax(worst, fabs(t.y - vertical) / weight);
+        worst = fmax(worst, both ? fabs(t.x - first.x) / weight : fabs(t.x) / weight);
+      }
+      g_test_message("static: %g kg, held at %s: balance off by %.1e of a particle's weight after one step, %zu Newton "
+                     "iterations, %zu force evaluations, lowest %.4g m",
+                     masses[m], both ? "both ends" : "one end", worst, counts.newton_iterations,
+                     counts.force_evaluations, both ? q[3 * 4 + 1] : q[3 * 9 + 1]);
+      g_assert_cmpfloat(worst, <, 1e-6);
+      g_assert_cmpfloat(fabs(moved), <, 1e-9 * fabs(q[3 * 4 + 1])); /* v is how it moved */
+      g_assert_cmpuint(spore_world_monitor(world)->recoveries, ==, 0);
+      g_assert_cmpuint(spore_world_monitor(world)->not_converged, ==, 0);
+      /* In balance already: nothing moves, and little is spent. */
+      run(world, 3);
+      counts = spore_world_counts(world);
+      g_assert_cmpuint(counts.newton_iterations, <=, 2);
+      spore_world_free(world);
+    }
+}
+
+/* Nothing can hold it: refused, and with contacts alone it creeps, bounded. */
+static void test_static_unheld(void) {
+  SporeError error = SPORE_ERROR_INIT;
+  SporeModel *model =
+      chain_create((ChainFields){.count = 3, .mass = 0.1, .spacing = 0.1, .stiffness = 100, .poison_at = HUGE_VAL});
+  SporeBodyDescription body = passive_body("loose", model, (SporeVec3){0, 0, 0});
+  SporeWorldDescription description = world_description(&body, 1);
+  description.gravity = GRAVITY;
+  description.solver.integrator = SPORE_INTEGRATOR_STATIC;
+  g_assert_null(spore_world_create(&description, NULL, &error));
+  g_assert_cmpstr(error.place, ==, "bodies/loose");
+  g_assert_nonnull(strstr(error.message, "pin it"));
+  double sphere[4] = {0, 0, 0, 0.01};
+  const SporeSphereSet set = {1, sphere};
+  body.spheres = &set;
+  SporeWorld *world = create(&description);
+  run(world, 500);
+  g_assert_cmpfloat_with_epsilon(spore_world_v(world, 0)[1], -9.81 * 0.002, 1e-9);
+  g_assert_cmpfloat_with_epsilon(spore_world_q(world, 0)[1], -9.81 * 0.002 * 1, 1e-6);
+  spore_world_free(world);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/integrate/order", test_order);
@@ -312,5 +394,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/integrate/cost", test_cost);
   g_test_add_func("/integrate/restart", test_restart);
   g_test_add_func("/integrate/limits", test_limits);
+  g_test_add_func("/integrate/static", test_static);
+  g_test_add_func("/integrate/static-unheld", test_static_unheld);
   return g_test_run();
 }

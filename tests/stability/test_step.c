@@ -60,7 +60,7 @@ static void case_3(gconstpointer data) {
   const SporeModelType *type = data;
   static const double steps[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
   for (unsigned i = 0; i < G_N_ELEMENTS(steps); i++)
-    for (SporeIntegratorKind kind = SPORE_INTEGRATOR_SYMPLECTIC_EULER; kind < SPORE_INTEGRATOR_COUNT; kind++) {
+    for (SporeIntegratorKind kind = SPORE_INTEGRATOR_SYMPLECTIC_EULER; kind < SPORE_INTEGRATOR_STATIC; kind++) {
       char *name = g_strdup_printf("case 3: %s, %s", type->name, spore_integrator_names[kind]);
       Rig *rig = fall(type, kind);
       rig->description.solver.time_step = steps[i];
