@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/linalg/block_matrix_kernels.h"
 
 void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count) {
   *pattern = (SporeBlockPattern){.block_count = block_count};
@@ -119,4 +120,8 @@ size_t spore_block_matrix_find(const SporeBlockMatrix *matrix, uint32_t i, uint3
 void spore_block_matrix_add(SporeBlockMatrix *matrix, uint32_t i, uint32_t j, const double k[9]) {
   double *block = matrix->values + 9 * spore_block_matrix_find(matrix, i, j);
   for (int e = 0; e < 9; e++) block[e] += k[e];
+}
+
+void spore_block_matrix_multiply_add(const SporeBlockMatrix *matrix, const double *x, double *y) {
+  SPORE_KERNEL(spore_block_matrix_multiply)(matrix, x, y);
 }

@@ -7,7 +7,6 @@
 #include <stdint.h>
 
 #include "core/math/mat3.h"
-#include "core/math/simd.h"
 
 /* Collects the off-diagonal blocks before a matrix is made. */
 typedef struct SporeBlockPattern {
@@ -36,10 +35,7 @@ void spore_block_matrix_zero(SporeBlockMatrix *matrix);
 size_t spore_block_matrix_find(const SporeBlockMatrix *matrix, uint32_t i, uint32_t j);
 /* Adds k to block (i, j), which must exist. */
 void spore_block_matrix_add(SporeBlockMatrix *matrix, uint32_t i, uint32_t j, const double k[9]);
-SPORE_DECLARE_KERNEL(void, spore_block_matrix_multiply_add, const SporeBlockMatrix *matrix, const double *x, double *y);
 /* y += A x */
-static inline void spore_block_matrix_multiply_add(const SporeBlockMatrix *matrix, const double *x, double *y) {
-  SPORE_KERNEL(spore_block_matrix_multiply_add)(matrix, x, y);
-}
+void spore_block_matrix_multiply_add(const SporeBlockMatrix *matrix, const double *x, double *y);
 
 #endif

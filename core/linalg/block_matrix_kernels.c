@@ -1,4 +1,4 @@
-#include "core/linalg/block_matrix.h"
+#include "core/linalg/block_matrix_kernels.h"
 
 /* Of the nine numbers of a block, each times its number of x: the first eight in vectors, and the last. */
 enum { PARTS = SPORE_LANES / SPORE_WIDTH };
@@ -31,7 +31,7 @@ SPORE_INLINE void add_products(Sum *sum, const double *block, const double *x) {
 }
 
 /* Two sums, so that one need not wait for the other's adder. */
-void SPORE_LEVEL_NAME(spore_block_matrix_multiply_add)(const SporeBlockMatrix *matrix, const double *x, double *y) {
+void SPORE_LEVEL_NAME(spore_block_matrix_multiply)(const SporeBlockMatrix *matrix, const double *x, double *y) {
   for (size_t i = 0; i < matrix->block_count; i++) {
     Sum even = {0}, odd = {0};
     uint32_t k = matrix->row_start[i], end = matrix->row_start[i + 1];
