@@ -1,13 +1,12 @@
 /* spore run: the kernel without a window. */
 #include <glib/gi18n.h>
 #include <math.h>
-#include <time.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/run_report.h"
 #include "app/cli/scene.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
-#include "core/measure/run_statistics.h"
 
 #define USUAL_STEPS 1000
 #define NOT_GIVEN G_MININT64
@@ -22,12 +21,6 @@ typedef struct RunOptions {
   SporeSceneOptions scene;
 } RunOptions;
 
-static void wait_until(guint64 start_ns, double time_s) {
-  guint64 due = start_ns + (guint64)(1e9 * time_s);
-  struct timespec at = {.tv_sec = (time_t)(due / 1000000000u), .tv_nsec = (long)(due % 1000000000u)};
-  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL);
-}
-
 /* Appends what each device was taken to say in the step just done. */
 static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
   for (gsize i = 0; i < recording->channel_count; i++) {
@@ -40,139 +33,26 @@ static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
   return TRUE;
 }
 
-/* recording: NULL, or a track with a channel for each active body. */
-static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, gboolean realtime,
+/* recording: NULL, or a track with a channel for each active body; pace: NULL, or what keeps the steps in time. */
+static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, SporePace *pace,
                                     SporeTrack *recording) {
   SporeRunStatistics statistics;
   spore_run_statistics_start(&statistics, world);
   gint64 stride = MAX(1, steps / ENERGY_LOOKS);
-  guint64 start_ns = spore_clock_ns();
+  if (pace) spore_pace_start(pace, spore_world_time_s(world), 1);
   for (gint64 done = 1; done <= steps && !spore_cli_interrupted(); done++) {
+    if (pace) spore_pace_begin(pace, spore_pace_due_ns(pace, spore_world_time_s(world)));
     spore_world_step(world);
+    if (pace) spore_pace_end(pace, spore_world_time_s(world));
     spore_run_statistics_step(&statistics, world);
     if (recording && !record_inputs(world, recording)) break;
     if (done % stride == 0 || done == steps) {
       spore_run_statistics_energy(&statistics, world);
       spore_progress(spore_cli_progress(cli), (double)done / (double)steps, _("running"));
     }
-    if (realtime) wait_until(start_ns, spore_world_time_s(world));
+    if (pace) spore_pace_sleep_until(spore_pace_due_ns(pace, spore_world_time_s(world)));
   }
   return statistics;
-}
-
-static void report_stages(SporeCli *cli, const SporePlan *plan) {
-  double total_us = 0;
-  for (gsize i = 0; i < plan->stage_count; i++)
-    if (plan->stages[i].profile) total_us += spore_profile_summary(plan->stages[i].profile).median_us;
-  spore_cli_open_array(cli, "stages");
-  for (gsize i = 0; i < plan->stage_count; i++) {
-    const SporePlanStage *stage = &plan->stages[i];
-    if (!stage->profile) continue;
-    double median_us = spore_profile_summary(stage->profile).median_us;
-    spore_cli_open(cli, NULL);
-    spore_cli_text(cli, "name", stage->name);
-    spore_cli_number(cli, "median_us", median_us);
-    spore_cli_number(cli, "share", total_us > 0 ? median_us / total_us : 0);
-    spore_cli_close(cli);
-    spore_cli_say(cli, "  %-10s %9.2f us %5.1f %%\n", stage->name, median_us,
-                  total_us > 0 ? 100 * median_us / total_us : 0);
-  }
-  spore_cli_close_array(cli);
-}
-
-static void report_solver(SporeCli *cli, const SporeRunStatistics *result) {
-  spore_cli_open(cli, "solver");
-  spore_cli_number(cli, "newton_mean", spore_run_statistics_mean(result, result->newton));
-  spore_cli_count(cli, "newton_max", (gint64)result->newton_max);
-  spore_cli_number(cli, "linear_mean", spore_run_statistics_mean(result, result->linear));
-  spore_cli_count(cli, "linear_max", (gint64)result->linear_max);
-  spore_cli_number(cli, "residual_max", result->residual_max);
-  spore_cli_close(cli);
-  if (result->newton_max > 0)
-    spore_cli_say(
-        cli, _("solver: %.1f Newton and %.1f linear iterations a step (most %zu and %zu), residual %.1e at worst\n"),
-        spore_run_statistics_mean(result, result->newton), spore_run_statistics_mean(result, result->linear),
-        result->newton_max, result->linear_max, result->residual_max);
-}
-
-/* Number of frozen bodies. */
-static guint report_monitor(SporeCli *cli, const SporeWorld *world) {
-  const SporeMonitor *monitor = spore_world_monitor(world);
-  guint frozen = 0;
-  spore_cli_open(cli, "monitor");
-  spore_cli_count(cli, "recoveries", (gint64)monitor->recoveries);
-  spore_cli_count(cli, "substeps", (gint64)monitor->substeps);
-  spore_cli_count(cli, "not_converged", (gint64)monitor->not_converged);
-  spore_cli_count(cli, "held_inputs", (gint64)monitor->held_inputs);
-  if (monitor->not_converged || monitor->recoveries)
-    spore_cli_say(cli, _("monitor: %llu steps above the solver's tolerance, %llu taken again with %llu substeps\n"),
-                  (unsigned long long)monitor->not_converged, (unsigned long long)monitor->recoveries,
-                  (unsigned long long)monitor->substeps);
-  spore_cli_open_array(cli, "frozen");
-  for (guint body = 0; body < spore_world_body_count(world); body++)
-    if (spore_world_body_frozen(world, body)) {
-      spore_cli_text(cli, NULL, spore_world_body_name(world, body));
-      frozen++;
-    }
-  spore_cli_close_array(cli);
-  spore_cli_open_array(cli, "messages");
-  guint64 kept = MIN(monitor->message_count, SPORE_MONITOR_MESSAGES);
-  for (guint64 serial = monitor->message_count - kept; serial < monitor->message_count; serial++) {
-    const SporeMonitorMessage *message = &monitor->messages[serial % SPORE_MONITOR_MESSAGES];
-    spore_cli_text(cli, NULL, message->text);
-    spore_cli_say(cli, _("  step %llu: %s\n"), (unsigned long long)message->step, message->text);
-  }
-  spore_cli_close_array(cli);
-  spore_cli_close(cli);
-  return frozen;
-}
-
-/* Number of bodies asleep at the end. */
-static guint count_asleep(const SporeWorld *world) {
-  guint asleep = 0;
-  for (guint body = 0; body < spore_world_body_count(world); body++) asleep += spore_world_body_asleep(world, body);
-  return asleep;
-}
-
-static int report(SporeCli *cli, const char *scene, const SporeWorld *world, const SporeRunStatistics *result) {
-  SporeProfileSummary step = spore_profile_summary(spore_world_profile(world));
-  g_autofree char *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_world_hash(world));
-  gint64 steps = (gint64)spore_world_step_count(world);
-  spore_cli_text(cli, "scene", scene);
-  spore_cli_count(cli, "steps", steps);
-  spore_cli_number(cli, "time_s", spore_world_time_s(world));
-  spore_cli_count(cli, "dof", (gint64)spore_world_dof(world));
-  spore_cli_count(cli, "spheres", (gint64)spore_world_spheres(world)->count);
-  spore_cli_open(cli, "contacts");
-  spore_cli_number(cli, "mean", spore_run_statistics_mean(result, result->contacts));
-  spore_cli_count(cli, "max", (gint64)result->contacts_max);
-  spore_cli_close(cli);
-  spore_cli_open(cli, "step_us");
-  spore_cli_number(cli, "median", step.median_us);
-  spore_cli_number(cli, "p99", step.p99_us);
-  spore_cli_number(cli, "max", step.max_us);
-  spore_cli_close(cli);
-  spore_cli_say(cli, _("%s: %lld steps, %g s, %zu degrees of freedom, %zu spheres\n"), scene, (long long)steps,
-                spore_world_time_s(world), spore_world_dof(world), spore_world_spheres(world)->count);
-  spore_cli_say(cli, _("step: median %.2f us, 99th percentile %.2f us, longest %.2f us\n"), step.median_us, step.p99_us,
-                step.max_us);
-  report_stages(cli, spore_world_plan(world));
-  guint asleep = count_asleep(world);
-  spore_cli_count(cli, "asleep", asleep);
-  if (asleep > 0) spore_cli_say(cli, _("asleep at the end: %u bodies\n"), asleep);
-  spore_cli_open(cli, "energy");
-  spore_cli_number(cli, "start", result->energy_start);
-  spore_cli_number(cli, "end", result->energy_end);
-  spore_cli_number(cli, "max_drift", result->energy_drift);
-  spore_cli_close(cli);
-  spore_cli_say(cli, _("contacts: mean %.1f, most %zu; energy: %.6g J at the start, %.6g J at the end\n"),
-                spore_run_statistics_mean(result, result->contacts), result->contacts_max, result->energy_start,
-                result->energy_end);
-  report_solver(cli, result);
-  guint frozen = report_monitor(cli, world);
-  spore_cli_text(cli, "state_hash", hash);
-  spore_cli_say(cli, _("state hash %s\n"), hash);
-  return frozen ? SPORE_EXIT_NOT_HELD : SPORE_EXIT_DONE;
 }
 
 static gboolean add_channels(const SporeWorld *world, SporeTrack *recording) {
@@ -207,8 +87,10 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
   gint64 steps = options->steps != NOT_GIVEN ? options->steps : USUAL_STEPS;
   if (!isnan(options->time_s)) steps = (gint64)ceil(options->time_s / dt_s - 1e-9);
-  SporeRunStatistics result = run_steps(cli, world, steps, options->realtime, options->record ? &recording : NULL);
-  int status = spore_cli_finish(cli, report(cli, scene, world, &result));
+  g_autofree SporePace *pace = options->realtime ? g_new(SporePace, 1) : NULL;
+  if (pace) spore_world_set_budget(world, 1e6 * dt_s);
+  SporeRunStatistics result = run_steps(cli, world, steps, pace, options->record ? &recording : NULL);
+  int status = spore_cli_finish(cli, spore_run_report(cli, scene, world, &result, pace));
   int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
   status = MAX(status, saved);
   spore_track_clear(&recording);
@@ -216,13 +98,20 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
 }
 
 int spore_command_run(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"run", "SCENE", N_("Runs a scene and says how it went."), 1, 1};
+  static const SporeCommandInfo info = {
+      "run", "SCENE",
+      N_("Runs a scene and says how it went. The exit status is 1 where a body was frozen, where one had to be "
+         "integrated "
+         "by a safer method than the scene says, where a step's equations were not solved to the tolerance, and with "
+         "--realtime where the steps did not keep pace."),
+      1, 1};
   RunOptions options = {.time_s = NAN, .steps = NOT_GIVEN, .threads = 1};
   const GOptionEntry entries[] = {
       {"time", 't', 0, G_OPTION_ARG_DOUBLE, &options.time_s, N_("Simulated time"), "S"},
       {"steps", 'n', 0, G_OPTION_ARG_INT64, &options.steps, N_("Number of steps (default 1000)"), "N"},
       {"threads", 0, 0, G_OPTION_ARG_INT, &options.threads, N_("Threads (default 1); the result is the same"), "N"},
-      {"realtime", 0, 0, G_OPTION_ARG_NONE, &options.realtime, N_("Keep pace with the clock"), NULL},
+      {"realtime", 0, 0, G_OPTION_ARG_NONE, &options.realtime,
+       N_("Keep pace with the clock, and say how well that went"), NULL},
       {"record", 0, 0, G_OPTION_ARG_FILENAME, &options.record, N_("Write the devices' input as a track"), "FILE"},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};

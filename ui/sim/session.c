@@ -3,11 +3,10 @@
 #include <string.h>
 
 #include "core/haptic/pointer.h"
+#include "core/measure/pace.h"
 
 /* A step asks a device once, or a few times when the monitor takes it again; drained after each step. */
 #define SAMPLES_A_STEP 64
-/* Real time further behind than this is given up, so that a slow scene runs slowly instead of ever later. */
-#define SLACK_US (G_USEC_PER_SEC / 10)
 /* The clock is read at least this often while waiting for the next step. */
 #define FACTOR_WINDOW_US (G_USEC_PER_SEC)
 
@@ -41,11 +40,12 @@ struct SporeSession {
   guint steps;
   double speed;
   double factor;
+  SporePace pace;
   SporeTrack recording;
 
   /* The thread's own. */
-  gint64 pace_clock, factor_clock; /* us */
-  double pace_time, factor_time;   /* s, simulated */
+  gint64 factor_clock; /* us */
+  double factor_time;  /* s, simulated */
 };
 
 static bool recorder_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
@@ -124,19 +124,17 @@ static void drain_recorders(SporeSession *session) {
 }
 
 static void restart_pace(SporeSession *session) {
-  session->pace_clock = session->factor_clock = g_get_monotonic_time();
-  session->pace_time = session->factor_time = spore_world_time_s(session->simulation->world);
+  session->factor_clock = g_get_monotonic_time();
+  session->factor_time = spore_world_time_s(session->simulation->world);
   session->factor = 0;
+  spore_pace_start(&session->pace, session->factor_time, session->speed);
 }
 
-/* When the next step is due by the clock, us; 0: at once. */
-static gint64 next_due(SporeSession *session) {
-  if (session->speed <= 0) return 0;
-  double ahead_s = spore_world_time_s(session->simulation->world) - session->pace_time;
-  gint64 due = session->pace_clock + (gint64)(ahead_s / session->speed * G_USEC_PER_SEC);
-  gint64 now = g_get_monotonic_time();
-  if (now - due > SLACK_US) session->pace_clock += now - due;
-  return due <= now ? 0 : due;
+/* How long until the next step is due, us. */
+static gint64 time_left_us(const SporeSession *session) {
+  guint64 due = spore_pace_due_ns(&session->pace, spore_world_time_s(session->simulation->world));
+  guint64 now = spore_clock_ns();
+  return due > now ? (gint64)((due - now) / 1000) : 0;
 }
 
 static void update_factor(SporeSession *session) {
@@ -155,6 +153,13 @@ static void take_step(SporeSession *session) {
   spore_world_step(session->simulation->world);
   g_mutex_lock(&session->mutex);
   drain_recorders(session);
+}
+
+static void take_paced_step(SporeSession *session) {
+  const SporeWorld *world = session->simulation->world;
+  spore_pace_begin(&session->pace, spore_pace_due_ns(&session->pace, spore_world_time_s(world)));
+  take_step(session);
+  spore_pace_end(&session->pace, spore_world_time_s(world));
 }
 
 static void take_reset(SporeSession *session) {
@@ -178,9 +183,9 @@ static gpointer run(gpointer data) {
       take_step(session);
       session->steps--;
     } else if (session->playing) {
-      gint64 due = next_due(session);
-      if (due > 0) g_cond_wait_until(&session->wake, &session->mutex, due);
-      else take_step(session);
+      gint64 left = time_left_us(session);
+      if (left > 0) g_cond_wait_until(&session->wake, &session->mutex, g_get_monotonic_time() + left);
+      else take_paced_step(session);
       update_factor(session);
     } else {
       session->standing = TRUE;
@@ -296,8 +301,7 @@ void spore_session_set_speed(SporeSession *session, double speed) {
   g_mutex_lock(&session->mutex);
   session->speed = speed;
   /* The thread may be pacing itself right now; it only reads these with the mutex held. */
-  session->pace_clock = g_get_monotonic_time();
-  session->pace_time = spore_session_snapshot(session)->time_s;
+  spore_pace_set_speed(&session->pace, spore_session_snapshot(session)->time_s, speed);
   g_cond_signal(&session->wake);
   g_mutex_unlock(&session->mutex);
 }

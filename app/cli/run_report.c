@@ -1,0 +1,167 @@
+#include "app/cli/run_report.h"
+
+#include <glib/gi18n.h>
+
+static void report_stages(SporeCli *cli, const SporePlan *plan) {
+  double total_us = 0;
+  for (gsize i = 0; i < plan->stage_count; i++)
+    if (plan->stages[i].profile) total_us += spore_profile_summary(plan->stages[i].profile).median_us;
+  spore_cli_open_array(cli, "stages");
+  for (gsize i = 0; i < plan->stage_count; i++) {
+    const SporePlanStage *stage = &plan->stages[i];
+    if (!stage->profile) continue;
+    double median_us = spore_profile_summary(stage->profile).median_us;
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", stage->name);
+    spore_cli_number(cli, "median_us", median_us);
+    spore_cli_number(cli, "share", total_us > 0 ? median_us / total_us : 0);
+    spore_cli_close(cli);
+    spore_cli_say(cli, "  %-10s %9.2f us %5.1f %%\n", stage->name, median_us,
+                  total_us > 0 ? 100 * median_us / total_us : 0);
+  }
+  spore_cli_close_array(cli);
+}
+
+static void report_solver(SporeCli *cli, const SporeRunStatistics *result) {
+  spore_cli_open(cli, "solver");
+  spore_cli_number(cli, "newton_mean", spore_run_statistics_mean(result, result->newton));
+  spore_cli_count(cli, "newton_max", (gint64)result->newton_max);
+  spore_cli_number(cli, "linear_mean", spore_run_statistics_mean(result, result->linear));
+  spore_cli_count(cli, "linear_max", (gint64)result->linear_max);
+  spore_cli_number(cli, "residual_max", result->residual_max);
+  spore_cli_close(cli);
+  if (result->newton_max > 0)
+    spore_cli_say(
+        cli, _("solver: %.1f Newton and %.1f linear iterations a step (most %zu and %zu), residual %.1e at worst\n"),
+        spore_run_statistics_mean(result, result->newton), spore_run_statistics_mean(result, result->linear),
+        result->newton_max, result->linear_max, result->residual_max);
+}
+
+typedef bool (*BodyTest)(const SporeWorld *world, uint32_t body);
+
+/* Names of the bodies that it holds for; how many. */
+static guint report_bodies(SporeCli *cli, const char *member, const SporeWorld *world, BodyTest holds) {
+  guint count = 0;
+  spore_cli_open_array(cli, member);
+  for (guint body = 0; body < spore_world_body_count(world); body++) {
+    if (!holds(world, body)) continue;
+    spore_cli_text(cli, NULL, spore_world_body_name(world, body));
+    count++;
+  }
+  spore_cli_close_array(cli);
+  return count;
+}
+
+static void report_messages(SporeCli *cli, const SporeMonitor *monitor) {
+  spore_cli_open_array(cli, "messages");
+  guint64 kept = MIN(monitor->message_count, SPORE_MONITOR_MESSAGES);
+  for (guint64 serial = monitor->message_count - kept; serial < monitor->message_count; serial++) {
+    const SporeMonitorMessage *message = &monitor->messages[serial % SPORE_MONITOR_MESSAGES];
+    spore_cli_text(cli, NULL, message->text);
+    spore_cli_say(cli, _("  step %llu: %s\n"), (unsigned long long)message->step, message->text);
+  }
+  spore_cli_close_array(cli);
+}
+
+/* Whether what the monitor checks held. */
+static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  const struct {
+    const char *member;
+    uint64_t count;
+  } counts[] = {{"recoveries", monitor->recoveries},
+                {"substeps", monitor->substeps},
+                {"not_finite", monitor->not_finite},
+                {"too_fast", monitor->too_fast},
+                {"energy", monitor->energy},
+                {"not_converged", monitor->not_converged},
+                {"deep_contacts", monitor->deep_contacts},
+                {"over_budget", monitor->over_budget},
+                {"held_inputs", monitor->held_inputs}};
+  spore_cli_open(cli, "monitor");
+  for (gsize i = 0; i < G_N_ELEMENTS(counts); i++) spore_cli_count(cli, counts[i].member, (gint64)counts[i].count);
+  if (monitor->not_converged || monitor->recoveries)
+    spore_cli_say(cli, _("monitor: %llu steps above the solver's tolerance, %llu taken again with %llu substeps\n"),
+                  (unsigned long long)monitor->not_converged, (unsigned long long)monitor->recoveries,
+                  (unsigned long long)monitor->substeps);
+  guint frozen = report_bodies(cli, "frozen", world, spore_world_body_frozen);
+  guint safer = report_bodies(cli, "made_safer", world, spore_world_body_made_safer);
+  report_messages(cli, monitor);
+  spore_cli_close(cli);
+  return frozen == 0 && safer == 0 && monitor->not_converged == 0;
+}
+
+/* Whether it kept pace. */
+static gboolean report_pace(SporeCli *cli, const SporeWorld *world, const SporePace *pace) {
+  if (!pace) return TRUE;
+  SporePaceSummary summary = spore_pace_summary(pace, spore_world_time_s(world));
+  spore_cli_open(cli, "realtime");
+  spore_cli_number(cli, "factor", summary.factor);
+  spore_cli_count(cli, "deadline_misses", (gint64)summary.misses);
+  spore_cli_number(cli, "worst_late_us", summary.worst_late_us);
+  spore_cli_open(cli, "jitter_us");
+  spore_cli_number(cli, "median", summary.jitter_median_us);
+  spore_cli_number(cli, "p99", summary.jitter_p99_us);
+  spore_cli_number(cli, "max", summary.jitter_max_us);
+  spore_cli_close(cli);
+  spore_cli_number(cli, "given_up_s", summary.given_up_s);
+  spore_cli_close(cli);
+  spore_cli_say(
+      cli,
+      _("real time: factor %.3f, %llu of %llu steps ended late, at worst by %.0f us; begun late by %.0f us in "
+        "the median, %.0f us at the 99th percentile, %.0f us at worst\n"),
+      summary.factor, (unsigned long long)summary.misses, (unsigned long long)summary.steps, summary.worst_late_us,
+      summary.jitter_median_us, summary.jitter_p99_us, summary.jitter_max_us);
+  if (summary.given_up_s > 0) spore_cli_say(cli, _("it did not keep pace: %.3f s were given up\n"), summary.given_up_s);
+  return !(summary.given_up_s > 0);
+}
+
+/* Number of bodies asleep at the end. */
+static guint count_asleep(const SporeWorld *world) {
+  guint asleep = 0;
+  for (guint body = 0; body < spore_world_body_count(world); body++) asleep += spore_world_body_asleep(world, body);
+  return asleep;
+}
+
+int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, const SporeRunStatistics *result,
+                     const SporePace *pace) {
+  SporeProfileSummary step = spore_profile_summary(spore_world_profile(world));
+  g_autofree char *hash = g_strdup_printf("%016" G_GINT64_MODIFIER "x", spore_world_hash(world));
+  gint64 steps = (gint64)spore_world_step_count(world);
+  spore_cli_text(cli, "scene", scene);
+  spore_cli_count(cli, "steps", steps);
+  spore_cli_number(cli, "time_s", spore_world_time_s(world));
+  spore_cli_count(cli, "dof", (gint64)spore_world_dof(world));
+  spore_cli_count(cli, "spheres", (gint64)spore_world_spheres(world)->count);
+  spore_cli_open(cli, "contacts");
+  spore_cli_number(cli, "mean", spore_run_statistics_mean(result, result->contacts));
+  spore_cli_count(cli, "max", (gint64)result->contacts_max);
+  spore_cli_close(cli);
+  spore_cli_open(cli, "step_us");
+  spore_cli_number(cli, "median", step.median_us);
+  spore_cli_number(cli, "p99", step.p99_us);
+  spore_cli_number(cli, "max", step.max_us);
+  spore_cli_close(cli);
+  spore_cli_say(cli, _("%s: %lld steps, %g s, %zu degrees of freedom, %zu spheres\n"), scene, (long long)steps,
+                spore_world_time_s(world), spore_world_dof(world), spore_world_spheres(world)->count);
+  spore_cli_say(cli, _("step: median %.2f us, 99th percentile %.2f us, longest %.2f us\n"), step.median_us, step.p99_us,
+                step.max_us);
+  report_stages(cli, spore_world_plan(world));
+  guint asleep = count_asleep(world);
+  spore_cli_count(cli, "asleep", asleep);
+  if (asleep > 0) spore_cli_say(cli, _("asleep at the end: %u bodies\n"), asleep);
+  spore_cli_open(cli, "energy");
+  spore_cli_number(cli, "start", result->energy_start);
+  spore_cli_number(cli, "end", result->energy_end);
+  spore_cli_number(cli, "max_drift", result->energy_drift);
+  spore_cli_close(cli);
+  spore_cli_say(cli, _("contacts: mean %.1f, most %zu; energy: %.6g J at the start, %.6g J at the end\n"),
+                spore_run_statistics_mean(result, result->contacts), result->contacts_max, result->energy_start,
+                result->energy_end);
+  report_solver(cli, result);
+  gboolean held = report_monitor(cli, world);
+  held &= report_pace(cli, world, pace);
+  spore_cli_text(cli, "state_hash", hash);
+  spore_cli_say(cli, _("state hash %s\n"), hash);
+  return held ? SPORE_EXIT_DONE : SPORE_EXIT_NOT_HELD;
+}

@@ -1,0 +1,13 @@
+/* What `spore run` says of a run. */
+#ifndef SPORE_APP_RUN_REPORT_H
+#define SPORE_APP_RUN_REPORT_H
+
+#include "app/cli/cli.h"
+#include "core/measure/pace.h"
+#include "core/measure/run_statistics.h"
+
+/* Prints it, for people or as members of the report. pace: NULL without --realtime. Returns the exit status. */
+int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, const SporeRunStatistics *result,
+                     const SporePace *pace);
+
+#endif
