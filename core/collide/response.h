@@ -48,20 +48,64 @@ typedef struct SporeContactState {
   SporeVec3 stretch;  /* m; across the normal */
 } SporeContactState;
 
-/* N alone; gap speed in m/s. */
-double spore_contact_pressing(const SporeContactLaw *law, double depth, double gap_speed);
-/* Force on a, N. */
-SporeVec3 spore_contact_force(const SporeContactLaw *law, const SporeContactState *state);
+/* N with its slopes dN/dd and -dN/dg, both kept from going below 0. */
+typedef struct SporeContactNormal {
+  double force, stiffness, damping;
+} SporeContactNormal;
 
-/* -df/d(xa - xb), N/m, and -df/d(va - vb), N s/m, of that force with the normal held: symmetric positive
- * semi-definite. Left out because they are not symmetric: the change of friction with N. */
-void spore_contact_jacobian(const SporeContactLaw *law, const SporeContactState *state, SporeMat3 *stiffness,
-                            SporeMat3 *damping);
+/* C1 step from 0 at x <= 0 to 1 at x >= width, and its slope. */
+static inline double spore_contact_step(double x, double width, double *slope) {
+  *slope = 0;
+  if (x <= 0) return 0;
+  if (x >= width) return 1;
+  double y = x / width;
+  *slope = 6 * y * (1 - y) / width;
+  return y * y * (3 - 2 * y);
+}
+
+/* Gap speed in m/s. */
+static inline SporeContactNormal spore_contact_normal(const SporeContactLaw *law, double depth, double gap_speed) {
+  SporeContactNormal normal = {0, 0, 0};
+  if (!(depth > 0)) return normal;
+  const double half_exit = 0.5 * SPORE_CONTACT_EXIT_SPEED;
+  double damping_slope, exit_slope;
+  double damping = law->damping * spore_contact_step(depth, law->damping_depth, &damping_slope);
+  double exit = 1 - spore_contact_step(gap_speed - half_exit, half_exit, &exit_slope);
+  double spring = law->stiffness * depth, force = spring * exit - damping * gap_speed;
+  if (!(force > 0)) return normal;
+  double stiffness = law->stiffness * exit - law->damping * damping_slope * gap_speed;
+  return (SporeContactNormal){force, stiffness > 0 ? stiffness : 0, spring * exit_slope + damping};
+}
 
 /* T before it is cut, and its -dT/dw: the damping across the normal, N s/m. */
-SporeVec3 spore_contact_hold(const SporeContactLaw *law, const SporeContactState *state, double *damping);
+static inline SporeVec3 spore_contact_hold(const SporeContactLaw *law, const SporeContactState *state,
+                                           double *damping) {
+  double unused, gap_speed = spore_vec3_dot(state->normal, state->velocity);
+  *damping = law->damping * spore_contact_step(state->depth, law->damping_depth, &unused);
+  SporeVec3 slip = spore_vec3_add_scaled(state->velocity, -gap_speed, state->normal);
+  return spore_vec3_add_scaled(spore_vec3_scale(law->stiffness, state->stretch), *damping, slip);
+}
+
 /* Cuts T to the cone of the normal force N. */
-SporeVec3 spore_contact_cut(const SporeContactLaw *law, SporeVec3 hold, double pressing);
+static inline SporeVec3 spore_contact_cut(const SporeContactLaw *law, SporeVec3 hold, double pressing) {
+  double square = spore_vec3_dot(hold, hold), longest = law->friction * pressing;
+  return square > longest * longest ? spore_vec3_scale(longest / sqrt(square), hold) : hold;
+}
+
+/* Force on a, N. */
+static inline SporeVec3 spore_contact_force(const SporeContactLaw *law, const SporeContactState *state) {
+  double damping, gap_speed = spore_vec3_dot(state->normal, state->velocity);
+  double pressing = spore_contact_normal(law, state->depth, gap_speed).force;
+  SporeVec3 force = spore_vec3_scale(pressing, state->normal);
+  if (!(law->friction * pressing > 0)) return force;
+  return spore_vec3_sub(force, spore_contact_cut(law, spore_contact_hold(law, state, &damping), pressing));
+}
+
+/* stiffness_scale (-df/d(xa - xb)) + damping_scale (-df/d(va - vb)) of that force with the normal held: symmetric
+ * positive semi-definite. Left out because they are not symmetric: the change of friction with N. */
+SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactState *state, double stiffness_scale,
+                                 double damping_scale);
+
 /* The stretch that is left of one where N presses: what is longer has slipped. */
 SporeVec3 spore_contact_slip(const SporeContactLaw *law, SporeVec3 stretch, double pressing);
 

@@ -1,20 +1,29 @@
 #include "core/sim/term.h"
 
-SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q) {
+/* Terms are evaluated by the thousand: what follows is small, and compiled into each place. */
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE SporeVec3 position_of(const SporeEnd *end, const SporeSite *sites, const double *q) {
   if (end->prescribed) return spore_vec3_add(end->position, end->offset);
-  return spore_mapping_position(end->mapping, end->point, q + sites[end->body].q);
+  const double *local = q + sites[end->body].q;
+  if (end->mapping->kind == SPORE_MAPPING_IDENTITY) return spore_vec3_load(local + 3 * (size_t)end->point);
+  return spore_mapping_position(end->mapping, end->point, local);
+}
+
+SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q) {
+  return position_of(end, sites, q);
 }
 
 /* Position of the end; keeps the lever of a force that acts `arm` away from it. */
-static SporeVec3 locate(SporeEnd *end, SporeVec3 arm, const SporeSite *sites, const double *q) {
-  SporeVec3 position = spore_end_position(end, sites, q);
+INLINE SporeVec3 locate(SporeEnd *end, SporeVec3 arm, const SporeSite *sites, const double *q) {
+  SporeVec3 position = position_of(end, sites, q);
   if (!end->prescribed && end->mapping->kind == SPORE_MAPPING_RIGID)
     end->offset = spore_vec3_add(spore_vec3_sub(position, spore_vec3_load(q + sites[end->body].q)), arm);
   return position;
 }
 
 /* What the velocity-like vector x gives the point where the force acts; nothing to a prescribed end. */
-static SporeVec3 gather(const SporeEnd *end, const SporeSite *sites, const double *x) {
+INLINE SporeVec3 gather(const SporeEnd *end, const SporeSite *sites, const double *x) {
   if (end->prescribed) return (SporeVec3){0, 0, 0};
   const double *local = x + sites[end->body].v;
   switch (end->mapping->kind) {
@@ -30,7 +39,7 @@ static SporeVec3 gather(const SporeEnd *end, const SporeSite *sites, const doubl
 }
 
 /* The transpose of gather. */
-static void scatter(const SporeEnd *end, const SporeSite *sites, SporeVec3 force, double *f) {
+INLINE void scatter(const SporeEnd *end, const SporeSite *sites, SporeVec3 force, double *f) {
   if (end->prescribed) return;
   double *local = f + sites[end->body].v;
   switch (end->mapping->kind) {
@@ -48,17 +57,17 @@ static void scatter(const SporeEnd *end, const SporeSite *sites, SporeVec3 force
   spore_mapping_add_force(end->mapping, end->point, NULL, force, local);
 }
 
-static SporeVec3 velocity(const SporeEnd *end, const SporeSite *sites, const double *v) {
+INLINE SporeVec3 velocity(const SporeEnd *end, const SporeSite *sites, const double *v) {
   return end->prescribed ? end->velocity : gather(end, sites, v);
 }
 
-static void scatter_pair(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, SporeVec3 force, double *f) {
+INLINE void scatter_pair(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, SporeVec3 force, double *f) {
   scatter(a, sites, force, f);
   scatter(b, sites, spore_vec3_scale(-1, force), f);
 }
 
 /* depth = depth when the step began + n.(motion of b - motion of a) */
-static double depth_at(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b) {
+INLINE double depth_at(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b) {
   SporeVec3 moved = spore_vec3_sub(spore_vec3_sub(b, term->b.position), spore_vec3_sub(a, term->a.position));
   return term->depth + spore_vec3_dot(term->normal, moved);
 }
@@ -82,11 +91,11 @@ static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, Spo
 }
 
 /* Relative velocity of the ends without what is prescribed: that is where it will be already. */
-static SporeVec3 own_motion(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, const double *v) {
+INLINE SporeVec3 own_motion(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, const double *v) {
   return spore_vec3_sub(gather(a, sites, v), gather(b, sites, v));
 }
 
-static SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
+INLINE SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
   return spore_vec3_add_scaled(a, -spore_vec3_dot(normal, a), normal);
 }
 
@@ -116,7 +125,7 @@ SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSi
 }
 
 /* At q and v; a little ahead where the term is softened. */
-static SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q,
+INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q,
                                        const double *v) {
   SporeVec3 a = locate(&term->a, spore_vec3_scale(-term->arm_a, term->normal), sites, q);
   SporeVec3 b = locate(&term->b, spore_vec3_scale(term->arm_b, term->normal), sites, q);
@@ -131,17 +140,11 @@ static SporeContactState contact_state(SporeContactTerm *term, const SporeSite *
   return state;
 }
 
-static SporeMat3 contact_jacobian(const SporeContactTerm *term, const SporeContactState *state, double c, double c2) {
-  SporeMat3 stiffness, damping;
-  spore_contact_jacobian(&term->law, state, &stiffness, &damping);
-  return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
-}
-
 /* What is left of N when the ends alone take a step in which N' presses: the law at the gap speed and depth that it
  * leads to, less N'. */
 static double unbalanced(const SporeContactTerm *term, double depth, double gap_speed, double pressing) {
   double faster = term->softening.inverse_mass * term->softening.h * pressing;
-  return spore_contact_pressing(&term->law, depth - term->softening.ahead * faster, gap_speed + faster) - pressing;
+  return spore_contact_normal(&term->law, depth - term->softening.ahead * faster, gap_speed + faster).force - pressing;
 }
 
 /* Normal force N of one implicit step of the two ends alone, 0..most: it falls with the gap speed that it leads to, so
@@ -174,17 +177,19 @@ static void soften_contact(SporeContactTerm *term, const SporeContactState *stat
   double w = softening->inverse_mass, h = softening->h;
   SporeVec3 n = term->normal;
   if (term->pressing <= 0) return;
-  SporeMat3 slopes = contact_jacobian(term, state, h, h * softening->ahead);
-  double pressing = term->pressing / (1 + w * spore_vec3_dot(n, spore_mat3_apply(slopes, n)));
   double gap_speed = spore_vec3_dot(n, state->velocity);
+  SporeContactNormal law = spore_contact_normal(&term->law, state->depth, gap_speed);
+  double pressing = term->pressing / (1 + w * h * (law.damping + softening->ahead * law.stiffness));
   if (gap_speed + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
     pressing = implicit_pressing(term, state->depth, gap_speed, pressing);
+  term->pressing = term->yield = pressing;
+  term->force = spore_vec3_scale(pressing, n);
+  if (!(term->law.friction > 0)) return;
   double damping;
   SporeVec3 hold = spore_contact_hold(&term->law, state, &damping);
   double softer = 1 + w * h * (damping + softening->ahead * term->law.stiffness);
   hold = spore_contact_cut(&term->law, spore_vec3_scale(1 / softer, hold), pressing);
-  term->force = spore_vec3_add_scaled(spore_vec3_scale(-1, hold), pressing, n);
-  term->pressing = pressing;
+  term->force = spore_vec3_sub(term->force, hold);
   term->yield = softer * pressing;
 }
 
@@ -200,7 +205,7 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double c, double c2) {
   SporeContactState state = contact_state(term, sites, q, v);
-  return contact_jacobian(term, &state, c, c2);
+  return spore_contact_jacobian(&term->law, &state, c2, c);
 }
 
 /* Where the ends are, or will be after `ahead`. */
