@@ -40,9 +40,10 @@ static void extend_add(const SporeBlockCholesky *factor, const SporeSupernode *c
 
 static void assemble(SporeBlockCholesky *factor, const SporeSupernode *node, const SporeBlockMatrix *matrix,
                      const double *diagonal, const uint8_t *held) {
+  double *front = factor->front;
   static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   size_t columns = columns_of(node), ldt = spore_cholesky_pad(columns), ld = spore_cholesky_pad(rows_of(node));
-  memset(factor->values + node->panel, 0, (ldt + ld) * columns * sizeof(double));
+  memset(front, 0, (ldt + ld) * columns * sizeof(double));
   for (uint32_t e = node->entry_start; e < node->entry_end; e++) {
     const SporeFactorEntry *entry = &factor->entries[e];
     const double *block = matrix->values + 9 * (size_t)entry->block;
@@ -52,23 +53,42 @@ static void assemble(SporeBlockCholesky *factor, const SporeSupernode *node, con
       if (!on_diagonal) continue;
       block = identity;
     }
-    double *target = factor->values + entry->target;
-    size_t lead = entry->target < node->panel + ldt * columns ? ldt : ld;
+    double *target = front + entry->target;
+    size_t lead = entry->target < ldt * columns ? ldt : ld;
     for (size_t c = 0; c < 3; c++)
       for (size_t r = 0; r < 3; r++) target[c * lead + r] = block[3 * r + c];
   }
 }
 
+/* How much of a pivot may have cancelled away for single precision still to hold what is left. */
+#define CANCELLED 1e-4
+
+/* Keeps an eliminated front: rounded where its pivots are not small against the diagonal that they came from. */
+static void keep(SporeBlockCholesky *factor, SporeSupernode *node, const double *diagonal, bool may_round) {
+  size_t columns = columns_of(node), ldt = spore_cholesky_pad(columns);
+  size_t size = columns * (ldt + spore_cholesky_pad(rows_of(node)));
+  double *values = factor->values + node->panel;
+  node->rounded = may_round;
+  for (size_t j = 0; j < columns && node->rounded; j++) {
+    double inverse = factor->front[j * ldt + j];
+    node->rounded = CANCELLED * diagonal[j] * inverse * inverse < 1;
+  }
+  if (node->rounded) SPORE_KERNEL(spore_cholesky_round)(size, factor->front, (float *)(void *)values);
+  else memcpy(values, factor->front, size * sizeof *values);
+}
+
 bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
-                                    const uint8_t *held) {
+                                    const uint8_t *held, bool may_round) {
   bool (*eliminate)(size_t, size_t, double *, double *, double *, double *) = SPORE_KERNEL(spore_cholesky_eliminate);
   double *top = factor->stack;
   for (size_t s = 0; s < factor->supernode_count; s++) {
-    const SporeSupernode *node = &factor->supernodes[s], *child = node;
-    size_t columns = columns_of(node), size = update_size(node);
-    double *t = factor->values + node->panel, *b = t + columns * spore_cholesky_pad(columns), *update = top,
-           *from = top;
+    SporeSupernode *node = &factor->supernodes[s];
+    const SporeSupernode *child = node;
+    size_t columns = columns_of(node), ldt = spore_cholesky_pad(columns), size = update_size(node);
+    double *t = factor->front, *b = t + columns * ldt, *update = top, *from = top;
+    double *before = factor->work + 3 * columns;
     assemble(factor, node, matrix, diagonal, held);
+    for (size_t j = 0; j < columns; j++) before[j] = t[j * ldt + j];
     memset(update, 0, size * sizeof *update);
     /* The children's updates lie on top of the stack, the last child's uppermost. */
     for (uint32_t c = 0; c < node->child_count; c++) {
@@ -77,37 +97,44 @@ bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlock
       extend_add(factor, child, from, node, t, b, update);
     }
     if (!eliminate(columns, rows_of(node), t, b, update, factor->work)) return false;
+    keep(factor, node, before, may_round);
     memmove(from, update, size * sizeof *update);
     top = from + size;
   }
   return true;
 }
 
+/* Where L21 of a supernode lies; L11^-1 is before it. */
+static const void *below_of(const SporeSupernode *node, const double *values) {
+  size_t before = columns_of(node) * spore_cholesky_pad(columns_of(node));
+  return node->rounded ? (const void *)((const float *)(const void *)values + before) : values + before;
+}
+
 void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x) {
   size_t n = factor->block_count;
   double *y = factor->work, *below = y + 3 * n + SPORE_LANES, *spare = below + factor->most_rows;
-  void (*forward)(size_t, size_t, const double *, const double *, double *, double *, double *) =
+  void (*forward)(size_t, size_t, const void *, const void *, bool, double *, double *, double *) =
       SPORE_KERNEL(spore_cholesky_forward);
-  void (*backward)(size_t, size_t, const double *, const double *, double *, const double *, double *) =
+  void (*backward)(size_t, size_t, const void *, const void *, bool, double *, const double *, double *) =
       SPORE_KERNEL(spore_cholesky_backward);
   for (size_t i = 0; i < n; i++) memcpy(y + 3 * i, b + 3 * (size_t)factor->order[i], 3 * sizeof *b);
   for (size_t s = 0; s < factor->supernode_count; s++) {
     const SporeSupernode *node = &factor->supernodes[s];
     const uint32_t *row = factor->rows + node->row_start;
-    size_t columns = columns_of(node);
-    const double *t = factor->values + node->panel;
-    forward(columns, rows_of(node), t, t + columns * spore_cholesky_pad(columns), y + 3 * (size_t)node->first, below,
-            spare);
+    const double *values = factor->values + node->panel;
+    forward(columns_of(node), rows_of(node), values, below_of(node, values), node->rounded, y + 3 * (size_t)node->first,
+            below, spare);
     for (size_t i = 0; i < node->row_count; i++) subtract_three(y + 3 * (size_t)row[i], below + 3 * i);
   }
   for (size_t s = factor->supernode_count; s-- > 0;) {
     const SporeSupernode *node = &factor->supernodes[s];
     const uint32_t *row = factor->rows + node->row_start;
-    size_t columns = columns_of(node), rows = rows_of(node);
-    const double *t = factor->values + node->panel;
+    size_t rows = rows_of(node);
+    const double *values = factor->values + node->panel;
     for (size_t i = 0; i < node->row_count; i++) memcpy(below + 3 * i, y + 3 * (size_t)row[i], 3 * sizeof *y);
     for (size_t i = rows; i < spore_cholesky_pad(rows); i++) below[i] = 0;
-    backward(columns, rows, t, t + columns * spore_cholesky_pad(columns), y + 3 * (size_t)node->first, below, spare);
+    backward(columns_of(node), rows, values, below_of(node, values), node->rounded, y + 3 * (size_t)node->first, below,
+             spare);
   }
   for (size_t i = 0; i < n; i++) memcpy(x + 3 * (size_t)factor->order[i], y + 3 * i, 3 * sizeof *x);
 }

@@ -16,13 +16,14 @@ typedef struct SporeSupernode {
   uint32_t sibling;                /* the child of the same parent before this one */
   uint32_t entry_start, entry_end; /* in `entries` */
   size_t panel;                    /* in `values`: L11^-1 and L21, as in core/linalg/cholesky_kernels.h */
+  bool rounded;                    /* to floats, in the same place */
 } SporeSupernode;
 
 /* A block of the matrix and where it goes in a panel. */
 typedef struct SporeFactorEntry {
   uint32_t block;       /* of the matrix */
   uint32_t row, column; /* of the matrix, in blocks */
-  size_t target;        /* in `values` */
+  size_t target;        /* in `front` */
 } SporeFactorEntry;
 
 typedef struct SporeBlockCholesky {
@@ -35,6 +36,7 @@ typedef struct SporeBlockCholesky {
   uint32_t *targets;          /* as rows: where a row lies in the parent's front, in blocks */
   SporeFactorEntry *entries;
   double *values;   /* panels */
+  double *front;    /* the panel that is being eliminated */
   double *stack;    /* update matrices that wait for their parents */
   size_t most_rows; /* of a panel's L21, padded */
   double *work;     /* 3 block_count and padding, most_rows, and the most columns of a panel three times, padded */
@@ -46,9 +48,10 @@ bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMat
 void spore_block_cholesky_clear(SporeBlockCholesky *factor);
 /* Factorises the matrix, of the pattern analysed, with its diagonal blocks replaced by `diagonal` (9 a block) unless
  * that is NULL, and with rows and columns of held blocks (a flag a block, or NULL) replaced by those of the identity.
- * False, and no factor to solve with, where a pivot is not positive. Reads one triangle. */
+ * False, and no factor to solve with, where a pivot is not positive. Reads one triangle. may_round: what does not lose
+ * by it is stored in single precision, which is solved with in half the time; good for a preconditioner. */
 bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
-                                    const uint8_t *held);
+                                    const uint8_t *held, bool may_round);
 /* x = A^-1 b; may be the same vector. */
 void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x);
 

@@ -176,19 +176,22 @@ static size_t update_size(const SporeSupernode *node) {
   return 3 * (size_t)node->row_count * spore_cholesky_pad(3 * (size_t)node->row_count);
 }
 
-/* Ties supernodes to their parents, and lays out the panels. Gives the sizes of values, stack and work. */
-static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t *values, size_t *stack, size_t *work) {
+/* Ties supernodes to their parents, and lays out the panels. Gives the sizes of values, front, stack and work. */
+static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t *values, size_t *front, size_t *stack,
+                    size_t *work) {
   uint32_t *last_child = analysis->other;
   size_t height = 0, most_columns = 0;
-  *values = *stack = 0;
+  *values = *front = *stack = 0;
   for (uint32_t s = 0; s < factor->supernode_count; s++) last_child[s] = NONE;
   for (uint32_t s = 0; s < factor->supernode_count; s++) {
     SporeSupernode *node = &factor->supernodes[s];
-    size_t columns = 3 * (size_t)node->column_count, rows = 3 * (size_t)node->row_count, front = columns + rows;
+    size_t columns = 3 * (size_t)node->column_count, rows = 3 * (size_t)node->row_count;
+    size_t panel = columns * (spore_cholesky_pad(columns) + spore_cholesky_pad(rows));
     node->panel = *values;
-    *values += columns * (spore_cholesky_pad(columns) + spore_cholesky_pad(rows));
+    *values += panel;
+    if (panel > *front) *front = panel;
     factor->solve_flops += 4.0 * (double)((columns / 2 + rows) * columns);
-    for (size_t c = 0; c < columns; c++) factor->factor_flops += (double)((front - c) * (front - c));
+    for (size_t c = 0; c < columns; c++) factor->factor_flops += (double)((columns + rows - c) * (columns + rows - c));
     if (height + update_size(node) > *stack) *stack = height + update_size(node);
     if (columns > most_columns) most_columns = columns;
     if (spore_cholesky_pad(rows) > factor->most_rows) factor->most_rows = spore_cholesky_pad(rows);
@@ -221,7 +224,7 @@ static void place_entries(const Analysis *analysis, SporeBlockCholesky *factor) 
         if (place < node->first + j) continue;
         size_t at = row_in_front(factor, node, place);
         size_t target =
-            node->panel +
+
             (at < node->column_count ? 3 * (j * ldt + at) : columns * ldt + 3 * (j * ld + at - node->column_count));
         /* Block (row, column): the pattern is symmetric, so it exists. */
         uint32_t block = (uint32_t)spore_block_matrix_find(pattern, row, column);
@@ -241,7 +244,7 @@ static size_t all_rows(const Analysis *analysis) {
 
 static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
   const SporeBlockMatrix *pattern = analysis->pattern;
-  size_t n = analysis->count, values, stack, work;
+  size_t n = analysis->count, values, front, stack, work;
   place_blocks(analysis, factor->order);
   find_parents(analysis, factor->order);
   postorder(analysis, factor->order);
@@ -254,12 +257,13 @@ static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
   factor->entries = SPORE_NEW_ARRAY(SporeFactorEntry, (pattern->row_start[n] + n) / 2);
   if (!factor->supernodes || !factor->rows || !factor->targets || !factor->entries) return false;
   fill_supernodes(analysis, factor);
-  lay_out(analysis, factor, &values, &stack, &work);
+  lay_out(analysis, factor, &values, &front, &stack, &work);
   place_entries(analysis, factor);
   factor->values = SPORE_NEW_ARRAY(double, values);
+  factor->front = SPORE_NEW_ARRAY(double, front);
   factor->stack = SPORE_NEW_ARRAY(double, stack);
   factor->work = SPORE_NEW_ARRAY(double, work);
-  return factor->values && factor->stack && factor->work;
+  return factor->values && factor->front && factor->stack && factor->work;
 }
 
 bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, double most_flops) {
@@ -280,8 +284,8 @@ bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMat
 }
 
 void spore_block_cholesky_clear(SporeBlockCholesky *factor) {
-  void *arrays[] = {factor->supernodes, factor->order,  factor->rows,  factor->targets,
-                    factor->entries,    factor->values, factor->stack, factor->work};
+  void *arrays[] = {factor->supernodes, factor->order, factor->rows, factor->targets, factor->entries,
+                    factor->values,     factor->stack, factor->work, factor->front};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
   *factor = (SporeBlockCholesky){0};
 }

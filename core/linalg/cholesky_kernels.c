@@ -122,44 +122,68 @@ bool SPORE_LEVEL_NAME(spore_cholesky_eliminate)(size_t columns, size_t rows, dou
   return true;
 }
 
-/* y = a x for rows in `vectors` vectors. */
-SPORE_INLINE void multiply_tile(int vectors, size_t columns, const double *a, size_t lda, const double *x, double *y) {
+typedef float Narrow __attribute__((vector_size(4 * SPORE_WIDTH)));
+typedef float NarrowUnaligned __attribute__((vector_size(4 * SPORE_WIDTH), aligned(4), may_alias));
+
+void SPORE_LEVEL_NAME(spore_cholesky_round)(size_t count, const double *from, float *to) {
+  for (size_t i = 0; i < count; i += SPORE_WIDTH)
+    *(NarrowUnaligned *)(to + i) = __builtin_convertvector(spore_vd_load(from + i), Narrow);
+}
+
+/* Numbers from the i-th of a factor on. */
+SPORE_INLINE SporeVd load_entries(const void *a, size_t i, bool rounded) {
+  if (!rounded) return spore_vd_load((const double *)a + i);
+  return __builtin_convertvector((Narrow) * (const NarrowUnaligned *)((const float *)a + i), SporeVd);
+}
+
+/* y = a x for rows in `vectors` vectors from the i-th entry of a. */
+SPORE_INLINE void multiply_tile(int vectors, size_t columns, const void *a, size_t i, size_t lda, bool rounded,
+                                const double *x, double *y) {
   SporeVd sum[4];
   for (int p = 0; p < vectors; p++) sum[p] = (SporeVd){0};
-  for (size_t k = 0; k < columns; k++, a += lda)
-    for (int p = 0; p < vectors; p++) sum[p] += spore_vd_load(a + p * SPORE_WIDTH) * x[k];
+  for (size_t k = 0; k < columns; k++, i += lda)
+    for (int p = 0; p < vectors; p++) sum[p] += load_entries(a, i + (size_t)p * SPORE_WIDTH, rounded) * x[k];
   for (int p = 0; p < vectors; p++) spore_vd_store(y + p * SPORE_WIDTH, sum[p]);
 }
 
 /* lower: a is a lower triangle, and a row ends on its diagonal. */
-SPORE_INLINE void multiply(size_t columns, size_t ld, const double *a, const double *x, double *y, bool lower) {
+SPORE_INLINE void multiply(size_t columns, size_t ld, const void *a, bool rounded, const double *x, double *y,
+                           bool lower) {
   size_t i = 0;
   for (; i + 4 * SPORE_WIDTH <= ld; i += 4 * SPORE_WIDTH) {
     size_t end = i + 4 * SPORE_WIDTH;
-    multiply_tile(4, lower && end < columns ? end : columns, a + i, ld, x, y + i);
+    multiply_tile(4, lower && end < columns ? end : columns, a, i, ld, rounded, x, y + i);
   }
   if (i + 2 * SPORE_WIDTH <= ld) {
-    multiply_tile(2, columns, a + i, ld, x, y + i);
+    multiply_tile(2, columns, a, i, ld, rounded, x, y + i);
     i += 2 * SPORE_WIDTH;
   }
-  if (i < ld) multiply_tile(1, columns, a + i, ld, x, y + i);
+  if (i < ld) multiply_tile(1, columns, a, i, ld, rounded, x, y + i);
 }
 
-void SPORE_LEVEL_NAME(spore_cholesky_forward)(size_t columns, size_t rows, const double *t, const double *b, double *x,
-                                              double *below, double *work) {
-  size_t ldt = spore_cholesky_pad(columns);
-  multiply(columns, ldt, t, x, work, true);
+SPORE_INLINE void forward(size_t columns, size_t rows, const void *t, const void *b, bool rounded, double *x,
+                          double *below, double *work) {
+  multiply(columns, spore_cholesky_pad(columns), t, rounded, x, work, true);
   memcpy(x, work, columns * sizeof *x);
-  multiply(columns, spore_cholesky_pad(rows), b, work, below, false);
+  multiply(columns, spore_cholesky_pad(rows), b, rounded, work, below, false);
 }
 
-/* y_j = start_j + sign times the sum over rows of a(i, j) x(i), for three or six columns. */
-SPORE_INLINE void dot_tile(int columns, size_t first, size_t ld, const double *a, const double *x, double *y) {
+void SPORE_LEVEL_NAME(spore_cholesky_forward)(size_t columns, size_t rows, const void *t, const void *b, bool rounded,
+                                              double *x, double *below, double *work) {
+  if (rounded) forward(columns, rows, t, b, true, x, below, work);
+  else forward(columns, rows, t, b, false, x, below, work);
+}
+
+/* y_j = the sum over rows of a(i, j) x(i), for three or six columns. */
+SPORE_INLINE void dot_tile(int columns, size_t first, size_t ld, const void *a, size_t column, bool rounded,
+                           const double *x, double *y) {
   SporeVd sum[6][PARTS] = {0};
   for (size_t i = first; i < ld; i += SPORE_LANES)
-    for (int j = 0; j < columns; j++)
-      for (int p = 0; p < PARTS; p++)
-        sum[j][p] += spore_vd_load(a + (size_t)j * ld + i + p * SPORE_WIDTH) * spore_vd_load(x + i + p * SPORE_WIDTH);
+    for (size_t p = 0; p < PARTS; p++) {
+      SporeVd part = spore_vd_load(x + i + p * SPORE_WIDTH);
+      for (size_t j = 0; j < (size_t)columns; j++)
+        sum[j][p] += load_entries(a, (column + j) * ld + i + p * SPORE_WIDTH, rounded) * part;
+    }
   for (int j = 0; j < columns; j++) {
     double lanes[SPORE_LANES];
     for (int p = 0; p < PARTS; p++) spore_vd_store(lanes + p * SPORE_WIDTH, sum[j][p]);
@@ -167,18 +191,24 @@ SPORE_INLINE void dot_tile(int columns, size_t first, size_t ld, const double *a
   }
 }
 
-SPORE_INLINE void multiply_transposed(size_t columns, size_t ld, const double *a, const double *x, double *y,
-                                      bool lower) {
+SPORE_INLINE void multiply_transposed(size_t columns, size_t ld, const void *a, bool rounded, const double *x,
+                                      double *y, bool lower) {
   size_t j = 0;
-  for (; j + 6 <= columns; j += 6) dot_tile(6, lower ? DOWN(j) : 0, ld, a + j * ld, x, y + j);
-  if (j < columns) dot_tile(3, lower ? DOWN(j) : 0, ld, a + j * ld, x, y + j);
+  for (; j + 6 <= columns; j += 6) dot_tile(6, lower ? DOWN(j) : 0, ld, a, j, rounded, x, y + j);
+  if (j < columns) dot_tile(3, lower ? DOWN(j) : 0, ld, a, j, rounded, x, y + j);
 }
 
-void SPORE_LEVEL_NAME(spore_cholesky_backward)(size_t columns, size_t rows, const double *t, const double *b, double *x,
-                                               const double *below, double *work) {
+SPORE_INLINE void backward(size_t columns, size_t rows, const void *t, const void *b, bool rounded, double *x,
+                           const double *below, double *work) {
   size_t ldt = spore_cholesky_pad(columns);
-  multiply_transposed(columns, spore_cholesky_pad(rows), b, below, work, false);
+  multiply_transposed(columns, spore_cholesky_pad(rows), b, rounded, below, work, false);
   for (size_t j = 0; j < columns; j++) work[j] = x[j] - work[j];
   for (size_t j = columns; j < ldt; j++) work[j] = 0;
-  multiply_transposed(columns, ldt, t, work, x, true);
+  multiply_transposed(columns, ldt, t, rounded, work, x, true);
+}
+
+void SPORE_LEVEL_NAME(spore_cholesky_backward)(size_t columns, size_t rows, const void *t, const void *b, bool rounded,
+                                               double *x, const double *below, double *work) {
+  if (rounded) backward(columns, rows, t, b, true, x, below, work);
+  else backward(columns, rows, t, b, false, x, below, work);
 }

@@ -14,11 +14,14 @@ static inline size_t spore_cholesky_pad(size_t rows) { return (rows + SPORE_LANE
  * L21 L21^T; above its diagonal it is undefined. work: 3 columns. False where a pivot is not positive. */
 SPORE_DECLARE_KERNEL(bool, spore_cholesky_eliminate, size_t columns, size_t rows, double *t, double *b, double *u,
                      double *work);
-/* x = L11^-1 x, below = L21 x. below: rows, padded; work: columns, padded. */
-SPORE_DECLARE_KERNEL(void, spore_cholesky_forward, size_t columns, size_t rows, const double *t, const double *b,
-                     double *x, double *below, double *work);
+/* Rounds `count` numbers, a multiple of the lanes, to single precision. */
+SPORE_DECLARE_KERNEL(void, spore_cholesky_round, size_t count, const double *from, float *to);
+/* x = L11^-1 x, below = L21 x. t and b are doubles, or floats where they were rounded. below: rows, padded; work:
+ * columns, padded. */
+SPORE_DECLARE_KERNEL(void, spore_cholesky_forward, size_t columns, size_t rows, const void *t, const void *b,
+                     bool rounded, double *x, double *below, double *work);
 /* x = L11^-T (x - L21^T below); below is padded with zeros. work: columns, padded. */
-SPORE_DECLARE_KERNEL(void, spore_cholesky_backward, size_t columns, size_t rows, const double *t, const double *b,
-                     double *x, const double *below, double *work);
+SPORE_DECLARE_KERNEL(void, spore_cholesky_backward, size_t columns, size_t rows, const void *t, const void *b,
+                     bool rounded, double *x, const double *below, double *work);
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "core/sim/group.h"
 
+#define FLOPS_TO_ROUND 2e6 /* of a solution: its factor, 2 bytes a flop, is read faster where it is smaller */
+
 static double *block_stiffness(const SporeGroup *group) {
   return group->world->block_stiffness + group->island->v_start / 3;
 }
@@ -45,8 +47,10 @@ static void body_diagonal(const SporeGroup *group, const SporeBody *body, double
 /* The body's own matrix with the diagonal blocks of the terms; where it is not positive definite in floating point,
  * block-Jacobi stands in. */
 static void factorise(SporeBody *body, const double *blocks, bool alone) {
+  bool may_round = body->factor.solve_flops > FLOPS_TO_ROUND;
   body->factor_alone = alone;
-  body->factor_ready = spore_block_cholesky_factorise(&body->factor, &body->matrix, blocks, body->held_flags);
+  body->factor_ready =
+      spore_block_cholesky_factorise(&body->factor, &body->matrix, blocks, body->held_flags, may_round);
 }
 
 /* Root mean square of the eigenvalues of A - M in each diagonal block. */
