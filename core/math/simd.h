@@ -78,8 +78,28 @@ SPORE_INLINE SporeVd spore_vd_select(SporeVl mask, SporeVd a, SporeVd b) {
 #endif
 }
 /* The second where either is not a number. */
-SPORE_INLINE SporeVd spore_vd_max(SporeVd a, SporeVd b) { return spore_vd_select(a > b, a, b); }
-SPORE_INLINE SporeVd spore_vd_min(SporeVd a, SporeVd b) { return spore_vd_select(a < b, a, b); }
+SPORE_INLINE SporeVd spore_vd_max(SporeVd a, SporeVd b) {
+#if SPORE_WIDTH == 8
+  return (SporeVd)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif SPORE_WIDTH == 4
+  return (SporeVd)_mm256_max_pd((__m256d)a, (__m256d)b);
+#elif defined(__SSE2__)
+  return (SporeVd)_mm_max_pd((__m128d)a, (__m128d)b);
+#else
+  return spore_vd_select(a > b, a, b);
+#endif
+}
+SPORE_INLINE SporeVd spore_vd_min(SporeVd a, SporeVd b) {
+#if SPORE_WIDTH == 8
+  return (SporeVd)_mm512_min_pd((__m512d)a, (__m512d)b);
+#elif SPORE_WIDTH == 4
+  return (SporeVd)_mm256_min_pd((__m256d)a, (__m256d)b);
+#elif defined(__SSE2__)
+  return (SporeVd)_mm_min_pd((__m128d)a, (__m128d)b);
+#else
+  return spore_vd_select(a < b, a, b);
+#endif
+}
 SPORE_INLINE SporeVd spore_vd_abs(SporeVd a) { return (SporeVd)((SporeVl)a & INT64_MAX); }
 SPORE_INLINE SporeVd spore_vd_sqrt(SporeVd a) {
 #if SPORE_WIDTH == 8

@@ -1,9 +1,11 @@
 /* From a description to a world: everything is sized and checked here, so that a step need not. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/sim/step_limit.h"
 #include "core/sim/world_private.h"
 
 static bool no_memory(SporeError *error) {
@@ -63,6 +65,25 @@ static char *copy_text(const char *text) {
   return copy ? strcpy(copy, text) : NULL;
 }
 
+/* Contacts are found once a step; in more substeps particles may go so far that they are found deep inside others. So
+ * many are taken unasked. */
+#define SUBSTEPS_UNASKED 20
+
+/* What the scene leaves open of a model that is to be moved by explicit steps. An implicit method that somebody asks
+ * for has no Jacobian to go by and needs as small ones. */
+static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBodyDescription *from) {
+  if (from->integrator == SPORE_INTEGRATOR_DEFAULT && spore_integrator(body->integrator)->implicit)
+    body->integrator = body->chosen = SPORE_INTEGRATOR_VERLET;
+  if (from->substeps > 0) return;
+  bool implicit = spore_integrator(body->integrator)->implicit;
+  SporeStepLimit limit;
+  if (!spore_step_limit(body->model, implicit ? SPORE_INTEGRATOR_VERLET : body->integrator, NULL, NULL, NULL, 0, &limit,
+                        NULL))
+    return;
+  double needed = ceil(world->solver.time_step / limit.dt_s);
+  if (needed > (double)body->substeps) body->substeps = (size_t)fmin(needed, SUBSTEPS_UNASKED);
+}
+
 /* Offsets and names; the models are borrowed until the world stands. */
 static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
   body->role = from->role;
@@ -73,6 +94,7 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->integrator = body->chosen =
       from->integrator == SPORE_INTEGRATOR_DEFAULT ? (SporeIntegratorKind)world->solver.integrator : from->integrator;
   body->substeps = from->substeps > 0 ? from->substeps : (size_t)world->solver.substeps;
+  if (body->model && body->model->type->rates) choose_steps(world, body, from);
   body->q_offset = world->q_count;
   body->v_offset = world->v_count;
   body->q_count = from->model ? from->model->q_count : SPORE_POSE_Q;

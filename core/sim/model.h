@@ -77,6 +77,15 @@ struct SporeModelType {
   void (*drift)(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1);
   /* Takes new parameter values while running; only ones marked SPORE_CHANGE_LIVE differ. */
   bool (*retune)(SporeModel *model, const void *fields, SporeError *error);
+  /* Greatest angular frequency (rad/s) and damping rate (1/s) of the model's own forces. For models without a Jacobian
+   * that are to be moved by explicit steps: where the scene leaves it open, a body takes Verlet and as many substeps as
+   * these rates ask for. */
+  void (*rates)(const SporeModel *model, double *frequency, double *damping);
+  /* Drops what evaluations leave behind to make the next one quicker: the state was set from outside, and what follows
+   * from it must not depend on what was before. */
+  void (*forget)(SporeModel *model);
+  /* What the last evaluation had to mend (translated: cause and remedy), or NULL. Told once a body. */
+  const char *(*notice)(const SporeModel *model);
 };
 
 /* Helpers for models. */

@@ -89,9 +89,19 @@ static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
   }
 }
 
+/* Implicit Euler stands what others do not, where it has Jacobians to go by; particles are best helped by smaller steps
+ * alone, of a method that remembers nothing. */
+static SporeIntegratorKind mending_method(const SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++)
+    if (!world->bodies[world->island_bodies[island->body_start + i]].model->type->rates)
+      return SPORE_INTEGRATOR_IMPLICIT_EULER;
+  return SPORE_INTEGRATOR_SYMPLECTIC_EULER;
+}
+
 static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps) {
   spore_island_gather(world, island);
-  island->result = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, substeps);
+  substeps *= island->substeps;
+  island->result = spore_island_advance(world, island, mending_method(world, island), substeps);
   island->mending_substeps += substeps;
   spore_island_examine(world, island);
 }
@@ -109,7 +119,7 @@ static void make_safer(SporeWorld *world, SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     body->watch.started = false;
-    if (spore_integrator(body->integrator)->implicit) continue;
+    if (spore_integrator(body->integrator)->implicit || body->model->type->rates) continue;
     body->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
     island->made_safer = true;
   }
@@ -195,7 +205,17 @@ static void report_mended(SporeWorld *world, const SporeIsland *island) {
                        (unsigned long long)island->mending_substeps, cause(island->trouble));
 }
 
+static void report_notice(SporeWorld *world, SporeBody *body) {
+  const SporeModel *model = body->model;
+  if (body->noticed || !model || !model->type->notice) return;
+  const char *notice = model->type->notice(model);
+  if (!notice) return;
+  body->noticed = true;
+  spore_world_report(world, "%s: %s", body->name, notice);
+}
+
 void spore_world_report_islands(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) report_notice(world, &world->bodies[b]);
   SporeMonitor *monitor = &world->monitor;
   for (size_t i = 0; i < world->island_count; i++) {
     const SporeIsland *island = &world->islands[i];

@@ -135,8 +135,14 @@ static double explicit_euler_step(Power *power, const SporeModel *model, const d
 bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const double *q, const double *v,
                       const uint32_t *held, size_t held_count, SporeStepLimit *limit, SporeError *error) {
   *limit = (SporeStepLimit){0, 0, HUGE_VAL};
-  if (!model->type->jacobian) return true;
   const SporeIntegrator *integrator = spore_integrator(kind);
+  if (model->type->rates) {
+    model->type->rates(model, &limit->frequency, &limit->damping);
+    double square = limit->frequency * limit->frequency;
+    limit->dt_s = integrator->stable_square > 0 ? 0.98 * stable_step(integrator, square, limit->damping) : 0;
+    return true;
+  }
+  if (!model->type->jacobian) return true;
   Power power = {.held = held, .held_count = held_count};
   if (!allocate(&power, model)) {
     clear(&power);
@@ -161,6 +167,11 @@ static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_
   const char *name = spore_integrator_names[body->integrator];
   double h = world->solver.time_step / (double)body->substeps, needed = ceil(world->solver.time_step / limit_s);
   snprintf(place, sizeof place, "bodies/%s", body->name);
+  if (body->model->type->rates)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take "
+                             "%.0f substeps, a smaller time_step or fewer particles"),
+                           h, limit_s, needed);
   if (limit_s == 0)
     return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
                            _("no step is small enough for %s: something here swings without damping; expected another "
@@ -198,11 +209,16 @@ static bool check_static(const SporeWorld *world, size_t index, SporeError *erro
 bool spore_world_check_step(SporeWorld *world, SporeError *error) {
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_PASSIVE && spore_body_is_static(body) && !check_static(world, b, error)) return false;
-    if (body->role != SPORE_PASSIVE || spore_integrator(body->integrator)->implicit) continue;
+    if (body->role != SPORE_PASSIVE) continue;
+    if (spore_body_is_static(body) && !check_static(world, b, error)) return false;
+    SporeIntegratorKind kind = body->integrator;
+    if (spore_integrator(kind)->implicit) {
+      if (!body->model->type->rates) continue;
+      kind = SPORE_INTEGRATOR_VERLET; /* it has no Jacobian to go by, and needs as small steps */
+    }
     SporeStepLimit limit;
-    if (!spore_step_limit(body->model, body->integrator, world->rest_q + body->q_offset, world->rest_v + body->v_offset,
-                          body->held, body->held_count, &limit, error))
+    if (!spore_step_limit(body->model, kind, world->rest_q + body->q_offset, world->rest_v + body->v_offset, body->held,
+                          body->held_count, &limit, error))
       return false;
     if (world->solver.time_step > limit.dt_s * (double)body->substeps) return refuse(world, body, limit.dt_s, error);
   }

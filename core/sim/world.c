@@ -92,6 +92,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->frozen = false;
   body->rest_steps = 0;
   body->told = SPORE_TROUBLE_NONE;
+  body->noticed = false;
   body->matrix_c = 0;
   body->history_s = 0;
   spore_body_reset_choice(world, body);
@@ -99,6 +100,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->command = (SporeDeviceCommand){0};
   spore_guard_start(&body->guard, 0, body->rest_pose);
   if (body->model) spore_body_set_mass(world, body);
+  if (body->model && body->model->type->forget) body->model->type->forget(body->model);
 }
 
 void spore_world_reset(SporeWorld *world) {
@@ -135,6 +137,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   body->matrix_c = 0;
   body->history_s = 0;
   body->watch.started = false;
+  if (body->model && body->model->type->forget) body->model->type->forget(body->model);
   spore_body_reset_choice(world, body);
   world->contact_count = world->grip_count = 0; /* they belong to the state before */
   if (body->model) spore_body_set_mass(world, body);

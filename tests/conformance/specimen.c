@@ -42,12 +42,14 @@ void specimen_free(Specimen *specimen) {
   g_free(specimen);
 }
 
-static const char *const *shapes_for(SporeGeometryKind kind) {
+static const char *const *shapes_for(const SporeModelType *type) {
   static const char *const surfaces[] = {"closed", "flat_sheet", "wavy_sheet", NULL};
   static const char *const solids[] = {"box", "needle", NULL};
   static const char *const blocks[] = {"block", "one_cell", NULL};
+  static const char *const containers[] = {"box", "closed", NULL}; /* particles do not go into a needle */
   static const char *const none[] = {"parameters", NULL};
-  switch (kind) {
+  if (type == &spore_lennard_jones) return containers;
+  switch (type->geometry) {
   case SPORE_GEOMETRY_SURFACE:
     return surfaces;
   case SPORE_GEOMETRY_SOLID:
@@ -61,7 +63,7 @@ static const char *const *shapes_for(SporeGeometryKind kind) {
 
 void specimen_add_tests(const char *prefix, GTestDataFunc check, gboolean (*applies)(const SporeModelType *type)) {
   for (SporeModelRegistry type = spore_model_registry; *type; type++)
-    for (const char *const *name = shapes_for((*type)->geometry); *name; name++) {
+    for (const char *const *name = shapes_for(*type); *name; name++) {
       if (applies && !applies(*type)) continue;
       Specimen *specimen = specimen_new(*type, *name);
       char *path = g_strdup_printf("%s/%s", prefix, specimen->name);

@@ -88,6 +88,21 @@ SporeModel *rig_tetrahedra_model(SporeTetrahedralMesh *mesh, ...) {
   return must(model, &error);
 }
 
+SporeModel *rig_fluid_model(SporeTriangleMesh *mesh, int particles, ...) {
+  SporeError error = SPORE_ERROR_INIT;
+  const SporeParameterTable *table = &spore_lennard_jones.parameters;
+  va_list arguments;
+  va_start(arguments, particles);
+  char *fields = fields_from(table, arguments);
+  va_end(arguments);
+  int64_t count = particles;
+  memcpy(fields + table->parameters[spore_parameter_find(table, "particles")].offset, &count, sizeof count);
+  SporeModel *model = spore_lennard_jones.create(&(SporeGeometry){.surface = mesh}, fields, &error);
+  spore_free(fields);
+  spore_triangle_mesh_clear(mesh);
+  return must(model, &error);
+}
+
 SporeModel *rig_try_tetrahedra(SporeTetrahedralMesh *mesh, SporeError *error, ...) {
   va_list arguments;
   va_start(arguments, error);

@@ -22,6 +22,7 @@ void rig_free(Rig *rig);
 SporeModel *rig_surface_model(const SporeModelType *type, SporeTriangleMesh *mesh, ...) G_GNUC_NULL_TERMINATED;
 SporeModel *rig_tetrahedra_model(SporeTetrahedralMesh *mesh, ...) G_GNUC_NULL_TERMINATED;
 SporeModel *rig_try_tetrahedra(SporeTetrahedralMesh *mesh, SporeError *error, ...) G_GNUC_NULL_TERMINATED;
+SporeModel *rig_fluid_model(SporeTriangleMesh *mesh, int particles, ...) G_GNUC_NULL_TERMINATED;
 /* Fields of a type with changes, for a retune command: spore_free. */
 void *rig_fields(const SporeModelType *type, ...) G_GNUC_NULL_TERMINATED;
 

@@ -40,8 +40,35 @@ static void case_24_pendulum(void) {
   rig_free(rig);
 }
 
+/* A drop so cold that none of its particles leaves; they swing against each other some 100,000 times. */
+static void case_24_fluid(void) {
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0, 0), spore_vec3(0.006, 0.006, 0.003));
+  SporeModel *model = rig_fluid_model(&cube, 16, "temperature", 0.05, NULL);
+  double frequency, damping;
+  model->type->rates(model, &frequency, &damping);
+  Rig *rig = rig_new();
+  rig->description.solver.time_step = 0.25 / frequency;
+  rig_passive(rig, "drop", model, NULL);
+  SporeWorld *world = rig_build(rig);
+  double worst = 0;
+  rig_run(world, WINDOW); /* it finds its shape */
+  double first = mean_energy(world);
+  for (unsigned done = 2 * WINDOW; done < STEPS; done += STEPS / 10) {
+    rig_run(world, STEPS / 10 - WINDOW);
+    worst = fmax(worst, fabs(mean_energy(world) / first - 1));
+  }
+  g_test_message("case 24: %u particles, %u steps of %.2g s: mean energy %.3e J, off by at most %.2e",
+                 (unsigned)model->block_count, (unsigned)spore_world_step_count(world),
+                 rig->description.solver.time_step, first, worst);
+  g_assert_cmpuint(spore_world_step_count(world), >=, STEPS);
+  g_assert_cmpfloat(worst, <, 1e-6);
+  rig_free(rig);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/stability/24_long/pendulum", case_24_pendulum);
+  g_test_add_func("/stability/24_long/fluid", case_24_fluid);
   return g_test_run();
 }

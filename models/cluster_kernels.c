@@ -1,0 +1,88 @@
+#include <string.h>
+
+#include "models/cluster_list.h"
+
+double SPORE_LEVEL_NAME(spore_cluster_move)(SporeClusterList *list, const double *q) {
+  SporeVd most = {0};
+  SporeVl strange = {0}; /* not a number */
+  for (size_t c = 0; c < list->cluster_count; c++) {
+    const uint32_t *particle = list->particle + c * SPORE_LANES;
+    size_t at = c * SPORE_CLUSTER_DOUBLES;
+    double *x = list->x + at;
+    for (int k = 0; k < SPORE_LANES; k++) {
+      if (particle[k] == SPORE_NO_PARTICLE) break;
+      const double *from = q + 3 * (size_t)particle[k];
+      x[k] = from[0], x[SPORE_LANES + k] = from[1], x[2 * SPORE_LANES + k] = from[2];
+    }
+    for (int k = 0; list->offset && k < SPORE_CLUSTER_DOUBLES; k += SPORE_WIDTH)
+      spore_vd_store(x + k, spore_vd_load(x + k) + spore_vd_load(list->offset + at + k));
+    for (int k = 0; k < SPORE_LANES; k += SPORE_WIDTH) {
+      SporeVd square = {0};
+      for (int axis = 0; axis < 3; axis++) {
+        int i = axis * SPORE_LANES + k;
+        SporeVd way = spore_vd_load(x + i) - spore_vd_load(list->reference + at + i);
+        square += way * way;
+      }
+      strange |= ~(square >= 0);
+      most = spore_vd_max(square, most);
+    }
+  }
+  if (spore_vl_any(strange)) return __builtin_nan("");
+  double greatest = 0;
+  for (int k = 0; k < SPORE_WIDTH; k++) greatest = most[k] > greatest ? most[k] : greatest;
+  return greatest;
+}
+
+/* How far [lower, upper] is from an interval, 0 where they meet. */
+SPORE_INLINE SporeVd gap_to(double lower, double upper, SporeVd other_lower, SporeVd other_upper) {
+  return spore_vd_max(spore_vd_max(other_lower - upper, lower - other_upper), spore_vd_all(0));
+}
+
+size_t SPORE_LEVEL_NAME(spore_cluster_search)(const SporeClusterList *list, size_t cluster, const double image[3],
+                                              size_t from, size_t to, uint32_t *found) {
+  size_t n = list->particle_count, count = 0;
+  double far = list->reach + list->skin, lower[3], upper[3];
+  for (size_t k = 0; k < 3; k++) {
+    lower[k] = list->bounds[k * n + cluster] - image[k];
+    upper[k] = list->bounds[(3 + k) * n + cluster] - image[k];
+  }
+  for (size_t c = from; c < to; c += SPORE_WIDTH) {
+    SporeVd square = {0};
+    for (size_t k = 0; k < 3; k++) {
+      SporeVd gap = gap_to(lower[k], upper[k], spore_vd_load(list->bounds + k * n + c),
+                           spore_vd_load(list->bounds + (3 + k) * n + c));
+      square += gap * gap;
+    }
+    SporeVl near = square < spore_vd_all(far * far);
+    if (!spore_vl_any(near)) continue;
+    for (size_t i = 0; i < SPORE_WIDTH && c + i < to; i++)
+      if (near[i]) found[count++] = (uint32_t)(c + i);
+  }
+  return count;
+}
+
+size_t SPORE_LEVEL_NAME(spore_cluster_refine)(const SporeClusterList *list, size_t group, const double image[3],
+                                              const uint32_t *clusters, size_t count, uint32_t *found) {
+  double far = list->reach + list->skin;
+  const double *xi = list->x + group / SPORE_CLUSTER_GROUPS * SPORE_CLUSTER_DOUBLES +
+                     group % SPORE_CLUSTER_GROUPS * SPORE_CLUSTER_ROWS;
+  SporeVd row[SPORE_CLUSTER_ROWS][3], far2 = spore_vd_all(far * far);
+  for (int a = 0; a < SPORE_CLUSTER_ROWS; a++)
+    for (int k = 0; k < 3; k++) row[a][k] = spore_vd_all(xi[k * SPORE_LANES + a] - image[k]);
+  size_t kept = 0;
+  for (size_t i = 0; i < count; i++) {
+    const double *x = list->x + clusters[i] * SPORE_CLUSTER_DOUBLES;
+    SporeVl near = {0};
+    for (int k = 0; k < SPORE_LANES; k += SPORE_WIDTH) {
+      SporeVd xj = spore_vd_load(x + k), yj = spore_vd_load(x + SPORE_LANES + k);
+      SporeVd zj = spore_vd_load(x + 2 * SPORE_LANES + k);
+      for (int a = 0; a < SPORE_CLUSTER_ROWS; a++) {
+        SporeVd dx = xj - row[a][0], dy = yj - row[a][1], dz = zj - row[a][2];
+        near |= dx * dx + dy * dy + dz * dz < far2;
+      }
+    }
+    found[kept] = clusters[i];
+    kept += spore_vl_any(near);
+  }
+  return kept;
+}
