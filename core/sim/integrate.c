@@ -3,6 +3,8 @@
 
 #include "core/sim/world_private.h"
 
+#define POOL_WORK 3000 /* below, a step is not worth the pool: some 30 us */
+
 SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind,
                                      size_t substeps) {
   SporeGroup group = {.world = world, .island = island, .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
@@ -61,8 +63,21 @@ static void integrate_island(void *data, size_t index) {
   island->rests = spore_island_rests(world, island);
 }
 
+/* What the islands will cost, counted in units of roughly 10 ns. */
+static size_t count_work(const SporeWorld *world) {
+  size_t work = 0;
+  for (size_t i = 0; i < world->island_count; i++) {
+    const SporeIsland *island = &world->islands[i];
+    size_t size = island->v_count + 10 * (island->contact_count + island->spring_count);
+    work += spore_integrator(island->integrator)->implicit ? 10 * size : size;
+  }
+  return work;
+}
+
 void spore_world_integrate(SporeWorld *world) {
-  spore_pool_run(world->pool, world->island_count, integrate_island, world);
+  /* Workers that have gone to sleep take some microseconds to be called. */
+  bool worth_calling = count_work(world) >= POOL_WORK;
+  spore_pool_run(worth_calling ? world->pool : NULL, world->island_count, integrate_island, world);
   SporeStepCounts *counts = &world->counts;
   *counts = (SporeStepCounts){
       .contacts = world->contact_count, .islands = world->island_count, .sleeping = world->sleeping_count};

@@ -1,0 +1,62 @@
+/* The scenes that ship: their steps allocate nothing once warm, the same bits come from any number of threads, and the
+ * monitor has nothing to say. */
+#include <glib.h>
+
+#include "core/base/memory.h"
+#include "core/io/scene_xml.h"
+#include "core/scene/compile.h"
+#include "models/registry.h"
+
+#define WARM_STEPS 40 /* room for contacts grows, preconditioners are chosen */
+#define STEPS 60
+
+typedef struct Run {
+  uint64_t hash, allocations;
+  SporeMonitor monitor;
+} Run;
+
+static Run run_scene(const char *file, int threads) {
+  GError *error = NULL;
+  SporeSchema *schema = spore_schema_new(spore_model_registry);
+  SporeDocument *document = spore_scene_load(schema, file, &error);
+  g_assert_no_error(error);
+  SporePool *pool = spore_pool_create(threads);
+  SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, &error);
+  g_assert_no_error(error);
+  SporeWorld *world = simulation->world;
+  for (int i = 0; i < WARM_STEPS; i++) spore_world_step(world);
+  uint64_t before = spore_allocation_count();
+  for (int i = 0; i < STEPS; i++) spore_world_step(world);
+  Run run = {spore_world_hash(world), spore_allocation_count() - before, *spore_world_monitor(world)};
+  spore_simulation_free(simulation);
+  spore_pool_free(pool);
+  spore_document_free(document);
+  spore_schema_free(schema);
+  return run;
+}
+
+static void test_scene(gconstpointer data) {
+  const char *file = data;
+  uint64_t expected = 0;
+  for (int threads = 1; threads <= 3; threads++) {
+    Run run = run_scene(file, threads);
+    if (threads == 1) expected = run.hash;
+    g_assert_cmphex(run.hash, ==, expected);
+    g_assert_cmpuint(run.allocations, ==, 0);
+    if (run.monitor.message_count) g_test_message("%s", run.monitor.messages[0].text);
+    g_assert_cmpuint(run.monitor.message_count, ==, 0);
+    g_assert_cmpuint(run.monitor.not_converged + run.monitor.recoveries + run.monitor.deep_contacts, ==, 0);
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_autoptr(GDir) folder = g_dir_open(SPORE_SCENES, 0, NULL);
+  g_assert_nonnull(folder);
+  for (const char *name; (name = g_dir_read_name(folder));) {
+    if (!g_str_has_suffix(name, ".spore")) continue;
+    g_autofree char *path = g_strconcat("/shipped/", name, NULL);
+    g_test_add_data_func_full(path, g_build_filename(SPORE_SCENES, name, NULL), test_scene, g_free);
+  }
+  return g_test_run();
+}
