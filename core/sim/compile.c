@@ -233,7 +233,7 @@ static bool allocate_history(SporeWorld *world) {
 
 bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   size_t n = world->body_count, q = world->q_count, v = world->v_count;
-  world->scratch_per_block = spore_integrator_scratch();
+  world->scratch_per_block = spore_mixed_scratch();
   world->target_q = SPORE_NEW_ARRAY(double, q);
   world->mass = SPORE_NEW_ARRAY(double, 3 * v);
   world->mass_inverse = SPORE_NEW_ARRAY(double, 3 * v);

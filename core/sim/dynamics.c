@@ -9,6 +9,7 @@ static void add_body_forces(const SporeGroup *group, const double *q, const doub
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
     const double *shape = (group->shape ? group->shape : q) + site->q;
+    if (spore_group_leaves(group, body)) continue;
     const double *velocity = spore_body_is_static(body) ? group->world->still : v + site->v;
     body->model->type->force(body->model, q + site->q, shape, velocity, f + site->v);
     spore_nodes_pull(body->block_count, f + site->v, body->model->block_mass, gravity);
@@ -24,9 +25,14 @@ static void add_term_forces(const SporeGroup *group, const double *q, const doub
 
 static void set_shape(void *data, const double *shape) { ((SporeGroup *)data)->shape = shape; }
 
+static void start_forces(const SporeGroup *group, double *f) {
+  if (group->given) memcpy(f, group->given, group->island->v_count * sizeof *f);
+  else memset(f, 0, group->island->v_count * sizeof *f);
+}
+
 static void force(void *data, const double *q, const double *v, double *f) {
   SporeGroup *group = data;
-  memset(f, 0, group->island->v_count * sizeof *f);
+  start_forces(group, f);
   add_body_forces(group, q, v, f);
   add_term_forces(group, q, v, f);
   spore_group_filter(group, f);
@@ -34,7 +40,7 @@ static void force(void *data, const double *q, const double *v, double *f) {
 
 static void body_force(void *data, const double *q, const double *v, double *f) {
   SporeGroup *group = data;
-  memset(f, 0, group->island->v_count * sizeof *f);
+  start_forces(group, f);
   add_body_forces(group, q, v, f);
   spore_group_filter(group, f);
 }
@@ -187,17 +193,21 @@ static void kick(void *data, const double *f, double h, double *v) {
   spore_group_filter(group, v);
 }
 
+void spore_body_drift(const SporeBody *body, const double *q0, const double *v, double h, double *q1, double *v1) {
+  if (body->model->type->drift) {
+    body->model->type->drift(body->model, q0, v, h, q1, v1);
+    return;
+  }
+  spore_vector_move(body->q_count, q1, q0, h, v);
+  if (v1 != v) memcpy(v1, v, body->q_count * sizeof *v);
+}
+
 static void drift(void *data, const double *q0, const double *v, double h, double *q1, double *v1) {
   SporeGroup *group = data;
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
-    SporeBody *body = spore_group_body(group, b, &site);
-    if (body->model->type->drift) {
-      body->model->type->drift(body->model, q0 + site->q, v + site->v, h, q1 + site->q, v1 + site->v);
-      continue;
-    }
-    spore_vector_move(body->q_count, q1 + site->q, q0 + site->q, h, v + site->v);
-    if (v1 != v) memcpy(v1 + site->v, v + site->v, body->q_count * sizeof *v);
+    const SporeBody *body = spore_group_body(group, b, &site);
+    spore_body_drift(body, q0 + site->q, v + site->v, h, q1 + site->q, v1 + site->v);
   }
 }
 

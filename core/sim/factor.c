@@ -161,6 +161,7 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
     SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     SporeFactorChoice *choice = &body->choice;
     if (body->factor.block_count == 0) continue;
+    if (island->mixed && !spore_integrator(body->integrator)->implicit) continue; /* its matrix was not asked for */
     judge_age(world, body, result);
     if (world->solver.linear != SPORE_LINEAR_AUTOMATIC) continue;
     if (result->unsolved > 0 && !choice->factorised) {

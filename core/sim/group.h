@@ -26,6 +26,21 @@ static inline SporeSpringTerm *spore_group_spring(const SporeGroup *group, size_
   return &group->world->springs[index];
 }
 
+/* Whether the body moves by a method of its own in this group, and takes part with its mass alone: see mixed.c. */
+static inline bool spore_group_leaves(const SporeGroup *group, const SporeBody *body) {
+  return group->apart && !spore_integrator(body->integrator)->implicit;
+}
+
+/* Whether the body has a matrix of its own in A; else its mass stands for it. */
+static inline bool spore_group_assembles(const SporeGroup *group, const SporeBody *body) {
+  return body->matrix.block_count > 0 && !spore_group_leaves(group, body);
+}
+
+/* What is left of the inertia of a body in steps: static ones that pins hold have next to none beside others. */
+static inline double spore_group_inertia(const SporeGroup *group, const SporeBody *body) {
+  return group->apart && spore_body_is_static(body) && body->held_count > 0 ? 1e-6 : 1;
+}
+
 static inline double *spore_group_precondition_blocks(const SporeGroup *group) {
   return group->world->precondition + 3 * group->island->v_start;
 }
@@ -57,6 +72,8 @@ static inline void spore_blocks_add(const double *blocks, size_t count, double s
 static inline void spore_group_weigh(const SporeGroup *group, const SporeBody *body, const double *x, double *y) {
   if (spore_model_is_nodal(body->model)) spore_nodes_weigh(body->block_count, y, body->model->block_mass, x);
   else spore_blocks_apply(spore_group_mass(group, body), body->block_count, x, y);
+  double inertia = spore_group_inertia(group, body);
+  for (size_t k = 0; inertia != 1 && k < 3 * body->block_count; k++) y[k] *= inertia;
 }
 
 /* Inverses of symmetric blocks. One without an inverse gets that of its trace: a preconditioner may be rough, but not

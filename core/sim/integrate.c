@@ -45,15 +45,19 @@ static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) 
   return resolved ? island->integrator : SPORE_INTEGRATOR_IMPLICIT_EULER;
 }
 
+static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
+  if (island->mixed) return spore_island_advance_mixed(world, island);
+  return spore_island_advance(world, island, method(world, island), island->substeps);
+}
+
 static void integrate_island(void *data, size_t index) {
   SporeWorld *world = data;
   SporeIsland *island = &world->islands[index];
   spore_island_gather(world, island);
-  SporeIntegratorKind kind = method(world, island);
-  island->result = spore_island_advance(world, island, kind, island->substeps);
+  island->result = advance(world, island);
   if (spore_island_choose(world, island)) {
     spore_island_gather(world, island);
-    island->result = spore_island_advance(world, island, kind, island->substeps);
+    island->result = advance(world, island);
   }
   spore_island_examine(world, island);
   if (island->trouble == SPORE_TROUBLE_NONE && !spore_island_energy_holds(world, island))

@@ -26,14 +26,20 @@ static void tie_bodies(SporeWorld *world) {
     if (world->spring_active[i]) tie(world->parent, &world->springs[i].a, &world->springs[i].b);
 }
 
-/* The method for bodies of two: the one that damps most; where only some have no inertia, none is without. */
-static SporeIntegratorKind together(SporeIntegratorKind a, SporeIntegratorKind b) {
-  if (a == b) return a;
-  if (a == SPORE_INTEGRATOR_STATIC || b == SPORE_INTEGRATOR_STATIC) {
-    SporeIntegratorKind other = a == SPORE_INTEGRATOR_STATIC ? b : a;
-    return spore_integrator(other)->implicit ? other : SPORE_INTEGRATOR_IMPLICIT_EULER;
+/* Bodies that choose alike move by what they choose. Implicit ones that do not, by the method that damps most; others
+ * are mixed, by implicit Euler where they couple. */
+static void add_choice(SporeIsland *island, const SporeBody *body) {
+  const SporeIntegrator *its = spore_integrator(body->integrator), *before = spore_integrator(island->integrator);
+  bool alike = body->integrator == island->integrator && body->substeps == island->substeps;
+  bool explicit_one = !its->implicit || !before->implicit;
+  bool static_one = (body->integrator == SPORE_INTEGRATOR_STATIC) != (island->integrator == SPORE_INTEGRATOR_STATIC);
+  if (island->mixed || (explicit_one && !alike) || static_one) {
+    island->mixed = true;
+    island->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
+    return;
   }
-  return spore_integrator(b)->damping > spore_integrator(a)->damping ? b : a;
+  if (its->damping > before->damping) island->integrator = body->integrator;
+  if (body->substeps > island->substeps) island->substeps = body->substeps;
 }
 
 /* Numbers the islands and counts their bodies. */
@@ -45,7 +51,7 @@ static void number_islands(SporeWorld *world) {
     if (!spore_body_moves(body)) continue;
     uint32_t root = find_root(world->parent, b);
     if (root == b) {
-      world->islands[world->island_count] = (SporeIsland){.integrator = body->integrator};
+      world->islands[world->island_count] = (SporeIsland){.integrator = body->integrator, .substeps = body->substeps};
       world->island_of[b] = (uint32_t)world->island_count++;
     } else {
       world->island_of[b] = world->island_of[root];
@@ -54,8 +60,7 @@ static void number_islands(SporeWorld *world) {
     island->body_count++;
     island->q_count += body->q_count;
     island->v_count += 3 * body->block_count;
-    if (body->substeps > island->substeps) island->substeps = body->substeps;
-    island->integrator = together(island->integrator, body->integrator);
+    add_choice(island, body);
   }
 }
 

@@ -36,8 +36,9 @@ static void linearise_terms(SporeGroup *group, const double *q, const double *v,
 
 /* Diagonal blocks of the models' part of A; M alone where there is no matrix. */
 static void body_diagonal(const SporeGroup *group, const SporeBody *body, double *blocks) {
-  if (body->matrix.block_count == 0) {
-    memcpy(blocks, spore_group_mass(group, body), 9 * body->block_count * sizeof *blocks);
+  if (!spore_group_assembles(group, body)) {
+    const double *mass = spore_group_mass(group, body);
+    for (size_t e = 0; e < 9 * body->block_count; e++) blocks[e] = spore_group_inertia(group, body) * mass[e];
     return;
   }
   for (size_t i = 0; i < body->block_count; i++)
@@ -78,7 +79,7 @@ static void make_preconditioner(SporeGroup *group) {
     measure_stiffness(blocks + 3 * site->v, spore_group_mass(group, body), body->block_count,
                       block_stiffness(group) + site->v / 3);
     bool current = body->factor_ready && body->factor_alone && alone;
-    if (!body->choice.factorised) body->factor_ready = false;
+    if (!body->choice.factorised || !spore_group_assembles(group, body)) body->factor_ready = false;
     else if (!current) factorise(body, blocks + 3 * site->v, alone);
   }
   spore_blocks_invert(blocks, group->island->v_count / 3);
@@ -86,13 +87,14 @@ static void make_preconditioner(SporeGroup *group) {
 
 static void assemble(const SporeGroup *group, SporeBody *body, const double *q, const double *shape, const double *v,
                      double c, double c2) {
-  if (body->matrix.block_count == 0) return;
+  if (!spore_group_assembles(group, body)) return;
   spore_block_matrix_zero(&body->matrix);
   body->model->type->jacobian(body->model, q, shape, v, c2, spore_body_is_static(body) ? 0 : c, &body->matrix);
   const double *mass = spore_group_mass(group, body);
+  double inertia = spore_group_inertia(group, body);
   for (size_t i = 0; i < body->block_count; i++) {
     double *block = body->matrix.values + 9 * (size_t)body->matrix.diagonal[i];
-    for (int e = 0; e < 9; e++) block[e] += mass[9 * i + e];
+    for (int e = 0; e < 9; e++) block[e] += inertia * mass[9 * i + e];
   }
   body->factor_ready = false;
   body->matrix_c = c;
@@ -116,7 +118,7 @@ static bool may_reuse(const SporeGroup *group, double c, double c2) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_group_body(group, b, &site);
-    if (body->matrix.block_count == 0) continue;
+    if (!spore_group_assembles(group, body)) continue;
     bool same = body->matrix_c == c && body->matrix_c2 == c2;
     if (!same || group->world->step - body->matrix_step >= body->choice.keep) return false;
   }
@@ -142,7 +144,7 @@ double spore_group_factor_cost(void *data) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_group_body(group, b, &site);
-    if (body->matrix.block_count == 0) continue;
+    if (!spore_group_assembles(group, body)) continue;
     if (!body->choice.factorised) return 0;
     linearisation += spore_body_linearisation_work(body);
     iteration += spore_body_iteration_work(body);
@@ -155,7 +157,7 @@ bool spore_group_factorised(void *data) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_group_body(group, b, &site);
-    if (body->matrix.block_count > 0 && !body->factor_ready) return false;
+    if (spore_group_assembles(group, body) && !body->factor_ready) return false;
   }
   return true;
 }
@@ -165,7 +167,7 @@ void spore_group_multiply(void *data, const double *x, double *y) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    if (body->matrix.block_count == 0) {
+    if (!spore_group_assembles(group, body)) {
       spore_group_weigh(group, body, x + site->v, y + site->v);
       continue;
     }

@@ -116,6 +116,7 @@ typedef struct SporeIsland {
   bool in_place; /* q1 and v1 lie in next_q and next_v */
   SporeIntegratorKind integrator;
   size_t substeps;         /* of the integrator */
+  bool mixed;              /* its bodies move by several methods: see mixed.c */
   double gravity_momentum; /* (M g . g)^1/2 */
   SporeHistory history;    /* in the local vectors */
   uint32_t attempts;       /* at this step */
@@ -272,8 +273,12 @@ typedef struct SporeGroup {
   SporeWorld *world;
   const SporeIsland *island;
   const double *shape;   /* as q of the island: where viscous forces are taken; NULL: where each force is */
+  const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
+  bool apart;            /* explicit bodies are masses alone: see mixed.c */
   double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
 } SporeGroup;
+/* Motion of a body free of force; q1 and v1 may be q0 and v. */
+void spore_body_drift(const SporeBody *body, const double *q0, const double *v, double h, double *q1, double *v1);
 SporeDynamics spore_group_dynamics(SporeGroup *group);
 /* Whether a step of h seconds is short for all contacts of the island. */
 bool spore_group_resolves_contacts(const SporeGroup *group, double h);
@@ -310,6 +315,11 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 /* integrate.c */
 /* One step of the world in `substeps` parts, from q0 and v0 of the island to q1 and v1; spoils the local vectors. */
 SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps);
+
+/* mixed.c: one step of an island whose bodies choose differently. */
+SporeStepResult spore_island_advance_mixed(SporeWorld *world, SporeIsland *island);
+/* Scratch a block, doubles. */
+size_t spore_mixed_scratch(void);
 
 /* monitor.c */
 /* Sets island->trouble and, where there is any, island->offender. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/integrate/integrator.h"
+#include "core/sim/world_private.h"
 #include "tests/kernel/chain_model.h"
 
 #define GRAVITY ((SporeVec3){0, -9.81, 0})
@@ -384,6 +385,157 @@ static void test_static_unheld(void) {
   spore_world_free(world);
 }
 
+typedef struct Pair {
+  SporeIntegratorKind kinds[2];
+  size_t substeps;      /* of the first */
+  double stiffness[2];  /* of the chains */
+  double link, damping; /* spring between them */
+  double h;
+  SporeVec3 gravity;
+  double drag; /* of all particles */
+} Pair;
+
+/* Two chains, one behind the other, tied by a spring of no length; the second is held at its far end where there is
+ * gravity. The first chain is the explicit one. */
+static SporeWorld *couple(const Pair *pair) {
+  SporeBodyDescription bodies[2];
+  for (int b = 0; b < 2; b++) {
+    SporeModel *model = chain_create((ChainFields){.count = 3,
+                                                   .mass = 0.1 + 0.2 * b,
+                                                   .spacing = 0.2,
+                                                   .stiffness = pair->stiffness[b],
+                                                   .damping = pair->drag,
+                                                   .poison_at = HUGE_VAL});
+    bodies[b] = passive_body(b ? "implicit" : "explicit", model, (SporeVec3){0.5 * b, 0, 0});
+    bodies[b].integrator = pair->kinds[b];
+  }
+  bodies[0].substeps = pair->substeps;
+  bodies[0].velocity = (SporeVec3){0.3, 0.5, -0.2};
+  SporeLinkDescription links[2] = {{.name = "tie",
+                                    .kind = SPORE_LINK_SPRING,
+                                    .body_a = 0,
+                                    .body_b = 1,
+                                    .point_a = {0.4, 0, 0},
+                                    .point_b = {0.5, 0, 0},
+                                    .stiffness = pair->link,
+                                    .damping = pair->damping},
+                                   {.name = "pin", .kind = SPORE_LINK_PIN, .body_a = 1, .radius = 0.01}};
+  links[1].point_a = (SporeVec3){0.9, 0, 0};
+  SporeWorldDescription description = world_description(bodies, 2);
+  description.gravity = pair->gravity;
+  description.links = links;
+  description.link_count = spore_vec3_length(pair->gravity) > 0 ? 2 : 1;
+  description.solver.time_step = pair->h;
+  description.solver.tolerance = 1e-8;
+  description.solver.sleep_speed = 0;
+  return create(&description);
+}
+
+static void couple_to(const Pair *pair, double time_s, double *q) {
+  SporeWorld *world = couple(pair);
+  run(world, (int)lround(time_s / pair->h));
+  for (uint32_t b = 0; b < 2; b++) memcpy(q + 9 * b, spore_world_q(world, b), 9 * sizeof *q);
+  g_assert_cmpuint(spore_world_monitor(world)->recoveries, ==, 0);
+  spore_world_free(world);
+}
+
+static const SporeIntegratorKind explicit_kinds[] = {SPORE_INTEGRATOR_SYMPLECTIC_EULER, SPORE_INTEGRATOR_VERLET,
+                                                     SPORE_INTEGRATOR_RK4};
+
+/* Bodies of two methods on a smooth spring: of first order together, and the explicit one's matrix is never asked
+ * for. */
+static void test_mixed_order(void) {
+  Pair pair = {{SPORE_INTEGRATOR_RK4, SPORE_INTEGRATOR_RK4}, 1, {60, 200}, 40, 0.1, 1e-5, {0, -9.81, 0}, 0};
+  double exact[18], q[18], error[LEVELS];
+  couple_to(&pair, 0.3, exact);
+  for (unsigned k = 0; k < G_N_ELEMENTS(explicit_kinds); k++) {
+    pair.kinds[0] = explicit_kinds[k];
+    pair.kinds[1] = SPORE_INTEGRATOR_IMPLICIT_EULER;
+    pair.substeps = 5;
+    for (int level = 0; level < LEVELS; level++) {
+      pair.h = ldexp(1e-3, -level);
+      couple_to(&pair, 0.3, q);
+      error[level] = distance(q, exact, 18);
+    }
+    double slope = fit_slope(error, LEVELS);
+    SporeWorld *world = couple(&pair);
+    run(world, 3);
+    g_test_message("mixed order: %s with implicit Euler: slope %.3f (error %.1e m at 1 ms)",
+                   spore_integrator_names[explicit_kinds[k]], slope, error[0]);
+    g_assert_cmpfloat_with_epsilon(slope, 1, 0.2);
+    g_assert_cmpuint(spore_world_counts(world).islands, ==, 1);
+    g_assert_cmpfloat(world->bodies[0].matrix_c, ==, 0);
+    g_assert_cmpfloat(world->bodies[1].matrix_c, >, 0);
+    spore_world_free(world);
+  }
+}
+
+/* Highest energy above the start, as a part of it, and how far momentum is off at the end, as a part too. */
+static double couple_long(const Pair *pair, double *drift) {
+  SporeWorld *world = couple(pair);
+  double start = total(world), wanted = 3 * 0.1 * 0.5, most = 0, momentum = 0;
+  for (int i = 0; i < 1500; i++) {
+    spore_world_step(world);
+    most = fmax(most, total(world) / start - 1);
+  }
+  for (int p = 0; p < 3; p++)
+    momentum += 0.1 * spore_world_v(world, 0)[3 * p + 1] + 0.3 * spore_world_v(world, 1)[3 * p + 1];
+  *drift = fmax(*drift, fabs(momentum / wanted - 1));
+  spore_world_free(world);
+  return most;
+}
+
+/* Nothing gains energy however stiff the spring between them, also where the explicit chain's fastest mode and the step
+ * meet (h w = pi and around), where impulses at the step's end would resonate. What one gains the other loses, to
+ * the solver's tolerance of what they exchange, which grows with the stiffness. */
+static void test_mixed_stiff(void) {
+  for (unsigned k = 0; k < G_N_ELEMENTS(explicit_kinds); k++)
+    for (double link = 1e2; link < 1e9; link *= 1e3) {
+      double most = 0, drift = 0, both_implicit = 0;
+      static const double products[] = {0.5, 1.5, 2.5, 3, G_PI, 3.3, 4.5, 6};
+      for (unsigned i = 0; i < G_N_ELEMENTS(products); i++) {
+        /* A chain of three has w^2 = 3 k / m along itself. */
+        double h = 2e-3, w = products[i] / h, stiffness = 0.1 / 3 * w * w;
+        Pair pair = {
+            {explicit_kinds[k], SPORE_INTEGRATOR_IMPLICIT_EULER}, 20, {stiffness, 500}, link, 0, h, {0, 0, 0}, 0};
+        most = fmax(most, couple_long(&pair, &drift));
+        pair.kinds[0] = SPORE_INTEGRATOR_IMPLICIT_EULER;
+        pair.substeps = 1;
+        couple_long(&pair, &both_implicit);
+      }
+      g_test_message("mixed: %s, tie of %.0e N/m: energy at most %+.1e of the start's above it, momentum off by %.1e "
+                     "(both implicit: %.1e)",
+                     spore_integrator_names[explicit_kinds[k]], link, most, drift, both_implicit);
+      g_assert_cmpfloat(most, <, 0.01);
+      g_assert_cmpfloat(drift, <, fmax(1e-8, 1e-11 * link));
+    }
+}
+
+/* Hanging together they come to rest where statics has them: static beside moving, and explicit beside implicit but for
+ * h^2 a / 2 in the spring that ties them, a = 3 g being what it gives the particle that carries two others. */
+static void test_mixed_rest(void) {
+  static const struct {
+    SporeIntegratorKind kinds[2];
+    size_t substeps;
+  } cases[] = {{{SPORE_INTEGRATOR_IMPLICIT_EULER, SPORE_INTEGRATOR_STATIC}, 1},
+               {{SPORE_INTEGRATOR_SYMPLECTIC_EULER, SPORE_INTEGRATOR_STATIC}, 10},
+               {{SPORE_INTEGRATOR_SYMPLECTIC_EULER, SPORE_INTEGRATOR_IMPLICIT_EULER}, 10}};
+  double exact[18], q[18], h = 5e-3;
+  Pair pair = {{SPORE_INTEGRATOR_STATIC, SPORE_INTEGRATOR_STATIC}, 1, {400, 400}, 300, 0, h, {0, -9.81, 0}, 0.5};
+  couple_to(&pair, 20 * h, exact);
+  for (unsigned i = 0; i < G_N_ELEMENTS(cases); i++) {
+    memcpy(pair.kinds, cases[i].kinds, sizeof pair.kinds);
+    pair.substeps = cases[i].substeps;
+    pair.damping = 2;
+    couple_to(&pair, 30, q);
+    double off = distance(q, exact, 18) / sqrt(6);
+    g_test_message("mixed rest: %s under %s: %.1e m from the balance", spore_integrator_names[pair.kinds[0]],
+                   spore_integrator_names[pair.kinds[1]], off);
+    bool apart = !spore_integrator(pair.kinds[0])->implicit;
+    g_assert_cmpfloat(off, <, apart ? 1.1 * h * h * 3 * 9.81 / 2 : 1e-5);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/integrate/order", test_order);
@@ -396,5 +548,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/integrate/limits", test_limits);
   g_test_add_func("/integrate/static", test_static);
   g_test_add_func("/integrate/static-unheld", test_static_unheld);
+  g_test_add_func("/integrate/mixed-order", test_mixed_order);
+  g_test_add_func("/integrate/mixed-stiff", test_mixed_stiff);
+  g_test_add_func("/integrate/mixed-rest", test_mixed_rest);
   return g_test_run();
 }
