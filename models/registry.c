@@ -1,5 +1,9 @@
 #include "models/registry.h"
 
-const SporeModelType *const spore_model_registry[] = {
-    &spore_rigid_body,         &spore_mass_spring_net, &spore_corotational_tetrahedra,
-    &spore_deformable_surface, &spore_lennard_jones,   NULL};
+const SporeModelType *const spore_model_registry[] = {&spore_rigid_body,
+                                                      &spore_mass_spring_net,
+                                                      &spore_corotational_tetrahedra,
+                                                      &spore_neo_hookean_tetrahedra,
+                                                      &spore_deformable_surface,
+                                                      &spore_lennard_jones,
+                                                      NULL};

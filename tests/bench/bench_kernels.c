@@ -123,7 +123,7 @@ static void net(const char *name, double damping, double others) {
 }
 
 /* A beam of 20x4x4 cells of six tetrahedra, 5 cm thick: 525 nodes. */
-static void beam(const char *name, double damping) {
+static void beam(const char *name, const SporeModelType *type, double damping) {
   enum { X = 20, Y = 4, Z = 4 };
   static const uint8_t paths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}; /* corners between 0 and 7 */
   SporeTetrahedralMesh mesh = {0};
@@ -140,11 +140,11 @@ static void beam(const char *name, double damping) {
           *corner++ = cell[0], *corner++ = cell[paths[t][0]], *corner++ = cell[paths[t][1]], *corner++ = cell[7];
         }
       }
-  void *fields = new_fields(&spore_corotational_tetrahedra);
-  set(&spore_corotational_tetrahedra, fields, "stiffness_damping", damping);
+  void *fields = new_fields(type);
+  set(type, fields, "stiffness_damping", damping);
   SporeGeometry geometry = {.tetrahedra = &mesh};
   SporeError error = SPORE_ERROR_INIT;
-  Case run = {.name = name, .model = spore_corotational_tetrahedra.create(&geometry, fields, &error)};
+  Case run = {.name = name, .model = type->create(&geometry, fields, &error)};
   if (!run.model) fprintf(stderr, "%s: %s\n", error.place, error.message);
   measure_model(&run);
   spore_free(fields);
@@ -155,7 +155,8 @@ int main(void) {
   net("net 20x20, 1121 springs,", 0, 0);
   net("net 20x20, 1121 damped springs,", 0.01, 0);
   net("net 20x20, all springs damped,", 0.01, 10);
-  beam("1920 tetrahedra", 0);
-  beam("1920 damped tetrahedra", 0.01);
+  beam("1920 corotational tetrahedra", &spore_corotational_tetrahedra, 0);
+  beam("1920 damped corotational tetrahedra", &spore_corotational_tetrahedra, 0.01);
+  beam("1920 neo-Hookean tetrahedra", &spore_neo_hookean_tetrahedra, 0);
   return 0;
 }

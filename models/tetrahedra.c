@@ -1,14 +1,14 @@
-/* Corotational tetrahedra: the mesh's vertices are nodes, each tetrahedron a linear element. The element itself is in
- * models/corotation.h; here are the model's making, assembly and parameters. */
+/* Solids of tetrahedra: the mesh's vertices are nodes, each tetrahedron a linear element. What the element does is in
+ * models/tetrahedra.h; here are the models' making, assembly and parameters. */
 #include <math.h>
 #include <stdio.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "models/corotation.h"
 #include "models/fields.h"
 #include "models/nodal.h"
 #include "models/registry.h"
+#include "models/tetrahedra.h"
 #include "models/tetrahedra_map.h"
 
 #define FLAT 1e-12 /* six volumes against the longest edge cubed: below, a tetrahedron is flat */
@@ -17,8 +17,18 @@ typedef struct TetrahedraFields {
   double young_modulus, poisson_ratio, density, mass_damping, stiffness_damping;
 } TetrahedraFields;
 
+/* Kernels by level of the processor. */
+typedef struct Material {
+  void (*const *force)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity, const double *q,
+                       const double *shape, const double *v, double *f);
+  double (*const *potential)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity, const double *q);
+  void (*const *jacobian)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity, const double *q,
+                          const double *shape, double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+} Material;
+
 typedef struct Body {
   SporeModel base;
+  const Material *material;
   SporeTetrahedralMesh mesh; /* at rest, body's frame */
   SporeTetrahedra tetrahedra;
   uint32_t *diagonal; /* block_count: where the diagonal blocks lie */
@@ -144,11 +154,10 @@ static void tune(Body *body, const TetrahedraFields *fields) {
   body->mass_damping = fields->mass_damping;
 }
 
-static bool build(Body *body, const SporeTetrahedralMesh *mesh, const TetrahedraFields *fields, SporeError *error) {
+static bool build(Body *body, const SporeModelType *type, const SporeTetrahedralMesh *mesh,
+                  const TetrahedraFields *fields, SporeError *error) {
   size_t nodes = mesh->vertex_count, count = mesh->tetrahedron_count;
-  if (!spore_model_init(&body->base, &spore_corotational_tetrahedra, nodes, false, error) ||
-      !copy_mesh(body, mesh, error))
-    return false;
+  if (!spore_model_init(&body->base, type, nodes, false, error) || !copy_mesh(body, mesh, error)) return false;
   SporeTetrahedra *tetrahedra = &body->tetrahedra;
   tetrahedra->count = count;
   tetrahedra->batch_count = (count + SPORE_LANES - 1) / SPORE_LANES;
@@ -179,14 +188,16 @@ static bool check_mesh(const SporeTetrahedralMesh *mesh, SporeError *error) {
   return true;
 }
 
-static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
+static SporeModel *create(const SporeModelType *type, const Material *material, const SporeGeometry *geometry,
+                          const void *fields, SporeError *error) {
   if (!check_mesh(geometry->tetrahedra, error)) return NULL;
   Body *body = SPORE_NEW(Body);
   if (!body) {
     no_memory(error);
     return NULL;
   }
-  if (build(body, geometry->tetrahedra, fields, error)) return &body->base;
+  body->material = material;
+  if (build(body, type, geometry->tetrahedra, fields, error)) return &body->base;
   destroy(&body->base);
   return NULL;
 }
@@ -198,20 +209,21 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Body *body = (const Body *)model;
-  spore_corotation_force(&body->tetrahedra, body->elasticity, q, shape, v, f);
+  body->material->force[spore_cpu_level()](&body->tetrahedra, body->elasticity, q, shape, v, f);
   if (body->mass_damping == 0) return;
   for (size_t i = 0; i < body->base.q_count; i++) f[i] -= body->mass_damping * body->base.block_mass[i / 3] * v[i];
 }
 
 static double potential(const SporeModel *model, const double *q) {
   const Body *body = (const Body *)model;
-  return spore_corotation_potential(&body->tetrahedra, body->elasticity, q);
+  return body->material->potential[spore_cpu_level()](&body->tetrahedra, body->elasticity, q);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Body *body = (const Body *)model;
-  spore_corotation_jacobian(&body->tetrahedra, body->elasticity, q, shape, stiffness_scale, damping_scale, matrix);
+  body->material->jacobian[spore_cpu_level()](&body->tetrahedra, body->elasticity, q, shape, stiffness_scale,
+                                              damping_scale, matrix);
   for (size_t i = 0; i < body->base.block_count; i++)
     for (int k = 0; k < 3; k++)
       matrix->values[9 * (size_t)body->diagonal[i] + 4 * k] +=
@@ -227,6 +239,24 @@ static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   return true;
 }
 
+/* What both types have in common. */
+#define SLOTS                                                                                                          \
+  .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
+  .geometry = SPORE_GEOMETRY_TETRAHEDRA, .destroy = destroy, .place = place, .force = force, .potential = potential,   \
+  .map = map, .pattern = pattern, .jacobian = jacobian, .retune = retune
+
+static SporeModel *create_corotational(const SporeGeometry *geometry, const void *fields, SporeError *error) {
+  static const Material material = {spore_corotation_force_by_level, spore_corotation_potential_by_level,
+                                    spore_corotation_jacobian_by_level};
+  return create(&spore_corotational_tetrahedra, &material, geometry, fields, error);
+}
+
+static SporeModel *create_neo_hookean(const SporeGeometry *geometry, const void *fields, SporeError *error) {
+  static const Material material = {spore_neo_hookean_force_by_level, spore_neo_hookean_potential_by_level,
+                                    spore_neo_hookean_jacobian_by_level};
+  return create(&spore_neo_hookean_tetrahedra, &material, geometry, fields, error);
+}
+
 const SporeModelType spore_corotational_tetrahedra = {
     .name = "corotational_tetrahedra",
     .label = N_("Corotational tetrahedra"),
@@ -236,15 +266,18 @@ const SporeModelType spore_corotational_tetrahedra = {
         "elements inside out can stay caught. With few cells "
         "across or a Poisson's ratio near 0.5 it bends less than it should: a bar 2 cells thick by half, 4 by a "
         "fifth."),
-    .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},
-    .geometry = SPORE_GEOMETRY_TETRAHEDRA,
-    .create = create,
-    .destroy = destroy,
-    .place = place,
-    .force = force,
-    .potential = potential,
-    .map = map,
-    .pattern = pattern,
-    .jacobian = jacobian,
-    .retune = retune,
+    .create = create_corotational,
+    SLOTS,
+};
+
+const SporeModelType spore_neo_hookean_tetrahedra = {
+    .name = "neo_hookean_tetrahedra",
+    .label = N_("Neo-Hookean tetrahedra"),
+    .doc =
+        N_("A solid of tetrahedra that stiffen as rubber and tissue do when they are squeezed, and that find back to "
+           "their shape from any heap, inside out or flat. The same as the corotational ones for small strains; a "
+           "step costs somewhat more. With few cells across or a Poisson's ratio near 0.5 it bends less than it "
+           "should."),
+    .create = create_neo_hookean,
+    SLOTS,
 };
