@@ -200,7 +200,9 @@ static bool make_grid(SporeWorld *world, SporeError *error) {
     selves += bodies[i].passive && bodies[i].self;
   }
   bool needed = movers > 0 && (with > 1 || selves > 0);
-  if (needed) world->grid = spore_grid_create(&world->spheres, bodies, world->body_count, 0, error);
+  SporeSpheres reaching = world->spheres;
+  reaching.radius = world->reach;
+  if (needed) world->grid = spore_grid_create(&reaching, bodies, world->body_count, 0, error);
   spore_free(bodies);
   if (!needed) return true;
   if (world->grid) return spore_world_reserve_contacts(world) || no_memory(error);
@@ -219,7 +221,8 @@ bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription 
   if (!all->centre || !all->velocity || !all->radius || !all->body) return no_memory(error);
   if (!add_spheres(world, description, true, error)) return false;
   all->static_count = all->count;
-  return add_spheres(world, description, false, error) && make_grid(world, error);
+  return add_spheres(world, description, false, error) && spore_world_compile_fields(world, error) &&
+         make_grid(world, error);
 }
 
 static bool allocate_history(SporeWorld *world) {

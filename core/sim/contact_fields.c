@@ -3,6 +3,8 @@
 #include "core/base/text.h"
 #include "core/sim/world.h"
 
+static const char *const surface_names[] = {"spheres", "depth_field", NULL};
+
 static const SporeParameter parameters[] = {
     {.name = "stiffness",
      .type = SPORE_REAL,
@@ -38,6 +40,18 @@ static const SporeParameter parameters[] = {
      .offset = offsetof(SporeContactFields, self),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("The body's own spheres collide with each other, those that touch at rest excepted.")},
+    {.name = "surface",
+     .type = SPORE_CHOICE,
+     .unit = "",
+     .minimum = -HUGE_VAL,
+     .maximum = HUGE_VAL,
+     .initial = {SPORE_SURFACE_SPHERES},
+     .choices = surface_names,
+     .offset = offsetof(SporeContactFields, surface),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc =
+         N_("What others feel of a body that physics does not move: each of its spheres, or one depth that is smooth "
+            "from sphere to sphere, at a few times the cost of a contact: for what tools slide over.")},
 };
 
 const SporeParameterTable spore_contact_parameters = {parameters, sizeof parameters / sizeof *parameters,

@@ -33,17 +33,21 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   if (terms) world->contacts = terms;
   SporeCoupling *couplings = spore_reallocate(world->contact_couplings, old, wanted, sizeof *couplings);
   if (couplings) world->contact_couplings = couplings;
+  SporeFelt *felt = spore_reallocate(world->felt, old, wanted, sizeof *felt);
+  if (felt) world->felt = felt;
   bool gripped = spore_grips_reserve(world, old, wanted);
   uint32_t *order = spore_reallocate(world->contact_order, old, wanted, sizeof *order);
   if (order) world->contact_order = order;
-  if (!terms || !couplings || !gripped || !order) return false;
+  if (!terms || !couplings || !felt || !gripped || !order) return false;
   world->contact_capacity = wanted;
   world->missed = 0;
   return true;
 }
 
 static void find_contacts(SporeWorld *world) {
-  world->contact_count = spore_grid_detect(world->grid, &world->spheres, world->solver.time_step, &world->missed);
+  SporeSpheres reaching = world->spheres;
+  reaching.radius = world->reach;
+  world->contact_count = spore_grid_detect(world->grid, &reaching, world->solver.time_step, &world->missed);
 }
 
 /* A contact without room would be a body that falls through another, and a run that cannot be repeated: room is made at
@@ -103,13 +107,16 @@ static SporeVec3 frame_arm(const SporeWorld *world, const SporeEnd *end, SporeVe
   return spore_quat_rotate(spore_quat_conjugate(turn), arm);
 }
 
-static void fill_term(const SporeWorld *world, const SporeContact *contact, SporeContactTerm *term) {
+static void fill_term(const SporeWorld *world, const SporeFelt *felt, SporeContactTerm *term) {
+  const SporeContact *contact = &felt->contact;
   fill_sphere_end(world, contact->a, &term->a);
   fill_sphere_end(world, contact->b, &term->b);
   double radius_a = world->spheres.radius[contact->a], radius_b = world->spheres.radius[contact->b];
   SporeContactMaterial a = material(&world->bodies[term->a.body]), b = material(&world->bodies[term->b.body]);
   term->sphere_a = contact->a;
   term->sphere_b = contact->b;
+  term->grip_a = felt->grip_a;
+  term->grip_b = felt->grip_b;
   term->normal = contact->normal;
   term->depth = contact->depth;
   term->arm_a = radius_a - 0.5 * contact->depth;
@@ -123,8 +130,8 @@ static void fill_term(const SporeWorld *world, const SporeContact *contact, Spor
 }
 
 void spore_world_respond(SporeWorld *world) {
-  const SporeContact *found = spore_grid_contacts(world->grid);
-  for (size_t i = 0; i < world->contact_count; i++) fill_term(world, &found[i], &world->contacts[i]);
+  world->contact_count = spore_world_feel(world);
+  for (size_t i = 0; i < world->contact_count; i++) fill_term(world, &world->felt[i], &world->contacts[i]);
   spore_world_take_grips(world);
   for (size_t i = 0; i < world->contact_count; i++) {
     /* Two bodies that physics does not move (one is frozen) still press on each other: a tool is to feel it. */

@@ -33,12 +33,12 @@ void spore_world_keep_grips(SporeWorld *world) {
   size_t count = 0, old = 0, old_count = world->grip_count;
   for (size_t i = 0; i < world->contact_count; i++) {
     const SporeContactTerm *term = &world->contacts[i];
-    uint64_t pair = pair_of(term->sphere_a, term->sphere_b);
+    uint64_t pair = pair_of(term->grip_a, term->grip_b);
     for (; old < old_count && pair_of_grip(&world->grips[old]) <= pair; old++)
       if (pair_of_grip(&world->grips[old]) < pair && sleeps(world, &world->grips[old]))
         keep(world, &count, world->grips[old]);
     SporeVec3 stretch = spore_contact_term_stretch(term, world->world_sites, world->q);
-    keep(world, &count, (SporeGrip){term->sphere_a, term->sphere_b, stretch});
+    keep(world, &count, (SporeGrip){term->grip_a, term->grip_b, stretch});
   }
   for (; old < old_count; old++)
     if (sleeps(world, &world->grips[old])) keep(world, &count, world->grips[old]);
@@ -58,7 +58,7 @@ void spore_world_take_grips(SporeWorld *world) {
   size_t next = 0;
   for (size_t i = 0; i < world->contact_count; i++) {
     SporeContactTerm *term = &world->contacts[i];
-    uint64_t pair = pair_of(term->sphere_a, term->sphere_b);
+    uint64_t pair = pair_of(term->grip_a, term->grip_b);
     while (next < world->grip_count && pair_of_grip(&world->grips[next]) < pair) next++;
     bool held = next < world->grip_count && pair_of_grip(&world->grips[next]) == pair;
     term->stretch = held ? turn_stretch(world->grips[next].stretch, term->normal) : (SporeVec3){0, 0, 0};

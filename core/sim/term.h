@@ -40,6 +40,7 @@ SporeSoftening spore_softening(double h, double inverse_mass, double stiffness);
 typedef struct SporeContactTerm {
   SporeEnd a, b; /* sphere centres */
   uint32_t sphere_a, sphere_b;
+  uint32_t grip_a, grip_b;            /* what friction remembers the pair by */
   SporeVec3 normal;                   /* from b to a */
   double depth;                       /* m, when the step began */
   double arm_a, arm_b;                /* from the centres to the contact point, m */

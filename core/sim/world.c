@@ -10,6 +10,7 @@
 static void clear_body(SporeBody *body) {
   spore_free(body->name);
   spore_mapping_clear(&body->spheres);
+  spore_depth_field_clear(&body->field);
   spore_free(body->held);
   spore_block_matrix_clear(&body->matrix);
   spore_block_cholesky_clear(&body->factor);
@@ -25,15 +26,44 @@ static void clear_commands(SporeCommands *commands) {
 }
 
 static void free_arrays(SporeWorld *world) {
-  void *arrays[] = {world->rest_q,         world->rest_v,        world->world_sites,       world->target_q,
-                    world->mass,           world->mass_inverse,  world->spheres.centre,    world->spheres.velocity,
-                    world->spheres.radius, world->spheres.body,  world->reaction,          world->contacts,
-                    world->springs,        world->spring_active, world->contact_couplings, world->spring_couplings,
-                    world->parent,         world->island_of,     world->island_bodies,     world->islands,
-                    world->grips,          world->kept_grips,    world->contact_order,     world->spring_order,
-                    world->local_sites,    world->local_q0,      world->local_v0,          world->local_q1,
-                    world->local_v1,       world->scratch,       world->precondition,      world->block_stiffness,
-                    world->still,          world->history_a,     world->history_b,         world->local_history_a,
+  void *arrays[] = {world->rest_q,
+                    world->rest_v,
+                    world->world_sites,
+                    world->target_q,
+                    world->mass,
+                    world->mass_inverse,
+                    world->spheres.centre,
+                    world->spheres.velocity,
+                    world->spheres.radius,
+                    world->spheres.body,
+                    world->reaction,
+                    world->contacts,
+                    world->springs,
+                    world->spring_active,
+                    world->contact_couplings,
+                    world->spring_couplings,
+                    world->parent,
+                    world->island_of,
+                    world->island_bodies,
+                    world->islands,
+                    world->grips,
+                    world->felt,
+                    world->reach,
+                    world->kept_grips,
+                    world->contact_order,
+                    world->spring_order,
+                    world->local_sites,
+                    world->local_q0,
+                    world->local_v0,
+                    world->local_q1,
+                    world->local_v1,
+                    world->scratch,
+                    world->precondition,
+                    world->block_stiffness,
+                    world->still,
+                    world->history_a,
+                    world->history_b,
+                    world->local_history_a,
                     world->local_history_b};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
 }

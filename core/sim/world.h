@@ -19,11 +19,17 @@ typedef enum SporeRole { SPORE_UNMOVABLE, SPORE_ACTIVE, SPORE_PASSIVE } SporeRol
 
 /* Contact law of a body; two bodies in contact take the harmonic sum of stiffness and damping (springs in series)
  * and the smaller friction. The table is spore_contact_parameters. */
+typedef enum SporeSurface {
+  SPORE_SURFACE_SPHERES,    /* each sphere by itself */
+  SPORE_SURFACE_DEPTH_FIELD /* all spheres as one: core/collide/depth_field.h */
+} SporeSurface;
+
 typedef struct SporeContactFields {
   double stiffness; /* N/m, each sphere's */
   double damping;   /* N s/m */
   double friction;  /* Coulomb coefficient */
   bool self;        /* spheres of this body collide with each other, those that touch at rest excepted */
+  int surface;      /* SporeSurface, of an unmovable or active body: what passive ones feel */
 } SporeContactFields;
 extern const SporeParameterTable spore_contact_parameters;
 

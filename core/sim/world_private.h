@@ -10,6 +10,7 @@
 #include <stdatomic.h>
 
 #include "core/base/triple.h"
+#include "core/collide/depth_field.h"
 #include "core/collide/grid.h"
 #include "core/haptic/guard.h"
 #include "core/integrate/integrator.h"
@@ -67,8 +68,9 @@ typedef struct SporeBody {
   size_t q_offset, q_count, v_offset, block_count; /* v_offset in doubles */
   SporeMapping spheres;
   size_t sphere_start;
-  double total_mass; /* kg, of a model */
-  uint32_t *held;    /* blocks that pins hold still */
+  SporeDepthField field; /* empty: its spheres are felt one by one */
+  double total_mass;     /* kg, of a model */
+  uint32_t *held;        /* blocks that pins hold still */
   size_t held_count;
 
   bool frozen;
@@ -130,6 +132,12 @@ typedef struct SporeIsland {
   bool rests, falls_asleep;
 } SporeIsland;
 
+/* A contact as a body feels it, and the pair that friction remembers it by. */
+typedef struct SporeFelt {
+  SporeContact contact;
+  uint32_t grip_a, grip_b; /* spheres; of a body felt as one, the first */
+} SporeFelt;
+
 typedef struct SporeGrip {
   uint32_t sphere_a, sphere_b;
   SporeVec3 stretch; /* m */
@@ -179,6 +187,8 @@ struct SporeWorld {
   SporeGrid *grid; /* NULL where nothing can touch */
   size_t missed;   /* contacts without room in the last step */
   size_t contact_count, contact_capacity;
+  double *reach;   /* a sphere: its radius as the grid sees it, m */
+  SporeFelt *felt; /* contact_capacity: what comes of the contacts found */
   SporeContactTerm *contacts;
   size_t grip_count;             /* what friction held at the end of the last step, in the order of the pairs */
   SporeGrip *grips, *kept_grips; /* kept_grips: scratch */
@@ -258,6 +268,11 @@ void spore_world_commit(SporeWorld *world);    /* commit.c */
 /* contacts.c */
 void spore_world_fill_end(const SporeWorld *world, SporeEnd *end);
 bool spore_world_reserve_contacts(SporeWorld *world);
+
+/* depth_contacts.c: bodies that are felt as one depth field. */
+bool spore_world_compile_fields(SporeWorld *world, SporeError *error);
+/* What comes of the contacts found, into world->felt, in the order of their grips; returns their number. */
+size_t spore_world_feel(SporeWorld *world);
 
 /* grips.c: contacts take over what their pairs held when the last step ended; what they hold when this one has. */
 bool spore_grips_reserve(SporeWorld *world, size_t old_contacts, size_t contacts);

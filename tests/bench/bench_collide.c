@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "core/collide/depth_field.h"
 #include "core/collide/grid.h"
 
 typedef struct Case {
@@ -163,6 +164,31 @@ static void body_on_floor(void) {
   measure(&self, "body of 34 on a floor of 400", NULL);
 }
 
+/* Depth and normal of a ball on a floor of spheres a radius apart, felt as one. */
+static void depth_field(GRand *random) {
+  enum { SIDE = 20, COUNT = SIDE * SIDE, CONTACTS = 1000, RUNS = 20 };
+  g_autofree double *centre = g_new(double, 3 * COUNT), *radius = g_new(double, COUNT);
+  for (size_t i = 0; i < COUNT; i++) {
+    spore_vec3_store(centre + 3 * i, spore_vec3((double)(i % SIDE), -1, (double)(i / SIDE)));
+    radius[i] = 1;
+  }
+  SporeDepthField field;
+  if (!spore_depth_field_create(&field, centre, radius, COUNT)) g_error("no memory");
+  double best = HUGE_VAL, sum = 0;
+  for (int run = 0; run < RUNS; run++) {
+    double start = thread_us();
+    for (size_t k = 0; k < CONTACTS; k++) {
+      SporeVec3 normal, place = {0.3, 0.9, g_rand_double(random) - 0.5};
+      place = spore_vec3_add(place, spore_vec3_load(centre + 3 * (SIDE * SIDE / 2 + SIDE / 2)));
+      sum += spore_depth_field_ball(&field, SIDE * SIDE / 2 + SIDE / 2, spore_vec3_add(place, spore_vec3(0, 1, 0)), 1,
+                                    &normal);
+    }
+    best = MIN(best, thread_us() - start);
+  }
+  printf("depth field, %d contacts of mean depth %.2f: %.4g us\n", CONTACTS, sum / (RUNS * CONTACTS), best);
+  spore_depth_field_clear(&field);
+}
+
 int main(void) {
   GRand *random = g_rand_new_with_seed(5);
   for (size_t count = 1000; count <= 100000; count *= 10) {
@@ -175,6 +201,7 @@ int main(void) {
   sheet(random, 20, 25);
   sheet(random, 40, 50);
   body_on_floor();
+  depth_field(random);
   g_rand_free(random);
   return 0;
 }

@@ -1,4 +1,4 @@
-/* Contacts that come to rest and stay there: cases 33 and 34. */
+/* Contacts that come to rest and stay there: cases 33 and 34; and how smoothly they slide. */
 #include <math.h>
 
 #include "tests/stability/rig.h"
@@ -203,9 +203,57 @@ static void case_33(void) {
   }
 }
 
+typedef struct Slide {
+  double lost, height, ripple; /* part of the speed; m, mean of the ball's centre and deviation */
+} Slide;
+
+/* A ball without friction on a floor of spheres a radius apart, pushed along a row. */
+static Slide slide_ball(SporeSurface surface, double radius) {
+  Rig *rig = new_rest_rig(SPORE_INTEGRATOR_IMPLICIT_EULER);
+  rig->description.solver.time_step = 1e-3;
+  SporeBodyDescription *floor = give_law(rig_unmovable(rig, "floor", rig_floor(rig, 61, 9, 0.01, 0.01)), 0);
+  floor->contact.surface = (int)surface;
+  SporeTriangleMesh box;
+  shape_box(&box, spore_vec3(0, 0, 0), spore_vec3(radius, radius, radius));
+  SporeModel *model = rig_surface_model(&spore_rigid_body, &box, "mass", 0.1, NULL);
+  SporeBodyDescription *ball = give_law(rig_passive(rig, "ball", model, rig_sphere(rig, radius)), 0);
+  ball->pose.position = spore_vec3(-0.2, radius, 0);
+  SporeWorld *world = rig_build(rig);
+  rig_run(world, 500);
+  double velocity[6] = {0.2};
+  spore_world_set_state(world, 1, spore_world_q(world, 1), velocity);
+  Slide slide = {0, 0, 0};
+  const unsigned steps = 1500;
+  for (unsigned i = 0; i < steps; i++) {
+    spore_world_step(world);
+    double y = spore_world_q(world, 1)[1];
+    slide.height += y / steps;
+    slide.ripple += y * y / steps;
+  }
+  slide.ripple = sqrt(fmax(0, slide.ripple - slide.height * slide.height));
+  slide.lost = 1 - spore_world_v(world, 1)[0] / 0.2;
+  rig_free(rig);
+  return slide;
+}
+
+/* Sliding over spheres, felt one by one and as one depth field: bumps take speed away, and shake. */
+static void test_surface(void) {
+  for (double radius = 0.005; radius < 0.03; radius *= 2) {
+    Slide spheres = slide_ball(SPORE_SURFACE_SPHERES, radius), field = slide_ball(SPORE_SURFACE_DEPTH_FIELD, radius);
+    g_test_message(
+        "surface: ball of %g mm over spheres of 10 mm, 0.3 m at 0.2 m/s: one by one it loses %.2g of its speed "
+        "and shakes by %.2g mm, on the depth field %.2g and %.2g mm",
+        radius * 1e3, spheres.lost, spheres.ripple * 1e3, field.lost, field.ripple * 1e3);
+    g_assert_cmpfloat(fabs(field.lost), <, 0.01);
+    g_assert_cmpfloat(field.ripple, <, 2e-5);
+    g_assert_cmpfloat(spheres.lost, >, 0.5); /* what there is to win */
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/stability/33_sharp", case_33);
+  g_test_add_func("/stability/surface", test_surface);
   g_test_add_func("/stability/34_slope", case_34);
   return g_test_run();
 }

@@ -1,0 +1,37 @@
+/* Depth inside a body that is given by spheres, smooth from sphere to sphere.
+ *
+ *   g(x) = (sum_i w_i max(0, m + r_i - d_i(x))^4)^(1/4) - m
+ *
+ * with d_i the distance to centre i and m the mean radius: a weighted sum of sphere depths, as in the depth fields of
+ * Meseure and Chaillou, whose spheres reach m beyond themselves and whose fourth power lets the nearest lead. For a
+ * sphere alone it is the depth in that sphere. The weights are such that g is 0 where a sphere stands out most among
+ * its neighbours; what lies between spheres is filled to about that height. */
+#ifndef SPORE_COLLIDE_DEPTH_FIELD_H
+#define SPORE_COLLIDE_DEPTH_FIELD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "core/math/vec3.h"
+
+typedef struct SporeDepthField {
+  size_t count;
+  double margin;       /* m */
+  double *ball;        /* count x 4: x y z radius, in the body's frame, m */
+  double *weight;      /* count */
+  uint32_t *start;     /* count + 1 */
+  uint32_t *neighbour; /* of sphere i: those that count anywhere on its surface, itself among them */
+} SporeDepthField;
+
+/* centre (3 a sphere) and radius are copied. False: no memory, *field cleared. */
+bool spore_depth_field_create(SporeDepthField *field, const double *centre, const double *radius, size_t count);
+void spore_depth_field_clear(SporeDepthField *field);
+
+/* g at a point near sphere `nearest`, and its gradient; both 0 where no sphere reaches. */
+double spore_depth_field_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 point, SporeVec3 *gradient);
+/* Depth of a ball in the body, m, and the normal out of the body at its deepest point. */
+double spore_depth_field_ball(const SporeDepthField *field, uint32_t nearest, SporeVec3 centre, double radius,
+                              SporeVec3 *normal);
+
+#endif
