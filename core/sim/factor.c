@@ -123,7 +123,8 @@ static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepR
   if (choice->keep < KEEP_MAXIMUM) choice->keep += (choice->keep + 1) / 2;
 }
 
-static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result) {
+/* alone: no contact or link, for which a factor would be no start of Broyden's. */
+static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result, bool alone) {
   SporeFactorChoice *choice = &body->choice;
   if (choice->needed) {
     /* What once did not converge without a factor may do now; where not, that step is taken again. */
@@ -134,7 +135,7 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   }
   if (result->newton_iterations == 0) return; /* at rest: nothing to learn */
   double iterations = (double)result->linear_iterations / (double)result->newton_iterations;
-  bool broyden = world->solver.nonlinear != SPORE_NONLINEAR_NEWTON;
+  bool broyden = alone && world->solver.nonlinear != SPORE_NONLINEAR_NEWTON;
   choice->present += choice->factorised ? work_with(body, result) : work_without(body, result);
   choice->other += choice->factorised ? expected_without(body, result) : expected_with(body, result, broyden);
   choice->steps++;
@@ -169,7 +170,7 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
       choice->needed = true;
       again |= !result->converged;
     } else {
-      choose(world, body, result);
+      choose(world, body, result, island->contact_count + island->spring_count == 0);
     }
   }
   return again;

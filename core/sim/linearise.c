@@ -141,6 +141,7 @@ bool spore_group_reuse(void *data, const double *q, const double *v, double c, d
 double spore_group_factor_cost(void *data) {
   SporeGroup *group = data;
   double linearisation = 0, iteration = 0;
+  if (group->island->contact_count + group->island->spring_count > 0) return 0; /* no factor knows how terms couple */
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_group_body(group, b, &site);
