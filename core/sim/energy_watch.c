@@ -10,6 +10,7 @@
 #define WATCH_STEPS 32      /* energy costs as much as a force, so that it is looked at so seldom */
 #define SMALLEST_SPEED 1e-6 /* m/s: below, it is rounding */
 
+/* A model with a Jacobian is elastic: its potential is least, 0, at rest. */
 static bool is_watched(const SporeBody *body) {
   return body->model->type->jacobian && !spore_integrator(body->integrator)->implicit;
 }
@@ -19,8 +20,8 @@ static void add_work(SporeWorld *world, const SporeIsland *island, const SporeEn
   if (end->prescribed) return;
   SporeBody *body = &world->bodies[end->body];
   if (!is_watched(body)) return;
-  const double *v = island->v1 + world->local_sites[end->body].v;
-  SporeVec3 velocity = spore_mapping_velocity(end->mapping, end->point, NULL, v);
+  const SporeSite *site = &world->local_sites[end->body];
+  SporeVec3 velocity = spore_mapping_velocity(end->mapping, end->point, island->q1 + site->q, island->v1 + site->v);
   body->watch.given += fabs(spore_vec3_dot(force, velocity)) * world->solver.time_step;
 }
 
