@@ -1,6 +1,7 @@
 """The kernel alone: scenes that `spore run` times."""
 import json
 import pathlib
+import re
 import subprocess
 
 import shapes
@@ -69,4 +70,12 @@ def bench_scenes(build, work):
         yield row("scenes", f"{scene.stem}: {report['dof']} dof, {report['spheres']} spheres", report["step_us"]["median"], "us")
 
 
-BENCHES = {"net": bench_net, "scenes": bench_scenes}
+def bench_step(build, work):
+    """What a step costs beside physics, by bench_step."""
+    floors = {"empty world": 2}
+    done = subprocess.run([build / "tests/bench/bench_step"], capture_output=True, text=True, check=True)
+    for case, us in re.findall(r"^(.+): ([0-9.]+) us$", done.stdout, re.M):
+        yield row("step", case, float(us), "us", floors.get(case))
+
+
+BENCHES = {"net": bench_net, "scenes": bench_scenes, "step": bench_step}
