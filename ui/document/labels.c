@@ -2,7 +2,16 @@
 
 #include <string.h>
 
+/* Words that people write their own way. */
+static const char *own_way(const char *name) {
+  static const char *const words[][2] = {{"rk4", "RK4"}, {"bdf2", "BDF2"}, {"tr_bdf2", "TR-BDF2"}};
+  for (gsize i = 0; i < G_N_ELEMENTS(words); i++)
+    if (strcmp(name, words[i][0]) == 0) return words[i][1];
+  return NULL;
+}
+
 char *spore_label_of_name(const char *name) {
+  if (own_way(name)) return g_strdup(own_way(name));
   char *label = g_strdelimit(g_strdup(name), "_", ' ');
   label[0] = g_ascii_toupper(label[0]);
   char *person = strstr(label, " euler");
