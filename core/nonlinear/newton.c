@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/math/vector.h"
 #include "core/nonlinear/convergence.h"
 #include "core/nonlinear/line_search.h"
 
@@ -13,10 +14,41 @@ static double forcing_term(double norm, double previous, double target) {
   return fmin(fmax(eta, 0.1 * target / norm), LOOSEST);
 }
 
+/* A full step may climb far and yet be the way: where springs are very stiff it stretches them, and only the step after
+ * it shows how little was missing. Such a step is taken on trust; where the next one has not made it good, Newton goes
+ * back and searches along the line (watchdog: R. M. Chamberlain, M. J. D. Powell, C. Lemarechal, H. C. Pedersen,
+ * Mathematical Programming Study 16, 1982). */
+typedef struct Trust {
+  bool given;
+  double *x, *d, *r; /* where it was given: point, direction, residual */
+  double norm;
+  size_t steps;    /* since then */
+  size_t failures; /* in a row */
+} Trust;
+
+#define TRUST_STEPS 2
+#define TRUST_FAILURES 2
+
+static void move(size_t n, const double *x, const double *d, double *to) {
+  memcpy(to, x, n * sizeof *to);
+  spore_vector_add_scaled(n, to, 1, d);
+}
+
+static bool direction(const SporeSystem *system, const SporeConvergence *test, double previous, const double *r,
+                      double *d, SporeNonlinearResult *result) {
+  SporeLinearResult linear =
+      system->solve(system->data, r, forcing_term(test->norm, previous, test->tolerance * test->scale_r), d);
+  result->linear_iterations += linear.iterations;
+  result->unsolved += linear.status != SPORE_LINEAR_CONVERGED;
+  result->indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
+  return linear.status != SPORE_LINEAR_BREAKDOWN;
+}
+
 SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x, double *r,
                                   double *scratch) {
   size_t n = system->count;
   double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
+  Trust trust = {.x = scratch + 3 * n, .d = scratch + 4 * n, .r = scratch + 5 * n};
   SporeNonlinearResult result = {0};
   SporeConvergence test;
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
@@ -27,14 +59,37 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     /* A residual no greater than rounding may still be more than that: one more iteration takes away what is left. */
     bool last = spore_convergence_rounding(&test, system, x, &result), solved = result.converged;
     if (last && result.iterations == 0) break;
-    SporeLinearResult linear =
-        system->solve(system->data, r, forcing_term(test.norm, previous, options->tolerance * test.scale_r), d);
-    result.linear_iterations += linear.iterations;
-    result.unsolved += linear.status != SPORE_LINEAR_CONVERGED;
-    result.indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
-    if (linear.status == SPORE_LINEAR_BREAKDOWN) break;
-    double trial_norm;
-    double length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+    if (!direction(system, &test, previous, r, d, &result)) break;
+    double trial_norm, length = 1;
+    move(n, x, d, trial);
+    system->residual(system->data, trial, trial_r);
+    result.evaluations++;
+    trial_norm = system->norm(system->data, trial_r);
+    bool good = trial_norm <= 0.5 * (trust.given ? trust.norm : test.norm);
+    if (good) {
+      trust.given = false;
+      trust.failures = 0;
+    } else if (trust.given && (++trust.steps >= TRUST_STEPS || !isfinite(trial_norm))) {
+      /* Not made good: back, and along the line. */
+      trust.given = false;
+      trust.failures++;
+      memcpy(x, trust.x, n * sizeof *x);
+      memcpy(r, trust.r, n * sizeof *r);
+      memcpy(d, trust.d, n * sizeof *d);
+      test.norm = trust.norm;
+      length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+    } else if (!trust.given) {
+      if (trust.failures < TRUST_FAILURES && isfinite(trial_norm)) {
+        trust.given = true;
+        trust.steps = 0;
+        trust.norm = test.norm;
+        memcpy(trust.x, x, n * sizeof *x);
+        memcpy(trust.r, r, n * sizeof *r);
+        memcpy(trust.d, d, n * sizeof *d);
+      } else {
+        length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+      }
+    }
     if (length == 0) break;
     memcpy(x, trial, n * sizeof *x);
     memcpy(r, trial_r, n * sizeof *r);
@@ -42,6 +97,11 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
     result.converged |= solved;
     if (last) break;
+  }
+  if (trust.given && !(test.norm < trust.norm)) {
+    memcpy(x, trust.x, n * sizeof *x);
+    test.norm = trust.norm;
+    result.residual = test.norm / test.scale_r;
   }
   spore_convergence_end(&test, system, x, &result);
   return result;

@@ -51,7 +51,7 @@ typedef struct SporeNonlinearResult {
 /* Newton's method with inexact linear solves and a line search. x holds the guess, and the answer after it; what is
  * best so far when it did not converge. r: the residual at the guess, overwritten. scratch: SPORE_NEWTON_SCRATCH x
  * count doubles. */
-#define SPORE_NEWTON_SCRATCH 3
+#define SPORE_NEWTON_SCRATCH 6
 SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x, double *r,
                                   double *scratch);
 
@@ -61,7 +61,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
  * iterations it saves, by how the residual shrinks, and hands over to Newton where that fails. Its iterations are
  * cheap: it may take twice as many. */
 #define SPORE_BROYDEN_MEMORY 8
-#define SPORE_BROYDEN_SCRATCH (SPORE_NEWTON_SCRATCH + 3 + 2 * SPORE_BROYDEN_MEMORY)
+#define SPORE_BROYDEN_SCRATCH (6 + 2 * SPORE_BROYDEN_MEMORY)
 SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
                                    double *r, double *scratch);
 
