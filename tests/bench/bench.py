@@ -10,13 +10,14 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "e2e"))
 import commands
 import editor
+import fluid
 import kernel
 import sofa
 import kernels
 import peers
 import table
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **peers.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **peers.BENCHES, **fluid.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():
@@ -26,12 +27,14 @@ def main():
     parser.add_argument("--json")
     options = parser.parse_args()
     rows = []
+    table.show_head()
     with tempfile.TemporaryDirectory(prefix="spore-bench-") as folder:
         for name in options.names or BENCHES:
-            rows += BENCHES[name](options.build, pathlib.Path(folder))
-    table.show(rows)
+            for r in BENCHES[name](options.build, pathlib.Path(folder)):
+                table.show(r)
+                rows.append(r)
     if options.json:
-        pathlib.Path(options.json).write_text(json.dumps(table.rows_for_json(rows), indent=1) + "\n")
+        pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
 
 
 main()

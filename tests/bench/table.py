@@ -2,7 +2,7 @@
 
 A row: what was measured, ours and a peer's figure in one unit (smaller is better), ratio = peer / ours, the errors of both
 where the case has a reference, and the floor: what the machine itself could do, or for a figure without a peer what we
-promise. `least` is the ratio that we promise; it is shown and not kept."""
+promise. `least` is the ratio that we promise. A promise that is not kept is marked."""
 
 
 def row(bench, case, ours, unit, floor=None, peer_name=None, peer=None, error_ours=None, error_peer=None, least=None):
@@ -20,16 +20,16 @@ def remark(r):
     return ""
 
 
-def show(rows):
+LINE = "%-10s %-58s %10s %-4s %-21s %10s %7s %7s %9s %9s %8s%s"
+
+
+def show_head():
+    print((LINE % ("bench", "case", "ours", "", "peer", "", "ratio", "least", "error", "peer's", "floor", "")).rstrip(), flush=True)
+
+
+def show(r):
     def figure(value):
         return "%.3g" % value if value is not None else "-"
 
-    line = "%-10s %-58s %10s %-4s %-16s %10s %7s %7s %9s %9s %8s%s"
-    print((line % ("bench", "case", "ours", "", "peer", "", "ratio", "least", "error", "peer's", "floor", "")).rstrip())
-    for r in rows:
-        print((line % (r["bench"], r["case"], figure(r["ours"]), r["unit"], r["peer_name"] or "-", figure(r["peer"]), figure(r["ratio"]),
-                       figure(r["least"]), figure(r["error_ours"]), figure(r["error_peer"]), figure(r["floor"]), remark(r))).rstrip())
-
-
-def rows_for_json(rows):
-    return [{key: value for key, value in r.items() if key != "least"} for r in rows]
+    print((LINE % (r["bench"], r["case"], figure(r["ours"]), r["unit"], r["peer_name"] or "-", figure(r["peer"]), figure(r["ratio"]),
+                   figure(r["least"]), figure(r["error_ours"]), figure(r["error_peer"]), figure(r["floor"]), remark(r))).rstrip(), flush=True)

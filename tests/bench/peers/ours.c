@@ -2,6 +2,7 @@
  * newton=N linear=N tolerance=X. */
 #include <math.h>
 
+#include "core/base/memory.h"
 #include "core/sim/world.h"
 #include "models/registry.h"
 #include "tests/bench/peers/case.h"
@@ -14,14 +15,17 @@ static void refuse(const SporeError *error) {
   exit(1);
 }
 
-static void set_solver(SporeSolverFields *solver, const char *name, const char *text) {
+static void set(const SporeParameterTable *table, void *fields, const char *name, const char *text) {
   SporeError error = SPORE_ERROR_INIT;
-  const SporeParameter *parameter =
-      spore_solver_parameters.parameters + spore_parameter_find(&spore_solver_parameters, name);
+  const SporeParameter *parameter = table->parameters + spore_parameter_find(table, name);
   SporeValue value;
   if (!spore_parameter_parse(parameter, text, &value, &error)) refuse(&error);
-  spore_parameter_store(parameter, &value, solver);
+  spore_parameter_store(parameter, &value, fields);
   spore_value_clear(&value);
+}
+
+static void set_solver(SporeSolverFields *solver, const char *name, const char *text) {
+  set(&spore_solver_parameters, solver, name, text);
 }
 
 static Rig *begin(const CaseRun *run, const char *integrator) {
@@ -57,7 +61,8 @@ static double mean_depth(SporeWorld *world, double radius) {
 /* Runs, answers and ends. A body of nodes tells where they are, another where it is. */
 static void finish(CaseRun *run, Rig *rig) {
   SporeWorld *world = rig->world;
-  double newton = 0, linear = 0, residual = 0;
+  double newton = 0, linear = 0, residual = 0, first = 0, mean = 0,
+         square = 0; /* the last two: energy beside `first` */
   uint32_t bodies = (uint32_t)spore_world_body_count(world);
   for (unsigned count; (count = case_next_frame(run));) {
     rig_run(world, count);
@@ -66,6 +71,9 @@ static void finish(CaseRun *run, Rig *rig) {
     newton += (double)counts.newton_iterations / run->frames;
     linear += (double)counts.linear_iterations / run->frames;
     residual = fmax(residual, counts.residual);
+    double energy = rig_energy(world);
+    if (run->frame == 1) first = energy;
+    mean += (energy - first) / run->frames, square += (energy - first) * (energy - first) / run->frames;
     for (uint32_t b = 0; b < bodies; b++) {
       const SporeModel *model = spore_world_body_model(world, b);
       const double *q = spore_world_q(world, b);
@@ -74,12 +82,12 @@ static void finish(CaseRun *run, Rig *rig) {
     }
   }
   const SporeMonitor *monitor = spore_world_monitor(world);
-  char more[256];
-  snprintf(
-      more, sizeof more,
-      ", \"contacts\": %zu, \"depth\": %.6g, \"newton\": %.3g, \"linear\": %.3g, \"residual\": %.3g, \"mended\": %llu",
-      spore_world_counts(world).contacts, mean_depth(world, PILE_RADIUS), newton, linear, residual,
-      (unsigned long long)(monitor->recoveries + monitor->not_converged));
+  char more[320];
+  snprintf(more, sizeof more,
+           ", \"contacts\": %zu, \"depth\": %.6g, \"newton\": %.3g, \"linear\": %.3g, \"residual\": %.3g, "
+           "\"astray\": %.6g, \"mended\": %llu",
+           spore_world_counts(world).contacts, mean_depth(world, PILE_RADIUS), newton, linear, residual,
+           sqrt(fmax(0, square - mean * mean)), (unsigned long long)(monitor->recoveries + monitor->not_converged));
   case_end(run, more);
   rig_free(rig);
 }
@@ -178,6 +186,35 @@ static void pile(CaseRun *run) {
   finish(run, rig);
 }
 
+/* The Lennard-Jones liquid in units where sigma, epsilon and a particle's mass are 1: 4 cells^3 particles of density
+ * 0.8442 in a periodic cube. */
+static void fluid(CaseRun *run) {
+  unsigned count = 4 * (unsigned)pow(case_number(run, "cells", 4), 3);
+  double side = cbrt(count / 0.8442);
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0, 0), spore_vec3(side, side, side));
+  const SporeParameterTable *table = &spore_lennard_jones.parameters;
+  char period[96], *fields = spore_allocate(1, table->size);
+  snprintf(period, sizeof period, "%.17g %.17g %.17g", side, side, side);
+  spore_parameters_set_initial(table, fields);
+  const struct {
+    const char *name, *text;
+  } values[] = {{"density", "0.8442"}, {"surface_tension", "0.585"}, {"temperature", "1.44"}, {"period", period}};
+  for (size_t i = 0; i < G_N_ELEMENTS(values); i++) set(table, fields, values[i].name, values[i].text);
+  ((int64_t *)(void *)(fields + table->parameters[spore_parameter_find(table, "particles")].offset))[0] = count;
+  SporeError error = SPORE_ERROR_INIT;
+  SporeModel *model = spore_lennard_jones.create(&(SporeGeometry){.surface = &cube}, fields, &error);
+  spore_free(fields);
+  spore_triangle_mesh_clear(&cube);
+  if (!model) refuse(&error);
+  Rig *rig = begin(run, "verlet");
+  rig->description.gravity = spore_vec3(0, 0, 0);
+  rig_passive(rig, "fluid", model, NULL);
+  build(rig);
+  rig_run(rig->world, (unsigned)case_number(run, "settle", 0));
+  finish(run, rig);
+}
+
 /* What the machine can do, for the floors: a working set of the second level of cache. */
 static void machine(void) {
   printf("{\"gflops\": %.4g, \"gbytes\": %.4g}\n", hardware_peak(), hardware_bandwidth(512 << 10));
@@ -190,6 +227,7 @@ int main(int argc, char **argv) {
   else if (!strcmp(name, "bar")) bar(&run);
   else if (!strcmp(name, "rope")) rope(&run);
   else if (!strcmp(name, "pile")) pile(&run);
+  else if (!strcmp(name, "fluid")) fluid(&run);
   else if (!strcmp(name, "machine")) machine();
   else return 2;
   return 0;

@@ -54,4 +54,11 @@ def pile(program):
     falls(program, "pile", 500, "steps=4", "time=0.008", "settle=1")
 
 
+@check
+def fluid(program):
+    """the liquid flows, and keeps its energy"""
+    answer, _ = run(program, "fluid", 256, "cells=4", "steps=20", "time=0.1")
+    assert answer["mended"] == 0 and answer["astray"] / 256 < 0.01, answer
+
+
 main(sys.argv[1])
