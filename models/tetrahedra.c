@@ -274,10 +274,9 @@ const SporeModelType spore_neo_hookean_tetrahedra = {
     .name = "neo_hookean_tetrahedra",
     .label = N_("Neo-Hookean tetrahedra"),
     .doc =
-        N_("A solid of tetrahedra that stiffen as rubber and tissue do when they are squeezed, and that find back to "
-           "their shape from any heap, inside out or flat. The same as the corotational ones for small strains; a "
-           "step costs somewhat more. With few cells across or a Poisson's ratio near 0.5 it bends less than it "
-           "should."),
+        N_("A solid of tetrahedra that stiffen as rubber and tissue do when they are squeezed, and that turn the right "
+           "way out again from any heap. The same as the corotational ones for small strains; an implicit step costs "
+           "somewhat more. With few cells across or a Poisson's ratio near 0.5 it bends less than it should."),
     .create = create_neo_hookean,
     SLOTS,
 };

@@ -79,6 +79,15 @@ SporeModel *rig_surface_model(const SporeModelType *type, SporeTriangleMesh *mes
   return must(model, &error);
 }
 
+SporeModel *rig_solid_model(const SporeModelType *type, SporeTetrahedralMesh *mesh, ...) {
+  SporeError error = SPORE_ERROR_INIT;
+  va_list arguments;
+  va_start(arguments, mesh);
+  SporeModel *model = create(type, NULL, mesh, &error, arguments);
+  va_end(arguments);
+  return must(model, &error);
+}
+
 SporeModel *rig_tetrahedra_model(SporeTetrahedralMesh *mesh, ...) {
   SporeError error = SPORE_ERROR_INIT;
   va_list arguments;

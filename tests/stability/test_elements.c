@@ -1,7 +1,8 @@
-/* Tetrahedra in bad shape: cases 6 to 10. */
+/* Tetrahedra in bad shape: cases 6 to 11. */
 #include <math.h>
 #include <string.h>
 
+#include "models/tetrahedra_map.h"
 #include "tests/stability/rig.h"
 
 /* Size-relative distance from the rest shape in the best frame: edge lengths against those at rest. */
@@ -18,18 +19,35 @@ static double shape_error(const double *q, const double *rest, const SporeTetrah
   return worst;
 }
 
-/* Starts a block of soft tissue from another shape and lets it come to rest. Returns what is left of the shape. The
+/* Volume of the element that is worst off, relative to its own at rest. */
+static double least_volume(const double *q, const double *rest, const SporeTetrahedralMesh *mesh) {
+  double least = HUGE_VAL;
+  SporeVec3 unused[3];
+  for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
+    const uint32_t *corners = mesh->tetrahedra + 4 * t;
+    least = fmin(least,
+                 spore_tetrahedron_gradients(q, corners, unused) / spore_tetrahedron_gradients(rest, corners, unused));
+  }
+  return least;
+}
+
+typedef struct Recovery {
+  double error, least_volume;
+  gboolean frozen;
+} Recovery;
+
+/* Starts a block of soft tissue from another shape and lets it come to rest. Returns what came of it. The
  * damping stops the spin that implicit Euler leaves, which would stretch the block. */
-static double recover(const char *name, void (*deform)(double *q, size_t nodes, GRand *random), unsigned steps,
-                      gboolean *frozen) {
+static Recovery recover(const SporeModelType *type, const char *name, guint32 seed,
+                        void (*deform)(double *q, size_t nodes, GRand *random), unsigned steps) {
   SporeTetrahedralMesh block, copy;
   shape_block(&block, 2, 2, 2, spore_vec3(0.04, 0.04, 0.04));
   shape_block(&copy, 2, 2, 2, spore_vec3(0.04, 0.04, 0.04));
   Rig *rig = rig_new();
   rig->description.solver.time_step = 0.01;
-  rig_passive(rig, "block", rig_tetrahedra_model(&block, "poisson_ratio", 0.3, "mass_damping", 5.0, NULL), NULL);
+  rig_passive(rig, "block", rig_solid_model(type, &block, "poisson_ratio", 0.3, "mass_damping", 5.0, NULL), NULL);
   SporeWorld *world = rig_build(rig);
-  GRand *random = g_rand_new_with_seed(8);
+  GRand *random = g_rand_new_with_seed(seed);
   size_t n = 3 * copy.vertex_count;
   double *q = g_memdup2(copy.vertices, n * sizeof(double)), *v = g_new0(double, n);
   deform(q, copy.vertex_count, random);
@@ -39,11 +57,13 @@ static double recover(const char *name, void (*deform)(double *q, size_t nodes, 
     spore_world_step(world);
     most = fmax(most, rig_energy(world));
   }
-  double after = shape_error(spore_world_q(world, 0), copy.vertices, &copy);
-  *frozen = rig_any_frozen(world);
-  g_test_message("%s: edges off by %.2e at first, %.2e after %g s; energy %.2e J, at most %.2e J; %u not converged; %s",
-                 name, before, after, spore_world_time_s(world), start, most,
-                 (unsigned)spore_world_monitor(world)->not_converged, rig_last_message(world));
+  const double *q1 = spore_world_q(world, 0);
+  Recovery recovery = {shape_error(q1, copy.vertices, &copy), least_volume(q1, copy.vertices, &copy),
+                       rig_any_frozen(world)};
+  g_test_message(
+      "%s, %s: edges off by %.2e at first, %.2e after %g s; energy %.2e J, at most %.2e J; %u not converged; %s", name,
+      type->name, before, recovery.error, spore_world_time_s(world), start, most,
+      (unsigned)spore_world_monitor(world)->not_converged, rig_last_message(world));
   g_assert_true(rig_finite(world));
   g_assert_cmpfloat(most, <=, start * (1 + 1e-6));
   g_rand_free(random);
@@ -51,7 +71,7 @@ static double recover(const char *name, void (*deform)(double *q, size_t nodes, 
   g_free(v);
   spore_tetrahedral_mesh_clear(&copy);
   rig_free(rig);
-  return after;
+  return recovery;
 }
 
 static void invert_corner(double *q, size_t nodes, GRand *random) {
@@ -64,6 +84,11 @@ static void flatten(double *q, size_t nodes, GRand *random) {
 
 static void shuffle(double *q, size_t nodes, GRand *random) {
   for (size_t i = 0; i < 3 * nodes; i++) q[i] = g_rand_double_range(random, 0, 0.04);
+}
+
+/* Neo-Hookean forces grow with the square of what is left of the shape: within 1 um it would take minutes. */
+static void gather_to_point(double *q, size_t nodes, GRand *random) {
+  for (size_t i = 0; i < 3 * nodes; i++) q[i] = 0.02 + g_rand_double_range(random, -1e-5, 1e-5);
 }
 
 static void case_6(void) {
@@ -123,24 +148,44 @@ static void case_7(void) {
   }
 }
 
-static void case_8(void) {
-  gboolean frozen;
-  g_assert_cmpfloat(recover("case 8: one corner inside out", invert_corner, 600, &frozen), <, 1e-6);
-  g_assert_false(frozen);
+static const SporeModelType *const solids[] = {&spore_corotational_tetrahedra, &spore_neo_hookean_tetrahedra};
+
+static void check_recovery(const SporeModelType *type, const char *name,
+                           void (*deform)(double *q, size_t nodes, GRand *random)) {
+  Recovery recovery = recover(type, name, 8, deform, 600);
+  g_assert_cmpfloat(recovery.error, <, 1e-6);
+  g_assert_false(recovery.frozen);
 }
 
-/* The table asks recovery of the neo-Hookean element. The corotational one can stay caught with elements inside out;
- * of it the common pass is asked, and what is left is said. */
+static void case_8(void) {
+  for (size_t i = 0; i < G_N_ELEMENTS(solids); i++)
+    check_recovery(solids[i], "case 8: one corner inside out", invert_corner);
+}
+
+/* The table asks recovery of the neo-Hookean element; of the corotational one the common pass is asked, and what is
+ * left is said. One heap of these twelve ends with the mesh wound twice round an edge: no element is inside out then,
+ * and no energy of single elements knows of it. */
 static void case_9(void) {
-  gboolean frozen;
-  recover("case 9: all vertices random", shuffle, 1000, &frozen);
-  g_assert_false(frozen);
+  enum { HEAPS = 12, RECOVERED = 11 };
+  unsigned recovered = 0;
+  for (guint32 seed = 1; seed <= HEAPS; seed++) {
+    Recovery recovery = recover(&spore_neo_hookean_tetrahedra, "case 9: all vertices random", seed, shuffle, 600);
+    g_assert_false(recovery.frozen);
+    g_assert_cmpfloat(recovery.least_volume, >, 0);
+    recovered += recovery.error < 1e-4;
+  }
+  g_test_message("case 9: %u of %u heaps recovered", recovered, (unsigned)HEAPS);
+  g_assert_cmpuint(recovered, >=, RECOVERED);
+  g_assert_false(recover(&spore_corotational_tetrahedra, "case 9: all vertices random", 8, shuffle, 1000).frozen);
 }
 
 static void case_10(void) {
-  gboolean frozen;
-  g_assert_cmpfloat(recover("case 10: collapsed to a plane", flatten, 600, &frozen), <, 1e-6);
-  g_assert_false(frozen);
+  for (size_t i = 0; i < G_N_ELEMENTS(solids); i++) check_recovery(solids[i], "case 10: collapsed to a plane", flatten);
+}
+
+static void case_11(void) {
+  for (size_t i = 0; i < G_N_ELEMENTS(solids); i++)
+    check_recovery(solids[i], "case 11: collapsed to a point", gather_to_point);
 }
 
 int main(int argc, char **argv) {
@@ -150,5 +195,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/08_inverted", case_8);
   g_test_add_func("/stability/09_random", case_9);
   g_test_add_func("/stability/10_plane", case_10);
+  g_test_add_func("/stability/11_point", case_11);
   return g_test_run();
 }
