@@ -9,6 +9,7 @@
 
 static inline bool bodies_pair(const SporeGrid *grid, uint32_t a, uint32_t b) {
   if (a == b) return grid->bodies[a] & SPORE_GRID_SELF;
+  if (grid->group && grid->group[a] && grid->group[a] == grid->group[b]) return false;
   return (grid->bodies[a] | grid->bodies[b]) & SPORE_GRID_PASSIVE;
 }
 

@@ -267,6 +267,15 @@ static unsigned char flags_of(const SporeGridBody *body) {
   return body->self ? SPORE_GRID_PASSIVE | SPORE_GRID_SELF : SPORE_GRID_PASSIVE;
 }
 
+static bool take_groups(SporeGrid *grid, const SporeGridBody *bodies) {
+  uint32_t any = 0;
+  for (size_t i = 0; i < grid->body_count; i++) any |= bodies[i].group;
+  if (!any) return true;
+  grid->group = SPORE_NEW_ARRAY(uint32_t, grid->body_count);
+  for (size_t i = 0; grid->group && i < grid->body_count; i++) grid->group[i] = bodies[i].group;
+  return grid->group;
+}
+
 SporeGrid *spore_grid_create(const SporeSpheres *rest, const SporeGridBody *bodies, size_t body_count,
                              size_t contact_capacity, SporeError *error) {
   if (!check_spheres(rest, body_count, error)) return NULL;
@@ -274,7 +283,7 @@ SporeGrid *spore_grid_create(const SporeSpheres *rest, const SporeGridBody *bodi
   for (size_t i = 0; flags && i < body_count; i++) flags[i] = flags_of(&bodies[i]);
   SporeGrid *grid = flags ? create_plain(rest, flags, body_count, contact_capacity) : NULL;
   spore_free(flags);
-  if (grid && exclude_rest_contacts(grid, rest)) return grid;
+  if (grid && take_groups(grid, bodies) && exclude_rest_contacts(grid, rest)) return grid;
   spore_grid_free(grid);
   refuse_memory(error);
   return NULL;
@@ -285,6 +294,7 @@ void spore_grid_free(SporeGrid *grid) {
   spore_cells_clear(&grid->unmovable);
   spore_cells_clear(&grid->moving);
   spore_free(grid->bodies);
+  spore_free(grid->group);
   spore_free(grid->balls);
   spore_free(grid->bounds);
   spore_free(grid->regions);
@@ -325,11 +335,20 @@ const SporeContact *spore_grid_contacts(const SporeGrid *grid) { return grid->co
 
 size_t spore_grid_capacity(const SporeGrid *grid) { return grid->capacity; }
 
+/* Pairs of bodies that would touch but for their group. */
+static size_t grouped_pairs(const SporeGridBody *bodies, size_t body_count) {
+  size_t pairs = 0;
+  for (size_t i = 0; i < body_count; i++)
+    for (size_t j = i + 1; bodies[i].group && j < body_count; j++)
+      pairs += bodies[i].group == bodies[j].group && (bodies[i].passive || bodies[j].passive);
+  return pairs;
+}
+
 size_t spore_grid_body_pairs(const SporeGridBody *bodies, size_t body_count) {
   size_t passive = 0, selves = 0;
   for (size_t i = 0; i < body_count; i++) {
     passive += bodies[i].passive;
     selves += bodies[i].passive && bodies[i].self;
   }
-  return passive * (body_count - passive) + passive * (passive - 1) / 2 + selves;
+  return passive * (body_count - passive) + passive * (passive - 1) / 2 + selves - grouped_pairs(bodies, body_count);
 }

@@ -19,11 +19,13 @@
 
 typedef struct SporeGrid SporeGrid;
 
-/* What the pair filter knows of a body. Two bodies pair when at least one of them is passive; a body pairs with itself
+/* What the pair filter knows of a body. Two bodies pair when at least one of them is passive, and
+ * they are not of one group; a body pairs with itself
  * when it is passive and asks for it. */
 typedef struct SporeGridBody {
-  bool passive; /* moved by physics */
-  bool self;    /* its spheres collide with each other */
+  bool passive;   /* moved by physics */
+  bool self;      /* its spheres collide with each other */
+  uint32_t group; /* bodies of one group never pair with each other; 0: none */
 } SporeGridBody;
 
 /* Spheres of one body whose gap at rest is below this part of the sum of their radii never collide with each other. */

@@ -18,6 +18,7 @@ struct SporeGrid {
   size_t count, static_count, body_count, capacity;
   size_t sleeping;       /* bodies */
   unsigned char *bodies; /* SPORE_GRID_ flags */
+  uint32_t *group;       /* of the bodies; NULL: nobody is in one */
   SporeCellScale scale;
   SporeCells unmovable, moving; /* moving.unsorted: balls with their skins */
   double *balls;                /* count x 4: ball that a sphere stays in during this step; reach < 0: not finite */

@@ -12,12 +12,6 @@ SporeQuat spore_quat_normalise(SporeQuat q) {
   return (SporeQuat){scale * q.w, scale * q.x, scale * q.y, scale * q.z};
 }
 
-SporeVec3 spore_quat_rotate(SporeQuat q, SporeVec3 v) {
-  SporeVec3 axis = {q.x, q.y, q.z};
-  SporeVec3 twice = spore_vec3_scale(2, spore_vec3_cross(axis, v));
-  return spore_vec3_add(spore_vec3_add_scaled(v, q.w, twice), spore_vec3_cross(axis, twice));
-}
-
 SporeMat3 spore_quat_to_mat3(SporeQuat q) {
   double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
   double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;

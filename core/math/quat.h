@@ -18,7 +18,11 @@ static inline SporeQuat spore_quat_multiply(SporeQuat a, SporeQuat b) {
 static inline SporeQuat spore_quat_conjugate(SporeQuat q) { return (SporeQuat){q.w, -q.x, -q.y, -q.z}; }
 /* Identity where q has no length or is not finite; untouched where it is of unit length to rounding. */
 SporeQuat spore_quat_normalise(SporeQuat q);
-SporeVec3 spore_quat_rotate(SporeQuat q, SporeVec3 v);
+static inline SporeVec3 spore_quat_rotate(SporeQuat q, SporeVec3 v) {
+  SporeVec3 axis = {q.x, q.y, q.z};
+  SporeVec3 twice = spore_vec3_scale(2, spore_vec3_cross(axis, v));
+  return spore_vec3_add(spore_vec3_add_scaled(v, q.w, twice), spore_vec3_cross(axis, twice));
+}
 SporeMat3 spore_quat_to_mat3(SporeQuat q);
 SporeQuat spore_quat_from_mat3(SporeMat3 r);
 /* Rotation by the vector's length (rad) about its direction. */

@@ -190,7 +190,8 @@ static bool make_grid(SporeWorld *world, SporeError *error) {
   SporeGridBody *bodies = SPORE_NEW_ARRAY(SporeGridBody, world->body_count);
   if (!bodies) return no_memory(error);
   for (size_t i = 0; i < world->body_count; i++)
-    bodies[i] = (SporeGridBody){world->bodies[i].role == SPORE_PASSIVE, world->bodies[i].contact.self};
+    bodies[i] = (SporeGridBody){world->bodies[i].role == SPORE_PASSIVE, world->bodies[i].contact.self,
+                                (uint32_t)world->bodies[i].contact.group};
   /* Bodies without spheres are no reason for a grid. */
   size_t with = 0, movers = 0, selves = 0;
   for (size_t i = 0; i < world->body_count; i++) {

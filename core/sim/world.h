@@ -29,6 +29,7 @@ typedef struct SporeContactFields {
   double damping;   /* N s/m */
   double friction;  /* Coulomb coefficient */
   bool self;        /* spheres of this body collide with each other, those that touch at rest excepted */
+  int64_t group;    /* bodies of one group never collide with each other; 0: of none */
   int surface;      /* SporeSurface, of an unmovable or active body: what passive ones feel */
 } SporeContactFields;
 extern const SporeParameterTable spore_contact_parameters;

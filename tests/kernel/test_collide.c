@@ -295,6 +295,19 @@ static void test_pair_filter(void) {
   scene.bodies[3].self = true;
   g_assert_cmpuint(spore_grid_body_pairs(scene.bodies, 5), ==, 8);
   g_assert_cmpuint(spore_grid_body_pairs(NULL, 0), ==, 0);
+  scene.bodies[0].group = scene.bodies[3].group = scene.bodies[4].group = 7; /* 0 with 3 and 4, and 3 with 4, no more */
+  scene.bodies[1].group = 8;
+  g_assert_cmpuint(spore_grid_body_pairs(scene.bodies, 5), ==, 5);
+  scene.bodies[3].self = false;
+  SporeGrid *grouped = create(&scene);
+  size_t missed;
+  g_assert_cmpuint(spore_grid_detect(grouped, &scene.spheres, 0, &missed), ==, 4);
+  for (size_t i = 0; i < 4; i++) { /* 1 and 2 with 3 and 4 */
+    const SporeContact *contact = &spore_grid_contacts(grouped)[i];
+    g_assert_cmpuint(scene.spheres.body[contact->a], >=, 1);
+    g_assert_cmpuint(scene.spheres.body[contact->a], <=, 2);
+  }
+  spore_grid_free(grouped);
   spore_grid_free(grid);
   scene_clear(&scene);
 }
