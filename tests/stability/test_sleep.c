@@ -11,16 +11,18 @@
 /* Longest time constant of the pile's motion about rest, s: of balls of 0.03 kg on contacts of 500 N/m. */
 #define PILE_TIME_CONSTANT 0.1
 
-/* Follows a straight way there and back in a second, from a time on; before and after it stands still. */
+/* Follows a straight way there and back in a second, or stays there, from a time on; before and after it stands still.
+ */
 typedef struct Poker {
   SporeDevice base;
   double start_s;
   SporeVec3 from, to;
+  gboolean stays;
 } Poker;
 
 static bool poke(SporeDevice *device, double time_s, const SporeDeviceCommand *command, SporeDeviceState *state) {
   const Poker *poker = (const Poker *)device;
-  double phase = CLAMP(time_s - poker->start_s, 0, 1), part = 0.5 - 0.5 * cos(2 * G_PI * phase);
+  double phase = CLAMP(time_s - poker->start_s, 0, poker->stays ? 0.5 : 1), part = 0.5 - 0.5 * cos(2 * G_PI * phase);
   SporeVec3 at = spore_vec3_add_scaled(poker->from, part, spore_vec3_sub(poker->to, poker->from));
   *state = (SporeDeviceState){.orientation = {1, 0, 0, 0}};
   spore_vec3_store(state->position, at);
@@ -115,6 +117,22 @@ static void test_pile(gconstpointer data) {
   g_assert_cmpfloat(jump, <=, 1e-8);
   rig_free(slept);
   rig_free(awake);
+}
+
+/* What a tool touches stays awake, however still the tool is: it is to feel friction and creep. */
+static void test_held(void) {
+  Rig *rig = piles(1e-6, SPORE_INTEGRATOR_IMPLICIT_EULER);
+  SporeWorld *world = rig_build(rig);
+  Poker poker = poker_over_pile(SETTLED_S);
+  poker.stays = TRUE;
+  spore_world_set_device(world, 11, &poker.base);
+  run_for(rig, SETTLED_S);
+  g_assert_cmpuint(count_asleep(world), ==, 10);
+  run_for(rig, SETTLED_S);
+  g_assert_cmpuint(count_asleep(world), ==, 5);
+  for (guint b = 1; b <= 5; b++) g_assert_false(spore_world_body_asleep(world, b));
+  g_assert_cmpfloat(spore_world_snapshot_acquire(world)->reaction[6 * 11 + 1], >, 0.1);
+  rig_free(rig);
 }
 
 static SporeWorld *build_with(Rig *rig, SporePool *pool) {
@@ -256,6 +274,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_data_func("/sleep/pile/symplectic_euler", GINT_TO_POINTER(SPORE_INTEGRATOR_SYMPLECTIC_EULER), test_pile);
   g_test_add_data_func("/sleep/pile/implicit_euler", GINT_TO_POINTER(SPORE_INTEGRATOR_IMPLICIT_EULER), test_pile);
+  g_test_add_func("/sleep/held", test_held);
   g_test_add_func("/sleep/threads", test_threads);
   g_test_add_func("/sleep/reset", test_reset);
   g_test_add_func("/sleep/causes", test_causes);
