@@ -10,14 +10,16 @@ static SporeVec3 origin(const SporeWorld *world, const SporeBody *body) {
 }
 
 static void add_reaction(SporeWorld *world, uint32_t index, SporeVec3 point, SporeVec3 force) {
-  if (index == SPORE_NO_BODY) return;
+  if (index == SPORE_NO_BODY || world->bodies[index].asleep) return;
   SporeVec3 arm = spore_vec3_sub(point, origin(world, &world->bodies[index]));
   spore_vec3_accumulate(world->reaction + 6 * (size_t)index, force);
   spore_vec3_accumulate(world->reaction + 6 * (size_t)index + 3, spore_vec3_cross(arm, force));
 }
 
 void spore_world_react(SporeWorld *world) {
-  memset(world->reaction, 0, 6 * world->body_count * sizeof *world->reaction);
+  /* What sleeps is held as it was when it fell asleep. */
+  for (size_t b = 0; b < world->body_count; b++)
+    if (!world->bodies[b].asleep) memset(world->reaction + 6 * b, 0, 6 * sizeof *world->reaction);
   for (size_t i = 0; i < world->contact_count; i++) {
     const SporeContactTerm *term = &world->contacts[i];
     SporeVec3 point = spore_contact_term_point(term);

@@ -132,6 +132,8 @@ static void test_held(void) {
   g_assert_cmpuint(count_asleep(world), ==, 5);
   for (guint b = 1; b <= 5; b++) g_assert_false(spore_world_body_asleep(world, b));
   g_assert_cmpfloat(spore_world_snapshot_acquire(world)->reaction[6 * 11 + 1], >, 0.1);
+  const double *asleep = spore_world_snapshot_acquire(world)->reaction + 6 * 10; /* the top of the other pile */
+  g_assert_cmpfloat_with_epsilon(asleep[1], 0.03 * 9.81, 1e-6);
   rig_free(rig);
 }
 
