@@ -15,9 +15,10 @@ import kernel
 import sofa
 import kernels
 import peers
+import solvers
 import table
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **peers.BENCHES, **fluid.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **solvers.BENCHES, **peers.BENCHES, **fluid.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():

@@ -38,7 +38,7 @@ typedef struct Case {
 } Case;
 
 #ifdef HAVE_CHOLMOD
-static void cholmod(const SporeBlockMatrix *matrix, double *factor_us, double *solve_us, double *error) {
+static void cholmod(const SporeBlockMatrix *matrix, double *factor_us, double *solve_us) {
   cholmod_common common;
   cholmod_start(&common);
   size_t n = 3 * matrix->block_count;
@@ -107,8 +107,8 @@ static void bench_factor(const Case *c) {
          c->name, n, analyse_us, factor_us, solve_us, force_us, jacobian_us, multiply_us, factor.factor_flops * 1e-6,
          factor.solve_flops * 1e-6);
 #ifdef HAVE_CHOLMOD
-  double cholmod_factor_us, cholmod_solve_us, error;
-  cholmod(&matrix, &cholmod_factor_us, &cholmod_solve_us, &error);
+  double cholmod_factor_us, cholmod_solve_us;
+  cholmod(&matrix, &cholmod_factor_us, &cholmod_solve_us);
   printf(", \"cholmod_factor_us\": %.1f, \"cholmod_solve_us\": %.2f", cholmod_factor_us, cholmod_solve_us);
 #endif
   printf("}\n");
@@ -127,8 +127,6 @@ static void bench_step(const Case *c, unsigned steps) {
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, -9.81, 0);
   rig->description.solver.time_step = c->time_step;
-  const char *nonlinear = g_getenv("NONLINEAR");
-  if (nonlinear) rig->description.solver.nonlinear = atoi(nonlinear);
   rig_passive(rig, "body", c->model, NULL);
   for (int p = 0; p < 2; p++) rig_pin(rig, 0, c->pins[p], c->pin_radius);
   SporeWorld *world = rig_build(rig);

@@ -251,6 +251,64 @@ static void test_solved_already(void) {
   g_assert_cmpfloat(result.residual, ==, 0);
 }
 
+/* A weight of 1 on a stiff spring of rest length 1 about the origin, not under it: a full step leaves the circle and
+ * stretches the spring by far more than any force there was. */
+typedef struct Pendulum {
+  double stiffness, a[3]; /* of the matrix: xx, xy, yy */
+} Pendulum;
+
+static void pull(void *data, const double *x, double *r) {
+  Pendulum *pendulum = data;
+  double length = hypot(x[0], x[1]), pull = pendulum->stiffness * (1 - 1 / length);
+  r[0] = -pull * x[0];
+  r[1] = -pull * x[1] - 1;
+}
+
+static void pull_matrix(void *data, const double *x) {
+  Pendulum *pendulum = data;
+  double length = hypot(x[0], x[1]), c = x[0] / length, s = x[1] / length;
+  double across = pendulum->stiffness * fmax(1 - 1 / length, 0), along = pendulum->stiffness - across;
+  pendulum->a[0] = 1e-3 + across + along * c * c;
+  pendulum->a[1] = along * c * s;
+  pendulum->a[2] = 1e-3 + across + along * s * s;
+}
+
+static SporeLinearResult pull_solve(void *data, const double *r, double tolerance, double *dx) {
+  const double *a = ((Pendulum *)data)->a;
+  double determinant = a[0] * a[2] - a[1] * a[1];
+  dx[0] = (a[2] * r[0] - a[1] * r[1]) / determinant;
+  dx[1] = (a[0] * r[1] - a[1] * r[0]) / determinant;
+  return (SporeLinearResult){SPORE_LINEAR_CONVERGED, 1, 0};
+}
+
+static double pull_dot(void *data, const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1]; }
+static double pull_norm(void *data, const double *r) { return hypot(r[0], r[1]); }
+
+static void test_stiff_path(void) {
+  for (int decade = 2; decade <= 8; decade++) {
+    Pendulum pendulum = {.stiffness = pow(10, decade)};
+    SporeSystem system = {.data = &pendulum,
+                          .count = 2,
+                          .residual = pull,
+                          .linearise = pull_matrix,
+                          .solve = pull_solve,
+                          .dot = pull_dot,
+                          .norm = pull_norm,
+                          .scale_x = 1,
+                          .scale_r = 1,
+                          .rounding = rounding};
+    SporeNonlinearOptions options = {20, 1e-8};
+    double length = 1 + 1 / pendulum.stiffness; /* it pulls with the weight already */
+    double x[2] = {length * sin(0.3), -length * cos(0.3)}, scratch[SPORE_NEWTON_SCRATCH * 2];
+    SporeNonlinearResult result = newton(&system, &options, x, scratch);
+    g_test_message("stiffness 1e%d: %zu iterations, residual %.1e, at (%.2e, %.6f)", decade, result.iterations,
+                   result.residual, x[0], x[1]);
+    g_assert_true(result.converged);
+    g_assert_cmpfloat_with_epsilon(x[0], 0, 1e-6);
+    g_assert_cmpfloat_with_epsilon(x[1], -1 - 1 / pendulum.stiffness, 1e-6);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/nonlinear/newton", test_newton);
@@ -260,6 +318,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/nonlinear/broyden", test_broyden);
   g_test_add_func("/nonlinear/broyden-stale", test_broyden_stale);
   g_test_add_func("/nonlinear/broyden-renews", test_broyden_renews);
+  g_test_add_func("/nonlinear/stiff-path", test_stiff_path);
   g_test_add_func("/nonlinear/bad", test_bad);
   g_test_add_func("/nonlinear/solved-already", test_solved_already);
   return g_test_run();
