@@ -46,7 +46,17 @@ static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) 
 }
 
 static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
-  if (island->mixed) return spore_island_advance_mixed(world, island);
+  if (island->mixed) {
+    SporeStepResult mixed = spore_island_advance_mixed(world, island);
+    if (mixed.converged) return mixed;
+    /* Friction on nodes that are light without what holds them in their body: with it they may be solved. */
+    spore_island_gather(world, island);
+    SporeStepResult whole = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, 1);
+    spore_step_result_add(&mixed, &whole);
+    mixed.converged = whole.converged;
+    mixed.residual = whole.residual;
+    return mixed;
+  }
   return spore_island_advance(world, island, method(world, island), island->substeps);
 }
 

@@ -12,7 +12,9 @@
  * 1 +- sum + product >= 0): applied at the end of the step instead, as in impulse multiple time stepping, the same
  * force resonates near h w = pi. A body at rest on a stiff term stands h^2 a / 2 off, a the term's acceleration.
  *
- * Static bodies of such an island have next to no inertia and forget their velocity, where pins hold them. */
+ * Where the stage is not solved (friction on nodes that are light without their body's own stiffness), the step is
+ * taken whole by implicit Euler: see integrate.c. Static bodies of such an island have next to no inertia and forget
+ * their velocity, where pins hold them. */
 #include <math.h>
 #include <string.h>
 

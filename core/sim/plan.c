@@ -9,12 +9,17 @@ typedef struct Census {
 
 static Census count_bodies(const SporeWorld *world) {
   Census census = {0};
+  const SporeBody *first = NULL;
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     census.passive += body->role == SPORE_PASSIVE;
     census.active += body->role == SPORE_ACTIVE;
     census.spheres_bodies += body->spheres.point_count > 0;
-    census.implicit_needed |= body->role == SPORE_PASSIVE && spore_integrator(body->integrator)->implicit;
+    if (body->role != SPORE_PASSIVE) continue;
+    if (!first) first = body;
+    /* Bodies that choose differently are coupled implicitly. */
+    census.implicit_needed |= spore_integrator(body->integrator)->implicit || body->integrator != first->integrator ||
+                              body->substeps != first->substeps;
   }
   census.spheres_moving = world->spheres.count - world->spheres.static_count;
   return census;
