@@ -9,8 +9,8 @@
 typedef struct Chain {
   SporeModel base;
   double *rest;
-  size_t count;
-  SporeSprings *springs; /* one each, as they differ in stiffness */
+  size_t count;          /* of runs of springs that are equally stiff */
+  SporeSprings *springs; /* one a run */
 } Chain;
 
 static void destroy(SporeModel *model) {
@@ -82,19 +82,22 @@ static void find_blocks(Chain *chain) {
 SporeModel *chain_new(size_t count, double spacing, const double *stiffness, const double *mass, double damping) {
   Chain *chain = g_new0(Chain, 1);
   g_assert_true(spore_model_init(&chain->base, &type, count + 1, false, NULL));
-  chain->count = count;
   chain->rest = g_new0(double, 3 * (count + 1));
   chain->springs = g_new0(SporeSprings, count);
   for (size_t i = 0; i <= count; i++) {
     chain->rest[3 * i + 1] = -spacing * (double)i;
     chain->base.block_mass[i] = mass[i];
   }
-  for (size_t i = 0; i < count; i++) {
-    uint64_t key = (uint64_t)i << 32 | (i + 1);
-    g_assert_true(spore_springs_create(&chain->springs[i], &key, 1, chain->rest, count + 1));
-    chain->springs[i].stiffness = stiffness[i];
-    chain->springs[i].damping = damping;
+  uint64_t *keys = g_new(uint64_t, count);
+  for (size_t i = 0; i < count; i++) keys[i] = (uint64_t)i << 32 | (i + 1);
+  for (size_t first = 0, end; first < count; first = end) {
+    for (end = first + 1; end < count && stiffness[end] == stiffness[first];) end++;
+    SporeSprings *run = &chain->springs[chain->count++];
+    g_assert_true(spore_springs_create(run, keys + first, end - first, chain->rest, count + 1));
+    run->stiffness = stiffness[first];
+    run->damping = damping;
   }
+  g_free(keys);
   find_blocks(chain);
   return &chain->base;
 }
