@@ -57,8 +57,16 @@ static void count_end(const SporeWorld *world, const SporeEnd *end, double *coun
     local[mapping->block[k]]++;
 }
 
-/* Sum of n/m over those blocks, for a force that acts up to `arm` away from the end. */
-static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, double arm, const double *counts) {
+/* c . A c */
+static double quadratic(const double *a, SporeVec3 c) {
+  return c.x * (a[0] * c.x + a[1] * c.y + a[2] * c.z) + c.y * (a[3] * c.x + a[4] * c.y + a[5] * c.z) +
+         c.z * (a[6] * c.x + a[7] * c.y + a[8] * c.z);
+}
+
+/* Sum of n/m over those blocks, for a force along any direction that acts up to `arm` away from the end; or for one
+ * along `normal`, on whose line it acts: that turns a body only by what it misses its centre of mass. */
+static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, double arm, const SporeVec3 *normal,
+                               const double *counts) {
   if (end->prescribed) return 0;
   const double *local = counts + world->local_sites[end->body].v / 3;
   const SporeBody *body = &world->bodies[end->body];
@@ -66,7 +74,9 @@ static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, dou
   const SporeMapping *mapping = end->mapping;
   if (mapping->kind == SPORE_MAPPING_IDENTITY) return local[end->point] * inverse[9 * (size_t)end->point];
   if (mapping->kind == SPORE_MAPPING_RIGID) {
-    double lever = spore_vec3_distance(end->position, spore_vec3_load(world->q + body->q_offset)) + arm;
+    SporeVec3 centre = spore_vec3_sub(end->position, spore_vec3_load(world->q + body->q_offset));
+    if (normal) return local[0] * (inverse[0] + quadratic(inverse + 9, spore_vec3_cross(centre, *normal)));
+    double lever = spore_vec3_length(centre) + arm;
     return local[0] * (inverse[0] + lever * lever * (inverse[9] + inverse[13] + inverse[17]));
   }
   double sum = 0;
@@ -90,9 +100,11 @@ static void count_terms(const SporeGroup *group, double *counts) {
   }
 }
 
+/* Without friction a contact pushes along its normal alone. */
 static double contact_inverse_mass(const SporeWorld *world, const SporeContactTerm *term, const double *counts) {
-  return end_inverse_mass(world, &term->a, term->arm_a, counts) +
-         end_inverse_mass(world, &term->b, term->arm_b, counts);
+  const SporeVec3 *normal = term->law.friction > 0 ? NULL : &term->normal;
+  return end_inverse_mass(world, &term->a, term->arm_a, normal, counts) +
+         end_inverse_mass(world, &term->b, term->arm_b, normal, counts);
 }
 
 /* A step of h seconds resolves a term well whose h^2 w k + h w d is no more than this. */
@@ -120,7 +132,8 @@ static bool soften(void *data, double h, bool resolved) {
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
     SporeSpringTerm *term = spore_group_spring(group, i);
-    double inverse_mass = end_inverse_mass(world, &term->a, 0, counts) + end_inverse_mass(world, &term->b, 0, counts);
+    double inverse_mass =
+        end_inverse_mass(world, &term->a, 0, NULL, counts) + end_inverse_mass(world, &term->b, 0, NULL, counts);
     term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
   }
   return true;

@@ -8,7 +8,7 @@ from table import row
 
 
 def case_name(report):
-    solved = f"{report['newton']:.3g} Newton, {report['linear']:.4g} CG, residual {report['residual']:.0e}"
+    solved = f"{report['newton']:.3g} Newton, {report['linear']:.4g} CG, residual {report['residual']:.0e}" if report["newton"] else f"{report['evaluations']:.0f} explicit steps"
     if report["unsolved"]:
         solved += f", {report['unsolved']:g} NOT SOLVED"
     contacts = f", {report['contacts']:.0f} contacts" if report["contacts"] else ""

@@ -7,7 +7,7 @@
 #include "tests/stability/rig.h"
 
 #define BALL_RADIUS 0.02
-#define SETTLED_S 3. /* more than the pile needs to come to rest and to fall asleep */
+#define SETTLED_S 4. /* more than the pile needs to come to rest and to fall asleep */
 /* Longest time constant of the pile's motion about rest, s: of balls of 0.03 kg on contacts of 500 N/m. */
 #define PILE_TIME_CONSTANT 0.1
 

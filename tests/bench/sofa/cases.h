@@ -1,5 +1,6 @@
 /* SOFA's cases of the comparison, each a world of ours with the same physics. All: gravity (0, -9.81, 0), implicit
- * Euler, solved to a relative residual of 1e-6. */
+ * Euler solved to a relative residual of 1e-6; piles by explicit substeps too, where those are nearer to the answer.
+ * Rods wait for the spline model. */
 #ifndef SPORE_BENCH_SOFA_CASES_H
 #define SPORE_BENCH_SOFA_CASES_H
 
@@ -14,12 +15,14 @@ typedef struct Case {
   double required_ms;     /* what ours is to be; 0: nothing is promised */
   unsigned before, steps; /* steps before those that are measured, and those */
   bool truncated;         /* one nodal body and nothing to touch: also stepped as SOFA steps it, for its error */
+  unsigned substeps;      /* by symplectic Euler in so many; 0: implicit Euler */
+  unsigned compared;      /* steps from the start after which it is compared with much shorter ones; 0: not */
   size_t elements;        /* tetrahedra or springs, each of so many operations: */
   double force_flops, jacobian_flops;
 } Case;
 
-/* Operations of one element's force and Jacobian, counted by hand in models/corotation_kernels.c (five rounds of the polar
- * iteration) and models/springs.c. */
+/* Operations of one element's force and Jacobian, counted by hand in models/corotation_kernels.c (five rounds of the
+ * polar iteration) and models/springs.c. */
 #define TETRAHEDRON_FLOPS .force_flops = 1000, .jacobian_flops = 2600
 #define SPRING_FLOPS .force_flops = 35, .jacobian_flops = 75
 
