@@ -1,5 +1,6 @@
-/* Whether an explicit step still holds the energy of a body: where it does not, the body is stiffer than the step
- * bears, and its energy grows without bound. No other trouble looks like that, so the bound can be wide: GROWTH times
+/* Whether a step still holds the energy of a body. Where an explicit one does not, the body is stiffer than the step
+ * bears, and its energy grows without bound; and a method that only keeps the energy of what is linear may gain it
+ * where a step does not resolve what is not. No other trouble looks like that, so the bound can be wide: GROWTH times
  * all that the body had when the watch began and has been given since, by gravity and by contacts and links. Below the
  * largest stable step kinetic plus strain energy of a mode swings by a factor (1 + h w / 2) / (1 - h w / 2), 14 at most
  * where h w < 1.73 (Hairer, Lubich and Wanner, Acta Numerica 12, 2003, section 1: the modified energy of Stoermer and
@@ -12,7 +13,7 @@
 
 /* A model with a Jacobian is elastic: its potential is least, 0, at rest. */
 static bool is_watched(const SporeBody *body) {
-  return body->model->type->jacobian && !spore_integrator(body->integrator)->implicit;
+  return body->model->type->jacobian && spore_integrator(body->integrator)->damping <= SPORE_DAMPING_NEUTRAL;
 }
 
 /* What an end's force of this step gave to the body it hangs on, or took. */

@@ -114,12 +114,12 @@ static void try_substeps(SporeWorld *world, SporeIsland *island) {
   }
 }
 
-/* What an explicit step made unsound once, it makes so again: the implicit one that mended it is kept. */
+/* What a step that damps nothing made unsound once, it makes so again: the one that mended it is kept. */
 static void make_safer(SporeWorld *world, SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     body->watch.started = false;
-    if (spore_integrator(body->integrator)->implicit || body->model->type->rates) continue;
+    if (spore_integrator(body->integrator)->damping > SPORE_DAMPING_NEUTRAL || body->model->type->rates) continue;
     body->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
     island->made_safer = true;
   }

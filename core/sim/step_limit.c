@@ -167,16 +167,16 @@ static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_
   const char *name = spore_integrator_names[body->integrator];
   double h = world->solver.time_step / (double)body->substeps, needed = ceil(world->solver.time_step / limit_s);
   snprintf(place, sizeof place, "bodies/%s", body->name);
-  if (body->model->type->rates)
-    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
-                           _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take "
-                             "%.0f substeps, a smaller time_step or fewer particles"),
-                           h, limit_s, needed);
   if (limit_s == 0)
     return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
                            _("no step is small enough for %s: something here swings without damping; expected another "
                              "method; take integrator symplectic_euler or implicit_euler"),
                            name);
+  if (body->model->type->rates)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take "
+                             "%.0f substeps, a smaller time_step or fewer particles"),
+                           h, limit_s, needed);
   if (needed <= SPORE_SUBSTEPS_MAXIMUM)
     return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
                            _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; take "
@@ -199,8 +199,12 @@ static bool may_be_held(const SporeWorld *world, size_t index) {
 
 static bool check_static(const SporeWorld *world, size_t index, SporeError *error) {
   char place[200];
-  if (may_be_held(world, index)) return true;
   snprintf(place, sizeof place, "bodies/%s", world->bodies[index].name);
+  if (world->bodies[index].model->type->rates)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("particles have no one balance of forces to be found; expected a method that moves them; "
+                             "leave the integrator open, or take verlet"));
+  if (may_be_held(world, index)) return true;
   return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
                          _("nothing can hold the body, so that its forces have no balance; expected a pin, a link or "
                            "spheres; pin it, or take integrator implicit_euler"));

@@ -1,0 +1,169 @@
+/* The common pass for every method with every model, far from where they are at home: finite, energy bounded, the same
+ * again, and what cannot be done is refused at the start or said, with the body. Each cell prints what came of it. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "tests/stability/rig.h"
+
+#define STEPS 25
+
+typedef enum Load { AS_IT_COMES, STIFF, HEAVY, LIGHT, LOAD_COUNT } Load;
+static const char *const load_names[] = {"as it comes", "stiffness x 1e6", "a weight of 1e6 times its mass on a spring",
+                                         "a weight of 1e-6 times its mass on a spring"};
+
+static gboolean is_stiffness(const SporeParameter *parameter) {
+  static const char *const units[] = {"N/m", "Pa", "N/m^3"};
+  for (unsigned i = 0; i < G_N_ELEMENTS(units); i++)
+    if (parameter->type == SPORE_REAL && !strcmp(parameter->unit, units[i])) return TRUE;
+  return FALSE;
+}
+
+/* A small body with its stiffnesses times `factor`. */
+static SporeModel *small_body(const SporeModelType *type, double factor) {
+  SporeTriangleMesh surface = {0};
+  SporeTetrahedralMesh tetrahedra = {0};
+  if (type->geometry == SPORE_GEOMETRY_TETRAHEDRA) shape_block(&tetrahedra, 2, 1, 2, spore_vec3(0.02, 0.01, 0.02));
+  else shape_block_surface(&surface, 3, 1, 1, spore_vec3(0.03, 0.02, 0.02));
+  char *fields = spore_allocate(1, type->parameters.size);
+  spore_parameters_set_initial(&type->parameters, fields);
+  for (size_t p = 0; p < type->parameters.count; p++) {
+    const SporeParameter *parameter = &type->parameters.parameters[p];
+    char *field = fields + parameter->offset;
+    if (is_stiffness(parameter)) *(double *)(void *)field *= factor;
+    if (!strcmp(parameter->name, "particles")) *(int64_t *)(void *)field = 40;
+  }
+  SporeError error = SPORE_ERROR_INIT;
+  SporeModel *model = type->create(&(SporeGeometry){&surface, &tetrahedra}, fields, &error);
+  if (!model) g_error("%s: %s", type->name, error.message);
+  spore_free(fields);
+  spore_triangle_mesh_clear(&surface);
+  spore_tetrahedral_mesh_clear(&tetrahedra);
+  return model;
+}
+
+/* Ties a cube of that mass below the body's far end, so that the spring is 1 cm long and stretches by 1 mm. */
+static void add_weight(Rig *rig, double mass) {
+  SporeTriangleMesh cube;
+  shape_box(&cube, spore_vec3(0, 0, 0), spore_vec3(0.01, 0.01, 0.01));
+  SporeBodyDescription *weight =
+      rig_passive(rig, "weight", rig_surface_model(&spore_rigid_body, &cube, "mass", mass, NULL), NULL);
+  weight->pose.position = spore_vec3(0.02, -0.02, 0.02);
+  SporeLinkDescription link = {.name = "cord",
+                               .kind = SPORE_LINK_SPRING,
+                               .body_a = 0,
+                               .body_b = 1,
+                               .point_a = spore_vec3(0.02, 0, 0.02),
+                               .point_b = spore_vec3(0.02, -0.015, 0.02),
+                               .stiffness = mass * 9.81 / 1e-3,
+                               .damping = 0.02 * mass * sqrt(9.81 / 1e-3),
+                               .rest_length = -1};
+  g_array_append_val(rig->links, link);
+}
+
+static Rig *set_up(const SporeModelType *type, SporeIntegratorKind kind, double h, Load load) {
+  Rig *rig = rig_new();
+  SporeModel *model = small_body(type, load == STIFF ? 1e6 : 1);
+  double mass = spore_model_total_mass(model);
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.time_step = h;
+  rig->description.solver.integrator = kind; /* the weight's */
+  SporeBodyDescription *body = rig_passive(rig, "body", model, NULL);
+  body->integrator = kind;
+  body->velocity = spore_vec3(0.05, 0, 0.02);
+  body->spin = spore_vec3(0, 1, 2);
+  if (type->jacobian) rig_pin(rig, 0, spore_vec3(0, 0, 0), 1e-4);
+  if (load == HEAVY || load == LIGHT) add_weight(rig, mass * (load == HEAVY ? 1e6 : 1e-6));
+  return rig;
+}
+
+/* A static method goes from balance to balance: how fast says nothing. */
+static double energy_of(const SporeWorld *world, SporeIntegratorKind kind) {
+  return rig_energy(world) - (kind == SPORE_INTEGRATOR_STATIC ? spore_world_energy(world).kinetic : 0);
+}
+
+/* Runs; the greatest energy and the hash at the end. */
+static double run(SporeWorld *world, SporeIntegratorKind kind, uint64_t *hash) {
+  double most = -HUGE_VAL;
+  for (int i = 0; i < STEPS; i++) {
+    spore_world_step(world);
+    double energy = energy_of(world, kind);
+    most = isnan(energy) ? NAN : fmax(most, energy);
+  }
+  *hash = spore_world_hash(world);
+  return most;
+}
+
+/* What all bodies together can be expected to have: their weight times as far as the scene is wide or they fall. */
+static double energy_scale(const SporeWorld *world, double h) {
+  double mass = 0, fall = 0.5 * 9.81 * (STEPS * h) * (STEPS * h);
+  for (uint32_t b = 0; b < spore_world_body_count(world); b++)
+    mass += spore_model_total_mass(spore_world_body_model(world, b));
+  return mass * 9.81 * (0.03 + fall) + fabs(rig_energy(world));
+}
+
+/* Part of the energy scale that may come from nothing: by methods that damp nothing where they resolve nothing as much
+ * as the scene has, and until the monitor steps in as much as that lets pass (energy_watch.c). */
+static double allowed_rise(SporeIntegratorKind kind, gboolean made_safer) {
+  if (made_safer) return 20;
+  return kind == SPORE_INTEGRATOR_IMPLICIT_MIDPOINT ? 1 : 0.05;
+}
+
+static const char *check_cell(Rig *rig, SporeIntegratorKind kind, double h, double *rise) {
+  SporeWorld *world = rig->world;
+  const SporeMonitor *monitor = spore_world_monitor(world);
+  uint64_t first, second;
+  double scale = energy_scale(world, h), start = energy_of(world, kind);
+  *rise = (run(world, kind, &first) - start) / scale;
+  gboolean frozen = rig_any_frozen(world), mended = monitor->recoveries > 0, unsolved = monitor->not_converged > 0;
+  gboolean safer = spore_world_body_made_safer(world, 0);
+  if (frozen || mended || unsolved) g_assert_cmpuint(monitor->message_count, >, 0);
+  if (frozen) g_assert_true(strstr(rig_last_message(world), "frozen") != NULL);
+  if (!rig_finite(world) || isnan(*rise)) return "NOT FINITE";
+  spore_world_reset(world);
+  run(world, kind, &second);
+  if (first != second) return "NOT THE SAME AGAIN";
+  if (*rise > allowed_rise(kind, safer)) return "ENERGY";
+  if (safer) return "made safer";
+  return frozen ? "frozen" : mended ? "mended" : unsolved ? "unsolved" : "stable";
+}
+
+static void check_model(gconstpointer data) {
+  const SporeModelType *type = data;
+  static const double steps[] = {1e-5, 1e-3, 1e-2, 1e-1};
+  unsigned failed = 0;
+  for (Load load = 0; load < LOAD_COUNT; load++)
+    for (SporeIntegratorKind kind = 0; kind < SPORE_INTEGRATOR_COUNT; kind++) {
+      GString *line = g_string_new(NULL);
+      for (unsigned i = 0; i < G_N_ELEMENTS(steps); i++) {
+        Rig *rig = set_up(type, kind, steps[i], load);
+        SporeError error = SPORE_ERROR_INIT;
+        double rise = 0;
+        const char *verdict = "refused";
+        if (rig_try_build(rig, &error)) verdict = check_cell(rig, kind, steps[i], &rise);
+        else {
+          g_assert_cmpint(error.code, ==, SPORE_ERROR_NUMERICAL);
+          g_assert_true(g_str_has_prefix(error.place, "bodies/"));
+        }
+        const char *limit = strstr(error.message, "at most ");
+        if (limit)
+          g_string_append_printf(line, "  %g s: refused above %.3g s", steps[i], g_ascii_strtod(limit + 8, NULL));
+        else g_string_append_printf(line, "  %g s: %s %+.0e", steps[i], verdict, rise);
+        failed += g_ascii_isupper(verdict[0]);
+        rig_free(rig);
+      }
+      g_test_message("%s, %s, %s:%s", type->name, load_names[load], spore_integrator_names[kind], line->str);
+      g_string_free(line, TRUE);
+    }
+  g_assert_cmpuint(failed, ==, 0);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  for (SporeModelRegistry type = spore_model_registry; *type; type++) {
+    char *path = g_strdup_printf("/stability/common_pass/%s", (*type)->name);
+    g_test_add_data_func(path, *type, check_model);
+    g_free(path);
+  }
+  return g_test_run();
+}
