@@ -1,4 +1,4 @@
-/* Narrow phase: the contact of two spheres. Private to core/collide. */
+/* Narrow phase: the contact of two spheres. */
 #ifndef SPORE_COLLIDE_NARROW_H
 #define SPORE_COLLIDE_NARROW_H
 

@@ -1,7 +1,10 @@
 /* Contacts with bodies that are felt as one depth field: a sphere that touches several spheres of such a body has one
  * contact with it, whose depth and normal change smoothly where it slides from one to the next. */
+#include <math.h>
+
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/collide/narrow.h"
 #include "core/sim/world_private.h"
 
 /* A field is felt between its spheres before they are: they are looked for with radii larger by this part. */
@@ -26,12 +29,13 @@ bool spore_world_compile_fields(SporeWorld *world, SporeError *error) {
                                  _("not enough memory for smooth surfaces; use fewer spheres, or surface spheres"));
 }
 
-/* The found contact without the reach of the spheres. */
-static SporeContact narrowed(const SporeWorld *world, const SporeContact *found) {
-  SporeContact contact = *found;
-  const double *reach = world->reach, *radius = world->spheres.radius;
-  contact.depth -= reach[contact.a] - radius[contact.a] + reach[contact.b] - radius[contact.b];
-  return contact;
+/* Whether the two spheres move so far past each other in the step that the field of now says nothing of where they
+ * meet. */
+static bool is_fast(const SporeWorld *world, const SporeContact *contact) {
+  const double *velocity = world->spheres.velocity, *radius = world->spheres.radius;
+  SporeVec3 a = spore_vec3_load(velocity + 3 * (size_t)contact->a),
+            b = spore_vec3_load(velocity + 3 * (size_t)contact->b);
+  return spore_vec3_distance(a, b) * world->solver.time_step > fmin(radius[contact->a], radius[contact->b]);
 }
 
 /* Depth and normal from the field of the body that `owner` belongs to, for the ball `probe`; false where they stay
@@ -71,19 +75,23 @@ static void sort_by_probe(SporeFelt *felt, size_t count) {
     }
 }
 
-/* Of the contacts of one probe with one body, which lie next to each other, makes the one that is felt. Returns how
- * many come of it: the swept one of spheres that are apart as yet stays as it is. */
+/* Of the contacts of one probe with one body, which lie next to each other, makes those that are felt; returns how
+ * many. A fast probe meets spheres one by one: which of them stops it, the step will tell. */
 static size_t merge(const SporeWorld *world, const SporeFelt *first, size_t count, bool owner_is_a, SporeFelt *to) {
-  const SporeContact *nearest = &first->contact;
+  size_t nearest = 0, made = 0;
   for (size_t i = 1; i < count; i++)
-    if (first[i].contact.depth > nearest->depth) nearest = &first[i].contact;
-  SporeContact contact = narrowed(world, nearest);
-  uint32_t owner = owner_is_a ? contact.a : contact.b, probe = owner_is_a ? contact.b : contact.a;
-  bool apart = nearest->depth <= 0;
-  if (!apart && !feel(world, owner, probe, &contact)) return 0;
-  uint32_t whole = (uint32_t)world->bodies[world->spheres.body[owner]].sphere_start;
-  *to = (SporeFelt){contact, owner_is_a ? whole : probe, owner_is_a ? probe : whole};
-  return 1;
+    if (first[i].contact.depth > first[nearest].contact.depth) nearest = i;
+  bool fast = is_fast(world, &first[nearest].contact);
+  for (size_t i = fast ? 0 : nearest; i < (fast ? count : nearest + 1); i++) {
+    SporeContact contact = first[i].contact;
+    uint32_t owner = owner_is_a ? contact.a : contact.b, probe = owner_is_a ? contact.b : contact.a;
+    bool felt = fast ? spore_narrow_contact(&world->spheres, contact.a, contact.b, world->solver.time_step, &contact)
+                     : feel(world, owner, probe, &contact);
+    if (!felt) continue;
+    uint32_t whole = (uint32_t)world->bodies[world->spheres.body[owner]].sphere_start;
+    to[made++] = (SporeFelt){contact, owner_is_a ? whole : probe, owner_is_a ? probe : whole};
+  }
+  return made;
 }
 
 /* Those of a body with a field, from `first` on; what comes of them lies at the front of felt. */

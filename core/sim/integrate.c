@@ -33,11 +33,21 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
   return total;
 }
 
+/* Whether bodies that are apart as yet meet within the step. Which of their contacts will press, only the step's end
+ * tells: symplectic Euler, which softens all of them, would let what is fast go through what is thin. */
+static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->contact_count; i++)
+    if (world->contacts[world->contact_order[island->contact_start + i]].depth <= 0) return true;
+  return false;
+}
+
 /* A contact that the step does not resolve is an impact, which no method follows to second order: those that are not
  * damped enough throw bodies out faster than they came. Implicit Euler meets it in their place, unless the method looks
  * after its error. */
 static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) {
   const SporeIntegrator *integrator = spore_integrator(island->integrator);
+  if (island->integrator == SPORE_INTEGRATOR_SYMPLECTIC_EULER && meets_in_step(world, island))
+    return SPORE_INTEGRATOR_IMPLICIT_EULER;
   bool controlled = island->integrator == SPORE_INTEGRATOR_TR_BDF2 && world->solver.error_tolerance > 0;
   if (!integrator->implicit || integrator->damping == SPORE_DAMPING_FULL || controlled) return island->integrator;
   const SporeGroup group = {.world = world, .island = island};

@@ -156,6 +156,38 @@ static void case_18(void) {
   }
 }
 
+/* Case 18, the other way round: a ball of 5 mm that physics throws at 10 m/s against a wall of 2 mm spheres. */
+static void case_18_passive(void) {
+  static const double steps[] = {2e-4, 5e-4, 1e-3, 2e-3, 5e-3};
+  static const SporeIntegratorKind kinds[] = {SPORE_INTEGRATOR_SYMPLECTIC_EULER, SPORE_INTEGRATOR_IMPLICIT_EULER};
+  for (unsigned s = 0; s < G_N_ELEMENTS(steps); s++)
+    for (unsigned k = 0; k < G_N_ELEMENTS(kinds); k++)
+      for (int surface = SPORE_SURFACE_SPHERES; surface <= SPORE_SURFACE_DEPTH_FIELD; surface++) {
+        Rig *rig = rig_new();
+        rig->description.solver.integrator = (int)kinds[k];
+        rig->description.solver.time_step = steps[s];
+        SporeBodyDescription *wall = rig_unmovable(rig, "wall", rig_floor(rig, 31, 31, 0.0015, 0.001));
+        wall->contact.stiffness = 1e6;
+        wall->contact.surface = surface;
+        SporeBodyDescription *body = rig_passive(rig, "ball", ball(0.004), rig_sphere(rig, 0.0025));
+        body->contact.stiffness = 1e6;
+        body->pose.position = spore_vec3(0.0003, 0.0517, 0.0004);
+        body->velocity = spore_vec3(0.1, -10, 0.05);
+        SporeWorld *world = rig_build(rig);
+        double low = 1;
+        rig_run(world, 1);
+        for (unsigned i = 0; i < (unsigned)lround(0.03 / steps[s]); i++) {
+          spore_world_step(world);
+          low = fmin(low, spore_world_q(world, 1)[1]);
+        }
+        g_test_message("case 18: passive, %s, %s, %g ms a step (%g mm): lowest %.2f mm, leaves at %.2f m/s",
+                       spore_integrator_names[kinds[k]], surface ? "depth field" : "spheres", steps[s] * 1e3,
+                       steps[s] * 1e4, low * 1e3, spore_world_v(world, 1)[1]);
+        g_assert_cmpfloat(low, >, 0);
+        rig_free(rig);
+      }
+}
+
 /* A cube of tetrahedra with spheres on all its nodes. */
 static SporeModel *cube(Rig *rig, unsigned cells, double side, double density, double young, double radius,
                         const SporeSphereSet **spheres) {
@@ -259,5 +291,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/14_overlap", case_14);
   g_test_add_func("/stability/15_many", case_15);
   g_test_add_func("/stability/18_fast_tool", case_18);
+  g_test_add_func("/stability/18_fast_body", case_18_passive);
   return g_test_run();
 }
