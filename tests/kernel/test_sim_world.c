@@ -292,7 +292,8 @@ static void test_commands(gconstpointer data) {
 typedef struct Reader {
   SporeWorld *world;
   gint stop;
-  guint torn, seen;
+  gint seen;
+  guint torn;
 } Reader;
 
 /* All particles of the falling body have the same height, in each snapshot that is whole. */
@@ -304,7 +305,7 @@ static gpointer read_snapshots(gpointer data) {
     double fallen = -9.81 * 1e-4 * 1e-4 * (double)snapshot->step * (double)(snapshot->step + 1) / 2;
     for (int i = 0; i < 8; i++) reader->torn += fabs(snapshot->q[3 * i + 1] - fallen) > 1e-9;
     reader->torn += snapshot->step < last;
-    reader->seen += snapshot->step != last;
+    g_atomic_int_add(&reader->seen, snapshot->step != last);
     last = snapshot->step;
   }
   return NULL;
@@ -323,11 +324,11 @@ static void test_snapshot_reader(void) {
                      NULL);
   Reader reader = {.world = create(&description, NULL)};
   GThread *thread = g_thread_new("reader", read_snapshots, &reader);
-  for (int i = 0; i < 20000 || (reader.seen < 10 && i < 2000000); i++) spore_world_step(reader.world);
+  for (int i = 0; i < 20000 || (g_atomic_int_get(&reader.seen) < 10 && i < 2000000); i++) spore_world_step(reader.world);
   g_atomic_int_set(&reader.stop, 1);
   g_thread_join(thread);
   g_assert_cmpuint(reader.torn, ==, 0);
-  g_assert_cmpuint(reader.seen, >=, 10);
+  g_assert_cmpint(reader.seen, >=, 10);
   spore_world_free(reader.world);
 }
 
