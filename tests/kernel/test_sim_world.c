@@ -324,7 +324,8 @@ static void test_snapshot_reader(void) {
                      NULL);
   Reader reader = {.world = create(&description, NULL)};
   GThread *thread = g_thread_new("reader", read_snapshots, &reader);
-  for (int i = 0; i < 20000 || (g_atomic_int_get(&reader.seen) < 10 && i < 2000000); i++) spore_world_step(reader.world);
+  for (int i = 0; i < 20000 || (g_atomic_int_get(&reader.seen) < 10 && i < 2000000); i++)
+    spore_world_step(reader.world);
   g_atomic_int_set(&reader.stop, 1);
   g_thread_join(thread);
   g_assert_cmpuint(reader.torn, ==, 0);
