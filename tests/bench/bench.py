@@ -8,6 +8,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "e2e"))
+import collide
 import commands
 import editor
 import fluid
@@ -18,7 +19,7 @@ import peers
 import solvers
 import table
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **solvers.BENCHES, **peers.BENCHES, **fluid.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **solvers.BENCHES, **peers.BENCHES, **fluid.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():
