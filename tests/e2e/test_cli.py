@@ -30,9 +30,9 @@ def spore(*arguments, status=0, **options):
     return done
 
 
-def report(*arguments, status=0):
+def report(*arguments, status=0, **options):
     """The JSON object of a command; stdout must hold nothing else."""
-    return json.loads(spore(*arguments, "--json", status=status).stdout)
+    return json.loads(spore(*arguments, "--json", status=status, **options).stdout)
 
 
 def refuses(*arguments, says, **options):
@@ -175,7 +175,7 @@ def same_run_same_hash():
 
 @check
 def shipped_scenes_run():
-    """Each shipped scene is valid by the schema, checks without an error, and repeats its hash with 1 or 2 threads."""
+    """Each shipped scene is valid by the schema, checks without an error, and repeats its hash with 1 or 2 threads and every instruction set."""
     schema = file("spore.rng", spore("schema").stdout)
     scenes = sorted(SCENES.glob("*.spore"))
     assert {"minimal.spore", "laparoscopy.spore"} <= {s.name for s in scenes}
@@ -184,6 +184,8 @@ def shipped_scenes_run():
         bad = [d for d in report("check", scene)["diagnostics"] if d["severity"] != "note"]
         assert not bad, bad
         hashes = {report("run", scene, "--steps", 300, "--threads", n)["state_hash"] for n in (1, 1, 2)}
+        hashes |= {report("run", scene, "--steps", 300, env={**os.environ, "SPORE_CPU": level})["state_hash"]
+                   for level in ("baseline", "avx2", "avx512")}
         assert len(hashes) == 1, scene
 
 
