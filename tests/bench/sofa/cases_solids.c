@@ -84,6 +84,6 @@ const Case solid_cases[] = {{.name = "a1 organ, 180 nodes, 600 tetrahedra",
                              .sofa = "CG 25",
                              .sofa_ms = 17.2,
                              .required_ms = 4,
-                             .steps = 100,
+                             .steps = 40,
                              .truncated = true},
                             {0}};
