@@ -5,12 +5,13 @@
 
 #define SLACK 1e-6 /* of a cell's width, added to every range of cells: more than any rounding of a bound */
 
-/* SporePair filter. */
+/* Pair filter. */
 
 static inline bool bodies_pair(const SporeGrid *grid, uint32_t a, uint32_t b) {
   if (a == b) return grid->bodies[a] & SPORE_GRID_SELF;
   if (grid->group && grid->group[a] && grid->group[a] == grid->group[b]) return false;
-  return (grid->bodies[a] | grid->bodies[b]) & SPORE_GRID_PASSIVE;
+  unsigned one = grid->bodies[a], other = grid->bodies[b];
+  return ((one | other) & SPORE_GRID_PASSIVE) | ((one ^ other) & SPORE_GRID_ACTIVE);
 }
 
 static bool touched_at_rest(const SporeGrid *grid, uint32_t a, uint32_t b) {

@@ -263,7 +263,7 @@ static bool exclude_rest_contacts(SporeGrid *grid, const SporeSpheres *rest) {
 }
 
 static unsigned char flags_of(const SporeGridBody *body) {
-  if (!body->passive) return 0;
+  if (!body->passive) return body->active ? SPORE_GRID_ACTIVE : 0;
   return body->self ? SPORE_GRID_PASSIVE | SPORE_GRID_SELF : SPORE_GRID_PASSIVE;
 }
 
@@ -340,15 +340,18 @@ static size_t grouped_pairs(const SporeGridBody *bodies, size_t body_count) {
   size_t pairs = 0;
   for (size_t i = 0; i < body_count; i++)
     for (size_t j = i + 1; bodies[i].group && j < body_count; j++)
-      pairs += bodies[i].group == bodies[j].group && (bodies[i].passive || bodies[j].passive);
+      pairs += bodies[i].group == bodies[j].group &&
+               (bodies[i].passive || bodies[j].passive || bodies[i].active != bodies[j].active);
   return pairs;
 }
 
 size_t spore_grid_body_pairs(const SporeGridBody *bodies, size_t body_count) {
-  size_t passive = 0, selves = 0;
+  size_t passive = 0, active = 0, selves = 0;
   for (size_t i = 0; i < body_count; i++) {
     passive += bodies[i].passive;
+    active += !bodies[i].passive && bodies[i].active;
     selves += bodies[i].passive && bodies[i].self;
   }
-  return passive * (body_count - passive) + passive * (passive - 1) / 2 + selves - grouped_pairs(bodies, body_count);
+  size_t others = body_count - passive, alike = passive * (passive - 1) / 2;
+  return alike + passive * others + active * (others - active) + selves - grouped_pairs(bodies, body_count);
 }

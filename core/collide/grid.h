@@ -19,11 +19,12 @@
 
 typedef struct SporeGrid SporeGrid;
 
-/* What the pair filter knows of a body. Two bodies pair when at least one of them is passive, and
- * they are not of one group; a body pairs with itself
- * when it is passive and asks for it. */
+/* What the pair filter knows of a body; one that is neither passive nor active never moves. Two bodies pair when at
+ * least one of them is passive, or one is active and the other never moves, and they are not of one group; a body pairs
+ * with itself when it is passive and asks for it. */
 typedef struct SporeGridBody {
   bool passive;   /* moved by physics */
+  bool active;    /* moved by a device or a track */
   bool self;      /* its spheres collide with each other */
   uint32_t group; /* bodies of one group never pair with each other; 0: none */
 } SporeGridBody;
@@ -60,7 +61,7 @@ void spore_grid_set_asleep(SporeGrid *grid, uint32_t body, bool asleep);
 const SporeContact *spore_grid_contacts(const SporeGrid *grid);
 size_t spore_grid_capacity(const SporeGrid *grid);
 
-/* Pairs of bodies, a body with itself included, that the filter lets through; for the plan. */
+/* Pairs of bodies, a body with itself included, that the filter lets through. */
 size_t spore_grid_body_pairs(const SporeGridBody *bodies, size_t body_count);
 
 #endif

@@ -5,7 +5,7 @@
 #include "core/collide/cells.h"
 #include "core/collide/grid.h"
 
-enum { SPORE_GRID_PASSIVE = 1, SPORE_GRID_SELF = 2, SPORE_GRID_ASLEEP = 4 };
+enum { SPORE_GRID_PASSIVE = 1, SPORE_GRID_SELF = 2, SPORE_GRID_ASLEEP = 4, SPORE_GRID_ACTIVE = 8 };
 
 typedef struct SporePair {
   uint32_t a, b; /* a < b */

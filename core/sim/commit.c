@@ -37,6 +37,7 @@ static void settle_island(SporeWorld *world, const SporeIsland *island) {
 }
 
 void spore_world_commit(SporeWorld *world) {
+  world->counts.contacts = world->contact_count;
   for (size_t i = 0; i < world->island_count; i++) accept_island(world, &world->islands[i]);
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];

@@ -186,21 +186,21 @@ static bool add_spheres(SporeWorld *world, const SporeWorldDescription *descript
   return true;
 }
 
+static SporeGridBody grid_body(const SporeBody *body) {
+  return (SporeGridBody){.passive = body->role == SPORE_PASSIVE,
+                         .active = body->role == SPORE_ACTIVE,
+                         .self = body->contact.self,
+                         .group = (uint32_t)body->contact.group};
+}
+
 static bool make_grid(SporeWorld *world, SporeError *error) {
   SporeGridBody *bodies = SPORE_NEW_ARRAY(SporeGridBody, world->body_count);
   if (!bodies) return no_memory(error);
+  size_t with = 0; /* bodies without spheres are no reason for a grid */
   for (size_t i = 0; i < world->body_count; i++)
-    bodies[i] = (SporeGridBody){world->bodies[i].role == SPORE_PASSIVE, world->bodies[i].contact.self,
-                                (uint32_t)world->bodies[i].contact.group};
-  /* Bodies without spheres are no reason for a grid. */
-  size_t with = 0, movers = 0, selves = 0;
-  for (size_t i = 0; i < world->body_count; i++) {
-    if (world->bodies[i].spheres.point_count == 0) continue;
-    with++;
-    movers += bodies[i].passive;
-    selves += bodies[i].passive && bodies[i].self;
-  }
-  bool needed = movers > 0 && (with > 1 || selves > 0);
+    if (world->bodies[i].spheres.point_count > 0) bodies[with++] = grid_body(&world->bodies[i]);
+  bool needed = spore_grid_body_pairs(bodies, with) > 0;
+  for (size_t i = 0; i < world->body_count; i++) bodies[i] = grid_body(&world->bodies[i]);
   SporeSpheres reaching = world->spheres;
   reaching.radius = world->reach;
   if (needed) world->grid = spore_grid_create(&reaching, bodies, world->body_count, 0, error);

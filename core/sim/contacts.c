@@ -134,7 +134,8 @@ void spore_world_respond(SporeWorld *world) {
   for (size_t i = 0; i < world->contact_count; i++) fill_term(world, &world->felt[i], &world->contacts[i]);
   spore_world_take_grips(world);
   for (size_t i = 0; i < world->contact_count; i++) {
-    /* Two bodies that physics does not move (one is frozen) still press on each other: a tool is to feel it. */
+    /* Two bodies that physics does not move (a tool and a wall, or one is frozen) still press on each other: the tool
+     * is to feel it. */
     SporeContactTerm *term = &world->contacts[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, NULL);
     if (0.5 * term->depth > fmin(term->arm_a, term->arm_b)) spore_world_report_depth(world, term);

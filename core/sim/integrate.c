@@ -103,8 +103,7 @@ void spore_world_integrate(SporeWorld *world) {
   bool worth_calling = count_work(world) >= POOL_WORK;
   spore_pool_run(worth_calling ? world->pool : NULL, world->island_count, integrate_island, world);
   SporeStepCounts *counts = &world->counts;
-  *counts = (SporeStepCounts){
-      .contacts = world->contact_count, .islands = world->island_count, .sleeping = world->sleeping_count};
+  *counts = (SporeStepCounts){.islands = world->island_count, .sleeping = world->sleeping_count};
   for (size_t i = 0; i < world->island_count; i++) {
     const SporeStepResult *result = &world->islands[i].result;
     counts->newton_iterations += result->newton_iterations;

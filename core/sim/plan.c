@@ -89,7 +89,7 @@ void spore_world_make_plan(SporeWorld *world) {
   Census census = count_bodies(world);
   bool active = census.active > 0, linked = world->link_count > 0, moves = census.passive > 0;
   bool pulled = world->pull_count > 0;
-  bool coupled = moves && (linked || world->grid);
+  bool coupled = world->grid || (moves && linked);
   const char *no_active = _("no body is driven by a device or a track");
   add(world, "command", true, _("parameters and pulls may change while it runs"), spore_world_apply_commands, no_items);
   add(world, "sense", active, active ? _("active bodies follow their devices") : no_active, spore_world_sense,

@@ -229,6 +229,39 @@ def plan_says_why():
     assert not any("gtk" in library for library in answer["libraries"])
 
 
+def tool_at_a_wall():
+    """A scene of a tool that a track lowers 5 mm into an unmovable sphere; nothing in it is passive."""
+    scene = WORK / "wall" / "wall.spore"
+    file("wall/one.spheres", "0 0 0 0.03\n")
+    pose = "{} 0 {} 0 1 0 0 0 0 0\n"
+    file("wall/down.track", "spore-track 1\ndevice tool\n" + pose.format(0, 0.07) + pose.format(0.1, 0.055))
+    file("wall/wall.spore", """<spore version="1.0">
+  <solver time_step="0.001"/>
+  <assets><spheres name="one" file="one.spheres"/></assets>
+  <bodies>
+    <body name="wall" role="unmovable"><collision spheres="one"/></body>
+    <body name="tool" role="active" position="0 0.07 0"><collision spheres="one"/></body>
+  </bodies>
+  <tools><probe name="hand" body="tool" device="track"/></tools>
+  <devices><track name="track" file="down.track"/></devices>
+</spore>
+""")
+    return scene
+
+
+@check
+def a_tool_feels_a_wall():
+    """A tool touches what nothing moves, also where nothing is passive: the plan says so, and the run counts it."""
+    scene = tool_at_a_wall()
+    names = {s["name"]: s for s in report("plan", scene)["stages"]}
+    assert all(names[name]["included"] for name in ("sense", "map", "detect", "respond", "react", "feedback"))
+    assert "spheres to touch" in names["detect"]["reason"] and "push back" in names["react"]["reason"]
+    assert not names["integrate"]["included"] and "physics" in names["integrate"]["reason"]
+    assert report("run", scene, "--steps", 300)["contacts"]["max"] == 1
+    apart = report("plan", file("wall/apart.spore", scene.read_text().replace('spheres="one"', 'spheres="one" group="1"')))
+    assert not {s["name"]: s for s in apart["stages"]}["detect"]["included"]
+
+
 @check
 def models_and_schema():
     """models lists parameters with unit and range; schema is a RELAX NG that accepts a scene and refuses another."""

@@ -443,6 +443,48 @@ static void test_device(gconstpointer data) {
   spore_world_free(world);
 }
 
+/* The probe on a body that nothing moves, where nothing is passive: it feels it all the same. */
+static void test_wall(void) {
+  static const SporeDeviceType type = {.name = "script", .exchange = exchange};
+  ScriptedDevice device = {.base.type = &type};
+  static double sphere[4] = {0, 0, 0, 0.1};
+  SporeSphereSet set = {1, sphere};
+  const SporeContactFields contact = {.stiffness = 200, .damping = 0.5, .friction = 0.3}; /* two in series: 100 N/m */
+  SporeBodyDescription bodies[3] = {
+      {"probe", SPORE_ACTIVE, .pose = spore_pose_identity(), .spheres = &set, .contact = contact},
+      {"wall", SPORE_UNMOVABLE, .pose = spore_pose_identity(), .spheres = &set, .contact = contact},
+      {"other probe", SPORE_ACTIVE, .pose = spore_pose_identity(), .spheres = &set, .contact = contact}};
+  bodies[0].pose.position.y = bodies[2].pose.position.y = 0.3;
+  SporeWorldDescription description = world_description(bodies, 2);
+  SporeWorld *world = create(&description, NULL);
+  spore_world_set_device(world, 0, &device.base);
+  run(world, 50);
+  g_assert_cmpfloat(device.force, ==, 0); /* not there yet */
+  run(world, 1000);
+  g_assert_cmpfloat_with_epsilon(device.force, 100 * 0.05, 1e-9);
+  const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
+  g_assert_cmpuint(snapshot->contact_count, ==, 1);
+  g_assert_cmpfloat_with_epsilon(snapshot->reaction[1], 5, 1e-9);
+  g_assert_cmpfloat_with_epsilon(snapshot->reaction[6 + 1], -5, 1e-9);
+  const SporePlan *plan = spore_world_plan(world);
+  const char *const in[] = {"sense", "map", "detect", "respond", "react", "feedback"};
+  const char *const out[] = {"wake", "link", "group", "integrate"};
+  for (size_t i = 0; i < G_N_ELEMENTS(in); i++) g_assert_true(stage(plan, in[i])->included);
+  for (size_t i = 0; i < G_N_ELEMENTS(out); i++) g_assert_false(stage(plan, out[i])->included);
+  spore_world_free(world);
+
+  bodies[0].contact.group = bodies[1].contact.group = 1; /* never touch */
+  world = create(&description, NULL);
+  g_assert_false(stage(spore_world_plan(world), "detect")->included);
+  spore_world_free(world);
+  bodies[1] = bodies[2]; /* neither gives way to the other, and no wall is there */
+  bodies[0].contact.group = 0;
+  world = create(&description, NULL);
+  g_assert_false(stage(spore_world_plan(world), "detect")->included);
+  g_assert_false(stage(spore_world_plan(world), "react")->included);
+  spore_world_free(world);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   fill_spheres();
@@ -466,5 +508,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/sim/world/create-without-memory", test_create_without_memory);
   g_test_add_data_func("/sim/world/device/symplectic", symplectic, test_device);
   g_test_add_data_func("/sim/world/device/implicit", implicit, test_device);
+  g_test_add_func("/sim/world/wall", test_wall);
   return g_test_run();
 }
