@@ -112,14 +112,32 @@ static void set_heat(Fluid *fluid, double mass, double temperature) {
   for (size_t i = 0; i < 3 * n; i++) fluid->heat[i] *= scale;
 }
 
+/* From the first particle to the last along axis k, m. */
+static double extent(const Fluid *fluid, int k) {
+  double lower = INFINITY, upper = -INFINITY;
+  for (size_t i = 0; i < fluid->base.block_count; i++) {
+    lower = fmin(lower, fluid->rest[3 * i + (size_t)k]);
+    upper = fmax(upper, fluid->rest[3 * i + (size_t)k]);
+  }
+  return upper - lower;
+}
+
 static bool check_period(const Fluid *fluid, const double period[3], SporeError *error) {
   double least = 2 * (CUTOFF + SKIN) * fluid->sigma;
-  for (int k = 0; k < 3; k++)
-    if (period[k] > 0 && period[k] < least)
+  for (int k = 0; k < 3; k++) {
+    if (!(period[k] > 0)) continue;
+    double room = extent(fluid, k) + CORE * fluid->sigma;
+    if (period[k] < room)
+      return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                             _("a period of %.3g m is shorter than the fluid, whose particles would lie inside each "
+                               "other; expected 0 or at least %.3g m; take a longer one or a smaller surface"),
+                             period[k], fmax(room, least));
+    if (period[k] < least)
       return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                              _("a period of %.3g m is shorter than twice the reach of a particle; expected 0 or at "
                                "least %.3g m; take a longer one or more particles"),
                              period[k], least);
+  }
   return true;
 }
 

@@ -10,6 +10,12 @@ static const char *type_name(SporeParameterType type) {
   return names[type];
 }
 
+/* What a running simulation does with a new value. */
+static const char *change_name(SporeParameterChange change) {
+  static const char *const names[] = {"live", "rebuild", "restart"};
+  return names[change];
+}
+
 static void report_parameter(SporeCli *cli, const SporeParameter *parameter) {
   SporeValue value = {0};
   char initial[256] = "";
@@ -24,6 +30,7 @@ static void report_parameter(SporeCli *cli, const SporeParameter *parameter) {
   spore_cli_number(cli, "minimum", parameter->minimum);
   spore_cli_number(cli, "maximum", parameter->maximum);
   spore_cli_text(cli, "default", parameter->required ? NULL : initial);
+  spore_cli_text(cli, "change", change_name(parameter->change));
   spore_cli_text(cli, "doc", _(parameter->doc));
   if (parameter->choices) {
     spore_cli_open_array(cli, "choices");

@@ -149,7 +149,7 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   report_stages(cli, spore_world_plan(world));
   guint asleep = count_asleep(world);
   spore_cli_count(cli, "asleep", asleep);
-  if (asleep > 0) spore_cli_say(cli, _("asleep at the end: %u bodies\n"), asleep);
+  if (asleep > 0) spore_cli_say(cli, _("bodies asleep at the end: %u\n"), asleep);
   spore_cli_open(cli, "energy");
   spore_cli_number(cli, "start", result->energy_start);
   spore_cli_number(cli, "end", result->energy_end);

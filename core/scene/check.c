@@ -170,6 +170,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
   spore_check_each(&check, "tools", "probe", check_probe);
   spore_check_each(&check, "links", NULL, check_link);
   spore_check_assets(&check);
+  spore_check_solver(&check);
   spore_check_motion(&check);
   g_ptr_array_sort(check.found, worst_first); /* a merge sort: those alike stay in order */
   g_hash_table_unref(check.users);

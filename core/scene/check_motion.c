@@ -94,6 +94,48 @@ static void check_overlaps(const Start *start) {
   }
 }
 
+/* Spheres far from what they are to follow. */
+
+static const double *vertices_of(SporeDocument *document, const SporeObject *body, size_t *count) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  SporeObject *asset = mechanical ? spore_object_reference(mechanical, "geometry") : NULL;
+  if (!asset) return NULL;
+  gboolean is_mesh = strcmp(spore_object_type(asset)->element, "mesh") == 0;
+  const SporeTriangleMesh *surface = is_mesh ? spore_document_mesh(document, asset, NULL) : NULL;
+  const SporeTetrahedralMesh *volume = is_mesh ? NULL : spore_document_tetrahedra(document, asset, NULL);
+  *count = surface ? surface->vertex_count : volume ? volume->vertex_count : 0;
+  return surface ? surface->vertices : volume ? volume->vertices : NULL;
+}
+
+/* How far point p lies from the box around the points, m. */
+static double distance_to_box(const double *points, size_t count, const double *p) {
+  double square = 0;
+  for (size_t k = 0; k < 3; k++) {
+    double lower = INFINITY, upper = -INFINITY;
+    for (size_t i = 0; i < count; i++) {
+      lower = fmin(lower, points[3 * i + k]);
+      upper = fmax(upper, points[3 * i + k]);
+    }
+    double apart = fmax(0, fmax(lower - p[k], p[k] - upper));
+    square += apart * apart;
+  }
+  return sqrt(square);
+}
+
+static void check_reach(SporeCheck *check, SporeObject *body) {
+  size_t count = 0, away = 0;
+  const SporeObject *collision = spore_object_child_of(body, "collision");
+  SporeObject *asset = collision ? spore_object_reference(collision, "spheres") : NULL;
+  const SporeSphereSet *set = asset ? spore_document_spheres(check->document, asset, NULL) : NULL;
+  const double *points = set ? vertices_of(check->document, body, &count) : NULL;
+  for (size_t i = 0; points && i < set->count; i++)
+    away += distance_to_box(points, count, &set->spheres[4 * i]) > set->spheres[4 * i + 3];
+  if (away > 0)
+    spore_check_say(check, SPORE_NOTE, collision, _("generate spheres from the same mesh as the geometry"),
+                    _("%zu of the %zu spheres of \"%s\" lie away from its geometry, and follow it as on a lever"), away,
+                    set->count, spore_object_name(body));
+}
+
 /* Loose bodies. */
 
 /* Whether a ball of another body that does not fall lies in the way of this one's fall along unit vector `down`. */
@@ -151,6 +193,7 @@ void spore_check_motion(SporeCheck *check) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) place_body(&start, spore_object_child(bodies, i));
   g_array_sort(start.balls, by_left_end);
+  spore_check_each(check, "bodies", NULL, check_reach);
   check_overlaps(&start);
   check_loose(&start);
   if (check->faults == 0) check_compiled(check);

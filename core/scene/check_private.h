@@ -25,6 +25,7 @@ void spore_check_each(SporeCheck *check, const char *section, const char *elemen
 gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object, const char *elements);
 
 void spore_check_assets(SporeCheck *check); /* readable, used, of a likely size, fresh */
+void spore_check_solver(SporeCheck *check); /* choices that nothing makes use of */
 void spore_check_motion(SporeCheck *check); /* overlaps and loose bodies; compiles the scene */
 
 #endif

@@ -172,11 +172,16 @@ static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_
                            _("no step is small enough for %s: something here swings without damping; expected another "
                              "method; take integrator symplectic_euler or implicit_euler"),
                            name);
-  if (body->model->type->rates)
+  if (body->model->type->rates && needed <= SPORE_SUBSTEPS_MAXIMUM)
     return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
                            _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take "
                              "%.0f substeps, a smaller time_step or fewer particles"),
                            h, limit_s, needed);
+  if (body->model->type->rates)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take a "
+                             "smaller time_step, fewer or heavier particles, or forces less strong"),
+                           h, limit_s);
   if (needed <= SPORE_SUBSTEPS_MAXIMUM)
     return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
                            _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; take "

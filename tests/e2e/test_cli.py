@@ -148,6 +148,71 @@ def run_says_what_did_not_hold():
     assert paced["state_hash"] == report("run", soft_ball(), "--steps", 20)["state_hash"]
 
 
+def every_model():
+    """A scene for each model: bodies that neither rest on anything nor are tied."""
+    soft_ball()
+    file("soft/cells.mesh", (SCENES / "laparoscopy" / "ovary_left.mesh").read_bytes())
+    for model in report("models")["models"]:
+        cells = model["geometry"] == "tetrahedra"
+        yield model["name"], file(f"soft/{model['name']}.spore", f"""<spore version="1.0">
+  <solver time_step="0.001"/>
+  <assets><{'tetrahedra' if cells else 'mesh'} name="shape" file="{'cells.mesh' if cells else 'ball.off'}"/></assets>
+  <bodies><body name="it"><mechanical geometry="shape"><{model['name']}/></mechanical></body></bodies>
+</spore>
+""")
+
+
+@check
+def every_model_by_every_integrator():
+    """Each model runs with each integrator, to the same hash by 1 or 2 threads, or is refused with a place and a way out; the schema takes all of them."""
+    schema = file("spore.rng", spore("schema").stdout)
+    integrators = spore("run", soft_ball(), "--integrator", "?", status=2).stderr.split("one of ")[1].split(";")[0].split(", ")
+    assert len(integrators) == 9, integrators
+    models = 0
+    for model, scene in every_model():
+        models += 1
+        for integrator in integrators:
+            text = scene.read_text().replace("<mechanical ", f'<mechanical integrator="{integrator}" ')
+            chosen = file(f"soft/{model}-{integrator}.spore", text)
+            subprocess.run(["xmllint", "--noout", "--relaxng", schema, chosen], check=True, capture_output=True)
+            done = spore("run", chosen, "--steps", 20, "--json", status=(0, 1))
+            if not done.stdout:
+                assert f"{chosen}:4:" in done.stderr and done.stderr.count(";") >= 2, done.stderr
+                continue
+            answer = json.loads(done.stdout)
+            assert answer["monitor"]["frozen"] == [], (model, integrator)
+            assert answer["state_hash"] == report("run", chosen, "--steps", 20, "--threads", 2, status=done.returncode)["state_hash"]
+    assert models == 6
+
+
+@check
+def choices_that_make_no_sense():
+    """What nothing makes use of is said by check, what cannot be is refused, each with its place."""
+    text = soft_ball().read_text()
+
+    def with_(old, new):
+        assert old in text
+        return file("soft/odd.spore", text.replace(old, new))
+
+    for old, new, says in (
+            ("time_step", 'error_tolerance="1e-6" time_step', "error_tolerance is not used"),
+            ("<mechanical ", '<mechanical integrator="static" ', "is integrated by static"),
+            ('spheres="one"', 'spheres="one" surface="depth_field"', "depth field"),
+    ):
+        found = [d for d in report("check", with_(old, new))["diagnostics"] if says in d["message"]]
+        assert len(found) == 1 and found[0]["severity"] == "warning" and found[0]["remedy"] and "odd.spore:" in found[0]["place"], found
+    for old, new, says in (
+            ("time_step", 'substeps="0" time_step', "from 1 to 1000"),
+            ("<mechanical ", '<mechanical substeps="1001" ', "from 0 to 1000"),
+            ('spheres="one"', 'spheres="one" groups="3"', 'did you mean "group"'),
+            ("<rigid_body/>", '<lennard_jones period="0.05 0 0"/>', "shorter than the fluid"),
+            ("<rigid_body/>", '<lennard_jones surface_tension="0"/>', "surface_tension"),
+    ):
+        refuses("run", with_(old, new), says=["odd.spore:", says])
+    hopeless = spore("run", with_("<rigid_body/>", '<lennard_jones surface_tension="1e9"/>'), status=1).stderr
+    assert "substeps" not in hopeless and "smaller time_step" in hopeless, hopeless
+
+
 @check
 def time_and_dt():
     """--time, --dt and --set change the run."""
@@ -268,7 +333,7 @@ def models_and_schema():
     models = {m["name"]: m for m in report("models")["models"]}
     assert {"rigid_body", "mass_spring_net", "corotational_tetrahedra"} <= set(models)
     young = next(p for p in models["corotational_tetrahedra"]["parameters"] if "young" in p["name"])
-    assert young["unit"] == "Pa" and young["doc"]
+    assert young["unit"] == "Pa" and young["doc"] and young["change"] == "live"
     assert len(report("models", "rigid_body")["models"]) == 1
     refuses("models", "rigid_boy", says=["rigid_boy", "rigid_body"])
     schema = file("spore.rng", spore("schema").stdout)

@@ -132,6 +132,32 @@ static const Mistake mistakes[] = {
            "<body name=\"organ\"><mechanical geometry=\"cells\"><corotational_tetrahedra/></mechanical>" BALL
            "</body></bodies>\n"),
      {"fault 6:1: a step of 0.05 s is too large for symplectic_euler"}},
+    {"error-tolerance-unused",
+     SCENE("<solver error_tolerance=\"1e-6\"/>\n" ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n"),
+     {"warning 2:1: error_tolerance is not used"}},
+    {"explicit-equations",
+     SCENE("<solver integrator=\"verlet\" linear=\"cholesky\"/>\n" ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n"),
+     {"note 2:1: every body is integrated explicitly"}},
+    {"static-and-free",
+     BODIES(FLOOR
+            "<body name=\"stone\"><mechanical geometry=\"cube\" integrator=\"static\" substeps=\"4\"><rigid_body/>"
+            "</mechanical>" BALL "</body>\n"),
+     {"warning 5:20: substeps of \"stone\" gain nothing", "warning 5:20: \"stone\" is integrated by static, but"}},
+    {"depth-field-of-passive",
+     BODIES(FLOOR "<body name=\"stone\">" STONE "<collision spheres=\"ball\" surface=\"depth_field\"/></body>\n"),
+     {"warning 5:74: the depth field of \"stone\" is not used"}},
+    {"alone-in-group",
+     BODIES(FLOOR "<body name=\"stone\">" STONE "<collision spheres=\"ball\" group=\"3\"/></body>\n"),
+     {"note 5:74: \"stone\" is alone in group 3"}},
+    {"self-of-unmovable",
+     BODIES("<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\"><collision spheres=\"ball\" "
+            "self=\"true\"/></body>\n" STAND),
+     {"note 4:57: the spheres of \"floor\" do not move"}},
+    {"spheres-away",
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" "
+           "file=\"away.spheres\"/></assets>\n"
+           "<bodies>\n" FLOOR STAND "</bodies>\n"),
+     {"note 5:74: 1 of the 2 spheres of \"stone\" lie away from its geometry"}},
     {"cannot-run",
      SCENE(ASSETS "<bodies>\n" FLOOR
                   "<body name=\"stone\"><mechanical geometry=\"cube\"><corotational_tetrahedra/></mechanical>" BALL

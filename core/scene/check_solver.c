@@ -1,0 +1,109 @@
+/* Choices of method and contact that nothing makes use of. */
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "core/integrate/integrator.h"
+#include "core/scene/check_private.h"
+#include "core/scene/schema_fields.h"
+
+static const SporeObject *model_of(const SporeObject *body) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
+}
+
+static SporeIntegratorKind integrator_of(const SporeCheck *check, const SporeObject *body) {
+  const SporeObject *model = model_of(body);
+  if (!model || (SporeRole)spore_object_number(body, "role") != SPORE_PASSIVE) return SPORE_INTEGRATOR_DEFAULT;
+  int own = (int)spore_object_number(spore_object_parent(model), "integrator");
+  if (own > 0) return (SporeIntegratorKind)(own - 1);
+  return (SporeIntegratorKind)spore_object_number(spore_document_section(check->document, "solver"), "integrator");
+}
+
+/* What the methods of all bodies use. */
+typedef struct Uses {
+  guint moved;
+  gboolean adaptive, implicit;
+} Uses;
+
+static Uses find_uses(const SporeCheck *check) {
+  Uses uses = {0};
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeIntegratorKind kind = integrator_of(check, spore_object_child(bodies, i));
+    if (kind == SPORE_INTEGRATOR_DEFAULT) continue;
+    uses.moved++;
+    uses.adaptive |= kind == SPORE_INTEGRATOR_TR_BDF2;
+    uses.implicit |= spore_integrator(kind)->implicit;
+  }
+  return uses;
+}
+
+static void check_solver(SporeCheck *check, const SporeObject *solver) {
+  SporeSolverFields fields;
+  spore_object_fields(solver, &fields);
+  Uses uses = find_uses(check);
+  if (uses.moved == 0) return;
+  if (fields.error_tolerance > 0 && !uses.adaptive)
+    spore_check_say(check, SPORE_WARNING, solver, _("choose tr_bdf2 as integrator, or remove error_tolerance"), "%s",
+                    _("error_tolerance is not used: no body is integrated by tr_bdf2"));
+  if ((fields.nonlinear != SPORE_NONLINEAR_AUTOMATIC || fields.linear != SPORE_LINEAR_AUTOMATIC) && !uses.implicit)
+    spore_check_say(check, SPORE_NOTE, solver, _("choose an implicit integrator, or leave nonlinear and linear open"),
+                    "%s", _("every body is integrated explicitly: how equations are solved matters to recovery alone"));
+}
+
+static void check_static(SporeCheck *check, const SporeObject *body) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  if (integrator_of(check, body) != SPORE_INTEGRATOR_STATIC) return;
+  if (spore_object_number(mechanical, "substeps") > 1)
+    spore_check_say(
+        check, SPORE_WARNING, mechanical, _("remove substeps, or choose another integrator"),
+        _("substeps of \"%s\" gain nothing: static finds the balance of forces, in which time does not count"),
+        spore_object_name(body));
+  if (!spore_check_is_used(check, body, "pin|spring"))
+    spore_check_say(check, SPORE_WARNING, mechanical,
+                    _("pin it, tie it with a spring, or choose an integrator that moves it"),
+                    _("\"%s\" is integrated by static, but neither pin nor spring holds it: it finds no balance but "
+                      "where it touches something"),
+                    spore_object_name(body));
+}
+
+/* Whether a body other than `body` is of that group. */
+static gboolean has_companion(const SporeCheck *check, const SporeObject *body, int64_t group) {
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    const SporeObject *other = spore_object_child(bodies, i);
+    const SporeObject *collision = spore_object_child_of(other, "collision");
+    if (other != body && collision && (int64_t)spore_object_number(collision, "group") == group) return TRUE;
+  }
+  return FALSE;
+}
+
+static void check_contact(SporeCheck *check, const SporeObject *body) {
+  const SporeObject *collision = spore_object_child_of(body, "collision");
+  if (!collision) return;
+  SporeCollisionFields fields;
+  spore_object_fields(collision, &fields);
+  gboolean passive = (SporeRole)spore_object_number(body, "role") == SPORE_PASSIVE;
+  if (passive && fields.contact.surface == SPORE_SURFACE_DEPTH_FIELD)
+    spore_check_say(check, SPORE_WARNING, collision,
+                    _("leave surface at spheres, or make the body unmovable or active"),
+                    _("the depth field of \"%s\" is not used: physics moves the body, and others feel its spheres"),
+                    spore_object_name(body));
+  if (fields.contact.group > 0 && !has_companion(check, body, fields.contact.group))
+    spore_check_say(check, SPORE_NOTE, collision, _("put the other bodies in it, or remove group"),
+                    _("\"%s\" is alone in group %lld"), spore_object_name(body), (long long)fields.contact.group);
+  if (!passive && fields.contact.self)
+    spore_check_say(check, SPORE_NOTE, collision, _("remove self, or make the role passive"),
+                    _("the spheres of \"%s\" do not move against each other: self has no effect"),
+                    spore_object_name(body));
+}
+
+static void check_body(SporeCheck *check, SporeObject *body) {
+  check_static(check, body);
+  check_contact(check, body);
+}
+
+void spore_check_solver(SporeCheck *check) {
+  check_solver(check, spore_document_section(check->document, "solver"));
+  spore_check_each(check, "bodies", NULL, check_body);
+}
