@@ -6,8 +6,10 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
                              double norm, SporeNonlinearResult *result) {
   *test = (SporeConvergence){options->tolerance, fmax(norm, system->scale_r), norm};
   result->finite = isfinite(norm);
-  result->converged = norm == 0;
-  result->residual = result->converged ? 0 : result->finite ? norm / test->scale_r : INFINITY;
+  /* A is no less than the matrix of `dot`, so the change that is still missing is at most the norm. Only the load that
+   * the system names counts here: beside the residual itself any guess would do. */
+  result->converged = norm <= options->tolerance * fmin(system->scale_r, system->scale_x);
+  result->residual = norm == 0 ? 0 : result->finite ? norm / test->scale_r : INFINITY;
   return result->finite;
 }
 

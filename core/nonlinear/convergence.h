@@ -9,7 +9,7 @@ typedef struct SporeConvergence {
 } SporeConvergence;
 
 /* With the residual norm at the guess: fills the test; false, and result->finite with it, where it is not finite.
- * A residual of zero is convergence already. */
+ * A guess as good as any answer is convergence already: a residual within tolerance of scale_r, and of scale_x. */
 bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, const SporeNonlinearOptions *options,
                              double norm, SporeNonlinearResult *result);
 /* True when the residual is down to rounding, so that nothing is left to gain: convergence too, unless rounding is as

@@ -1,7 +1,8 @@
 /* What a nonlinear solver sees: a system r(x) = 0 with an inner product, and nothing of what it stands for.
  *
  * The system linearises itself: A ~ -dr/dx, symmetric positive definite, is kept by the system until the next
- * `linearise`. `dot` is an inner product on x (kinetic energy's), `norm` the dual norm of a residual. */
+ * `linearise`. `dot` is an inner product on x (kinetic energy's), `norm` the dual norm of a residual. A is no less than
+ * the matrix of `dot`, so that |A^-1 r| <= norm(r). */
 #ifndef SPORE_NONLINEAR_SYSTEM_H
 #define SPORE_NONLINEAR_SYSTEM_H
 

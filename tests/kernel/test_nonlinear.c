@@ -309,6 +309,32 @@ static void test_stiff_path(void) {
   }
 }
 
+/* A guess within the tolerance of what there is to solve takes no iteration, and is as near to the answer as was asked
+ * for; one just outside is solved, and so is one where no size of load or change is known. */
+static void test_good_guess(void) {
+  const double tolerance = 1e-3;
+  for (int i = 0; i < 8; i++) {
+    Solver *solver = i % 2 ? spore_broyden : spore_newton;
+    Cubic cubic = {.strength = 5, .coupling = 2};
+    SporeSystem system = make(&cubic);
+    double exact[N] = {0}, x[N], r[N], scratch[SPORE_BROYDEN_SCRATCH * N], load = norm(NULL, cubic.b);
+    g_assert_true(newton(&system, &(SporeNonlinearOptions){50, 1e-13}, exact, scratch).converged);
+    memcpy(x, exact, sizeof x);
+    x[N / 2] += 1e-6;
+    residual(&cubic, x, r);
+    double wanted = norm(NULL, r) / tolerance, further = 0;
+    system.scale_r = i == 4 || i == 5 ? 0 : wanted * (i < 2 ? 1.01 : 0.99);
+    system.scale_x = i >= 6 ? 0 : load;
+    SporeNonlinearResult result = run(solver, &system, &(SporeNonlinearOptions){50, tolerance}, x, scratch);
+    g_assert_true(result.converged);
+    g_assert_cmpint(result.iterations == 0, ==, i < 2);
+    g_assert_cmpint(result.linearisations == 0, ==, i < 2);
+    for (int k = 0; k < N; k++) further += (x[k] - exact[k]) * (x[k] - exact[k]);
+    g_assert_cmpfloat(sqrt(further), <=, i < 2 ? norm(NULL, r) : 1e-7); /* a tenth of what the guess missed */
+    if (i < 2) g_assert_cmpfloat(fabs(result.residual / tolerance - 1 / 1.01), <, 1e-9);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/nonlinear/newton", test_newton);
@@ -321,5 +347,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/nonlinear/stiff-path", test_stiff_path);
   g_test_add_func("/nonlinear/bad", test_bad);
   g_test_add_func("/nonlinear/solved-already", test_solved_already);
+  g_test_add_func("/nonlinear/good-guess", test_good_guess);
   return g_test_run();
 }
