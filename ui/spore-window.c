@@ -69,15 +69,14 @@ static gboolean poll_monitor(gpointer data) {
   SporeWindow *self = data;
   SporeSession *session = spore_player_get_session(self->player);
   if (!session) return G_SOURCE_CONTINUE;
-  guint64 count = spore_session_snapshot(session)->monitor_messages;
-  const SporeMonitor *monitor = spore_world_monitor(spore_session_simulation(session)->world);
+  const SporeSnapshot *snapshot = spore_session_snapshot(session);
+  guint64 count = snapshot->message_count;
   if (count < self->monitor_seen) self->monitor_seen = 0;
   if (count - self->monitor_seen > SPORE_MONITOR_MESSAGES) self->monitor_seen = count - SPORE_MONITOR_MESSAGES;
-  for (; self->monitor_seen < count; self->monitor_seen++)
-    for (guint i = 0; i < SPORE_MONITOR_MESSAGES; i++)
-      if (monitor->messages[i].text[0] && monitor->messages[i].serial == self->monitor_seen + 1)
-        spore_window_log(self, _("Step %llu: %s"), (unsigned long long)monitor->messages[i].step,
-                         monitor->messages[i].text);
+  for (; self->monitor_seen < count; self->monitor_seen++) {
+    const SporeMonitorMessage *message = &snapshot->messages[self->monitor_seen % SPORE_MONITOR_MESSAGES];
+    spore_window_log(self, _("Step %llu: %s"), (unsigned long long)message->step, message->text);
+  }
   return G_SOURCE_CONTINUE;
 }
 

@@ -152,8 +152,7 @@ void spore_island_recover(SporeWorld *world, SporeIsland *island) {
 
 void spore_world_report(SporeWorld *world, const char *format, ...) {
   SporeMonitor *monitor = &world->monitor;
-  SporeMonitorMessage *message = &monitor->messages[monitor->message_count % SPORE_MONITOR_MESSAGES];
-  message->serial = monitor->message_count++;
+  SporeMonitorMessage *message = &monitor->messages[monitor->message_count++ % SPORE_MONITOR_MESSAGES];
   message->step = world->step;
   va_list arguments;
   va_start(arguments, format);

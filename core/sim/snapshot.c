@@ -61,6 +61,16 @@ static void copy_contacts(const SporeWorld *world, SporeSnapshot *snapshot) {
   }
 }
 
+/* The buffer has those that it was given before. */
+static void copy_messages(const SporeWorld *world, SporeSnapshot *snapshot) {
+  const SporeMonitor *monitor = &world->monitor;
+  uint64_t missing = monitor->message_count - snapshot->message_count;
+  if (missing > SPORE_MONITOR_MESSAGES) missing = SPORE_MONITOR_MESSAGES;
+  for (uint64_t i = monitor->message_count - missing; i < monitor->message_count; i++)
+    snapshot->messages[i % SPORE_MONITOR_MESSAGES] = monitor->messages[i % SPORE_MONITOR_MESSAGES];
+  snapshot->message_count = monitor->message_count;
+}
+
 void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) { body->changed = world->snapshots.newest + 1; }
 
 void spore_world_advance_state(SporeWorld *world) {
@@ -93,7 +103,7 @@ void spore_snapshot_publish(SporeWorld *world) {
   copy_contacts(world, snapshot);
   snapshot->counts = world->counts;
   snapshot->energy = recent_energy(world);
-  snapshot->monitor_messages = world->monitor.message_count;
+  copy_messages(world, snapshot);
   snapshot->step_us = world->step_us;
   spore_triple_publish(&snapshots->triple);
   set_next(world);

@@ -140,10 +140,10 @@ const SporePlan *spore_world_plan(const SporeWorld *world);
 const SporeProfilePhase *spore_world_profile(const SporeWorld *world); /* of whole steps */
 
 /* Monitor: what went wrong, and what was done about it. Counts are of steps, or of islands in them where several are
- * solved in one. Messages are kept in a ring of SPORE_MONITOR_MESSAGES; `serial` counts all ever. */
+ * solved in one. Of message_count messages the last are kept: number i, from 0, at i % SPORE_MONITOR_MESSAGES. */
 #define SPORE_MONITOR_MESSAGES 64
 typedef struct SporeMonitorMessage {
-  uint64_t serial, step;
+  uint64_t step;
   char text[256]; /* names body and cause, translated */
 } SporeMonitorMessage;
 typedef struct SporeMonitor {
@@ -192,7 +192,8 @@ typedef struct SporeSnapshot {
   SporeSnapshotContact *contacts;
   SporeStepCounts counts;
   SporeEnergy energy;        /* of this state, or of the first one after the snapshot before was acquired */
-  uint64_t monitor_messages; /* as SporeMonitor.message_count */
+  uint64_t message_count;    /* of the monitor, and its messages */
+  SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
   double step_us;
 } SporeSnapshot;
 /* spore_world_hash of the state that is shown. */
