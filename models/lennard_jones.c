@@ -212,6 +212,18 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
   return spore_particle_map(fluid->rest, model->block_count, fluid->sigma, points, count, mapping, error);
 }
 
+/* As wide as the distance at which two particles begin to repel each other more than they attract: sigma, where the
+ * energy of a pair is that of particles far apart. */
+static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *error) {
+  const Fluid *fluid = (const Fluid *)model;
+  if (!spore_sphere_set_allocate(set, model->block_count, error)) return false;
+  for (size_t i = 0; i < model->block_count; i++) {
+    memcpy(set->spheres + 4 * i, fluid->rest + 3 * i, 3 * sizeof(double));
+    set->spheres[4 * i + 3] = 0.5 * fluid->sigma;
+  }
+  return true;
+}
+
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   ((Fluid *)model)->drag = ((const FluidFields *)fields)->drag;
   return true;
@@ -237,8 +249,8 @@ const SporeModelType spore_lennard_jones = {
     .name = "lennard_jones",
     .label = N_("Lennard-Jones fluid"),
     .doc = N_("Particles that fill a closed surface and then flow: blood, water. They attract each other from near and "
-              "repel from nearer, so that drops hold together, merge and part. Mass and volume are the fluid's; put "
-              "one sphere at each particle to let it touch other bodies."),
+              "repel from nearer, so that drops hold together, merge and part. Mass and volume are the fluid's. It "
+              "touches other bodies with a sphere at each particle, unless its collision unit names other spheres."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(FluidFields)},
     .geometry = SPORE_GEOMETRY_SOLID,
     .create = create,
@@ -250,5 +262,6 @@ const SporeModelType spore_lennard_jones = {
     .retune = retune,
     .rates = rates,
     .forget = forget,
+    .spheres = spheres,
     .notice = notice,
 };

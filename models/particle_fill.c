@@ -200,6 +200,8 @@ static bool map_points(const double *particles, size_t particle_count, double sp
 
 bool spore_particle_map(const double *particles, size_t particle_count, double spacing, const double *points,
                         size_t count, SporeMapping *mapping, SporeError *error) {
+  if (count == particle_count && memcmp(points, particles, 3 * count * sizeof *points) == 0)
+    return spore_mapping_init_identity(mapping, count);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, 4 * count);
   double *weights = SPORE_NEW_ARRAY(double, 4 * count);
   bool made = blocks && weights ? map_points(particles, particle_count, spacing, points, count, blocks, weights, error)

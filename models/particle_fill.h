@@ -11,8 +11,9 @@
 bool spore_particle_fill(const SporeTriangleMesh *surface, size_t wanted, double **points, size_t *count,
                          double *volume, SporeError *error);
 
-/* A point at a particle follows it; another one keeps its place among four that lie around it. `spacing`: of the
- * particles, m. Refuses a point where they all lie in one plane. */
+/* A point at a particle follows it; another one keeps its place among four that lie around it. The particles
+ * themselves, in their order, give the identity. `spacing`: of the particles, m. Refuses a point where they all lie in
+ * one plane. */
 bool spore_particle_map(const double *particles, size_t particle_count, double spacing, const double *points,
                         size_t count, SporeMapping *mapping, SporeError *error);
 

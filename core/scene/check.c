@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/scene/check_private.h"
+#include "core/scene/compile.h"
 #include "core/scene/document_private.h"
 #include "core/scene/schema_fields.h"
 
@@ -115,7 +116,8 @@ static void check_body(SporeCheck *check, SporeObject *body) {
   check_mechanical(check, body, role);
   const SporeObject *collision = spore_object_child_of(body, "collision");
   gboolean backdrop = role == SPORE_UNMOVABLE && spore_object_child_of(body, "visual");
-  if ((!collision || !spore_object_text(collision, "spheres")) && !backdrop)
+  gboolean felt = collision && (spore_object_text(collision, "spheres") || spore_body_has_own_spheres(body));
+  if (!felt && !backdrop)
     spore_check_say(check, SPORE_NOTE, body,
                     _("generate spheres and name them in its collision unit, if it should be felt"),
                     _("\"%s\" has no collision spheres: everything passes through it"), name);

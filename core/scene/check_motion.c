@@ -33,7 +33,19 @@ typedef struct Start {
 
 static SporeRole role_of(const Start *start, guint body) { return g_array_index(start->roles, SporeRole, body); }
 
-static void place_body(Start *start, SporeObject *body) {
+/* Those of its model, which only the world knows. */
+static void place_own_spheres(Start *start, SporeObject *body, guint index, const SporeSimulation *simulation) {
+  const SporeSpheres *spheres = spore_world_spheres(simulation->world);
+  guint32 owner = spore_simulation_body_of(simulation, body);
+  for (size_t i = 0; i < spheres->count; i++) {
+    if (spheres->body[i] != owner) continue;
+    Ball ball = {spore_vec3_load(spheres->centre + 3 * i), spheres->radius[i], index};
+    g_array_append_val(start->balls, ball);
+  }
+}
+
+/* `simulation`: NULL where the scene cannot be put together. */
+static void place_body(Start *start, SporeObject *body, const SporeSimulation *simulation) {
   guint index = start->bodies->len;
   g_ptr_array_add(start->bodies, body);
   const SporeObject *collision = spore_object_child_of(body, "collision");
@@ -43,6 +55,7 @@ static void place_body(Start *start, SporeObject *body) {
   spore_object_fields(body, &fields);
   SporeRole role = (SporeRole)fields.role;
   g_array_append_val(start->roles, role);
+  if (simulation && spore_body_has_own_spheres(body)) place_own_spheres(start, body, index, simulation);
   SporePose pose = {spore_vec3_load(fields.position),
                     spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))};
   for (size_t i = 0; set && i < set->count; i++) {
@@ -176,27 +189,25 @@ static void check_loose(const Start *start) {
 
 /* What only shows when the scene is put together: models that refuse their geometry, pins that hold nothing, a time
  * step too large for the stiffness. */
-static void check_compiled(SporeCheck *check) {
-  GError *error = NULL;
+static SporeSimulation *check_compiled(SporeCheck *check) {
+  g_autoptr(GError) error = NULL;
   SporeSimulation *simulation = spore_simulation_new(check->document, NULL, NULL, &error);
-  if (!simulation) {
-    spore_check_say_error(check, SPORE_FAULT, NULL, error);
-    g_error_free(error);
-    return;
-  }
-  spore_simulation_free(simulation);
+  if (!simulation) spore_check_say_error(check, SPORE_FAULT, NULL, error);
+  return simulation;
 }
 
 void spore_check_motion(SporeCheck *check) {
   Start start = {check, g_ptr_array_new(), g_array_new(FALSE, FALSE, sizeof(SporeRole)),
                  g_array_new(FALSE, FALSE, sizeof(Ball))};
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
-  for (guint i = 0; i < spore_object_child_count(bodies); i++) place_body(&start, spore_object_child(bodies, i));
+  SporeSimulation *simulation = check->faults == 0 ? check_compiled(check) : NULL;
+  for (guint i = 0; i < spore_object_child_count(bodies); i++)
+    place_body(&start, spore_object_child(bodies, i), simulation);
+  spore_simulation_free(simulation);
   g_array_sort(start.balls, by_left_end);
   spore_check_each(check, "bodies", NULL, check_reach);
   check_overlaps(&start);
   check_loose(&start);
-  if (check->faults == 0) check_compiled(check);
   g_ptr_array_unref(start.bodies);
   g_array_unref(start.roles);
   g_array_unref(start.balls);

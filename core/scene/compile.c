@@ -13,6 +13,7 @@ typedef struct Compiler {
   GPtrArray *objects; /* body objects, by index in the world */
   GArray *bodies;     /* of SporeBodyDescription */
   GArray *links;      /* of SporeLinkDescription */
+  GPtrArray *spheres; /* of SporeSphereSet: models' own */
   GError **error;
 } Compiler;
 
@@ -129,6 +130,27 @@ static gboolean make_model(Compiler *compiler, const SporeObject *body, SporeBod
   return refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
 }
 
+gboolean spore_body_has_own_spheres(const SporeObject *body) {
+  const SporeObject *collision = spore_object_child_of(body, "collision"), *model = model_object(body);
+  return (int)spore_object_number(body, "role") == SPORE_PASSIVE && collision && model &&
+         !spore_object_text(collision, "spheres") && spore_object_type(model)->model->spheres;
+}
+
+static void free_spheres(gpointer data) {
+  spore_sphere_set_clear(data);
+  g_free(data);
+}
+
+static gboolean add_own_spheres(Compiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  if (!spore_body_has_own_spheres(body)) return TRUE;
+  SporeSphereSet *set = g_new0(SporeSphereSet, 1);
+  SporeError fault = SPORE_ERROR_INIT;
+  g_ptr_array_add(compiler->spheres, set);
+  description->spheres = set;
+  return description->model->type->spheres(description->model, set, &fault) ||
+         refuse(compiler, body, "%s", fault.message);
+}
+
 static gboolean add_collision(Compiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
   const SporeObject *collision = spore_object_child_of(body, "collision");
   spore_parameters_set_initial(&spore_contact_parameters, &description->contact);
@@ -154,9 +176,10 @@ static gboolean add_body(Compiler *compiler, SporeObject *body) {
       .spin = spore_vec3_load(fields.spin)};
   if (!add_collision(compiler, body, &description)) return FALSE;
   if (description.role == SPORE_PASSIVE && !make_model(compiler, body, &description)) return FALSE;
+  gboolean added = add_own_spheres(compiler, body, &description);
   g_ptr_array_add(compiler->objects, body);
   g_array_append_val(compiler->bodies, description);
-  return TRUE;
+  return added;
 }
 
 /* Links. */
@@ -370,10 +393,12 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
   compiler.objects = g_ptr_array_new();
   compiler.bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
   compiler.links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
+  compiler.spheres = g_ptr_array_new_with_free_func(free_spheres);
   SporeSimulation *simulation = assemble(&compiler, pool, input);
   g_ptr_array_unref(compiler.objects);
   g_array_unref(compiler.bodies);
   g_array_unref(compiler.links);
+  g_ptr_array_unref(compiler.spheres);
   return simulation;
 }
 

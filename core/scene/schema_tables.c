@@ -265,7 +265,7 @@ static const SporeParameter collision_parameters[] = {
      .references = "spheres",
      FIELD(SporeCollisionFields, spheres),
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("Spheres with which the body collides.")},
+     .doc = N_("Spheres with which the body collides; a fluid needs none, it has one at each particle.")},
 };
 
 static const SporeParameter visual_parameters[] = {

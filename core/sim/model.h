@@ -84,6 +84,9 @@ struct SporeModelType {
   /* Drops what evaluations leave behind to make the next one quicker: the state was set from outside, and what follows
    * from it must not depend on what was before. */
   void (*forget)(SporeModel *model);
+  /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none: one at each
+   * material point, in their order, so that map gives the identity for their centres. *set: spore_sphere_set_clear. */
+  bool (*spheres)(const SporeModel *model, SporeSphereSet *set, SporeError *error);
   /* What the last evaluation had to mend (translated: cause and remedy), or NULL. Told once a body. */
   const char *(*notice)(const SporeModel *model);
 };

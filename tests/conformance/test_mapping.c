@@ -134,6 +134,48 @@ static void check_without_memory(gconstpointer data) {
   model->type->destroy(model);
 }
 
+static gboolean has_spheres(const SporeModelType *type) { return type->spheres != NULL; }
+
+/* The model's own spheres: one at each material point, which it follows exactly. */
+static void check_spheres(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  SporeError error = SPORE_ERROR_INIT;
+  SporeSphereSet set = {0};
+  for (uint64_t n = 1; set.count == 0; n++) {
+    spore_allocation_fail_at(n);
+    bool made = model->type->spheres(model, &set, &error);
+    spore_allocation_fail_at(0);
+    g_assert_cmpint(made, ==, set.count > 0);
+    if (!made) g_assert_cmpint(error.code, ==, SPORE_ERROR_MEMORY);
+    g_assert_cmpuint(n, <, 10);
+  }
+  g_assert_cmpuint(set.count, ==, model->node_count);
+  g_assert_true(spore_sphere_set_validate(&set, &error));
+  double *points = vector_new(3 * set.count);
+  for (size_t i = 0; i < set.count; i++) memcpy(points + 3 * i, set.spheres + 4 * i, 3 * sizeof *points);
+  SporeMapping mapping;
+  map(model, points, set.count, &mapping);
+  g_assert_cmpint(mapping.kind, ==, SPORE_MAPPING_IDENTITY);
+  const SporeVec3 still = {0, 0, 0};
+  State state = state_new(model, spore_pose_identity(), still, still);
+  g_assert_cmpfloat(vector_distance(points, state.q, 3 * set.count), <, 1e-15);
+  double nearest = HUGE_VAL, widest = 0;
+  for (size_t i = 0; i < set.count; i++) {
+    widest = fmax(widest, set.spheres[4 * i + 3]);
+    for (size_t k = 0; k < i; k++)
+      nearest = fmin(nearest, spore_vec3_distance(spore_vec3_load(points + 3 * i), spore_vec3_load(points + 3 * k)));
+  }
+  g_test_message("%s: %zu spheres of up to %.3g m, %.3g m apart at least", specimen->name, set.count, widest, nearest);
+  g_assert_cmpfloat(2 * widest, <, nearest); /* apart at rest, and nothing passes between them */
+  g_assert_cmpfloat(2 * widest, >, 0.7 * nearest);
+  spore_mapping_clear(&mapping);
+  spore_sphere_set_clear(&set);
+  state_clear(&state);
+  g_free(points);
+  model->type->destroy(model);
+}
+
 static gboolean has_drift(const SporeModelType *type) { return type->drift != NULL; }
 
 static SporeMat3 turning_inertia(const SporeModel *model, const State *state) {
@@ -176,5 +218,6 @@ int main(int argc, char **argv) {
   specimen_add_tests("/conformance/virtual_work", check_virtual_work, NULL);
   specimen_add_tests("/conformance/map_without_memory", check_without_memory, NULL);
   specimen_add_tests("/conformance/drift", check_drift, has_drift);
+  specimen_add_tests("/conformance/spheres", check_spheres, has_spheres);
   return g_test_run();
 }

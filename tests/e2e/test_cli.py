@@ -328,6 +328,36 @@ def a_tool_feels_a_wall():
 
 
 @check
+def a_fluid_lands_on_a_floor():
+    """A fluid whose collision unit names no spheres collides with its own: checked, planned, run, the same each time."""
+    file("fluid/drop.off", shapes.off(*shapes.sphere(radius=0.006)))
+    file("fluid/floor.spheres", "".join(f"{x / 500} -0.003 {z / 500} 0.003\n" for x in range(-12, 13) for z in range(-12, 13)))
+    scene = file("fluid/fluid.spore", """<spore version="1.0">
+  <solver time_step="0.0005"/>
+  <assets>
+    <mesh name="drop" file="drop.off"/>
+    <spheres name="floor" file="floor.spheres"/>
+  </assets>
+  <bodies>
+    <body name="blood" position="0 0.012 0">
+      <mechanical geometry="drop"><lennard_jones particles="100" drag="5"/></mechanical>
+      <collision stiffness="20"/>
+    </body>
+    <body name="floor" role="unmovable"><collision spheres="floor"/></body>
+  </bodies>
+</spore>
+""")
+    schema = file("spore.rng", spore("schema").stdout)
+    subprocess.run(["xmllint", "--noout", "--relaxng", schema, scene], check=True, capture_output=True)
+    assert report("check", scene)["diagnostics"] == []
+    assert {s["name"]: s for s in report("plan", scene)["stages"]}["detect"]["included"]
+    answer = report("run", scene, "--steps", 1000)
+    assert answer["spheres"] == 25 * 25 + answer["dof"] // 3
+    assert answer["contacts"]["max"] > 10 and not answer["monitor"]["frozen"] and answer["monitor"]["deep_contacts"] == 0
+    assert report("run", scene, "--steps", 1000, "--threads", 2)["state_hash"] == answer["state_hash"]
+
+
+@check
 def models_and_schema():
     """models lists parameters with unit and range; schema is a RELAX NG that accepts a scene and refuses another."""
     models = {m["name"]: m for m in report("models")["models"]}

@@ -126,6 +126,34 @@ static void test_overlays(void) {
   setting_close(&setting);
 }
 
+/* The ball filled with a fluid whose collision unit names no spheres. */
+static void test_own_spheres(void) {
+  Setting setting = setting_open();
+  const SporeStageOptions spheres = {.surfaces = TRUE, .spheres = TRUE};
+  SporeObject *ball = spore_document_find(setting.document, "body", "ball");
+  SporeObject *mechanical = spore_object_child_of(ball, "mechanical"), *collision, *floor;
+  GError *error = NULL;
+  spore_document_remove(setting.document, spore_object_child(mechanical, 0), &error);
+  g_assert_no_error(error);
+  spore_document_insert(setting.document, mechanical, "lennard_jones", NULL, G_MAXUINT, &error);
+  g_assert_no_error(error);
+  collision = spore_object_child_of(ball, "collision");
+  spore_document_unset(setting.document, collision, 0, &error);
+  g_assert_no_error(error);
+  g_assert_true(spore_body_has_own_spheres(ball));
+  floor = spore_document_find(setting.document, "body", "floor"); /* that only the ball's are seen */
+  spore_document_remove(setting.document, floor, &error);
+  g_assert_no_error(error);
+  setting_run(&setting, 1);
+  g_assert_cmpint(changed_pixels(&setting, &spheres), >, 200);
+  spore_document_remove(setting.document, collision, &error);
+  g_assert_no_error(error);
+  spore_simulation_free(g_steal_pointer(&setting.simulation));
+  setting_run(&setting, 1);
+  g_assert_cmpint(changed_pixels(&setting, &spheres), ==, 0);
+  setting_close(&setting);
+}
+
 static void test_selection_is_seen(void) {
   Setting setting = setting_open();
   const SporeStageOptions options = {.surfaces = TRUE};
@@ -193,6 +221,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/follows-the-simulation", test_follows_the_simulation);
   g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
   g_test_add_func("/render/stage/overlays", test_overlays);
+  g_test_add_func("/render/stage/own-spheres", test_own_spheres);
   g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
   g_test_add_func("/render/stage/cameras", test_cameras);
   g_test_add_func("/render/stage/empty-scene", test_empty_scene);

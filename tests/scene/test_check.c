@@ -43,6 +43,16 @@ static void test_good(void) {
   g_assert_cmpstr(said, ==, "");
 }
 
+#define FLUID(where)                                                                                                   \
+  "<body name=\"blood\" position=\"" where                                                                             \
+  "\"><mechanical geometry=\"cube\"><lennard_jones particles=\"60\"/></mechanical><collision/></body>\n"
+
+/* A fluid's own spheres are spheres. */
+static void test_own_spheres(void) {
+  g_autofree char *said = check_text(SCENE(ASSETS "<bodies>\n" FLOOR FLUID("0 0.02 0") "</bodies>\n"));
+  g_assert_cmpstr(said, ==, "");
+}
+
 typedef struct Mistake {
   const char *name, *text;
   const char *says[3]; /* severity, place and the start of the message */
@@ -125,6 +135,12 @@ static const Mistake mistakes[] = {
     {"loose",
      BODIES("<body name=\"floor\" role=\"unmovable\" position=\"1 -1 0\">" BALL "</body>\n" STAND),
      {"note 5:1: \"stone\" is held by nothing"}},
+    {"fluid-overlaps",
+     SCENE(ASSETS "<bodies>\n" FLOOR FLUID("0 -0.05 0") "</bodies>\n"),
+     {"warning 5:1: \"blood\" and \"floor\" overlap by"}},
+    {"fluid-beside",
+     SCENE(ASSETS "<bodies>\n" FLOOR FLUID("0.5 0.02 0") "</bodies>\n"),
+     {"note 5:1: \"blood\" is held by nothing"}},
     {"step-too-large",
      SCENE("<solver integrator=\"symplectic_euler\" time_step=\"0.05\"/>\n<assets><spheres name=\"ball\" "
            "file=\"ball.spheres\"/>"
@@ -205,6 +221,7 @@ static void test_large(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/check/good", test_good);
+  g_test_add_func("/check/own-spheres", test_own_spheres);
   for (guint i = 0; i < G_N_ELEMENTS(mistakes); i++) {
     g_autofree char *path = g_strconcat("/check/", mistakes[i].name, NULL);
     g_test_add_data_func(path, &mistakes[i], test_mistake);

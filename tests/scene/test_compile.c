@@ -299,6 +299,94 @@ static void test_carry_over(void) {
   fixture_folder_free(g_steal_pointer(&folder));
 }
 
+/* A drop of a cubic centimetre, 5 mm above a floor. */
+#define FLUID(collision)                                                                                               \
+  "<spore version=\"1.0\">\n<solver time_step=\"0.0005\"/>\n"                                                          \
+  "<assets><mesh name=\"cube\" file=\"drop.off\"/><spheres name=\"ball\" file=\"ball.spheres\"/>"                      \
+  "<spheres name=\"ground\" file=\"ground.spheres\"/></assets>\n<bodies>\n"                                            \
+  "<body name=\"blood\" position=\"0 0.01 0\"><mechanical geometry=\"cube\"><lennard_jones particles=\"120\" "         \
+  "drag=\"5\"/></mechanical>" collision "</body>\n"                                                                    \
+  "<body name=\"floor\" role=\"unmovable\"><collision spheres=\"ground\"/></body>\n</bodies>\n</spore>\n"
+
+static char *fluid_folder_new(const char *scene) {
+  char *folder = fixture_scene_folder_new(scene);
+  g_free(fixture_write(folder, "drop.off",
+                       "OFF\n8 12 0\n-.005 -.005 -.005\n.005 -.005 -.005\n.005 .005 -.005\n-.005 .005 -.005\n-.005 "
+                       "-.005 .005\n.005 -.005 .005\n.005 .005 .005\n-.005 .005 .005\n3 0 3 2\n3 0 2 1\n3 4 5 6\n"
+                       "3 4 6 7\n3 0 1 5\n3 0 5 4\n3 2 3 7\n3 2 7 6\n3 1 2 6\n3 1 6 5\n3 0 4 7\n3 0 7 3\n"));
+  g_autoptr(GString) ground = g_string_new(NULL); /* tops at y = 0 */
+  for (int x = -15; x <= 15; x++)
+    for (int z = -15; z <= 15; z++) g_string_append_printf(ground, "%g -0.003 %g 0.003\n", 0.002 * x, 0.002 * z);
+  g_free(fixture_write(folder, "ground.spheres", ground->str));
+  return folder;
+}
+
+/* The fluid's own spheres carry it. A particle weighs 8 mg: the contact is as soft as the step can follow. */
+static void test_own_spheres(void) {
+  g_autofree char *folder = fluid_folder_new(FLUID("<collision stiffness=\"20\"/>"));
+  SporeDocument *document = fixture_load(folder);
+  SporeSimulation *simulation = compile(document, NULL);
+  SporeWorld *world = simulation->world;
+  guint32 blood = spore_world_find_body(world, "blood");
+  const SporeModel *model = spore_world_body_model(world, blood);
+  size_t count = model->block_count;
+  double mass = model->block_mass[0];
+  g_assert_cmpuint(spore_world_spheres(world)->count, ==, 31 * 31 + count);
+  SporeEnergy before = spore_world_energy(world);
+  double start = before.kinetic + before.internal + before.gravity + before.contact, most = start, fastest = 0;
+  SporeVec3 momentum;
+  double lowest, highest, farthest;
+  for (int i = 0; i < 4000; i++) {
+    spore_world_step(world);
+    SporeEnergy energy = spore_world_energy(world);
+    most = fmax(most, energy.kinetic + energy.internal + energy.gravity + energy.contact);
+    lowest = HUGE_VAL, highest = farthest = 0;
+    momentum = (SporeVec3){0, 0, 0};
+    for (size_t k = 0; k < count; k++) {
+      SporeVec3 p = spore_vec3_load(spore_world_q(world, blood) + 3 * k);
+      SporeVec3 v = spore_vec3_load(spore_world_v(world, blood) + 3 * k);
+      lowest = fmin(lowest, p.y);
+      highest = fmax(highest, p.y);
+      farthest = fmax(farthest, fmax(fabs(p.x), fabs(p.z)));
+      fastest = fmax(fastest, spore_vec3_length(v));
+      momentum = spore_vec3_add_scaled(momentum, mass, v);
+    }
+  }
+  double kinetic = spore_world_energy(world).kinetic, drop = mass * (double)count * 9.81 * 0.005;
+  double impulse = mass * (double)count * sqrt(2 * 9.81 * 0.005);
+  g_test_message(
+      "%zu particles; at the end %.2f to %.2f mm above the floor, within %.2f mm; energy rose by %.2e of the "
+      "fall's, kinetic %.2e of it, momentum %.2e of the impact's; up to %.2f m/s; %s",
+      count, 1e3 * lowest, 1e3 * highest, 1e3 * farthest, (most - start) / drop, kinetic / drop,
+      spore_vec3_length(momentum) / impulse, fastest, spore_world_monitor(world)->messages[0].text);
+  g_assert_cmpfloat(lowest, >, 0);
+  g_assert_cmpfloat(highest, <, 0.01);
+  g_assert_cmpfloat(farthest, <, 0.02);
+  g_assert_cmpfloat(most - start, <, 0.05 * drop);
+  g_assert_cmpfloat(kinetic, <, 1e-3 * drop);
+  g_assert_cmpfloat(spore_vec3_length(momentum), <, 0.01 * impulse);
+  spore_simulation_free(simulation);
+  spore_document_free(document);
+  fixture_folder_free(g_steal_pointer(&folder));
+}
+
+/* Spheres that the scene names are kept, and without a collision unit there are none. */
+static void test_named_spheres(void) {
+  static const struct {
+    const char *scene;
+    size_t count;
+  } cases[] = {{FLUID("<collision spheres=\"ball\"/>"), 1}, {FLUID(""), 0}};
+  for (gsize i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autofree char *folder = fluid_folder_new(cases[i].scene);
+    SporeDocument *document = fixture_load(folder);
+    SporeSimulation *simulation = compile(document, NULL);
+    g_assert_cmpuint(spore_world_spheres(simulation->world)->count, ==, 31 * 31 + cases[i].count);
+    spore_simulation_free(simulation);
+    spore_document_free(document);
+    fixture_folder_free(g_steal_pointer(&folder));
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/compile/everything", test_everything);
@@ -312,5 +400,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/compile/empty", test_empty);
   g_test_add_func("/compile/apply", test_apply);
   g_test_add_func("/compile/carry-over", test_carry_over);
+  g_test_add_func("/compile/own-spheres", test_own_spheres);
+  g_test_add_func("/compile/named-spheres", test_named_spheres);
   return g_test_run();
 }

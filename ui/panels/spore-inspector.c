@@ -3,6 +3,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/scene/compile.h"
 #include "ui/document/edits.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/jobs/works.h"
@@ -158,7 +159,9 @@ static void show_spheres(SporeInspector *self, SporeObject *body) {
   g_autoptr(GError) error = NULL;
   const SporeSphereSet *set = asset ? spore_document_spheres(document_of(self), asset, &error) : NULL;
   if (!set) {
-    spore_generator_box_set_result(box, error ? error->message : _("No spheres yet: the body touches nothing"), FALSE);
+    const char *none =
+        spore_body_has_own_spheres(body) ? _("The model's own spheres") : _("No spheres yet: the body touches nothing");
+    spore_generator_box_set_result(box, error ? error->message : none, FALSE);
     return;
   }
   GString *text = g_string_new(NULL);

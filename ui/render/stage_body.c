@@ -103,11 +103,9 @@ static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeOb
   }
 }
 
-static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
-                          const SporeSimulation *simulation) {
-  SporeObject *asset = asset_of(stage, spore_object_child_of(object, "collision"), "spheres", "spheres");
-  const SporeSphereSet *set = asset ? spore_document_spheres(stage->document, asset, NULL) : NULL;
-  if (!set) return;
+/* `asset` that the set is from, NULL: the model's own. */
+static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
+                         const SporeSphereSet *set, SporeObject *asset) {
   double *centres = g_new(double, 3 * set->count);
   for (gsize i = 0; i < set->count; i++) memcpy(centres + 3 * i, set->spheres + 4 * i, 3 * sizeof(double));
   gboolean mapped = map_points(body, simulation, centres, set->count, &body->centres);
@@ -115,9 +113,23 @@ static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeOb
   if (!mapped) return;
   body->spheres = g_memdup2(set->spheres, set->count * 4 * sizeof(double));
   body->solid = !body->surface_handle;
-  const float *fit = body->solid ? NULL : spore_stage_fit(stage, asset, set);
+  const float *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
   body->spheres_handle = spore_renderer_add_spheres(
       stage->renderer, body->spheres, set->count, body->solid ? body->style.colour : sphere_colour, fit, !body->solid);
+}
+
+static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
+                          const SporeSimulation *simulation) {
+  SporeObject *asset = asset_of(stage, spore_object_child_of(object, "collision"), "spheres", "spheres");
+  const SporeSphereSet *set = asset ? spore_document_spheres(stage->document, asset, NULL) : NULL;
+  SporeSphereSet own = {0};
+  if (set) {
+    show_spheres(stage, body, simulation, set, asset);
+  } else if (body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object)) {
+    const SporeModel *model = spore_world_body_model(simulation->world, body->world_body);
+    if (model->type->spheres(model, &own, NULL)) show_spheres(stage, body, simulation, &own, NULL);
+    spore_sphere_set_clear(&own);
+  }
 }
 
 static void build_wire(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
