@@ -71,7 +71,6 @@ static gboolean poll_monitor(gpointer data) {
   if (!session) return G_SOURCE_CONTINUE;
   const SporeSnapshot *snapshot = spore_session_snapshot(session);
   guint64 count = snapshot->message_count;
-  if (count < self->monitor_seen) self->monitor_seen = 0;
   if (count - self->monitor_seen > SPORE_MONITOR_MESSAGES) self->monitor_seen = count - SPORE_MONITOR_MESSAGES;
   for (; self->monitor_seen < count; self->monitor_seen++) {
     const SporeMonitorMessage *message = &snapshot->messages[self->monitor_seen % SPORE_MONITOR_MESSAGES];
@@ -192,6 +191,9 @@ static void player_changed(SporeWindow *self) {
   update(self);
 }
 
+/* Another world counts its messages from 0. */
+static void player_replaced(SporeWindow *self) { self->monitor_seen = 0; }
+
 static void player_failed(SporeWindow *self, const char *message) { spore_window_complain(self, message); }
 
 static void release_document(SporeWindow *self) {
@@ -214,6 +216,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   g_signal_connect_object(self->document, "selection-changed", G_CALLBACK(spore_window_update_actions), self,
                           G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->player, "replaced", G_CALLBACK(player_replaced), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "failed", G_CALLBACK(player_failed), self, G_CONNECT_SWAPPED);
   spore_viewport_set_document(SPORE_VIEWPORT(self->viewport), self->document, self->player);
   spore_outliner_set_document(SPORE_OUTLINER(self->outliner), self->document);
