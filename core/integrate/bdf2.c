@@ -27,7 +27,7 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
   dynamics->carry(data, work, qa, va);
   dynamics->set_time(data, h);
   dynamics->set_mass(data, qa);
-  SporeStepResult result = spore_stage_solve(dynamics, fields, 2 * h / 3, qa, va, v, work);
+  SporeStepResult result = spore_stage_solve(dynamics, fields, 2 * h / 3, qa, va, NULL, v, work);
   dynamics->drift(data, qa, v, 2 * h / 3, q1, v1);
   for (size_t i = 0; i < n; i++) work[i] = v[i] - start[i];
   memset(history->b, 0, n * sizeof *work);

@@ -8,7 +8,7 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
   size_t n = 3 * dynamics->block_count;
   double *v = scratch, *work = v + n;
   dynamics->set_time(dynamics->data, 0.5 * h);
-  SporeStepResult result = spore_stage_solve(dynamics, fields, 0.5 * h, q0, v0, v, work);
+  SporeStepResult result = spore_stage_solve(dynamics, fields, 0.5 * h, q0, v0, NULL, v, work);
   dynamics->drift(dynamics->data, q0, v, h, q1, v1);
   for (size_t i = 0; i < n; i++) work[i] = v[i] - v0[i];
   dynamics->carry(dynamics->data, work, q1, v1);

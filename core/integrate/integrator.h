@@ -19,7 +19,7 @@ void spore_step_result_add(SporeStepResult *total, const SporeStepResult *part);
  * each, mean what the method says. */
 typedef struct SporeHistory {
   double step_s; /* of the step that left it; 0: nothing is known. The method sets it for the next one. */
-  double *a, *b;
+  double *a, *b; /* NULL for implicit Euler where it stands in for another method: then it remembers nothing */
 } SporeHistory;
 
 /* How sure a method is to take energy away from what it does not resolve. Bodies of several methods that are solved

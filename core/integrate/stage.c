@@ -108,21 +108,36 @@ static SporeSystem stage_system(Stage *stage) {
                        .rounding = rounding};
 }
 
-/* The guess: going on as before, or standing still, whichever is nearer to the answer. Where the step is long for the
- * stiffness, going on stretches what is stiff, and only standing still starts with no more energy than there was. Where
- * going on misses no more than gravity's part, nothing is stretched. r: the residual there. Returns evaluations. */
-static size_t guess(Stage *stage, double gravity, double *v, double *r) {
-  size_t n = 3 * stage->dynamics->block_count;
-  memcpy(v, stage->va, n * sizeof *v);
+typedef enum Start { START_CHANGING, START_GOING, START_STILL } Start;
+
+static void set_start(const Stage *stage, Start start, const double *change, double *v) {
+  for (size_t i = 0; i < 3 * stage->dynamics->block_count; i++) {
+    double going = start == START_STILL ? 0 : stage->va[i];
+    v[i] = start == START_CHANGING ? going + change[i] : going;
+  }
+}
+
+/* The guess: changing as in the step before, where that is known, going on as before, or standing still, whichever is
+ * nearest to the answer. Where the step is long for the stiffness, going on stretches what is stiff: what changed the
+ * speed so that it did not stretch is needed again, and where that is of no use only standing still starts with no more
+ * energy than there was. One that misses no more than gravity's part stretches nothing and is taken as it is. r: the
+ * residual there. Returns evaluations. */
+static size_t guess(Stage *stage, const double *change, double gravity, double *v, double *r) {
+  Start best = START_STILL;
+  double least = INFINITY;
+  size_t evaluations = 0;
+  for (Start start = change ? START_CHANGING : START_GOING; start <= START_STILL; start++) {
+    set_start(stage, start, change, v);
+    residual(stage, v, r);
+    evaluations++;
+    double norm = dual_norm(stage, r);
+    if (norm <= gravity) return evaluations;
+    if (norm < least) best = start, least = norm;
+  }
+  if (best == START_STILL) return evaluations;
+  set_start(stage, best, change, v);
   residual(stage, v, r);
-  double going = dual_norm(stage, r);
-  if (going <= gravity) return 1;
-  memset(v, 0, n * sizeof *v);
-  residual(stage, v, r);
-  if (dual_norm(stage, r) < going || !isfinite(going)) return 2;
-  memcpy(v, stage->va, n * sizeof *v);
-  residual(stage, v, r);
-  return 3;
+  return evaluations + 1;
 }
 
 static SporeNonlinearResult solve_system(const SporeSystem *system, const SporeSolverFields *fields, double *v,
@@ -135,7 +150,8 @@ static SporeNonlinearResult solve_system(const SporeSystem *system, const SporeS
 }
 
 SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolverFields *fields, double c,
-                                  const double *qa, const double *va, double *v, double *scratch) {
+                                  const double *qa, const double *va, const double *change, double *v,
+                                  double *scratch) {
   size_t n = 3 * dynamics->block_count;
   Stage stage = {.dynamics = dynamics, .qa = qa, .va = va, .c = c};
   stage.linear_iterations = (size_t)fields->linear_iterations;
@@ -146,7 +162,7 @@ SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolv
   stage.linear = scratch + 5 * n;
   double *r = scratch + (5 + SPORE_PCG_SCRATCH) * n;
   SporeSystem system = stage_system(&stage);
-  size_t evaluations = guess(&stage, system.scale_r, v, r);
+  size_t evaluations = guess(&stage, change, system.scale_r, v, r);
   SporeNonlinearResult result = solve_system(&system, fields, v, r, r + n);
   return (SporeStepResult){.converged = result.converged,
                            .newton_iterations = result.iterations,

@@ -11,8 +11,9 @@
 /* Vectors of 3 block_count: q of at most 4/3 of one rounded up to 2; v, force, work; r. */
 #define SPORE_STAGE_SCRATCH (6 + SPORE_PCG_SCRATCH + SPORE_BROYDEN_SCRATCH)
 
-/* v (written) is the velocity at qa; drift from there. qa and va are not changed. */
+/* v (written) is the velocity at qa; drift from there. qa and va are not changed. change: what v - va may be near, for
+ * a better start than va; NULL: not known. */
 SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolverFields *fields, double c,
-                                  const double *qa, const double *va, double *v, double *scratch);
+                                  const double *qa, const double *va, const double *change, double *v, double *scratch);
 
 #endif

@@ -102,7 +102,7 @@ static SporeStepResult creep(const SporeDynamics *dynamics, const SporeSolverFie
   size_t n = 3 * dynamics->block_count;
   double *rest = scratch, *v = rest + n, *work = v + n;
   memset(rest, 0, n * sizeof *rest);
-  SporeStepResult result = spore_stage_solve(dynamics, fields, h, q0, rest, v, work);
+  SporeStepResult result = spore_stage_solve(dynamics, fields, h, q0, rest, NULL, v, work);
   dynamics->drift(dynamics->data, q0, v, h, q1, v1);
   return result;
 }

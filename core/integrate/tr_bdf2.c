@@ -32,7 +32,7 @@ SporeStepResult spore_tr_bdf2_step(const SporeDynamics *dynamics, const SporeSol
   dynamics->carry(data, middle, qa, va);
   dynamics->set_time(data, extra->start_s + 2 * D * h);
   dynamics->set_mass(data, qa);
-  SporeStepResult result = spore_stage_solve(dynamics, fields, D * h, qa, va, v, work);
+  SporeStepResult result = spore_stage_solve(dynamics, fields, D * h, qa, va, NULL, v, work);
   result.force_evaluations++;
   for (size_t i = 0; i < n; i++) work[i] = v[i] - start[i];
   memset(middle, 0, n * sizeof *middle); /* p_m - p_0 at q0 */
@@ -48,7 +48,7 @@ SporeStepResult spore_tr_bdf2_step(const SporeDynamics *dynamics, const SporeSol
   dynamics->carry(data, work, qa, va);
   dynamics->set_time(data, extra->start_s + h);
   dynamics->set_mass(data, qa);
-  SporeStepResult second = spore_stage_solve(dynamics, fields, D * h, qa, va, v, work);
+  SporeStepResult second = spore_stage_solve(dynamics, fields, D * h, qa, va, NULL, v, work);
   spore_step_result_add(&result, &second);
   dynamics->drift(data, qa, v, D * h, q1, v1);
 

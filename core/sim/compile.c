@@ -105,12 +105,6 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   return body->name || no_memory(error);
 }
 
-static bool keeps_history(const SporeWorld *world) {
-  for (size_t b = 0; b < world->body_count; b++)
-    if (world->bodies[b].role == SPORE_PASSIVE && spore_integrator(world->bodies[b].integrator)->remembers) return true;
-  return false;
-}
-
 static bool make_matrix(SporeBody *body, SporeError *error) {
   if (!body->model || !body->model->type->jacobian) return true;
   SporeBlockPattern pattern;
@@ -227,7 +221,6 @@ bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription 
 }
 
 static bool allocate_history(SporeWorld *world) {
-  if (!keeps_history(world)) return true;
   world->history_a = SPORE_NEW_ARRAY(double, world->v_count);
   world->history_b = SPORE_NEW_ARRAY(double, world->v_count);
   world->local_history_a = SPORE_NEW_ARRAY(double, world->v_count);

@@ -15,6 +15,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
   double *scratch = world->scratch + world->scratch_per_block * (island->v_start / 3);
   double h = world->solver.time_step / (double)substeps;
   /* What one method remembers says nothing to another. */
+  SporeHistory none = {0}, *history = kind == island->integrator ? &island->history : &none;
   if (kind != island->integrator) island->history.step_s = 0;
   spore_group_harden(&group);
   SporeStepResult total = {.converged = true};
@@ -26,7 +27,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
     if (s > 0 || island->attempts > 1) dynamics.set_mass(dynamics.data, q0);
     group.start_s = (double)s * h;
     dynamics.set_time(dynamics.data, h);
-    SporeStepResult result = integrator->step(&dynamics, &world->solver, &island->history, h, q0, v0, q1, v1, scratch);
+    SporeStepResult result = integrator->step(&dynamics, &world->solver, history, h, q0, v0, q1, v1, scratch);
     dynamics.set_time(dynamics.data, h);
     spore_step_result_add(&total, &result);
   }
@@ -57,6 +58,7 @@ static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) 
 
 static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
   if (island->mixed) {
+    island->history.step_s = 0;
     SporeStepResult mixed = spore_island_advance_mixed(world, island);
     if (mixed.converged) return mixed;
     /* Friction on nodes that are light without what holds them in their body: with it they may be solved. */

@@ -207,7 +207,7 @@ struct SporeWorld {
   uint32_t *contact_order, *spring_order;
   SporeSite *local_sites; /* of the bodies in their island's part of the local vectors */
   double *local_q0, *local_v0, *local_q1, *local_v1;
-  double *history_a, *history_b, *local_history_a, *local_history_b; /* as v and local_v0; NULL: none is kept */
+  double *history_a, *history_b, *local_history_a, *local_history_b; /* as v and local_v0 */
   double *still;   /* zeros: the velocity of the largest body, at rest */
   double *scratch; /* of the integrators, scratch_per_block doubles a block */
   size_t scratch_per_block;
