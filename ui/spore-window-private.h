@@ -24,7 +24,7 @@ struct _SporeWindow {
   SporeRecovery *recovery;
   SporeLeftover *leftover;
   guint autosave, monitor;
-  guint64 monitor_seen;
+  guint64 monitored_step, monitor_seen;
   gboolean fresh, sure; /* sure: the user has answered about unsaved changes */
 };
 

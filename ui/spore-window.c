@@ -71,10 +71,13 @@ static gboolean poll_monitor(gpointer data) {
   if (!session) return G_SOURCE_CONTINUE;
   const SporeSnapshot *snapshot = spore_session_snapshot(session);
   guint64 count = snapshot->message_count;
+  if (snapshot->step < self->monitored_step) spore_problems_clear_run(SPORE_PROBLEMS(self->problems));
+  self->monitored_step = snapshot->step;
   if (count - self->monitor_seen > SPORE_MONITOR_MESSAGES) self->monitor_seen = count - SPORE_MONITOR_MESSAGES;
   for (; self->monitor_seen < count; self->monitor_seen++) {
     const SporeMonitorMessage *message = &snapshot->messages[self->monitor_seen % SPORE_MONITOR_MESSAGES];
     spore_window_log(self, _("Step %llu: %s"), (unsigned long long)message->step, message->text);
+    spore_problems_add_run(SPORE_PROBLEMS(self->problems), message->step, message->text);
   }
   return G_SOURCE_CONTINUE;
 }
@@ -192,7 +195,10 @@ static void player_changed(SporeWindow *self) {
 }
 
 /* Another world counts its messages from 0. */
-static void player_replaced(SporeWindow *self) { self->monitor_seen = 0; }
+static void player_replaced(SporeWindow *self) {
+  self->monitored_step = self->monitor_seen = 0;
+  spore_problems_clear_run(SPORE_PROBLEMS(self->problems));
+}
 
 static void player_failed(SporeWindow *self, const char *message) { spore_window_complain(self, message); }
 
@@ -208,7 +214,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   release_document(self);
   self->document = spore_editor_document_new(document);
   self->player = spore_player_new(self->document);
-  self->monitor_seen = 0;
+  self->monitored_step = self->monitor_seen = 0;
   g_autoptr(GVariant) speed = g_action_group_get_action_state(G_ACTION_GROUP(self), "speed");
   spore_player_set_speed(self->player, g_ascii_strtod(g_variant_get_string(speed, NULL), NULL));
   g_signal_connect_object(self->document, "history-changed", G_CALLBACK(history_changed), self, G_CONNECT_SWAPPED);

@@ -191,8 +191,8 @@ typedef struct SporeSnapshot {
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
   SporeStepCounts counts;
-  SporeEnergy energy;        /* of this state, or of the first one after the snapshot before was acquired */
-  uint64_t message_count;    /* of the monitor, and its messages */
+  SporeEnergy energy;     /* of this state, or of the first one after the snapshot before was acquired */
+  uint64_t message_count; /* of the monitor, and its messages */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
   double step_us;
 } SporeSnapshot;

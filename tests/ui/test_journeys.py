@@ -1,6 +1,9 @@
 """test_journeys.py EDITOR FEATURES: what a user does in the editor, from the empty window to the saved scene."""
+import json
 import os
 import pathlib
+import re
+import subprocess
 import sys
 import tempfile
 import time
@@ -304,6 +307,98 @@ def french():
         editor.find("push button", "^Importer$")
         editor.find("label", "Commencez par un organe")
         editor.find("label", "^Gravité$")
+
+
+def write_scene(name, model, geometry="ball", solver="", collision=""):
+    """A ball of that model on a floor that nothing moves."""
+    path = folder("scenes") / name / "scene.spore"
+    path.parent.mkdir(exist_ok=True)
+    files = {"ball.off": ball().read_bytes(), "one.spheres": b"0 0 0 0.03\n",
+             "floor.spheres": "".join(f"{x / 50} -0.05 {z / 50} 0.02\n" for x in range(-2, 3) for z in range(-2, 3)).encode(),
+             "cells.mesh": (HERE.parent.parent / "resources/scenes/laparoscopy/ovary_left.mesh").read_bytes()}
+    for file, content in files.items():
+        (path.parent / file).write_bytes(content)
+    path.write_text(f"""<spore version="1.0">
+  <solver time_step="0.004" {solver}/>
+  <assets>
+    <mesh name="ball" file="ball.off"/>
+    <spheres name="one" file="one.spheres"/>
+    <spheres name="floor" file="floor.spheres"/>
+    <tetrahedra name="cells" file="cells.mesh" source="ball"/>
+  </assets>
+  <bodies>
+    <body name="ball">
+      <mechanical geometry="{geometry}">
+        {model}
+      </mechanical>
+      <collision spheres="one" {collision}/>
+      <visual mesh="ball"/>
+    </body>
+    <body name="floor" role="unmovable">
+      <collision spheres="floor"/>
+    </body>
+  </bodies>
+</spore>
+""")
+    return path
+
+
+def models():
+    """What `spore models` says of each, by name."""
+    answer = subprocess.run([pathlib.Path(PROGRAM).with_name("spore"), "models", "--json"], check=True, capture_output=True)
+    return {m["name"]: m for m in json.loads(answer.stdout)["models"]}
+
+
+@check
+def every_model_in_turn():
+    """a body is given each model in turn, runs with it while its live parameters are turned to their ends, and is given the first one back."""
+    all_models = models()
+    assert len(all_models) == 6
+    with start(write_scene("turn", "<rigid_body/>")) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        editor.act("select", "s", "bodies/ball")
+        for name, model in all_models.items():
+            if name != "rigid_body":
+                editor.act("set-model", "s", name)
+            editor.find("toggle button|label|text|panel|unknown|push button", f"^{re.escape(model['label'])}$", showing=False)
+            editor.act("play")
+            ui.wait(lambda: (editor.time_s() or 0) > 0, f"{name} to run")
+            for parameter in model["parameters"]:
+                if parameter["change"] != "live":
+                    continue
+                for value in (parameter["minimum"], parameter["maximum"], parameter["default"]):
+                    editor.act("set-property", "(sss)", (f"bodies/ball/mechanical/{name}", parameter["name"], str(value)))
+                    time.sleep(0.1)
+                for _ in range(3):
+                    editor.act("undo")
+            editor.act("pause")
+            editor.act("reset")
+            assert not editor.message(), (name, editor.message())
+        undo_all(editor)
+        assert "<rigid_body/>" in saved(editor, "turned") and not editor.enabled("undo")
+
+
+@check
+def sleep_lateness_and_trouble_are_shown():
+    """what sleeps, steps that come late, and what a run had to mend are shown, the last among the problems of its body."""
+    with start(write_scene("asleep", "<rigid_body/>")) as editor:
+        editor.act("speed", "s", "0")
+        editor.act("play")
+        ui.wait(lambda: editor.hud(r"Asleep (\d+)") == 1, "the ball to sleep")
+        editor.act("set-property", "(sss)", ("environment", "gravity", "0 5 0"))
+        ui.wait(lambda: not editor.hud(r"Asleep (\d+)"), "the ball to wake")
+    trouble = write_scene("trouble", '<deformable_surface structural_stiffness="1e15"/>')
+    with start(trouble) as editor:
+        editor.act("speed", "s", "100")  # which nothing keeps up with that solves equations in vain
+        editor.act("play")
+        ui.wait(lambda: editor.hud(r"Late steps (\d+\.\d+) %"), "late steps")
+        editor.find("table cell", "^ball: .*not solved to tolerance")
+        editor.find("table cell", "take a smaller time step")
+        editor.find("table cell", r"^step \d+$")
+        editor.find(".*", r"^Problems \(\d+\)$")
+        editor.act("pause")
+        editor.act("reset")
+        ui.wait(lambda: not editor.look("table cell", "^ball: .*not solved"), "the problem to go")
 
 
 @check

@@ -1,5 +1,8 @@
 #include "ui/panels/spore-problems.h"
 
+#include <glib/gi18n.h>
+#include <string.h>
+
 /* After the last change, so that typing is not held up. */
 #define CHECK_DELAY_MS 400
 
@@ -9,6 +12,8 @@ struct _SporeProblems {
   GtkWidget *tree;
   SporeEditorDocument *document;
   guint timer;
+  GPtrArray *found; /* of SporeDiagnostic *: run_count of the run, then those of the scene */
+  guint run_count;
 };
 
 G_DEFINE_FINAL_TYPE(SporeProblems, spore_problems, GTK_TYPE_SCROLLED_WINDOW)
@@ -21,18 +26,45 @@ static const char *icon_of(SporeSeverity severity) {
   return icons[severity];
 }
 
-static gboolean check(gpointer data) {
-  SporeProblems *self = data;
-  self->timer = 0;
-  g_autoptr(GPtrArray) diagnostics = spore_document_check(spore_editor_document_get(self->document));
+static void show(SporeProblems *self) {
   gtk_list_store_clear(self->store);
-  for (guint i = 0; i < diagnostics->len; i++) {
-    const SporeDiagnostic *diagnostic = g_ptr_array_index(diagnostics, i);
+  for (guint i = 0; i < self->found->len; i++) {
+    const SporeDiagnostic *diagnostic = g_ptr_array_index(self->found, i);
     gtk_list_store_insert_with_values(self->store, NULL, -1, 0, diagnostic->object, 1, icon_of(diagnostic->severity), 2,
                                       diagnostic->message, 3, diagnostic->remedy, 4, diagnostic->place, -1);
   }
-  g_signal_emit(self, checked, 0, diagnostics);
+  g_signal_emit(self, checked, 0, self->found);
+}
+
+static gboolean check(gpointer data) {
+  SporeProblems *self = data;
+  self->timer = 0;
+  GPtrArray *scene = spore_document_check(spore_editor_document_get(self->document));
+  g_ptr_array_set_size(self->found, (gint)self->run_count);
+  g_ptr_array_extend_and_steal(self->found, scene);
+  show(self);
   return G_SOURCE_REMOVE;
+}
+
+void spore_problems_add_run(SporeProblems *self, guint64 step, const char *text) {
+  SporeDiagnostic *diagnostic = g_new0(SporeDiagnostic, 1);
+  const char *colon = strstr(text, ": "), *remedy = strrchr(text, ';');
+  g_autofree char *name = colon ? g_strndup(text, (gsize)(colon - text)) : g_strdup("");
+  SporeObject *body = spore_document_find(spore_editor_document_get(self->document), "body", name);
+  diagnostic->severity = SPORE_WARNING;
+  diagnostic->object = body ? spore_object_id(body) : 0;
+  diagnostic->message = remedy ? g_strndup(text, (gsize)(remedy - text)) : g_strdup(text);
+  diagnostic->remedy = g_strdup(remedy ? remedy + 1 + strspn(remedy + 1, " ") : "");
+  diagnostic->place = g_strdup_printf(_("step %llu"), (unsigned long long)step);
+  g_ptr_array_insert(self->found, (gint)self->run_count++, diagnostic);
+  show(self);
+}
+
+void spore_problems_clear_run(SporeProblems *self) {
+  if (self->run_count == 0) return;
+  g_ptr_array_remove_range(self->found, 0, self->run_count);
+  self->run_count = 0;
+  show(self);
 }
 
 static void queue_check(SporeProblems *self) {
@@ -56,6 +88,8 @@ static void release_document(SporeProblems *self) {
 
 void spore_problems_set_document(SporeProblems *self, SporeEditorDocument *document) {
   release_document(self);
+  g_ptr_array_set_size(self->found, 0);
+  self->run_count = 0;
   self->document = g_object_ref(document);
   g_signal_connect_object(document, "changed", G_CALLBACK(queue_check), self, G_CONNECT_SWAPPED);
   queue_check(self);
@@ -66,9 +100,15 @@ static void spore_problems_dispose(GObject *object) {
   G_OBJECT_CLASS(spore_problems_parent_class)->dispose(object);
 }
 
+static void spore_problems_finalize(GObject *object) {
+  g_ptr_array_unref(SPORE_PROBLEMS(object)->found);
+  G_OBJECT_CLASS(spore_problems_parent_class)->finalize(object);
+}
+
 static void spore_problems_class_init(SporeProblemsClass *class) {
   GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
   G_OBJECT_CLASS(class)->dispose = spore_problems_dispose;
+  G_OBJECT_CLASS(class)->finalize = spore_problems_finalize;
   checked = g_signal_new("checked", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 1,
                          G_TYPE_PTR_ARRAY);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-problems.ui");
@@ -77,4 +117,9 @@ static void spore_problems_class_init(SporeProblemsClass *class) {
   gtk_widget_class_bind_template_callback(widget, row_activated);
 }
 
-static void spore_problems_init(SporeProblems *self) { gtk_widget_init_template(GTK_WIDGET(self)); }
+static void free_diagnostic(gpointer data) { spore_diagnostic_free(data); }
+
+static void spore_problems_init(SporeProblems *self) {
+  self->found = g_ptr_array_new_with_free_func(free_diagnostic);
+  gtk_widget_init_template(GTK_WIDGET(self));
+}

@@ -1,4 +1,4 @@
-/* What is wrong with the scene. Signal: checked (GPtrArray *diagnostics, borrowed). */
+/* What is wrong with the scene, and what its run had to mend. Signal: checked (GPtrArray *diagnostics, borrowed). */
 #ifndef SPORE_UI_PANELS_SPORE_PROBLEMS_H
 #define SPORE_UI_PANELS_SPORE_PROBLEMS_H
 
@@ -13,6 +13,9 @@ G_BEGIN_DECLS
 G_DECLARE_FINAL_TYPE(SporeProblems, spore_problems, SPORE, PROBLEMS, GtkScrolledWindow)
 
 void spore_problems_set_document(SporeProblems *self, SporeEditorDocument *document);
+/* A message of the monitor, "BODY: what happened; what to do", translated. */
+void spore_problems_add_run(SporeProblems *self, guint64 step, const char *text);
+void spore_problems_clear_run(SporeProblems *self);
 
 G_END_DECLS
 #endif

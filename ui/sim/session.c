@@ -327,6 +327,15 @@ double spore_session_real_time_factor(const SporeSession *session) {
   return factor;
 }
 
+void spore_session_late_steps(const SporeSession *session, guint64 *late, guint64 *steps) {
+  SporeSession *locked = (SporeSession *)session;
+  g_mutex_lock(&locked->mutex);
+  gboolean due = session->playing && session->speed > 0;
+  *late = due ? session->pace.misses : 0;
+  *steps = due ? session->pace.steps : 0;
+  g_mutex_unlock(&locked->mutex);
+}
+
 static void copy_channels(SporeTrack *to, const SporeTrack *from) {
   for (size_t c = 0; c < from->channel_count; c++) {
     const SporeTrackChannel *source = &from->channels[c];

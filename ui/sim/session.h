@@ -27,6 +27,8 @@ gboolean spore_session_post(SporeSession *session, const SporeCommand *command);
 void spore_session_set_pointer(SporeSession *session, guint32 body, const SporeDeviceState *state);
 /* Simulated seconds per second of clock over the last second. */
 double spore_session_real_time_factor(const SporeSession *session);
+/* Steps taken since it plays, and how many of them ended after they were due; 0 of 0 where nothing is due. */
+void spore_session_late_steps(const SporeSession *session, guint64 *late, guint64 *steps);
 /* A copy of what the devices said so far. spore_track_clear and g_free. */
 SporeTrack *spore_session_recording(SporeSession *session);
 

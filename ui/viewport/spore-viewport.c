@@ -198,8 +198,18 @@ static void update_hud(SporeViewport *self) {
     g_string_append(text, "  ·  ");
     g_string_append_printf(text, _("%.2f × real time"), factor);
   }
+  guint64 late, steps;
+  spore_session_late_steps(session, &late, &steps);
+  if (late > 0) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Late steps %.1f %%"), 100 * (double)late / (double)steps);
+  }
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Contacts %zu"), snapshot->contact_count);
+  if (snapshot->counts.sleeping > 0) {
+    g_string_append(text, "  ·  ");
+    g_string_append_printf(text, _("Asleep %zu"), snapshot->counts.sleeping);
+  }
   SporeVec3 tip, force;
   if (probe_force(self, &tip, &force)) {
     g_string_append_c(text, '\n');
