@@ -14,6 +14,7 @@
 typedef struct SporeDynamics {
   void *data;
   size_t q_count, block_count;
+  bool switches; /* some forces set in or end as things move: there are contacts */
   /* From here on forces are elastic where they are evaluated and viscous at `shape` (borrowed), so that the viscous
    * ones are linear in v and A below is the whole Jacobian; first order in time. At first, and with NULL: viscous there
    * too. */

@@ -94,6 +94,7 @@ static SporeSystem stage_system(Stage *stage) {
   double gravity = stage->c * stage->dynamics->gravity_momentum;
   return (SporeSystem){.data = stage,
                        .count = 3 * stage->dynamics->block_count,
+                       .switches = stage->dynamics->switches,
                        .residual = residual,
                        .linearise = linearise,
                        .reuse = reuse,

@@ -5,23 +5,76 @@
 
 #include "core/math/vector.h"
 
-#define HALVINGS 12
+#define TRIALS 12
+#define FLAT 0.5 /* of the slope at the start: along d nothing more is to be had */
+#define LONGER 4 /* at most, times the length before */
+#define NEAR 0.1 /* of the load: farther from the answer the residual is no gradient to go far by (bodies turn) */
+
+typedef struct Line {
+  const SporeSystem *system;
+  const double *x, *d;
+  double *trial, *trial_r;
+  double norm, slope; /* of the residual at the trial; slope: its part along d */
+  size_t *evaluations;
+} Line;
+
+static void try_length(Line *line, double length) {
+  size_t n = line->system->count;
+  memcpy(line->trial, line->x, n * sizeof *line->trial);
+  spore_vector_add_scaled(n, line->trial, length, line->d);
+  line->system->residual(line->system->data, line->trial, line->trial_r);
+  ++*line->evaluations;
+  line->norm = line->system->norm(line->system->data, line->trial_r);
+  line->slope = isfinite(line->norm) ? spore_vector_dot(n, line->trial_r, line->d) : -HUGE_VAL;
+}
+
+/* d need not go downhill: the norm has to fall. */
+static double by_norm(Line *line, double norm) {
+  double length = 1;
+  for (int k = 0; k <= TRIALS; k++, length /= 2) {
+    try_length(line, length);
+    if (line->norm <= (1 - 1e-4 * length) * norm) return length;
+  }
+  return 0;
+}
+
+/* Where the straight line through the slopes is flat, well within the two. */
+static double between(double low, double low_slope, double high, double high_slope) {
+  double share = isfinite(high_slope) ? low_slope / (low_slope - high_slope) : 0.25;
+  return low + fmin(fmax(share, 0.1), 0.9) * (high - low);
+}
+
+static double by_slope(Line *line, double norm, double start) {
+  double low = 0, low_slope = start, high = HUGE_VAL, high_slope = 0, length = 1;
+  for (int k = 0, side = 0; k <= TRIALS; k++) {
+    try_length(line, length);
+    if (line->norm <= 0.5 * norm || fabs(line->slope) <= FLAT * start) return length;
+    if (line->slope > 0) {
+      if (!isfinite(high) && line->norm > NEAR * line->system->scale_r) return length;
+      double gain = low_slope > line->slope ? line->slope / (low_slope - line->slope) : LONGER;
+      double step = fmin(gain, LONGER) * (length - low);
+      low = length;
+      low_slope = line->slope;
+      if (side == 1) high_slope *= 0.5; /* the Illinois variant of false position */
+      side = 1;
+      length = isfinite(high) ? between(low, low_slope, high, high_slope) : length + step;
+    } else {
+      high = length;
+      high_slope = line->slope;
+      if (side == -1) low_slope *= 0.5;
+      side = -1;
+      length = between(low, low_slope, high, high_slope);
+    }
+  }
+  if (low > 0) try_length(line, low);
+  return low;
+}
 
 double spore_line_search(const SporeSystem *system, const double *x, const double *d, const double *r, double norm,
                          double *trial, double *trial_r, double *trial_norm, size_t *evaluations) {
-  size_t n = system->count;
-  double downhill = spore_vector_dot(n, r, d), length = 1;
-  for (int k = 0; k <= HALVINGS; k++, length /= 2) {
-    memcpy(trial, x, n * sizeof *x);
-    spore_vector_add_scaled(n, trial, length, d);
-    system->residual(system->data, trial, trial_r);
-    ++*evaluations;
-    *trial_norm = system->norm(system->data, trial_r);
-    if (!isfinite(*trial_norm)) continue;
-    if (*trial_norm <= 0.5 * norm) return length;
-    bool helps =
-        downhill > 0 ? spore_vector_dot(n, trial_r, d) >= -0.5 * downhill : *trial_norm <= (1 - 1e-4 * length) * norm;
-    if (helps) return length;
-  }
-  return 0;
+  Line line = {system, x, d, trial, trial_r, 0, 0, evaluations};
+  double start = spore_vector_dot(system->count, r, d);
+  double length = start > 0 ? by_slope(&line, norm, start) : by_norm(&line, norm);
+  *trial_norm = line.norm;
+  return length;
 }

@@ -17,13 +17,14 @@ static double forcing_term(double norm, double previous, double target) {
 /* A full step may climb far and yet be the way: where springs are very stiff it stretches them, and only the step after
  * it shows how little was missing. Such a step is taken on trust; where the next one has not made it good, Newton goes
  * back and searches along the line (watchdog: R. M. Chamberlain, M. J. D. Powell, C. Lemarechal, H. C. Pedersen,
- * Mathematical Programming Study 16, 1982). */
+ * Mathematical Programming Study 16, 1982). Not where forces set in and end: there it is
+ * the next contact that was missed, and the step beyond says nothing. */
 typedef struct Trust {
   bool given;
   double *x, *d, *r; /* where it was given: point, direction, residual */
   double norm;
   size_t steps;    /* since then */
-  size_t failures; /* in a row */
+  size_t failures; /* so far */
 } Trust;
 
 #define TRUST_STEPS 2
@@ -68,7 +69,6 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     bool good = trial_norm <= 0.5 * (trust.given ? trust.norm : test.norm);
     if (good) {
       trust.given = false;
-      trust.failures = 0;
     } else if (trust.given && (++trust.steps >= TRUST_STEPS || !isfinite(trial_norm))) {
       /* Not made good: back, and along the line. */
       trust.given = false;
@@ -79,7 +79,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
       test.norm = trust.norm;
       length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
     } else if (!trust.given) {
-      if (trust.failures < TRUST_FAILURES && isfinite(trial_norm)) {
+      bool overshoots = spore_vector_dot(n, trial_r, d) < 0 && isfinite(trial_norm);
+      if (!system->switches && overshoots && trust.failures < TRUST_FAILURES) {
         trust.given = true;
         trust.steps = 0;
         trust.norm = test.norm;

@@ -13,7 +13,8 @@
 
 typedef struct SporeSystem {
   void *data;
-  size_t count; /* unknowns */
+  size_t count;  /* unknowns */
+  bool switches; /* there are forces that set in or end with x, such as those of contacts */
   /* r(x); entries that are not finite are allowed and make `norm` not finite. */
   void (*residual)(void *data, const double *x, double *r);
   void (*linearise)(void *data, const double *x);

@@ -290,6 +290,7 @@ SporeDynamics spore_group_dynamics(SporeGroup *group) {
   return (SporeDynamics){.data = group,
                          .q_count = group->island->q_count,
                          .block_count = group->island->v_count / 3,
+                         .switches = group->island->contact_count > 0,
                          .set_shape = set_shape,
                          .force = force,
                          .body_force = body_force,
