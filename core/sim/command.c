@@ -28,6 +28,7 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
   body->matrix_c = 0;
   body->history_s = 0;
   body->watch.started = false;
+  body->pause = body->pauses = 0;
   spore_body_reset_choice(world, body);
   body->total_mass = spore_model_total_mass(body->model);
   spore_body_set_mass(world, body);

@@ -11,8 +11,10 @@
 
 #define SUBSTEPS_MAXIMUM 8
 /* An answer that misses its tolerance by no more than this factor is counted and told of, but stands: a step again
- * would cost more than it mends. */
+ * would cost more than it mends. So does one that misses this part of the load and has not gained energy. */
 #define MISS_TO_STAND 10
+#define MISS_OF_LOAD 1e-3
+#define PAUSE_MAXIMUM 32 /* steps */
 
 static bool finite_all(const double *values, size_t count) { return spore_vector_within(count, values, DBL_MAX); }
 
@@ -106,12 +108,65 @@ static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps) {
   spore_island_examine(world, island);
 }
 
+static double energy(const SporeWorld *world, const SporeIsland *island, const SporeSite *sites, const double *q,
+                     const double *v) {
+  double sum = 0;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    uint32_t b = world->island_bodies[island->body_start + i];
+    const SporeBody *body = &world->bodies[b];
+    const double *local = q + sites[b].q;
+    sum += spore_body_kinetic_energy(world, body, v + sites[b].v) + spore_body_gravity_energy(world, body, local) +
+           body->model->type->potential(body->model, local);
+  }
+  for (size_t i = 0; i < island->contact_count; i++)
+    sum += spore_contact_term_energy(&world->contacts[world->contact_order[island->contact_start + i]], sites, q);
+  for (size_t i = 0; i < island->spring_count; i++)
+    sum += spore_spring_term_energy(&world->springs[world->spring_order[island->spring_start + i]], sites, q);
+  return sum;
+}
+
+/* More than when the step began, tools being where they are now, and by more than a part of what gravity gives in a
+ * step. */
+static bool gained_energy(const SporeWorld *world, const SporeIsland *island) {
+  double speed = world->solver.time_step * island->gravity_momentum;
+  double before = energy(world, island, world->world_sites, world->q, world->v);
+  return !(energy(world, island, world->local_sites, island->q1, island->v1) <= before + MISS_OF_LOAD * speed * speed);
+}
+
+/* Whether an answer that is not solved to tolerance will do; `miss`: what it may miss of the load. */
+static bool stands(const SporeWorld *world, const SporeIsland *island, double miss) {
+  if (island->trouble != SPORE_TROUBLE_NOT_CONVERGED) return island->trouble == SPORE_TROUBLE_NONE;
+  double residual = island->result.residual;
+  if (residual <= MISS_TO_STAND * world->solver.tolerance) return true;
+  return residual <= miss && island->integrator != SPORE_INTEGRATOR_STATIC && !gained_energy(world, island);
+}
+
+/* Smaller steps that did not help would not at once again: they are tried after a pause, twice as long each time. */
+static bool pauses(SporeWorld *world, const SporeIsland *island) {
+  bool paused = false;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
+    if (body->pause > 0) paused = true, body->pause--;
+  }
+  return paused;
+}
+
+static void set_pause(SporeWorld *world, const SporeIsland *island, bool helped) {
+  for (size_t i = 0; i < island->kept_count; i++) {
+    SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
+    body->pauses = helped ? 0 : body->pauses == 0 ? 1 : body->pauses < PAUSE_MAXIMUM ? 2 * body->pauses : PAUSE_MAXIMUM;
+    body->pause = body->pauses;
+  }
+}
+
 /* Smaller and smaller steps. An answer that is sound but not solved to tolerance is better than a frozen body. */
 static void try_substeps(SporeWorld *world, SporeIsland *island) {
-  for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM; substeps *= 2) {
+  bool helped = false;
+  for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM && !helped; substeps *= 2) {
     try_again(world, island, substeps);
-    if (island->trouble == SPORE_TROUBLE_NONE) break;
+    helped = stands(world, island, MISS_OF_LOAD);
   }
+  set_pause(world, island, helped);
 }
 
 /* What a step that damps nothing made unsound once, it makes so again: the one that mended it is kept. */
@@ -127,9 +182,8 @@ static void make_safer(SporeWorld *world, SporeIsland *island) {
 
 /* Ends with what the trouble was at its worst, and the body that it was met in first. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
-  if (island->trouble == SPORE_TROUBLE_NOT_CONVERGED &&
-      island->result.residual <= MISS_TO_STAND * world->solver.tolerance)
-    return;
+  bool paused = pauses(world, island);
+  if (stands(world, island, paused ? 1 : MISS_OF_LOAD)) return;
   SporeTrouble worst = island->trouble;
   uint32_t met = island->offender, broken = broken_model(world, island);
   while (island->kept_count > 0) {

@@ -122,6 +122,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->frozen = false;
   body->rest_steps = 0;
   body->told = SPORE_TROUBLE_NONE;
+  body->pause = body->pauses = 0;
   body->noticed = false;
   body->matrix_c = 0;
   body->history_s = 0;
@@ -167,6 +168,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   body->matrix_c = 0;
   body->history_s = 0;
   body->watch.started = false;
+  body->pause = body->pauses = 0;
   if (body->model && body->model->type->forget) body->model->type->forget(body->model);
   spore_body_reset_choice(world, body);
   world->contact_count = world->grip_count = 0; /* they belong to the state before */

@@ -152,7 +152,7 @@ typedef struct SporeMonitor {
   uint64_t not_finite;    /* taken again for that; what cannot be mended is frozen */
   uint64_t too_fast;      /* the same, above maximum_speed */
   uint64_t energy;        /* the same, where an explicit step made energy without bound; implicit from then on */
-  uint64_t not_converged; /* solver ended above its tolerance; taken again where it did by far */
+  uint64_t not_converged; /* solver ended above its tolerance; taken again where it did by far, or gained energy */
   uint64_t deep_contacts; /* contacts deeper than the smaller sphere's radius: said, and let be */
   uint64_t over_budget;   /* steps that took longer than the budget: said, and let be */
   uint64_t held_inputs;   /* device states refused (not finite, or a jump) */

@@ -84,7 +84,8 @@ typedef struct SporeBody {
   SporeTrouble told; /* the worst that the monitor has said of it */
   bool told_deep;    /* that it lies too deep in another */
   SporeEnergyWatch watch;
-  bool noticed; /* what its model had to mend was said */
+  uint32_t pause, pauses; /* steps until smaller ones are tried again that did not help; how many that were last */
+  bool noticed;           /* what its model had to mend was said */
 
   SporeBlockMatrix matrix;    /* M + c D + c2 K of the model alone; empty where that is M */
   double matrix_c, matrix_c2; /* as assembled; 0: not */
