@@ -187,6 +187,25 @@ static void check_loose(const Start *start) {
   }
 }
 
+/* Steps that leave too little of the stiffness of contacts for what may lie in a pile. */
+static void check_piles(SporeCheck *check, const SporeSimulation *simulation) {
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    guint32 index = spore_simulation_body_of(simulation, body);
+    double share = 1;
+    size_t substeps = index == SPORE_NO_BODY ? 0 : spore_world_pile_substeps(simulation->world, index, &share);
+    if (substeps == 0) continue;
+    g_autofree char *remedy =
+        substeps > SPORE_SUBSTEPS_MAXIMUM
+            ? g_strdup(_("take a smaller time_step or integrator implicit_euler"))
+            : g_strdup_printf(_("take %zu substeps, a smaller time_step or integrator implicit_euler"), substeps);
+    spore_check_say(check, SPORE_WARNING, body, remedy,
+                    _("\"%s\" would sink into others in a pile: the step leaves a contact %.2g%% of its stiffness"),
+                    spore_object_name(body), 100 * share);
+  }
+}
+
 /* What only shows when the scene is put together: models that refuse their geometry, pins that hold nothing, a time
  * step too large for the stiffness. */
 static SporeSimulation *check_compiled(SporeCheck *check) {
@@ -203,6 +222,7 @@ void spore_check_motion(SporeCheck *check) {
   SporeSimulation *simulation = check->faults == 0 ? check_compiled(check) : NULL;
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     place_body(&start, spore_object_child(bodies, i), simulation);
+  if (simulation) check_piles(check, simulation);
   spore_simulation_free(simulation);
   g_array_sort(start.balls, by_left_end);
   spore_check_each(check, "bodies", NULL, check_reach);

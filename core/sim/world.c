@@ -118,7 +118,8 @@ void spore_world_step(SporeWorld *world) { spore_world_run_plan(world); }
 
 static void reset_body(SporeWorld *world, SporeBody *body) {
   body->integrator = body->chosen;
-  body->watch.started = body->told_deep = false;
+  body->watch.started = body->told_deep = body->told_soft = false;
+  body->soft_since = body->soft_last = 0;
   body->frozen = false;
   body->rest_steps = 0;
   body->told = SPORE_TROUBLE_NONE;
@@ -150,7 +151,8 @@ void spore_world_reset(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) reset_body(world, &world->bodies[b]);
   SporeMonitor *monitor = &world->monitor;
   monitor->recoveries = monitor->substeps = monitor->not_finite = monitor->too_fast = monitor->energy = 0;
-  monitor->not_converged = monitor->deep_contacts = monitor->over_budget = monitor->held_inputs = 0;
+  monitor->not_converged = monitor->deep_contacts = monitor->soft_contacts = monitor->over_budget =
+      monitor->held_inputs = 0;
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_snapshot_publish(world);

@@ -154,6 +154,7 @@ typedef struct SporeMonitor {
   uint64_t energy;        /* the same, where an explicit step made energy without bound; implicit from then on */
   uint64_t not_converged; /* solver ended above its tolerance; taken again where it did by far, or gained energy */
   uint64_t deep_contacts; /* contacts deeper than the smaller sphere's radius: said, and let be */
+  uint64_t soft_contacts; /* contacts at rest that hold less than half of what they should: said, and let be */
   uint64_t over_budget;   /* steps that took longer than the budget: said, and let be */
   uint64_t held_inputs;   /* device states refused (not finite, or a jump) */
   uint64_t message_count; /* ever */
@@ -162,6 +163,10 @@ typedef struct SporeMonitor {
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);
 /* Time that a step may take, us of the clock; 0: any. A longer one is counted and said, and changes nothing else. */
 void spore_world_set_budget(SporeWorld *world, double budget_us);
+/* Whether an explicit step is too long for the body to lie in a pile of its like: the substeps that it should take, 0
+ * where all is well; more than SPORE_SUBSTEPS_MAXIMUM are too many. share: of its contacts' stiffness that it leaves.
+ */
+size_t spore_world_pile_substeps(const SporeWorld *world, uint32_t body, double *share);
 /* The monitor integrates the body implicitly, which the scene does not. */
 bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body);
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);

@@ -83,6 +83,8 @@ typedef struct SporeBody {
   uint64_t changed;  /* number of the state that its own last differed in from the one before: see snapshot.c */
   SporeTrouble told; /* the worst that the monitor has said of it */
   bool told_deep;    /* that it lies too deep in another */
+  bool told_soft;    /* that its contacts hold too little */
+  uint64_t soft_since, soft_last; /* see soft_contact.c: number of the step, from 1 */
   SporeEnergyWatch watch;
   uint32_t pause, pauses; /* steps until smaller ones are tried again that did not help; how many that were last */
   bool noticed;           /* what its model had to mend was said */
@@ -345,6 +347,8 @@ void spore_world_report(SporeWorld *world, const char *format, ...) __attribute_
 void spore_world_report_islands(SporeWorld *world);
 /* A contact deeper than the smaller of its spheres. */
 void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term);
+/* soft_contact.c: says what contacts at rest do not hold for the length of the step. */
+void spore_world_watch_contacts(SporeWorld *world);
 /* A step that took longer than the budget. */
 void spore_world_report_budget(SporeWorld *world);
 

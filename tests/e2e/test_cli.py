@@ -129,7 +129,7 @@ def run_reports_the_contract():
     assert set(answer["contacts"]) >= {"mean", "max"} and answer["contacts"]["max"] > 0
     assert set(answer["step_us"]) >= {"median", "p99", "max"}
     assert set(answer["energy"]) >= {"start", "end", "max_drift"}
-    assert set(answer["monitor"]) >= {"recoveries", "substeps", "frozen"} and answer["monitor"]["frozen"] == []
+    assert set(answer["monitor"]) >= {"recoveries", "substeps", "soft_contacts", "frozen"} and answer["monitor"]["frozen"] == []
     assert {"name", "median_us", "share"} <= set(answer["stages"][0])
     assert answer["dof"] == 6 and answer["spheres"] == 50
 

@@ -1,6 +1,7 @@
 /* Each trouble that the monitor knows, provoked: what it does about it, counts and says. Forces that are not finite and
  * bodies that are too fast are in tests/kernel/test_sim_world.c. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "tests/stability/rig.h"
@@ -8,7 +9,7 @@
 static const SporeMonitor *quiet(const SporeWorld *world) {
   const SporeMonitor *monitor = spore_world_monitor(world);
   g_assert_cmpuint(monitor->not_finite + monitor->too_fast + monitor->energy + monitor->not_converged, ==, 0);
-  g_assert_cmpuint(monitor->deep_contacts + monitor->over_budget + monitor->recoveries, ==, 0);
+  g_assert_cmpuint(monitor->deep_contacts + monitor->soft_contacts + monitor->over_budget + monitor->recoveries, ==, 0);
   g_assert_cmpuint(monitor->message_count, ==, 0);
   return monitor;
 }
@@ -113,6 +114,73 @@ static void test_deep_contact(void) {
   rig_free(rig);
 }
 
+#define COLUMN_RADIUS 0.05
+#define COLUMN_STIFFNESS 1e5 /* of a sphere: half of it between two */
+
+/* Balls that lie on each other on a floor; mean depth between them over that of springs, at rest. */
+static double column_depth(Rig *rig, unsigned count) {
+  const double side = sqrt(2.4) * COLUMN_RADIUS, mass = 0.5;
+  SporeContactFields law = {.stiffness = COLUMN_STIFFNESS, .damping = 20};
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.sleep_speed = 0;
+  SporeBodyDescription *floor = rig_unmovable(rig, "floor", rig_sphere(rig, 1));
+  floor->pose.position.y = -1;
+  floor->contact = law;
+  for (unsigned i = 0; i < count; i++) {
+    SporeTriangleMesh cube;
+    shape_box(&cube, spore_vec3(0, 0, 0), spore_vec3(side, side, side));
+    SporeModel *model = rig_surface_model(&spore_rigid_body, &cube, "mass", mass, NULL);
+    char *name = g_strdup_printf("ball%u", i);
+    SporeBodyDescription *ball = rig_passive(rig, g_intern_string(name), model, rig_sphere(rig, COLUMN_RADIUS));
+    ball->pose.position.y = (2 * i + 1) * COLUMN_RADIUS;
+    ball->contact = law;
+    g_free(name);
+  }
+  SporeWorld *world = rig_build(rig);
+  rig_run(world, (unsigned)(3 / rig->description.solver.time_step));
+  double total = 0, springs = 0;
+  for (unsigned i = 0; i < count; i++) springs += (count - i) * mass * 9.81 / (0.5 * COLUMN_STIFFNESS);
+  total = (2 * count - 1) * COLUMN_RADIUS - spore_world_q(world, count)[1];
+  return total / springs;
+}
+
+/* A step that leaves contacts too little of their stiffness for what lies on them is told of, once a body, with
+ * substeps that do: then they hold. A ball alone lies as deep as its spring says at any step. */
+static void test_soft_contact(void) {
+  for (int i = 0; i < 4; i++) {
+    Rig *rig = rig_new();
+    rig->description.solver.time_step = 4e-3;
+    rig->description.solver.substeps = 1;
+    rig->description.solver.integrator = i == 3 ? SPORE_INTEGRATOR_IMPLICIT_EULER : SPORE_INTEGRATOR_SYMPLECTIC_EULER;
+    unsigned count = i == 2 ? 1 : 5, substeps = 0;
+    static unsigned asked = 1;
+    if (i == 1) rig->description.solver.substeps = asked;
+    double depth = column_depth(rig, count);
+    const SporeMonitor *monitor = spore_world_monitor(rig->world);
+    g_test_message("%u balls, %u substeps: %.3g times as deep as springs; %s", count,
+                   (unsigned)rig->description.solver.substeps, depth, rig_last_message(rig->world));
+    if (i > 0) {
+      g_assert_cmpfloat(depth, <, i == 1 ? 1 / 0.8 : 1.01);
+      quiet(rig->world);
+      rig_free(rig);
+      continue;
+    }
+    g_assert_cmpfloat(depth, >, 2);
+    g_assert_cmpuint(monitor->soft_contacts, >, 0);
+    g_assert_cmpuint(monitor->message_count, >, 1);
+    g_assert_cmpuint(monitor->message_count, <=, count);
+    for (uint64_t k = 0; k < monitor->message_count; k++) {
+      const char *text = monitor->messages[k].text, *advice = strstr(text, "take ");
+      g_assert_nonnull(strstr(text, "lies too deep"));
+      g_assert_cmpint(sscanf(advice, "take %u substeps", &substeps), ==, 1);
+      asked = MAX(asked, substeps);
+    }
+    spore_world_reset(rig->world);
+    g_assert_cmpuint(spore_world_monitor(rig->world)->soft_contacts, ==, 0);
+    rig_free(rig);
+  }
+}
+
 /* Whoever paces a run may say what a step may take; physics does not know. */
 static void test_budget(void) {
   uint64_t hash[2];
@@ -137,6 +205,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/monitor/no_false_alarm", test_no_false_alarm);
   g_test_add_func("/monitor/not_converged", test_not_converged);
   g_test_add_func("/monitor/deep_contact", test_deep_contact);
+  g_test_add_func("/monitor/soft_contact", test_soft_contact);
   g_test_add_func("/monitor/budget", test_budget);
   return g_test_run();
 }
