@@ -14,6 +14,7 @@
 #define PATIENCE 4            /* steps that must promise it, taken together */
 #define PATIENCE_MAXIMUM 256
 #define TRIAL_STEPS 128      /* a factor is put to the question so often */
+#define CONTACT_STEPS 32     /* and so often among contacts, which come and go */
 #define FACTOR_ITERATIONS 2. /* expected of conjugate gradients with the factor, a Newton iteration */
 #define KEEP 4               /* steps that a linearisation is kept at first, and at most */
 #define KEEP_MAXIMUM 64
@@ -149,7 +150,7 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
       return;
     }
   }
-  if (choice->factorised && choice->steps >= TRIAL_STEPS) {
+  if (choice->factorised && choice->steps >= (alone ? TRIAL_STEPS : CONTACT_STEPS)) {
     change(body, iterations);
     choice->votes = choice->patience - 1; /* one step of the other way tells */
   }
