@@ -48,7 +48,7 @@ static void report_parameter(SporeCli *cli, const SporeParameter *parameter) {
 }
 
 static void report_model(SporeCli *cli, const SporeModelType *type) {
-  static const char *const geometry[] = {"none", "surface", "solid", "tetrahedra"};
+  static const char *const geometry[] = {"none", "surface", "solid", "tetrahedra", "curve"};
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "name", type->name);
   spore_cli_text(cli, "label", _(type->label));

@@ -23,4 +23,11 @@ static gboolean read_tetrahedra(const char *place, const char *file, GBytes *con
   return spore_medit_parse(place, text, size, mesh, error);
 }
 
-const SporeAssetReaders spore_io_readers = {.mesh = read_mesh, .spheres = read_spheres, .tetrahedra = read_tetrahedra};
+static gboolean read_curve(const char *place, const char *file, GBytes *content, SporeCurve *curve, GError **error) {
+  gsize size;
+  const char *text = g_bytes_get_data(content, &size);
+  return spore_curve_parse(place, text, size, curve, error);
+}
+
+const SporeAssetReaders spore_io_readers = {
+    .mesh = read_mesh, .spheres = read_spheres, .tetrahedra = read_tetrahedra, .curve = read_curve};

@@ -34,5 +34,14 @@ static inline SporeVec3 spore_vec3_normalise(SporeVec3 a, SporeVec3 fallback) {
   double length = spore_vec3_length(a);
   return length > 1e-300 ? spore_vec3_scale(1 / length, a) : fallback;
 }
+/* A vector across the unit vector `from`, turned by the least rotation that takes `from` to the unit vector `to`; as it
+ * was where `to` is opposite to `from` and there are many. It keeps its length, and comes out across `to`. */
+static inline SporeVec3 spore_vec3_transport(SporeVec3 across, SporeVec3 from, SporeVec3 to) {
+  SporeVec3 axis = spore_vec3_cross(from, to);
+  double cosine = spore_vec3_dot(from, to);
+  if (cosine < -1 + 1e-12) return across;
+  SporeVec3 turned = spore_vec3_add(spore_vec3_scale(cosine, across), spore_vec3_cross(axis, across));
+  return spore_vec3_add_scaled(turned, spore_vec3_dot(axis, across) / (1 + cosine), axis);
+}
 
 #endif

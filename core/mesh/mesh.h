@@ -1,4 +1,4 @@
-/* Triangle meshes, tetrahedral meshes and sphere sets: flat arrays in metres, owned by the structure. */
+/* Triangle meshes, tetrahedral meshes, sphere sets and curves: flat arrays in metres, owned by the structure. */
 #ifndef SPORE_MESH_MESH_H
 #define SPORE_MESH_MESH_H
 
@@ -26,6 +26,12 @@ typedef struct SporeSphereSet {
   double *spheres; /* count x 4: x y z r */
 } SporeSphereSet;
 
+/* The middle line of something long and thin, from one end to the other, with its radius at each point. */
+typedef struct SporeCurve {
+  size_t count;
+  double *points; /* count x 4: x y z r */
+} SporeCurve;
+
 /* All arrays from spore_allocate; the *_clear functions free them and zero the structure. Counts above
  * SPORE_MESH_MAXIMUM are refused everywhere. */
 #define SPORE_MESH_MAXIMUM 20000000u
@@ -37,12 +43,22 @@ bool spore_tetrahedral_mesh_allocate(SporeTetrahedralMesh *mesh, size_t vertices
 void spore_tetrahedral_mesh_clear(SporeTetrahedralMesh *mesh);
 bool spore_sphere_set_allocate(SporeSphereSet *set, size_t count, SporeError *error);
 void spore_sphere_set_clear(SporeSphereSet *set);
+bool spore_curve_allocate(SporeCurve *curve, size_t count, SporeError *error);
+void spore_curve_clear(SporeCurve *curve);
 
 /* Finite coordinates (|x| <= 1e9 m), indices in range, at least one element; for tetrahedra positive volume above
- * 1e-12 of the cubed longest edge; for spheres r > 0. The message names the first offending element (0-based). */
+ * 1e-12 of the cubed longest edge; for spheres r > 0; for curves r > 0, two points or more and no two neighbours in the
+ * same place. The message names the first offending element (0-based). */
 bool spore_triangle_mesh_validate(const SporeTriangleMesh *mesh, SporeError *error);
 bool spore_tetrahedral_mesh_validate(const SporeTetrahedralMesh *mesh, SporeError *error);
 bool spore_sphere_set_validate(const SporeSphereSet *set, SporeError *error);
+bool spore_curve_validate(const SporeCurve *curve, SporeError *error);
+
+/* Length of the straight pieces, m. */
+double spore_curve_length(const SporeCurve *curve);
+/* The surface of the tube around the curve, `sectors` corners around, closed by a point at each end, outward. Its rings
+ * do not twist against each other. *mesh is overwritten. */
+bool spore_curve_tube(const SporeCurve *curve, size_t sectors, SporeTriangleMesh *mesh, SporeError *error);
 
 /* Merges vertices nearer than `relative` of the bounding box diagonal (1e-6 is usual), drops triangles that
  * collapse, exact duplicates (whichever way they turn) and unused vertices. In place; order of what stays is kept.

@@ -69,6 +69,12 @@ static gboolean check_spheres(SporeCheck *check, SporeObject *asset, GError **er
   return set != NULL;
 }
 
+static gboolean check_curve(SporeCheck *check, SporeObject *asset, GError **error) {
+  const SporeCurve *curve = spore_document_curve(check->document, asset, error);
+  if (curve) check_size(check, asset, diagonal(curve->points, curve->count, 4));
+  return curve != NULL;
+}
+
 static void check_fresh(SporeCheck *check, SporeObject *asset) {
   SporeObject *source = spore_object_reference(asset, "source");
   const char *then = spore_object_text(asset, "source_hash");
@@ -86,6 +92,7 @@ static void check_asset(SporeCheck *check, SporeObject *asset) {
   gboolean used = spore_check_is_used(check, asset, NULL), done;
   if (strcmp(element, "mesh") == 0) done = check_mesh(check, asset, &error);
   else if (strcmp(element, "tetrahedra") == 0) done = check_tetrahedra(check, asset, &error);
+  else if (strcmp(element, "curve") == 0) done = check_curve(check, asset, &error);
   else done = check_spheres(check, asset, &error);
   if (!done) spore_check_say_error(check, used ? SPORE_FAULT : SPORE_WARNING, asset, error);
   if (!used)

@@ -74,32 +74,55 @@ static gboolean is_closed(Compiler *compiler, const SporeObject *mechanical, con
                 spore_object_name(asset), report.boundary_edges, report.nonmanifold_edges);
 }
 
+/* The kind of asset that each kind of geometry asks for, and how messages tell of it. */
+typedef struct GeometryWords {
+  const char *element, *missing, *wrong;
+} GeometryWords;
+
+static const GeometryWords *geometry_words(SporeGeometryKind kind) {
+  static const GeometryWords mesh = {
+      "mesh", N_("%s has no geometry; expected a mesh; name one here"),
+      N_("geometry=\"%s\" is a <%s>; %s needs a mesh; name the one that it was made from")};
+  static const GeometryWords tetrahedra = {
+      "tetrahedra", N_("%s has no geometry; expected tetrahedra; generate them and name them here"),
+      N_("geometry=\"%s\" is a <%s>; %s needs tetrahedra; generate them from the mesh and name those here")};
+  static const GeometryWords curve = {
+      "curve", N_("%s has no geometry; expected a curve; make one and name it here"),
+      N_("geometry=\"%s\" is a <%s>; %s needs a curve; make one along it and name that here")};
+  return kind == SPORE_GEOMETRY_TETRAHEDRA ? &tetrahedra : kind == SPORE_GEOMETRY_CURVE ? &curve : &mesh;
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+static gboolean refuse_geometry(Compiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
+                                const SporeObject *asset) {
+  const GeometryWords *words = geometry_words(type->geometry);
+  if (!asset) return refuse(compiler, mechanical, _(words->missing), type->name);
+  return refuse(compiler, mechanical, _(words->wrong), spore_object_name(asset), spore_object_type(asset)->element,
+                type->name);
+}
+#pragma GCC diagnostic pop
+
 /* What the model is to be built from. Fails with a message when the asset is missing or of the wrong kind. */
 static gboolean find_geometry(Compiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
                               SporeGeometry *geometry) {
   SporeObject *asset;
   if (type->geometry == SPORE_GEOMETRY_NONE) return TRUE;
   if (!resolve(compiler, mechanical, "geometry", &asset)) return FALSE;
-  gboolean volume = type->geometry == SPORE_GEOMETRY_TETRAHEDRA;
-  if (!asset)
-    return refuse(compiler, mechanical,
-                  volume ? _("%s has no geometry; expected tetrahedra; generate them and name them here")
-                         : _("%s has no geometry; expected a mesh; name one here"),
-                  type->name);
-  gboolean is_mesh = strcmp(spore_object_type(asset)->element, "mesh") == 0;
-  if (volume && is_mesh)
-    return refuse(compiler, mechanical,
-                  _("geometry=\"%s\" is a mesh; %s needs tetrahedra; generate them from the mesh and "
-                    "name those here"),
-                  spore_object_name(asset), type->name);
-  if (!volume && !is_mesh)
-    return refuse(compiler, mechanical,
-                  _("geometry=\"%s\" is a set of tetrahedra; %s needs a mesh; name the one that they "
-                    "were made from"),
-                  spore_object_name(asset), type->name);
-  if (volume) geometry->tetrahedra = spore_document_tetrahedra(compiler->document, asset, compiler->error);
-  else geometry->surface = spore_document_mesh(compiler->document, asset, compiler->error);
-  if (!geometry->tetrahedra && !geometry->surface) return FALSE;
+  const char *element = geometry_words(type->geometry)->element;
+  if (!asset || strcmp(spore_object_type(asset)->element, element) != 0)
+    return refuse_geometry(compiler, mechanical, type, asset);
+  switch (type->geometry) {
+  case SPORE_GEOMETRY_TETRAHEDRA:
+    geometry->tetrahedra = spore_document_tetrahedra(compiler->document, asset, compiler->error);
+    return geometry->tetrahedra != NULL;
+  case SPORE_GEOMETRY_CURVE:
+    geometry->curve = spore_document_curve(compiler->document, asset, compiler->error);
+    return geometry->curve != NULL;
+  default:
+    geometry->surface = spore_document_mesh(compiler->document, asset, compiler->error);
+  }
+  if (!geometry->surface) return FALSE;
   return type->geometry != SPORE_GEOMETRY_SOLID || is_closed(compiler, mechanical, asset, geometry->surface);
 }
 

@@ -105,11 +105,12 @@ void spore_document_put_blob(SporeDocument *document, const char *file, GBytes *
 GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GError **error);
 
 /* Assets decoded, cached by content, shared and immutable; NULL with a GError whose place is the asset. `asset` is an
- * object of element mesh, spheres or tetrahedra. Mesh vertices come in metres and SPORE's axes. Valid until the
+ * object of element mesh, spheres, tetrahedra or curve. Mesh vertices come in metres and SPORE's axes. Valid until the
  * document is freed. Installed by core/io (spore_io_install_readers), so that the document needs no importer. */
 const SporeTriangleMesh *spore_document_mesh(SporeDocument *document, SporeObject *asset, GError **error);
 const SporeSphereSet *spore_document_spheres(SporeDocument *document, SporeObject *asset, GError **error);
 const SporeTetrahedralMesh *spore_document_tetrahedra(SporeDocument *document, SporeObject *asset, GError **error);
+const SporeCurve *spore_document_curve(SporeDocument *document, SporeObject *asset, GError **error);
 /* Hash of an asset's decoded content as 16 hex digits: what source_hash holds. g_free. NULL: unreadable. */
 char *spore_document_asset_hash(SporeDocument *document, SporeObject *asset);
 
@@ -119,6 +120,7 @@ typedef struct SporeAssetReaders {
   gboolean (*spheres)(const char *place, const char *file, GBytes *content, SporeSphereSet *set, GError **error);
   gboolean (*tetrahedra)(const char *place, const char *file, GBytes *content, SporeTetrahedralMesh *mesh,
                          GError **error);
+  gboolean (*curve)(const char *place, const char *file, GBytes *content, SporeCurve *curve, GError **error);
 } SporeAssetReaders;
 void spore_document_set_readers(SporeDocument *document, const SporeAssetReaders *readers);
 

@@ -16,6 +16,7 @@ typedef struct Decoded {
   SporeTriangleMesh mesh;
   SporeSphereSet spheres;
   SporeTetrahedralMesh tetrahedra;
+  SporeCurve curve;
   char hash[17];
 } Decoded;
 
@@ -31,6 +32,7 @@ static void free_decoded(gpointer data) {
   spore_triangle_mesh_clear(&decoded->mesh);
   spore_sphere_set_clear(&decoded->spheres);
   spore_tetrahedral_mesh_clear(&decoded->tetrahedra);
+  spore_curve_clear(&decoded->curve);
   g_free(decoded);
 }
 
@@ -176,6 +178,7 @@ static void write_hash(Decoded *decoded) {
   hash = spore_hash(hash, tetrahedra->vertices, tetrahedra->vertex_count * 3 * sizeof(double));
   hash = spore_hash(hash, tetrahedra->tetrahedra, tetrahedra->tetrahedron_count * 4 * sizeof(uint32_t));
   hash = spore_hash(hash, decoded->spheres.spheres, decoded->spheres.count * 4 * sizeof(double));
+  hash = spore_hash(hash, decoded->curve.points, decoded->curve.count * 4 * sizeof(double));
   g_snprintf(decoded->hash, sizeof decoded->hash, "%016" G_GINT64_MODIFIER "x", hash);
 }
 
@@ -199,10 +202,12 @@ static Decoded *decode(SporeDocument *document, const SporeObject *asset, GBytes
     done = readers->spheres(place, file, content, &decoded->spheres, error);
   else if (strcmp(element, "tetrahedra") == 0 && readers->tetrahedra)
     done = readers->tetrahedra(place, file, content, &decoded->tetrahedra, error);
+  else if (strcmp(element, "curve") == 0 && readers->curve)
+    done = readers->curve(place, file, content, &decoded->curve, error);
   else
     done = spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, place,
-                             _("no reader for %s here; expected a mesh, spheres or "
-                               "tetrahedra; name one of these"),
+                             _("no reader for %s here; expected a mesh, spheres, "
+                               "tetrahedra or a curve; name one of these"),
                              element);
   if (done) {
     write_hash(decoded);
@@ -275,6 +280,11 @@ const SporeSphereSet *spore_document_spheres(SporeDocument *document, SporeObjec
 const SporeTetrahedralMesh *spore_document_tetrahedra(SporeDocument *document, SporeObject *asset, GError **error) {
   const Decoded *decoded = find(document, asset, error);
   return decoded ? &decoded->tetrahedra : NULL;
+}
+
+const SporeCurve *spore_document_curve(SporeDocument *document, SporeObject *asset, GError **error) {
+  const Decoded *decoded = find(document, asset, error);
+  return decoded ? &decoded->curve : NULL;
 }
 
 char *spore_document_asset_hash(SporeDocument *document, SporeObject *asset) {

@@ -39,6 +39,10 @@ typedef struct SporeTetrahedraFields {
   int64_t cells;
 } SporeTetrahedraFields;
 
+typedef struct SporeCurveFields {
+  const char *name, *file, *source, *source_hash;
+} SporeCurveFields;
+
 typedef struct SporeBodyFields {
   const char *name;
   int role; /* SporeRole */

@@ -18,16 +18,18 @@
 #include "core/sim/mapping.h"
 
 typedef enum SporeGeometryKind {
-  SPORE_GEOMETRY_NONE,      /* parameters alone */
-  SPORE_GEOMETRY_SURFACE,   /* a triangle mesh, open or closed */
-  SPORE_GEOMETRY_SOLID,     /* a closed triangle mesh */
-  SPORE_GEOMETRY_TETRAHEDRA /* a tetrahedral mesh */
+  SPORE_GEOMETRY_NONE,       /* parameters alone */
+  SPORE_GEOMETRY_SURFACE,    /* a triangle mesh, open or closed */
+  SPORE_GEOMETRY_SOLID,      /* a closed triangle mesh */
+  SPORE_GEOMETRY_TETRAHEDRA, /* a tetrahedral mesh */
+  SPORE_GEOMETRY_CURVE       /* a line with radii */
 } SporeGeometryKind;
 
 /* What a model is built from, in the body's frame, m. Borrowed during create; what the model does not need is NULL. */
 typedef struct SporeGeometry {
   const SporeTriangleMesh *surface;
   const SporeTetrahedralMesh *tetrahedra;
+  const SporeCurve *curve;
 } SporeGeometry;
 
 typedef struct SporeModelType SporeModelType;

@@ -47,6 +47,34 @@ static void test_spheres_layout(void) {
   spore_sphere_set_clear(&set);
 }
 
+static void test_curve(void) {
+  double values[] = {0.1, -1. / 3, 1e-9, 0.05, 1e5, 2, 3.0000000000000004, 1e-300};
+  SporeCurve curve = {2, values}, again = {0};
+  gsize size;
+  GError *error = NULL;
+  g_autofree char *text = spore_curve_format(&curve, &size);
+  g_assert_true(spore_curve_parse("a.curve", text, size, &again, &error));
+  g_assert_no_error(error);
+  g_assert_cmpmem(again.points, again.count * 4 * sizeof(double), values, sizeof values);
+  spore_curve_clear(&again);
+}
+
+static void check_curve_refused(const char *text, const char *words) {
+  SporeCurve curve = {0};
+  GError *error = NULL;
+  g_assert_false(spore_curve_parse("a.curve", text, strlen(text), &curve, &error));
+  g_assert_null(curve.points);
+  check_message(error, words);
+}
+
+static void test_curve_refused(void) {
+  check_curve_refused("", "a.curve:1:1: there is no point");
+  check_curve_refused("1 2 3 0.1\n", "at least two were expected");
+  check_curve_refused("1 2 3 0.1\n4 5 6 0\n", "a.curve:2:7: the radius 0 is not above 0");
+  check_curve_refused("1 2 3 0.1\n1 2 3 0.1\n", "lies where the one before it does");
+  check_curve_refused("1 2 3\n", "fewer than four numbers");
+}
+
 static void test_spheres_refused(void) {
   check_spheres_refused("", "a.spheres:1:1: there is no sphere");
   check_spheres_refused("# nothing\n", "there is no sphere");
@@ -178,6 +206,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/text-formats/spheres", test_spheres);
   g_test_add_func("/text-formats/spheres-layout", test_spheres_layout);
   g_test_add_func("/text-formats/spheres-refused", test_spheres_refused);
+  g_test_add_func("/text-formats/curve", test_curve);
+  g_test_add_func("/text-formats/curve-refused", test_curve_refused);
   g_test_add_func("/text-formats/medit", test_medit);
   g_test_add_func("/text-formats/medit-of-others", test_medit_of_others);
   g_test_add_func("/text-formats/medit-refused", test_medit_refused);

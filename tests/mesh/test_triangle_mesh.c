@@ -251,6 +251,34 @@ static void test_edges(void) {
 }
 
 /* Every allocation that fails gives an error, and nothing leaks (the sanitizer looks). */
+/* A straight tube is a prism; one along a helix, with a corner, is closed and outward too. */
+static void test_tube(void) {
+  double straight[] = {0, 0, 0, 0.1, 0, 0, 1, 0.1, 0, 0, 3, 0.1};
+  SporeCurve curve = {3, straight};
+  SporeTriangleMesh tube;
+  g_assert_true(spore_curve_validate(&curve, NULL));
+  CLOSE(spore_curve_length(&curve), 3, 1e-15);
+  g_assert_true(spore_curve_tube(&curve, 24, &tube, NULL));
+  SporeMeshReport report = report_of(&tube);
+  g_assert_true(report.closed);
+  g_assert_cmpuint(report.components, ==, 1);
+  CLOSE(report.volume, 3 * 12 * 0.1 * 0.1 * sin(2 * M_PI / 24), 1e-14);
+  spore_triangle_mesh_clear(&tube);
+  double helix[4 * 60];
+  for (size_t i = 0; i < 60; i++) {
+    double point[4] = {cos(0.3 * (double)i), i < 30 ? 0.05 * (double)i : 3 - 0.05 * (double)i, sin(0.3 * (double)i),
+                       0.05};
+    memcpy(helix + 4 * i, point, sizeof point);
+  }
+  curve = (SporeCurve){60, helix};
+  g_assert_true(spore_curve_tube(&curve, 8, &tube, NULL));
+  report = report_of(&tube);
+  g_assert_true(report.closed);
+  g_assert_cmpfloat(report.volume, >, 0.8 * M_PI * 0.05 * 0.05 * spore_curve_length(&curve));
+  g_assert_cmpfloat(report.volume, <, M_PI * 0.05 * 0.05 * spore_curve_length(&curve));
+  spore_triangle_mesh_clear(&tube);
+}
+
 static void test_no_memory(void) {
   SporeTriangleMesh mesh;
   SporeMeshReport report;
@@ -293,6 +321,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/mesh/triangle/validate", test_validate);
   g_test_add_func("/mesh/triangle/sphere-set", test_sphere_set);
   g_test_add_func("/mesh/triangle/edges", test_edges);
+  g_test_add_func("/mesh/triangle/tube", test_tube);
   g_test_add_func("/mesh/triangle/no-memory", test_no_memory);
   return g_test_run();
 }

@@ -186,7 +186,7 @@ static const Mistake mistakes[] = {
      SCENE(ASSETS "<bodies>\n" FLOOR
                   "<body name=\"stone\"><mechanical geometry=\"cube\"><corotational_tetrahedra/></mechanical>" BALL
                   "</body>\n</bodies>\n"),
-     {"fault 5:20: geometry=\"cube\" is a mesh; corotational_tetrahedra needs tetrahedra; generate them"}},
+     {"fault 5:20: geometry=\"cube\" is a <mesh>; corotational_tetrahedra needs tetrahedra; generate them"}},
 };
 
 static void test_mistake(gconstpointer data) {

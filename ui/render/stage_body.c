@@ -7,6 +7,8 @@
 #include "core/scene/schema_fields.h"
 
 static const float sphere_colour[3] = {0.03f, 0.24f, 0.36f};
+#define TUBE_SECTORS 16
+
 static const float wire_colour[3] = {0.16f, 0.42f, 0.55f};
 
 static float linear_light(double srgb) {
@@ -76,6 +78,13 @@ static const SporeTetrahedralMesh *tetrahedra_of(SporeStage *stage, const SporeO
   return asset ? spore_document_tetrahedra(stage->document, asset, NULL) : NULL;
 }
 
+/* The tube around the curve that the body is made of. */
+static gboolean make_tube(SporeStage *stage, const SporeObject *object, SporeTriangleMesh *tube) {
+  SporeObject *asset = asset_of(stage, spore_object_child_of(object, "mechanical"), "geometry", "curve");
+  const SporeCurve *curve = asset ? spore_document_curve(stage->document, asset, NULL) : NULL;
+  return curve && spore_curve_tube(curve, TUBE_SECTORS, tube, NULL);
+}
+
 static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
                         const double *vertices, gsize vertex_count) {
   if (map_points(body, simulation, vertices, vertex_count, &body->surface))
@@ -83,7 +92,8 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
                                                       body->triangle_count, &body->style);
 }
 
-/* The visual unit's mesh; without one the mechanical unit's, or the boundary of its tetrahedra. */
+/* The visual unit's mesh; without one the mechanical unit's, the boundary of its tetrahedra, or a tube around its
+ * curve. */
 static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
                           const SporeSimulation *simulation) {
   const SporeObject *visual = spore_object_child_of(object, "visual");
@@ -100,6 +110,14 @@ static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeOb
   if (tetrahedra && spore_tetrahedral_mesh_boundary(tetrahedra, &body->own_triangles, &body->triangle_count)) {
     body->triangles = body->own_triangles;
     add_surface(stage, body, simulation, tetrahedra->vertices, tetrahedra->vertex_count);
+    return;
+  }
+  SporeTriangleMesh tube = {0};
+  if (make_tube(stage, object, &tube)) {
+    body->triangles = body->own_triangles = tube.triangles;
+    body->triangle_count = tube.triangle_count;
+    add_surface(stage, body, simulation, tube.vertices, tube.vertex_count);
+    spore_free(tube.vertices);
   }
 }
 
