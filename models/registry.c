@@ -6,4 +6,5 @@ const SporeModelType *const spore_model_registry[] = {&spore_rigid_body,
                                                       &spore_neo_hookean_tetrahedra,
                                                       &spore_deformable_surface,
                                                       &spore_lennard_jones,
+                                                      &spore_spline_1d,
                                                       NULL};

@@ -5,7 +5,7 @@
 #include "core/sim/model.h"
 
 extern const SporeModelType spore_rigid_body, spore_mass_spring_net, spore_corotational_tetrahedra,
-    spore_neo_hookean_tetrahedra, spore_deformable_surface, spore_lennard_jones;
+    spore_neo_hookean_tetrahedra, spore_deformable_surface, spore_lennard_jones, spore_spline_1d;
 
 /* NULL-terminated. */
 extern const SporeModelType *const spore_model_registry[];

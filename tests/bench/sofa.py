@@ -12,7 +12,8 @@ def case_name(report):
     if report["unsolved"]:
         solved += f", {report['unsolved']:g} NOT SOLVED"
     contacts = f", {report['contacts']:.0f} contacts" if report["contacts"] else ""
-    return f"{report['case']}{contacts}: {solved}"
+    lowest = f", lowest y {report['lowest_ours']:.3f} m, SOFA's {report['lowest_peer']:.3f} m" if "lowest_ours" in report else ""
+    return f"{report['case']}{contacts}: {solved}{lowest}"
 
 
 def bench_sofa(build, work):

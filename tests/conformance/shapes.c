@@ -1,5 +1,6 @@
 #include "tests/conformance/shapes.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -34,6 +35,24 @@ void shape_sheet(SporeTriangleMesh *mesh, unsigned columns, unsigned rows, doubl
       if (alternate && (r + c) % 2) put(t, a, b, d), put(t + 3, b, e, d);
       else put(t, a, b, e), put(t + 3, a, e, d);
     }
+}
+
+void shape_line(SporeCurve *curve, unsigned count, double length, double radius) {
+  g_assert_true(spore_curve_allocate(curve, count, NULL));
+  for (unsigned i = 0; i < count; i++) {
+    double s = length * i / (count - 1);
+    spore_vec3_store(curve->points + 4 * i, spore_vec3(s / 3, 2 * s / 3, 2 * s / 3));
+    curve->points[4 * i + 3] = radius;
+  }
+}
+
+void shape_helix(SporeCurve *curve, unsigned count, double winding, double pitch, double radius) {
+  g_assert_true(spore_curve_allocate(curve, count, NULL));
+  for (unsigned i = 0; i < count; i++) {
+    double turns = 1.5 * i / (count - 1), angle = 2 * G_PI * turns;
+    spore_vec3_store(curve->points + 4 * i, spore_vec3(winding * cos(angle), pitch * turns, winding * sin(angle)));
+    curve->points[4 * i + 3] = radius;
+  }
 }
 
 /* The six paths from corner 0 to corner 7 of a cell, along its axes; every other one turns the other way. */

@@ -17,6 +17,10 @@ void shape_sheet(SporeTriangleMesh *mesh, unsigned columns, unsigned rows, doubl
 void shape_block(SporeTetrahedralMesh *mesh, unsigned nx, unsigned ny, unsigned nz, SporeVec3 size);
 /* Surface of that block, which must have no vertex inside. */
 void shape_block_surface(SporeTriangleMesh *mesh, unsigned nx, unsigned ny, unsigned nz, SporeVec3 size);
+/* Straight line of the given length from the origin, askew: `count` points. */
+void shape_line(SporeCurve *curve, unsigned count, double length, double radius);
+/* Turn and a half of a helix about y. */
+void shape_helix(SporeCurve *curve, unsigned count, double winding, double pitch, double radius);
 /* The same mesh with vertex i renamed order[i] and the elements turned round: last first. */
 void shape_relabel_triangles(SporeTriangleMesh *to, const SporeTriangleMesh *from, const uint32_t *order);
 void shape_relabel_tetrahedra(SporeTetrahedralMesh *to, const SporeTetrahedralMesh *from, const uint32_t *order);

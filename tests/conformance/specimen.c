@@ -19,6 +19,8 @@ static void shape(Specimen *specimen, const char *name) {
   }
   if (!strcmp(name, "needle")) shape_box(&specimen->surface, spore_vec3(0, 0, 0.2), spore_vec3(1e-3, 2e-3, 0.5));
   if (!strcmp(name, "block")) shape_block(&specimen->tetrahedra, 3, 2, 2, spore_vec3(0.06, 0.04, 0.05));
+  if (!strcmp(name, "straight")) shape_line(&specimen->curve, 3, 1, 0.01);
+  if (!strcmp(name, "helix")) shape_helix(&specimen->curve, 60, 0.15, 0.2, 0.01);
   if (!strcmp(name, "one_cell")) shape_block(&specimen->tetrahedra, 1, 1, 1, spore_vec3(0.02, 0.02, 0.02));
 }
 
@@ -30,13 +32,14 @@ static Specimen *specimen_new(const SporeModelType *type, const char *name) {
   specimen->fields = g_malloc0(type->parameters.size);
   spore_parameters_set_initial(&type->parameters, specimen->fields);
   shape(specimen, name);
-  specimen->geometry = (SporeGeometry){&specimen->surface, &specimen->tetrahedra};
+  specimen->geometry = (SporeGeometry){&specimen->surface, &specimen->tetrahedra, &specimen->curve};
   return specimen;
 }
 
 void specimen_free(Specimen *specimen) {
   spore_triangle_mesh_clear(&specimen->surface);
   spore_tetrahedral_mesh_clear(&specimen->tetrahedra);
+  spore_curve_clear(&specimen->curve);
   g_free(specimen->fields);
   g_free(specimen->name);
   g_free(specimen);
@@ -46,6 +49,7 @@ static const char *const *shapes_for(const SporeModelType *type) {
   static const char *const surfaces[] = {"closed", "flat_sheet", "wavy_sheet", NULL};
   static const char *const solids[] = {"box", "needle", NULL};
   static const char *const blocks[] = {"block", "one_cell", NULL};
+  static const char *const lines[] = {"straight", "helix", NULL};
   static const char *const containers[] = {"box", "closed", NULL}; /* particles do not go into a needle */
   static const char *const none[] = {"parameters", NULL};
   if (type == &spore_lennard_jones) return containers;
@@ -56,6 +60,8 @@ static const char *const *shapes_for(const SporeModelType *type) {
     return solids;
   case SPORE_GEOMETRY_TETRAHEDRA:
     return blocks;
+  case SPORE_GEOMETRY_CURVE:
+    return lines;
   default:
     return none;
   }
@@ -87,7 +93,11 @@ Specimen *specimen_relabelled(const Specimen *specimen, const uint32_t *order) {
   other->fields = g_memdup2(specimen->fields, specimen->type->parameters.size);
   if (specimen->surface.vertex_count) shape_relabel_triangles(&other->surface, &specimen->surface, order);
   if (specimen->tetrahedra.vertex_count) shape_relabel_tetrahedra(&other->tetrahedra, &specimen->tetrahedra, order);
-  other->geometry = (SporeGeometry){&other->surface, &other->tetrahedra};
+  if (specimen->curve.count) { /* its points are not the model's nodes */
+    g_assert_true(spore_curve_allocate(&other->curve, specimen->curve.count, NULL));
+    memcpy(other->curve.points, specimen->curve.points, 4 * specimen->curve.count * sizeof(double));
+  }
+  other->geometry = (SporeGeometry){&other->surface, &other->tetrahedra, &other->curve};
   return other;
 }
 

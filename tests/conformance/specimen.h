@@ -14,6 +14,7 @@ typedef struct Specimen {
   char *name; /* "mass_spring_net/box" */
   SporeTriangleMesh surface;
   SporeTetrahedralMesh tetrahedra;
+  SporeCurve curve;
   SporeGeometry geometry;
   void *fields; /* defaults */
   double size;  /* m, typical edge */

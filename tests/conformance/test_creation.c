@@ -60,17 +60,34 @@ static void check_bad_numbers(gconstpointer data) {
 static void check_without_geometry(gconstpointer data) {
   const Specimen *specimen = data;
   SporeError error = SPORE_ERROR_INIT;
-  SporeGeometry nothing = {NULL, NULL};
+  SporeGeometry nothing = {0};
   if (specimen->type->geometry == SPORE_GEOMETRY_NONE) return;
   g_assert_null(specimen->type->create(&nothing, specimen->fields, &error));
   g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
   g_assert_cmpstr(error.message, !=, "");
 }
 
+/* A coordinate that is no number, a radius below 0. */
+static void check_broken_curve(const Specimen *specimen) {
+  for (size_t i = 5; i <= 7; i += 2) {
+    double *number = specimen->curve.points + i, kept = *number;
+    SporeError error = SPORE_ERROR_INIT;
+    *number = i == 5 ? NAN : -kept;
+    g_assert_null(specimen->type->create(&specimen->geometry, specimen->fields, &error));
+    g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
+    g_test_message("%s: %s", error.place, error.message);
+    *number = kept;
+  }
+}
+
 /* Geometry that came past the loader all the same: coordinates that are no numbers, corners that do not exist. */
 static void check_broken_geometry(gconstpointer data) {
   const Specimen *specimen = data;
   if (specimen->type->geometry == SPORE_GEOMETRY_NONE) return;
+  if (specimen->type->geometry == SPORE_GEOMETRY_CURVE) {
+    check_broken_curve(specimen);
+    return;
+  }
   gboolean solid = specimen->type->geometry == SPORE_GEOMETRY_TETRAHEDRA;
   double *x = solid ? specimen->tetrahedra.vertices : specimen->surface.vertices;
   uint32_t *corner = solid ? specimen->tetrahedra.tetrahedra : specimen->surface.triangles;

@@ -7,11 +7,14 @@
 
 /* Points in the body's frame. `kind` 0: vertices; 1: between them and (where the body has depth) around them. */
 static double *points_of(const Specimen *specimen, GRand *random, int kind, size_t *count) {
-  const double *x = specimen->surface.vertex_count ? specimen->surface.vertices : specimen->tetrahedra.vertices;
-  size_t vertices = specimen->surface.vertex_count + specimen->tetrahedra.vertex_count;
+  size_t vertices = specimen->surface.vertex_count + specimen->tetrahedra.vertex_count + specimen->curve.count;
+  double *x = vector_new(3 * vertices);
+  for (size_t i = 0; i < specimen->curve.count; i++) memcpy(x + 3 * i, specimen->curve.points + 4 * i, 3 * sizeof *x);
+  if (specimen->surface.vertex_count) memcpy(x, specimen->surface.vertices, 3 * vertices * sizeof *x);
+  if (specimen->tetrahedra.vertex_count) memcpy(x, specimen->tetrahedra.vertices, 3 * vertices * sizeof *x);
   if (kind == 0) {
     *count = vertices;
-    return g_memdup2(x, 3 * vertices * sizeof(double));
+    return x;
   }
   gboolean flat = strstr(specimen->name, "flat_sheet") != NULL;
   double *points = vector_new(3 * POINTS);
@@ -21,8 +24,10 @@ static double *points_of(const Specimen *specimen, GRand *random, int kind, size
     SporeVec3 p = spore_vec3_add_scaled(a, g_rand_double(random), spore_vec3_sub(b, a));
     SporeVec3 off = shape_random_vector(random, 0.3 * specimen->size);
     if (flat) off.z = 0;
+    if (strstr(specimen->name, "straight")) off = spore_vec3(0, 0, 0);
     spore_vec3_store(points + 3 * i, spore_vec3_add(p, off));
   }
+  g_free(x);
   *count = POINTS;
   return points;
 }

@@ -72,7 +72,8 @@ static void test_curve_refused(void) {
   check_curve_refused("1 2 3 0.1\n", "at least two were expected");
   check_curve_refused("1 2 3 0.1\n4 5 6 0\n", "a.curve:2:7: the radius 0 is not above 0");
   check_curve_refused("1 2 3 0.1\n1 2 3 0.1\n", "lies where the one before it does");
-  check_curve_refused("1 2 3\n", "fewer than four numbers");
+  check_curve_refused("1 2 3\n", "the radius at a point");
+  check_curve_refused("1 2 3\n4 5 6 1\n", "a.curve:2:1: line 1 has fewer than four numbers");
 }
 
 static void test_spheres_refused(void) {

@@ -94,7 +94,7 @@ static const Bad bad[] = {
     {"no-mesh", MODEL("", "rigid_body"), "5:16", "expected a mesh"},
     {"geometry-missing", MODEL(" geometry=\"cub\"", "rigid_body"), "5:16", "did you mean \"cube\"?"},
     {"geometry-far", MODEL(" geometry=\"wholly-other\"", "rigid_body"), "5:16",
-     "names nothing; expected the name of a <mesh|tetrahedra>"},
+     "names nothing; expected the name of a <mesh|tetrahedra|curve>"},
     {"mesh-for-tetrahedra", MODEL(" geometry=\"cube\"", "corotational_tetrahedra"), "5:16",
      "needs tetrahedra; generate them"},
     {"tetrahedra-for-mesh", MODEL(" geometry=\"cells\"", "mass_spring_net"), "5:16", "needs a mesh"},

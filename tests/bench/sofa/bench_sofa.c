@@ -199,6 +199,22 @@ static void compare_truncated(const Case *self, unsigned steps) {
   g_free(sofa.q);
 }
 
+/* Height of the lowest node, m. */
+static double lowest(const End *end) {
+  double y = HUGE_VAL;
+  for (size_t i = 1; i < end->count; i += 3) y = fmin(y, end->q[i]);
+  return y;
+}
+
+static void compare_lowest(const Case *self, unsigned steps) {
+  End exact = solved(self, steps, 1e-9), ours = solved(self, steps, 1e-6);
+  print_number("error_ours", distance(&ours, &exact));
+  print_number("lowest_ours", lowest(&ours));
+  print_number("lowest_peer", self->lowest);
+  g_free(exact.q);
+  g_free(ours.q);
+}
+
 /* Where the spheres are after the steps, each in `parts` of its own: contacts found anew in each. */
 static End spheres_after(const Case *self, unsigned steps, unsigned parts) {
   Case finer = *self;
@@ -242,6 +258,7 @@ static void run(const Case *self) {
   print_number("islands", (double)outcome.island_count);
   if (self->truncated) compare_truncated(self, steps);
   if (self->compared > 0) compare_steps(self);
+  if (self->lowest < 0) compare_lowest(self, steps);
   printf("}\n");
   fflush(stdout);
 }
@@ -264,6 +281,7 @@ int main(int argc, char **argv) {
   }
   run_all(solid_cases, prefix);
   run_all(net_cases, prefix);
+  run_all(rod_cases, prefix);
   run_all(contact_cases, prefix);
   return 0;
 }

@@ -1,6 +1,5 @@
 /* SOFA's cases of the comparison, each a world of ours with the same physics. All: gravity (0, -9.81, 0), implicit
- * Euler solved to a relative residual of 1e-6; piles by explicit substeps too, where those are nearer to the answer.
- * Rods wait for the spline model. */
+ * Euler solved to a relative residual of 1e-6; piles by explicit substeps too, where those are nearer to the answer. */
 #ifndef SPORE_BENCH_SOFA_CASES_H
 #define SPORE_BENCH_SOFA_CASES_H
 
@@ -17,17 +16,19 @@ typedef struct Case {
   bool truncated;         /* one nodal body and nothing to touch: also stepped as SOFA steps it, for its error */
   unsigned substeps;      /* by symplectic Euler in so many; 0: implicit Euler */
   unsigned compared;      /* steps from the start after which it is compared with much shorter ones; 0: not */
-  size_t elements;        /* tetrahedra or springs, each of so many operations: */
+  double lowest;          /* SOFA's lowest y after the steps, m, quoted; 0: not told */
+  size_t elements;        /* tetrahedra, springs or spans, each of so many operations: */
   double force_flops, jacobian_flops;
 } Case;
 
 /* Operations of one element's force and Jacobian, counted by hand in models/corotation_kernels.c (five rounds of the
- * polar iteration) and models/springs.c. */
+ * polar iteration), models/springs.c and models/spline_kernels.c. */
 #define TETRAHEDRON_FLOPS .force_flops = 1000, .jacobian_flops = 2600
 #define SPRING_FLOPS .force_flops = 35, .jacobian_flops = 75
+#define SPAN_FLOPS .force_flops = 260, .jacobian_flops = 900
 
 /* Ended by one without a name. */
-extern const Case solid_cases[], net_cases[], contact_cases[];
+extern const Case solid_cases[], net_cases[], rod_cases[], contact_cases[];
 
 /* Builders that families share. */
 /* A bulgy solid of 180 nodes and 600 tetrahedra, 6 x 5 x 3 m, about the origin: the size and the counts of SOFA's liver

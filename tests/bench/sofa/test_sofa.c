@@ -62,6 +62,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   add(solid_cases);
   add(net_cases);
+  add(rod_cases);
   add(contact_cases);
   g_test_add_func("/sofa/hardware", hardware);
   return g_test_run();

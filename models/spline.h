@@ -1,0 +1,64 @@
+/* Cubic B-splines with clamped, uniform knots: the line that a thread or a tube follows. */
+#ifndef SPORE_MODELS_SPLINE_H
+#define SPORE_MODELS_SPLINE_H
+
+#include "core/linalg/block_matrix.h"
+#include "core/math/simd.h"
+#include "core/mesh/mesh.h"
+#include "core/sim/mapping.h"
+
+#define SPORE_SPLINE_POINTS 2 /* Gauss points a span */
+
+/* The four functions of a span, and what they become by derivation. */
+typedef struct SporeSplineBasis {
+  double value[4], first[4], second[4];
+} SporeSplineBasis;
+
+/* At `parameter` from 0 to span_count; *span: control points span .. span + 3 have the weights. */
+SporeSplineBasis spore_spline_basis(size_t span_count, double parameter, size_t *span);
+
+/* Control points (span_count + 3, three entries each) of the spline nearest to the curve in the mean square: through
+ * its ends, and along a smooth line through its points. False: no memory. */
+bool spore_spline_fit(const SporeCurve *curve, size_t span_count, double *control);
+/* Radius of the curve where the spline has this parameter. */
+double spore_spline_radius(const SporeCurve *curve, size_t span_count, double parameter);
+
+/* One Gauss point of each of SPORE_LANES spans; behind the last span all is 0. With a = dr/dS and b = d2r/dS2 by the
+ * length S at rest, where |a| = 1:
+ *   U = sum young (area / 2 (|a| - 1)^2 + bending inertia / 2 c(|b|^2)),  c(s) = (s - s0)^2 / (s + 3 s0)
+ * s0 is the square of the curvature at rest, and c = s where that is 0: near rest c is (|b| - |b0|)^2, and it is smooth
+ * where a line is straight. Where the line keeps its length, |b| is its curvature. */
+typedef struct SporeSplineGauss {
+  double first[4][SPORE_LANES], second[4][SPORE_LANES]; /* a and b by the span's control points */
+  double area[SPORE_LANES], inertia[SPORE_LANES];       /* times the length for which the point stands: m^3, m^5 */
+  double rest[SPORE_LANES];                             /* s0, 1/m^2 */
+} SporeSplineGauss;
+
+typedef struct SporeSpline {
+  size_t span_count, group_count; /* groups of SPORE_LANES spans */
+  SporeSplineGauss *gauss;        /* group x SPORE_SPLINE_POINTS */
+  uint32_t *upper, *lower;        /* control point i x 4: where blocks (i, i + k) and (i + k, i) lie */
+  double young, bending, viscous; /* Pa; factor on the stiffness against bending; s */
+  double straight;                /* 1/m^2: below this |b|^2 bends in no direction */
+} SporeSpline;
+
+bool spore_spline_allocate(SporeSpline *spline, size_t span_count);
+void spore_spline_clear(SporeSpline *spline);
+bool spore_spline_pattern(const SporeSpline *spline, SporeBlockPattern *pattern);
+/* False: no memory. */
+bool spore_spline_find_blocks(SporeSpline *spline);
+
+/* Rows of points by control points (in the body's frame): a point on the line by its section's four; one off the line
+ * by as few more around it as span its offset. Refused where the line is too straight to carry the offset. */
+bool spore_spline_map(size_t span_count, const double *control, const double *points, size_t count,
+                      SporeMapping *mapping, SporeError *error);
+
+/* Forces, energy and stiffness as SporeModelType says. Viscous: the speeds of |a| and of |b| across the line, each
+ * times viscous and its stiffness; of all of b across the line where that is straight. */
+SPORE_DECLARE_KERNEL(void, spore_spline_force, const SporeSpline *spline, const double *q, const double *shape,
+                     const double *v, double *f);
+SPORE_DECLARE_KERNEL(double, spore_spline_potential, const SporeSpline *spline, const double *q);
+SPORE_DECLARE_KERNEL(void, spore_spline_jacobian, const SporeSpline *spline, const double *q, const double *shape,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+
+#endif

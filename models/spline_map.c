@@ -1,0 +1,152 @@
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "models/spline.h"
+
+#define WIDTH 16            /* control points of a row, at most */
+#define WEIGHTS_AT_MOST 100 /* sum of absolute weights that carry an offset */
+#define ROUNDING 1e-14      /* of the line's size: an offset that is none */
+#define SAMPLES 8           /* a span, to begin the search for the nearest */
+
+typedef struct Spline {
+  size_t span_count;
+  const double *control;
+  double size;
+} Spline;
+
+static SporeVec3 at(const Spline *spline, const double weight[4], size_t span) {
+  SporeVec3 sum = {0, 0, 0};
+  for (size_t k = 0; k < 4; k++)
+    sum = spore_vec3_add_scaled(sum, weight[k], spore_vec3_load(spline->control + 3 * (span + k)));
+  return sum;
+}
+
+/* Parameter of the point of the line that is nearest to p: the best of some, then Newton's method. */
+static double nearest(const Spline *spline, SporeVec3 p) {
+  double best = 0, least = HUGE_VAL;
+  size_t span;
+  for (size_t i = 0; i <= SAMPLES * spline->span_count; i++) {
+    SporeSplineBasis basis = spore_spline_basis(spline->span_count, (double)i / SAMPLES, &span);
+    double distance = spore_vec3_distance(p, at(spline, basis.value, span));
+    if (distance < least) least = distance, best = (double)i / SAMPLES;
+  }
+  for (int round = 0; round < 20; round++) {
+    SporeSplineBasis basis = spore_spline_basis(spline->span_count, best, &span);
+    SporeVec3 off = spore_vec3_sub(at(spline, basis.value, span), p), slope = at(spline, basis.first, span);
+    double square = spore_vec3_dot(slope, slope);
+    double change =
+        -spore_vec3_dot(off, slope) / fmax(square + spore_vec3_dot(off, at(spline, basis.second, span)), 0.5 * square);
+    best = fmin(fmax(best + fmin(fmax(change, -0.5), 0.5), 0), (double)spline->span_count);
+  }
+  return best;
+}
+
+typedef struct Row {
+  uint32_t block[WIDTH];
+  double weight[WIDTH];
+} Row;
+
+/* Adds weights, of sum 0, on `width` control points from `first` that make `offset`: the least by squares. Returns the
+ * sum of their absolute values. */
+static double carry(const Spline *spline, SporeVec3 offset, size_t first, size_t width, double *weight) {
+  const double *control = spline->control + 3 * first;
+  SporeVec3 centre = {0, 0, 0};
+  for (size_t i = 0; i < width; i++)
+    centre = spore_vec3_add_scaled(centre, 1 / (double)width, spore_vec3_load(control + 3 * i));
+  SporeMat3 square = {{0}}, axes;
+  double value[3], sum = 0;
+  for (size_t i = 0; i < width; i++) {
+    SporeVec3 arm = spore_vec3_sub(spore_vec3_load(control + 3 * i), centre);
+    const double x[3] = {arm.x, arm.y, arm.z};
+    for (int r = 0; r < 3; r++)
+      for (int c = 0; c < 3; c++) square.m[3 * r + c] += x[r] * x[c];
+  }
+  spore_mat3_eigen_symmetric(square, value, &axes);
+  double added[WIDTH] = {0}, mean = 0;
+  for (int k = 0; k < 3; k++) {
+    SporeVec3 axis = spore_mat3_column(axes, k);
+    double part = spore_vec3_dot(offset, axis);
+    if (fabs(part) <= ROUNDING * spline->size) continue;
+    for (size_t i = 0; i < width; i++)
+      added[i] += part / value[k] * spore_vec3_dot(axis, spore_vec3_sub(spore_vec3_load(control + 3 * i), centre));
+  }
+  for (size_t i = 0; i < width; i++) mean += added[i] / (double)width; /* rounding */
+  for (size_t i = 0; i < width; i++) {
+    weight[i] += added[i] - mean;
+    sum += fabs(added[i]);
+  }
+  return isfinite(sum) ? sum : HUGE_VAL;
+}
+
+/* From where the row puts the point to p. */
+static SporeVec3 missing(const Spline *spline, const Row *row, size_t used, SporeVec3 p) {
+  for (size_t i = 0; i < used; i++)
+    p = spore_vec3_add_scaled(p, -row->weight[i], spore_vec3_load(spline->control + 3 * (size_t)row->block[i]));
+  return p;
+}
+
+static bool map_point(const Spline *spline, const double *point, size_t index, Row *row, SporeError *error) {
+  SporeVec3 p = spore_vec3_load(point);
+  size_t span, count = spline->span_count + 3;
+  SporeSplineBasis basis = spore_spline_basis(spline->span_count, nearest(spline, p), &span);
+  SporeVec3 offset = spore_vec3_sub(p, at(spline, basis.value, span));
+  double off = spore_vec3_length(offset);
+  for (size_t width = 4; width <= WIDTH; width += 4) {
+    size_t used = width < count ? width : count, before = (used - 4) / 2;
+    size_t first = span < before ? 0 : span - before;
+    if (first + used > count) first = count - used;
+    double extra[WIDTH] = {0};
+    bool on = off <= ROUNDING * spline->size;
+    double sum = on ? 0 : carry(spline, offset, first, used, extra);
+    bool last = width + 4 > WIDTH || used == count;
+    if (sum > (last ? WEIGHTS_AT_MOST : 4)) {
+      if (last) break;
+      continue;
+    }
+    for (size_t i = 0; i < WIDTH; i++) {
+      row->block[i] = (uint32_t)(first + (i < used ? i : 0));
+      row->weight[i] = i < used ? extra[i] : 0;
+    }
+    for (size_t k = 0; k < 4; k++) row->weight[span - first + k] += basis.value[k];
+    if (!on) carry(spline, missing(spline, row, used, p), first, used, row->weight); /* what rounding took */
+    return true;
+  }
+  char place[64];
+  snprintf(place, sizeof place, "point %zu", index);
+  return spore_error_set(
+      error, SPORE_ERROR_INPUT, place,
+      _("the point lies %g m off a line that is too straight there to carry it; points of a straight "
+        "thread must lie on it; move spheres and visual vertices onto the line"),
+      off);
+}
+
+static double size_of(const double *control, size_t count) {
+  double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < 3 * count; i++) {
+    lower[i % 3] = fmin(lower[i % 3], control[i]);
+    upper[i % 3] = fmax(upper[i % 3], control[i]);
+  }
+  return spore_vec3_distance(spore_vec3_load(lower), spore_vec3_load(upper));
+}
+
+bool spore_spline_map(size_t span_count, const double *control, const double *points, size_t count,
+                      SporeMapping *mapping, SporeError *error) {
+  Spline spline = {span_count, control, size_of(control, span_count + 3)};
+  uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
+  double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
+  bool good = blocks && weights;
+  if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
+  for (size_t i = 0; good && i < count; i++) {
+    Row row;
+    good = map_point(&spline, points + 3 * i, i, &row, error);
+    memcpy(blocks + WIDTH * i, row.block, sizeof row.block);
+    memcpy(weights + WIDTH * i, row.weight, sizeof row.weight);
+  }
+  good = good && spore_mapping_init_linear(mapping, count, WIDTH, blocks, weights, error);
+  spore_free(blocks);
+  spore_free(weights);
+  return good;
+}

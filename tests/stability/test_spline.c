@@ -1,0 +1,320 @@
+/* The spline against the theory of thin rods: each figure with more control points, until it is the theory's. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "tests/stability/rig.h"
+
+#define YOUNG 1e7
+#define DENSITY 1000.0
+
+static double inertia(double radius) { return 0.25 * G_PI * pow(radius, 4); }
+
+/* A spline with nothing holding it; the curve is cleared. */
+static SporeModel *spline_new(SporeCurve *curve, int64_t control_points, double bending_scale, bool straight) {
+  const SporeParameterTable *table = &spore_spline_1d.parameters;
+  const struct {
+    const char *name;
+    SporeValue value;
+  } set[] = {{"control_points", {.type = SPORE_INTEGER, .number = {(double)control_points}}},
+             {"young_modulus", {.type = SPORE_REAL, .number = {YOUNG}}},
+             {"density", {.type = SPORE_REAL, .number = {DENSITY}}},
+             {"bending_scale", {.type = SPORE_REAL, .number = {bending_scale}}},
+             {"straight_at_rest", {.type = SPORE_BOOLEAN, .number = {straight}}}};
+  char *fields = g_malloc0(table->size);
+  spore_parameters_set_initial(table, fields);
+  for (size_t i = 0; i < G_N_ELEMENTS(set); i++)
+    spore_parameter_store(table->parameters + spore_parameter_find(table, set[i].name), &set[i].value, fields);
+  SporeModel *model = spore_spline_1d.create(&(SporeGeometry){.curve = curve}, fields, NULL);
+  g_assert_nonnull(model);
+  g_free(fields);
+  spore_curve_clear(curve);
+  return model;
+}
+
+/* Along x. */
+static SporeModel *rod_new(int64_t control_points, double length, double radius) {
+  SporeCurve curve;
+  g_assert_true(spore_curve_allocate(&curve, 2, NULL));
+  const double points[8] = {0, 0, 0, radius, length, 0, 0, radius};
+  memcpy(curve.points, points, sizeof points);
+  return spline_new(&curve, control_points, 1, true);
+}
+
+/* A model with some control points held and a load on the others, N. */
+typedef struct Statics {
+  SporeModel *model;
+  size_t n;
+  gboolean *held;
+  double *load, *q, *still, *matrix; /* matrix: n x n */
+} Statics;
+
+static Statics statics_new(SporeModel *model) {
+  size_t n = 3 * model->block_count;
+  Statics statics = {model,
+                     n,
+                     g_new0(gboolean, model->block_count),
+                     g_new0(double, n),
+                     g_new0(double, n),
+                     g_new0(double, n),
+                     g_new0(double, n *n)};
+  SporePose pose = {{0, 0, 0}, {1, 0, 0, 0}};
+  model->type->place(model, pose, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0), statics.q, statics.still);
+  return statics;
+}
+
+static void statics_free(Statics *statics) {
+  statics->model->type->destroy(statics->model);
+  g_free(statics->held);
+  g_free(statics->load);
+  g_free(statics->q);
+  g_free(statics->still);
+  g_free(statics->matrix);
+}
+
+/* The stiffness, factored as L L^T; held points have a row of their own. */
+static void factor(Statics *statics) {
+  SporeBlockPattern pattern;
+  SporeBlockMatrix blocks;
+  size_t n = statics->n;
+  double *a = statics->matrix;
+  spore_block_pattern_init(&pattern, statics->model->block_count);
+  g_assert_true(statics->model->type->pattern(statics->model, &pattern));
+  g_assert_true(spore_block_matrix_create(&blocks, &pattern));
+  spore_block_pattern_clear(&pattern);
+  statics->model->type->jacobian(statics->model, statics->q, statics->q, statics->still, 1, 0, &blocks);
+  memset(a, 0, n * n * sizeof *a);
+  for (size_t i = 0; i < blocks.block_count; i++)
+    for (uint32_t k = blocks.row_start[i]; k < blocks.row_start[i + 1]; k++)
+      for (size_t e = 0; e < 9 && !statics->held[i] && !statics->held[blocks.column[k]]; e++)
+        a[(3 * i + e / 3) * n + 3 * (size_t)blocks.column[k] + e % 3] = blocks.values[9 * (size_t)k + e];
+  spore_block_matrix_clear(&blocks);
+  for (size_t i = 0; i < n; i++) a[i * n + i] += statics->held[i / 3] ? 1 : 1e-9 * YOUNG * 1e-9;
+  for (size_t j = 0; j < n; j++) {
+    for (size_t k = 0; k < j; k++) a[j * n + j] -= a[j * n + k] * a[j * n + k];
+    g_assert_cmpfloat(a[j * n + j], >, 0);
+    a[j * n + j] = sqrt(a[j * n + j]);
+    for (size_t i = j + 1; i < n; i++) {
+      for (size_t k = 0; k < j; k++) a[i * n + j] -= a[i * n + k] * a[j * n + k];
+      a[i * n + j] /= a[j * n + j];
+    }
+  }
+}
+
+static void solve(const Statics *statics, double *x) {
+  size_t n = statics->n;
+  const double *a = statics->matrix;
+  for (size_t i = 0; i < n; i++) {
+    for (size_t k = 0; k < i; k++) x[i] -= a[i * n + k] * x[k];
+    x[i] /= a[i * n + i];
+  }
+  for (size_t i = n; i-- > 0;) {
+    for (size_t k = i + 1; k < n; k++) x[i] -= a[k * n + i] * x[k];
+    x[i] /= a[i * n + i];
+  }
+}
+
+static double energy(const Statics *statics, const double *q) {
+  double sum = statics->model->type->potential(statics->model, q);
+  for (size_t i = 0; i < statics->n; i++) sum -= statics->load[i] * q[i];
+  return sum;
+}
+
+/* Newton's method with a line search on the energy. Returns the force that is left, relative to the load. */
+static double balance(Statics *statics) {
+  size_t n = statics->n;
+  double *step = g_new(double, n), *next = g_new(double, n), left = 1;
+  for (int round = 0; round < 2000 && left > 1e-9; round++) {
+    double squares = 0, load = 0, before = energy(statics, statics->q), share = 1;
+    memcpy(step, statics->load, n * sizeof *step);
+    statics->model->type->force(statics->model, statics->q, statics->q, statics->still, step);
+    for (size_t i = 0; i < n; i++) {
+      load += statics->load[i] * statics->load[i];
+      if (statics->held[i / 3]) step[i] = 0;
+      squares += step[i] * step[i];
+    }
+    left = sqrt(squares / load);
+    if (left <= 1e-9) break;
+    factor(statics);
+    solve(statics, step);
+    for (int half = 0; half < 40; half++, share *= 0.5) {
+      for (size_t i = 0; i < n; i++) next[i] = statics->q[i] + share * step[i];
+      if (energy(statics, next) <= before + 1e-12 * fabs(before)) break; /* rounding */
+    }
+    memcpy(statics->q, next, n * sizeof *next);
+  }
+  g_free(step);
+  g_free(next);
+  return left;
+}
+
+/* Where the tip of a rod goes that is clamped at the origin, under a load across. */
+static SporeVec3 tip_under(int64_t control_points, double length, double radius, double load) {
+  Statics statics = statics_new(rod_new(control_points, length, radius));
+  statics.held[0] = statics.held[1] = TRUE;
+  statics.load[statics.n - 2] = -load;
+  double left = balance(&statics);
+  g_assert_cmpfloat(left, <, 1e-6);
+  SporeVec3 tip = spore_vec3_load(statics.q + statics.n - 3);
+  statics_free(&statics);
+  return tip;
+}
+
+/* w = P L^3 / 3 E I; a cubic, which a cubic spline has. */
+static void cantilever(void) {
+  double length = 0.5, radius = 0.002, stiffness = YOUNG * inertia(radius);
+  double expected = 1e-3 * length, load = expected * 3 * stiffness / pow(length, 3);
+  for (int64_t points = 4; points <= 32; points *= 2) {
+    double tip = -tip_under(points, length, radius, load).y;
+    g_test_message("%d control points: tip %.9e m of %.9e m: %+.1e", (int)points, tip, expected, tip / expected - 1);
+    g_assert_cmpfloat(fabs(tip / expected - 1), <, 2e-6);
+  }
+}
+
+/* The elastica of unit length and stiffness, clamped level: theta'' = -load cos theta; its tip (x, y). Shooting at the
+ * free end, where theta' = 0, by bisection of theta'(0). */
+static SporeVec3 elastica(double load) {
+  double low = -2 * load, high = 0;
+  SporeVec3 tip = {0, 0, 0};
+  for (int round = 0; round < 60; round++) {
+    enum { STEPS = 2000 };
+    double h = 1.0 / STEPS, state[4] = {0, 0.5 * (low + high), 0, 0}; /* theta, theta', x, y */
+    for (int i = 0; i < STEPS; i++) {
+      double slope[4][4], at[4];
+      for (int stage = 0; stage < 4; stage++) {
+        const double *last = slope[stage > 0 ? stage - 1 : 0];
+        double part = stage == 3 ? h : 0.5 * h;
+        for (int k = 0; k < 4; k++) at[k] = state[k] + (stage > 0 ? part * last[k] : 0);
+        slope[stage][0] = at[1], slope[stage][1] = load * cos(at[0]);
+        slope[stage][2] = cos(at[0]), slope[stage][3] = sin(at[0]);
+      }
+      for (int k = 0; k < 4; k++) state[k] += h / 6 * (slope[0][k] + 2 * slope[1][k] + 2 * slope[2][k] + slope[3][k]);
+    }
+    if (state[1] > 0) high = 0.5 * (low + high);
+    else low = 0.5 * (low + high);
+    tip = spore_vec3(state[2], state[3], 0);
+  }
+  return tip;
+}
+
+static void large_deflection(void) {
+  static const double loads[] = {1, 10};
+  double length = 0.5, radius = 2e-3, stiffness = YOUNG * inertia(radius);
+  for (size_t i = 0; i < G_N_ELEMENTS(loads); i++) {
+    SporeVec3 expected = spore_vec3_scale(length, elastica(loads[i]));
+    double error = 0;
+    for (int64_t points = 8; points <= 32; points *= 2) {
+      SporeVec3 tip = tip_under(points, length, radius, loads[i] * stiffness / (length * length));
+      error = spore_vec3_distance(tip, expected) / length;
+      g_test_message("elastica, P L^2/EI = %g, %d control points: tip (%.5f, %.5f) L of (%.5f, %.5f) L, off by %.1e L",
+                     loads[i], (int)points, tip.x / length, tip.y / length, expected.x / length, expected.y / length,
+                     error);
+    }
+    g_assert_cmpfloat(error, <, 2e-4);
+  }
+}
+
+/* Lowest point of a thread of length L between supports at a distance d: a catenary, y = c cosh(x / c). */
+static double catenary_sag(double length, double distance) {
+  double low = 1e-3 * distance, high = 1e3 * distance; /* of c: 2 c sinh(d / 2c) = L */
+  for (int round = 0; round < 200; round++) {
+    double c = 0.5 * (low + high);
+    if (2 * c * sinh(0.5 * distance / c) > length) low = c;
+    else high = c;
+  }
+  return low * (cosh(0.5 * distance / low) - 1);
+}
+
+/* Half a circle at first, which the thread leaves for its catenary. */
+static void catenary(void) {
+  double radius = 0.25, distance = 2 * radius, expected = catenary_sag(G_PI * radius, distance), error = 0;
+  for (int64_t points = 9; points <= 33; points = 2 * points - 1) {
+    SporeCurve curve;
+    g_assert_true(spore_curve_allocate(&curve, 201, NULL));
+    for (unsigned i = 0; i < 201; i++) {
+      double angle = G_PI * i / 200, row[4] = {-radius * cos(angle), -radius * sin(angle), 0, 1e-3};
+      memcpy(curve.points + 4 * i, row, sizeof row);
+    }
+    Statics statics = statics_new(spline_new(&curve, points, 1e-3, true));
+    size_t last = statics.model->block_count - 1;
+    statics.held[0] = statics.held[last] = TRUE;
+    for (size_t i = 0; i <= last; i++) statics.load[3 * i + 1] = -9.81 * statics.model->block_mass[i];
+    double left = balance(&statics), length = G_PI * radius, down = 0;
+    SporeVec3 middle = {0, 0, 0};
+    SporeMapping mapping; /* the middle of the line at rest */
+    double bottom[3] = {0, -radius, 0};
+    g_assert_true(statics.model->type->map(statics.model, bottom, 1, &mapping, NULL));
+    middle = spore_mapping_position(&mapping, 0, statics.q);
+    spore_mapping_clear(&mapping);
+    down = -middle.y;
+    error = down / expected - 1;
+    g_test_message("catenary of %.4f m, %d control points: sag %.6f m of %.6f m: %+.1e; force left %.0e", length,
+                   (int)points, down, expected, error, left);
+    g_assert_cmpfloat(left, <, 1e-6);
+    statics_free(&statics);
+  }
+  g_assert_cmpfloat(fabs(error), <, 2e-3);
+}
+
+/* Lowest angular frequency of a clamped rod, by inverse iteration: 1.8751^2 sqrt(E I / (rho A)) / L^2. */
+static double lowest_frequency(int64_t control_points, double length, double radius) {
+  Statics statics = statics_new(rod_new(control_points, length, radius));
+  double *x = g_new0(double, statics.n), square = 0;
+  statics.held[0] = statics.held[1] = TRUE;
+  factor(&statics);
+  for (size_t i = 6; i < statics.n; i += 3) x[i + 1] = 1;
+  for (int round = 0; round < 60; round++) {
+    double kinetic = 0, work = 0;
+    for (size_t i = 0; i < statics.n; i++) x[i] *= statics.model->block_mass[i / 3];
+    double *force = g_memdup2(x, statics.n * sizeof *x);
+    solve(&statics, x);
+    for (size_t i = 0; i < statics.n; i++) {
+      kinetic += statics.model->block_mass[i / 3] * x[i] * x[i];
+      work += force[i] * x[i];
+    }
+    square = work / kinetic;
+    for (size_t i = 0; i < statics.n; i++) x[i] /= sqrt(kinetic);
+    g_free(force);
+  }
+  g_free(x);
+  statics_free(&statics);
+  return sqrt(square);
+}
+
+static void first_mode(void) {
+  double length = 0.5, radius = 2e-3, before = 1;
+  double expected = pow(1.875104068711961, 2) * sqrt(YOUNG * inertia(radius) / (DENSITY * G_PI * radius * radius)) /
+                    (length * length);
+  for (int64_t points = 10; points <= 80; points *= 2) {
+    double found = lowest_frequency(points, length, radius), error = fabs(found / expected - 1);
+    g_test_message("%d control points: first mode %.5f rad/s of %.5f rad/s: %+.1e", (int)points, found, expected,
+                   found / expected - 1);
+    g_assert_cmpfloat(error, <, before);
+    before = error / 3; /* second order, nearly */
+  }
+  g_assert_cmpfloat(before, <, 3e-4);
+}
+
+/* A helix keeps its shape at rest, to rounding, where it is not straight at rest. */
+static void curved_at_rest(void) {
+  SporeCurve curve;
+  shape_helix(&curve, 60, 0.15, 0.2, 0.01);
+  Statics statics = statics_new(spline_new(&curve, 30, 1, false));
+  double *f = g_new0(double, statics.n), worst = 0;
+  statics.model->type->force(statics.model, statics.q, statics.q, statics.still, f);
+  for (size_t i = 0; i < statics.n; i++) worst = fmax(worst, fabs(f[i]));
+  g_test_message("a helix at rest: greatest force %.1e N of %.1e N (E A)", worst, YOUNG * G_PI * 1e-4);
+  g_assert_cmpfloat(worst, <, 1e-12 * YOUNG * G_PI * 1e-4);
+  g_free(f);
+  statics_free(&statics);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/spline/cantilever", cantilever);
+  g_test_add_func("/spline/elastica", large_deflection);
+  g_test_add_func("/spline/catenary", catenary);
+  g_test_add_func("/spline/first-mode", first_mode);
+  g_test_add_func("/spline/curved-at-rest", curved_at_rest);
+  return g_test_run();
+}
