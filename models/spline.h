@@ -39,7 +39,7 @@ typedef struct SporeSpline {
   SporeSplineGauss *gauss;        /* group x SPORE_SPLINE_POINTS */
   uint32_t *upper, *lower;        /* control point i x 4: where blocks (i, i + k) and (i + k, i) lie */
   double young, bending, viscous; /* Pa; factor on the stiffness against bending; s */
-  double straight;                /* 1/m^2: below this |b|^2 bends in no direction */
+  double straight;                /* 1/m^2: |b|^2 below which a line hardly drags as it bends */
 } SporeSpline;
 
 bool spore_spline_allocate(SporeSpline *spline, size_t span_count);
@@ -53,8 +53,8 @@ bool spore_spline_find_blocks(SporeSpline *spline);
 bool spore_spline_map(size_t span_count, const double *control, const double *points, size_t count,
                       SporeMapping *mapping, SporeError *error);
 
-/* Forces, energy and stiffness as SporeModelType says. Viscous: the speeds of |a| and of |b| across the line, each
- * times viscous and its stiffness; of all of b across the line where that is straight. */
+/* Forces, energy and stiffness as SporeModelType says. Viscous: the speed of |a| and that of |b| across the line, each
+ * times viscous and its stiffness; the second fades out where the line is straight, and has no direction to bend in. */
 SPORE_DECLARE_KERNEL(void, spore_spline_force, const SporeSpline *spline, const double *q, const double *shape,
                      const double *v, double *f);
 SPORE_DECLARE_KERNEL(double, spore_spline_potential, const SporeSpline *spline, const double *q);

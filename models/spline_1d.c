@@ -117,10 +117,10 @@ static bool set_points(Spline1d *line, const SporeCurve *curve, const SplineFiel
                              _("the curve turns back on itself here, and the spline has no direction; a smooth curve "
                                "was expected; smooth it or set another number of control points"));
     }
-  spline->straight = 1e-12 / (whole * whole);
+  spline->straight = 1e-2 / (whole * whole);
   for (size_t i = 0; i < SPORE_SPLINE_POINTS * spline->group_count; i++)
     for (size_t lane = 0; lane < SPORE_LANES; lane++)
-      if (spline->gauss[i].rest[lane] < spline->straight) spline->gauss[i].rest[lane] = 0;
+      if (spline->gauss[i].rest[lane] < 1e-10 * spline->straight) spline->gauss[i].rest[lane] = 0;
   return true;
 }
 

@@ -51,12 +51,11 @@ SPORE_INLINE SporeVd bending_slope(SporeVd s, SporeVd rest, SporeVd *rise) {
   return spore_vd_select(curved, (s - rest) * (s + 7 * rest) * inverse * inverse, one);
 }
 
-/* What drags at a Gauss point: speeds along the tangent, and of w = b' - turning a' along `across`, or all across the
- * tangent where the line is straight. */
+/* What drags at a Gauss point: speeds along the tangent, and of w = b' - turning a' along `across`, which is b across
+ * the tangent. */
 typedef struct Drag {
   SporeVd3 tangent, across;
   SporeVd turning, stretch, bend;
-  SporeVl straight;
 } Drag;
 
 SPORE_INLINE Drag drag_of(const SporeSpline *spline, const SporeSplineGauss *gauss, size_t lane, const SporeVd3 x[4]) {
@@ -64,22 +63,17 @@ SPORE_INLINE Drag drag_of(const SporeSpline *spline, const SporeSplineGauss *gau
   SporeVd along = spore_vd3_dot(strain.b, strain.tangent);
   Drag drag = {.tangent = strain.tangent, .turning = along * strain.inverse};
   drag.across = spore_vd3_sub(strain.b, spore_vd3_scale(along, strain.tangent));
-  SporeVd square = spore_vd3_dot(drag.across, drag.across);
-  drag.straight = square < spore_vd_all(spline->straight);
-  drag.across =
-      spore_vd3_scale(1 / spore_vd_sqrt(spore_vd_select(drag.straight, spore_vd_all(1), square)), drag.across);
   double scale = spline->young * spline->viscous;
+  SporeVd inverse = 1 / (spore_vd3_dot(drag.across, drag.across) + spline->straight);
   drag.stretch = scale * spore_vd_load(gauss->area + lane);
-  drag.bend = scale * spline->bending * spore_vd_load(gauss->inertia + lane);
+  drag.bend = scale * spline->bending * spore_vd_load(gauss->inertia + lane) * inverse;
   return drag;
 }
 
 /* Generalised forces of a and of b. */
 SPORE_INLINE void add_drag(const Drag *drag, SporeVd3 a_speed, SporeVd3 b_speed, SporeVd3 *of_a, SporeVd3 *of_b) {
   SporeVd3 w = spore_vd3_sub(b_speed, spore_vd3_scale(drag->turning, a_speed));
-  SporeVd3 flat = spore_vd3_sub(w, spore_vd3_scale(spore_vd3_dot(w, drag->tangent), drag->tangent));
-  SporeVd3 bent = spore_vd3_scale(spore_vd3_dot(w, drag->across), drag->across);
-  SporeVd3 moment = spore_vd3_scale(drag->bend, spore_vd3_select(drag->straight, flat, bent));
+  SporeVd3 moment = spore_vd3_scale(drag->bend * spore_vd3_dot(w, drag->across), drag->across);
   SporeVd pull = drag->stretch * spore_vd3_dot(drag->tangent, a_speed);
   *of_b = spore_vd3_add(*of_b, moment);
   *of_a = spore_vd3_add(*of_a, spore_vd3_scale(pull, drag->tangent));
@@ -188,12 +182,10 @@ SPORE_INLINE void add_elastic(const SporeSpline *spline, const SporeSplineGauss 
 }
 
 SPORE_INLINE void add_viscosity(const Drag *drag, double scale, Stiffness *stiffness) {
-  SporeVd zero = {0}, bend = scale * drag->bend;
-  SporeVd3 direction = spore_vd3_select(drag->straight, drag->tangent, drag->across);
+  SporeVd zero = {0};
   Symmetric moment = {0};
   add_symmetric(&stiffness->aa, zero, scale * drag->stretch, drag->tangent);
-  add_symmetric(&moment, spore_vd_select(drag->straight, bend, zero), spore_vd_select(drag->straight, -bend, bend),
-                direction);
+  add_symmetric(&moment, zero, scale * drag->bend, drag->across);
   SPORE_UNROLL for (int e = 0; e < 6; e++) {
     stiffness->bb.m[e] += moment.m[e];
     stiffness->ab.m[e] -= drag->turning * moment.m[e];

@@ -152,11 +152,12 @@ def every_model():
     """A scene for each model: bodies that neither rest on anything nor are tied."""
     soft_ball()
     file("soft/cells.mesh", (SCENES / "laparoscopy" / "ovary_left.mesh").read_bytes())
+    file("soft/line.curve", "0 0 0 0.01\n0.1 0.05 0 0.01\n0.2 0 0.1 0.01\n")
     for model in report("models")["models"]:
-        cells = model["geometry"] == "tetrahedra"
+        asset, shape = {"tetrahedra": ("tetrahedra", "cells.mesh"), "curve": ("curve", "line.curve")}.get(model["geometry"], ("mesh", "ball.off"))
         yield model["name"], file(f"soft/{model['name']}.spore", f"""<spore version="1.0">
   <solver time_step="0.001"/>
-  <assets><{'tetrahedra' if cells else 'mesh'} name="shape" file="{'cells.mesh' if cells else 'ball.off'}"/></assets>
+  <assets><{asset} name="shape" file="{shape}"/></assets>
   <bodies><body name="it"><mechanical geometry="shape"><{model['name']}/></mechanical></body></bodies>
 </spore>
 """)
@@ -182,7 +183,7 @@ def every_model_by_every_integrator():
             answer = json.loads(done.stdout)
             assert answer["monitor"]["frozen"] == [], (model, integrator)
             assert answer["state_hash"] == report("run", chosen, "--steps", 20, "--threads", 2, status=done.returncode)["state_hash"]
-    assert models == 6
+    assert models == 7
 
 
 @check

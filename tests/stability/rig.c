@@ -57,7 +57,7 @@ void *rig_fields(const SporeModelType *type, ...) {
 static SporeModel *create(const SporeModelType *type, SporeTriangleMesh *surface, SporeTetrahedralMesh *tetrahedra,
                           SporeError *error, va_list arguments) {
   void *fields = fields_from(&type->parameters, arguments);
-  SporeGeometry geometry = {surface, tetrahedra};
+  SporeGeometry geometry = {.surface = surface, .tetrahedra = tetrahedra};
   SporeModel *model = type->create(&geometry, fields, error);
   spore_free(fields);
   if (surface) spore_triangle_mesh_clear(surface);
@@ -76,6 +76,18 @@ SporeModel *rig_surface_model(const SporeModelType *type, SporeTriangleMesh *mes
   va_start(arguments, mesh);
   SporeModel *model = create(type, mesh, NULL, &error, arguments);
   va_end(arguments);
+  return must(model, &error);
+}
+
+SporeModel *rig_curve_model(const SporeModelType *type, SporeCurve *curve, ...) {
+  SporeError error = SPORE_ERROR_INIT;
+  va_list arguments;
+  va_start(arguments, curve);
+  void *fields = fields_from(&type->parameters, arguments);
+  va_end(arguments);
+  SporeModel *model = type->create(&(SporeGeometry){.curve = curve}, fields, &error);
+  spore_free(fields);
+  spore_curve_clear(curve);
   return must(model, &error);
 }
 

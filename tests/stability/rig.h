@@ -17,10 +17,11 @@ typedef struct Rig {
 Rig *rig_new(void);
 void rig_free(Rig *rig);
 
-/* A model from default parameters and pairs of name and value (double), ended by NULL. A surface or tetrahedral mesh is
- * cleared. The model that may be refused gives NULL with *error; the others never NULL. */
+/* A model from default parameters and pairs of name and value (double), ended by NULL. A surface, tetrahedral mesh or
+ * curve is cleared. The model that may be refused gives NULL with *error; the others never NULL. */
 SporeModel *rig_surface_model(const SporeModelType *type, SporeTriangleMesh *mesh, ...) G_GNUC_NULL_TERMINATED;
 SporeModel *rig_solid_model(const SporeModelType *type, SporeTetrahedralMesh *mesh, ...) G_GNUC_NULL_TERMINATED;
+SporeModel *rig_curve_model(const SporeModelType *type, SporeCurve *curve, ...) G_GNUC_NULL_TERMINATED;
 /* Corotational. */
 SporeModel *rig_tetrahedra_model(SporeTetrahedralMesh *mesh, ...) G_GNUC_NULL_TERMINATED;
 SporeModel *rig_try_tetrahedra(SporeTetrahedralMesh *mesh, SporeError *error, ...) G_GNUC_NULL_TERMINATED;

@@ -23,6 +23,8 @@ static gboolean is_stiffness(const SporeParameter *parameter) {
 static SporeModel *small_body(const SporeModelType *type, double factor) {
   SporeTriangleMesh surface = {0};
   SporeTetrahedralMesh tetrahedra = {0};
+  double ends[8] = {0, 0, 0, 0.0005, 0.02, 0, 0.02, 0.0005}; /* a thread: its spans are longer than it is thick */
+  SporeCurve curve = {2, ends};
   if (type->geometry == SPORE_GEOMETRY_TETRAHEDRA) shape_block(&tetrahedra, 2, 1, 2, spore_vec3(0.02, 0.01, 0.02));
   else shape_block_surface(&surface, 3, 1, 1, spore_vec3(0.03, 0.02, 0.02));
   char *fields = spore_allocate(1, type->parameters.size);
@@ -34,7 +36,7 @@ static SporeModel *small_body(const SporeModelType *type, double factor) {
     if (!strcmp(parameter->name, "particles")) *(int64_t *)(void *)field = 40;
   }
   SporeError error = SPORE_ERROR_INIT;
-  SporeModel *model = type->create(&(SporeGeometry){&surface, &tetrahedra}, fields, &error);
+  SporeModel *model = type->create(&(SporeGeometry){&surface, &tetrahedra, &curve}, fields, &error);
   if (!model) g_error("%s: %s", type->name, error.message);
   spore_free(fields);
   spore_triangle_mesh_clear(&surface);

@@ -26,6 +26,13 @@ static Rig *fall(const SporeModelType *type, SporeIntegratorKind integrator) {
     shape_block(&block, 4, 2, 2, spore_vec3(0.04, 0.02, 0.02));
     spheres = rig_spheres(rig, block.vertices, block.vertex_count, 0.004);
     model = rig_tetrahedra_model(&block, NULL);
+  } else if (type->geometry == SPORE_GEOMETRY_CURVE) {
+    SporeCurve curve;
+    shape_line(&curve, 13, 0.06, 0.004);
+    double centres[3 * 13];
+    for (size_t i = 0; i < curve.count; i++) memcpy(centres + 3 * i, curve.points + 4 * i, 3 * sizeof *centres);
+    spheres = rig_spheres(rig, centres, curve.count, 0.004);
+    model = rig_curve_model(type, &curve, NULL);
   } else {
     SporeTriangleMesh mesh;
     shape_block_surface(&mesh, 6, 1, 1, spore_vec3(0.06, 0.01, 0.01));
