@@ -43,7 +43,8 @@ static const SporeParameter parameters[] = {
         SplineFields, bending_scale, "", 0, 1e6, 1, SPORE_CHANGE_LIVE,
         N_("Factor on the stiffness against bending: below 1 for what is woven of fibres, 0 for a chain.")),
     SPORE_REAL_FIELD(SplineFields, damping, "s", 0, 1e6, 0.01, SPORE_CHANGE_LIVE,
-                     N_("Time by which stretch and bending lag behind their forces: viscosity over elasticity.")),
+                     N_("Time by which stretch and bending lag behind their forces: viscosity over elasticity. A line "
+                        "bends freely where it is straight.")),
     {.name = "straight_at_rest",
      .type = SPORE_BOOLEAN,
      .unit = "",
