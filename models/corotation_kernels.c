@@ -7,11 +7,13 @@ SPORE_INLINE SporeVd33 elastic_stress(SporeElasticity elasticity, const SporeVd3
   return stress;
 }
 
-void SPORE_LEVEL_NAME(spore_corotation_force)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                              const double *q, const double *shape, const double *v, double *f) {
+void SPORE_LEVEL_NAME(spore_corotation_force)(const SporeTetrahedra *tetrahedra, size_t slab,
+                                              SporeElasticity elasticity, const double *q, const double *shape,
+                                              const double *v, double *f) {
+  SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   SporeChunk chunk;
-  for (size_t first = 0; first < spore_part_count(tetrahedra); first += SPORE_TOGETHER) {
-    spore_chunk_begin(tetrahedra, first, q, &chunk);
+  for (size_t first = parts.first; first < parts.end; first += SPORE_TOGETHER) {
+    spore_chunk_begin(tetrahedra, first, parts.end, q, &chunk);
     for (size_t n = 0; n < chunk.count; n++) {
       SporePart part = spore_part_at(tetrahedra, first + n);
       SporeVd33 gradient = chunk.gradient[n];
@@ -26,10 +28,11 @@ void SPORE_LEVEL_NAME(spore_corotation_force)(const SporeTetrahedra *tetrahedra,
 
 double SPORE_LEVEL_NAME(spore_corotation_potential)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                                                     const double *q) {
+  SporeParts parts = spore_parts_of_all(tetrahedra);
   double lanes[SPORE_LANES] = {0};
   SporeChunk chunk;
-  for (size_t first = 0; first < spore_part_count(tetrahedra); first += SPORE_TOGETHER) {
-    spore_chunk_begin(tetrahedra, first, q, &chunk);
+  for (size_t first = parts.first; first < parts.end; first += SPORE_TOGETHER) {
+    spore_chunk_begin(tetrahedra, first, parts.end, q, &chunk);
     for (size_t n = 0; n < chunk.count; n++) {
       SporePart part = spore_part_at(tetrahedra, first + n);
       SporeVd33 strain = chunk.gradient[n];
@@ -80,13 +83,15 @@ SPORE_INLINE void add_stiffness(const SporePart *part, SporeElasticity elasticit
   }
 }
 
-void SPORE_LEVEL_NAME(spore_corotation_jacobian)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                                 const double *q, const double *shape, double stiffness_scale,
-                                                 double damping_scale, SporeBlockMatrix *matrix) {
+void SPORE_LEVEL_NAME(spore_corotation_jacobian)(const SporeTetrahedra *tetrahedra, size_t slab,
+                                                 SporeElasticity elasticity, const double *q, const double *shape,
+                                                 double stiffness_scale, double damping_scale,
+                                                 SporeBlockMatrix *matrix) {
+  SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   double viscous = damping_scale * elasticity.viscosity;
   SporeChunk chunk;
-  for (size_t first = 0; first < spore_part_count(tetrahedra); first += SPORE_TOGETHER) {
-    spore_chunk_begin(tetrahedra, first, q, &chunk);
+  for (size_t first = parts.first; first < parts.end; first += SPORE_TOGETHER) {
+    spore_chunk_begin(tetrahedra, first, parts.end, q, &chunk);
     for (size_t n = 0; n < chunk.count; n++) {
       SporePart part = spore_part_at(tetrahedra, first + n);
       SporeVd33 gradient = chunk.gradient[n];

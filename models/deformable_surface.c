@@ -321,7 +321,7 @@ static void damping_forces(const Surface *body, const double *q, const double *v
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Surface *body = (const Surface *)model;
-  for (int kind = 0; kind < KINDS; kind++) spore_springs_force(&body->springs[kind], q, shape, v, f);
+  spore_springs_force(body->springs, KINDS, model->pool, q, shape, v, f);
   shape_forces(body, q, f);
   if (body->damping > 0) damping_forces(body, shape, v, f);
 }
@@ -416,8 +416,7 @@ static void damping_jacobian(const Surface *body, const double *q, double scale,
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Surface *body = (const Surface *)model;
-  for (int kind = 0; kind < KINDS; kind++)
-    spore_springs_jacobian(&body->springs[kind], q, shape, stiffness_scale, damping_scale, matrix);
+  spore_springs_jacobian(body->springs, KINDS, model->pool, q, shape, stiffness_scale, damping_scale, matrix);
   if (stiffness_scale != 0) shape_jacobian(body, q, stiffness_scale, matrix);
   if (damping_scale != 0 && body->damping > 0) damping_jacobian(body, shape, damping_scale, matrix);
 }

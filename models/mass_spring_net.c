@@ -155,7 +155,7 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Net *net = (const Net *)model;
-  for (int kind = 0; kind < KINDS; kind++) spore_springs_force(&net->springs[kind], q, shape, v, f);
+  spore_springs_force(net->springs, KINDS, model->pool, q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -168,8 +168,7 @@ static double potential(const SporeModel *model, const double *q) {
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Net *net = (const Net *)model;
-  for (int kind = 0; kind < KINDS; kind++)
-    spore_springs_jacobian(&net->springs[kind], q, shape, stiffness_scale, damping_scale, matrix);
+  spore_springs_jacobian(net->springs, KINDS, model->pool, q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {

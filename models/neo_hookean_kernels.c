@@ -22,10 +22,12 @@ SPORE_INLINE SporeVd33 elastic_stress(Constants by, const SporeVd33 *f) {
   return stress;
 }
 
-void SPORE_LEVEL_NAME(spore_neo_hookean_force)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                               const double *q, const double *shape, const double *v, double *f) {
+void SPORE_LEVEL_NAME(spore_neo_hookean_force)(const SporeTetrahedra *tetrahedra, size_t slab,
+                                               SporeElasticity elasticity, const double *q, const double *shape,
+                                               const double *v, double *f) {
+  SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   Constants by = constants_of(elasticity);
-  for (size_t n = 0; n < spore_part_count(tetrahedra); n++) {
+  for (size_t n = parts.first; n < parts.end; n++) {
     SporePart part = spore_part_at(tetrahedra, n);
     SporeVd33 gradient = spore_part_gradient(&part, q), stress = elastic_stress(by, &gradient);
     if (elasticity.viscosity > 0 && shape != q) gradient = spore_part_gradient(&part, shape);
@@ -36,9 +38,10 @@ void SPORE_LEVEL_NAME(spore_neo_hookean_force)(const SporeTetrahedra *tetrahedra
 
 double SPORE_LEVEL_NAME(spore_neo_hookean_potential)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                                                      const double *q) {
+  SporeParts parts = spore_parts_of_all(tetrahedra);
   Constants by = constants_of(elasticity);
   double lanes[SPORE_LANES] = {0};
-  for (size_t n = 0; n < spore_part_count(tetrahedra); n++) {
+  for (size_t n = parts.first; n < parts.end; n++) {
     SporePart part = spore_part_at(tetrahedra, n);
     SporeVd33 f = spore_part_gradient(&part, q), c = spore_vd33_cofactor(&f);
     SporeVd stretch = spore_vd33_product(&f, &f) - 3, determinant = determinant_of(&f, &c), logarithm;
@@ -124,14 +127,16 @@ SPORE_INLINE void add_stiffness(const SporePart *part, const Stiffness *stiffnes
   }
 }
 
-void SPORE_LEVEL_NAME(spore_neo_hookean_jacobian)(const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                                                  const double *q, const double *shape, double stiffness_scale,
-                                                  double damping_scale, SporeBlockMatrix *matrix) {
+void SPORE_LEVEL_NAME(spore_neo_hookean_jacobian)(const SporeTetrahedra *tetrahedra, size_t slab,
+                                                  SporeElasticity elasticity, const double *q, const double *shape,
+                                                  double stiffness_scale, double damping_scale,
+                                                  SporeBlockMatrix *matrix) {
+  SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   double viscous = damping_scale * elasticity.viscosity;
   Constants by = constants_of(elasticity);
   SporeChunk chunk;
-  for (size_t first = 0; first < spore_part_count(tetrahedra); first += SPORE_TOGETHER) {
-    spore_chunk_begin(tetrahedra, first, q, &chunk);
+  for (size_t first = parts.first; first < parts.end; first += SPORE_TOGETHER) {
+    spore_chunk_begin(tetrahedra, first, parts.end, q, &chunk);
     for (size_t n = 0; n < chunk.count; n++) {
       SporePart part = spore_part_at(tetrahedra, first + n);
       SporeVd33 gradient = chunk.gradient[n];

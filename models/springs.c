@@ -3,7 +3,9 @@
 #include "core/base/memory.h"
 
 void spore_springs_clear(SporeSprings *springs) {
+  spore_free(springs->chunk_start);
   spore_free(springs->node);
+  spore_free(springs->lanes);
   spore_free(springs->slot_start);
   spore_free(springs->neighbour);
   spore_free(springs->is_run);
@@ -17,25 +19,51 @@ void spore_springs_clear(SporeSprings *springs) {
 static uint32_t first_of(uint64_t key) { return (uint32_t)(key >> 32); }
 static uint32_t second_of(uint64_t key) { return (uint32_t)key; }
 
-/* Nodes that have springs, those with most first and otherwise in their order; place[i]: that of node i among them. */
-static bool order_nodes(SporeSprings *springs, const uint32_t *valence, size_t count, uint32_t *place) {
+/* Where the nodes of each chunk that have springs begin among the groups. */
+static bool make_groups(SporeSprings *springs, const uint32_t *valence, size_t count) {
+  springs->chunk_count = (count + SPORE_SPRINGS_CHUNK - 1) / SPORE_SPRINGS_CHUNK;
+  springs->chunk_start = SPORE_NEW_ARRAY(uint32_t, springs->chunk_count + 1);
+  if (!springs->chunk_start) return false;
+  for (size_t i = 0; i < count; i++)
+    if (valence[i] > 0) springs->chunk_start[i / SPORE_SPRINGS_CHUNK + 1]++;
+  for (size_t c = 0; c < springs->chunk_count; c++)
+    springs->chunk_start[c + 1] =
+        springs->chunk_start[c] + (springs->chunk_start[c + 1] + SPORE_LANES - 1) / SPORE_LANES;
+  springs->group_count = springs->chunk_start[springs->chunk_count];
+  springs->node = SPORE_NEW_ARRAY(uint32_t, springs->group_count * SPORE_LANES);
+  springs->lanes = SPORE_NEW_ARRAY(uint8_t, springs->group_count);
+  return springs->node && springs->lanes;
+}
+
+/* Of the nodes first..end-1 those that have springs, the ones with most first and otherwise in their order, from
+ * `start` on; place[i]: that of node i. next: scratch, one number a valence, zero. */
+static void order_nodes(SporeSprings *springs, const uint32_t *valence, size_t first, size_t end, uint32_t start,
+                        uint32_t most, uint32_t *next, uint32_t *place) {
+  for (size_t i = first; i < end; i++)
+    if (valence[i] > 0) next[valence[i] - 1]++;
+  for (size_t v = most; v-- > 0;) next[v] += next[v + 1];
+  for (size_t i = first; i < end; i++) {
+    if (valence[i] == 0) continue;
+    place[i] = start + next[valence[i]]++;
+    springs->node[place[i]] = (uint32_t)i;
+    springs->lanes[place[i] / SPORE_LANES]++;
+  }
+  for (size_t v = 0; v <= most; v++) next[v] = 0;
+}
+
+static bool order_chunks(SporeSprings *springs, const uint32_t *valence, size_t count, uint32_t *place) {
   uint32_t most = 0;
   for (size_t i = 0; i < count; i++)
     if (valence[i] > most) most = valence[i];
-  uint32_t *next = SPORE_NEW_ARRAY(uint32_t, (size_t)most + 1); /* by valence: where the next such node goes */
+  uint32_t *next = SPORE_NEW_ARRAY(uint32_t, (size_t)most + 1);
   if (!next) return false;
-  for (size_t i = 0; i < count; i++)
-    if (valence[i] > 0) next[valence[i] - 1]++, springs->node_count++;
-  for (size_t v = most; v-- > 0;) next[v] += next[v + 1];
-  springs->group_count = (springs->node_count + SPORE_LANES - 1) / SPORE_LANES;
-  springs->node = SPORE_NEW_ARRAY(uint32_t, springs->group_count * SPORE_LANES);
-  for (size_t i = 0; springs->node && i < count; i++) {
-    if (valence[i] == 0) continue;
-    place[i] = next[valence[i]]++;
-    springs->node[place[i]] = (uint32_t)i;
+  for (size_t c = 0; c < springs->chunk_count; c++) {
+    size_t first = c * SPORE_SPRINGS_CHUNK, left = count - first;
+    order_nodes(springs, valence, first, first + (left < SPORE_SPRINGS_CHUNK ? left : SPORE_SPRINGS_CHUNK),
+                springs->chunk_start[c] * SPORE_LANES, most, next, place);
   }
   spore_free(next);
-  return springs->node != NULL;
+  return true;
 }
 
 /* A group has as many slots as its first node has springs; all are empty. */
@@ -99,7 +127,8 @@ bool spore_springs_create(SporeSprings *springs, const uint64_t *keys, size_t co
   uint32_t *valence = SPORE_NEW_ARRAY(uint32_t, node_count), *place = SPORE_NEW_ARRAY(uint32_t, node_count);
   bool made = valence && place && count <= UINT32_MAX / 2;
   for (size_t k = 0; made && k < count; k++) valence[first_of(keys[k])]++, valence[second_of(keys[k])]++;
-  made = made && order_nodes(springs, valence, node_count, place) && make_slots(springs, valence);
+  made = made && make_groups(springs, valence, node_count) && order_chunks(springs, valence, node_count, place) &&
+         make_slots(springs, valence);
   if (made) fill_slots(springs, keys, count, place, valence, node_count);
   if (made) find_runs(springs);
   spore_free(valence);
@@ -125,4 +154,54 @@ void spore_springs_find_blocks(SporeSprings *springs, const SporeBlockMatrix *ma
          i++)
       springs->block[i] = (uint32_t)spore_block_matrix_find(matrix, node[i % SPORE_LANES], springs->neighbour[i]);
   }
+}
+
+/* A force takes roughly 10 ns a slot. */
+static size_t slot_count(const SporeSprings *springs, size_t kinds) {
+  size_t count = 0;
+  for (size_t k = 0; k < kinds; k++)
+    if (springs[k].stiffness > 0) count += springs[k].slot_start[springs[k].group_count];
+  return count;
+}
+
+typedef struct Loop {
+  const SporeSprings *springs;
+  size_t kinds;
+  const double *q, *shape, *v;
+  double *f;
+  double stiffness_scale, damping_scale;
+  SporeBlockMatrix *matrix;
+} Loop;
+
+static void add_forces(void *data, size_t chunk) {
+  const Loop *loop = data;
+  for (size_t k = 0; k < loop->kinds; k++)
+    if (loop->springs[k].stiffness > 0)
+      SPORE_KERNEL(spore_springs_chunk_force)(&loop->springs[k], chunk, loop->q, loop->shape, loop->v, loop->f);
+}
+
+void spore_springs_force(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
+                         const double *shape, const double *v, double *f) {
+  Loop loop = {.springs = springs, .kinds = kinds, .q = q, .shape = shape, .v = v, .f = f};
+  spore_pool_run(spore_pool_for(pool, slot_count(springs, kinds)), springs->chunk_count, add_forces, &loop);
+}
+
+static void add_jacobian(void *data, size_t chunk) {
+  const Loop *loop = data;
+  for (size_t k = 0; k < loop->kinds; k++)
+    if (loop->springs[k].stiffness > 0) SPORE_KERNEL(spore_springs_chunk_jacobian)
+  (&loop->springs[k], chunk, loop->q, loop->shape, loop->stiffness_scale, loop->damping_scale, loop->matrix);
+}
+
+void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
+                            const double *shape, double stiffness_scale, double damping_scale,
+                            SporeBlockMatrix *matrix) {
+  Loop loop = {.springs = springs,
+               .kinds = kinds,
+               .q = q,
+               .shape = shape,
+               .stiffness_scale = stiffness_scale,
+               .damping_scale = damping_scale,
+               .matrix = matrix};
+  spore_pool_run(spore_pool_for(pool, 4 * slot_count(springs, kinds)), springs->chunk_count, add_jacobian, &loop);
 }

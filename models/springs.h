@@ -2,6 +2,7 @@
 #ifndef SPORE_MODELS_SPRINGS_H
 #define SPORE_MODELS_SPRINGS_H
 
+#include "core/base/threads.h"
 #include "core/linalg/block_matrix.h"
 #include "core/math/simd.h"
 
@@ -10,11 +11,17 @@
  *
  * Each node's springs lie together, so that its force is added up in registers and written once: every spring is
  * computed at both of its ends, which costs less than two ends that wait for each other in memory. Nodes with as many
- * springs are put in groups of SPORE_LANES; a slot of a group holds one spring of each of its nodes. */
+ * springs are put in groups of SPORE_LANES; a slot of a group holds one spring of each of its nodes. A group's nodes
+ * are all of one chunk, SPORE_SPRINGS_CHUNK nodes of the model that follow one another: what belongs to a chunk is
+ * written by its groups alone, whatever the kind of springs, so that chunks may be computed on several threads. */
+#define SPORE_SPRINGS_CHUNK 512
+
 typedef struct SporeSprings {
-  size_t node_count;    /* that have springs of this kind */
-  uint32_t *node;       /* group_count x SPORE_LANES, those with most springs first; behind node_count: node 0 */
-  size_t group_count;   /* node_count / SPORE_LANES, rounded up */
+  size_t chunk_count;    /* of the model */
+  uint32_t *chunk_start; /* chunk_count + 1: its first group */
+  size_t group_count;
+  uint32_t *node;       /* group_count x SPORE_LANES, of a chunk those with most springs first; then node 0 */
+  uint8_t *lanes;       /* group: how many of its lanes hold nodes */
   uint32_t *slot_start; /* group_count + 1 */
   uint32_t *neighbour;  /* slot x lane: the node at the other end; the node itself where it has no more springs */
   bool *is_run;         /* slot: its neighbours' numbers follow one another, as in grids */
@@ -37,25 +44,22 @@ bool spore_springs_pattern(const SporeSprings *springs, SporeBlockPattern *patte
 /* Looks up where the springs' blocks lie, once the matrix of all of the model's patterns is known. */
 void spore_springs_find_blocks(SporeSprings *springs, const SporeBlockMatrix *matrix);
 
-SPORE_DECLARE_KERNEL(void, spore_springs_force, const SporeSprings *springs, const double *q, const double *shape,
-                     const double *v, double *f);
+SPORE_DECLARE_KERNEL(void, spore_springs_chunk_force, const SporeSprings *springs, size_t chunk, const double *q,
+                     const double *shape, const double *v, double *f);
 SPORE_DECLARE_KERNEL(double, spore_springs_potential, const SporeSprings *springs, const double *q);
-SPORE_DECLARE_KERNEL(void, spore_springs_jacobian, const SporeSprings *springs, const double *q, const double *shape,
-                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+SPORE_DECLARE_KERNEL(void, spore_springs_chunk_jacobian, const SporeSprings *springs, size_t chunk, const double *q,
+                     const double *shape, double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
 
-/* f += the springs' forces, damped along the lines that they have in `shape`. */
-static inline void spore_springs_force(const SporeSprings *springs, const double *q, const double *shape,
-                                       const double *v, double *f) {
-  if (springs->stiffness > 0) SPORE_KERNEL(spore_springs_force)(springs, q, shape, v, f);
-}
+/* f += the forces of several kinds of springs between the same nodes, damped along the lines that they have in
+ * `shape`. */
+void spore_springs_force(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
+                         const double *shape, const double *v, double *f);
 static inline double spore_springs_potential(const SporeSprings *springs, const double *q) {
   return springs->stiffness > 0 ? SPORE_KERNEL(spore_springs_potential)(springs, q) : 0;
 }
 /* Under compression the stiffness across the spring is negative and left out. */
-static inline void spore_springs_jacobian(const SporeSprings *springs, const double *q, const double *shape,
-                                          double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  if (springs->stiffness > 0)
-    SPORE_KERNEL(spore_springs_jacobian)(springs, q, shape, stiffness_scale, damping_scale, matrix);
-}
+void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
+                            const double *shape, double stiffness_scale, double damping_scale,
+                            SporeBlockMatrix *matrix);
 
 #endif

@@ -42,8 +42,13 @@ SPORE_INLINE SporeVd3 line_of(const SporeSprings *springs, const uint32_t *node,
 
 /* How many of the SPORE_WIDTH lanes from `first` hold nodes. */
 SPORE_INLINE size_t lanes_from(const SporeSprings *springs, size_t first) {
-  size_t left = springs->node_count > first ? springs->node_count - first : 0;
-  return left < SPORE_WIDTH ? left : SPORE_WIDTH;
+  size_t all = springs->lanes[first / SPORE_LANES], before = first % SPORE_LANES;
+  return all < before ? 0 : all - before < SPORE_WIDTH ? all - before : SPORE_WIDTH;
+}
+
+/* Lanes of all groups of the chunks before. */
+SPORE_INLINE size_t lanes_before(const SporeSprings *springs, size_t chunk) {
+  return SPORE_LANES * (size_t)springs->chunk_start[chunk];
 }
 
 SPORE_INLINE void subtract_rows(const SporeSprings *springs, size_t first, SporeVd3 sum, double *f) {
@@ -59,9 +64,9 @@ enum { UNDAMPED, DAMPED_AT_Q, DAMPED_AT_SHAPE };
 
 /* f = -k (1 - L/l) d - c (e . w) / |e|^2 e, with e = d or as it is in shape. Nodes that meet with L = 0 feel nothing.
  */
-SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const double *shape, const double *v,
-                             double *f, int damped) {
-  for (size_t first = 0; first < springs->node_count; first += SPORE_WIDTH) {
+SPORE_INLINE void add_forces(const SporeSprings *springs, size_t chunk, const double *q, const double *shape,
+                             const double *v, double *f, int damped) {
+  for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
     SporeVd3 position = spore_vd3_gather(q, node), velocity, before, sum = {0};
     if (damped) velocity = spore_vd3_gather(v, node);
@@ -89,17 +94,17 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, const double *q, const
   }
 }
 
-void SPORE_LEVEL_NAME(spore_springs_force)(const SporeSprings *springs, const double *q, const double *shape,
-                                           const double *v, double *f) {
-  if (!(springs->damping > 0)) add_forces(springs, q, q, v, f, UNDAMPED);
-  else if (shape == q) add_forces(springs, q, q, v, f, DAMPED_AT_Q);
-  else add_forces(springs, q, shape, v, f, DAMPED_AT_SHAPE);
+void SPORE_LEVEL_NAME(spore_springs_chunk_force)(const SporeSprings *springs, size_t chunk, const double *q,
+                                                 const double *shape, const double *v, double *f) {
+  if (!(springs->damping > 0)) add_forces(springs, chunk, q, q, v, f, UNDAMPED);
+  else if (shape == q) add_forces(springs, chunk, q, q, v, f, DAMPED_AT_Q);
+  else add_forces(springs, chunk, q, shape, v, f, DAMPED_AT_SHAPE);
 }
 
 /* Each spring comes twice, hence a quarter of k (l - L)^2. */
 double SPORE_LEVEL_NAME(spore_springs_potential)(const SporeSprings *springs, const double *q) {
   double lanes[SPORE_LANES] = {0};
-  for (size_t first = 0; first < springs->node_count; first += SPORE_WIDTH) {
+  for (size_t first = 0; first < SPORE_LANES * springs->group_count; first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
     double *lane = lanes + first % SPORE_LANES;
     SporeVd3 position = spore_vd3_gather(q, node);
@@ -139,10 +144,10 @@ SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd square, SporeVd lengt
 }
 
 /* damping: along the lines at q; drag: along those in shape. */
-SPORE_INLINE void add_jacobian(const SporeSprings *springs, const double *q, const double *shape, double stiffness,
-                               double damping, double drag, int damped, SporeBlockMatrix *matrix) {
+SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const double *q, const double *shape,
+                               double stiffness, double damping, double drag, int damped, SporeBlockMatrix *matrix) {
   double rows[3][4 * SPORE_WIDTH];
-  for (size_t first = 0; first < springs->node_count; first += SPORE_WIDTH) {
+  for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
     size_t lanes = lanes_from(springs, first);
     SporeVd3 position = spore_vd3_gather(q, node), before;
@@ -173,9 +178,10 @@ SPORE_INLINE void add_jacobian(const SporeSprings *springs, const double *q, con
   }
 }
 
-void SPORE_LEVEL_NAME(spore_springs_jacobian)(const SporeSprings *springs, const double *q, const double *shape,
-                                              double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+void SPORE_LEVEL_NAME(spore_springs_chunk_jacobian)(const SporeSprings *springs, size_t chunk, const double *q,
+                                                    const double *shape, double stiffness_scale, double damping_scale,
+                                                    SporeBlockMatrix *matrix) {
   double stiffness = stiffness_scale * springs->stiffness, damping = damping_scale * springs->damping;
-  if (shape == q || damping == 0) add_jacobian(springs, q, q, stiffness, damping, 0, DAMPED_AT_Q, matrix);
-  else add_jacobian(springs, q, shape, stiffness, 0, damping, DAMPED_AT_SHAPE, matrix);
+  if (shape == q || damping == 0) add_jacobian(springs, chunk, q, q, stiffness, damping, 0, DAMPED_AT_Q, matrix);
+  else add_jacobian(springs, chunk, q, shape, stiffness, 0, damping, DAMPED_AT_SHAPE, matrix);
 }

@@ -28,10 +28,14 @@ typedef struct SporeTetrahedronBatch {
   double volume[SPORE_LANES];     /* m^3; 0 in lanes without a tetrahedron, which repeat another */
 } SporeTetrahedronBatch;
 
-/* Tetrahedron t lies in batch t % batch_count, lane t / batch_count: neighbours, which push on the same nodes, come one
- * after the other and not together. */
+/* Slabs of the mesh: no two even ones have a node in common, nor two odd ones, so that those may be computed on several
+ * threads, and what is added to a node is added in the same order on any number. Of n batches in a slab, its
+ * tetrahedron t lies in batch t % n, lane t / n: neighbours, which push on the same nodes, come one after the other and
+ * not together. */
 typedef struct SporeTetrahedra {
-  size_t count, batch_count;
+  size_t slab_count, batch_count;
+  uint32_t *slab_start; /* slab_count + 1: its first batch */
+  uint8_t *lanes;       /* batch_count: how many hold a tetrahedron */
   SporeTetrahedronBatch *batches;
   uint32_t (
       *blocks)[SPORE_LANES][16]; /* batch_count: where corner pair (a, b) lies in the model's matrix, at 4 a + b */
@@ -42,24 +46,24 @@ typedef struct SporeElasticity {
   double viscosity;  /* eta, s */
 } SporeElasticity;
 
-/* f += forces, the viscous ones with F as it is in shape. */
-SPORE_DECLARE_KERNEL(void, spore_corotation_force, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                     const double *q, const double *shape, const double *v, double *f);
-SPORE_DECLARE_KERNEL(void, spore_neo_hookean_force, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                     const double *q, const double *shape, const double *v, double *f);
-/* Energy, J. */
+/* f += forces of a slab, the viscous ones with F as it is in shape. */
+SPORE_DECLARE_KERNEL(void, spore_corotation_force, const SporeTetrahedra *tetrahedra, size_t slab,
+                     SporeElasticity elasticity, const double *q, const double *shape, const double *v, double *f);
+SPORE_DECLARE_KERNEL(void, spore_neo_hookean_force, const SporeTetrahedra *tetrahedra, size_t slab,
+                     SporeElasticity elasticity, const double *q, const double *shape, const double *v, double *f);
+/* Energy of all, J. */
 SPORE_DECLARE_KERNEL(double, spore_corotation_potential, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                      const double *q);
 SPORE_DECLARE_KERNEL(double, spore_neo_hookean_potential, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
                      const double *q);
-/* matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv); where shape is q, the viscous force's dependence on it
- * is left out. Modes that would make the stiffness indefinite are clamped (Smith, De Goes and Kim 2019, "Analytic
- * eigensystems for isotropic distortion energies"). */
-SPORE_DECLARE_KERNEL(void, spore_corotation_jacobian, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                     const double *q, const double *shape, double stiffness_scale, double damping_scale,
-                     SporeBlockMatrix *matrix);
-SPORE_DECLARE_KERNEL(void, spore_neo_hookean_jacobian, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                     const double *q, const double *shape, double stiffness_scale, double damping_scale,
-                     SporeBlockMatrix *matrix);
+/* matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv) of a slab; where shape is q, the viscous force's
+ * dependence on it is left out. Modes that would make the stiffness indefinite are clamped (Smith, De Goes and Kim
+ * 2019, "Analytic eigensystems for isotropic distortion energies"). */
+SPORE_DECLARE_KERNEL(void, spore_corotation_jacobian, const SporeTetrahedra *tetrahedra, size_t slab,
+                     SporeElasticity elasticity, const double *q, const double *shape, double stiffness_scale,
+                     double damping_scale, SporeBlockMatrix *matrix);
+SPORE_DECLARE_KERNEL(void, spore_neo_hookean_jacobian, const SporeTetrahedra *tetrahedra, size_t slab,
+                     SporeElasticity elasticity, const double *q, const double *shape, double stiffness_scale,
+                     double damping_scale, SporeBlockMatrix *matrix);
 
 #endif

@@ -97,8 +97,20 @@ typedef struct SporeChunk {
   SporeVl failed[SPORE_TOGETHER];
 } SporeChunk;
 
-SPORE_INLINE size_t spore_part_count(const SporeTetrahedra *tetrahedra) {
-  return tetrahedra->batch_count * (SPORE_LANES / SPORE_WIDTH);
+/* Parts of the batches before. */
+SPORE_INLINE size_t spore_parts_before(size_t batch) { return batch * (SPORE_LANES / SPORE_WIDTH); }
+
+typedef struct SporeParts {
+  size_t first, end;
+} SporeParts;
+
+SPORE_INLINE SporeParts spore_parts_of_slab(const SporeTetrahedra *tetrahedra, size_t slab) {
+  const uint32_t *start = tetrahedra->slab_start + slab;
+  return (SporeParts){spore_parts_before(start[0]), spore_parts_before(start[1])};
+}
+
+SPORE_INLINE SporeParts spore_parts_of_all(const SporeTetrahedra *tetrahedra) {
+  return (SporeParts){0, spore_parts_before(tetrahedra->batch_count)};
 }
 
 SPORE_INLINE SporePart spore_part_at(const SporeTetrahedra *tetrahedra, size_t index) {
@@ -106,9 +118,9 @@ SPORE_INLINE SporePart spore_part_at(const SporeTetrahedra *tetrahedra, size_t i
                        index % (SPORE_LANES / SPORE_WIDTH) * SPORE_WIDTH);
 }
 
-SPORE_INLINE void spore_chunk_begin(const SporeTetrahedra *tetrahedra, size_t first, const double *q,
+SPORE_INLINE void spore_chunk_begin(const SporeTetrahedra *tetrahedra, size_t first, size_t end, const double *q,
                                     SporeChunk *chunk) {
-  size_t left = spore_part_count(tetrahedra) - first;
+  size_t left = end - first;
   chunk->count = left < SPORE_TOGETHER ? left : SPORE_TOGETHER;
   for (size_t n = 0; n < SPORE_TOGETHER; n++) { /* behind the last part: that again */
     SporePart part = spore_part_at(tetrahedra, first + (n < chunk->count ? n : chunk->count - 1));
@@ -178,8 +190,7 @@ SPORE_INLINE void spore_part_add_viscous(const SporePart *part, SporeElasticity 
 
 /* Lanes of the part that hold a tetrahedron. */
 SPORE_INLINE size_t spore_part_lanes(const SporeTetrahedra *tetrahedra, const SporePart *part) {
-  size_t full = tetrahedra->count / tetrahedra->batch_count;
-  size_t lanes = full + (part->index < tetrahedra->count % tetrahedra->batch_count);
+  size_t lanes = tetrahedra->lanes[part->index];
   return lanes < part->lane ? 0 : lanes - part->lane < SPORE_WIDTH ? lanes - part->lane : SPORE_WIDTH;
 }
 

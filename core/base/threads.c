@@ -37,6 +37,7 @@ static void semaphore_wait(Semaphore *semaphore) {
 #define BATCH ((size_t)UINT32_MAX - 1)
 
 struct SporePool {
+  _Atomic bool busy; /* from the first batch of a job to its end */
   _Atomic uint64_t ticket;
   /* Description of the job; valid while the ticket is the one that was read before it. */
   _Atomic(void (*)(void *, size_t)) work;
@@ -144,13 +145,18 @@ static void run_batch(SporePool *pool, size_t base, size_t count, void (*work)(v
   wait_until_done(pool, count);
 }
 
+static bool take(SporePool *pool) {
+  return !atomic_load_explicit(&pool->busy, memory_order_relaxed) && !atomic_exchange(&pool->busy, true);
+}
+
 void spore_pool_run(SporePool *pool, size_t count, void (*work)(void *data, size_t index), void *data) {
-  if (!pool || pool->thread_count == 1 || count < 2) {
+  if (!pool || pool->thread_count == 1 || count < 2 || !take(pool)) {
     for (size_t i = 0; i < count; i++) work(data, i);
     return;
   }
   for (size_t base = 0; base < count; base += BATCH)
     run_batch(pool, base, count - base < BATCH ? count - base : BATCH, work, data);
+  atomic_store(&pool->busy, false);
 }
 
 SporePool *spore_pool_create(int threads) {

@@ -12,7 +12,12 @@ void spore_pool_free(SporePool *pool);
 int spore_pool_threads(const SporePool *pool);
 
 /* Calls work(data, i) for each i in 0..count-1, in any order on any thread, and returns when all are done.
- * Takes no lock and allocates nothing. pool NULL runs in the caller. */
+ * Takes no lock and allocates nothing. pool NULL runs in the caller; so does one that has work already, so that what
+ * runs in a pool may itself call it. */
 void spore_pool_run(SporePool *pool, size_t count, void (*work)(void *data, size_t index), void *data);
+
+/* The pool for what takes `work` units of roughly 10 ns; NULL where that is not worth calling workers, who may have
+ * gone to sleep: below some 30 us. */
+static inline SporePool *spore_pool_for(SporePool *pool, size_t work) { return work >= 3000 ? pool : NULL; }
 
 #endif

@@ -3,8 +3,6 @@
 
 #include "core/sim/world_private.h"
 
-#define POOL_WORK 3000 /* below, a step is not worth the pool: some 30 us */
-
 SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind,
                                      size_t substeps) {
   SporeGroup group = {.world = world, .island = island, .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
@@ -101,9 +99,7 @@ static size_t count_work(const SporeWorld *world) {
 }
 
 void spore_world_integrate(SporeWorld *world) {
-  /* Workers that have gone to sleep take some microseconds to be called. */
-  bool worth_calling = count_work(world) >= POOL_WORK;
-  spore_pool_run(worth_calling ? world->pool : NULL, world->island_count, integrate_island, world);
+  spore_pool_run(spore_pool_for(world->pool, count_work(world)), world->island_count, integrate_island, world);
   SporeStepCounts *counts = &world->counts;
   *counts = (SporeStepCounts){.islands = world->island_count, .sleeping = world->sleeping_count};
   for (size_t i = 0; i < world->island_count; i++) {

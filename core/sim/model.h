@@ -13,6 +13,7 @@
 #define SPORE_SIM_MODEL_H
 
 #include "core/base/parameter.h"
+#include "core/base/threads.h"
 #include "core/linalg/block_matrix.h"
 #include "core/mesh/mesh.h"
 #include "core/sim/mapping.h"
@@ -39,6 +40,7 @@ typedef struct SporeModel {
   const SporeModelType *type;
   size_t q_count, block_count, node_count;
   double *block_mass; /* kg, block_count; above 0 for nodes, 0 for the turning of a frame */
+  SporePool *pool;    /* for long loops of force and jacobian, given by the world; whatever it is, the same bits */
 } SporeModel;
 
 struct SporeModelType {

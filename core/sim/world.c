@@ -108,6 +108,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));
     return give_up(world);
   }
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].model) world->bodies[b].model->pool = pool;
   spore_world_compile_sleep(world);
   spore_world_make_plan(world);
   spore_world_reset(world);

@@ -28,7 +28,7 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Chain *chain = (const Chain *)model;
-  for (size_t i = 0; i < chain->count; i++) spore_springs_force(&chain->springs[i], q, shape, v, f);
+  spore_springs_force(chain->springs, chain->count, model->pool, q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -47,8 +47,7 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Chain *chain = (const Chain *)model;
-  for (size_t i = 0; i < chain->count; i++)
-    spore_springs_jacobian(&chain->springs[i], q, shape, stiffness_scale, damping_scale, matrix);
+  spore_springs_jacobian(chain->springs, chain->count, model->pool, q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {

@@ -86,7 +86,7 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Net *net = (const Net *)model;
-  for (int kind = 0; kind < KINDS; kind++) spore_springs_force(&net->springs[kind], q, shape, v, f);
+  spore_springs_force(net->springs, KINDS, model->pool, q, shape, v, f);
   for (size_t i = 0; i < model->q_count; i++) f[i] -= net->mass_damping * model->block_mass[i / 3] * v[i];
 }
 
@@ -98,8 +98,7 @@ static double potential(const SporeModel *model, const double *q) {
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Net *net = (const Net *)model;
-  for (int kind = 0; kind < KINDS; kind++)
-    spore_springs_jacobian(&net->springs[kind], q, shape, stiffness_scale, damping_scale, matrix);
+  spore_springs_jacobian(net->springs, KINDS, model->pool, q, shape, stiffness_scale, damping_scale, matrix);
   for (size_t i = 0; i < model->block_count; i++)
     for (int k = 0; k < 3; k++)
       matrix->values[9 * net->diagonal[i] + 4 * k] += damping_scale * net->mass_damping * model->block_mass[i];
