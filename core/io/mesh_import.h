@@ -25,7 +25,8 @@ gboolean spore_mesh_decode(const char *place, const char *file, const void *cont
 /* Frame said by the file itself (Slicer writes SPACE=LPS or RAS into headers and comments): index, or -1. */
 int spore_mesh_frame_hint(const void *content, gsize size);
 
-/* Sphere sets and curves: "x y z r" a line, metres, # comments. Tetrahedra: Medit .mesh (ASCII). In memory, messages with line. */
+/* Sphere sets and curves: "x y z r" a line, metres, # comments. Tetrahedra: Medit .mesh (ASCII). In memory, messages
+ * with line. */
 gboolean spore_spheres_parse(const char *place, const char *text, gsize size, SporeSphereSet *set, GError **error);
 char *spore_spheres_format(const SporeSphereSet *set, gsize *size); /* g_free */
 gboolean spore_curve_parse(const char *place, const char *text, gsize size, SporeCurve *curve, GError **error);

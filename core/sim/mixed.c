@@ -134,8 +134,8 @@ static SporeStepResult advance_part(const Mixed *mixed, SporeGroup *group, const
   dynamics.set_mass(dynamics.data, mixed->qa);
   dynamics.set_time(dynamics.data, mixed->h);
   dynamics.set_shape(dynamics.data, mixed->qa);
-  SporeStepResult result =
-      spore_stage_solve(&dynamics, &mixed->world->solver, mixed->h, mixed->qa, mixed->va, NULL, mixed->v, mixed->scratch);
+  SporeStepResult result = spore_stage_solve(&dynamics, &mixed->world->solver, mixed->h, mixed->qa, mixed->va, NULL,
+                                             mixed->v, mixed->scratch);
   dynamics.drift(dynamics.data, mixed->qa, mixed->v, mixed->h, q1, v1);
   for (size_t k = 0; k < island->v_count; k++) mixed->va[k] = (mixed->v[k] - mixed->va[k]) / mixed->h;
   dynamics.mass_multiply(dynamics.data, mixed->va, mixed->given);
