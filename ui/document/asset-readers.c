@@ -50,4 +50,9 @@ static gboolean read_tetrahedra(const char *place, const char *file, GBytes *con
   return spore_io_readers.tetrahedra(place, file, content, mesh, error);
 }
 
-const SporeAssetReaders spore_editor_readers = {read_mesh, read_spheres, read_tetrahedra};
+static gboolean read_curve(const char *place, const char *file, GBytes *content, SporeCurve *curve, GError **error) {
+  return spore_io_readers.curve(place, file, content, curve, error);
+}
+
+const SporeAssetReaders spore_editor_readers = {
+    .mesh = read_mesh, .spheres = read_spheres, .tetrahedra = read_tetrahedra, .curve = read_curve};

@@ -159,13 +159,15 @@ static const char *geometry_for(SporeDocument *document, SporeObject *body, Spor
     SporeObject *mesh = used_asset(document, body, "visual", "mesh", "mesh");
     return mesh ? spore_object_name(mesh) : NULL;
   }
-  if (kind != SPORE_GEOMETRY_TETRAHEDRA || spore_edit_body_tetrahedra(document, body)) return NULL;
-  /* Tetrahedra made earlier of the mesh that the body shows, then set aside for another model. */
+  if (kind == SPORE_GEOMETRY_NONE) return NULL;
+  const char *element = kind == SPORE_GEOMETRY_CURVE ? "curve" : "tetrahedra";
+  if (used_asset(document, body, "mechanical", "geometry", element)) return NULL;
+  /* One made earlier of the mesh that the body shows, then set aside for another model. */
   SporeObject *mesh = used_asset(document, body, "visual", "mesh", "mesh");
   SporeObject *assets = spore_document_section(document, "assets");
   for (guint i = 0; mesh && i < spore_object_child_count(assets); i++) {
     SporeObject *asset = spore_object_child(assets, i);
-    if (g_str_equal(spore_object_type(asset)->element, "tetrahedra") &&
+    if (g_str_equal(spore_object_type(asset)->element, element) &&
         g_strcmp0(spore_object_text(asset, "source"), spore_object_name(mesh)) == 0)
       return spore_object_name(asset);
   }
