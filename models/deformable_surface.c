@@ -99,21 +99,6 @@ static bool check_surface(const SporeTriangleMesh *mesh, SporeMeshReport *report
                          report->volume);
 }
 
-static double share_area(Surface *body) {
-  const SporeTriangleMesh *mesh = &body->mesh;
-  double total = 0;
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t *n = mesh->triangles + 3 * t;
-    SporeVec3 a = spore_vec3_load(mesh->vertices + 3 * (size_t)n[0]);
-    SporeVec3 b = spore_vec3_sub(spore_vec3_load(mesh->vertices + 3 * (size_t)n[1]), a);
-    SporeVec3 c = spore_vec3_sub(spore_vec3_load(mesh->vertices + 3 * (size_t)n[2]), a);
-    double area = 0.5 * spore_vec3_length(spore_vec3_cross(b, c));
-    for (int k = 0; k < 3; k++) body->area[n[k]] += area / 3;
-    total += area;
-  }
-  return total;
-}
-
 /* The core's mass is spread as the surface's is: same centre, same shape of inertia. */
 static bool set_core(Surface *body, double surface_mass, SporeError *error) {
   SporeVec3 first = {0, 0, 0};
@@ -139,7 +124,8 @@ static bool set_core(Surface *body, double surface_mass, SporeError *error) {
 }
 
 static bool set_masses(Surface *body, const SurfaceFields *fields, double volume, SporeError *error) {
-  double total = fields->mass > 0 ? fields->mass : fields->density * fabs(volume), area = share_area(body);
+  double total = fields->mass > 0 ? fields->mass : fields->density * fabs(volume),
+         area = spore_triangle_mesh_share_area(&body->mesh, body->area);
   body->core_mass = fields->core_share * total;
   double surface_mass = total - body->core_mass;
   for (size_t i = 0; i < body->count; i++) body->base.block_mass[i] = surface_mass * body->area[i] / area;

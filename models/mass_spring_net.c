@@ -54,17 +54,7 @@ static void destroy(SporeModel *model) {
 
 /* A third of each triangle's mass goes to each of its corners. */
 static bool set_masses(Net *net, const NetFields *fields, SporeError *error) {
-  const SporeTriangleMesh *mesh = &net->mesh;
-  double total = 0, *share = net->base.block_mass;
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t *n = mesh->triangles + 3 * t;
-    SporeVec3 a = spore_vec3_load(net->rest + 3 * (size_t)n[0]);
-    SporeVec3 b = spore_vec3_sub(spore_vec3_load(net->rest + 3 * (size_t)n[1]), a);
-    SporeVec3 c = spore_vec3_sub(spore_vec3_load(net->rest + 3 * (size_t)n[2]), a);
-    double area = 0.5 * spore_vec3_length(spore_vec3_cross(b, c));
-    for (int k = 0; k < 3; k++) share[n[k]] += area / 3;
-    total += area;
-  }
+  double *share = net->base.block_mass, total = spore_triangle_mesh_share_area(&net->mesh, share);
   if (!(total > 0) || !isfinite(total))
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("the surface has an area of %g m^2; a net needs a positive one to have mass; check unit "

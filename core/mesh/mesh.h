@@ -82,6 +82,9 @@ bool spore_triangle_mesh_orient(SporeTriangleMesh *mesh, SporeError *error);
 void spore_triangle_mesh_normals(const double *vertices, size_t vertex_count, const uint32_t *triangles,
                                  size_t triangle_count, double *normals);
 
+/* areas[i] += a third of the triangles around vertex i, m^2; returns the area of all. */
+double spore_triangle_mesh_share_area(const SporeTriangleMesh *mesh, double *areas);
+
 /* Unique undirected edges, pairs (smaller, larger), sorted. *edges from spore_allocate. */
 bool spore_edges_of_triangles(const uint32_t *triangles, size_t count, uint32_t **edges, size_t *edge_count);
 bool spore_edges_of_tetrahedra(const uint32_t *tetrahedra, size_t count, uint32_t **edges, size_t *edge_count);

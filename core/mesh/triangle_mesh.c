@@ -51,3 +51,16 @@ void spore_triangle_mesh_normals(const double *vertices, size_t vertex_count, co
   for (size_t i = 0; i < vertex_count; i++)
     spore_vec3_store(normals + 3 * i, spore_vec3_normalise(spore_vec3_load(normals + 3 * i), spore_vec3(0, 0, 1)));
 }
+
+double spore_triangle_mesh_share_area(const SporeTriangleMesh *mesh, double *areas) {
+  double total = 0;
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t *n = mesh->triangles + 3 * t;
+    double area = spore_vec3_length(spore_mesh_area_vector(spore_mesh_vertex(mesh->vertices, n[0]),
+                                                           spore_mesh_vertex(mesh->vertices, n[1]),
+                                                           spore_mesh_vertex(mesh->vertices, n[2])));
+    for (int k = 0; k < 3; k++) areas[n[k]] += area / 3;
+    total += area;
+  }
+  return total;
+}
