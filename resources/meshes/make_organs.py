@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Makes the organs of the laparoscopy scene: closed OFF surfaces in metres, and the pelvic wall as an open one.
+"""Makes the organs and instruments of the shipped scenes: closed OFF surfaces in metres, and the pelvic wall as an open one.
 
 Each organ is a signed distance field (smooth unions of ellipsoids and tapered capsules), meshed by surface nets, then
 relaxed along the surface so that triangles are even. All stand in one frame, that of the scene: x to the right, y up,
 z toward the viewer, who looks at the back of the womb from above, as through a laparoscope. Sizes are those of an
 adult. Nothing is random from run to run. Needs numpy; neither build nor tests run it.
 
-    make_organs.py FOLDER
+    make_organs.py ORGANS INSTRUMENTS
 """
 import os
 import sys
@@ -338,16 +338,28 @@ def joined(parts):
 
 
 def probe():
-    """Blunt rod of 5 mm with a ring each centimetre near its tip. The tip is the origin; the shaft runs along +z."""
-    radius, length, sectors = 0.0025, 0.26, 20
+    """Blunt rod of 5 mm with a ring each centimetre near its tip."""
+    radius, length = 0.0025, 0.26
     profile = [(radius * np.sin(a), radius * (1 - np.cos(a))) for a in np.linspace(0, np.pi / 2, 7)[1:]]
     for ring in np.arange(0.01, 0.085, 0.01):
         profile += [(radius, ring - 0.0005), (radius - 0.0003, ring - 0.0003), (radius - 0.0003, ring + 0.0003),
                     (radius, ring + 0.0005)]
-    profile += [(radius, z) for z in np.linspace(0.09, length - 0.0006, 15)] + [(radius - 0.0006, length)]
+    return turned(profile + [(radius, z) for z in np.linspace(0.09, length - 0.0006, 15)] + [(radius - 0.0006, length)])
+
+
+def endoscope():
+    """Tube of 10 mm: a pane of glass, set back in a bevelled rim, and a smooth shaft."""
+    radius, length = 0.005, 0.30
+    profile = [(0.0032, 0.0006), (0.0034, 0.0), (0.0046, 0.0), (radius, 0.0004)]
+    return turned(profile + [(radius, z) for z in np.linspace(0.01, length - 0.0006, 24)] + [(radius - 0.0006, length)])
+
+
+def turned(profile, sectors=20):
+    """What a profile of (radius, z) sweeps about z, closed at both ends. The tip is the origin; the shaft runs along +z."""
+    length, front = profile[-1][1], profile[0][1] if profile[1][1] < profile[0][1] else 0
     turn = np.arange(sectors) * 2 * np.pi / sectors
     rings = [np.stack([r * np.cos(turn), r * np.sin(turn), 0 * turn + z], 1) for r, z in profile]
-    vertices = np.concatenate([[[0, 0, 0]]] + rings + [[[0, 0, length]]])
+    vertices = np.concatenate([[[0, 0, front]]] + rings + [[[0, 0, length]]])
     last, triangles = len(vertices) - 1, []
     for s in range(sectors):
         n = (s + 1) % sectors
@@ -363,6 +375,7 @@ def probe():
 
 def write_off(folder, name, mesh):
     vertices, triangles = mesh
+    os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, name + ".off")
     with open(path, "w") as out:
         out.write(f"OFF\n{len(vertices)} {len(triangles)} 0\n")
@@ -375,18 +388,20 @@ def write_off(folder, name, mesh):
 
 
 def main():
-    folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
+    folder, instruments = sys.argv[1:]
     write_off(folder, "uterus", organ(uterus, [-0.062, -0.055, -0.055], [0.062, 0.060, 0.035], 0.0027))
     for side, name in ((-1, "left"), (1, "right")):
         box = OVARY[side]
         write_off(folder, "ovary_" + name,
                   organ(lambda p: ovary(p, side), box - 0.024, box + 0.024, 0.0014))
+        write_off(folder, "ovary_" + name + "_coarse",
+                  organ(lambda p: ovary(p, side), box - 0.024, box + 0.024, 0.0033))
         path = tube_path(side)
         write_off(folder, "tube_" + name,
                   organ(lambda p: tube(p, side), path.min(0) - 0.016, path.max(0) + 0.016, 0.0014, 8))
     write_off(folder, "peritoneum", joined([sheet(64, 90, wall), broad_ligament(-1), broad_ligament(1)]))
-    write_off(folder, "probe", probe())
+    write_off(instruments, "probe", probe())
+    write_off(instruments, "endoscope", endoscope())
 
 
 if __name__ == "__main__":

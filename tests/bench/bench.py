@@ -18,8 +18,9 @@ import kernels
 import peers
 import solvers
 import table
+import table1
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **solvers.BENCHES, **peers.BENCHES, **fluid.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **solvers.BENCHES, **peers.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():

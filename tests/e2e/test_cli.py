@@ -151,7 +151,7 @@ def run_says_what_did_not_hold():
 def every_model():
     """A scene for each model: bodies that neither rest on anything nor are tied."""
     soft_ball()
-    file("soft/cells.mesh", (SCENES / "laparoscopy" / "ovary_left.mesh").read_bytes())
+    file("soft/cells.mesh", (SCENES / "organs" / "ovary_left.mesh").read_bytes())
     file("soft/line.curve", "0 0 0 0.01\n0.1 0.05 0 0.01\n0.2 0 0.1 0.01\n")
     for model in report("models")["models"]:
         asset, shape = {"tetrahedra": ("tetrahedra", "cells.mesh"), "curve": ("curve", "line.curve")}.get(model["geometry"], ("mesh", "ball.off"))

@@ -316,7 +316,7 @@ def write_scene(name, model, geometry="ball", solver="", collision=""):
     files = {"ball.off": ball().read_bytes(), "one.spheres": b"0 0 0 0.03\n",
              "line.curve": "".join(f"{x / 200} 0 0 0.005\n" for x in range(-6, 7)).encode(),
              "floor.spheres": "".join(f"{x / 50} -0.05 {z / 50} 0.02\n" for x in range(-2, 3) for z in range(-2, 3)).encode(),
-             "cells.mesh": (HERE.parent.parent / "resources/scenes/laparoscopy/ovary_left.mesh").read_bytes()}
+             "cells.mesh": (HERE.parent.parent / "resources/scenes/organs/ovary_left.mesh").read_bytes()}
     for file, content in files.items():
         (path.parent / file).write_bytes(content)
     path.write_text(f"""<spore version="1.0">

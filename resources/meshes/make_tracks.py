@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""Makes the recorded input of the shipped scenes: instruments that turn about the place where they enter the body,
+their tips led through points in time.
+
+    make_tracks.py FOLDER
+"""
+import math
+import pathlib
+import sys
+
+RATE_HZ = 50
+
+# Where the instruments go through the wall of the belly, m.
+RIGHT, LEFT, NAVEL = (0.105, 0.045, 0.190), (-0.105, 0.045, 0.190), (0.020, 0.130, 0.180)
+
+# Scene: instrument: place of entry, then rows of time (s) and place of the tip (m).
+TRACKS = {
+    "laparoscopy": {
+        "probe": (RIGHT, [
+            (0.0, 0.088, 0.058, 0.075), (0.5, 0.086, 0.054, 0.070), (1.3, 0.062, 0.024, 0.030),
+            (1.9, 0.056, 0.013, 0.008), (2.3, 0.056, 0.013, 0.008), (3.0, 0.066, 0.026, 0.032),
+            (3.6, 0.062, -0.010, 0.030), (4.0, 0.056, -0.012, 0.006), (4.7, 0.054, 0.012, 0.004),
+            (5.2, 0.054, 0.012, 0.004), (6.0, 0.060, -0.010, 0.030), (7.0, 0.088, 0.058, 0.075)]),
+    },
+    # The right probe presses and strokes, the left one meets it from the other side, the endoscope comes near and touches.
+    "table1": {
+        "probe": (RIGHT, [
+            (0.0, 0.075, 0.040, 0.070), (0.6, 0.058, 0.014, 0.024), (1.0, 0.057, 0.013, 0.014),
+            (1.6, 0.060, 0.012, 0.014), (2.2, 0.052, 0.010, 0.014), (2.8, 0.057, 0.014, 0.024),
+            (4.0, 0.075, 0.040, 0.070)]),
+        "probe_left": (LEFT, [
+            (0.0, 0.020, 0.030, 0.070), (0.8, 0.034, 0.012, 0.030), (1.4, 0.043, 0.010, 0.016),
+            (2.4, 0.044, 0.014, 0.015), (3.2, 0.034, 0.012, 0.030), (4.0, 0.020, 0.030, 0.070)]),
+        "endoscope": (NAVEL, [
+            (0.0, 0.045, 0.075, 0.080), (1.0, 0.055, 0.034, 0.032), (1.8, 0.055, 0.026, 0.016),
+            (2.6, 0.055, 0.034, 0.030), (4.0, 0.045, 0.075, 0.080)]),
+    },
+    # Two probes stir the pool from both sides, the endoscope dips into it.
+    "table1-fluid": {
+        "probe": (RIGHT, [
+            (0.0, 0.075, 0.020, 0.080), (0.8, 0.042, -0.018, 0.022), (1.6, 0.030, -0.022, 0.012),
+            (2.4, 0.040, -0.022, 0.014), (3.2, 0.044, -0.010, 0.026), (4.0, 0.075, 0.020, 0.080)]),
+        "probe_left": (LEFT, [
+            (0.0, 0.000, 0.020, 0.080), (1.0, 0.020, -0.014, 0.030), (1.8, 0.030, -0.020, 0.018),
+            (2.6, 0.024, -0.020, 0.020), (4.0, 0.000, 0.020, 0.080)]),
+        "endoscope": (NAVEL, [
+            (0.0, 0.035, 0.065, 0.090), (1.2, 0.034, 0.000, 0.030), (2.0, 0.034, -0.014, 0.018),
+            (2.8, 0.034, 0.000, 0.030), (4.0, 0.035, 0.065, 0.090)]),
+    },
+}
+
+
+def ease(x):
+    return x * x * (3 - 2 * x)
+
+
+def tip(points, t):
+    k = max(i for i, p in enumerate(points[:-1]) if i == 0 or t >= p[0])
+    (start, *a), (end, *b) = points[k], points[k + 1]
+    s = ease(min(1, (t - start) / (end - start)))
+    return [x + s * (y - x) for x, y in zip(a, b)]
+
+
+def row(t, place, entry):
+    """The shaft lies along the body's +z, from the tip to the place of entry: the least turn that brings z there."""
+    d = [e - p for e, p in zip(entry, place)]
+    length = math.hypot(*d)
+    w, x, y = 1 + d[2] / length, -d[1] / length, d[0] / length
+    norm = math.hypot(w, x, y)
+    return "%.2f %.6f %.6f %.6f %.7f %.7f %.7f 0 0 0" % (t, *place, w / norm, x / norm, y / norm)
+
+
+def track(instruments):
+    lines = ["spore-track 1"]
+    for name, (entry, points) in instruments.items():
+        lines.append("device " + name)
+        lines += [row(n / RATE_HZ, tip(points, n / RATE_HZ), entry) for n in range(round(RATE_HZ * points[-1][0]) + 1)]
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    for scene, instruments in TRACKS.items():
+        path = pathlib.Path(sys.argv[1]) / scene / (scene + ".track")
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(track(instruments))
+
+
+if __name__ == "__main__":
+    main()
