@@ -22,6 +22,60 @@ static void report_stage(SporeCli *cli, const SporePlanStage *stage, gboolean me
                 time, stage->reason);
 }
 
+static const char *const said_by_names[] = {"body", "scene", "automatic", "monitor"}; /* by SporeSaidBy */
+static const char *const said_by_words[] = {N_("body"), N_("scene"), N_("automatic"), N_("monitor")};
+
+static void append_said(GString *row, const char *what, SporeSaidBy said_by) {
+  g_autofree char *text = g_strdup_printf("%s (%s)", what, _(said_by_words[said_by]));
+  g_string_append_printf(row, " %-30s", text);
+}
+
+static void report_choice(SporeCli *cli, const char *member, const SporeChoice *choice, GString *row) {
+  if (!choice->name) {
+    json_builder_set_member_name(cli->report, member);
+    json_builder_add_null_value(cli->report);
+    g_string_append_printf(row, " %-30s", "-");
+    return;
+  }
+  spore_cli_open(cli, member);
+  spore_cli_text(cli, "name", choice->name);
+  spore_cli_text(cli, "said_by", said_by_names[choice->said_by]);
+  spore_cli_close(cli);
+  append_said(row, choice->name, choice->said_by);
+}
+
+static void report_method(SporeCli *cli, const char *body, const SporeMethod *method) {
+  g_autoptr(GString) row = g_string_new(NULL);
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", body);
+  report_choice(cli, "integrator", &method->integrator, row);
+  spore_cli_open(cli, "substeps");
+  spore_cli_count(cli, "count", (gint64)method->substeps);
+  spore_cli_text(cli, "said_by", said_by_names[method->substeps_said_by]);
+  spore_cli_close(cli);
+  g_autofree char *substeps = g_strdup_printf("%zu", method->substeps);
+  append_said(row, substeps, method->substeps_said_by);
+  report_choice(cli, "nonlinear", &method->nonlinear, row);
+  report_choice(cli, "linear", &method->linear, row);
+  spore_cli_close(cli);
+  spore_cli_say(cli, "%-15s%s\n", body, g_strchomp(row->str));
+}
+
+static void report_bodies(SporeCli *cli, const SporeWorld *world) {
+  SporeMethod method;
+  gboolean said = FALSE;
+  spore_cli_open_array(cli, "bodies");
+  for (guint body = 0; body < spore_world_body_count(world); body++) {
+    if (!spore_world_body_method(world, body, &method)) continue;
+    if (!said)
+      spore_cli_say(cli, "%-15s %-30s %-30s %-30s %s\n", _("body"), _("integrator (said by)"), _("substeps"),
+                    _("nonlinear"), _("linear"));
+    said = TRUE;
+    report_method(cli, spore_world_body_name(world, body), &method);
+  }
+  spore_cli_close_array(cli);
+}
+
 static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
   (void)size;
   if (info->dlpi_name && g_str_has_prefix(info->dlpi_name, "/")) {
@@ -31,7 +85,8 @@ static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
   return 0;
 }
 
-static void report(SporeCli *cli, const SporePlan *plan, gboolean measured) {
+static void report(SporeCli *cli, const SporeWorld *world, gboolean measured) {
+  const SporePlan *plan = spore_world_plan(world);
   spore_cli_say(cli, "%-11s %-4s %7s %12s  %s\n", _("stage"), _("in?"), _("items"), _("measured"), _("why"));
   spore_cli_open_array(cli, "stages");
   for (gsize i = 0; i < plan->stage_count; i++) report_stage(cli, &plan->stages[i], measured);
@@ -45,14 +100,18 @@ static void report(SporeCli *cli, const SporePlan *plan, gboolean measured) {
     spore_cli_say(cli, _("left out: %s (%s)\n"), plan->left_out[i].what, plan->left_out[i].reason);
   }
   spore_cli_close_array(cli);
+  report_bodies(cli, world);
   spore_cli_open_array(cli, "libraries");
   dl_iterate_phdr(report_library, cli);
   spore_cli_close_array(cli);
 }
 
 int spore_command_plan(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"plan", "SCENE", N_("Says what a scene needs, what it leaves out, and why."), 1,
-                                        1};
+  static const SporeCommandInfo info = {
+      "plan", "SCENE",
+      N_("Says what a scene needs, what it leaves out, and why, and how each body is integrated and "
+         "solved. What is chosen automatically is chosen as it runs: --measure shows it."),
+      1, 1};
   SporeSceneOptions options = {0};
   gboolean measure = FALSE;
   const GOptionEntry entries[] = {
@@ -67,6 +126,6 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   if (!run) return spore_cli_fail(error);
   for (int i = 0; measure && i < MEASURED_STEPS && !spore_cli_interrupted(); i++)
     spore_world_step(run->simulation->world);
-  report(cli, spore_world_plan(run->simulation->world), measure);
+  report(cli, run->simulation->world, measure);
   return spore_cli_finish(cli, spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : SPORE_EXIT_DONE);
 }

@@ -7,8 +7,8 @@
 const char *const spore_integrator_names[] = {
     "explicit_euler", "symplectic_euler", "verlet", "rk4", "implicit_euler", "implicit_midpoint",
     "bdf2",           "tr_bdf2",          "static", NULL};
-static const char *const nonlinear_names[] = {"automatic", "newton", "broyden", NULL};
-static const char *const linear_names[] = {"automatic", "conjugate_gradients", "cholesky", NULL};
+const char *const spore_nonlinear_names[] = {"automatic", "newton", "broyden", NULL};
+const char *const spore_linear_names[] = {"automatic", "conjugate_gradients", "cholesky", NULL};
 
 static const SporeParameter parameters[] = {
     {.name = "time_step",
@@ -56,7 +56,7 @@ static const SporeParameter parameters[] = {
      .minimum = -HUGE_VAL,
      .maximum = HUGE_VAL,
      .initial = {SPORE_NONLINEAR_AUTOMATIC},
-     .choices = nonlinear_names,
+     .choices = spore_nonlinear_names,
      .offset = offsetof(SporeSolverFields, nonlinear),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("How an implicit step's equations are solved. broyden keeps a factor of the matrix as long as that "
@@ -68,7 +68,7 @@ static const SporeParameter parameters[] = {
      .minimum = -HUGE_VAL,
      .maximum = HUGE_VAL,
      .initial = {SPORE_LINEAR_AUTOMATIC},
-     .choices = linear_names,
+     .choices = spore_linear_names,
      .offset = offsetof(SporeSolverFields, linear),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("How a body's linear equations are solved: by conjugate gradients, by a sparse Cholesky factor of its "

@@ -31,6 +31,9 @@ typedef enum SporeLinearKind {
   SPORE_LINEAR_CHOLESKY
 } SporeLinearKind;
 
+/* Names by SporeNonlinearKind and SporeLinearKind, NULL-terminated. */
+extern const char *const spore_nonlinear_names[], *const spore_linear_names[];
+
 #define SPORE_SUBSTEPS_MAXIMUM 1000
 
 typedef struct SporeSolverFields {

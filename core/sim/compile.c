@@ -72,8 +72,10 @@ static char *copy_text(const char *text) {
 /* What the scene leaves open of a model that is to be moved by explicit steps. An implicit method that somebody asks
  * for has no Jacobian to go by and needs as small ones. */
 static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBodyDescription *from) {
-  if (from->integrator == SPORE_INTEGRATOR_DEFAULT && spore_integrator(body->integrator)->implicit)
+  if (from->integrator == SPORE_INTEGRATOR_DEFAULT && spore_integrator(body->integrator)->implicit) {
     body->integrator = body->chosen = SPORE_INTEGRATOR_VERLET;
+    body->integrator_said_by = SPORE_SAID_BY_NOBODY;
+  }
   if (from->substeps > 0) return;
   bool implicit = spore_integrator(body->integrator)->implicit;
   SporeStepLimit limit;
@@ -81,7 +83,9 @@ static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBo
                         NULL))
     return;
   double needed = ceil(world->solver.time_step / limit.dt_s);
-  if (needed > (double)body->substeps) body->substeps = (size_t)fmin(needed, SUBSTEPS_UNASKED);
+  if (needed <= (double)body->substeps) return;
+  body->substeps = (size_t)fmin(needed, SUBSTEPS_UNASKED);
+  body->substeps_said_by = SPORE_SAID_BY_NOBODY;
 }
 
 /* Offsets and names; the models are borrowed until the world stands. */
@@ -94,6 +98,8 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->integrator = body->chosen =
       from->integrator == SPORE_INTEGRATOR_DEFAULT ? (SporeIntegratorKind)world->solver.integrator : from->integrator;
   body->substeps = from->substeps > 0 ? from->substeps : (size_t)world->solver.substeps;
+  body->integrator_said_by = from->integrator == SPORE_INTEGRATOR_DEFAULT ? SPORE_SAID_BY_SCENE : SPORE_SAID_BY_BODY;
+  body->substeps_said_by = from->substeps > 0 ? SPORE_SAID_BY_BODY : SPORE_SAID_BY_SCENE;
   if (body->model && body->model->type->rates) choose_steps(world, body, from);
   body->q_offset = world->q_count;
   body->v_offset = world->v_count;

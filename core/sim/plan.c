@@ -135,3 +135,31 @@ const SporePlan *spore_world_plan(const SporeWorld *world) {
     if (world->plan_stages[i].included) plan_owner->plan_stages[i].items = world->stages[i].items(world);
   return &world->plan;
 }
+
+/* What automatic is at present: a body's choice of a factor decides both. */
+static SporeChoice nonlinear_choice(const SporeWorld *world, const SporeBody *body) {
+  int kind = world->solver.nonlinear;
+  if (kind != SPORE_NONLINEAR_AUTOMATIC) return (SporeChoice){spore_nonlinear_names[kind], SPORE_SAID_BY_SCENE};
+  kind = body->choice.factorised ? SPORE_NONLINEAR_BROYDEN : SPORE_NONLINEAR_NEWTON;
+  return (SporeChoice){spore_nonlinear_names[kind], SPORE_SAID_BY_NOBODY};
+}
+
+static SporeChoice linear_choice(const SporeWorld *world, const SporeBody *body) {
+  int kind = body->choice.factorised ? SPORE_LINEAR_CHOLESKY : SPORE_LINEAR_CONJUGATE_GRADIENTS;
+  bool open = world->solver.linear == SPORE_LINEAR_AUTOMATIC || kind != world->solver.linear;
+  return (SporeChoice){spore_linear_names[kind], open ? SPORE_SAID_BY_NOBODY : SPORE_SAID_BY_SCENE};
+}
+
+bool spore_world_body_method(const SporeWorld *world, uint32_t index, SporeMethod *method) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->role != SPORE_PASSIVE) return false;
+  const SporeIntegrator *integrator = spore_integrator(body->integrator);
+  *method = (SporeMethod){.integrator = {integrator->name, body->integrator_said_by},
+                          .substeps = body->substeps,
+                          .substeps_said_by = body->substeps_said_by};
+  if (body->integrator != body->chosen) method->integrator.said_by = SPORE_SAID_BY_MONITOR;
+  if (!integrator->implicit) return true;
+  method->nonlinear = nonlinear_choice(world, body);
+  method->linear = linear_choice(world, body);
+  return true;
+}

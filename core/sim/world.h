@@ -137,6 +137,25 @@ typedef struct SporePlan {
   const SporePlanLeftOut *left_out;
 } SporePlan;
 const SporePlan *spore_world_plan(const SporeWorld *world);
+
+/* How a body that physics moves is integrated and solved now, and who says so. */
+typedef enum SporeSaidBy {
+  SPORE_SAID_BY_BODY,   /* its mechanical unit */
+  SPORE_SAID_BY_SCENE,  /* the solver section */
+  SPORE_SAID_BY_NOBODY, /* left open: chosen by itself, and for nonlinear and linear anew as the work of steps tells */
+  SPORE_SAID_BY_MONITOR /* a safer one than the scene says */
+} SporeSaidBy;
+typedef struct SporeChoice {
+  const char *name; /* as in the file; NULL: nothing is to be solved, the body is integrated explicitly */
+  SporeSaidBy said_by;
+} SporeChoice;
+typedef struct SporeMethod {
+  SporeChoice integrator, nonlinear, linear;
+  size_t substeps;
+  SporeSaidBy substeps_said_by;
+} SporeMethod;
+/* False: physics does not move the body. */
+bool spore_world_body_method(const SporeWorld *world, uint32_t body, SporeMethod *method);
 const SporeProfilePhase *spore_world_profile(const SporeWorld *world); /* of whole steps */
 
 /* Monitor: what went wrong, and what was done about it. Counts are of steps, or of islands in them where several are

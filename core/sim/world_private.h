@@ -63,6 +63,7 @@ typedef struct SporeBody {
   SporeIntegratorKind integrator; /* now */
   SporeIntegratorKind chosen;     /* by the scene; the monitor may have taken a safer one */
   size_t substeps;
+  SporeSaidBy integrator_said_by, substeps_said_by;
   SporeContactFields contact;
   SporePose rest_pose;                             /* at time 0 */
   size_t q_offset, q_count, v_offset, block_count; /* v_offset in doubles */

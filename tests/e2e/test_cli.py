@@ -295,6 +295,29 @@ def plan_says_why():
     assert not any("gtk" in library for library in answer["libraries"])
 
 
+@check
+def plan_names_methods():
+    """plan names for each body how it is integrated and solved, and whether the scene says so."""
+    (body,) = report("plan", soft_ball())["bodies"]
+    assert body["integrator"] == {"name": "implicit_euler", "said_by": "scene"}
+    assert body["substeps"] == {"count": 1, "said_by": "scene"}
+    assert body["nonlinear"] == {"name": "newton", "said_by": "automatic"}
+    assert body["linear"] == {"name": "conjugate_gradients", "said_by": "automatic"}
+    chosen = ["--set", "solver/nonlinear=broyden", "--set", "solver/linear=cholesky"]
+    for ovary in report("plan", SCENES / "laparoscopy.spore", *chosen)["bodies"]:
+        assert ovary["nonlinear"] == {"name": "broyden", "said_by": "scene"}
+        assert ovary["linear"] == {"name": "cholesky", "said_by": "scene"}
+    (body,) = report("plan", soft_ball(), *chosen)["bodies"]  # a rigid body has no matrix to factorise
+    assert body["linear"] == {"name": "conjugate_gradients", "said_by": "automatic"}
+    mechanical = f"bodies/{body['name']}/mechanical"
+    own = ["--set", f"{mechanical}/integrator=symplectic_euler", "--set", f"{mechanical}/substeps=100"]
+    (body,) = report("plan", soft_ball(), *own)["bodies"]
+    assert body["integrator"] == {"name": "symplectic_euler", "said_by": "body"}
+    assert body["substeps"] == {"count": 100, "said_by": "body"} and body["linear"] is None
+    printed = spore("plan", soft_ball(), *own).stdout
+    assert "symplectic_euler (body)" in printed and "100 (body)" in printed, printed
+
+
 def tool_at_a_wall():
     """A scene of a tool that a track lowers 5 mm into an unmovable sphere; nothing in it is passive."""
     scene = WORK / "wall" / "wall.spore"
