@@ -22,7 +22,17 @@ static void report_diagnostic(SporeCli *cli, const SporeDiagnostic *diagnostic) 
 }
 
 int spore_command_check(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"check", "SCENE", N_("Says what is wrong with a scene, and the remedy."), 1, 1};
+  static const SporeReportMember members[] = {
+      {"diagnostics", N_("what was found, worst first: severity (error, warning, note), place (FILE:LINE:COLUMN or "
+                         "path), message, remedy")},
+      {NULL, NULL}};
+  static const SporeCommandInfo info = {"check",
+                                        "SCENE",
+                                        N_("Says what is wrong with a scene, and the remedy. The exit status is 1 "
+                                           "where an error was found: the scene cannot run."),
+                                        1,
+                                        1,
+                                        members};
   SporeSceneOptions options = {0};
   const GOptionEntry entries[] = {SPORE_SCENE_OPTION_ENTRIES(options), G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);

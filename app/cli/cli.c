@@ -23,13 +23,21 @@ static void catch_signals(void) {
   sigaction(SIGTERM, &action, NULL);
 }
 
+static char *describe_report(const SporeReportMember *members) {
+  GString *text = g_string_new(_("Members of the object that --json prints:"));
+  for (; members->name; members++) g_string_append_printf(text, "\n  %-21s %s", members->name, _(members->doc));
+  return g_string_free(text, FALSE);
+}
+
 int spore_cli_parse(SporeCli *cli, const SporeCommandInfo *info, const GOptionEntry *entries, int *argc, char ***argv) {
   const GOptionEntry shared[] = {
       {"json", 0, 0, G_OPTION_ARG_NONE, &cli->json, N_("Print one JSON object and nothing else"), NULL},
       {"quiet", 'q', 0, G_OPTION_ARG_NONE, &cli->quiet, N_("Print errors only"), NULL},
       G_OPTION_ENTRY_NULL};
   g_autoptr(GOptionContext) context = g_option_context_new(info->arguments);
+  g_autofree char *description = describe_report(info->report);
   g_option_context_set_summary(context, _(info->summary));
+  g_option_context_set_description(context, description);
   g_option_context_add_main_entries(context, entries, GETTEXT_PACKAGE);
   g_option_context_add_main_entries(context, shared, GETTEXT_PACKAGE);
   g_autoptr(GError) error = NULL;

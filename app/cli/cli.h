@@ -22,11 +22,18 @@ typedef struct SporeCli {
   JsonBuilder *report;  /* an open object; printed by spore_cli_finish when json */
 } SporeCli;
 
+/* A member of the object that --json prints, and all below it. */
+typedef struct SporeReportMember {
+  const char *name; /* members of members joined by dots */
+  const char *doc;  /* translatable; names those below it */
+} SporeReportMember;
+
 typedef struct SporeCommandInfo {
   const char *name;
-  const char *arguments; /* "SCENE" */
-  const char *summary;   /* translatable */
-  int minimum, maximum;  /* count of plain arguments */
+  const char *arguments;           /* "SCENE" */
+  const char *summary;             /* translatable */
+  int minimum, maximum;            /* count of plain arguments */
+  const SporeReportMember *report; /* ends with one without a name; printed by --help */
 } SporeCommandInfo;
 
 /* Reads options (entries end with G_OPTION_ENTRY_NULL; --json, --quiet and --help are added) and leaves the plain

@@ -63,8 +63,12 @@ static int import(SporeCli *cli, char **meshes, const char *unit, const char *fr
 }
 
 int spore_command_import(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"import", "MESH...", N_("Makes a new scene from organ meshes, each a body."), 1,
-                                        10000};
+  static const SporeReportMember members[] = {
+      {"bodies", N_("names of the bodies of the scene")},
+      {"diagnostics", N_("what there is to mend in it: place, message, remedy")},
+      {NULL, NULL}};
+  static const SporeCommandInfo info = {"import", "MESH...", N_("Makes a new scene from organ meshes, each a body."),
+                                        1,        10000,     members};
   char *unit = NULL, *frame = NULL, *output = NULL;
   const GOptionEntry entries[] = {
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the meshes: m, cm, mm, um, in (default m)"), "UNIT"},

@@ -63,7 +63,13 @@ static void report_model(SporeCli *cli, const SporeModelType *type) {
 }
 
 int spore_command_models(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"models", "[NAME]", N_("Lists models and their parameters."), 0, 1};
+  static const SporeReportMember members[] = {
+      {"models", N_("each with name, label, doc, geometry (none, surface, solid, tetrahedra, curve) and parameters")},
+      {"models.parameters",
+       N_("each with name, type, unit, minimum, maximum, default, change (what a running simulation does with a new "
+          "value: live, rebuild, restart), doc, and choices where there are some")},
+      {NULL, NULL}};
+  static const SporeCommandInfo info = {"models", "[NAME]", N_("Lists models and their parameters."), 0, 1, members};
   const GOptionEntry entries[] = {G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status != SPORE_EXIT_DONE) return status;

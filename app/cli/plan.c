@@ -107,11 +107,22 @@ static void report(SporeCli *cli, const SporeWorld *world, gboolean measured) {
 }
 
 int spore_command_plan(SporeCli *cli, int argc, char **argv) {
+  static const SporeReportMember members[] = {
+      {"stages", N_("of a step, in their order: name, included, reason, items (what it works on), and with --measure "
+                    "measured_us, the median")},
+      {"left_out", N_("what the scene does not need: what, reason")},
+      {"bodies", N_("that physics moves, each with its name, integrator, substeps, nonlinear and linear solver: name "
+                    "or count, and said_by (body, scene, automatic, monitor); null: nothing is solved")},
+      {"libraries", N_("that the program uses")},
+      {NULL, NULL}};
   static const SporeCommandInfo info = {
-      "plan", "SCENE",
+      "plan",
+      "SCENE",
       N_("Says what a scene needs, what it leaves out, and why, and how each body is integrated and "
          "solved. What is chosen automatically is chosen as it runs: --measure shows it."),
-      1, 1};
+      1,
+      1,
+      members};
   SporeSceneOptions options = {0};
   gboolean measure = FALSE;
   const GOptionEntry entries[] = {

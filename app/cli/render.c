@@ -75,7 +75,12 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
 }
 
 int spore_command_render(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"render", "SCENE", N_("Makes a picture of a scene (PNG)."), 1, 1};
+  static const SporeReportMember members[] = {{"width", N_("of the picture, pixels")},
+                                              {"height", N_("of the picture, pixels")},
+                                              {"frames", N_("number of pictures")},
+                                              {"gl_renderer", N_("what drew it")},
+                                              {NULL, NULL}};
+  static const SporeCommandInfo info = {"render", "SCENE", N_("Makes a picture of a scene (PNG)."), 1, 1, members};
   RenderOptions options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, N_("Picture to write"), "F.png"},

@@ -98,13 +98,43 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
 }
 
 int spore_command_run(SporeCli *cli, int argc, char **argv) {
+  static const SporeReportMember members[] = {
+      {"scene", N_("file of the scene")},
+      {"steps", N_("number of steps taken")},
+      {"time_s", N_("simulated time, s")},
+      {"dof", N_("degrees of freedom: velocity components that physics moves")},
+      {"spheres", N_("number of collision spheres")},
+      {"contacts", N_("a step, of bodies that are awake: mean, max")},
+      {"step_us", N_("time that a step took, us: median, p99, max")},
+      {"stages", N_("of a step: name, median_us, share of the step")},
+      {"asleep",
+       N_("number of bodies asleep at the end: at rest, and costing nothing until something that moves touches them")},
+      {"energy", N_("kinetic, elastic, of gravity and of contacts together, J: start, end, max_drift (largest "
+                    "difference from the start)")},
+      {"solver", N_("iterations of implicit steps: newton_mean, newton_max, linear_mean, linear_max, and residual_max, "
+                    "relative")},
+      {"monitor", N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
+                     "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
+                     "deep_contacts, soft_contacts, over_budget, held_inputs (refused from devices)")},
+      {"monitor.frozen", N_("names of bodies that could not be computed")},
+      {"monitor.made_safer", N_("names of bodies that were moved by a safer method than the scene says")},
+      {"monitor.messages", N_("the last of them, each naming body and cause")},
+      {"realtime",
+       N_("with --realtime: factor (simulated by real time), deadline_misses (steps that ended late), worst_late_us, "
+          "jitter_us of their beginnings (median, p99, max), given_up_s (time that was not caught up with)")},
+      {"state_hash",
+       N_("of all positions and velocities: the same for the same scene and input, whatever the threads")},
+      {NULL, NULL}};
   static const SporeCommandInfo info = {
-      "run", "SCENE",
+      "run",
+      "SCENE",
       N_("Runs a scene and says how it went. The exit status is 1 where a body was frozen, where one had to be "
          "integrated "
          "by a safer method than the scene says, where a step's equations were not solved to the tolerance, and with "
          "--realtime where the steps did not keep pace."),
-      1, 1};
+      1,
+      1,
+      members};
   RunOptions options = {.time_s = NAN, .steps = NOT_GIVEN, .threads = 1};
   const GOptionEntry entries[] = {
       {"time", 't', 0, G_OPTION_ARG_DOUBLE, &options.time_s, N_("Simulated time"), "S"},

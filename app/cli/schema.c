@@ -5,7 +5,8 @@
 #include "app/cli/cli.h"
 
 int spore_command_schema(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"schema", "", N_("Prints the RELAX NG schema of scenes."), 0, 0};
+  static const SporeReportMember members[] = {{"relax_ng", N_("the schema")}, {NULL, NULL}};
+  static const SporeCommandInfo info = {"schema", "", N_("Prints the RELAX NG schema of scenes."), 0, 0, members};
   const GOptionEntry entries[] = {G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status != SPORE_EXIT_DONE) return status;

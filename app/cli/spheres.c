@@ -74,8 +74,16 @@ static int generate(SporeCli *cli, const char *file, const SporeSpheresOptions *
 }
 
 int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
+  static const SporeReportMember members[] = {
+      {"count", N_("of spheres")},
+      {"coverage", N_("share of the inside that lies in a sphere")},
+      {"outside", N_("volume of the spheres that lies outside, of the mesh's volume")},
+      {"distance", N_("between surface and spheres, of the diagonal: mean, max")},
+      {"depth_error", N_("of the depth that is felt, of the largest depth")},
+      {"seconds", N_("that it took")},
+      {NULL, NULL}};
   static const SporeCommandInfo info = {
-      "spheres", "MESH", N_("Fits collision spheres to a mesh, or to the tetrahedra of a .mesh file."), 1, 1};
+      "spheres", "MESH", N_("Fits collision spheres to a mesh, or to the tetrahedra of a .mesh file."), 1, 1, members};
   char *unit = NULL, *frame = NULL, *output = NULL;
   gint64 count = 0, seed = 1;
   double tolerance = 0;

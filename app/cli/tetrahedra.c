@@ -52,7 +52,16 @@ static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOption
 }
 
 int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"tetrahedra", "MESH", N_("Fills a mesh with tetrahedra."), 1, 1};
+  static const SporeReportMember members[] = {{"nodes", N_("number of nodes")},
+                                              {"tetrahedra", N_("number of tetrahedra")},
+                                              {"min_dihedral_deg", N_("least angle between two faces of any, degrees")},
+                                              {"mean_dihedral_deg", N_("mean of the least angles, degrees")},
+                                              {"hausdorff", N_("largest distance to the surface, of the diagonal")},
+                                              {"volume_change", N_("share of the volume that was gained")},
+                                              {"method", N_("direct, repaired or wrapped: what the surface needed")},
+                                              {"seconds", N_("that it took")},
+                                              {NULL, NULL}};
+  static const SporeCommandInfo info = {"tetrahedra", "MESH", N_("Fills a mesh with tetrahedra."), 1, 1, members};
   char *unit = NULL, *frame = NULL, *output = NULL;
   gint64 cells = 0;
   double size = 0;

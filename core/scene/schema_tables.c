@@ -120,7 +120,8 @@ static const SporeParameter spheres_parameters[] = {
      FIELD(SporeSpheresFields, file),
      .required = true,
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("File of the spheres, inside the scene's folder.")},
+     .doc = N_("File of the spheres, inside the scene's folder: x y z r a line, of a centre and its radius, m; # "
+               "begins a comment.")},
     {.name = "source",
      .type = SPORE_REFERENCE,
      .unit = "",
@@ -194,7 +195,8 @@ static const SporeParameter curve_parameters[] = {
      FIELD(SporeCurveFields, file),
      .required = true,
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("File of the curve's points and radii, inside the scene's folder.")},
+     .doc = N_("File of the curve, inside the scene's folder: x y z r a line, of a point and the radius there, m; # "
+               "begins a comment.")},
     {.name = "source",
      .type = SPORE_REFERENCE,
      .unit = "",
@@ -476,7 +478,9 @@ static const SporeParameter track_parameters[] = {
      FIELD(SporeTrackFields, file),
      .required = true,
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("File of recorded input, inside the scene's folder.")},
+     .doc = N_("File of recorded input, inside the scene's folder: a line spore-track 1, then for each active body a "
+               "line device NAME and its rows of time (s), position (m), orientation (quaternion w x y z), grip and "
+               "buttons; # begins a comment.")},
 };
 
 #define CHILDREN(...) ((const char *const[]){__VA_ARGS__, NULL})

@@ -108,6 +108,34 @@ def help_lists_commands():
     refuses("run", "--no-such-option", "x", says=["no-such-option"])
 
 
+def leaves(value, path=()):
+    """Paths of all members at the bottom; what lies in an array counts as the array's."""
+    if isinstance(value, dict):
+        return {leaf for key, below in value.items() for leaf in leaves(below, (*path, key))}
+    if isinstance(value, list) and value:
+        return {leaf for below in value for leaf in leaves(below, path)}
+    return {path}
+
+
+@check
+def help_explains_json():
+    """--help of each command names every member that --json prints, in the row of what it belongs to."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    commands = [("run", soft_ball(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
+                ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("schema",),
+                ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5)]
+    commands += [("tetrahedra", "ball.off", "--cells", 100)] if "cgal" in FEATURES else []
+    commands += [("render", soft_ball(), "-o", "told.png")] if "render" in FEATURES else []
+    for command in commands:
+        answer = json.loads(spore(*command, "--json", status=(0, 1)).stdout)
+        described = spore(command[0], "--help").stdout.partition("--json prints:")[2]
+        rows = {row.split()[0]: row for row in described.strip().splitlines()}
+        for path in leaves(answer):
+            row = next((rows[name] for n in range(len(path), 0, -1) if (name := ".".join(path[:n])) in rows), None)
+            assert row, f"{command[0]} --help says nothing of {'.'.join(path)}"
+            assert path[-1] in row, f"{command[0]} --help does not name {'.'.join(path)}"
+
+
 @check
 def import_makes_a_scene():
     """import writes a scene that check, plan and run take."""
