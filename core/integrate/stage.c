@@ -121,18 +121,19 @@ static void set_start(const Stage *stage, Start start, const double *change, dou
 /* The guess: changing as in the step before, where that is known, going on as before, or standing still, whichever is
  * nearest to the answer. Where the step is long for the stiffness, going on stretches what is stiff: what changed the
  * speed so that it did not stretch is needed again, and where that is of no use only standing still starts with no more
- * energy than there was. One that misses no more than gravity's part stretches nothing and is taken as it is. r: the
- * residual there. Returns evaluations. */
-static size_t guess(Stage *stage, const double *change, double gravity, double *v, double *r) {
-  Start best = START_STILL;
-  double least = INFINITY;
+ * energy than there was. One that misses no more than gravity's part stretches nothing and is taken as it is; but not
+ * at a speed below `slow`, which may be no more than what the answers before missed by: what rests is to be found at
+ * rest. r: the residual there. Returns evaluations. */
+static size_t guess(Stage *stage, const double *change, double gravity, double slow, double *v, double *r) {
+  double speed = sqrt(kinetic_dot(stage, stage->va, stage->va)), least = INFINITY;
+  Start best = START_STILL, first = speed == 0 ? START_STILL : change && speed > slow ? START_CHANGING : START_GOING;
   size_t evaluations = 0;
-  for (Start start = change ? START_CHANGING : START_GOING; start <= START_STILL; start++) {
+  for (Start start = first; start <= START_STILL; start++) {
     set_start(stage, start, change, v);
     residual(stage, v, r);
     evaluations++;
     double norm = dual_norm(stage, r);
-    if (norm <= gravity) return evaluations;
+    if (norm <= gravity && speed > slow) return evaluations;
     if (norm < least) best = start, least = norm;
   }
   if (best == START_STILL) return evaluations;
@@ -163,7 +164,7 @@ SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolv
   stage.linear = scratch + 5 * n;
   double *r = scratch + (5 + SPORE_PCG_SCRATCH) * n;
   SporeSystem system = stage_system(&stage);
-  size_t evaluations = guess(&stage, change, system.scale_r, v, r);
+  size_t evaluations = guess(&stage, change, system.scale_r, fields->tolerance * system.scale_x, v, r);
   SporeNonlinearResult result = solve_system(&system, fields, v, r, r + n);
   return (SporeStepResult){.converged = result.converged,
                            .newton_iterations = result.iterations,

@@ -140,11 +140,12 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
       pending = false;
     }
     accelerate(&history, g, weights, d);
-    double trial_norm;
-    double length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+    double trial_norm = 0;
+    double length =
+        spore_line_search(system, x, d, r, test.norm, false, trial, trial_r, &trial_norm, &result.evaluations);
     if (length == 0 && history.count > 0) {
       history.count = 0;
-      length = spore_line_search(system, x, g, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+      length = spore_line_search(system, x, g, r, test.norm, false, trial, trial_r, &trial_norm, &result.evaluations);
       memcpy(d, g, n * sizeof *d);
     }
     if (length > 0) {

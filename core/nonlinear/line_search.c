@@ -15,16 +15,20 @@ typedef struct Line {
   const double *x, *d;
   double *trial, *trial_r;
   double norm, slope; /* of the residual at the trial; slope: its part along d */
+  bool tried;         /* trial, trial_r and norm are those of the first length */
   size_t *evaluations;
 } Line;
 
 static void try_length(Line *line, double length) {
   size_t n = line->system->count;
-  memcpy(line->trial, line->x, n * sizeof *line->trial);
-  spore_vector_add_scaled(n, line->trial, length, line->d);
-  line->system->residual(line->system->data, line->trial, line->trial_r);
-  ++*line->evaluations;
-  line->norm = line->system->norm(line->system->data, line->trial_r);
+  if (!line->tried) {
+    memcpy(line->trial, line->x, n * sizeof *line->trial);
+    spore_vector_add_scaled(n, line->trial, length, line->d);
+    line->system->residual(line->system->data, line->trial, line->trial_r);
+    ++*line->evaluations;
+    line->norm = line->system->norm(line->system->data, line->trial_r);
+  }
+  line->tried = false;
   line->slope = isfinite(line->norm) ? spore_vector_dot(n, line->trial_r, line->d) : -HUGE_VAL;
 }
 
@@ -71,8 +75,8 @@ static double by_slope(Line *line, double norm, double start) {
 }
 
 double spore_line_search(const SporeSystem *system, const double *x, const double *d, const double *r, double norm,
-                         double *trial, double *trial_r, double *trial_norm, size_t *evaluations) {
-  Line line = {system, x, d, trial, trial_r, 0, 0, evaluations};
+                         bool tried, double *trial, double *trial_r, double *trial_norm, size_t *evaluations) {
+  Line line = {system, x, d, trial, trial_r, *trial_norm, 0, tried, evaluations};
   double start = spore_vector_dot(system->count, r, d);
   double length = start > 0 ? by_slope(&line, norm, start) : by_norm(&line, norm);
   *trial_norm = line.norm;

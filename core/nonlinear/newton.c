@@ -66,7 +66,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     system->residual(system->data, trial, trial_r);
     result.evaluations++;
     trial_norm = system->norm(system->data, trial_r);
-    bool good = trial_norm <= 0.5 * (trust.given ? trust.norm : test.norm);
+    bool good = trial_norm <= fmax(0.5 * (trust.given ? trust.norm : test.norm), test.tolerance * test.scale_r);
     if (good) {
       trust.given = false;
     } else if (trust.given && (++trust.steps >= TRUST_STEPS || !isfinite(trial_norm))) {
@@ -77,7 +77,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
       memcpy(r, trust.r, n * sizeof *r);
       memcpy(d, trust.d, n * sizeof *d);
       test.norm = trust.norm;
-      length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+      length = spore_line_search(system, x, d, r, test.norm, false, trial, trial_r, &trial_norm, &result.evaluations);
     } else if (!trust.given) {
       bool overshoots = spore_vector_dot(n, trial_r, d) < 0 && isfinite(trial_norm);
       if (!system->switches && overshoots && trust.failures < TRUST_FAILURES) {
@@ -88,7 +88,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
         memcpy(trust.r, r, n * sizeof *r);
         memcpy(trust.d, d, n * sizeof *d);
       } else {
-        length = spore_line_search(system, x, d, r, test.norm, trial, trial_r, &trial_norm, &result.evaluations);
+        length = spore_line_search(system, x, d, r, test.norm, true, trial, trial_r, &trial_norm, &result.evaluations);
       }
     }
     if (length == 0) break;
