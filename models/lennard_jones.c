@@ -253,6 +253,7 @@ const SporeModelType spore_lennard_jones = {
               "touches other bodies with a sphere at each particle, unless its collision unit names other spheres."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(FluidFields)},
     .geometry = SPORE_GEOMETRY_SOLID,
+    .particles = true,
     .create = create,
     .destroy = destroy,
     .place = place,

@@ -60,6 +60,12 @@ double spore_curve_length(const SporeCurve *curve);
  * do not twist against each other. *mesh is overwritten. */
 bool spore_curve_tube(const SporeCurve *curve, size_t sectors, SporeTriangleMesh *mesh, SporeError *error);
 
+/* The closed surface around particles whose neighbours are `spacing` (m) apart: one over those that are near each
+ * other, drops around others; nothing of particles that are not finite or farther than a million spacings from the
+ * origin. centres: count x 3. *mesh is overwritten; empty without particles. */
+bool spore_particle_skin(const double *centres, size_t count, double spacing, SporeTriangleMesh *mesh,
+                         SporeError *error);
+
 /* Merges vertices nearer than `relative` of the bounding box diagonal (1e-6 is usual), drops triangles that
  * collapse, exact duplicates (whichever way they turn) and unused vertices. In place; order of what stays is kept.
  * Refused, mesh untouched, when nothing would be left. */

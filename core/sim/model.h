@@ -49,6 +49,7 @@ struct SporeModelType {
   const char *doc;   /* one paragraph, translatable (N_) */
   SporeParameterTable parameters;
   SporeGeometryKind geometry;
+  bool particles; /* its points keep no neighbours: shown by the skin around them, not by a surface that follows them */
 
   /* Required. */
   /* Builds from geometry and fields (a structure of parameters.size bytes, checked already). Refuses, with place

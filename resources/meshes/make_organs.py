@@ -305,6 +305,7 @@ def wall(u, v):
     normal = np.stack([-np.sign(x) * 0.5 * bend, 0.45 + 0 * x, 0.9 + 0 * x], 1)
     p += folds[:, None] * normal / np.linalg.norm(normal, axis=1, keepdims=True)
     p[:, 1] += 0.011 * np.exp(-((p[:, 0] / 0.030) ** 2) - ((p[:, 2] - 0.020) / 0.022) ** 2)  # the neck lies embedded
+    p[:, 1] -= 0.015 * np.exp(-(((np.abs(p[:, 0]) - 0.036) / 0.020) ** 2) - ((p[:, 2] - 0.030) / 0.020) ** 2)  # a hollow on either side
     # The bladder bulges before the womb, seen above it.
     dome = np.exp(-((p[:, 0] / 0.050) ** 2) - ((p[:, 1] - 0.078) / 0.024) ** 2)
     p[:, 2] += 0.022 * dome

@@ -62,7 +62,7 @@ def main():
     write_rows(table / "string.curve", [(*p, 0.0016) for p in string(120)], "# x y z r, in metres")
     write_rows(table / "string.spheres", [(*p, 0.0016) for p in string(60)], "# x y z r, in metres")
     vertices, triangles = ball(0.0100, 2)
-    write_off(table, "drop", (vertices + [0.034, -0.006, 0.022], triangles))
+    write_off(table, "drop", (vertices + [0.036, -0.006, 0.028], triangles))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ uniform vec3 colour;
 uniform float wetness;
 uniform float cell;     // size of a pattern cell, m
 uniform float selected; // 0 or 1
-uniform int metal;
+uniform int material;   // SporeMaterial
 uniform vec3 axis;      // streaks of brushed metal run along it, rest axes
 
 out vec4 result;
@@ -30,7 +30,9 @@ void main() {
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
   float open = ambient_open(), lit = light_reaches(v_position, normal);
   vec3 outcome;
-  if (metal != 0) {
+  if (material == 2) {
+    outcome = shade_tissue(colour, wetness, v_position, normal, normal, open, lit);
+  } else if (material == 1) {
     vec3 across = v_rest - axis * dot(v_rest, axis);
     vec3 streak = (noise(vec3(across * 60.0) + axis * dot(v_rest, axis) * 1.5).yzw) * 0.05 * detail(60.0);
     outcome = shade_metal(colour, v_position, normal, mat3(rotation) * streak, open, lit);

@@ -61,7 +61,7 @@ static void test_tissue_full(void) {
 
 static void test_metal_selected(void) {
   Bench bench = bench_open();
-  SporeSurfaceStyle metal = {{0.6f, 0.6f, 0.62f}, 0, TRUE, TRUE, FALSE};
+  SporeSurfaceStyle metal = {{0.6f, 0.6f, 0.62f}, 0, SPORE_MATERIAL_METAL, TRUE, FALSE};
   add_organ(&bench, &metal);
   draw_and_check(&bench, "metal_selected", FALSE, TRUE);
 }

@@ -7,6 +7,8 @@
 #include "tests/render/scenery.h"
 #include "ui/render/stage.h"
 
+#define MINIMAL SPORE_SCENES "/minimal.spore"
+
 typedef struct Setting {
   Bench bench;
   SporeSchema *schema;
@@ -15,10 +17,10 @@ typedef struct Setting {
   SporeStage *stage;
 } Setting;
 
-static Setting setting_open(void) {
+static Setting setting_open(const char *scene) {
   GError *error = NULL;
   Setting setting = {.bench = bench_open(), .schema = spore_schema_new(spore_model_registry)};
-  setting.document = spore_scene_load(setting.schema, SPORE_SCENES "/minimal.spore", &error);
+  setting.document = spore_scene_load(setting.schema, scene, &error);
   g_assert_no_error(error);
   setting.stage = spore_stage_new(setting.bench.renderer, setting.document);
   spore_stage_rebuild(setting.stage, NULL);
@@ -51,7 +53,7 @@ static guint32 pick_down(const Setting *setting, double x, double z, SporeVec3 *
 }
 
 static void test_standing(void) {
-  Setting setting = setting_open();
+  Setting setting = setting_open(MINIMAL);
   double lower[3], upper[3];
   SporeVec3 point = {0};
   spore_stage_bounds(setting.stage, lower, upper);
@@ -66,7 +68,7 @@ static void test_standing(void) {
 }
 
 static void test_follows_the_simulation(void) {
-  Setting setting = setting_open();
+  Setting setting = setting_open(MINIMAL);
   SporeVec3 point = {0};
   setting_run(&setting, 0);
   g_assert_cmpuint(pick_down(&setting, 0.0015, 0.001, &point), ==, id_of(&setting, "ball"));
@@ -82,7 +84,7 @@ static void test_follows_the_simulation(void) {
 
 /* A body without a mesh shows its spheres. */
 static void test_spheres_alone(void) {
-  Setting setting = setting_open();
+  Setting setting = setting_open(MINIMAL);
   SporeVec3 point = {0};
   GError *error = NULL;
   SporeObject *floor = spore_document_find(setting.document, "body", "floor");
@@ -114,7 +116,7 @@ static int changed_pixels(const Setting *setting, const SporeStageOptions *optio
 }
 
 static void test_overlays(void) {
-  Setting setting = setting_open();
+  Setting setting = setting_open(MINIMAL);
   const SporeStageOptions spheres = {.surfaces = TRUE, .spheres = TRUE},
                           contacts = {.surfaces = TRUE, .contacts = TRUE};
   setting_run(&setting, 400);
@@ -128,7 +130,7 @@ static void test_overlays(void) {
 
 /* The ball filled with a fluid whose collision unit names no spheres. */
 static void test_own_spheres(void) {
-  Setting setting = setting_open();
+  Setting setting = setting_open(MINIMAL);
   const SporeStageOptions spheres = {.surfaces = TRUE, .spheres = TRUE};
   SporeObject *ball = spore_document_find(setting.document, "body", "ball");
   SporeObject *mechanical = spore_object_child_of(ball, "mechanical"), *collision, *floor;
@@ -155,7 +157,7 @@ static void test_own_spheres(void) {
 }
 
 static void test_selection_is_seen(void) {
-  Setting setting = setting_open();
+  Setting setting = setting_open(MINIMAL);
   const SporeStageOptions options = {.surfaces = TRUE};
   SporeCamera camera;
   g_assert_true(spore_stage_camera(setting.stage, "front", 1, &camera, NULL));
@@ -175,7 +177,7 @@ static void test_selection_is_seen(void) {
 }
 
 static void test_cameras(void) {
-  Setting setting = setting_open();
+  Setting setting = setting_open(MINIMAL);
   SporeCamera camera;
   GError *error = NULL;
   g_assert_true(spore_stage_camera(setting.stage, "front", 1, &camera, &error));
@@ -215,6 +217,20 @@ static void test_empty_scene(void) {
   bench_close(&bench);
 }
 
+/* A liquid is drawn and picked as the skin around its particles, wherever they flow. */
+static void test_liquid(void) {
+  Setting setting = setting_open(SPORE_SCENES "/table1-fluid.spore");
+  SporeVec3 above = {0}, below = {0};
+  setting_run(&setting, 0);
+  g_assert_cmpuint(pick_down(&setting, 0.036, 0.028, &above), ==, id_of(&setting, "blood"));
+  g_assert_cmpfloat_with_epsilon(above.y, 0.004, 0.0015); /* the top of the drop */
+  for (int i = 0; i < 1000; i++) spore_world_step(setting.simulation->world);
+  spore_stage_update(setting.stage, spore_world_snapshot_acquire(setting.simulation->world));
+  g_assert_cmpuint(pick_down(&setting, 0.036, 0.028, &below), ==, id_of(&setting, "blood"));
+  g_assert_cmpfloat(below.y, <, above.y - 0.005);
+  setting_close(&setting);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/stage/standing", test_standing);
@@ -225,5 +241,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
   g_test_add_func("/render/stage/cameras", test_cameras);
   g_test_add_func("/render/stage/empty-scene", test_empty_scene);
+  g_test_add_func("/render/stage/liquid", test_liquid);
   return g_test_run();
 }

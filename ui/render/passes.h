@@ -29,8 +29,8 @@ typedef enum SporeProgramKind {
 } SporeProgramKind;
 
 typedef struct SporeProgram {
-  GLuint id;                                                                                     /* 0: not made yet */
-  GLint offset, colour, wetness, cell, selected, metal, axis, dim, width, near, fade, direction; /* -1: has none */
+  GLuint id; /* 0: not made yet */
+  GLint offset, colour, wetness, cell, selected, material, axis, dim, width, near, fade, direction; /* -1: has none */
 } SporeProgram;
 
 typedef struct SporePrograms {

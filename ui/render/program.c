@@ -112,7 +112,7 @@ static void find_uniforms(SporeProgram *program) {
   program->wetness = glGetUniformLocation(id, "wetness");
   program->cell = glGetUniformLocation(id, "cell");
   program->selected = glGetUniformLocation(id, "selected");
-  program->metal = glGetUniformLocation(id, "metal");
+  program->material = glGetUniformLocation(id, "material");
   program->axis = glGetUniformLocation(id, "axis");
   program->dim = glGetUniformLocation(id, "dim");
   program->width = glGetUniformLocation(id, "width");

@@ -30,10 +30,12 @@ void spore_camera_ray(const SporeCamera *camera, double x, double y, int width, 
 
 /* What is drawn: surfaces and sphere groups, by handle. Buffers are copied. */
 typedef struct SporeRenderer SporeRenderer;
+typedef enum SporeMaterial { SPORE_MATERIAL_TISSUE, SPORE_MATERIAL_METAL, SPORE_MATERIAL_LIQUID } SporeMaterial;
 typedef struct SporeSurfaceStyle {
   float colour[3]; /* linear light */
   float wetness;   /* 0..1: film of the specular lobe */
-  gboolean selected, metal, wireframe;
+  SporeMaterial material;
+  gboolean selected, wireframe;
 } SporeSurfaceStyle;
 
 SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error);

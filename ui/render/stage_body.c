@@ -92,12 +92,19 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
                                                       body->triangle_count, &body->style);
 }
 
+static gboolean is_liquid(const SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation) {
+  return body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object) &&
+         spore_world_body_model(simulation->world, body->world_body)->type->particles;
+}
+
 /* The visual unit's mesh; without one the mechanical unit's, the boundary of its tetrahedra, or a tube around its
  * curve. */
 static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
                           const SporeSimulation *simulation) {
   const SporeObject *visual = spore_object_child_of(object, "visual");
   SporeObject *asset = asset_of(stage, visual, "mesh", "mesh");
+  body->liquid = !asset && is_liquid(body, object, simulation);
+  if (body->liquid) return; /* comes with its spheres */
   if (!asset) asset = asset_of(stage, spore_object_child_of(object, "mechanical"), "geometry", "mesh");
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(stage->document, asset, NULL) : NULL;
   if (mesh) {
@@ -130,7 +137,7 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   g_free(centres);
   if (!mapped) return;
   body->spheres = g_memdup2(set->spheres, set->count * 4 * sizeof(double));
-  body->solid = !body->surface_handle;
+  body->solid = !body->surface_handle && !body->liquid;
   const float *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
   body->spheres_handle = spore_renderer_add_spheres(
       stage->renderer, body->spheres, set->count, body->solid ? body->style.colour : sphere_colour, fit, !body->solid);
@@ -170,7 +177,7 @@ SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, con
   body->style.wetness = (float)visual.wetness;
   SporeBodyFields fields;
   spore_object_fields(object, &fields);
-  body->style.metal = fields.role == SPORE_ACTIVE; /* what a device moves is an instrument */
+  body->style.material = fields.role == SPORE_ACTIVE ? SPORE_MATERIAL_METAL : SPORE_MATERIAL_TISSUE;
   body->style.selected = stage->selection == body->object;
   init_configuration(body, object, simulation);
   build_surface(stage, body, object, simulation);
@@ -203,6 +210,31 @@ static void place_spheres(SporeStage *stage, SporeStageBody *body) {
   spore_renderer_move_spheres(stage->renderer, body->spheres_handle, body->spheres);
 }
 
+/* Neighbours in a liquid at rest stand where their attraction is strongest, 2^(1/6) of the width of their spheres. */
+#define LIQUID_SPACING 1.12
+
+static void place_liquid(SporeStage *stage, SporeStageBody *body) {
+  SporeTriangleMesh skin;
+  spore_mapping_positions(&body->centres.mapping, body->q, body->centres.positions);
+  if (!spore_particle_skin(body->centres.positions, body->centres.count, 2 * LIQUID_SPACING * body->spheres[3], &skin,
+                           NULL))
+    return;
+  if (body->surface_handle) spore_renderer_remove(stage->renderer, body->surface_handle);
+  g_free(body->surface.positions);
+  spore_free(body->own_triangles);
+  body->surface.positions = g_memdup2(skin.vertices, 3 * skin.vertex_count * sizeof(double));
+  body->surface.count = skin.vertex_count;
+  body->triangles = body->own_triangles = skin.triangles;
+  body->triangle_count = skin.triangle_count;
+  spore_free(skin.vertices);
+  body->style.material = SPORE_MATERIAL_LIQUID;
+  body->surface_handle = 0;
+  if (!skin.vertex_count) return;
+  body->surface_handle = spore_renderer_add_surface(stage->renderer, body->surface.positions, body->surface.count,
+                                                    body->triangles, body->triangle_count, &body->style);
+  spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
+}
+
 static void place_wire(SporeStage *stage, SporeStageBody *body) {
   spore_mapping_positions(&body->nodes.mapping, body->q, body->nodes.positions);
   for (gsize i = 0; i < 2 * body->edge_count; i++)
@@ -211,7 +243,9 @@ static void place_wire(SporeStage *stage, SporeStageBody *body) {
 }
 
 void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
-  if (body->surface_handle) { /* hidden ones too: picking and bounds use their positions */
+  if (body->liquid && body->centres.count) {
+    place_liquid(stage, body);
+  } else if (body->surface_handle) { /* hidden ones too: picking and bounds use their positions */
     spore_mapping_positions(&body->surface.mapping, body->q, body->surface.positions);
     spore_renderer_move_surface(stage->renderer, body->surface_handle, body->surface.positions);
   }

@@ -26,6 +26,7 @@ typedef struct SporeStageBody {
   guint surface_handle; /* handles: 0 is none */
 
   SporeStagePoints centres;
+  gboolean liquid; /* the surface is the skin around the centres, made anew as they move */
   double *spheres; /* centres.count x 4, world */
   gboolean solid;  /* the spheres are all there is to see of the body */
   guint spheres_handle;

@@ -154,7 +154,7 @@ static void draw_surface(const SporeSurface *surface, const SporeFrame *frame, c
   glUniform1f(program->wetness, style->wetness);
   glUniform1f(program->cell, surface->cell);
   glUniform1f(program->selected, style->selected ? 1 : 0);
-  glUniform1i(program->metal, style->metal);
+  glUniform1i(program->material, style->material);
   glUniform3fv(program->axis, 1, surface->axis);
   if (surface->closed && !style->wireframe) glEnable(GL_CULL_FACE);
   else glDisable(GL_CULL_FACE);
