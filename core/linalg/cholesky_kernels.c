@@ -130,35 +130,39 @@ void SPORE_LEVEL_NAME(spore_cholesky_round)(size_t count, const double *from, fl
     *(NarrowUnaligned *)(to + i) = __builtin_convertvector(spore_vd_load(from + i), Narrow);
 }
 
+/* In one instruction: a conversion of vectors in general is several. */
+SPORE_INLINE SporeVd widen(const float *a) {
+#if SPORE_WIDTH == 8
+  return (SporeVd)_mm512_cvtps_pd(_mm256_loadu_ps(a));
+#elif SPORE_WIDTH == 4
+  return (SporeVd)_mm256_cvtps_pd(_mm_loadu_ps(a));
+#else
+  return __builtin_convertvector((Narrow) * (const NarrowUnaligned *)a, SporeVd);
+#endif
+}
+
 /* Numbers from the i-th of a factor on. */
 SPORE_INLINE SporeVd load_entries(const void *a, size_t i, bool rounded) {
-  if (!rounded) return spore_vd_load((const double *)a + i);
-  return __builtin_convertvector((Narrow) * (const NarrowUnaligned *)((const float *)a + i), SporeVd);
+  return rounded ? widen((const float *)a + i) : spore_vd_load((const double *)a + i);
 }
 
-/* y = a x for rows in `vectors` vectors from the i-th entry of a. */
-SPORE_INLINE void multiply_tile(int vectors, size_t columns, const void *a, size_t i, size_t lda, bool rounded,
-                                const double *x, double *y) {
-  SporeVd sum[4];
-  for (int p = 0; p < vectors; p++) sum[p] = (SporeVd){0};
-  for (size_t k = 0; k < columns; k++, i += lda)
-    for (int p = 0; p < vectors; p++) sum[p] += load_entries(a, i + (size_t)p * SPORE_WIDTH, rounded) * x[k];
-  for (int p = 0; p < vectors; p++) spore_vd_store(y + p * SPORE_WIDTH, sum[p]);
+/* y = a x, or y += a x, for the rows from `first` to `ld` and some columns: down the columns, as they lie in memory. */
+SPORE_INLINE void multiply_columns(int columns, size_t first, size_t ld, const void *a, size_t column, bool rounded,
+                                   bool add, const double *x, double *y) {
+  for (size_t i = first; i < ld; i += SPORE_WIDTH) {
+    SporeVd sum = load_entries(a, column * ld + i, rounded) * x[0];
+    for (size_t j = 1; j < (size_t)columns; j++) sum += load_entries(a, (column + j) * ld + i, rounded) * x[j];
+    spore_vd_store(y + i, add ? spore_vd_load(y + i) + sum : sum);
+  }
 }
 
-/* lower: a is a lower triangle, and a row ends on its diagonal. */
+/* y = a x; lower: a is a lower triangle. */
 SPORE_INLINE void multiply(size_t columns, size_t ld, const void *a, bool rounded, const double *x, double *y,
                            bool lower) {
-  size_t i = 0;
-  for (; i + 4 * SPORE_WIDTH <= ld; i += 4 * SPORE_WIDTH) {
-    size_t end = i + 4 * SPORE_WIDTH;
-    multiply_tile(4, lower && end < columns ? end : columns, a, i, ld, rounded, x, y + i);
-  }
-  if (i + 2 * SPORE_WIDTH <= ld) {
-    multiply_tile(2, columns, a, i, ld, rounded, x, y + i);
-    i += 2 * SPORE_WIDTH;
-  }
-  if (i < ld) multiply_tile(1, columns, a, i, ld, rounded, x, y + i);
+  size_t j = columns % 6;
+  if (j > 0) multiply_columns(3, 0, ld, a, 0, rounded, false, x, y);
+  else multiply_columns(6, 0, ld, a, 0, rounded, false, x, y), j = 6;
+  for (; j < columns; j += 6) multiply_columns(6, lower ? DOWN(j) : 0, ld, a, j, rounded, true, x + j, y);
 }
 
 SPORE_INLINE void forward(size_t columns, size_t rows, const void *t, const void *b, bool rounded, double *x,
@@ -184,11 +188,7 @@ SPORE_INLINE void dot_tile(int columns, size_t first, size_t ld, const void *a, 
       for (size_t j = 0; j < (size_t)columns; j++)
         sum[j][p] += load_entries(a, (column + j) * ld + i + p * SPORE_WIDTH, rounded) * part;
     }
-  for (int j = 0; j < columns; j++) {
-    double lanes[SPORE_LANES];
-    for (int p = 0; p < PARTS; p++) spore_vd_store(lanes + p * SPORE_WIDTH, sum[j][p]);
-    y[j] = spore_lanes_sum(lanes);
-  }
+  for (int j = 0; j < columns; j++) y[j] = spore_parts_sum(sum[j]);
 }
 
 SPORE_INLINE void multiply_transposed(size_t columns, size_t ld, const void *a, bool rounded, const double *x,

@@ -130,6 +130,22 @@ SPORE_INLINE double spore_lanes_sum(const double *lanes) {
   return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
 }
 
+/* The same of a group in its parts, without a way through memory. */
+SPORE_INLINE double spore_parts_sum(const SporeVd parts[SPORE_LANES / SPORE_WIDTH]) {
+#if SPORE_WIDTH == 8
+  __m256d half = _mm256_add_pd(_mm512_castpd512_pd256((__m512d)parts[0]), _mm512_extractf64x4_pd((__m512d)parts[0], 1));
+  __m128d pair = _mm_add_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
+  return pair[0] + pair[1];
+#elif SPORE_WIDTH == 4
+  __m256d half = (__m256d)(parts[0] + parts[1]);
+  __m128d pair = _mm_add_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
+  return pair[0] + pair[1];
+#else
+  SporeVd pair = (parts[0] + parts[2]) + (parts[1] + parts[3]);
+  return pair[0] + pair[1];
+#endif
+}
+
 /* Three vectors: points or the like, one a lane. */
 typedef struct SporeVd3 {
   SporeVd x, y, z;
