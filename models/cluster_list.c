@@ -336,6 +336,13 @@ bool spore_cluster_list_update(SporeClusterList *list, const double *q) {
   return list->made;
 }
 
+bool spore_cluster_list_spare(SporeClusterList *list) {
+  return reserve_runs(list, list->run_count) &&
+         reserve_indices(&list->entries, &list->entry_capacity, list->entry_count, list->entry_count) &&
+         reserve_indices(&list->candidates, &list->candidate_capacity, list->candidate_capacity,
+                         list->candidate_capacity);
+}
+
 void spore_cluster_list_add_forces(const SporeClusterList *list, double *f) {
   for (size_t c = 0; c < list->cluster_count; c++)
     for (size_t lane = 0; lane < SPORE_LANES; lane++) {

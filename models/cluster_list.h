@@ -63,6 +63,8 @@ void spore_cluster_list_clear(SporeClusterList *list);
 /* Takes positions (particle_count x 3) into x and makes the list anew where it has to. Allocates nothing, more room for
  * more pairs than ever before apart. False: a position is not finite, or no memory; the list is not made then. */
 bool spore_cluster_list_update(SporeClusterList *list, const double *q);
+/* Room for twice as many pairs as the list holds: how many there are varies as a fluid flows. False: no memory. */
+bool spore_cluster_list_spare(SporeClusterList *list);
 /* f of each particle (particle_count x 3) += list->f. */
 void spore_cluster_list_add_forces(const SporeClusterList *list, double *f);
 

@@ -154,7 +154,7 @@ static bool set_particles(Fluid *fluid, double volume, const FluidFields *fields
   fluid->memory = SPORE_NEW(FluidMemory);
   if (!fluid->heat || !fluid->memory ||
       !spore_cluster_list_init(&fluid->memory->list, n, fields->period, CUTOFF * fluid->sigma, SKIN * fluid->sigma) ||
-      !spore_cluster_list_update(&fluid->memory->list, fluid->rest)) /* room for as many pairs as there are at rest */
+      !spore_cluster_list_update(&fluid->memory->list, fluid->rest) || !spore_cluster_list_spare(&fluid->memory->list))
     return no_memory(error);
   fluid->memory->list.made = false;
   set_heat(fluid, mass, fields->temperature);
