@@ -32,6 +32,19 @@ void spore_depth_field_clear(SporeDepthField *field) {
   *field = (SporeDepthField){0};
 }
 
+static double half_width_of(const SporeDepthField *field) {
+  double widest = 0;
+  for (size_t k = 0; k < 3; k++) {
+    double lower = HUGE_VAL, upper = -HUGE_VAL;
+    for (size_t i = 0; i < field->count; i++) {
+      lower = fmin(lower, field->ball[4 * i + k] - field->ball[4 * i + 3]);
+      upper = fmax(upper, field->ball[4 * i + k] + field->ball[4 * i + 3]);
+    }
+    widest = fmax(widest, upper - lower);
+  }
+  return 0.5 * widest;
+}
+
 static bool are_neighbours(const SporeDepthField *field, size_t i, size_t j) {
   double reach = radius_of(field, i) + radius_of(field, j) + field->margin;
   return spore_vec3_distance(centre_of(field, i), centre_of(field, j)) < reach;
@@ -176,8 +189,10 @@ bool spore_depth_field_create(SporeDepthField *field, const double *centre, cons
   for (size_t i = 0; made && i < count; i++) {
     for (size_t k = 0; k < 3; k++) field->ball[4 * i + k] = centre[3 * i + k];
     field->ball[4 * i + 3] = radius[i];
-    field->margin += WIDEST_MARGIN * radius[i] / (double)count;
+    field->mean_radius += radius[i] / (double)count;
   }
+  field->margin = WIDEST_MARGIN * field->mean_radius;
+  if (made) field->half_width = half_width_of(field);
   if (made && find_neighbours(field)) {
     field->margin = choose_margin(field);
     if (find_neighbours(field) && weigh(field)) return true;

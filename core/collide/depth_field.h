@@ -18,6 +18,8 @@
 typedef struct SporeDepthField {
   size_t count;
   double margin;       /* m */
+  double mean_radius;  /* m */
+  double half_width;   /* m: of the widest side of the box that the spheres fill */
   double *ball;        /* count x 4: x y z radius, in the body's frame, m */
   double *weight;      /* count */
   uint32_t *start;     /* count + 1 */

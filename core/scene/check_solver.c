@@ -78,16 +78,21 @@ static gboolean has_companion(const SporeCheck *check, const SporeObject *body, 
   return FALSE;
 }
 
+static gboolean keeps_shape(const SporeObject *body) {
+  const SporeObject *model = model_of(body);
+  const SporeModelType *type = model ? spore_object_type(model)->model : NULL;
+  return type && type->inertia && !type->jacobian;
+}
+
 static void check_contact(SporeCheck *check, const SporeObject *body) {
   const SporeObject *collision = spore_object_child_of(body, "collision");
   if (!collision) return;
   SporeCollisionFields fields;
   spore_object_fields(collision, &fields);
   gboolean passive = (SporeRole)spore_object_number(body, "role") == SPORE_PASSIVE;
-  if (passive && fields.contact.surface == SPORE_SURFACE_DEPTH_FIELD)
-    spore_check_say(check, SPORE_WARNING, collision,
-                    _("leave surface at spheres, or make the body unmovable or active"),
-                    _("the depth field of \"%s\" is not used: physics moves the body, and others feel its spheres"),
+  if (passive && fields.contact.surface == SPORE_SURFACE_DEPTH_FIELD && !keeps_shape(body))
+    spore_check_say(check, SPORE_WARNING, collision, _("leave surface at spheres, or make the body rigid"),
+                    _("the depth field of \"%s\" is not used: the body deforms, and others feel its spheres"),
                     spore_object_name(body));
   if (fields.contact.group > 0 && !has_companion(check, body, fields.contact.group))
     spore_check_say(check, SPORE_NOTE, collision, _("put the other bodies in it, or remove group"),

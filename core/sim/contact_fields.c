@@ -59,9 +59,8 @@ static const SporeParameter parameters[] = {
      .choices = surface_names,
      .offset = offsetof(SporeContactFields, surface),
      .change = SPORE_CHANGE_REBUILD,
-     .doc =
-         N_("What others feel of a body that physics does not move: each of its spheres, or one depth that is smooth "
-            "from sphere to sphere, at a few times the cost of a contact: for what tools slide over.")},
+     .doc = N_("What others feel of a body that keeps its shape: each of its spheres, or one depth that is smooth from "
+               "sphere to sphere, at a few times the cost of a contact: for what others slide over.")},
 };
 
 const SporeParameterTable spore_contact_parameters = {parameters, sizeof parameters / sizeof *parameters,

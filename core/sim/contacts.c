@@ -102,28 +102,53 @@ static SporeContactMaterial material(const SporeBody *body) {
 
 /* An arm in the frame of the rigid body that it turns with. */
 static SporeVec3 frame_arm(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm) {
-  if (end->prescribed || end->mapping->kind != SPORE_MAPPING_RIGID) return (SporeVec3){0, 0, 0};
+  if (end->mapping->kind != SPORE_MAPPING_RIGID) return (SporeVec3){0, 0, 0};
   SporeQuat turn = spore_quat_load(world->q + world->bodies[end->body].q_offset + 3);
   return spore_quat_rotate(spore_quat_conjugate(turn), arm);
+}
+
+/* From the spheres' centres to the contact point, in the middle of the depth. */
+static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
+  double radius_a = world->spheres.radius[term->sphere_a], radius_b = world->spheres.radius[term->sphere_b];
+  SporeVec3 apart = spore_vec3_sub(term->b.position, term->a.position);
+  term->arm_a = spore_vec3_scale(0.5 * term->depth - radius_a, term->normal);
+  term->arm_b = spore_vec3_scale(radius_b - 0.5 * term->depth, term->normal);
+  if (term->field_a) term->arm_a = spore_vec3_add(term->arm_b, apart);
+  if (term->field_b) term->arm_b = spore_vec3_sub(term->arm_a, apart);
+  term->frame_arm_a = frame_arm(world, &term->a, term->arm_a);
+  term->frame_arm_b = frame_arm(world, &term->b, term->arm_b);
+}
+
+/* A driven end has the velocity of its contact point: a tool that turns drags. How deep a sphere is does not change by
+ * that. */
+static void turn_driven_end(const SporeWorld *world, SporeEnd *end, SporeVec3 frame_arm, SporeVec3 arm, bool field,
+                            SporeVec3 normal) {
+  const SporeBody *body = &world->bodies[end->body];
+  if (body->role != SPORE_ACTIVE || end->mapping->kind != SPORE_MAPPING_RIGID) return;
+  SporeQuat target = spore_quat_load(world->target_q + body->q_offset + 3);
+  SporeVec3 moved = spore_vec3_sub(spore_quat_rotate(target, frame_arm), arm);
+  if (!field) moved = spore_vec3_add_scaled(moved, -spore_vec3_dot(moved, normal), normal);
+  end->offset = spore_vec3_add(end->offset, moved);
+  end->velocity = spore_vec3_scale(1 / world->solver.time_step, end->offset);
 }
 
 static void fill_term(const SporeWorld *world, const SporeFelt *felt, SporeContactTerm *term) {
   const SporeContact *contact = &felt->contact;
   fill_sphere_end(world, contact->a, &term->a);
   fill_sphere_end(world, contact->b, &term->b);
-  double radius_a = world->spheres.radius[contact->a], radius_b = world->spheres.radius[contact->b];
   SporeContactMaterial a = material(&world->bodies[term->a.body]), b = material(&world->bodies[term->b.body]);
   term->sphere_a = contact->a;
   term->sphere_b = contact->b;
   term->grip_a = felt->grip_a;
   term->grip_b = felt->grip_b;
+  term->field_a = felt->field_a;
+  term->field_b = felt->field_b;
   term->normal = contact->normal;
   term->depth = contact->depth;
-  term->arm_a = radius_a - 0.5 * contact->depth;
-  term->arm_b = radius_b - 0.5 * contact->depth;
-  term->frame_arm_a = frame_arm(world, &term->a, spore_vec3_scale(-term->arm_a, term->normal));
-  term->frame_arm_b = frame_arm(world, &term->b, spore_vec3_scale(term->arm_b, term->normal));
-  term->law = spore_contact_law(&a, &b, radius_a, radius_b);
+  set_arms(world, term);
+  turn_driven_end(world, &term->a, term->frame_arm_a, term->arm_a, term->field_a, term->normal);
+  turn_driven_end(world, &term->b, term->frame_arm_b, term->arm_b, term->field_b, term->normal);
+  term->law = spore_contact_law(&a, &b, world->spheres.radius[contact->a], world->spheres.radius[contact->b]);
   term->softening = (SporeSoftening){0, 0, 0};
   term->stretch = term->force = (SporeVec3){0, 0, 0};
   term->pressing = term->yield = INFINITY;
@@ -138,6 +163,7 @@ void spore_world_respond(SporeWorld *world) {
      * is to feel it. */
     SporeContactTerm *term = &world->contacts[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, NULL);
-    if (0.5 * term->depth > fmin(term->arm_a, term->arm_b)) spore_world_report_depth(world, term);
+    const double *radius = world->spheres.radius;
+    if (term->depth > fmin(radius[term->sphere_a], radius[term->sphere_b])) spore_world_report_depth(world, term);
   }
 }

@@ -1,5 +1,8 @@
 /* Contacts with bodies that are felt as one depth field: a sphere that touches several spheres of such a body has one
- * contact with it, whose depth and normal change smoothly where it slides from one to the next. */
+ * contact with it, whose depth and normal change smoothly where it slides from one to the next; or in a corner, one
+ * with each of the sides. Of two such bodies the one of the larger spheres is felt so, by the spheres of the other,
+ * which lie closer to its true surface; of equals the first. A sphere that the body may lie flat on meets its spheres
+ * one by one: one contact would not hold it. */
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -9,8 +12,26 @@
 
 /* A field is felt between its spheres before they are: they are looked for with radii larger by this part. */
 #define REACH 0.5
+/* Sides of a corner whose normals are nearer than this (cosine) are felt as one that is rounded; and how many places
+ * are looked at. */
+#define SAME_SIDE 0.5
+#define PLACES 4
 
 static bool has_field(const SporeBody *body) { return body->field.count > 0; }
+
+/* Whether the contacts of bodies a and b are with the field of the first, or of the second. */
+static bool felt_as_one(const SporeBody *body, const SporeBody *other, bool first) {
+  if (!has_field(body) || !has_field(other)) return has_field(body);
+  double mean = body->field.mean_radius, others = other->field.mean_radius;
+  return mean > others || (mean == others && first);
+}
+
+/* Only what is rigid has a field that can be made once. */
+static bool wants_field(const SporeBody *body) {
+  SporeMappingKind kind = body->spheres.kind;
+  return body->contact.surface == SPORE_SURFACE_DEPTH_FIELD && body->spheres.point_count > 1 &&
+         (kind == SPORE_MAPPING_RIGID || kind == SPORE_MAPPING_FIXED);
+}
 
 bool spore_world_compile_fields(SporeWorld *world, SporeError *error) {
   const SporeSpheres *spheres = &world->spheres;
@@ -20,7 +41,7 @@ bool spore_world_compile_fields(SporeWorld *world, SporeError *error) {
   for (size_t b = 0; made && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     size_t count = body->spheres.point_count;
-    if (body->role == SPORE_PASSIVE || body->contact.surface != SPORE_SURFACE_DEPTH_FIELD || count < 2) continue;
+    if (!wants_field(body)) continue;
     const double *radius = spheres->radius + body->sphere_start;
     made = spore_depth_field_create(&body->field, body->spheres.points, radius, count);
     for (size_t i = 0; made && i < count; i++) world->reach[body->sphere_start + i] = (1 + REACH) * radius[i];
@@ -60,48 +81,136 @@ static bool feel(const SporeWorld *world, uint32_t owner, uint32_t probe, SporeC
   return depth - world->solver.time_step * contact->gap_speed > 0;
 }
 
-/* Contacts of a body's spheres, in the order of the probes: Shell's sort, which needs no memory. */
-static void sort_by_probe(SporeFelt *felt, size_t count) {
-  for (size_t gap = count / 2; gap > 0; gap /= 2)
-    for (size_t i = gap; i < count; i++) {
-      SporeFelt moving = felt[i];
-      size_t k = i;
-      for (; k >= gap; k -= gap) {
-        const SporeContact *before = &felt[k - gap].contact;
-        if (before->b < moving.contact.b || (before->b == moving.contact.b && before->a < moving.contact.a)) break;
-        felt[k] = felt[k - gap];
-      }
-      felt[k] = moving;
-    }
+/* Where the spheres of a pair lie from each other, towards the probe. */
+static SporeVec3 direction(const SporeWorld *world, uint32_t owner, uint32_t probe) {
+  const double *centre = world->spheres.centre;
+  SporeVec3 apart =
+      spore_vec3_sub(spore_vec3_load(centre + 3 * (size_t)probe), spore_vec3_load(centre + 3 * (size_t)owner));
+  return spore_vec3_normalise(apart, (SporeVec3){0, 0, 0});
 }
 
-/* Of the contacts of one probe with one body, which lie next to each other, makes those that are felt; returns how
- * many. A fast probe meets spheres one by one: which of them stops it, the step will tell. */
-static size_t merge(const SporeWorld *world, const SporeFelt *first, size_t count, bool owner_is_a, SporeFelt *to) {
-  size_t nearest = 0, made = 0;
-  for (size_t i = 1; i < count; i++)
-    if (first[i].contact.depth > first[nearest].contact.depth) nearest = i;
-  bool fast = is_fast(world, &first[nearest].contact);
-  for (size_t i = fast ? 0 : nearest; i < (fast ? count : nearest + 1); i++) {
-    SporeContact contact = first[i].contact;
-    uint32_t owner = owner_is_a ? contact.a : contact.b, probe = owner_is_a ? contact.b : contact.a;
-    bool felt = fast ? spore_narrow_contact(&world->spheres, contact.a, contact.b, world->solver.time_step, &contact)
-                     : feel(world, owner, probe, &contact);
-    if (!felt) continue;
-    uint32_t whole = (uint32_t)world->bodies[world->spheres.body[owner]].sphere_start;
-    to[made++] = (SporeFelt){contact, owner_is_a ? whole : probe, owner_is_a ? probe : whole};
+static bool seen(const SporeVec3 *sides, size_t count, SporeVec3 normal) {
+  for (size_t i = 0; i < count; i++)
+    if (spore_vec3_dot(sides[i], normal) > SAME_SIDE) return true;
+  return false;
+}
+
+/* The deepest pair on a side that was not looked at yet; `count` where there is none. */
+static size_t next_place(const SporeWorld *world, const SporeFelt *pairs, size_t count, bool owner_is_a,
+                         const SporeVec3 *looked, size_t looked_count) {
+  size_t deepest = count;
+  double most = -HUGE_VAL;
+  for (size_t i = 0; i < count; i++) {
+    const SporeContact *pair = &pairs[i].contact;
+    uint32_t owner = owner_is_a ? pair->a : pair->b, probe = owner_is_a ? pair->b : pair->a;
+    double depth = pair->depth - REACH * world->spheres.radius[owner];
+    if (depth <= most || (looked_count && seen(looked, looked_count, direction(world, owner, probe)))) continue;
+    most = depth;
+    deepest = i;
+  }
+  return deepest;
+}
+
+static SporeFelt one_by_one(SporeContact contact) { return (SporeFelt){contact, contact.a, contact.b, false, false}; }
+
+static SporeFelt as_one(const SporeWorld *world, SporeContact contact, bool owner_is_a) {
+  uint32_t owner = owner_is_a ? contact.a : contact.b, probe = owner_is_a ? contact.b : contact.a;
+  uint32_t whole = (uint32_t)world->bodies[world->spheres.body[owner]].sphere_start;
+  return (SporeFelt){contact, owner_is_a ? whole : probe, owner_is_a ? probe : whole, owner_is_a, !owner_is_a};
+}
+
+/* Pairs of spheres, as if there was no field. */
+static size_t meet(const SporeWorld *world, const SporeFelt *pairs, size_t count, SporeFelt *to) {
+  size_t made = 0;
+  for (size_t i = 0; i < count; i++) {
+    SporeContact contact = pairs[i].contact;
+    if (spore_narrow_contact(&world->spheres, contact.a, contact.b, world->solver.time_step, &contact))
+      to[made++] = one_by_one(contact);
   }
   return made;
 }
 
-/* Those of a body with a field, from `first` on; what comes of them lies at the front of felt. */
-static size_t merge_body(const SporeWorld *world, SporeFelt *felt, size_t count) {
-  size_t made = 0;
-  sort_by_probe(felt, count);
-  for (size_t i = 0, end; i < count; i = end) {
-    for (end = i + 1; end < count && felt[end].contact.b == felt[i].contact.b;) end++;
+/* Whether the probe does not feel the field: the body may lie flat on it, or it is so fast that only the step will tell
+ * which sphere stops it. */
+static bool meets_spheres(const SporeWorld *world, const SporeContact *nearest, uint32_t owner, uint32_t probe) {
+  const SporeDepthField *field = &world->bodies[world->spheres.body[owner]].field;
+  return world->spheres.radius[probe] > field->half_width || is_fast(world, nearest);
+}
+
+/* Of the pairs of one probe with one body, which lie next to each other, makes the contacts that are felt; returns how
+ * many. `to` may be `pairs`. */
+static size_t merge(const SporeWorld *world, const SporeFelt *pairs, size_t count, bool owner_is_a, SporeFelt *to) {
+  SporeFelt made[PLACES];
+  SporeVec3 looked[2 * PLACES], sides[PLACES];
+  size_t looked_count = 0, made_count = 0;
+  for (size_t place = 0; place < PLACES; place++) {
+    size_t i = next_place(world, pairs, count, owner_is_a, looked, looked_count);
+    if (i == count) break;
+    SporeContact contact = pairs[i].contact;
+    uint32_t owner = owner_is_a ? contact.a : contact.b, probe = owner_is_a ? contact.b : contact.a;
+    if (place == 0 && meets_spheres(world, &contact, owner, probe)) return meet(world, pairs, count, to);
+    looked[looked_count++] = direction(world, owner, probe);
+    if (!feel(world, owner, probe, &contact)) continue;
+    SporeVec3 out = spore_vec3_scale(owner_is_a ? -1 : 1, contact.normal);
+    if (seen(sides, made_count, out)) continue;
+    looked[looked_count++] = sides[made_count] = out;
+    made[made_count++] = as_one(world, contact, owner_is_a);
+  }
+  for (size_t i = 0; i < made_count; i++) to[i] = made[i];
+  return made_count;
+}
+
+/* Shell's sort, which needs no memory. */
+static void sort(SporeFelt *felt, size_t count, bool (*before)(const SporeFelt *a, const SporeFelt *b)) {
+  for (size_t gap = count / 2; gap > 0; gap /= 2)
+    for (size_t i = gap; i < count; i++) {
+      SporeFelt moving = felt[i];
+      size_t k = i;
+      for (; k >= gap && before(&moving, &felt[k - gap]); k -= gap) felt[k] = felt[k - gap];
+      felt[k] = moving;
+    }
+}
+
+static bool probe_before(const SporeFelt *a, const SporeFelt *b) {
+  return a->contact.b < b->contact.b || (a->contact.b == b->contact.b && a->contact.a < b->contact.a);
+}
+
+static bool grip_before(const SporeFelt *a, const SporeFelt *b) {
+  if (a->grip_a != b->grip_a) return a->grip_a < b->grip_a;
+  if (a->grip_b != b->grip_b) return a->grip_b < b->grip_b;
+  return a->contact.a < b->contact.a || (a->contact.a == b->contact.a && a->contact.b < b->contact.b);
+}
+
+/* What comes of pairs of one sphere a with one body, in place. */
+static size_t feel_sphere(const SporeWorld *world, SporeFelt *felt, size_t count) {
+  const uint32_t *body = world->spheres.body;
+  const SporeBody *a = &world->bodies[body[felt->contact.a]], *b = &world->bodies[body[felt->contact.b]];
+  if (felt_as_one(b, a, false)) return merge(world, felt, count, false, felt);
+  for (size_t i = 0; i < count; i++) felt[i] = one_by_one(felt[i].contact);
+  return count;
+}
+
+/* What comes of all pairs of a body with a field that lie in its spheres a, in place: first those that feel it as one,
+ * probe by probe, then others. */
+static size_t feel_body(const SporeWorld *world, const SporeContact *found, SporeFelt *felt, size_t count) {
+  const uint32_t *body = world->spheres.body;
+  const SporeBody *a = &world->bodies[body[found->a]];
+  size_t own = 0, made = 0;
+  for (size_t i = 0; i < count; i++)
+    if (felt_as_one(a, &world->bodies[body[found[i].b]], true)) felt[own++].contact = found[i];
+  sort(felt, own, probe_before);
+  for (size_t i = 0, end; i < own; i = end) {
+    for (end = i + 1; end < own && felt[end].contact.b == felt[i].contact.b;) end++;
     made += merge(world, felt + i, end - i, true, felt + made);
   }
+  for (size_t i = 0, end; i < count; i = end) {
+    end = i + 1;
+    if (felt_as_one(a, &world->bodies[body[found[i].b]], true)) continue;
+    while (end < count && found[end].a == found[i].a && body[found[end].b] == body[found[i].b]) end++;
+    for (size_t k = i; k < end; k++) felt[made + k - i].contact = found[k];
+    made += feel_sphere(world, felt + made, end - i);
+  }
+  sort(felt, made, grip_before);
   return made;
 }
 
@@ -115,18 +224,13 @@ size_t spore_world_feel(SporeWorld *world) {
     end = i + 1;
     if (has_field(&world->bodies[a])) {
       while (end < world->contact_count && body[found[end].a] == a) end++;
-      for (size_t k = i; k < end; k++) felt[k - i].contact = found[k];
-      made += merge_body(world, felt, end - i);
-    } else if (has_field(&world->bodies[b])) {
-      while (end < world->contact_count && found[end].a == found[i].a && body[found[end].b] == b) end++;
-      for (size_t k = i; k < end; k++) felt[k - i].contact = found[k];
-      made += merge(world, felt, end - i, false, felt);
-    } else {
-      felt->contact = found[i];
-      felt->grip_a = found[i].a;
-      felt->grip_b = found[i].b;
-      made++;
+      made += feel_body(world, found + i, felt, end - i);
+      continue;
     }
+    if (has_field(&world->bodies[b]))
+      while (end < world->contact_count && found[end].a == found[i].a && body[found[end].b] == b) end++;
+    for (size_t k = i; k < end; k++) felt[k - i].contact = found[k];
+    made += feel_sphere(world, felt, end - i);
   }
   return made;
 }

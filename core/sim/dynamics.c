@@ -65,7 +65,7 @@ static double quadratic(const double *a, SporeVec3 c) {
 
 /* Sum of n/m over those blocks, for a force along any direction that acts up to `arm` away from the end; or for one
  * along `normal`, on whose line it acts: that turns a body only by what it misses its centre of mass. */
-static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, double arm, const SporeVec3 *normal,
+static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm, const SporeVec3 *normal,
                                const double *counts) {
   if (end->prescribed) return 0;
   const double *local = counts + world->local_sites[end->body].v / 3;
@@ -75,8 +75,9 @@ static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, dou
   if (mapping->kind == SPORE_MAPPING_IDENTITY) return local[end->point] * inverse[9 * (size_t)end->point];
   if (mapping->kind == SPORE_MAPPING_RIGID) {
     SporeVec3 centre = spore_vec3_sub(end->position, spore_vec3_load(world->q + body->q_offset));
-    if (normal) return local[0] * (inverse[0] + quadratic(inverse + 9, spore_vec3_cross(centre, *normal)));
-    double lever = spore_vec3_length(centre) + arm;
+    SporeVec3 point = spore_vec3_add(centre, arm);
+    if (normal) return local[0] * (inverse[0] + quadratic(inverse + 9, spore_vec3_cross(point, *normal)));
+    double lever = spore_vec3_length(centre) + spore_vec3_length(arm);
     return local[0] * (inverse[0] + lever * lever * (inverse[9] + inverse[13] + inverse[17]));
   }
   double sum = 0;
@@ -120,6 +121,7 @@ static SporeSoftening softening(double h, bool resolved, double inverse_mass, do
 }
 
 static bool soften(void *data, double h, bool resolved) {
+  const SporeVec3 none = {0, 0, 0};
   const SporeGroup *group = data;
   const SporeWorld *world = group->world;
   if (group->island->contact_count + group->island->spring_count == 0) return false;
@@ -133,7 +135,7 @@ static bool soften(void *data, double h, bool resolved) {
   for (size_t i = 0; i < group->island->spring_count; i++) {
     SporeSpringTerm *term = spore_group_spring(group, i);
     double inverse_mass =
-        end_inverse_mass(world, &term->a, 0, NULL, counts) + end_inverse_mass(world, &term->b, 0, NULL, counts);
+        end_inverse_mass(world, &term->a, none, NULL, counts) + end_inverse_mass(world, &term->b, none, NULL, counts);
     term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
   }
   return true;

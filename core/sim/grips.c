@@ -4,6 +4,8 @@
 
 /* Pairs that sleep are not contacts, but hold; there is room for them beside as many contacts. */
 #define GRIPS_PER_CONTACT 4
+/* A contact whose normal has turned by more than to this cosine holds nothing of what it held. */
+#define SAME_SIDE 0.7
 
 static uint64_t pair_of(uint32_t sphere_a, uint32_t sphere_b) { return (uint64_t)sphere_a << 32 | sphere_b; }
 
@@ -38,7 +40,7 @@ void spore_world_keep_grips(SporeWorld *world) {
       if (pair_of_grip(&world->grips[old]) < pair && sleeps(world, &world->grips[old]))
         keep(world, &count, world->grips[old]);
     SporeVec3 stretch = spore_contact_term_stretch(term, world->world_sites, world->q);
-    keep(world, &count, (SporeGrip){term->grip_a, term->grip_b, stretch});
+    keep(world, &count, (SporeGrip){term->grip_a, term->grip_b, stretch, term->normal});
   }
   for (; old < old_count; old++)
     if (sleeps(world, &world->grips[old])) keep(world, &count, world->grips[old]);
@@ -54,13 +56,24 @@ static SporeVec3 turn_stretch(SporeVec3 stretch, SporeVec3 normal) {
   return spore_vec3_scale(spore_vec3_length(stretch), spore_vec3_normalise(flat, (SporeVec3){0, 0, 0}));
 }
 
+/* Of the grips of the contact's pair, from `first` on, the one of the same side; NULL: none. */
+static const SporeGrip *grip_of(const SporeWorld *world, size_t first, uint64_t pair, SporeVec3 normal) {
+  const SporeGrip *found = NULL;
+  double best = SAME_SIDE;
+  for (size_t i = first; i < world->grip_count && pair_of_grip(&world->grips[i]) == pair; i++) {
+    double cosine = spore_vec3_dot(world->grips[i].normal, normal);
+    if (cosine > best) best = cosine, found = &world->grips[i];
+  }
+  return found;
+}
+
 void spore_world_take_grips(SporeWorld *world) {
   size_t next = 0;
   for (size_t i = 0; i < world->contact_count; i++) {
     SporeContactTerm *term = &world->contacts[i];
     uint64_t pair = pair_of(term->grip_a, term->grip_b);
     while (next < world->grip_count && pair_of_grip(&world->grips[next]) < pair) next++;
-    bool held = next < world->grip_count && pair_of_grip(&world->grips[next]) == pair;
-    term->stretch = held ? turn_stretch(world->grips[next].stretch, term->normal) : (SporeVec3){0, 0, 0};
+    const SporeGrip *grip = grip_of(world, next, pair, term->normal);
+    term->stretch = grip ? turn_stretch(grip->stretch, term->normal) : (SporeVec3){0, 0, 0};
   }
 }

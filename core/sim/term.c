@@ -14,11 +14,13 @@ SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const 
   return position_of(end, sites, q);
 }
 
+/* With its body, by physics. */
+INLINE bool turns(const SporeEnd *end) { return !end->prescribed && end->mapping->kind == SPORE_MAPPING_RIGID; }
+
 /* Position of the end; keeps the lever of a force that acts `arm` away from it. */
 INLINE SporeVec3 locate(SporeEnd *end, SporeVec3 arm, const SporeSite *sites, const double *q) {
   SporeVec3 position = position_of(end, sites, q);
-  if (!end->prescribed && end->mapping->kind == SPORE_MAPPING_RIGID)
-    end->offset = spore_vec3_add(spore_vec3_sub(position, spore_vec3_load(q + sites[end->body].q)), arm);
+  if (turns(end)) end->offset = spore_vec3_add(spore_vec3_sub(position, spore_vec3_load(q + sites[end->body].q)), arm);
   return position;
 }
 
@@ -66,12 +68,6 @@ INLINE void scatter_pair(const SporeEnd *a, const SporeEnd *b, const SporeSite *
   scatter(b, sites, spore_vec3_scale(-1, force), f);
 }
 
-/* depth = depth when the step began + n.(motion of b - motion of a) */
-INLINE double depth_at(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b) {
-  SporeVec3 moved = spore_vec3_sub(spore_vec3_sub(b, term->b.position), spore_vec3_sub(a, term->a.position));
-  return term->depth + spore_vec3_dot(term->normal, moved);
-}
-
 SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) {
   double stiff = 2 * h * h * stiffness * inverse_mass;
   return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};
@@ -104,34 +100,64 @@ INLINE SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
 static SporeVec3 contact_point_motion(const SporeEnd *end, SporeVec3 position, SporeVec3 frame_arm, SporeVec3 arm,
                                       const SporeSite *sites, const double *q) {
   SporeVec3 motion = spore_vec3_sub(position, end->position);
-  if (end->prescribed || end->mapping->kind != SPORE_MAPPING_RIGID) return motion;
+  if (!turns(end)) return motion;
   SporeVec3 turned = spore_quat_rotate(spore_quat_load(q + sites[end->body].q + 3), frame_arm);
   return spore_vec3_add(motion, spore_vec3_sub(turned, arm));
 }
 
-/* Stretch with all slip of the step in it; a, b: positions of the ends. */
-static SporeVec3 stretch_at(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b, const SporeSite *sites,
-                            const double *q) {
-  SporeVec3 arm_a = spore_vec3_scale(-term->arm_a, term->normal), arm_b = spore_vec3_scale(term->arm_b, term->normal);
-  SporeVec3 moved = spore_vec3_sub(contact_point_motion(&term->a, a, term->frame_arm_a, arm_a, sites, q),
-                                   contact_point_motion(&term->b, b, term->frame_arm_b, arm_b, sites, q));
-  return spore_vec3_add(term->stretch, across(term->normal, moved));
+/* What depth and friction follow of the two ends at positions a and b. */
+typedef struct Motion {
+  SporeVec3 depth_a, depth_b; /* of the sphere's centre, or of a field's contact point */
+  SporeVec3 point_a, point_b; /* of the contact points; only where there is friction or a field */
+} Motion;
+
+INLINE Motion motion_of(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b, const SporeSite *sites,
+                        const double *q) {
+  Motion motion = {.depth_a = spore_vec3_sub(a, term->a.position), .depth_b = spore_vec3_sub(b, term->b.position)};
+  if (!(term->law.friction > 0 || term->field_a || term->field_b)) return motion;
+  motion.point_a = contact_point_motion(&term->a, a, term->frame_arm_a, term->arm_a, sites, q);
+  motion.point_b = contact_point_motion(&term->b, b, term->frame_arm_b, term->arm_b, sites, q);
+  if (term->field_a) motion.depth_a = motion.point_a;
+  if (term->field_b) motion.depth_b = motion.point_b;
+  return motion;
+}
+
+/* depth = depth when the step began + n.(motion of b - motion of a) */
+INLINE double depth_after(const SporeContactTerm *term, const Motion *motion) {
+  return term->depth + spore_vec3_dot(term->normal, spore_vec3_sub(motion->depth_b, motion->depth_a));
+}
+
+/* Stretch with all slip of the step in it. */
+INLINE SporeVec3 stretch_after(const SporeContactTerm *term, const Motion *motion) {
+  return spore_vec3_add(term->stretch, across(term->normal, spore_vec3_sub(motion->point_a, motion->point_b)));
+}
+
+static Motion motion_at(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
+  return motion_of(term, position_of(&term->a, sites, q), position_of(&term->b, sites, q), sites, q);
+}
+
+/* A body that is felt as one gets its force where the sphere presses on it, wherever that has slid to in the step: at
+ * one point, so that the two gain no angular momentum from each other. */
+INLINE void meet_at(SporeEnd *end, SporeVec3 point, const SporeSite *sites, const double *q) {
+  if (turns(end)) end->offset = spore_vec3_sub(point, spore_vec3_load(q + sites[end->body].q));
 }
 
 SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
   if (!(term->law.friction > 0)) return (SporeVec3){0, 0, 0};
-  SporeVec3 a = spore_end_position(&term->a, sites, q), b = spore_end_position(&term->b, sites, q);
-  return spore_contact_slip(&term->law, stretch_at(term, a, b, sites, q), term->yield);
+  Motion motion = motion_at(term, sites, q);
+  return spore_contact_slip(&term->law, stretch_after(term, &motion), term->yield);
 }
 
 /* At q and v; a little ahead where the term is softened. */
 INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q,
                                        const double *v) {
-  SporeVec3 a = locate(&term->a, spore_vec3_scale(-term->arm_a, term->normal), sites, q);
-  SporeVec3 b = locate(&term->b, spore_vec3_scale(term->arm_b, term->normal), sites, q);
-  SporeContactState state = {term->normal, depth_at(term, a, b)};
+  SporeVec3 a = locate(&term->a, term->arm_a, sites, q), b = locate(&term->b, term->arm_b, sites, q);
+  if (term->field_a) meet_at(&term->a, spore_vec3_add(b, term->arm_b), sites, q);
+  if (term->field_b) meet_at(&term->b, spore_vec3_add(a, term->arm_a), sites, q);
+  Motion motion = motion_of(term, a, b, sites, q);
+  SporeContactState state = {term->normal, depth_after(term, &motion)};
   state.velocity = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
-  if (term->law.friction > 0) state.stretch = stretch_at(term, a, b, sites, q);
+  if (term->law.friction > 0) state.stretch = stretch_after(term, &motion);
   if (term->softening.ahead > 0) {
     SporeVec3 ahead = spore_vec3_scale(term->softening.ahead, own_motion(&term->a, &term->b, sites, v));
     state.depth -= spore_vec3_dot(term->normal, ahead);
@@ -243,8 +269,8 @@ SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sit
 }
 
 double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
-  double depth = depth_at(term, spore_end_position(&term->a, sites, q), spore_end_position(&term->b, sites, q));
-  return spore_contact_potential(&term->law, depth, spore_contact_term_stretch(term, sites, q));
+  Motion motion = motion_at(term, sites, q);
+  return spore_contact_potential(&term->law, depth_after(term, &motion), spore_contact_term_stretch(term, sites, q));
 }
 
 double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q) {
@@ -253,5 +279,5 @@ double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *si
 }
 
 SporeVec3 spore_contact_term_point(const SporeContactTerm *term) {
-  return spore_vec3_add_scaled(term->a.position, -term->arm_a, term->normal);
+  return spore_vec3_add(term->a.position, term->arm_a);
 }

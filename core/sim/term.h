@@ -43,8 +43,9 @@ typedef struct SporeContactTerm {
   uint32_t grip_a, grip_b;            /* what friction remembers the pair by */
   SporeVec3 normal;                   /* from b to a */
   double depth;                       /* m, when the step began */
-  double arm_a, arm_b;                /* from the centres to the contact point, m */
-  SporeVec3 frame_arm_a, frame_arm_b; /* the same in the frames of moving rigid bodies when the step began */
+  SporeVec3 arm_a, arm_b;             /* from the centres to the contact point when the step began, m */
+  SporeVec3 frame_arm_a, frame_arm_b; /* the same in the frames of rigid bodies */
+  bool field_a, field_b;              /* the body is felt as one: depth follows its contact point, not the centre */
   SporeVec3 stretch;                  /* of friction's spring, when the step began, m */
   SporeContactLaw law;
   SporeSoftening softening;

@@ -140,11 +140,13 @@ typedef struct SporeIsland {
 typedef struct SporeFelt {
   SporeContact contact;
   uint32_t grip_a, grip_b; /* spheres; of a body felt as one, the first */
+  bool field_a, field_b;   /* the body is felt as one */
 } SporeFelt;
 
 typedef struct SporeGrip {
   uint32_t sphere_a, sphere_b;
   SporeVec3 stretch; /* m */
+  SporeVec3 normal;  /* of the contact: a sphere may touch a body that is felt as one in several places */
 } SporeGrip;
 
 typedef struct SporeStage {

@@ -226,7 +226,7 @@ def choices_that_make_no_sense():
     for old, new, says in (
             ("time_step", 'error_tolerance="1e-6" time_step', "error_tolerance is not used"),
             ("<mechanical ", '<mechanical integrator="static" ', "is integrated by static"),
-            ('spheres="one"', 'spheres="one" surface="depth_field"', "depth field"),
+            ('<rigid_body/>\n      </mechanical>\n      <collision', '<mass_spring_net/>\n      </mechanical>\n      <collision surface="depth_field"', "depth field"),
     ):
         found = [d for d in report("check", with_(old, new))["diagnostics"] if says in d["message"]]
         assert len(found) == 1 and found[0]["severity"] == "warning" and found[0]["remedy"] and "odd.spore:" in found[0]["place"], found

@@ -167,9 +167,10 @@ static const Mistake mistakes[] = {
             "<body name=\"stone\"><mechanical geometry=\"cube\" integrator=\"static\" substeps=\"4\"><rigid_body/>"
             "</mechanical>" BALL "</body>\n"),
      {"warning 5:20: substeps of \"stone\" gain nothing", "warning 5:20: \"stone\" is integrated by static, but"}},
-    {"depth-field-of-passive",
-     BODIES(FLOOR "<body name=\"stone\">" STONE "<collision spheres=\"ball\" surface=\"depth_field\"/></body>\n"),
-     {"warning 5:74: the depth field of \"stone\" is not used"}},
+    {"depth-field-of-net",
+     BODIES(FLOOR "<body name=\"stone\"><mechanical geometry=\"cube\"><mass_spring_net/></mechanical>"
+                  "<collision spheres=\"ball\" surface=\"depth_field\"/></body>\n"),
+     {"warning 5:79: the depth field of \"stone\" is not used"}},
     {"alone-in-group",
      BODIES(FLOOR "<body name=\"stone\">" STONE "<collision spheres=\"ball\" group=\"3\"/></body>\n"),
      {"note 5:74: \"stone\" is alone in group 3"}},
