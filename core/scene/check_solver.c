@@ -11,12 +11,30 @@ static const SporeObject *model_of(const SporeObject *body) {
   return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
 }
 
-static SporeIntegratorKind integrator_of(const SporeCheck *check, const SporeObject *body) {
-  const SporeObject *model = model_of(body);
-  if (!model || (SporeRole)spore_object_number(body, "role") != SPORE_PASSIVE) return SPORE_INTEGRATOR_DEFAULT;
-  int own = (int)spore_object_number(spore_object_parent(model), "integrator");
-  if (own > 0) return (SporeIntegratorKind)(own - 1);
+static gboolean is_passive(const SporeObject *body) {
+  return model_of(body) && (SporeRole)spore_object_number(body, "role") == SPORE_PASSIVE;
+}
+
+/* Models without a Jacobian, which explicit steps move. */
+static gboolean has_particles(const SporeObject *body) {
+  return spore_object_type(model_of(body))->model->rates != NULL;
+}
+
+/* What the body itself chooses, or SPORE_INTEGRATOR_DEFAULT. */
+static SporeIntegratorKind own_integrator(const SporeObject *body) {
+  return (SporeIntegratorKind)((int)spore_object_number(spore_object_child_of(body, "mechanical"), "integrator") - 1);
+}
+
+static SporeIntegratorKind scene_integrator(const SporeCheck *check) {
   return (SporeIntegratorKind)spore_object_number(spore_document_section(check->document, "solver"), "integrator");
+}
+
+/* As the world chooses: see core/sim/compile.c. SPORE_INTEGRATOR_DEFAULT: physics does not move it. */
+static SporeIntegratorKind integrator_of(const SporeCheck *check, const SporeObject *body) {
+  if (!is_passive(body) || own_integrator(body) != SPORE_INTEGRATOR_DEFAULT)
+    return is_passive(body) ? own_integrator(body) : SPORE_INTEGRATOR_DEFAULT;
+  SporeIntegratorKind kind = scene_integrator(check);
+  return has_particles(body) && spore_integrator(kind)->implicit ? SPORE_INTEGRATOR_VERLET : kind;
 }
 
 /* What the methods of all bodies use. */
@@ -67,6 +85,24 @@ static void check_static(SporeCheck *check, const SporeObject *body) {
                     spore_object_name(body));
 }
 
+/* Methods that particles cannot make use of. */
+static void check_particles(SporeCheck *check, const SporeObject *body) {
+  if (!is_passive(body) || !has_particles(body)) return;
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  const SporeObject *solver = spore_document_section(check->document, "solver");
+  guint property = (guint)spore_parameter_find(spore_object_type(solver)->table, "integrator");
+  SporeIntegratorKind own = own_integrator(body), scene = scene_integrator(check);
+  if (own != SPORE_INTEGRATOR_DEFAULT && own != SPORE_INTEGRATOR_STATIC && spore_integrator(own)->implicit)
+    spore_check_say(check, SPORE_WARNING, mechanical, _("leave the integrator open, or take verlet"),
+                    _("particles of \"%s\" have no Jacobian that %s could use: its steps may be no longer than "
+                      "verlet's, each costs many of them, and its equations may be left unsolved"),
+                    spore_object_name(body), spore_integrator_names[own]);
+  if (own == SPORE_INTEGRATOR_DEFAULT && spore_object_is_set(solver, property) && spore_integrator(scene)->implicit)
+    spore_check_say(check, SPORE_NOTE, mechanical, _("choose verlet for it, so that the scene says so"),
+                    _("the scene's integrator %s is not used for \"%s\": particles are moved by verlet"),
+                    spore_integrator_names[scene], spore_object_name(body));
+}
+
 /* Whether a body other than `body` is of that group. */
 static gboolean has_companion(const SporeCheck *check, const SporeObject *body, int64_t group) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
@@ -105,6 +141,7 @@ static void check_contact(SporeCheck *check, const SporeObject *body) {
 
 static void check_body(SporeCheck *check, SporeObject *body) {
   check_static(check, body);
+  check_particles(check, body);
   check_contact(check, body);
 }
 

@@ -141,6 +141,17 @@ static const Mistake mistakes[] = {
     {"fluid-beside",
      SCENE(ASSETS "<bodies>\n" FLOOR FLUID("0.5 0.02 0") "</bodies>\n"),
      {"note 5:1: \"blood\" is held by nothing"}},
+    {"fluid-implicit",
+     SCENE("<solver time_step=\"0.0001\"/>\n" ASSETS "<bodies>\n" FLOOR
+           "<body name=\"blood\" position=\"0 0.02 0\"><mechanical geometry=\"cube\" "
+           "integrator=\"tr_bdf2\"><lennard_jones "
+           "particles=\"60\"/></mechanical><collision/></body>\n</bodies>\n"),
+     {"warning 6:40: particles of \"blood\" have no Jacobian that tr_bdf2 could use"}},
+    {"fluid-ignores-scene",
+     SCENE("<solver integrator=\"tr_bdf2\" error_tolerance=\"1e-5\"/>\n" ASSETS
+           "<bodies>\n" FLOOR FLUID("0 0.02 0") "</bodies>\n"),
+     {"warning 2:1: error_tolerance is not used",
+      "note 6:40: the scene's integrator tr_bdf2 is not used for \"blood\""}},
     {"step-too-large",
      SCENE("<solver integrator=\"symplectic_euler\" time_step=\"0.05\"/>\n<assets><spheres name=\"ball\" "
            "file=\"ball.spheres\"/>"
