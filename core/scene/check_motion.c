@@ -193,16 +193,13 @@ static void check_piles(SporeCheck *check, const SporeSimulation *simulation) {
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
     guint32 index = spore_simulation_body_of(simulation, body);
-    double share = 1;
-    size_t substeps = index == SPORE_NO_BODY ? 0 : spore_world_pile_substeps(simulation->world, index, &share);
-    if (substeps == 0) continue;
-    g_autofree char *remedy =
-        substeps > SPORE_SUBSTEPS_MAXIMUM
-            ? g_strdup(_("take a smaller time_step or integrator implicit_euler"))
-            : g_strdup_printf(_("take %zu substeps, a smaller time_step or integrator implicit_euler"), substeps);
+    SporePileLimit limit;
+    if (index == SPORE_NO_BODY || !spore_world_pile_sinks(simulation->world, index, &limit)) continue;
+    char remedy[160];
+    spore_pile_remedy(&limit, remedy, sizeof remedy);
     spore_check_say(check, SPORE_WARNING, body, remedy,
                     _("\"%s\" would sink into others in a pile: the step leaves a contact %.2g%% of its stiffness"),
-                    spore_object_name(body), 100 * share);
+                    spore_object_name(body), 100 * limit.share);
   }
 }
 

@@ -1,8 +1,10 @@
 /* What explicit steps take away from contacts that carry more than their own two ends: see SporeSoftening. Alone, two
  * ends rest as deep as the law says at any step; but where others lie on them, what presses is only
  *   1 / (1 + L) of k depth,   L = w (h d + h t k)
- * since the ends do not know that their neighbours push back as well, and a pile sinks in until that holds. */
+ * since the ends do not know that their neighbours push back as well, and a pile sinks in until that holds. For light
+ * particles it is most often the damping d that takes it: the usual one is large beside that of their oscillation. */
 #include <math.h>
+#include <stdio.h>
 
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
@@ -11,6 +13,7 @@
 #define GOOD_SHARE 0.8  /* that the substeps asked for let it hold */
 #define REST_TIME_S 0.1 /* at rest: in this time it would not be gone; and for how long it is watched */
 #define NEIGHBOURS 6    /* contacts of a body in a pile: as many as hold it without friction */
+#define SINKING 0.25    /* of their radius, that particles may sink in */
 
 static double share_held(double h, double w, const SporeContactLaw *law) {
   SporeSoftening softening = spore_softening(h, w, law->stiffness);
@@ -25,6 +28,12 @@ static size_t substeps_to_hold(double time_step, double w, const SporeContactLaw
   return substeps;
 }
 
+/* Damping with which a step of h seconds leaves the good share; 0: none does. */
+static double damping_to_hold(double h, double w, const SporeContactLaw *law) {
+  SporeSoftening softening = spore_softening(h, w, law->stiffness);
+  return fmax((1 / GOOD_SHARE - 1) / (w * h) - softening.ahead * law->stiffness, 0);
+}
+
 static bool softened_at_rest(const SporeWorld *world, const SporeContactTerm *term) {
   double spring = term->law.stiffness * term->depth;
   if (!(term->softening.inverse_mass > 0) || !(spring > 0) || !(term->pressing < LEAST_SHARE * spring)) return false;
@@ -33,19 +42,36 @@ static bool softened_at_rest(const SporeWorld *world, const SporeContactTerm *te
   return fabs(spore_vec3_dot(term->normal, gap)) * REST_TIME_S < term->depth;
 }
 
+static SporePileLimit limit_of(double time_step, double h, double w, const SporeContactLaw *law, bool particles) {
+  return (SporePileLimit){.share = share_held(h, w, law),
+                          .substeps = substeps_to_hold(time_step, w, law),
+                          .damping = damping_to_hold(h, w, law),
+                          .implicit = !particles};
+}
+
+void spore_pile_remedy(const SporePileLimit *limit, char *text, size_t size) {
+  char substeps[64] = "", damping[64] = "";
+  if (limit->substeps <= SPORE_SUBSTEPS_MAXIMUM)
+    snprintf(substeps, sizeof substeps, _("%zu substeps, "), limit->substeps);
+  if (limit->damping > 0) snprintf(damping, sizeof damping, _("contact damping %.2g, "), limit->damping);
+  snprintf(text, size,
+           limit->implicit ? _("take %s%sa smaller time_step or integrator implicit_euler")
+                           : _("take %s%sor a smaller time_step"),
+           substeps, damping);
+}
+
+static bool is_of_particles(const SporeBody *body) {
+  return body->role == SPORE_PASSIVE && body->model->type->rates && body->spheres.point_count > 0;
+}
+
 static void report(SporeWorld *world, const SporeBody *body, const SporeContactTerm *term) {
   double percent = 100 * term->pressing / (term->law.stiffness * term->depth);
-  size_t substeps = substeps_to_hold(world->solver.time_step, term->softening.inverse_mass, &term->law);
-  if (substeps <= SPORE_SUBSTEPS_MAXIMUM)
-    spore_world_report(world,
-                       _("%s: lies too deep: steps of %.3g s leave a contact %.2g%% of its stiffness; take %zu "
-                         "substeps, a smaller time_step or integrator implicit_euler"),
-                       body->name, term->softening.h, percent, substeps);
-  else
-    spore_world_report(world,
-                       _("%s: lies too deep: steps of %.3g s leave a contact %.2g%% of its stiffness; take a smaller "
-                         "time_step or integrator implicit_euler"),
-                       body->name, term->softening.h, percent);
+  SporePileLimit limit = limit_of(world->solver.time_step, term->softening.h, term->softening.inverse_mass, &term->law,
+                                  is_of_particles(body));
+  char remedy[160];
+  spore_pile_remedy(&limit, remedy, sizeof remedy);
+  spore_world_report(world, _("%s: lies too deep: steps of %.3g s leave a contact %.2g%% of its stiffness; %s"),
+                     body->name, term->softening.h, percent, remedy);
 }
 
 /* A body is watched from the first of the steps in a row that it has such a contact in. */
@@ -98,13 +124,24 @@ static bool may_be_piled(const SporeWorld *world, const SporeBody *body) {
   return false;
 }
 
-size_t spore_world_pile_substeps(const SporeWorld *world, uint32_t index, double *share) {
+/* Particles, whose own forces bear those above: each as deep as the column on it presses it into what holds it. */
+static bool particles_sink(const SporeWorld *world, const SporeBody *body, double share) {
+  double count = (double)body->spheres.point_count, radius = HUGE_VAL;
+  for (size_t i = 0; i < body->spheres.point_count; i++)
+    radius = fmin(radius, world->spheres.radius[body->sphere_start + i]);
+  double weight = body->total_mass / count * spore_vec3_length(world->gravity);
+  return cbrt(count) * weight > SINKING * radius * share * body->contact.stiffness;
+}
+
+bool spore_world_pile_sinks(const SporeWorld *world, uint32_t index, SporePileLimit *limit) {
   const SporeBody *body = &world->bodies[index];
-  *share = 1;
-  if (!may_be_piled(world, body) || spore_integrator(body->integrator)->implicit) return 0;
+  bool particles = is_of_particles(body);
+  if (!(particles || may_be_piled(world, body)) || spore_integrator(body->integrator)->implicit) return false;
   SporeContactMaterial its = {body->contact.stiffness, body->contact.damping, body->contact.friction};
   SporeContactLaw law = spore_contact_law(&its, &its, 1, 1);
-  double w = pile_inverse_mass(world, body);
-  *share = share_held(world->solver.time_step / (double)body->substeps, w, &law);
-  return *share < LEAST_SHARE ? substeps_to_hold(world->solver.time_step, w, &law) : 0;
+  if (particles) law.stiffness = its.stiffness, law.damping = its.damping; /* what holds them may be much stiffer */
+  double w = particles ? NEIGHBOURS * world->mass_inverse[3 * body->v_offset] : pile_inverse_mass(world, body);
+  double h = world->solver.time_step / (double)body->substeps;
+  *limit = limit_of(world->solver.time_step, h, w, &law, particles);
+  return limit->share < LEAST_SHARE && (!particles || particles_sink(world, body, limit->share));
 }

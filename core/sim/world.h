@@ -182,10 +182,17 @@ typedef struct SporeMonitor {
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);
 /* Time that a step may take, us of the clock; 0: any. A longer one is counted and said, and changes nothing else. */
 void spore_world_set_budget(SporeWorld *world, double budget_us);
-/* Whether an explicit step is too long for the body to lie in a pile of its like: the substeps that it should take, 0
- * where all is well; more than SPORE_SUBSTEPS_MAXIMUM are too many. share: of its contacts' stiffness that it leaves.
+/* Whether an explicit step is too long for the body to lie in a pile of its like, or for particles on what holds them.
  */
-size_t spore_world_pile_substeps(const SporeWorld *world, uint32_t body, double *share);
+typedef struct SporePileLimit {
+  double share;    /* of its contacts' stiffness that the step leaves */
+  size_t substeps; /* that leave enough; more than SPORE_SUBSTEPS_MAXIMUM are too many */
+  double damping;  /* of its contacts that leaves enough, N s/m; 0: none does */
+  bool implicit;   /* an implicit integrator would do as well */
+} SporePileLimit;
+bool spore_world_pile_sinks(const SporeWorld *world, uint32_t body, SporePileLimit *limit);
+/* "take ...", translated. */
+void spore_pile_remedy(const SporePileLimit *limit, char *text, size_t size);
 /* The monitor integrates the body implicitly, which the scene does not. */
 bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body);
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);

@@ -393,7 +393,7 @@ def a_fluid_lands_on_a_floor():
   <bodies>
     <body name="blood" position="0 0.012 0">
       <mechanical geometry="drop"><lennard_jones particles="100" drag="5"/></mechanical>
-      <collision stiffness="20"/>
+      <collision stiffness="20" damping="0.004"/>
     </body>
     <body name="floor" role="unmovable"><collision spheres="floor"/></body>
   </bodies>
@@ -402,8 +402,13 @@ def a_fluid_lands_on_a_floor():
     schema = file("spore.rng", spore("schema").stdout)
     subprocess.run(["xmllint", "--noout", "--relaxng", schema, scene], check=True, capture_output=True)
     assert report("check", scene)["diagnostics"] == []
+    damped = ["--set", "bodies/blood/collision/damping=1"]  # the usual one, too much for particles of 10 mg
+    (said,) = report("check", scene, *damped)["diagnostics"]
+    assert "would sink" in said["message"] and "contact damping 0.0044" in said["remedy"], said
+    assert report("run", scene, "--steps", 1000, *damped)["monitor"]["soft_contacts"] > 0
     assert {s["name"]: s for s in report("plan", scene)["stages"]}["detect"]["included"]
     answer = report("run", scene, "--steps", 1000)
+    assert answer["monitor"]["soft_contacts"] == 0
     assert answer["spheres"] == 25 * 25 + answer["dof"] // 3
     assert answer["contacts"]["max"] > 10 and not answer["monitor"]["frozen"] and answer["monitor"]["deep_contacts"] == 0
     assert report("run", scene, "--steps", 1000, "--threads", 2)["state_hash"] == answer["state_hash"]
