@@ -78,7 +78,8 @@ static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
                 {"deep_contacts", monitor->deep_contacts},
                 {"soft_contacts", monitor->soft_contacts},
                 {"over_budget", monitor->over_budget},
-                {"held_inputs", monitor->held_inputs}};
+                {"held_inputs", monitor->held_inputs},
+                {"broken_links", monitor->broken_links}};
   spore_cli_open(cli, "monitor");
   for (gsize i = 0; i < G_N_ELEMENTS(counts); i++) spore_cli_count(cli, counts[i].member, (gint64)counts[i].count);
   if (monitor->not_converged || monitor->recoveries)

@@ -8,12 +8,16 @@ static double span(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, SporeVec
   return length;
 }
 
+SporeVec3 spore_spring_held(const SporeSpring *spring, SporeVec3 a) {
+  return spore_vec3_add_scaled(a, -spore_vec3_dot(spring->free, a), spring->free);
+}
+
 SporeVec3 spore_spring_force(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, SporeVec3 velocity_a,
                              SporeVec3 velocity_b) {
   SporeVec3 speed = spore_vec3_sub(velocity_a, velocity_b);
   if (spring->rest_length == 0) {
     SporeVec3 pull = spore_vec3_scale(-spring->stiffness, spore_vec3_sub(a, b));
-    return spore_vec3_add_scaled(pull, -spring->damping, speed);
+    return spore_spring_held(spring, spore_vec3_add_scaled(pull, -spring->damping, speed));
   }
   SporeVec3 n;
   double length = span(spring, a, b, &n);
@@ -24,8 +28,9 @@ SporeVec3 spore_spring_force(const SporeSpring *spring, SporeVec3 a, SporeVec3 b
 void spore_spring_jacobian(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, SporeMat3 *stiffness,
                            SporeMat3 *damping) {
   if (spring->rest_length == 0) {
-    *stiffness = spore_mat3_scale(spring->stiffness, spore_mat3_identity());
-    *damping = spore_mat3_scale(spring->damping, spore_mat3_identity());
+    SporeMat3 all = spore_mat3_sub(spore_mat3_identity(), spore_mat3_outer(spring->free, spring->free));
+    *stiffness = spore_mat3_scale(spring->stiffness, all);
+    *damping = spore_mat3_scale(spring->damping, all);
     return;
   }
   SporeVec3 n;
@@ -37,6 +42,6 @@ void spore_spring_jacobian(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, 
 }
 
 double spore_spring_energy(const SporeSpring *spring, SporeVec3 a, SporeVec3 b) {
-  double stretch = spore_vec3_distance(a, b) - spring->rest_length;
+  double stretch = spore_vec3_length(spore_spring_held(spring, spore_vec3_sub(a, b))) - spring->rest_length;
   return 0.5 * spring->stiffness * stretch * stretch;
 }

@@ -3,6 +3,7 @@
 #define SPORE_MATH_VEC3_H
 
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct SporeVec3 {
   double x, y, z;
@@ -29,6 +30,7 @@ static inline SporeVec3 spore_vec3_cross(SporeVec3 a, SporeVec3 b) {
 }
 static inline double spore_vec3_length(SporeVec3 a) { return sqrt(spore_vec3_dot(a, a)); }
 static inline double spore_vec3_distance(SporeVec3 a, SporeVec3 b) { return spore_vec3_length(spore_vec3_sub(a, b)); }
+static inline bool spore_vec3_is_finite(SporeVec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 /* Unit vector; `fallback` where a is too short to have a direction. */
 static inline SporeVec3 spore_vec3_normalise(SporeVec3 a, SporeVec3 fallback) {
   double length = spore_vec3_length(a);

@@ -130,7 +130,7 @@ static void check_body(SporeCheck *check, SporeObject *body) {
                     _("\"%s\" asks to be shown as an effect, and is simulated all the same"), name);
 }
 
-/* Tools and links. */
+/* Tools. */
 
 static void check_probe(SporeCheck *check, SporeObject *probe) {
   const char *name = spore_object_name(probe);
@@ -143,13 +143,6 @@ static void check_probe(SporeCheck *check, SporeObject *probe) {
   if (!spore_object_text(probe, "device"))
     spore_check_say(check, SPORE_WARNING, probe, _("name a mouse or a track"),
                     _("the tool \"%s\" has no device: nothing moves it"), name);
-}
-
-static void check_link(SporeCheck *check, SporeObject *link) {
-  const char *property = strcmp(spore_object_type(link)->element, "pin") == 0 ? "body" : "body_a";
-  if (!spore_object_text(link, property))
-    spore_check_say(check, SPORE_FAULT, link, _("name a body, or remove the link"), _("the link \"%s\" has no %s"),
-                    spore_object_name(link), property);
 }
 
 /* The whole. */
@@ -170,7 +163,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
     spore_check_say(&check, SPORE_NOTE, NULL, _("import a mesh, or add a body"), "%s", _("the scene has no bodies"));
   spore_check_each(&check, "bodies", NULL, check_body);
   spore_check_each(&check, "tools", "probe", check_probe);
-  spore_check_each(&check, "links", NULL, check_link);
+  spore_check_links(&check);
   spore_check_assets(&check);
   spore_check_solver(&check);
   spore_check_motion(&check);

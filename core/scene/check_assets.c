@@ -8,8 +8,7 @@
 #define SMALLEST_ORGAN_M 0.001
 #define SLIVER_DEG 5.0
 
-/* A length in the unit that people would use for it. */
-static char *say_length(double length_m) {
+char *spore_check_length(double length_m) {
   if (length_m >= 1) return g_strdup_printf("%.3g m", length_m);
   if (length_m >= 1e-3) return g_strdup_printf("%.3g mm", length_m * 1e3);
   return g_strdup_printf("%.3g um", length_m * 1e6);
@@ -17,7 +16,7 @@ static char *say_length(double length_m) {
 
 static void check_size(SporeCheck *check, SporeObject *asset, double diagonal_m) {
   if (diagonal_m <= LARGEST_ORGAN_M && diagonal_m >= SMALLEST_ORGAN_M) return;
-  g_autofree char *length = say_length(diagonal_m);
+  g_autofree char *length = spore_check_length(diagonal_m);
   spore_check_say(check, SPORE_WARNING, asset,
                   diagonal_m > LARGEST_ORGAN_M ? _("if it is an organ or a tool, its unit is wrong: try mm or cm")
                                                : _("if it is an organ or a tool, its unit is wrong: try m or cm"),

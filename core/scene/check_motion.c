@@ -178,7 +178,7 @@ static void check_loose(const Start *start) {
   SporeVec3 down = spore_vec3_normalise(gravity, gravity);
   for (guint i = 0; i < start->bodies->len; i++) {
     const SporeObject *body = start->bodies->pdata[i];
-    if (role_of(start, i) != SPORE_PASSIVE || spore_check_is_used(start->check, body, "pin|spring") ||
+    if (role_of(start, i) != SPORE_PASSIVE || spore_check_is_used(start->check, body, SPORE_HOLDING_LINKS) ||
         has_support(start, i, down))
       continue;
     spore_check_say(
@@ -220,6 +220,7 @@ void spore_check_motion(SporeCheck *check) {
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     place_body(&start, spore_object_child(bodies, i), simulation);
   if (simulation) check_piles(check, simulation);
+  if (simulation) spore_check_link_points(check, simulation);
   spore_simulation_free(simulation);
   g_array_sort(start.balls, by_left_end);
   spore_check_each(check, "bodies", NULL, check_reach);

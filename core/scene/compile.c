@@ -240,7 +240,8 @@ static gboolean add_spring(Compiler *compiler, const SporeObject *object) {
                                .point_b = spore_vec3_load(fields.point_b),
                                .stiffness = fields.stiffness,
                                .damping = fields.damping,
-                               .rest_length = fields.rest_length};
+                               .rest_length = fields.rest_length,
+                               .strength = fields.strength};
   if (!body_index(compiler, object, "body_a", &link.body_a) || !body_index(compiler, object, "body_b", &link.body_b))
     return FALSE;
   if (link.body_a == SPORE_NO_BODY)
@@ -250,9 +251,41 @@ static gboolean add_spring(Compiler *compiler, const SporeObject *object) {
   return TRUE;
 }
 
+static const struct {
+  const char *element;
+  SporeLinkKind kind;
+} joint_kinds[] = {{"ball", SPORE_LINK_BALL},
+                   {"hinge", SPORE_LINK_HINGE},
+                   {"weld", SPORE_LINK_WELD},
+                   {"slide", SPORE_LINK_SLIDE},
+                   {"port", SPORE_LINK_PORT}};
+
+static gboolean add_joint(Compiler *compiler, const SporeObject *object) {
+  const char *element = spore_object_type(object)->element;
+  SporeLinkFields fields = {0};
+  spore_object_fields(object, &fields);
+  SporeLinkDescription link = {.name = fields.name,
+                               .point_a = spore_vec3_load(fields.point),
+                               .direction = spore_vec3_load(fields.direction),
+                               .length = fields.length,
+                               .stiffness = fields.joint.stiffness,
+                               .damping = fields.joint.damping,
+                               .strength = fields.joint.strength};
+  for (gsize i = 0; i < G_N_ELEMENTS(joint_kinds); i++)
+    if (strcmp(element, joint_kinds[i].element) == 0) link.kind = joint_kinds[i].kind;
+  if (!body_index(compiler, object, "body_a", &link.body_a) || !body_index(compiler, object, "body_b", &link.body_b))
+    return FALSE;
+  if (link.body_a == SPORE_NO_BODY)
+    return refuse(compiler, object, _("the link \"%s\" has no body_a; expected the name of a body; set it"),
+                  fields.name);
+  g_array_append_val(compiler->links, link);
+  return TRUE;
+}
+
 static gboolean add_link(Compiler *compiler, const SporeObject *object) {
-  return strcmp(spore_object_type(object)->element, "pin") == 0 ? add_pin(compiler, object)
-                                                                : add_spring(compiler, object);
+  const char *element = spore_object_type(object)->element;
+  if (strcmp(element, "pin") == 0) return add_pin(compiler, object);
+  return strcmp(element, "spring") == 0 ? add_spring(compiler, object) : add_joint(compiler, object);
 }
 
 /* Input. */

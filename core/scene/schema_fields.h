@@ -76,8 +76,15 @@ typedef struct SporePinFields {
 
 typedef struct SporeSpringFields {
   const char *name, *body_a, *body_b;
-  double point_a[3], point_b[3], stiffness, damping, rest_length;
+  double point_a[3], point_b[3], stiffness, damping, rest_length, strength;
 } SporeSpringFields;
+
+/* Of a ball, hinge, weld, slide or port; each has a part of the parameters. */
+typedef struct SporeLinkFields {
+  const char *name, *body_a, *body_b;
+  double point[3], direction[3], length;
+  SporeJointFields joint;
+} SporeLinkFields;
 
 typedef struct SporeCameraFields {
   const char *name;

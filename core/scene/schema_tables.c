@@ -416,6 +416,76 @@ static const SporeParameter spring_parameters[] = {
      FIELD(SporeSpringFields, rest_length),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Length at which the spring is slack; negative: its length at the start.")},
+    {.name = "strength",
+     .type = SPORE_REAL,
+     .unit = "N",
+     0,
+     1e9,
+     .initial = {0},
+     FIELD(SporeSpringFields, strength),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Force above which the spring breaks for good; 0: never.")},
+};
+
+#define LINK_BODY(field, text)                                                                                         \
+  {                                                                                                                    \
+    .name = #field, .type = SPORE_REFERENCE, .unit = "", .references = "body", FIELD(SporeLinkFields, field),          \
+    .change = SPORE_CHANGE_REBUILD, .doc = text                                                                        \
+  }
+#define LINK_POINT(text)                                                                                               \
+  {                                                                                                                    \
+    .name = "point", .type = SPORE_VECTOR, .unit = "m", -POSITION_M, POSITION_M, FIELD(SporeLinkFields, point),        \
+    .change = SPORE_CHANGE_REBUILD, .doc = text                                                                        \
+  }
+#define LINK_DIRECTION(text)                                                                                           \
+  {                                                                                                                    \
+    .name = "direction", .type = SPORE_VECTOR, .unit = "", -POSITION_M, POSITION_M, .initial = {0, 1, 0},              \
+    FIELD(SporeLinkFields, direction), .change = SPORE_CHANGE_REBUILD, .doc = text                                     \
+  }
+#define LINK_LENGTH(text)                                                                                              \
+  {                                                                                                                    \
+    .name = "length", .type = SPORE_REAL, .unit = "m", 1e-6, POSITION_M, .initial = {0.01},                            \
+    FIELD(SporeLinkFields, length), .change = SPORE_CHANGE_REBUILD, .doc = text                                        \
+  }
+
+static const SporeParameter ball_parameters[] = {
+    NAME(SporeLinkFields, N_("Name of the ball joint.")),
+    LINK_BODY(body_a, N_("Body that is held.")),
+    LINK_BODY(body_b, N_("Body that it is held at; none: the scene.")),
+    LINK_POINT(N_("Where the bodies are held together at the start, in the scene.")),
+};
+
+static const SporeParameter hinge_parameters[] = {
+    NAME(SporeLinkFields, N_("Name of the hinge.")),
+    LINK_BODY(body_a, N_("Body that turns.")),
+    LINK_BODY(body_b, N_("Body that it turns on; none: the scene.")),
+    LINK_POINT(N_("A point of the axis at the start, in the scene.")),
+    LINK_DIRECTION(N_("Direction of the axis at the start, in the scene.")),
+    LINK_LENGTH(N_("Distance between the two points of the axis that are held: the longer, the stiffer.")),
+};
+
+static const SporeParameter weld_parameters[] = {
+    NAME(SporeLinkFields, N_("Name of the weld.")),
+    LINK_BODY(body_a, N_("Body that is held.")),
+    LINK_BODY(body_b, N_("Body that it is held at; none: the scene.")),
+    LINK_POINT(N_("Where the bodies are joined at the start, in the scene.")),
+    LINK_LENGTH(N_("Distance between the points that are held: the longer, the stiffer against turning.")),
+};
+
+static const SporeParameter slide_parameters[] = {
+    NAME(SporeLinkFields, N_("Name of the slide.")),
+    LINK_BODY(body_a, N_("Body whose point slides.")),
+    LINK_BODY(body_b, N_("Rigid body that the line belongs to; none: the scene.")),
+    LINK_POINT(N_("Point that slides, where it is at the start, in the scene.")),
+    LINK_DIRECTION(N_("Direction of the line at the start, in the scene.")),
+};
+
+static const SporeParameter port_parameters[] = {
+    NAME(SporeLinkFields, N_("Name of the port.")),
+    LINK_BODY(body_a, N_("Instrument whose shaft goes through the port.")),
+    LINK_BODY(body_b, N_("Body that the port is in; none: the scene.")),
+    LINK_POINT(N_("Where the port is at the start, in the scene.")),
+    LINK_DIRECTION(N_("Direction of the shaft at the start, in the scene.")),
 };
 
 static const SporeParameter camera_parameters[] = {
@@ -486,6 +556,8 @@ static const SporeParameter track_parameters[] = {
 #define CHILDREN(...) ((const char *const[]){__VA_ARGS__, NULL})
 #define TABLE(array, Type) .parameters = array, .count = G_N_ELEMENTS(array), .size = sizeof(Type)
 
+#define JOINT .extra = &spore_joint_parameters, .extra_offset = offsetof(SporeLinkFields, joint)
+
 const SporeElement spore_scene_elements[] = {
     {"spore", N_("Scene"), N_("A scene: bodies, how they meet, and the tools that touch them."),
      TABLE(root_parameters, SporeRootFields), .ordered = TRUE,
@@ -522,10 +594,21 @@ const SporeElement spore_scene_elements[] = {
     {"fidelity", N_("Fidelity"), N_("How faithfully the body is simulated."),
      TABLE(fidelity_parameters, SporeFidelityFields)},
     {"links", N_("Links"), N_("What ties bodies to each other and to the scene."),
-     .children = CHILDREN("pin", "spring")},
+     .children = CHILDREN("pin", "spring", "ball", "hinge", "weld", "slide", "port")},
     {"pin", N_("Pin"), N_("Holds part of a body still."), TABLE(pin_parameters, SporePinFields)},
     {"spring", N_("Spring"), N_("A damped spring between two bodies, or a body and the scene."),
      TABLE(spring_parameters, SporeSpringFields)},
+    {"ball", N_("Ball joint"), N_("Holds a point of a body at another, or at the scene, and leaves it free to turn."),
+     TABLE(ball_parameters, SporeLinkFields), JOINT},
+    {"hinge", N_("Hinge"), N_("Leaves a body free to turn about an axis, and holds all else."),
+     TABLE(hinge_parameters, SporeLinkFields), JOINT},
+    {"weld", N_("Weld"), N_("Joins two bodies, or a body and the scene, as if they were one."),
+     TABLE(weld_parameters, SporeLinkFields), JOINT},
+    {"slide", N_("Slide"), N_("Leaves a point of a body free to run along a line, and holds it there."),
+     TABLE(slide_parameters, SporeLinkFields), JOINT},
+    {"port", N_("Port"),
+     N_("Lets an instrument through at one point of its shaft, as a trocar does: it turns and slides there."),
+     TABLE(port_parameters, SporeLinkFields), JOINT},
     {"effects", N_("Effects"), N_("What is shown without being simulated.")},
     {"tools", N_("Tools"), N_("What the user holds, and looks through."), .children = CHILDREN("probe", "camera")},
     {"probe", N_("Probe"), N_("An active body moved by a device."), TABLE(probe_parameters, SporeProbeFields)},

@@ -12,8 +12,6 @@ static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
 }
 
-static bool finite3(SporeVec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
-
 static bool finite_all(const double *values, size_t count) {
   for (size_t i = 0; i < count; i++)
     if (!isfinite(values[i])) return false;
@@ -32,8 +30,8 @@ static bool check_body(const SporeBodyDescription *body, SporeError *error) {
   if ((body->role == SPORE_PASSIVE) != (body->model != NULL))
     return fail(error, name, _("a passive body needs a mechanical model, and no other may have one; change the role"));
   const SporeQuat o = body->pose.orientation;
-  if (!finite3(body->pose.position) || !finite3(body->velocity) || !finite3(body->spin) ||
-      !isfinite(o.w + o.x + o.y + o.z))
+  if (!spore_vec3_is_finite(body->pose.position) || !spore_vec3_is_finite(body->velocity) ||
+      !spore_vec3_is_finite(body->spin) || !isfinite(o.w + o.x + o.y + o.z))
     return fail(error, name, _("pose or velocity is not finite; expected numbers; correct the body's pose"));
   if (body->model && body->model->q_count > 6 * body->model->block_count)
     return fail(error, name, _("the model has more than 6 configuration values a block; this is a fault of the model"));
@@ -52,7 +50,7 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
     spore_error_at(error, "solver");
     return false;
   }
-  if (!finite3(description->gravity))
+  if (!spore_vec3_is_finite(description->gravity))
     return spore_error_set(error, SPORE_ERROR_INPUT, "environment",
                            _("gravity is not finite; expected a vector in m/s^2; correct it"));
   for (size_t i = 0; i < description->body_count; i++)
@@ -60,7 +58,7 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
   return true;
 }
 
-static char *copy_text(const char *text) {
+char *spore_copy_text(const char *text) {
   char *copy = SPORE_NEW_ARRAY(char, strlen(text) + 1);
   return copy ? strcpy(copy, text) : NULL;
 }
@@ -107,7 +105,7 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->block_count = from->model ? from->model->block_count : SPORE_POSE_BLOCKS;
   world->q_count += body->q_count;
   world->v_count += 3 * body->block_count;
-  body->name = copy_text(from->name);
+  body->name = spore_copy_text(from->name);
   return body->name || no_memory(error);
 }
 

@@ -89,6 +89,17 @@ static void count_terms(SporeWorld *world, size_t springs) {
   }
 }
 
+/* Joints are stiff: however the bodies move otherwise, by joints they move implicitly. */
+static void mix_jointed(SporeWorld *world) {
+  for (size_t i = 0; i < world->link_count; i++) {
+    const SporeLink *link = &world->links[i];
+    uint32_t island = link->kind == SPORE_LINK_SPRING ? SPORE_NO_BODY : island_of_spring(world, link->term_start);
+    if (island == SPORE_NO_BODY || spore_integrator(world->islands[island].integrator)->implicit) continue;
+    world->islands[island].mixed = true;
+    world->islands[island].integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
+  }
+}
+
 static void set_starts(SporeWorld *world) {
   SporeIsland end = {0};
   for (size_t i = 0; i < world->island_count; i++) {
@@ -133,6 +144,7 @@ void spore_world_group(SporeWorld *world) {
   tie_bodies(world);
   number_islands(world);
   count_terms(world, springs);
+  mix_jointed(world);
   set_starts(world);
   fill_islands(world, springs);
 }

@@ -21,6 +21,7 @@ static Census count_bodies(const SporeWorld *world) {
     census.implicit_needed |= spore_integrator(body->integrator)->implicit || body->integrator != first->integrator ||
                               body->substeps != first->substeps;
   }
+  for (size_t i = 0; i < world->link_count; i++) census.implicit_needed |= world->links[i].kind != SPORE_LINK_SPRING;
   census.spheres_moving = world->spheres.count - world->spheres.static_count;
   return census;
 }
@@ -30,7 +31,7 @@ static size_t active_bodies(const SporeWorld *world) { return count_bodies(world
 static size_t moving_spheres(const SporeWorld *world) { return world->spheres.count - world->spheres.static_count; }
 static size_t all_spheres(const SporeWorld *world) { return world->spheres.count; }
 static size_t contacts(const SporeWorld *world) { return world->contact_count; }
-static size_t links(const SporeWorld *world) { return world->link_count + world->pull_count; }
+static size_t links(const SporeWorld *world) { return world->link_count + world->port_count + world->pull_count; }
 static size_t sleeping(const SporeWorld *world) { return world->sleeping_count; }
 static size_t islands(const SporeWorld *world) { return world->island_count; }
 static size_t degrees_of_freedom(const SporeWorld *world) { return world->dof; }
@@ -96,9 +97,9 @@ void spore_world_make_plan(SporeWorld *world) {
       active_bodies);
   plan_collision(world, &census);
   add(world, "link", moves && (linked || pulled),
-      linked   ? _("springs tie bodies together")
+      linked   ? _("links tie bodies together")
       : pulled ? _("a viewer pulls at a body")
-               : _("no spring ties bodies, and nobody pulls at one"),
+               : _("no link ties bodies, and nobody pulls at one"),
       spore_world_link, links);
   plan_numerics(world, &census);
   add(world, "react", coupled, coupled ? _("contacts and links push back") : _("nothing touches and nothing is tied"),
@@ -107,7 +108,7 @@ void spore_world_make_plan(SporeWorld *world) {
       active_bodies);
   add(world, "commit", true, _("checks, accepts and publishes the new state"), spore_world_commit, bodies);
   if (!active) leave_out(world, _("devices and feedback"), no_active);
-  if (!linked && !pulled) leave_out(world, _("links"), _("the scene has none"));
+  if (!linked && !pulled && !world->port_count) leave_out(world, _("links"), _("the scene has none"));
   world->plan.stages = world->plan_stages;
   world->plan.left_out = world->left_out;
 }

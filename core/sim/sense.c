@@ -37,8 +37,10 @@ void spore_world_sense(SporeWorld *world) {
     SporeBody *body = &world->bodies[b];
     if (body->role != SPORE_ACTIVE) continue;
     if (body->device) sense(world, body);
-    set_velocity(world, body);
   }
+  for (size_t i = 0; i < world->port_count; i++) spore_port_aim(world, &world->ports[i]);
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_ACTIVE) set_velocity(world, &world->bodies[b]);
 }
 
 void spore_world_feed_back(SporeWorld *world) {

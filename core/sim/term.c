@@ -238,8 +238,14 @@ SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *s
 static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v, SporeVec3 *a,
                         SporeVec3 *b) {
   const SporeVec3 none = {0, 0, 0};
-  *a = spore_vec3_add_scaled(locate(&term->a, none, sites, q), term->softening.ahead, gather(&term->a, sites, v));
-  *b = spore_vec3_add_scaled(locate(&term->b, none, sites, q), term->softening.ahead, gather(&term->b, sites, v));
+  *a = locate(&term->a, none, sites, q);
+  *b = locate(&term->b, none, sites, q);
+  /* What holds two points together pulls in any direction: both bodies feel it where the first is, so that together
+   * they are not turned by it. */
+  if (term->law.rest_length == 0 && !term->b.prescribed && term->b.mapping->kind == SPORE_MAPPING_RIGID)
+    term->b.offset = spore_vec3_add(term->b.offset, spore_vec3_sub(*a, *b));
+  *a = spore_vec3_add_scaled(*a, term->softening.ahead, gather(&term->a, sites, v));
+  *b = spore_vec3_add_scaled(*b, term->softening.ahead, gather(&term->b, sites, v));
 }
 
 static SporeMat3 spring_jacobian(const SporeSpring *law, SporeVec3 a, SporeVec3 b, double c, double c2) {

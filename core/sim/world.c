@@ -38,6 +38,8 @@ static void free_arrays(SporeWorld *world) {
                     world->spheres.body,
                     world->reaction,
                     world->contacts,
+                    world->links,
+                    world->ports,
                     world->springs,
                     world->spring_active,
                     world->contact_couplings,
@@ -73,6 +75,7 @@ void spore_world_free(SporeWorld *world) {
   for (size_t i = 0; world->spring_mappings && i < 2 * spore_world_spring_count(world); i++)
     spore_mapping_clear(&world->spring_mappings[i]);
   spore_free(world->spring_mappings);
+  for (size_t i = 0; world->links && i < world->link_count; i++) spore_free(world->links[i].name);
   for (size_t i = 0; world->bodies && i < world->body_count; i++) clear_body(&world->bodies[i]);
   spore_free(world->bodies);
   spore_grid_free(world->grid);
@@ -146,6 +149,7 @@ void spore_world_reset(SporeWorld *world) {
   memcpy(world->target_q, world->rest_q, world->q_count * sizeof *world->q);
   memset(world->reaction, 0, 6 * world->body_count * sizeof *world->reaction);
   for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
+  spore_world_mend_links(world);
   world->step = 0;
   world->contact_count = world->grip_count = 0;
   world->counts = (SporeStepCounts){0};
@@ -154,7 +158,7 @@ void spore_world_reset(SporeWorld *world) {
   SporeMonitor *monitor = &world->monitor;
   monitor->recoveries = monitor->substeps = monitor->not_finite = monitor->too_fast = monitor->energy = 0;
   monitor->not_converged = monitor->deep_contacts = monitor->soft_contacts = monitor->over_budget =
-      monitor->held_inputs = 0;
+      monitor->held_inputs = monitor->broken_links = 0;
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_snapshot_publish(world);

@@ -46,20 +46,47 @@ typedef struct SporeBodyDescription {
   SporeContactFields contact;
 } SporeBodyDescription;
 
-typedef enum SporeLinkKind { SPORE_LINK_PIN, SPORE_LINK_SPRING } SporeLinkKind;
+/* What ties bodies. All but the pin are stiff springs between material points, so that any method bears them:
+ *   pin     holds still every block of body_a whose position at time 0 lies within `radius` of `point_a`
+ *   spring  between the points that lie at point_a and point_b
+ *   ball    the point of both bodies at point_a stays together; all ways to turn are free
+ *   hinge   the same with an axis through it: held at two points `length` apart
+ *   weld    the same without a way to turn: held at four points of a tetrahedron whose edges are `length` long
+ *   slide   the point of body_a at point_a stays on the line through it along `direction`, which belongs to body_b
+ *   port    the line through point_a along `direction`, which belongs to body_a, goes through the point of body_b there
+ * The line of a slide or port belongs to a rigid body, or to what physics does not move. An active body in a port of
+ * the scene is turned about its origin, which stays where the device says, until the line goes through the port. */
+typedef enum SporeLinkKind {
+  SPORE_LINK_PIN,
+  SPORE_LINK_SPRING,
+  SPORE_LINK_BALL,
+  SPORE_LINK_HINGE,
+  SPORE_LINK_WELD,
+  SPORE_LINK_SLIDE,
+  SPORE_LINK_PORT
+} SporeLinkKind;
 
-/* Pin: holds still every block of body_a whose position at time 0 lies within `radius` of `point_a` (world, m).
- * Spring: between the material points of two bodies that lie at point_a and point_b (world, m) at time 0;
- * body_b = SPORE_NO_BODY ties to the world. */
+/* How a joint (all kinds below spring) holds. The table is spore_joint_parameters. */
+typedef struct SporeJointFields {
+  double stiffness; /* N/m, of all its points together */
+  double damping;   /* N s/m, the same; negative: critical for the lighter of its bodies */
+  double strength;  /* N: breaks above; 0: never */
+} SporeJointFields;
+extern const SporeParameterTable spore_joint_parameters;
+
+/* Points are of the world, at time 0, m. body_b = SPORE_NO_BODY ties to the world. */
 #define SPORE_NO_BODY UINT32_MAX
 typedef struct SporeLinkDescription {
   const char *name;
   SporeLinkKind kind;
   uint32_t body_a, body_b;
   SporeVec3 point_a, point_b;
+  SporeVec3 direction;       /* hinge, slide, port: any length but 0 */
   double radius;             /* pin, m */
-  double stiffness, damping; /* spring, N/m and N s/m */
+  double length;             /* hinge, weld, m */
+  double stiffness, damping; /* N/m and N s/m; damping negative: critical for the lighter of its bodies */
   double rest_length;        /* spring, m; negative: the distance at time 0 */
+  double strength;           /* N: what its points feel together, above which it breaks; 0: never */
 } SporeLinkDescription;
 
 typedef struct SporeWorldDescription {
@@ -71,7 +98,7 @@ typedef struct SporeWorldDescription {
 } SporeWorldDescription;
 
 /* Names are copied. On failure the models still belong to the caller. Refuses: no memory, a pin that holds nothing, a
- * spring on a body without degrees of freedom at both ends, non-finite values; place is "bodies/NAME" or "links/NAME".
+ * link on a body without degrees of freedom at both ends, non-finite values; place is "bodies/NAME" or "links/NAME".
  */
 SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error);
 void spore_world_free(SporeWorld *world);
@@ -110,6 +137,18 @@ bool spore_world_map(const SporeWorld *world, uint32_t body, const double *point
                      SporeError *error);
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body);
 size_t spore_world_v_offset(const SporeWorld *world, uint32_t body);
+
+/* Links, without the pins, in the order of the description: what they did in the last step. */
+typedef struct SporeLinkState {
+  const char *name;
+  SporeVec3 force; /* on body_a, N */
+  double load;     /* what its points feel together, N: what strength is compared with */
+  double drift;    /* how far the points that are to be together were apart at most when the step began, m; 0 for a
+                      spring */
+  bool broken;     /* for good, until reset */
+} SporeLinkState;
+size_t spore_world_link_count(const SporeWorld *world);
+SporeLinkState spore_world_link_state(const SporeWorld *world, size_t link);
 
 /* Energy, J. */
 typedef struct SporeEnergy {
@@ -176,6 +215,7 @@ typedef struct SporeMonitor {
   uint64_t soft_contacts; /* contacts at rest that hold less than half of what they should: said, and let be */
   uint64_t over_budget;   /* steps that took longer than the budget: said, and let be */
   uint64_t held_inputs;   /* device states refused (not finite, or a jump) */
+  uint64_t broken_links;  /* that held too much */
   uint64_t message_count; /* ever */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
 } SporeMonitor;

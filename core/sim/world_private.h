@@ -149,6 +149,23 @@ typedef struct SporeGrip {
   SporeVec3 normal;  /* of the contact: a sphere may touch a body that is felt as one in several places */
 } SporeGrip;
 
+/* A link of the scene, its terms next to each other. */
+typedef struct SporeLink {
+  char *name;
+  SporeLinkKind kind;
+  size_t term_start, term_count; /* in springs */
+  double strength;               /* N; infinite: it never breaks */
+  bool broken;
+  SporeVec3 base, along; /* slide, port: the line in the frame of the body at end b of its term */
+} SporeLink;
+
+/* A port of the scene that an active body goes through. */
+typedef struct SporePort {
+  uint32_t body;
+  SporeVec3 pivot;       /* world, m */
+  SporeVec3 base, along; /* the line in the body's frame */
+} SporePort;
+
 typedef struct SporeStage {
   void (*run)(SporeWorld *world);
   size_t (*items)(const SporeWorld *world);
@@ -198,7 +215,10 @@ struct SporeWorld {
   SporeContactTerm *contacts;
   size_t grip_count;             /* what friction held at the end of the last step, in the order of the pairs */
   SporeGrip *grips, *kept_grips; /* kept_grips: scratch */
-  size_t link_count;             /* springs that the scene has; behind them one pull a body */
+  size_t link_count, port_count;
+  SporeLink *links;
+  SporePort *ports;
+  size_t link_term_count; /* springs that the links have; behind them one pull a body */
   SporeSpringTerm *springs;
   bool *spring_active;
   SporeMapping *spring_mappings;                       /* two a spring: end a, end b */
@@ -245,15 +265,38 @@ static inline bool spore_body_moves(const SporeBody *body) {
 }
 /* Forces of its own do not depend on how it moves. */
 static inline bool spore_body_is_static(const SporeBody *body) { return body->integrator == SPORE_INTEGRATOR_STATIC; }
-static inline size_t spore_world_spring_count(const SporeWorld *world) { return world->link_count + world->body_count; }
+static inline size_t spore_world_spring_count(const SporeWorld *world) {
+  return world->link_term_count + world->body_count;
+}
 
 /* compile.c: parts of spore_world_create. */
+char *spore_copy_text(const char *text); /* NULL: no memory */
 bool spore_world_compile_bodies(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
 bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
 bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error);
 
 /* links.c */
 bool spore_world_compile_links(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
+
+/* joints.c: links that hold points together. */
+size_t spore_link_term_count(const SporeLinkDescription *link);
+/* What is wrong with the link, or NULL. */
+const char *spore_link_fault(const SporeWorld *world, const SporeLinkDescription *link);
+/* Fills the link, whose term_start is set, and its terms. */
+bool spore_link_make(SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error);
+/* The line of a slide follows its body, and the point on it the other end. */
+void spore_link_follow(SporeWorld *world, const SporeLink *link);
+/* After a step: breaks what holds more than it can. */
+void spore_world_break_links(SporeWorld *world);
+void spore_world_mend_links(SporeWorld *world);
+
+/* ports.c */
+bool spore_port_make(const SporeWorld *world, SporePort *port, const SporeLinkDescription *from);
+/* Turns where the active body is to be until the port's line goes through its pivot. */
+void spore_port_aim(const SporeWorld *world, const SporePort *port);
+
+/* pulls.c: commands take hold of a body. */
+bool spore_world_make_pulls(SporeWorld *world);
 void spore_world_pull(SporeWorld *world, const SporeCommand *command);
 void spore_world_release(SporeWorld *world, uint32_t body);
 

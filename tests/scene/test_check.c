@@ -92,6 +92,14 @@ static const Mistake mistakes[] = {
     {"link-without-body",
      SCENE(ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n<links><pin name=\"p\"/><spring name=\"s\"/></links>\n"),
      {"fault 7:8: the link \"p\" has no body", "fault 7:23: the link \"s\" has no body_a"}},
+    {"tied-too-often",
+     SCENE(ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n<links><weld name=\"w\" body_a=\"stone\"/>\n"
+                  "<hinge name=\"h\" body_a=\"stone\" body_b=\"floor\" point=\"0 -0.1 0\"/></links>\n"),
+     {"warning 8:1: \"h\" and the links before it hold 11 of the 6 ways"}},
+    {"tied-far-away",
+     SCENE(ASSETS "<bodies>\n" FLOOR STAND
+                  "</bodies>\n<links><ball name=\"b\" body_a=\"stone\" point=\"0 7 0\"/></links>\n"),
+     {"warning 7:8: \"b\" ties \"stone\" at a point that is"}},
     {"unused-asset",
      SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\" "
            "source=\"cube\"/>\n"
