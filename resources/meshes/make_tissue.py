@@ -32,9 +32,9 @@ def tissue_spheres(rows, columns, radius):
 
 
 def string(count):
-    """A thread that falls from the womb in a loop and two turns of a coil, and rises to the wall of the pelvis."""
-    turn = np.linspace(0, 4 * np.pi, 17)
-    coil = np.stack([0.046 + 0.0018 * turn, 0.010 + 0.007 * np.cos(turn), 0.018 + 0.006 * np.sin(turn)], 1)
+    """A thread that falls from the womb in a loop and rises to the wall of the pelvis."""
+    turn = np.linspace(0, 2 * np.pi, 9)
+    coil = np.stack([0.046 + 0.0036 * turn, 0.010 + 0.007 * np.cos(turn), 0.018 + 0.006 * np.sin(turn)], 1)
     return spline(np.concatenate([[[0.030, 0.030, 0.012], [0.038, 0.022, 0.018]], coil, [[0.078, 0.016, 0.018], [0.088, 0.022, 0.014]]]), count)
 
 

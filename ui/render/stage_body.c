@@ -78,11 +78,51 @@ static const SporeTetrahedralMesh *tetrahedra_of(SporeStage *stage, const SporeO
   return asset ? spore_document_tetrahedra(stage->document, asset, NULL) : NULL;
 }
 
-/* The tube around the curve that the body is made of. */
-static gboolean make_tube(SporeStage *stage, const SporeObject *object, SporeTriangleMesh *tube) {
+/* Shows a surface made for this moment, where it is, instead of the last one; takes its triangles. */
+static void show_own_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh) {
+  if (body->surface_handle) spore_renderer_remove(stage->renderer, body->surface_handle);
+  g_free(body->surface.positions);
+  spore_free(body->own_triangles);
+  body->surface.positions = g_memdup2(mesh->vertices, 3 * mesh->vertex_count * sizeof(double));
+  body->surface.count = mesh->vertex_count;
+  body->triangles = body->own_triangles = mesh->triangles;
+  body->triangle_count = mesh->triangle_count;
+  body->surface_handle = 0;
+  if (!mesh->vertex_count) return;
+  body->surface_handle = spore_renderer_add_surface(stage->renderer, mesh->vertices, mesh->vertex_count,
+                                                    mesh->triangles, mesh->triangle_count, &body->style);
+  spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
+}
+
+/* The tube around the curve that the body is made of: made anew around the moved axis, whatever the curve's twist. */
+static void place_tube(SporeStage *stage, SporeStageBody *body) {
+  SporeTriangleMesh tube;
+  spore_mapping_positions(&body->axis.mapping, body->q, body->axis.positions);
+  for (gsize i = 0; i < body->axis.count; i++)
+    memcpy(body->tube.points + 4 * i, body->axis.positions + 3 * i, 3 * sizeof(double));
+  if (!spore_curve_tube(&body->tube, TUBE_SECTORS, &tube, NULL)) return;
+  if (body->surface_handle) {
+    memcpy(body->surface.positions, tube.vertices, 3 * tube.vertex_count * sizeof(double));
+    spore_free(tube.triangles);
+    spore_renderer_move_surface(stage->renderer, body->surface_handle, tube.vertices);
+  } else {
+    show_own_surface(stage, body, &tube);
+  }
+  spore_free(tube.vertices);
+}
+
+static void build_tube(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
+                       const SporeSimulation *simulation) {
   SporeObject *asset = asset_of(stage, spore_object_child_of(object, "mechanical"), "geometry", "curve");
   const SporeCurve *curve = asset ? spore_document_curve(stage->document, asset, NULL) : NULL;
-  return curve && spore_curve_tube(curve, TUBE_SECTORS, tube, NULL);
+  if (!curve) return;
+  double *points = g_new(double, 3 * curve->count);
+  for (gsize i = 0; i < curve->count; i++) memcpy(points + 3 * i, curve->points + 4 * i, 3 * sizeof(double));
+  if (map_points(body, simulation, points, curve->count, &body->axis)) {
+    body->tube = (SporeCurve){curve->count, g_memdup2(curve->points, 4 * curve->count * sizeof(double))};
+    place_tube(stage, body);
+  }
+  g_free(points);
 }
 
 static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
@@ -119,13 +159,7 @@ static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeOb
     add_surface(stage, body, simulation, tetrahedra->vertices, tetrahedra->vertex_count);
     return;
   }
-  SporeTriangleMesh tube = {0};
-  if (make_tube(stage, object, &tube)) {
-    body->triangles = body->own_triangles = tube.triangles;
-    body->triangle_count = tube.triangle_count;
-    add_surface(stage, body, simulation, tube.vertices, tube.vertex_count);
-    spore_free(tube.vertices);
-  }
+  build_tube(stage, body, object, simulation);
 }
 
 /* `asset` that the set is from, NULL: the model's own. */
@@ -195,6 +229,8 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
   clear_points(&body->surface);
   clear_points(&body->centres);
   clear_points(&body->nodes);
+  clear_points(&body->axis);
+  g_free(body->tube.points);
   spore_free(body->own_triangles);
   spore_free(body->edges);
   g_free(body->spheres);
@@ -219,20 +255,9 @@ static void place_liquid(SporeStage *stage, SporeStageBody *body) {
   if (!spore_particle_skin(body->centres.positions, body->centres.count, 2 * LIQUID_SPACING * body->spheres[3], &skin,
                            NULL))
     return;
-  if (body->surface_handle) spore_renderer_remove(stage->renderer, body->surface_handle);
-  g_free(body->surface.positions);
-  spore_free(body->own_triangles);
-  body->surface.positions = g_memdup2(skin.vertices, 3 * skin.vertex_count * sizeof(double));
-  body->surface.count = skin.vertex_count;
-  body->triangles = body->own_triangles = skin.triangles;
-  body->triangle_count = skin.triangle_count;
-  spore_free(skin.vertices);
   body->style.material = SPORE_MATERIAL_LIQUID;
-  body->surface_handle = 0;
-  if (!skin.vertex_count) return;
-  body->surface_handle = spore_renderer_add_surface(stage->renderer, body->surface.positions, body->surface.count,
-                                                    body->triangles, body->triangle_count, &body->style);
-  spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
+  show_own_surface(stage, body, &skin);
+  spore_free(skin.vertices);
 }
 
 static void place_wire(SporeStage *stage, SporeStageBody *body) {
@@ -245,6 +270,8 @@ static void place_wire(SporeStage *stage, SporeStageBody *body) {
 void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
   if (body->liquid && body->centres.count) {
     place_liquid(stage, body);
+  } else if (body->tube.count) {
+    place_tube(stage, body);
   } else if (body->surface_handle) { /* hidden ones too: picking and bounds use their positions */
     spore_mapping_positions(&body->surface.mapping, body->q, body->surface.positions);
     spore_renderer_move_surface(stage->renderer, body->surface_handle, body->surface.positions);

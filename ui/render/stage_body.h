@@ -25,6 +25,9 @@ typedef struct SporeStageBody {
   SporeSurfaceStyle style;
   guint surface_handle; /* handles: 0 is none */
 
+  SporeStagePoints axis; /* of the tube that is the surface */
+  SporeCurve tube;       /* the axis as it is shown, with its radii; without points: there is none */
+
   SporeStagePoints centres;
   gboolean liquid; /* the surface is the skin around the centres, made anew as they move */
   double *spheres; /* centres.count x 4, world */
