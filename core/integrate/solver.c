@@ -81,7 +81,9 @@ static const SporeParameter parameters[] = {
      .initial = {20},
      .offset = offsetof(SporeSolverFields, newton_iterations),
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("Most Newton iterations that a step may take; Broyden's, which cost less, may be twice as many.")},
+     .doc = N_("Most Newton iterations that a step may take; Broyden's count half. A step that is not solved is taken "
+               "again in "
+               "smaller ones, which may take three times as many, all together.")},
     {.name = "linear_iterations",
      .type = SPORE_INTEGER,
      .unit = "",

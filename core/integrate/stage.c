@@ -90,6 +90,16 @@ static double rounding(void *data, const double *v, bool stiff_axes) {
   return stage->dynamics->rounding(stage->dynamics->data, stage->q, stage->c, stiff_axes);
 }
 
+/* What contacts and links push. */
+static double load(void *data, const double *v) {
+  Stage *stage = data;
+  const SporeDynamics *dynamics = stage->dynamics;
+  dynamics->drift(dynamics->data, stage->qa, v, stage->c, stage->q, stage->v);
+  memset(stage->force, 0, 3 * dynamics->block_count * sizeof *stage->force);
+  dynamics->term_force(dynamics->data, stage->q, v, stage->force);
+  return stage->c * dual_norm(stage, stage->force);
+}
+
 static SporeSystem stage_system(Stage *stage) {
   double gravity = stage->c * stage->dynamics->gravity_momentum;
   return (SporeSystem){.data = stage,
@@ -106,6 +116,7 @@ static SporeSystem stage_system(Stage *stage) {
                        .norm = dual_norm,
                        .scale_x = gravity,
                        .scale_r = gravity,
+                       .load = load,
                        .rounding = rounding};
 }
 

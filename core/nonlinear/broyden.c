@@ -78,10 +78,11 @@ static void accelerate(History *history, const double *g, const double *weights,
     if (share[k] != 0) spore_vector_add_scaled(n, d, -share[k], history->path[place_of(history, k)]);
 }
 
-/* Newton takes over where Broyden stood, with as many iterations as it was given. */
+/* Newton takes over where Broyden stood, with the iterations that are left: those until now cost half as much. */
 static SporeNonlinearResult hand_over(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
                                       double *r, double *scratch, SporeNonlinearResult so_far) {
-  SporeNonlinearResult result = spore_newton(system, options, x, r, scratch);
+  SporeNonlinearOptions left = {options->iterations - so_far.iterations / 2, options->tolerance};
+  SporeNonlinearResult result = spore_newton(system, &left, x, r, scratch);
   result.iterations += so_far.iterations;
   result.linear_iterations += so_far.linear_iterations;
   result.evaluations += so_far.evaluations;
@@ -129,7 +130,7 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
   }
   if (spore_convergence_rounding(&test, system, x, &result)) return result;
   double start = test.norm, target = test.tolerance * test.scale_r;
-  while (!result.converged && result.iterations < 2 * options->iterations) {
+  while (!result.converged && result.iterations < options->iterations) {
     if (!approximate(system, r, g, &result)) break;
     system->weigh(system->data, g, weights);
     if (pending) {

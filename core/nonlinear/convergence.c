@@ -14,22 +14,29 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
 }
 
 /* A residual down to rounding counts as solved only where that is this part of what there was to solve: where rounding
- * is as large as the load itself, nothing has been computed, and it must be said. */
+ * is as large as the load itself, nothing has been computed, and it must be said. Where nothing loads the system, as in
+ * a body at rest that nothing pulls or touches, rounding is all there is. */
 #define ROUNDING_OF_LOAD 0.1
 
-static bool within_load(const SporeConvergence *test) { return test->norm <= ROUNDING_OF_LOAD * test->scale_r; }
+static bool accept_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
+                            SporeNonlinearResult *result) {
+  bool loaded = system->scale_r > 0 || !system->load || system->load(system->data, x) > 0;
+  if (!loaded) result->residual = 0;
+  return !loaded || test->norm <= ROUNDING_OF_LOAD * test->scale_r;
+}
 
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                                 SporeNonlinearResult *result) {
   if (test->norm > system->rounding(system->data, x, false)) return false;
-  result->converged = within_load(test);
+  result->converged = accept_rounding(test, system, x, result);
   return true;
 }
 
 void spore_convergence_end(const SporeConvergence *test, const SporeSystem *system, const double *x,
                            SporeNonlinearResult *result) {
-  if (result->linearisations > 0 && within_load(test) && test->norm <= system->rounding(system->data, x, true))
-    result->converged = true;
+  if (result->converged || result->linearisations == 0) return;
+  if (test->norm <= system->rounding(system->data, x, true))
+    result->converged = accept_rounding(test, system, x, result);
 }
 
 void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,

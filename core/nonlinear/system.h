@@ -32,13 +32,16 @@ typedef struct SporeSystem {
   double (*norm)(void *data, const double *r);
   /* Size of x below which a change is not one, and of r below which it is: sums over what r is made of. */
   double scale_x, scale_r;
+  /* Norm of the load at x besides that of scale_r: where both are 0 there is nothing to solve but rounding. NULL: what
+   * the residual is at the guess. */
+  double (*load)(void *data, const double *x);
   /* Norm of the rounding in r at x, by the current linearisation. Along the soft axes alone: below it nothing is left
    * to solve. Along the stiff ones too: no solver can be sure to get below it, though what is soft may get better. */
   double (*rounding)(void *data, const double *x, bool stiff_axes);
 } SporeSystem;
 
 typedef struct SporeNonlinearOptions {
-  size_t iterations; /* at most */
+  size_t iterations; /* Newton's, at most */
   double tolerance;  /* of the residual and of the next change of x, both relative */
 } SporeNonlinearOptions;
 
@@ -60,8 +63,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
 /* Broyden's method with limited memory, in the form that meets the last differences all at once (Anderson's; H. Fang
  * and Y. Saad, "Two classes of multisecant methods for nonlinear acceleration", Numerical Linear Algebra with
  * Applications 16, 2009), from the linearisation that `reuse` allows. It takes a new one where that costs less than the
- * iterations it saves, by how the residual shrinks, and hands over to Newton where that fails. Its iterations are
- * cheap: it may take twice as many. */
+ * iterations it saves, by how the residual shrinks, and hands over to Newton where that fails or takes more iterations
+ * than Newton may. Its own are cheap and count half: together they are at most one and a half times as many. */
 #define SPORE_BROYDEN_MEMORY 8
 #define SPORE_BROYDEN_SCRATCH (6 + 2 * SPORE_BROYDEN_MEMORY)
 SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,

@@ -3,8 +3,23 @@
 
 #include "core/sim/world_private.h"
 
-SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind,
-                                     size_t substeps) {
+/* Of the next part, leaving one for each of those behind it. */
+static void limit_iterations(const SporeEffort *effort, size_t behind, const SporeSolverFields *solver,
+                             SporeSolverFields *fields) {
+  int64_t left = effort->iterations > behind ? (int64_t)(effort->iterations - behind) : 1;
+  fields->newton_iterations = left < solver->newton_iterations ? left : solver->newton_iterations;
+}
+
+/* Whether an attempt is still worth its next part, after one that went like `result`. */
+static bool go_on(SporeEffort *effort, const SporeStepResult *result) {
+  size_t spent = result->newton_iterations;
+  effort->iterations -= spent < effort->iterations ? spent : effort->iterations;
+  effort->given_up = !result->converged && !(result->residual <= effort->hopeless);
+  return !effort->given_up;
+}
+
+SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps,
+                                     SporeEffort *effort) {
   SporeGroup group = {.world = world, .island = island, .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
   SporeDynamics dynamics = spore_group_dynamics(&group);
   const SporeIntegrator *integrator = spore_integrator(kind);
@@ -17,6 +32,8 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
   if (kind != island->integrator) island->history.step_s = 0;
   spore_group_harden(&group);
   SporeStepResult total = {.converged = true};
+  SporeSolverFields fields = world->solver;
+  if (effort) effort->given_up = false;
   for (size_t s = 0; s < substeps; s++) {
     if (s > 0) {
       q0 = memcpy(world->local_q0 + island->q_start, q1, island->q_count * sizeof *q0);
@@ -25,9 +42,11 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
     if (s > 0 || island->attempts > 1) dynamics.set_mass(dynamics.data, q0);
     group.start_s = (double)s * h;
     dynamics.set_time(dynamics.data, h);
-    SporeStepResult result = integrator->step(&dynamics, &world->solver, history, h, q0, v0, q1, v1, scratch);
+    if (effort) limit_iterations(effort, substeps - 1 - s, &world->solver, &fields);
+    SporeStepResult result = integrator->step(&dynamics, &fields, history, h, q0, v0, q1, v1, scratch);
     dynamics.set_time(dynamics.data, h);
     spore_step_result_add(&total, &result);
+    if (effort && !go_on(effort, &result)) break;
   }
   return total;
 }
@@ -61,13 +80,13 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
     if (mixed.converged) return mixed;
     /* Friction on nodes that are light without what holds them in their body: with it they may be solved. */
     spore_island_gather(world, island);
-    SporeStepResult whole = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, 1);
+    SporeStepResult whole = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, 1, NULL);
     spore_step_result_add(&mixed, &whole);
     mixed.converged = whole.converged;
     mixed.residual = whole.residual;
     return mixed;
   }
-  return spore_island_advance(world, island, method(world, island), island->substeps);
+  return spore_island_advance(world, island, method(world, island), island->substeps, NULL);
 }
 
 static void integrate_island(void *data, size_t index) {
@@ -76,8 +95,12 @@ static void integrate_island(void *data, size_t index) {
   spore_island_gather(world, island);
   island->result = advance(world, island);
   if (spore_island_choose(world, island)) {
+    SporeStepResult spent = island->result;
     spore_island_gather(world, island);
     island->result = advance(world, island);
+    island->result.newton_iterations += spent.newton_iterations;
+    island->result.linear_iterations += spent.linear_iterations;
+    island->result.force_evaluations += spent.force_evaluations;
   }
   spore_island_examine(world, island);
   if (island->trouble == SPORE_TROUBLE_NONE && !spore_island_energy_holds(world, island))

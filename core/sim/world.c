@@ -59,6 +59,8 @@ static void free_arrays(SporeWorld *world) {
                     world->local_v0,
                     world->local_q1,
                     world->local_v1,
+                    world->best_q,
+                    world->best_v,
                     world->scratch,
                     world->precondition,
                     world->block_stiffness,

@@ -233,6 +233,7 @@ struct SporeWorld {
   uint32_t *contact_order, *spring_order;
   SporeSite *local_sites; /* of the bodies in their island's part of the local vectors */
   double *local_q0, *local_v0, *local_q1, *local_v1;
+  double *best_q, *best_v; /* as these: of the attempts at a step that went wrong */
   double *history_a, *history_b, *local_history_a, *local_history_b; /* as v and local_v0 */
   double *still;   /* zeros: the velocity of the largest body, at rest */
   double *scratch; /* of the integrators, scratch_per_block doubles a block */
@@ -377,18 +378,29 @@ double spore_body_iteration_work(const SporeBody *body);
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 
 /* integrate.c */
-/* One step of the world in `substeps` parts, from q0 and v0 of the island to q1 and v1; spoils the local vectors. */
-SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps);
+/* What attempts at a step that went wrong may still take, all together. */
+typedef struct SporeEffort {
+  size_t iterations; /* nonlinear ones left; a part of a step takes one at least */
+  double hopeless;   /* a part that misses more than this of the load is not solved, and the attempt is given up */
+  bool given_up;     /* q1 and v1 are those of some part of the step */
+} SporeEffort;
+/* One step of the world in `substeps` parts, from q0 and v0 of the island to q1 and v1; spoils the local vectors.
+ * effort: counted down; NULL for a first attempt, whose parts take as many iterations each as the scene allows. */
+SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps,
+                                     SporeEffort *effort);
 
 /* mixed.c: one step of an island whose bodies choose differently. */
 SporeStepResult spore_island_advance_mixed(SporeWorld *world, SporeIsland *island);
 /* Scratch a block, doubles. */
 size_t spore_mixed_scratch(void);
 
-/* monitor.c */
+/* recover.c */
 /* Sets island->trouble and, where there is any, island->offender. */
 void spore_island_examine(SporeWorld *world, SporeIsland *island);
+/* Mends or accepts a step in trouble: island->trouble is the worst that was met. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island);
+
+/* monitor.c */
 void spore_world_report(SporeWorld *world, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void spore_world_report_islands(SporeWorld *world);
 /* A contact deeper than the smaller of its spheres. */

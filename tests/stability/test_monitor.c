@@ -78,6 +78,49 @@ static void test_no_false_alarm(void) {
   rig_free(rig);
 }
 
+/* Turned, and far from the origin, a body at rest feels forces of its own that are nothing but rounding. */
+static Rig *body_at_rest(int kind) {
+  Rig *rig = rig_new();
+  rig->description.solver.sleep_speed = 0;
+  SporeModel *model;
+  if (kind == 0) {
+    SporeTriangleMesh sheet;
+    shape_sheet(&sheet, 8, 8, 0.02, TRUE);
+    model = rig_surface_model(&spore_mass_spring_net, &sheet, NULL);
+  } else {
+    SporeTetrahedralMesh block;
+    shape_block(&block, 3, 3, 3, spore_vec3(0.05, 0.05, 0.05));
+    const SporeModelType *type = kind == 1 ? &spore_corotational_tetrahedra : &spore_neo_hookean_tetrahedra;
+    model = rig_solid_model(type, &block, NULL);
+  }
+  SporeBodyDescription *body = rig_passive(rig, "body", model, NULL);
+  body->pose = (SporePose){{0.3, -1.7, 11}, spore_quat_from_rotation_vector(spore_vec3(0.4, -1.1, 0.7))};
+  return rig;
+}
+
+/* Without gravity, a body in balance has nothing to solve, and is not called unsolved. */
+static void test_balance(void) {
+  for (int kind = 0; kind < 3; kind++)
+    for (int pinned = 0; pinned < 2; pinned++)
+      for (int nonlinear = SPORE_NONLINEAR_NEWTON; nonlinear <= SPORE_NONLINEAR_BROYDEN; nonlinear++) {
+        Rig *rig = body_at_rest(kind);
+        rig->description.solver.nonlinear = nonlinear;
+        if (pinned) rig_pin(rig, 0, spore_vec3(0.3, -1.7, 11), 0.05);
+        SporeWorld *world = rig_build(rig);
+        double moved = 0, start[3];
+        memcpy(start, spore_world_q(world, 0), sizeof start);
+        for (int i = 0; i < 200; i++) {
+          spore_world_step(world);
+          g_assert_cmpfloat(spore_world_counts(world).residual, <=, 1e-6);
+        }
+        for (int k = 0; k < 3; k++) moved = fmax(moved, fabs(spore_world_q(world, 0)[k] - start[k]));
+        g_test_message("kind %d: moved %.1e m in 200 steps; %s", kind, moved, rig_last_message(world));
+        quiet(world);
+        g_assert_cmpfloat(moved, <, 1e-12);
+        rig_free(rig);
+      }
+}
+
 static void test_not_converged(void) {
   Rig *rig = hanging_net(SPORE_INTEGRATOR_IMPLICIT_EULER);
   rig->description.solver.time_step = 0.02;
@@ -203,6 +246,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/monitor/energy", test_energy);
   g_test_add_func("/monitor/no_false_alarm", test_no_false_alarm);
+  g_test_add_func("/monitor/balance", test_balance);
   g_test_add_func("/monitor/not_converged", test_not_converged);
   g_test_add_func("/monitor/deep_contact", test_deep_contact);
   g_test_add_func("/monitor/soft_contact", test_soft_contact);
