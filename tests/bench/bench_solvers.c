@@ -10,6 +10,7 @@
 #endif
 
 #include "core/linalg/block_cholesky.h"
+#include "tests/stability/chain.h"
 #include "tests/stability/rig.h"
 
 #define REPEATS 7
@@ -35,7 +36,10 @@ typedef struct Case {
   double time_step;
   SporeVec3 pins[2];
   double pin_radius;
+  SporeVec3 gravity; /* 0: down */
 } Case;
+
+enum { CASES = 8 };
 
 #ifdef HAVE_CHOLMOD
 static void cholmod(const SporeBlockMatrix *matrix, double *factor_us, double *solve_us) {
@@ -125,7 +129,8 @@ static int by_size(const void *a, const void *b) {
 
 static void bench_step(const Case *c, unsigned steps) {
   Rig *rig = rig_new();
-  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  bool down = spore_vec3_length(c->gravity) == 0;
+  rig->description.gravity = down ? spore_vec3(0, -9.81, 0) : c->gravity;
   rig->description.solver.time_step = c->time_step;
   rig_passive(rig, "body", c->model, NULL);
   for (int p = 0; p < 2; p++) rig_pin(rig, 0, c->pins[p], c->pin_radius);
@@ -181,6 +186,29 @@ static Case bar(const char *name, unsigned nx, unsigned ny, unsigned nz, SporeVe
                 0.71 * fmax(size.y, size.z) + 1e-9};
 }
 
+/* SOFA's rod: 1 m long, radius .01 m, its first two control points held. */
+static Case rod(const char *name, unsigned nodes) {
+  SporeCurve curve;
+  const double points[] = {0, 0, 0, 0.01, 1, 0, 0, 0.01};
+  g_assert_true(spore_curve_allocate(&curve, 2, NULL));
+  memcpy(curve.points, points, sizeof points);
+  return (Case){name,
+                rig_curve_model(&spore_spline_1d, &curve, "control_points", (double)nodes, "young_modulus", 1e7, "density",
+                                1000., "damping", 0., NULL),
+                0.01,
+                {{0, 0, 0}, {0, 0, 0}},
+                0.4 / (nodes - 3)};
+}
+
+/* Bullet's rope hung up by its upper end, and let go a little off the vertical: 1 m, .1 kg, springs of 2e5 N/m. */
+static Case rope(const char *name, unsigned nodes) {
+  double *stiffness = g_new(double, nodes), *mass = g_new(double, nodes);
+  for (unsigned i = 0; i < nodes; i++) stiffness[i] = 2e5, mass[i] = 0.1 / nodes;
+  SporeModel *model = chain_new(nodes - 1, 1. / (nodes - 1), stiffness, mass, 0);
+  g_free(stiffness), g_free(mass);
+  return (Case){name, model, 0.001, {{0, 0, 0}, {0, 0, 0}}, 1e-3, .gravity = {3, -9.3, 0}};
+}
+
 static Case make(int index) {
   switch (index) {
   case 0:
@@ -189,13 +217,21 @@ static Case make(int index) {
     return net("net 40x40", 40);
   case 2:
     return bar("525 nodes, 1920 tetrahedra", 20, 4, 4, spore_vec3(1, 0.2, 0.2), 1e5, 0.3, 1000, 0.02);
+  case 4:
+    return bar("936 nodes, 3750 tetrahedra", 25, 5, 5, spore_vec3(1, 0.2, 0.2), 1e5, 0.45, 1000, 0.01);
+  case 5:
+    return rod("rod of 21", 21);
+  case 6:
+    return rod("rod of 101", 101);
+  case 7:
+    return rope("rope of 64", 64);
   default:
     return bar("3321 nodes, 15360 tetrahedra", 40, 8, 8, spore_vec3(1, 0.2, 0.2), 1e5, 0.45, 1000, 0.01);
   }
 }
 
 int main(int argc, char **argv) {
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < CASES; i++) {
     if (argc > 1 && atoi(argv[1]) != i) continue;
     Case c = make(i);
     bench_factor(&c);

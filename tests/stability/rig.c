@@ -39,7 +39,8 @@ static void *fields_from(const SporeParameterTable *table, va_list arguments) {
     int index = spore_parameter_find(table, name);
     g_assert_cmpint(index, >=, 0);
     double value = va_arg(arguments, double);
-    memcpy(fields + table->parameters[index].offset, &value, sizeof value);
+    const SporeParameter *parameter = &table->parameters[index];
+    spore_parameter_store(parameter, &(SporeValue){.type = parameter->type, .number = {value}}, fields);
   }
   SporeError error = SPORE_ERROR_INIT;
   if (!spore_parameters_check(table, fields, &error)) g_error("%s", error.message);
