@@ -8,7 +8,7 @@ const char *const spore_integrator_names[] = {
     "explicit_euler", "symplectic_euler", "verlet", "rk4", "implicit_euler", "implicit_midpoint",
     "bdf2",           "tr_bdf2",          "static", NULL};
 const char *const spore_nonlinear_names[] = {"automatic", "newton", "broyden", NULL};
-const char *const spore_linear_names[] = {"automatic", "conjugate_gradients", "cholesky", NULL};
+const char *const spore_linear_names[] = {"automatic", "conjugate_gradients", "cholesky", "banded", NULL};
 
 static const SporeParameter parameters[] = {
     {.name = "time_step",
@@ -72,7 +72,8 @@ static const SporeParameter parameters[] = {
      .offset = offsetof(SporeSolverFields, linear),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("How a body's linear equations are solved: by conjugate gradients, by a sparse Cholesky factor of its "
-               "matrix, or by what takes less work.")},
+               "matrix, by one that is kept as a band where the body is a chain or a spline, or by what takes less "
+               "work.")},
     {.name = "newton_iterations",
      .type = SPORE_INTEGER,
      .unit = "",

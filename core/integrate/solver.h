@@ -28,7 +28,8 @@ typedef enum SporeNonlinearKind {
 typedef enum SporeLinearKind {
   SPORE_LINEAR_AUTOMATIC, /* whichever takes less work, body by body */
   SPORE_LINEAR_CONJUGATE_GRADIENTS,
-  SPORE_LINEAR_CHOLESKY
+  SPORE_LINEAR_CHOLESKY,
+  SPORE_LINEAR_BANDED /* of chains and splines; of others as SPORE_LINEAR_CHOLESKY */
 } SporeLinearKind;
 
 /* Names by SporeNonlinearKind and SporeLinearKind, NULL-terminated. */

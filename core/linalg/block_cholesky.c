@@ -79,6 +79,7 @@ static void keep(SporeBlockCholesky *factor, SporeSupernode *node, const double 
 
 bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
                                     const uint8_t *held, bool may_round) {
+  if (factor->band.block_count > 0) return spore_block_band_factorise(&factor->band, matrix, diagonal, held);
   bool (*eliminate)(size_t, size_t, double *, double *, double *, double *) = SPORE_KERNEL(spore_cholesky_eliminate);
   double *top = factor->stack;
   for (size_t s = 0; s < factor->supernode_count; s++) {
@@ -111,6 +112,10 @@ static const void *below_of(const SporeSupernode *node, const double *values) {
 }
 
 void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x) {
+  if (factor->band.block_count > 0) {
+    spore_block_band_solve(&factor->band, b, x);
+    return;
+  }
   size_t n = factor->block_count;
   double *y = factor->work, *below = y + 3 * n + SPORE_LANES, *spare = below + factor->most_rows;
   void (*forward)(size_t, size_t, const void *, const void *, bool, double *, double *, double *) =

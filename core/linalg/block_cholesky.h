@@ -1,12 +1,13 @@
 /* Sparse Cholesky factor L L^T of a symmetric positive definite matrix of 3x3 blocks.
  *
- * The pattern is analysed once: fill-reducing order, elimination tree, supernodes. Numbers are then put in as often as
+ * Chains and what is like them are kept as a band (block_band.h). Of others the pattern is analysed once:
+ * fill-reducing order, elimination tree, supernodes. Numbers are then put in as often as
  * they change, by dense fronts from the leaves of the tree to its root (multifrontal method: J. W. H. Liu, "The
  * multifrontal method for sparse matrix solution", SIAM Review 34, 1992). */
 #ifndef SPORE_LINALG_BLOCK_CHOLESKY_H
 #define SPORE_LINALG_BLOCK_CHOLESKY_H
 
-#include "core/linalg/block_matrix.h"
+#include "core/linalg/block_band.h"
 
 /* Columns `first`.. of L that are kept together as one dense panel. */
 typedef struct SporeSupernode {
@@ -26,9 +27,16 @@ typedef struct SporeFactorEntry {
   size_t target;        /* in `front` */
 } SporeFactorEntry;
 
+typedef enum SporeFactorLayout {
+  SPORE_FACTOR_AUTOMATIC, /* a band where that is narrow and no dearer, by counted work */
+  SPORE_FACTOR_SPARSE,
+  SPORE_FACTOR_BANDED /* a band where that is narrow */
+} SporeFactorLayout;
+
 typedef struct SporeBlockCholesky {
   size_t block_count; /* 0: there is no factor */
   double factor_flops, solve_flops;
+  SporeBlockBand band; /* block_count 0: it is not banded; else nothing below is used */
   size_t supernode_count;
   SporeSupernode *supernodes; /* children before parents */
   uint32_t *order;            /* block_count: the matrix's block that is eliminated at each place */
@@ -44,12 +52,14 @@ typedef struct SporeBlockCholesky {
 
 /* Analyses the pattern and takes all memory that factorising and solving need. Where factorising would take more than
  * about most_flops there is no factor: true, and block_count 0. False: no memory. */
-bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, double most_flops);
+bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
+                                 double most_flops);
 void spore_block_cholesky_clear(SporeBlockCholesky *factor);
 /* Factorises the matrix, of the pattern analysed, with its diagonal blocks replaced by `diagonal` (9 a block) unless
  * that is NULL, and with rows and columns of held blocks (a flag a block, or NULL) replaced by those of the identity.
  * False, and no factor to solve with, where a pivot is not positive. Reads one triangle. may_round: what does not lose
- * by it is stored in single precision, which is solved with in half the time; good for a preconditioner. */
+ * by it is stored in single precision, which is solved with in half the time; good for a preconditioner. A band is not
+ * rounded. */
 bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
                                     const uint8_t *held, bool may_round);
 /* x = A^-1 b; may be the same vector. */

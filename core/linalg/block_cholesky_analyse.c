@@ -266,11 +266,9 @@ static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
   return factor->values && factor->front && factor->stack && factor->work;
 }
 
-bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, double most_flops) {
+static bool create_sparse(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, double most_flops) {
   const double flops_of_square = 27; /* three columns of 3 c numbers each, squared */
   SporeFill fill;
-  *factor = (SporeBlockCholesky){0};
-  if (pattern->block_count == 0) return true;
   factor->order = SPORE_NEW_ARRAY(uint32_t, pattern->block_count);
   bool made = factor->order && spore_minimum_degree(pattern, most_flops / flops_of_square, factor->order, &fill);
   bool wanted = made && fill.squares <= most_flops / flops_of_square;
@@ -283,9 +281,39 @@ bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMat
   return made;
 }
 
+/* A flop takes so much less in a band, where no supernode is begun and none is added to another. */
+#define BAND_FLOP 0.4
+
+bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
+                                 double most_flops) {
+  SporeBlockBand band = {0};
+  *factor = (SporeBlockCholesky){0};
+  if (pattern->block_count == 0) return true;
+  if (layout != SPORE_FACTOR_SPARSE && !spore_block_band_create(&band, pattern)) return false;
+  bool banded = band.block_count > 0;
+  if (!banded || layout != SPORE_FACTOR_BANDED) {
+    if (!create_sparse(factor, pattern, most_flops)) {
+      spore_block_band_clear(&band);
+      return false;
+    }
+    banded = banded && (factor->block_count == 0 || BAND_FLOP * band.factor_flops <= factor->factor_flops);
+  }
+  if (!banded || band.factor_flops > most_flops) {
+    spore_block_band_clear(&band);
+    return true;
+  }
+  spore_block_cholesky_clear(factor);
+  *factor = (SporeBlockCholesky){.block_count = band.block_count,
+                                 .factor_flops = BAND_FLOP * band.factor_flops,
+                                 .solve_flops = BAND_FLOP * band.solve_flops,
+                                 .band = band};
+  return true;
+}
+
 void spore_block_cholesky_clear(SporeBlockCholesky *factor) {
   void *arrays[] = {factor->supernodes, factor->order, factor->rows, factor->targets, factor->entries,
                     factor->values,     factor->stack, factor->work, factor->front};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
+  spore_block_band_clear(&factor->band);
   *factor = (SporeBlockCholesky){0};
 }

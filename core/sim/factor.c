@@ -35,12 +35,21 @@ static double product_work(const SporeBody *body) {
 static double jacobi_work(const SporeBody *body) { return product_work(body) + 18. * (double)body->block_count; }
 static double solve_work(const SporeBody *body) { return SOLVE_WEIGHT * body->factor.solve_flops; }
 
+static double jacobian_work(const SporeBody *body) {
+  return JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count];
+}
+
 double spore_body_linearisation_work(const SporeBody *body) {
-  return JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count] + FACTOR_WEIGHT * body->factor.factor_flops;
+  return jacobian_work(body) + FACTOR_WEIGHT * body->factor.factor_flops;
 }
 
 double spore_body_iteration_work(const SporeBody *body) {
   return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
+}
+
+static SporeFactorLayout layout_of(int linear) {
+  if (linear == SPORE_LINEAR_BANDED) return SPORE_FACTOR_BANDED;
+  return linear == SPORE_LINEAR_CHOLESKY ? SPORE_FACTOR_SPARSE : SPORE_FACTOR_AUTOMATIC;
 }
 
 bool spore_world_compile_factors(SporeWorld *world, SporeError *error) {
@@ -48,17 +57,22 @@ bool spore_world_compile_factors(SporeWorld *world, SporeError *error) {
     SporeBody *body = &world->bodies[b];
     if (body->matrix.block_count == 0) continue;
     body->held_flags = SPORE_NEW_ARRAY(uint8_t, body->block_count);
-    if (!body->held_flags ||
-        !spore_block_cholesky_create(&body->factor, &body->matrix, WORTH_ITERATIONS * jacobi_work(body)))
+    if (!body->held_flags || !spore_block_cholesky_create(&body->factor, &body->matrix, layout_of(world->solver.linear),
+                                                          WORTH_ITERATIONS * jacobi_work(body)))
       return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
     for (size_t i = 0; i < body->held_count; i++) body->held_flags[body->held[i]] = 1;
   }
   return true;
 }
 
+/* A band takes less than the matrix that it is made of: there is nothing to choose. */
+static bool is_banded(const SporeBody *body) { return body->factor.band.block_count > 0; }
+
 void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
   body->choice = (SporeFactorChoice){.patience = PATIENCE, .keep = KEEP, .trial = PATIENCE};
-  body->choice.factorised = world->solver.linear == SPORE_LINEAR_CHOLESKY && body->factor.block_count > 0;
+  bool by_hand = world->solver.linear == SPORE_LINEAR_CHOLESKY || world->solver.linear == SPORE_LINEAR_BANDED;
+  bool automatic = world->solver.linear == SPORE_LINEAR_AUTOMATIC;
+  body->choice.factorised = (by_hand && body->factor.block_count > 0) || (automatic && is_banded(body));
   body->factor_ready = false;
 }
 
@@ -68,10 +82,6 @@ static void change(SporeBody *body, double iterations) {
   choice->iterations = iterations;
   choice->steps = choice->votes = 0;
   choice->present = choice->other = 0;
-}
-
-static double jacobian_work(const SporeBody *body) {
-  return JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count];
 }
 
 /* What the step took by conjugate gradients alone, and what it would take with a factor: Newton makes one and two
@@ -127,6 +137,7 @@ static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepR
 /* alone: no contact or link, for which a factor would be no start of Broyden's. */
 static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result, bool alone) {
   SporeFactorChoice *choice = &body->choice;
+  if (alone && choice->factorised && is_banded(body)) return;
   if (choice->needed) {
     /* What once did not converge without a factor may do now; where not, that step is taken again. */
     if (++choice->steps < TRIAL_STEPS) return;

@@ -146,7 +146,8 @@ static SporeChoice nonlinear_choice(const SporeWorld *world, const SporeBody *bo
 }
 
 static SporeChoice linear_choice(const SporeWorld *world, const SporeBody *body) {
-  int kind = body->choice.factorised ? SPORE_LINEAR_CHOLESKY : SPORE_LINEAR_CONJUGATE_GRADIENTS;
+  int factor = body->factor.band.block_count > 0 ? SPORE_LINEAR_BANDED : SPORE_LINEAR_CHOLESKY;
+  int kind = body->choice.factorised ? factor : SPORE_LINEAR_CONJUGATE_GRADIENTS;
   bool open = world->solver.linear == SPORE_LINEAR_AUTOMATIC || kind != world->solver.linear;
   return (SporeChoice){spore_linear_names[kind], open ? SPORE_SAID_BY_NOBODY : SPORE_SAID_BY_SCENE};
 }

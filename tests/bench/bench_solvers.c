@@ -39,7 +39,7 @@ typedef struct Case {
   SporeVec3 gravity; /* 0: down */
 } Case;
 
-enum { CASES = 8 };
+enum { CASES = 8, FIRST_CHAIN = 5 };
 
 #ifdef HAVE_CHOLMOD
 static void cholmod(const SporeBlockMatrix *matrix, double *factor_us, double *solve_us) {
@@ -76,7 +76,7 @@ static void cholmod(const SporeBlockMatrix *matrix, double *factor_us, double *s
 #endif
 
 /* The stage matrix M + h2 K of the model at rest, factorised. */
-static void bench_factor(const Case *c) {
+static void bench_factor(const Case *c, SporeFactorLayout layout) {
   const SporeModel *model = c->model;
   const SporeModelType *type = model->type;
   size_t n = model->block_count;
@@ -91,8 +91,9 @@ static void bench_factor(const Case *c) {
   spore_model_mass(model, q, mass);
   double h = c->time_step, force_us = HUGE_VAL, jacobian_us = HUGE_VAL, factor_us = HUGE_VAL, solve_us = HUGE_VAL,
          multiply_us = HUGE_VAL, analyse_us = now_us();
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
   analyse_us = now_us() - analyse_us;
+  bool banded = factor.band.block_count > 0;
   LEAST(force_us, 20, type->force(model, q, q, v, f));
   LEAST(jacobian_us, 5, {
     spore_block_matrix_zero(&matrix);
@@ -105,11 +106,12 @@ static void bench_factor(const Case *c) {
   LEAST(solve_us, 20, spore_block_cholesky_solve(&factor, b, x));
   memset(f, 0, 3 * n * sizeof *f);
   LEAST(multiply_us, 20, spore_block_matrix_multiply_add(&matrix, x, f));
-  printf("{\"bench\": \"factor\", \"case\": \"%s\", \"blocks\": %zu, \"analyse_us\": %.0f, \"factor_us\": %.1f, "
+  printf("{\"bench\": \"factor\", \"case\": \"%s\", \"layout\": \"%s\", \"blocks\": %zu, \"analyse_us\": %.0f, "
+         "\"factor_us\": %.1f, "
          "\"solve_us\": %.2f, "
          "\"force_us\": %.2f, \"jacobian_us\": %.1f, \"multiply_us\": %.2f, \"mflop\": %.2f, \"mflop_solve\": %.3f",
-         c->name, n, analyse_us, factor_us, solve_us, force_us, jacobian_us, multiply_us, factor.factor_flops * 1e-6,
-         factor.solve_flops * 1e-6);
+         c->name, banded ? "banded" : "sparse", n, analyse_us, factor_us, solve_us, force_us, jacobian_us, multiply_us,
+         factor.factor_flops * 1e-6, factor.solve_flops * 1e-6);
 #ifdef HAVE_CHOLMOD
   double cholmod_factor_us, cholmod_solve_us;
   cholmod(&matrix, &cholmod_factor_us, &cholmod_solve_us);
@@ -193,8 +195,8 @@ static Case rod(const char *name, unsigned nodes) {
   g_assert_true(spore_curve_allocate(&curve, 2, NULL));
   memcpy(curve.points, points, sizeof points);
   return (Case){name,
-                rig_curve_model(&spore_spline_1d, &curve, "control_points", (double)nodes, "young_modulus", 1e7, "density",
-                                1000., "damping", 0., NULL),
+                rig_curve_model(&spore_spline_1d, &curve, "control_points", (double)nodes, "young_modulus", 1e7,
+                                "density", 1000., "damping", 0., NULL),
                 0.01,
                 {{0, 0, 0}, {0, 0, 0}},
                 0.4 / (nodes - 3)};
@@ -234,7 +236,8 @@ int main(int argc, char **argv) {
   for (int i = 0; i < CASES; i++) {
     if (argc > 1 && atoi(argv[1]) != i) continue;
     Case c = make(i);
-    bench_factor(&c);
+    bench_factor(&c, SPORE_FACTOR_SPARSE);
+    if (i >= FIRST_CHAIN) bench_factor(&c, SPORE_FACTOR_BANDED);
     fflush(stdout);
     bench_step(&c, i == 3 ? 40 : 200);
     fflush(stdout);

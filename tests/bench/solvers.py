@@ -12,7 +12,7 @@ def rows_of(report):
     if report["bench"] == "factor":
         for part in ("factor", "solve"):
             peer = report.get(f"cholmod_{part}_us")
-            yield row("solvers", f"{case}: {part}", report[f"{part}_us"], "us", peer_name="CHOLMOD" if peer else None, peer=peer)
+            yield row("solvers", f"{case}: {part}, {report['layout']}", report[f"{part}_us"], "us", peer_name="CHOLMOD" if peer else None, peer=peer)
         return
     name = f"{case}: step, {report['newton']:.3g} iterations, residual {report['residual']:.0e}"
     if report["not_converged"]:

@@ -111,8 +111,10 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
 }
 
 static bool pattern(const SporeModel *model, SporeBlockPattern *pairs) {
+  uint32_t reach = (uint32_t)((const Chain *)model)->fields.reach;
   for (uint32_t i = 0; i + 1 < model->block_count; i++)
-    if (!spore_block_pattern_add(pairs, i, i + 1)) return false;
+    for (uint32_t k = 1; k <= (reach > 1 ? reach : 1) && i + k < model->block_count; k++)
+      if (!spore_block_pattern_add(pairs, i, i + k)) return false;
   return true;
 }
 

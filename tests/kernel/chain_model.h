@@ -7,6 +7,7 @@
 
 typedef struct ChainFields {
   int64_t count;
+  int64_t reach;    /* how many next particles the pattern has blocks for, though springs lead to one; 0: as 1 */
   double mass;      /* kg, of a particle */
   double spacing;   /* m, along x */
   double stiffness; /* N/m, between neighbours; length 0 forbidden */

@@ -78,13 +78,15 @@ static void same_at_every_level(SporeBlockCholesky *factor, const SporeBlockMatr
 }
 
 /* Factorises twice, with other numbers, and solves against the dense factor; no memory is taken meanwhile. */
-static void compare(const char *name, SporeBlockPattern *pattern) {
+static void compare(const char *name, SporeBlockPattern *pattern, SporeFactorLayout layout) {
   SporeBlockMatrix matrix;
   SporeBlockCholesky factor;
   GRand *random = g_rand_new_with_seed(7);
   g_assert_true(spore_block_matrix_create(&matrix, pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
   g_assert_cmpuint(factor.block_count, ==, matrix.block_count);
+  if (layout != SPORE_FACTOR_AUTOMATIC)
+    g_assert_cmpuint(factor.band.block_count, ==, layout == SPORE_FACTOR_BANDED ? matrix.block_count : 0);
   size_t n = 3 * matrix.block_count;
   double *b = g_new(double, n), *x = g_new(double, n), *dense = g_new(double, n), *rounded = g_new(double, n);
   for (int pass = 0; pass < 2; pass++) {
@@ -139,21 +141,21 @@ static void net_pattern(SporeBlockPattern *pattern, size_t side) {
 static void test_shapes(void) {
   SporeBlockPattern pattern;
   spore_block_pattern_init(&pattern, 1);
-  compare("one", &pattern);
+  compare("one", &pattern, SPORE_FACTOR_SPARSE);
   spore_block_pattern_init(&pattern, 40);
-  compare("diagonal", &pattern);
+  compare("diagonal", &pattern, SPORE_FACTOR_SPARSE);
   spore_block_pattern_init(&pattern, 100);
   for (size_t i = 0; i + 1 < 100; i++) tie(&pattern, i, i + 1);
-  compare("chain", &pattern);
+  compare("chain", &pattern, SPORE_FACTOR_SPARSE);
   net_pattern(&pattern, 10);
-  compare("grid", &pattern);
+  compare("grid", &pattern, SPORE_FACTOR_SPARSE);
   spore_block_pattern_init(&pattern, 20);
   for (size_t i = 0; i < 20; i++)
     for (size_t j = 0; j < i; j++) tie(&pattern, i, j);
-  compare("dense", &pattern);
+  compare("dense", &pattern, SPORE_FACTOR_SPARSE);
   spore_block_pattern_init(&pattern, 60); /* everything hangs on one block */
   for (size_t i = 1; i < 60; i++) tie(&pattern, 0, i);
-  compare("star", &pattern);
+  compare("star", &pattern, SPORE_FACTOR_SPARSE);
 }
 
 static void test_random(void) {
@@ -165,9 +167,69 @@ static void test_random(void) {
     size_t pairs = (size_t)g_rand_int_range(random, 0, (gint32)(3 * n));
     for (size_t p = 0; p < pairs; p++)
       tie(&pattern, (size_t)g_rand_int_range(random, 0, (gint32)n), (size_t)g_rand_int_range(random, 0, (gint32)n));
-    compare("random", &pattern);
+    compare("random", &pattern, k % 2 ? SPORE_FACTOR_SPARSE : SPORE_FACTOR_AUTOMATIC);
   }
   g_rand_free(random);
+}
+
+/* Blocks tied to the `width` next ones; shuffled: numbered at random. */
+static void band_pattern(SporeBlockPattern *pattern, size_t n, size_t width, GRand *shuffled) {
+  uint32_t *number = g_new(uint32_t, n);
+  for (size_t i = 0; i < n; i++) number[i] = (uint32_t)i;
+  for (size_t i = n; shuffled && i-- > 1;) {
+    size_t j = (size_t)g_rand_int_range(shuffled, 0, (gint32)i + 1);
+    uint32_t swap = number[i];
+    number[i] = number[j], number[j] = swap;
+  }
+  spore_block_pattern_init(pattern, n);
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 1; k <= width && i + k < n; k++) tie(pattern, number[i], number[i + k]);
+  g_free(number);
+}
+
+static void test_band(void) {
+  SporeBlockPattern pattern;
+  GRand *random = g_rand_new_with_seed(19);
+  for (size_t width = 1; width <= SPORE_BAND_WIDEST; width++)
+    for (size_t n = 1; n < 80; n += n < 16 ? 1 : 21) {
+      band_pattern(&pattern, n, width, NULL);
+      compare("band", &pattern, SPORE_FACTOR_BANDED);
+      band_pattern(&pattern, n, width, random);
+      compare("shuffled band", &pattern, SPORE_FACTOR_BANDED);
+    }
+  spore_block_pattern_init(&pattern, 7);
+  compare("diagonal", &pattern, SPORE_FACTOR_BANDED);
+  spore_block_pattern_init(&pattern, 50); /* two chains, one of them closed */
+  for (size_t i = 0; i + 1 < 50; i++)
+    if (i != 29) tie(&pattern, i, i + 1);
+  tie(&pattern, 0, 29);
+  compare("ring and chain", &pattern, SPORE_FACTOR_BANDED);
+  g_rand_free(random);
+}
+
+/* What is too wide for a band is kept sparse, asked for or not; of a chain a band is made. */
+static void test_layout(void) {
+  SporeBlockPattern pattern;
+  SporeBlockMatrix matrix;
+  SporeBlockCholesky factor;
+  for (SporeFactorLayout layout = SPORE_FACTOR_AUTOMATIC; layout <= SPORE_FACTOR_BANDED; layout++)
+    for (size_t width = 1; width <= SPORE_BAND_WIDEST + 1; width++) {
+      band_pattern(&pattern, 60, width, NULL);
+      g_assert_true(spore_block_matrix_create(&matrix, &pattern));
+      g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+      g_assert_cmpuint(factor.block_count, ==, 60);
+      bool banded = layout != SPORE_FACTOR_SPARSE && width <= SPORE_BAND_WIDEST;
+      g_assert_cmpuint(factor.band.block_count, ==, banded ? 60 : 0);
+      spore_block_cholesky_clear(&factor);
+      spore_block_matrix_clear(&matrix);
+      spore_block_pattern_clear(&pattern);
+    }
+}
+
+/* A net or, for a band, a chain. */
+static void pattern_for(SporeFactorLayout layout, SporeBlockPattern *pattern, size_t side) {
+  if (layout == SPORE_FACTOR_BANDED) band_pattern(pattern, side * side, SPORE_BAND_WIDEST, NULL);
+  else net_pattern(pattern, side);
 }
 
 /* Of the order of a net: the elimination of 1600 blocks in their natural order would take 27 x 80^2 x 1600 flops. */
@@ -177,26 +239,28 @@ static void test_fill(void) {
   SporeBlockCholesky factor;
   net_pattern(&pattern, 40);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, HUGE_VAL));
   g_test_message("net of 40 x 40: %.3g flops, %.3g a solve", factor.factor_flops, factor.solve_flops);
   g_assert_cmpfloat(factor.factor_flops, <, 0.5 * 27 * 80 * 80 * 1600);
   double flops = factor.factor_flops;
   spore_block_cholesky_clear(&factor);
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, flops / 10)); /* too dear: no factor, no error */
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE,
+                                            flops / 10)); /* too dear: no factor, no error */
   g_assert_cmpuint(factor.block_count, ==, 0);
   spore_block_matrix_clear(&matrix);
   spore_block_pattern_clear(&pattern);
 }
 
 /* Diagonal blocks and held blocks in place of the matrix's own. */
-static void test_replaced(void) {
+static void test_replaced(gconstpointer data) {
+  SporeFactorLayout layout = *(const SporeFactorLayout *)data;
   SporeBlockPattern pattern;
   SporeBlockMatrix matrix;
   SporeBlockCholesky factor;
   GRand *random = g_rand_new_with_seed(3);
-  net_pattern(&pattern, 5);
+  pattern_for(layout, &pattern, 5);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
   fill_matrix(&matrix, random);
   double diagonal[25 * 9], b[75], x[75], product[75] = {0};
   uint8_t held[25] = {0};
@@ -221,14 +285,15 @@ static void test_replaced(void) {
 }
 
 /* What is not positive definite is refused, wherever it shows; afterwards the factor works again. */
-static void test_not_positive(void) {
+static void test_not_positive(gconstpointer data) {
+  SporeFactorLayout layout = *(const SporeFactorLayout *)data;
   SporeBlockPattern pattern;
   SporeBlockMatrix matrix;
   SporeBlockCholesky factor;
   GRand *random = g_rand_new_with_seed(5);
-  net_pattern(&pattern, 6);
+  pattern_for(layout, &pattern, 6);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
   fill_matrix(&matrix, random);
   const double bad[] = {-1e3, -INFINITY, INFINITY, NAN};
   for (size_t i = 0; i < 36; i++)
@@ -246,33 +311,41 @@ static void test_not_positive(void) {
   spore_block_pattern_clear(&pattern);
 }
 
-static void test_without_memory(void) {
+static void test_without_memory(gconstpointer data) {
+  SporeFactorLayout layout = *(const SporeFactorLayout *)data;
   SporeBlockPattern pattern;
   SporeBlockMatrix matrix;
   SporeBlockCholesky factor;
-  net_pattern(&pattern, 6);
+  pattern_for(layout, &pattern, 6);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
   bool made = false;
   uint64_t refused = 0;
   while (!made) {
     spore_allocation_fail_at(++refused);
-    made = spore_block_cholesky_create(&factor, &matrix, HUGE_VAL);
+    made = spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL);
     spore_allocation_fail_at(0);
     if (!made) g_assert_null(factor.order);
+    if (!made) g_assert_null(factor.band.order);
   }
-  g_assert_cmpuint(refused, >, 20);
+  g_assert_cmpuint(refused, >, 4);
   spore_block_cholesky_clear(&factor);
   spore_block_matrix_clear(&matrix);
   spore_block_pattern_clear(&pattern);
 }
 
 int main(int argc, char **argv) {
+  static const SporeFactorLayout sparse = SPORE_FACTOR_SPARSE, banded = SPORE_FACTOR_BANDED;
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/cholesky/shapes", test_shapes);
   g_test_add_func("/cholesky/random", test_random);
+  g_test_add_func("/cholesky/band", test_band);
+  g_test_add_func("/cholesky/layout", test_layout);
   g_test_add_func("/cholesky/fill", test_fill);
-  g_test_add_func("/cholesky/replaced", test_replaced);
-  g_test_add_func("/cholesky/not-positive", test_not_positive);
-  g_test_add_func("/cholesky/without-memory", test_without_memory);
+  g_test_add_data_func("/cholesky/replaced", &sparse, test_replaced);
+  g_test_add_data_func("/cholesky/replaced/banded", &banded, test_replaced);
+  g_test_add_data_func("/cholesky/not-positive", &sparse, test_not_positive);
+  g_test_add_data_func("/cholesky/not-positive/banded", &banded, test_not_positive);
+  g_test_add_data_func("/cholesky/without-memory", &sparse, test_without_memory);
+  g_test_add_data_func("/cholesky/without-memory/banded", &banded, test_without_memory);
   return g_test_run();
 }

@@ -111,6 +111,7 @@ static void test_preconditioner(void) {
   SporeWorld *world = make();
   SporeGroup group = {world, &world->islands[0]};
   SporeDynamics dynamics = spore_group_dynamics(&group);
+  for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = false;
   dynamics.linearise(dynamics.data, world->islands[0].q0, world->islands[0].v0, 0.03, 0.002);
   for (int j = 0; j < N; j++) {
     if (j >= 9 && j < 12) continue;
@@ -146,14 +147,16 @@ static void test_factor(void) {
 }
 
 #define STIFF_CHAINS 3
+#define WIDE (SPORE_BAND_WIDEST + 1)
 
 /* Chains apart from each other, so stiff for the step that conjugate gradients alone go on and on. */
-static SporeWorld *make_stiff(SporePool *pool, double stiffness) {
+static SporeWorld *make_stiff(SporePool *pool, double stiffness, int reach, SporeNonlinearKind nonlinear) {
   SporeBodyDescription bodies[STIFF_CHAINS];
   SporeLinkDescription links[STIFF_CHAINS];
   static const char *const names[STIFF_CHAINS] = {"a", "b", "c"};
   for (int b = 0; b < STIFF_CHAINS; b++) {
     SporeModel *model = chain_create((ChainFields){.count = 60 + 20 * b,
+                                                   .reach = reach,
                                                    .mass = 0.01,
                                                    .spacing = 0.1,
                                                    .stiffness = stiffness,
@@ -165,6 +168,7 @@ static SporeWorld *make_stiff(SporePool *pool, double stiffness) {
         .name = names[b], .kind = SPORE_LINK_PIN, .body_a = (uint32_t)b, .point_a = {0, 0, b}, .radius = 0.05};
   }
   SporeWorldDescription description = world_description(bodies, STIFF_CHAINS);
+  description.solver.nonlinear = (int)nonlinear;
   description.gravity = (SporeVec3){0, -9.81, 0};
   description.links = links;
   description.link_count = STIFF_CHAINS;
@@ -177,17 +181,21 @@ static void run(SporeWorld *world, int steps) {
   for (int i = 0; i < steps; i++) spore_world_step(world);
 }
 
-/* Stiff bodies get a factor, soft ones do not; the choice takes no memory, and is the same on any number of threads and
- * again after a reset. */
+/* A band is always factorised. Of others stiff bodies get a factor, soft ones do not; the choice takes no memory, and
+ * is the same on any number of threads and again after a reset. */
 static void test_choice(void) {
-  SporeWorld *soft = make_stiff(NULL, 1);
+  SporeWorld *soft = make_stiff(NULL, 1, WIDE, SPORE_NONLINEAR_NEWTON);
   run(soft, 40);
   for (int b = 0; b < STIFF_CHAINS; b++) g_assert_false(soft->bodies[b].choice.factorised);
   spore_world_free(soft);
+  SporeWorld *narrow = make_stiff(NULL, 1, 1, SPORE_NONLINEAR_NEWTON);
+  run(narrow, 40);
+  for (int b = 0; b < STIFF_CHAINS; b++) g_assert_true(narrow->bodies[b].choice.factorised);
+  spore_world_free(narrow);
   uint64_t expected = 0;
   for (int threads = 1; threads <= 2; threads++) {
     SporePool *pool = spore_pool_create(threads);
-    SporeWorld *world = make_stiff(pool, 1e7);
+    SporeWorld *world = make_stiff(pool, 1e7, WIDE, SPORE_NONLINEAR_AUTOMATIC);
     uint64_t allocations = spore_allocation_count();
     run(world, 40);
     g_assert_cmpuint(spore_allocation_count(), ==, allocations);
