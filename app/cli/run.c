@@ -113,9 +113,14 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
                     "difference from the start)")},
       {"solver", N_("iterations of implicit steps: newton_mean, newton_max, linear_mean, linear_max, and residual_max, "
                     "relative")},
+      {"links", N_("where there are any but pins: each one's name, load_N (what it held at the end), drift_m (how far "
+                   "what it holds together is apart), broken (1: for good)")},
+      {"tools", N_("where instruments do more than touch: each one's name, opening_rad, squeeze_Nm (torque against "
+                   "closing), held and lost (spheres)")},
       {"monitor", N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
                      "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
-                     "deep_contacts, soft_contacts, over_budget, held_inputs (refused from devices)")},
+                     "deep_contacts, soft_contacts, over_budget, held_inputs (refused from devices), broken_links, "
+                     "lost_holds (that tore away from jaws)")},
       {"monitor.frozen", N_("names of bodies that could not be computed")},
       {"monitor.made_safer", N_("names of bodies that were moved by a safer method than the scene says")},
       {"monitor.messages", N_("the last of them, each naming body and cause")},

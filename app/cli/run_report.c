@@ -79,7 +79,8 @@ static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
                 {"soft_contacts", monitor->soft_contacts},
                 {"over_budget", monitor->over_budget},
                 {"held_inputs", monitor->held_inputs},
-                {"broken_links", monitor->broken_links}};
+                {"broken_links", monitor->broken_links},
+                {"lost_holds", monitor->lost_holds}};
   spore_cli_open(cli, "monitor");
   for (gsize i = 0; i < G_N_ELEMENTS(counts); i++) spore_cli_count(cli, counts[i].member, (gint64)counts[i].count);
   if (monitor->not_converged || monitor->recoveries)
@@ -91,6 +92,40 @@ static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
   report_messages(cli, monitor);
   spore_cli_close(cli);
   return frozen == 0 && safer == 0 && monitor->not_converged == 0;
+}
+
+/* Links and tools, where there are any. */
+static void report_links(SporeCli *cli, const SporeWorld *world) {
+  size_t count = spore_world_link_count(world);
+  if (count == 0) return;
+  spore_cli_open_array(cli, "links");
+  for (size_t i = 0; i < count; i++) {
+    SporeLinkState state = spore_world_link_state(world, i);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", state.name);
+    spore_cli_number(cli, "load_N", state.load);
+    spore_cli_number(cli, "drift_m", state.drift);
+    spore_cli_count(cli, "broken", state.broken);
+    spore_cli_close(cli);
+  }
+  spore_cli_close_array(cli);
+}
+
+static void report_tools(SporeCli *cli, const SporeWorld *world) {
+  size_t count = spore_world_tool_count(world);
+  if (count == 0) return;
+  spore_cli_open_array(cli, "tools");
+  for (size_t i = 0; i < count; i++) {
+    SporeToolState state = spore_world_tool_state(world, i);
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", state.name);
+    spore_cli_number(cli, "opening_rad", state.opening);
+    spore_cli_number(cli, "squeeze_Nm", state.squeeze);
+    spore_cli_count(cli, "held", (gint64)state.held);
+    spore_cli_count(cli, "lost", (gint64)state.lost);
+    spore_cli_close(cli);
+  }
+  spore_cli_close_array(cli);
 }
 
 /* Whether it kept pace. */
@@ -161,6 +196,8 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
                 spore_run_statistics_mean(result, result->contacts), result->contacts_max, result->energy_start,
                 result->energy_end);
   report_solver(cli, result);
+  report_links(cli, world);
+  report_tools(cli, world);
   gboolean held = report_monitor(cli, world);
   held &= report_pace(cli, world, pace);
   spore_cli_text(cli, "state_hash", hash);

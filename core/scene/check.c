@@ -96,6 +96,9 @@ gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object,
   return FALSE;
 }
 
+/* Elements of the tools that move a body. */
+#define TOOLS "probe|grasper|clamp"
+
 /* Bodies. */
 
 static void check_mechanical(SporeCheck *check, const SporeObject *body, SporeRole role) {
@@ -121,7 +124,7 @@ static void check_body(SporeCheck *check, SporeObject *body) {
     spore_check_say(check, SPORE_NOTE, body,
                     _("generate spheres and name them in its collision unit, if it should be felt"),
                     _("\"%s\" has no collision spheres: everything passes through it"), name);
-  if (role == SPORE_ACTIVE && !spore_check_is_used(check, body, "probe"))
+  if (role == SPORE_ACTIVE && !spore_check_is_used(check, body, TOOLS))
     spore_check_say(check, SPORE_WARNING, body, _("add a tool that names it, with a device"),
                     _("\"%s\" is active, but no tool moves it"), name);
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
@@ -132,17 +135,35 @@ static void check_body(SporeCheck *check, SporeObject *body) {
 
 /* Tools. */
 
-static void check_probe(SporeCheck *check, SporeObject *probe) {
-  const char *name = spore_object_name(probe);
-  const SporeObject *body = spore_object_reference(probe, "body");
-  if (!spore_object_text(probe, "body"))
-    spore_check_say(check, SPORE_WARNING, probe, _("name an active body"), _("the tool \"%s\" has no body"), name);
+static void check_tool_body(SporeCheck *check, SporeObject *tool, const char *property) {
+  const SporeObject *body = spore_object_reference(tool, property);
   if (body && (int)spore_object_number(body, "role") != SPORE_ACTIVE)
-    spore_check_say(check, SPORE_FAULT, probe, _("make its role active, or choose another body"),
-                    _("the tool \"%s\" moves \"%s\", which is not active"), name, spore_object_name(body));
-  if (!spore_object_text(probe, "device"))
-    spore_check_say(check, SPORE_WARNING, probe, _("name a mouse or a track"),
+    spore_check_say(check, SPORE_FAULT, tool, _("make its role active, or choose another body"),
+                    _("the tool \"%s\" moves \"%s\", which is not active"), spore_object_name(tool),
+                    spore_object_name(body));
+}
+
+static void check_jaw(SporeCheck *check, SporeObject *tool, const char *property) {
+  if (!spore_object_text(tool, property))
+    spore_check_say(check, SPORE_FAULT, tool, _("add an active body for the jaw and name it"),
+                    _("the tool \"%s\" has no %s"), spore_object_name(tool), property);
+  check_tool_body(check, tool, property);
+}
+
+static void check_tool(SporeCheck *check, SporeObject *tool) {
+  const char *name = spore_object_name(tool), *element = spore_object_type(tool)->element;
+  if (!spore_element_in_list(TOOLS, element)) return;
+  gboolean probe = strcmp(element, "probe") == 0; /* others cannot do without a body */
+  if (!spore_object_text(tool, "body"))
+    spore_check_say(check, probe ? SPORE_WARNING : SPORE_FAULT, tool, _("name an active body"),
+                    _("the tool \"%s\" has no body"), name);
+  check_tool_body(check, tool, "body");
+  if (!spore_object_text(tool, "device"))
+    spore_check_say(check, SPORE_WARNING, tool, _("name a mouse or a track"),
                     _("the tool \"%s\" has no device: nothing moves it"), name);
+  if (spore_parameter_find(spore_object_type(tool)->table, "jaw_a") < 0) return;
+  check_jaw(check, tool, "jaw_a");
+  check_jaw(check, tool, "jaw_b");
 }
 
 /* The whole. */
@@ -162,7 +183,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
   if (spore_object_child_count(spore_document_section(document, "bodies")) == 0)
     spore_check_say(&check, SPORE_NOTE, NULL, _("import a mesh, or add a body"), "%s", _("the scene has no bodies"));
   spore_check_each(&check, "bodies", NULL, check_body);
-  spore_check_each(&check, "tools", "probe", check_probe);
+  spore_check_each(&check, "tools", NULL, check_tool);
   spore_check_links(&check);
   spore_check_assets(&check);
   spore_check_solver(&check);

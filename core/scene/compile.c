@@ -13,6 +13,7 @@ typedef struct Compiler {
   GPtrArray *objects; /* body objects, by index in the world */
   GArray *bodies;     /* of SporeBodyDescription */
   GArray *links;      /* of SporeLinkDescription */
+  GArray *tools;      /* of SporeToolDescription */
   GPtrArray *spheres; /* of SporeSphereSet: models' own */
   GError **error;
 } Compiler;
@@ -288,6 +289,30 @@ static gboolean add_link(Compiler *compiler, const SporeObject *object) {
   return strcmp(element, "spring") == 0 ? add_spring(compiler, object) : add_joint(compiler, object);
 }
 
+/* Tools that do more than touch. */
+
+static gboolean add_jaws(Compiler *compiler, const SporeObject *object, SporeToolKind kind) {
+  SporeJawToolFields fields = {0};
+  spore_object_fields(object, &fields);
+  SporeToolDescription tool = {.name = fields.name,
+                               .kind = kind,
+                               .hinge = spore_vec3_load(fields.hinge),
+                               .axis = spore_vec3_load(fields.axis),
+                               .jaws = fields.jaws};
+  if (!body_index(compiler, object, "body", &tool.body) || !body_index(compiler, object, "jaw_a", &tool.jaw_a) ||
+      !body_index(compiler, object, "jaw_b", &tool.jaw_b))
+    return FALSE;
+  g_array_append_val(compiler->tools, tool);
+  return TRUE;
+}
+
+static gboolean add_tool(Compiler *compiler, const SporeObject *object) {
+  const char *element = spore_object_type(object)->element;
+  if (strcmp(element, "grasper") == 0) return add_jaws(compiler, object, SPORE_TOOL_GRASPER);
+  if (strcmp(element, "clamp") == 0) return add_jaws(compiler, object, SPORE_TOOL_CLAMP);
+  return TRUE;
+}
+
 /* Input. */
 
 static gboolean copy_channel(Compiler *compiler, SporeTrack *track, const SporeTrackChannel *from, const char *name) {
@@ -329,9 +354,9 @@ static gboolean add_track(Compiler *compiler, SporeTrack *merged, const SporeObj
   return done;
 }
 
-static gboolean add_probe(Compiler *compiler, SporeTrack *merged, const SporeTrack *input, const SporeObject *probe) {
+static gboolean add_input(Compiler *compiler, SporeTrack *merged, const SporeTrack *input, const SporeObject *probe) {
   SporeObject *body, *device;
-  if (strcmp(spore_object_type(probe)->element, "probe") != 0) return TRUE;
+  if (spore_parameter_find(spore_object_type(probe)->table, "device") < 0) return TRUE;
   if (!resolve(compiler, probe, "body", &body) || !resolve(compiler, probe, "device", &device)) return FALSE;
   if (!body) return TRUE; /* `check` says it */
   const char *name = spore_object_name(body);
@@ -361,7 +386,7 @@ static gboolean merge_input(Compiler *compiler, SporeTrack *merged, const SporeT
   }
   const SporeObject *tools = spore_document_section(compiler->document, "tools");
   for (guint i = 0; i < spore_object_child_count(tools); i++)
-    if (!add_probe(compiler, merged, input, spore_object_child(tools, i))) return FALSE;
+    if (!add_input(compiler, merged, input, spore_object_child(tools, i))) return FALSE;
   return TRUE;
 }
 
@@ -390,6 +415,9 @@ static gboolean describe(Compiler *compiler) {
   SporeObject *links = spore_document_section(compiler->document, "links");
   for (guint i = 0; i < spore_object_child_count(links); i++)
     if (!add_link(compiler, spore_object_child(links, i))) return FALSE;
+  SporeObject *tools = spore_document_section(compiler->document, "tools");
+  for (guint i = 0; i < spore_object_child_count(tools); i++)
+    if (!add_tool(compiler, spore_object_child(tools, i))) return FALSE;
   return TRUE;
 }
 
@@ -412,8 +440,10 @@ static SporeWorld *create_world(Compiler *compiler, SporePool *pool) {
   SporeEnvironmentFields environment;
   SporeWorldDescription description = {.body_count = compiler->bodies->len,
                                        .link_count = compiler->links->len,
+                                       .tool_count = compiler->tools->len,
                                        .bodies = (const SporeBodyDescription *)(void *)compiler->bodies->data,
-                                       .links = (const SporeLinkDescription *)(void *)compiler->links->data};
+                                       .links = (const SporeLinkDescription *)(void *)compiler->links->data,
+                                       .tools = (const SporeToolDescription *)(void *)compiler->tools->data};
   spore_object_fields(spore_document_section(compiler->document, "environment"), &environment);
   spore_object_fields(spore_document_section(compiler->document, "solver"), &description.solver);
   description.gravity = spore_vec3_load(environment.gravity);
@@ -449,11 +479,13 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
   compiler.objects = g_ptr_array_new();
   compiler.bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
   compiler.links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
+  compiler.tools = g_array_new(FALSE, TRUE, sizeof(SporeToolDescription));
   compiler.spheres = g_ptr_array_new_with_free_func(free_spheres);
   SporeSimulation *simulation = assemble(&compiler, pool, input);
   g_ptr_array_unref(compiler.objects);
   g_array_unref(compiler.bodies);
   g_array_unref(compiler.links);
+  g_array_unref(compiler.tools);
   g_ptr_array_unref(compiler.spheres);
   return simulation;
 }

@@ -95,6 +95,13 @@ typedef struct SporeProbeFields {
   const char *name, *body, *device;
 } SporeProbeFields;
 
+/* Of a grasper or clamp. */
+typedef struct SporeJawToolFields {
+  const char *name, *body, *device, *jaw_a, *jaw_b;
+  double hinge[3], axis[3];
+  SporeJawFields jaws;
+} SporeJawToolFields;
+
 typedef struct SporeMouseFields {
   const char *name;
 } SporeMouseFields;

@@ -518,22 +518,43 @@ static const SporeParameter camera_parameters[] = {
      .doc = N_("Vertical field of view.")},
 };
 
+#define TOOL_BODY(Type, field, text)                                                                                   \
+  {                                                                                                                    \
+    .name = #field, .type = SPORE_REFERENCE, .unit = "", .references = "body", FIELD(Type, field),                     \
+    .change = SPORE_CHANGE_REBUILD, .doc = text                                                                        \
+  }
+#define TOOL_DEVICE(Type)                                                                                              \
+  {                                                                                                                    \
+    .name = "device", .type = SPORE_REFERENCE, .unit = "", .references = "mouse|track", FIELD(Type, device),           \
+    .change = SPORE_CHANGE_REBUILD, .doc = N_("Device that moves the tool.")                                           \
+  }
+#define TOOL_PLACE(Type, field, text)                                                                                  \
+  {                                                                                                                    \
+    .name = #field, .type = SPORE_VECTOR, .unit = "m", -POSITION_M, POSITION_M, FIELD(Type, field),                    \
+    .change = SPORE_CHANGE_REBUILD, .doc = text                                                                        \
+  }
+#define TOOL_DIRECTION(Type, field, text)                                                                              \
+  {                                                                                                                    \
+    .name = #field, .type = SPORE_VECTOR, .unit = "", -POSITION_M, POSITION_M, .initial = {1, 0, 0},                   \
+    FIELD(Type, field), .change = SPORE_CHANGE_REBUILD, .doc = text                                                    \
+  }
+
 static const SporeParameter probe_parameters[] = {
     NAME(SporeProbeFields, N_("Name of the tool.")),
-    {.name = "body",
-     .type = SPORE_REFERENCE,
-     .unit = "",
-     .references = "body",
-     FIELD(SporeProbeFields, body),
-     .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("Active body that the tool moves.")},
-    {.name = "device",
-     .type = SPORE_REFERENCE,
-     .unit = "",
-     .references = "mouse|track",
-     FIELD(SporeProbeFields, device),
-     .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("Device that moves the tool.")},
+    TOOL_BODY(SporeProbeFields, body, N_("Active body that the tool moves.")),
+    TOOL_DEVICE(SporeProbeFields),
+};
+
+static const SporeParameter jaw_tool_parameters[] = {
+    NAME(SporeJawToolFields, N_("Name of the tool.")),
+    TOOL_BODY(SporeJawToolFields, body, N_("Active body that the tool moves: the shaft.")),
+    TOOL_DEVICE(SporeJawToolFields),
+    TOOL_BODY(SporeJawToolFields, jaw_a, N_("Active body of the first jaw, where it is when closed.")),
+    TOOL_BODY(SporeJawToolFields, jaw_b, N_("Active body of the second jaw, where it is when closed.")),
+    TOOL_PLACE(SporeJawToolFields, hinge, N_("Where the jaws are hinged at the start, in the scene.")),
+    TOOL_DIRECTION(SporeJawToolFields, axis,
+                   N_("Axis of the hinge at the start, in the scene: the first jaw opens by turning about it, the "
+                      "second against it.")),
 };
 
 static const SporeParameter mouse_parameters[] = {
@@ -557,6 +578,7 @@ static const SporeParameter track_parameters[] = {
 #define TABLE(array, Type) .parameters = array, .count = G_N_ELEMENTS(array), .size = sizeof(Type)
 
 #define JOINT .extra = &spore_joint_parameters, .extra_offset = offsetof(SporeLinkFields, joint)
+#define JAWS .extra = &spore_jaw_parameters, .extra_offset = offsetof(SporeJawToolFields, jaws)
 
 const SporeElement spore_scene_elements[] = {
     {"spore", N_("Scene"), N_("A scene: bodies, how they meet, and the tools that touch them."),
@@ -610,8 +632,13 @@ const SporeElement spore_scene_elements[] = {
      N_("Lets an instrument through at one point of its shaft, as a trocar does: it turns and slides there."),
      TABLE(port_parameters, SporeLinkFields), JOINT},
     {"effects", N_("Effects"), N_("What is shown without being simulated.")},
-    {"tools", N_("Tools"), N_("What the user holds, and looks through."), .children = CHILDREN("probe", "camera")},
+    {"tools", N_("Tools"), N_("What the user holds, and looks through."),
+     .children = CHILDREN("probe", "grasper", "clamp", "camera")},
     {"probe", N_("Probe"), N_("An active body moved by a device."), TABLE(probe_parameters, SporeProbeFields)},
+    {"grasper", N_("Grasper"), N_("Two jaws that close on tissue and hold it."),
+     TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
+    {"clamp", N_("Clamp"), N_("Two jaws that stay closed on what they took hold of, until the second button."),
+     TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
     {"camera", N_("Camera"), N_("A view of the scene."), TABLE(camera_parameters, SporeCameraFields)},
     {"devices", N_("Devices"), N_("Where input comes from."), .children = CHILDREN("mouse", "track")},
     {"mouse", N_("Mouse"), N_("The pointer on the screen."), TABLE(mouse_parameters, SporeMouseFields)},

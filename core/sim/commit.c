@@ -49,6 +49,7 @@ void spore_world_commit(SporeWorld *world) {
   for (size_t i = 0; i < world->island_count; i++) settle_island(world, &world->islands[i]);
   spore_world_keep_grips(world);
   spore_world_break_links(world);
+  for (size_t i = 0; i < world->tool_count; i++) spore_jaws_tear(world, &world->tools[i]);
   spore_world_watch_contacts(world);
   spore_world_report_islands(world);
   world->step++;

@@ -55,6 +55,8 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
                            _("gravity is not finite; expected a vector in m/s^2; correct it"));
   for (size_t i = 0; i < description->body_count; i++)
     if (!check_body(&description->bodies[i], error)) return false;
+  for (size_t i = 0; i < description->tool_count; i++)
+    if (!spore_parameters_check(&spore_jaw_parameters, &description->tools[i].jaws, error)) return false;
   return true;
 }
 

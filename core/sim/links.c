@@ -111,6 +111,7 @@ static bool compile_link(SporeWorld *world, const SporeLinkDescription *link, ui
 }
 
 bool spore_world_compile_links(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  world->hold_count = spore_tools_hold_count(description);
   if (!allocate_links(world, description) || !allocate_springs(world)) return no_memory(error);
   uint8_t *marks = SPORE_NEW_ARRAY(uint8_t, world->v_count / 3);
   if (!marks) return no_memory(error);

@@ -32,6 +32,7 @@ static size_t moving_spheres(const SporeWorld *world) { return world->spheres.co
 static size_t all_spheres(const SporeWorld *world) { return world->spheres.count; }
 static size_t contacts(const SporeWorld *world) { return world->contact_count; }
 static size_t links(const SporeWorld *world) { return world->link_count + world->port_count + world->pull_count; }
+static size_t tool_count(const SporeWorld *world) { return world->tool_count; }
 static size_t sleeping(const SporeWorld *world) { return world->sleeping_count; }
 static size_t islands(const SporeWorld *world) { return world->island_count; }
 static size_t degrees_of_freedom(const SporeWorld *world) { return world->dof; }
@@ -90,16 +91,20 @@ void spore_world_make_plan(SporeWorld *world) {
   Census census = count_bodies(world);
   bool active = census.active > 0, linked = world->link_count > 0, moves = census.passive > 0;
   bool pulled = world->pull_count > 0;
-  bool coupled = world->grid || (moves && linked);
+  bool coupled = world->grid || (moves && (linked || world->hold_count));
   const char *no_active = _("no body is driven by a device or a track");
   add(world, "command", true, _("parameters and pulls may change while it runs"), spore_world_apply_commands, no_items);
   add(world, "sense", active, active ? _("active bodies follow their devices") : no_active, spore_world_sense,
       active_bodies);
+  bool tools = world->tool_count > 0;
+  add(world, "tools", tools, tools ? _("instruments open, close and hold") : _("no instrument does more than touch"),
+      spore_world_use_tools, tool_count);
   plan_collision(world, &census);
-  add(world, "link", moves && (linked || pulled),
-      linked   ? _("links tie bodies together")
-      : pulled ? _("a viewer pulls at a body")
-               : _("no link ties bodies, and nobody pulls at one"),
+  add(world, "link", moves && (linked || pulled || world->hold_count),
+      linked              ? _("links tie bodies together")
+      : world->hold_count ? _("jaws may hold bodies")
+      : pulled            ? _("a viewer pulls at a body")
+                          : _("no link ties bodies, and nobody pulls at one"),
       spore_world_link, links);
   plan_numerics(world, &census);
   add(world, "react", coupled, coupled ? _("contacts and links push back") : _("nothing touches and nothing is tied"),
@@ -107,6 +112,7 @@ void spore_world_make_plan(SporeWorld *world) {
   add(world, "feedback", active, active ? _("devices feel what active bodies touch") : no_active, spore_world_feed_back,
       active_bodies);
   add(world, "commit", true, _("checks, accepts and publishes the new state"), spore_world_commit, bodies);
+  if (!tools) leave_out(world, _("tools"), _("no instrument does more than touch"));
   if (!active) leave_out(world, _("devices and feedback"), no_active);
   if (!linked && !pulled && !world->port_count) leave_out(world, _("links"), _("the scene has none"));
   world->plan.stages = world->plan_stages;

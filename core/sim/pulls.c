@@ -3,11 +3,13 @@
 
 #include "core/sim/world_private.h"
 
+static size_t first_pull(const SporeWorld *world) { return world->link_term_count + world->hold_count; }
+
 /* A pull needs a place to hold one point of a frame; nodes need none. */
 bool spore_world_make_pulls(SporeWorld *world) {
   const double origin[3] = {0, 0, 0};
   for (size_t b = 0; b < world->body_count; b++) {
-    size_t index = world->link_term_count + b;
+    size_t index = first_pull(world) + b;
     const SporeModel *model = world->bodies[b].model;
     SporeMapping *end_a = &world->spring_mappings[2 * index], *end_b = end_a + 1;
     if (!model) continue;
@@ -61,7 +63,7 @@ void spore_world_pull(SporeWorld *world, const SporeCommand *command) {
   bool good = spore_vec3_is_finite(command->point) && spore_vec3_is_finite(command->vector) && command->number >= 0 &&
               isfinite(command->number);
   if (!good || body->role != SPORE_PASSIVE) return;
-  size_t index = world->link_term_count + command->body;
+  size_t index = first_pull(world) + command->body;
   SporeSpringTerm *term = &world->springs[index];
   if (!world->spring_active[index]) grasp(world, index, body, command->point, command->number);
   term->law.stiffness = command->number;
@@ -69,4 +71,4 @@ void spore_world_pull(SporeWorld *world, const SporeCommand *command) {
   set_pulled(world, index, true);
 }
 
-void spore_world_release(SporeWorld *world, uint32_t body) { set_pulled(world, world->link_term_count + body, false); }
+void spore_world_release(SporeWorld *world, uint32_t body) { set_pulled(world, first_pull(world) + body, false); }

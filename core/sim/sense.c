@@ -8,7 +8,8 @@ static const SporeGuardLimits limits = SPORE_GUARD_LIMITS;
 
 /* Velocity that takes the body from where it is to its target in one step. It is made from the poses, not from what
  * the device says, so that a recorded track gives the same motion again. */
-static void set_velocity(SporeWorld *world, const SporeBody *body) {
+void spore_active_set_velocity(SporeWorld *world, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
   const double *from = world->q + body->q_offset, *to = world->target_q + body->q_offset;
   double rate = 1 / world->solver.time_step, *v = world->next_v + body->v_offset;
   SporeVec3 moved = spore_vec3_sub(spore_vec3_load(to), spore_vec3_load(from));
@@ -39,8 +40,8 @@ void spore_world_sense(SporeWorld *world) {
     if (body->device) sense(world, body);
   }
   for (size_t i = 0; i < world->port_count; i++) spore_port_aim(world, &world->ports[i]);
-  for (size_t b = 0; b < world->body_count; b++)
-    if (world->bodies[b].role == SPORE_ACTIVE) set_velocity(world, &world->bodies[b]);
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_ACTIVE) spore_active_set_velocity(world, b);
 }
 
 void spore_world_feed_back(SporeWorld *world) {
@@ -49,6 +50,9 @@ void spore_world_feed_back(SporeWorld *world) {
     if (body->role != SPORE_ACTIVE) continue;
     memcpy(body->command.force, world->reaction + 6 * b, sizeof body->command.force);
     memcpy(body->command.torque, world->reaction + 6 * b + 3, sizeof body->command.torque);
-    spore_guard_command(&limits, &body->command);
+    body->command.grip_N = 0;
   }
+  for (size_t i = 0; i < world->tool_count; i++) spore_jaws_feed_back(world, &world->tools[i]);
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_ACTIVE) spore_guard_command(&limits, &world->bodies[b].command);
 }

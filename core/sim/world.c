@@ -77,6 +77,7 @@ void spore_world_free(SporeWorld *world) {
   for (size_t i = 0; world->spring_mappings && i < 2 * spore_world_spring_count(world); i++)
     spore_mapping_clear(&world->spring_mappings[i]);
   spore_free(world->spring_mappings);
+  spore_world_clear_tools(world);
   for (size_t i = 0; world->links && i < world->link_count; i++) spore_free(world->links[i].name);
   for (size_t i = 0; world->bodies && i < world->body_count; i++) clear_body(&world->bodies[i]);
   spore_free(world->bodies);
@@ -106,7 +107,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   world->profile.name = "step";
   bool made = spore_world_compile_bodies(world, description, error) &&
               spore_world_compile_spheres(world, description, error) &&
-              spore_world_compile_links(world, description, error) && spore_world_compile_factors(world, error) &&
+              spore_world_compile_links(world, description, error) &&
+              spore_world_compile_tools(world, description, error) && spore_world_compile_factors(world, error) &&
               spore_world_allocate_vectors(world, error) && spore_world_check_step(world, error);
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {
@@ -152,6 +154,7 @@ void spore_world_reset(SporeWorld *world) {
   memset(world->reaction, 0, 6 * world->body_count * sizeof *world->reaction);
   for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
   spore_world_mend_links(world);
+  spore_world_reset_tools(world);
   world->step = 0;
   world->contact_count = world->grip_count = 0;
   world->counts = (SporeStepCounts){0};
@@ -160,7 +163,7 @@ void spore_world_reset(SporeWorld *world) {
   SporeMonitor *monitor = &world->monitor;
   monitor->recoveries = monitor->substeps = monitor->not_finite = monitor->too_fast = monitor->energy = 0;
   monitor->not_converged = monitor->deep_contacts = monitor->soft_contacts = monitor->over_budget =
-      monitor->held_inputs = monitor->broken_links = 0;
+      monitor->held_inputs = monitor->broken_links = monitor->lost_holds = 0;
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_snapshot_publish(world);

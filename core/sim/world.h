@@ -89,8 +89,40 @@ typedef struct SporeLinkDescription {
   double strength;           /* N: what its points feel together, above which it breaks; 0: never */
 } SporeLinkDescription;
 
+/* What an instrument does besides being there. Its parts are active bodies: the device moves `body`, the tool the rest.
+ *   grasper  two jaws on a hinge close while the device says so, and hold what they press
+ *   clamp    the same, and stays closed once it has pressed something, until the second button opens it */
+typedef enum SporeToolKind { SPORE_TOOL_GRASPER, SPORE_TOOL_CLAMP } SporeToolKind;
+
+typedef enum SporeTrigger {
+  SPORE_TRIGGER_GRIP,  /* opening is the device's grip angle */
+  SPORE_TRIGGER_BUTTON /* closed while the first button is down */
+} SporeTrigger;
+
+/* How jaws close and hold. The table is spore_jaw_parameters. */
+typedef struct SporeJawFields {
+  double opening;   /* rad, between the jaws, at most */
+  double speed;     /* rad/s */
+  double torque;    /* N m about the hinge, on each jaw, at most */
+  double stiffness; /* N/m, of each hold */
+  double strength;  /* N: a hold lets go above */
+  int64_t holds;    /* spheres that can be held at a time */
+  int trigger;      /* SporeTrigger */
+} SporeJawFields;
+extern const SporeParameterTable spore_jaw_parameters;
+
+typedef struct SporeToolDescription {
+  const char *name;
+  SporeToolKind kind;
+  uint32_t body;         /* active */
+  uint32_t jaw_a, jaw_b; /* active, without a device; closed at time 0 */
+  SporeVec3 hinge, axis; /* world, at time 0: jaw_a opens by turning about the axis, jaw_b against it */
+  SporeJawFields jaws;
+} SporeToolDescription;
+
 typedef struct SporeWorldDescription {
-  size_t body_count, link_count;
+  size_t body_count, link_count, tool_count;
+  const SporeToolDescription *tools;
   const SporeBodyDescription *bodies;
   const SporeLinkDescription *links;
   SporeVec3 gravity; /* m/s^2 */
@@ -149,6 +181,16 @@ typedef struct SporeLinkState {
 } SporeLinkState;
 size_t spore_world_link_count(const SporeWorld *world);
 SporeLinkState spore_world_link_state(const SporeWorld *world, size_t link);
+
+/* Tools, in the order of the description. */
+typedef struct SporeToolState {
+  const char *name;
+  double opening;    /* rad */
+  double squeeze;    /* torque against closing, on the jaw where it is more, N m */
+  size_t held, lost; /* spheres that it holds; that tore away since it last opened */
+} SporeToolState;
+size_t spore_world_tool_count(const SporeWorld *world);
+SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
 
 /* Energy, J. */
 typedef struct SporeEnergy {
@@ -216,6 +258,7 @@ typedef struct SporeMonitor {
   uint64_t over_budget;   /* steps that took longer than the budget: said, and let be */
   uint64_t held_inputs;   /* device states refused (not finite, or a jump) */
   uint64_t broken_links;  /* that held too much */
+  uint64_t lost_holds;    /* of jaws, the same */
   uint64_t message_count; /* ever */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
 } SporeMonitor;

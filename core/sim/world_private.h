@@ -21,7 +21,7 @@
 #define SPORE_COMMAND_CAPACITY 1024
 #define SPORE_POSE_Q 7 /* a body without a model: position, orientation; velocity, spin */
 #define SPORE_POSE_BLOCKS 2
-#define SPORE_STAGE_MAXIMUM 12
+#define SPORE_STAGE_MAXIMUM 13
 #define SPORE_LEFT_OUT_MAXIMUM 16
 
 typedef enum SporeTrouble { /* worst last */
@@ -166,6 +166,32 @@ typedef struct SporePort {
   SporeVec3 base, along; /* the line in the body's frame */
 } SporePort;
 
+/* A sphere between jaws, tied to one of them by a term. */
+typedef enum SporeHoldState { SPORE_HOLD_FREE, SPORE_HOLD_TIED, SPORE_HOLD_LOST } SporeHoldState;
+typedef struct SporeHold {
+  SporeHoldState state;
+  uint32_t sphere; /* of the world */
+} SporeHold;
+
+typedef struct SporeJaw {
+  uint32_t body;
+  SporePose closed; /* in the frame of the tool's body */
+  double side;      /* 1, -1: how it opens about the axis */
+} SporeJaw;
+
+typedef struct SporeTool {
+  char *name;
+  SporeToolKind kind;
+  uint32_t body;
+  SporeVec3 hinge, axis; /* in its frame */
+  SporeJaw jaws[2];
+  SporeJawFields fields;
+  size_t hold_start; /* its terms in springs, fields.holds of them */
+  SporeHold *holds;
+  double opening, squeeze, held_at; /* rad, N m; opening at which it began to hold; negative: holds nothing */
+  bool latched;                     /* of a clamp */
+} SporeTool;
+
 typedef struct SporeStage {
   void (*run)(SporeWorld *world);
   size_t (*items)(const SporeWorld *world);
@@ -218,7 +244,9 @@ struct SporeWorld {
   size_t link_count, port_count;
   SporeLink *links;
   SporePort *ports;
-  size_t link_term_count; /* springs that the links have; behind them one pull a body */
+  size_t tool_count;
+  SporeTool *tools;
+  size_t link_term_count, hold_count; /* springs of links; of tools, behind them; behind those one pull a body */
   SporeSpringTerm *springs;
   bool *spring_active;
   SporeMapping *spring_mappings;                       /* two a spring: end a, end b */
@@ -267,7 +295,7 @@ static inline bool spore_body_moves(const SporeBody *body) {
 /* Forces of its own do not depend on how it moves. */
 static inline bool spore_body_is_static(const SporeBody *body) { return body->integrator == SPORE_INTEGRATOR_STATIC; }
 static inline size_t spore_world_spring_count(const SporeWorld *world) {
-  return world->link_term_count + world->body_count;
+  return world->link_term_count + world->hold_count + world->body_count;
 }
 
 /* compile.c: parts of spore_world_create. */
@@ -295,6 +323,27 @@ void spore_world_mend_links(SporeWorld *world);
 bool spore_port_make(const SporeWorld *world, SporePort *port, const SporeLinkDescription *from);
 /* Turns where the active body is to be until the port's line goes through its pivot. */
 void spore_port_aim(const SporeWorld *world, const SporePort *port);
+
+/* tools.c */
+bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
+/* Room for the holds of all tools in springs. */
+size_t spore_tools_hold_count(const SporeWorldDescription *description);
+void spore_world_reset_tools(SporeWorld *world);
+void spore_world_clear_tools(SporeWorld *world);
+void spore_world_use_tools(SporeWorld *world);
+
+/* jaws.c: from what the last step did to where the jaws are to be. */
+const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription *from);
+bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from);
+void spore_jaws_use(SporeWorld *world, SporeTool *tool);
+void spore_jaws_let_go(SporeWorld *world, SporeTool *tool);
+/* After a step: holds that bear too much tear away. */
+void spore_jaws_tear(SporeWorld *world, SporeTool *tool);
+/* Adds what the jaws feel to what the device is told. */
+void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool);
+
+/* sense.c: the velocity that takes an active body to its target in one step. */
+void spore_active_set_velocity(SporeWorld *world, uint32_t body);
 
 /* pulls.c: commands take hold of a body. */
 bool spore_world_make_pulls(SporeWorld *world);

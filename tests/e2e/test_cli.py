@@ -121,7 +121,7 @@ def leaves(value, path=()):
 def help_explains_json():
     """--help of each command names every member that --json prints, in the row of what it belongs to."""
     file("ball.off", shapes.off(*shapes.sphere()))
-    commands = [("run", soft_ball(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
+    commands = [("run", soft_ball(), "--steps", 20), ("run", grasper(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
                 ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("schema",),
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5)]
     commands += [("tetrahedra", "ball.off", "--cells", 100)] if "cgal" in FEATURES else []
@@ -377,6 +377,57 @@ def a_tool_feels_a_wall():
     assert report("run", scene, "--steps", 300)["contacts"]["max"] == 1
     apart = report("plan", file("wall/apart.spore", scene.read_text().replace('spheres="one"', 'spheres="one" group="1"')))
     assert not {s["name"]: s for s in apart["stages"]}["detect"]["included"]
+
+
+def grasper():
+    """A scene of a ball that lies on a floor, and jaws through a port that a track leads to it, closes and lifts. A second
+    ball hangs on a ball joint that breaks, a third on a weld that does not."""
+    file("grasp/ball.off", shapes.off(*shapes.sphere(radius=0.005)))
+    file("grasp/ball.spheres", "0 0 0 0.005\n")
+    file("grasp/jaw.spheres", "".join(f"0 {-0.003 * i} 0 0.002\n" for i in range(1, 8)))
+    file("grasp/floor.spheres", "0 -0.5 0 0.5\n")
+    rows = [(0, 0.06, 1), (0.2, 0.06, 1), (0.4, 0.022, 1), (0.5, 0.022, 0), (0.8, 0.022, 0), (1.2, 0.05, 0), (2, 0.05, 0)]
+    file("grasp/hand.track", "spore-track 1\ndevice shaft\n" +
+         "".join(f"{t} 0 {y} 0 1 0 0 0 {grip} 0\n" for t, y, grip in rows))
+    ball = ('<body name="{0}" position="{1} {2} 0"><mechanical geometry="ball"><rigid_body mass="0.002"/></mechanical>'
+            '<collision spheres="round" friction="0.3"/></body>')
+    return file("grasp/grasp.spore", f"""<spore version="1.0">
+  <solver time_step="0.004"/>
+  <assets><mesh name="ball" file="ball.off"/><spheres name="round" file="ball.spheres"/>
+    <spheres name="jaw" file="jaw.spheres"/><spheres name="floor" file="floor.spheres"/></assets>
+  <bodies>
+    <body name="floor" role="unmovable"><collision spheres="floor"/></body>
+    <body name="shaft" role="active" position="0 0.06 0"/>
+    <body name="left" role="active" position="0.002 0.06 0"><collision spheres="jaw"/></body>
+    <body name="right" role="active" position="-0.002 0.06 0"><collision spheres="jaw"/></body>
+    {ball.format("stone", 0, 0.005)} {ball.format("weak", 0.1, 0.1)} {ball.format("firm", -0.1, 0.1)}
+  </bodies>
+  <links>
+    <ball name="thread" body_a="weak" point="0.1 0.105 0" strength="0.015"/>
+    <weld name="glue" body_a="firm" point="-0.1 0.105 0" strength="0.03"/>
+    <port name="trocar" body_a="shaft" point="0 0.2 0"/>
+  </links>
+  <tools><grasper name="jaws" body="shaft" device="track" jaw_a="left" jaw_b="right" hinge="0 0.06 0" axis="0 0 1"
+    torque="0.003"/></tools>
+  <devices><track name="track" file="hand.track"/></devices>
+</spore>
+""")
+
+
+@check
+def jaws_lift_and_links_break():
+    """A grasper takes what its track tells it to; links hold, or break and stay broken; the plan and --help say so."""
+    scene = grasper()
+    stages = {s["name"]: s for s in report("plan", scene)["stages"]}
+    assert stages["tools"]["included"] and stages["link"]["included"]
+    assert not {s["name"]: s for s in report("plan", soft_ball())["stages"]}["tools"]["included"]
+    done = report("run", scene, "--time", 1.8)
+    assert done["tools"][0]["held"] >= 1 and done["monitor"]["lost_holds"] == 0, done["tools"]
+    assert [link["broken"] for link in done["links"]] == [1, 0] and done["monitor"]["broken_links"] == 1, done["links"]
+    assert any("thread: broke" in text for text in done["monitor"]["messages"])
+    assert abs(done["links"][1]["load_N"] - 0.002 * 9.81) < 1e-3, done["links"]
+    again = report("run", scene, "--time", 1.8, "--record", "grasp.track")
+    assert again["state_hash"] == done["state_hash"] == report("run", scene, "--time", 1.8, "--input", "grasp.track")["state_hash"]
 
 
 @check

@@ -151,7 +151,7 @@ static void test_plan(void) {
   SporeWorld *world = create(&description, NULL);
   run(world, 3);
   const SporePlan *plan = spore_world_plan(world);
-  const char *const out[] = {"sense", "map", "detect", "respond", "link", "react", "feedback"};
+  const char *const out[] = {"sense", "tools", "map", "detect", "respond", "link", "react", "feedback"};
   const char *const in[] = {"command", "group", "integrate", "commit"};
   for (size_t i = 0; i < G_N_ELEMENTS(out); i++) {
     g_assert_false(stage(plan, out[i])->included);
@@ -163,7 +163,7 @@ static void test_plan(void) {
     g_assert_cmpuint(stage(plan, in[i])->profile->count, ==, 3);
   }
   g_assert_cmpuint(stage(plan, "integrate")->items, ==, 24);
-  g_assert_cmpuint(plan->left_out_count, ==, 3);
+  g_assert_cmpuint(plan->left_out_count, ==, 4);
   g_assert_cmpuint(spore_world_profile(world)->count, ==, 3);
   const SporeCommand pull = {.kind = SPORE_COMMAND_PULL, .vector = {0, 1, 0}, .number = 10},
                      let_go = {SPORE_COMMAND_RELEASE};

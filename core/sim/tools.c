@@ -1,0 +1,78 @@
+/* Tools: what instruments do besides being there. They act between sensing and mapping, on what the last step did, so
+ * that a run is repeated by its input alone. */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+size_t spore_tools_hold_count(const SporeWorldDescription *description) {
+  size_t count = 0;
+  for (size_t i = 0; i < description->tool_count; i++) count += (size_t)description->tools[i].jaws.holds;
+  return count;
+}
+
+static const char *tool_fault(const SporeWorld *world, const SporeToolDescription *from) {
+  if (from->body >= world->body_count || world->bodies[from->body].role != SPORE_ACTIVE)
+    return _("the tool's body is not active; expected a body that a device moves; choose one");
+  return spore_jaws_fault(world, from);
+}
+
+static bool make_tool(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
+  tool->name = spore_copy_text(from->name ? from->name : "");
+  tool->kind = from->kind;
+  tool->body = from->body;
+  return tool->name && spore_jaws_make(world, tool, from);
+}
+
+bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  size_t hold = world->link_term_count;
+  world->tools = SPORE_NEW_ARRAY(SporeTool, description->tool_count);
+  bool made = world->tools != NULL;
+  for (size_t i = 0; made && i < description->tool_count; i++) {
+    const SporeToolDescription *from = &description->tools[i];
+    char place[200];
+    snprintf(place, sizeof place, "tools/%s", from->name ? from->name : "");
+    const char *fault = tool_fault(world, from);
+    if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
+    SporeTool *tool = &world->tools[world->tool_count++];
+    tool->hold_start = hold;
+    hold += (size_t)from->jaws.holds;
+    made = make_tool(world, tool, from);
+  }
+  return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the tools"));
+}
+
+void spore_world_reset_tools(SporeWorld *world) {
+  for (size_t i = 0; i < world->tool_count; i++) {
+    SporeTool *tool = &world->tools[i];
+    spore_jaws_let_go(world, tool);
+    tool->opening = tool->squeeze = 0;
+    tool->latched = false;
+  }
+}
+
+void spore_world_clear_tools(SporeWorld *world) {
+  for (size_t i = 0; i < world->tool_count; i++) {
+    spore_free(world->tools[i].name);
+    spore_free(world->tools[i].holds);
+  }
+  spore_free(world->tools);
+}
+
+void spore_world_use_tools(SporeWorld *world) {
+  for (size_t i = 0; i < world->tool_count; i++) spore_jaws_use(world, &world->tools[i]);
+}
+
+size_t spore_world_tool_count(const SporeWorld *world) { return world->tool_count; }
+
+SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
+  const SporeTool *tool = &world->tools[index];
+  SporeToolState state = {.name = tool->name, .opening = tool->opening, .squeeze = tool->squeeze};
+  for (size_t i = 0; i < (size_t)tool->fields.holds; i++) {
+    state.held += tool->holds[i].state == SPORE_HOLD_TIED;
+    state.lost += tool->holds[i].state == SPORE_HOLD_LOST;
+  }
+  return state;
+}

@@ -1,0 +1,189 @@
+/* Instruments: jaws that take hold of tissue, lift it, let it go, or lose it. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "tests/stability/rig.h"
+
+#define JAW_SPHERES 6
+enum { TISSUE, SHAFT, JAW_A, JAW_B, FLOOR };
+
+/* Opens above, goes down by 30 mm from 0.25 s to 0.55 s, closes at 0.6 s, lifts by as much from 1 s to 1.5 s, and opens
+ * again at `open_s`. */
+typedef struct Hand {
+  SporeDevice base;
+  double open_s;
+  uint32_t buttons; /* after 2.5 s */
+} Hand;
+
+static bool hand_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
+                          SporeDeviceState *state) {
+  const Hand *hand = (const Hand *)device;
+  double down = fmin(fmax((time_s - 0.25) / 0.3, 0), 1), up = fmin(fmax((time_s - 1) / 0.5, 0), 1);
+  *state = (SporeDeviceState){.position = {0, 0.06 + 0.03 * (up - down), 0}, .orientation = {1, 0, 0, 0}};
+  state->grip_rad = time_s < 0.6 || time_s > hand->open_s ? 1 : 0;
+  state->buttons = time_s > 2.5 ? hand->buttons : 0;
+  return true;
+}
+static void hand_close(SporeDevice *device) {}
+static const SporeDeviceType hand_type = {.name = "hand", .doc = "", .exchange = hand_exchange, .close = hand_close};
+
+/* A block of tissue of 10 x 20 x 10 mm on the floor, and jaws that reach down on both sides of it. */
+static Rig *scene(SporeToolKind kind, double strength, SporePool *pool) {
+  static SporeToolDescription tool;
+  Rig *rig = rig_new();
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.time_step = 0.004;
+  SporeTetrahedralMesh block;
+  shape_block(&block, 2, 4, 2, spore_vec3(0.01, 0.02, 0.01));
+  const SporeSphereSet *spheres = rig_spheres(rig, block.vertices, block.vertex_count, 0.002);
+  SporeBodyDescription *tissue = rig_passive(
+      rig, "tissue", rig_tetrahedra_model(&block, "young_modulus", 20000.0, "stiffness_damping", 0.01, NULL), spheres);
+  tissue->pose.position = spore_vec3(-0.005, 0.002, -0.005);
+  tissue->contact.friction = 0.2;
+  double points[3 * JAW_SPHERES];
+  for (int i = 0; i < JAW_SPHERES; i++) memcpy(points + 3 * i, (double[3]){0, -0.004 * (i + 1), 0}, 3 * sizeof *points);
+  rig_active(rig, "shaft", NULL)->pose.position = spore_vec3(0, 0.06, 0);
+  const SporeSphereSet *jaw = rig_spheres(rig, points, JAW_SPHERES, 0.002);
+  rig_active(rig, "left", jaw)->pose.position = spore_vec3(0.002, 0.06, 0);
+  rig_active(rig, "right", jaw)->pose.position = spore_vec3(-0.002, 0.06, 0);
+  rig_unmovable(rig, "floor", rig_floor(rig, 8, 8, 0.004, 0.004));
+  tool = (SporeToolDescription){.name = "grasper",
+                                .kind = kind,
+                                .body = SHAFT,
+                                .jaw_a = JAW_A,
+                                .jaw_b = JAW_B,
+                                .hinge = {0, 0.06, 0},
+                                .axis = {0, 0, 1}};
+  spore_parameters_set_initial(&spore_jaw_parameters, &tool.jaws);
+  tool.jaws.strength = strength;
+  tool.jaws.torque = 0.004;
+  rig->description.tools = &tool;
+  rig->description.tool_count = 1;
+  return rig;
+}
+
+static double height(const SporeWorld *world) {
+  const double *q = spore_world_q(world, TISSUE);
+  size_t count = spore_world_body_model(world, TISSUE)->node_count;
+  double sum = 0;
+  for (size_t i = 0; i < count; i++) sum += q[3 * i + 1];
+  return sum / (double)count;
+}
+
+static void run_to(SporeWorld *world, double time_s) {
+  while (spore_world_time_s(world) < time_s - 1e-9) spore_world_step(world);
+  g_assert_true(rig_finite(world));
+}
+
+static void say(const SporeWorld *world, const char *when) {
+  SporeToolState state = spore_world_tool_state(world, 0);
+  g_test_message("%s, %.2f s: open by %.3f rad, %.4f N m, %zu held, %zu lost, tissue at %.1f mm; %s", when,
+                 spore_world_time_s(world), state.opening, state.squeeze, state.held, state.lost, 1e3 * height(world),
+                 rig_last_message(world));
+}
+
+static void test_grasper(void) {
+  Hand hand = {.base = {&hand_type}, .open_s = 1.8};
+  Rig *rig = scene(SPORE_TOOL_GRASPER, 2, NULL);
+  SporeWorld *world = rig_build(rig);
+  spore_world_set_device(world, SHAFT, &hand.base);
+  run_to(world, 0.5);
+  say(world, "open");
+  double low = height(world);
+  g_assert_cmpfloat_with_epsilon(spore_world_tool_state(world, 0).opening, 1, 1e-9);
+  run_to(world, 0.95);
+  say(world, "closed");
+  g_assert_cmpuint(spore_world_tool_state(world, 0).held, >, 0);
+  g_assert_cmpfloat(spore_world_tool_state(world, 0).squeeze, <, 0.0044); /* of 0.004 N m at most */
+  uint64_t before = spore_allocation_count();
+  run_to(world, 1.7);
+  say(world, "lifted");
+  g_assert_cmpuint(spore_allocation_count(), ==, before);
+  g_assert_cmpfloat(height(world), >, low + 0.027);
+  g_assert_cmpuint(spore_world_monitor(world)->lost_holds, ==, 0);
+  run_to(world, 3);
+  say(world, "let go");
+  g_assert_cmpuint(spore_world_tool_state(world, 0).held, ==, 0);
+  g_assert_cmpfloat(height(world), <, low + 0.003);
+  spore_world_reset(world);
+  g_assert_cmpfloat(spore_world_tool_state(world, 0).opening, ==, 0);
+  rig_free(rig);
+}
+
+/* What can hold next to nothing loses it when it lifts. */
+static void test_loses(void) {
+  Hand hand = {.base = {&hand_type}, .open_s = 9};
+  Rig *rig = scene(SPORE_TOOL_GRASPER, 1e-4, NULL);
+  SporeWorld *world = rig_build(rig);
+  spore_world_set_device(world, SHAFT, &hand.base);
+  run_to(world, 1.7);
+  say(world, "lifted");
+  g_assert_cmpuint(spore_world_monitor(world)->lost_holds, >, 0);
+  g_assert_true(rig_said(world, "grasper: tissue tore away"));
+  rig_free(rig);
+}
+
+/* A clamp stays closed though the hand opens, until its second button. */
+static void test_clamp(void) {
+  Hand hand = {.base = {&hand_type}, .open_s = 1.4, .buttons = 2};
+  Rig *rig = scene(SPORE_TOOL_CLAMP, 2, NULL);
+  SporeWorld *world = rig_build(rig);
+  spore_world_set_device(world, SHAFT, &hand.base);
+  run_to(world, 0.5);
+  double low = height(world);
+  run_to(world, 2.4);
+  say(world, "clamped");
+  g_assert_cmpuint(spore_world_tool_state(world, 0).held, >, 0);
+  g_assert_cmpfloat(height(world), >, low + 0.027);
+  run_to(world, 2.9);
+  say(world, "opened");
+  g_assert_cmpuint(spore_world_tool_state(world, 0).held, ==, 0);
+  rig_free(rig);
+}
+
+/* The same input gives the same bits, by any number of threads. */
+static void test_repeats(void) {
+  uint64_t hashes[2];
+  for (int threads = 1; threads <= 2; threads++) {
+    Hand hand = {.base = {&hand_type}, .open_s = 1.8};
+    Rig *rig = scene(SPORE_TOOL_GRASPER, 2, NULL);
+    SporePool *pool = threads > 1 ? spore_pool_create(threads) : NULL;
+    SporeError error = SPORE_ERROR_INIT;
+    rig->description.bodies = (const SporeBodyDescription *)(void *)rig->bodies->data;
+    rig->description.body_count = rig->bodies->len;
+    rig->world = spore_world_create(&rig->description, pool, &error);
+    g_assert_nonnull(rig->world);
+    spore_world_set_device(rig->world, SHAFT, &hand.base);
+    run_to(rig->world, 1.2);
+    hashes[threads - 1] = spore_world_hash(rig->world);
+    rig_free(rig);
+    if (pool) spore_pool_free(pool);
+  }
+  g_assert_cmpuint(hashes[0], ==, hashes[1]);
+}
+
+static void test_refused(void) {
+  for (int fault = 0; fault < 3; fault++) {
+    Rig *rig = scene(SPORE_TOOL_GRASPER, 2, NULL);
+    SporeToolDescription tool = rig->description.tools[0];
+    if (fault == 0) tool.body = TISSUE;
+    if (fault == 1) tool.jaw_b = JAW_A;
+    if (fault == 2) tool.axis = spore_vec3(0, 0, 0);
+    rig->description.tools = &tool;
+    SporeError error = SPORE_ERROR_INIT;
+    g_assert_null(rig_try_build(rig, &error));
+    g_assert_cmpstr(error.place, ==, "tools/grasper");
+    rig_free(rig);
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/tools/grasper", test_grasper);
+  g_test_add_func("/tools/loses", test_loses);
+  g_test_add_func("/tools/clamp", test_clamp);
+  g_test_add_func("/tools/repeats", test_repeats);
+  g_test_add_func("/tools/refused", test_refused);
+  return g_test_run();
+}
