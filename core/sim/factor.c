@@ -7,7 +7,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "core/sim/world_private.h"
+#include "core/sim/fold.h"
 
 #define WORTH_ITERATIONS 2000 /* a factor that costs more than so many iterations is not made */
 #define GAIN 1.25             /* what a change must promise */
@@ -55,7 +55,9 @@ static SporeFactorLayout layout_of(int linear) {
 bool spore_world_compile_factors(SporeWorld *world, SporeError *error) {
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
-    if (body->matrix.block_count == 0) continue;
+    /* Of a matrix without couplings the diagonal blocks are all. */
+    if (body->matrix.block_count == 0 || body->matrix.row_start[body->matrix.block_count] == body->matrix.block_count)
+      continue;
     body->held_flags = SPORE_NEW_ARRAY(uint8_t, body->block_count);
     if (!body->held_flags || !spore_block_cholesky_create(&body->factor, &body->matrix, layout_of(world->solver.linear),
                                                           WORTH_ITERATIONS * jacobi_work(body)))
@@ -134,7 +136,7 @@ static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepR
   if (choice->keep < KEEP_MAXIMUM) choice->keep += (choice->keep + 1) / 2;
 }
 
-/* alone: no contact or link, for which a factor would be no start of Broyden's. */
+/* alone: no contact or link couples bodies, for which a factor would be no start of Broyden's. */
 static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result, bool alone) {
   SporeFactorChoice *choice = &body->choice;
   if (alone && choice->factorised && is_banded(body)) return;
@@ -169,7 +171,8 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
 
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
   const SporeStepResult *result = &island->result;
-  bool again = false;
+  const SporeGroup group = {.world = world, .island = island};
+  bool again = false, alone = !spore_group_couples(&group);
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     SporeFactorChoice *choice = &body->choice;
@@ -182,7 +185,7 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
       choice->needed = true;
       again |= !result->converged;
     } else {
-      choose(world, body, result, island->contact_count + island->spring_count == 0);
+      choose(world, body, result, alone);
     }
   }
   return again;

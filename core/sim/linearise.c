@@ -3,7 +3,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "core/sim/group.h"
+#include "core/sim/fold.h"
 
 #define FLOPS_TO_ROUND 6e6 /* of a solution: its factor, 2 bytes a flop, is read faster where it is smaller */
 
@@ -19,18 +19,26 @@ static SporeCoupling *spring_couplings(const SporeGroup *group) {
   return group->world->spring_couplings + group->island->spring_start;
 }
 
-static void linearise_terms(SporeGroup *group, const double *q, const double *v, double c, double c2) {
+/* Couplings are those terms that no body's matrix takes in; the others are added there, unless the matrices are kept
+ * as they are. */
+static void linearise_terms(SporeGroup *group, const double *q, const double *v, double c, double c2, bool kept) {
   const SporeSite *sites = group->world->local_sites;
-  SporeCoupling *contacts = contact_couplings(group), *springs = spring_couplings(group);
+  group->contact_couplings = group->spring_couplings = 0;
   for (size_t i = 0; i < group->island->contact_count; i++) {
     SporeContactTerm *term = spore_group_contact(group, i);
-    SporeMat3 jacobian = spore_contact_term_jacobian(term, sites, q, v, c, c2);
-    contacts[i] = spore_coupling(&term->a, &term->b, &jacobian, sites);
+    uint32_t body = spore_group_folds(group, &term->a, &term->b);
+    if (body != SPORE_NO_BODY && kept) continue;
+    SporeMat3 k = spore_contact_term_jacobian(term, sites, q, v, c, c2);
+    if (body != SPORE_NO_BODY) spore_body_fold(&group->world->bodies[body], &term->a, &term->b, &k);
+    else contact_couplings(group)[group->contact_couplings++] = spore_coupling(&term->a, &term->b, &k, sites);
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
     SporeSpringTerm *term = spore_group_spring(group, i);
-    SporeMat3 jacobian = spore_spring_term_jacobian(term, sites, q, v, c, c2);
-    springs[i] = spore_coupling(&term->a, &term->b, &jacobian, sites);
+    uint32_t body = spore_group_folds(group, &term->a, &term->b);
+    if (body != SPORE_NO_BODY && kept) continue;
+    SporeMat3 k = spore_spring_term_jacobian(term, sites, q, v, c, c2);
+    if (body != SPORE_NO_BODY) spore_body_fold(&group->world->bodies[body], &term->a, &term->b, &k);
+    else spring_couplings(group)[group->spring_couplings++] = spore_coupling(&term->a, &term->b, &k, sites);
   }
 }
 
@@ -64,15 +72,15 @@ static void measure_stiffness(const double *blocks, const double *mass, size_t c
 }
 
 static void make_preconditioner(SporeGroup *group) {
-  bool alone = group->island->contact_count + group->island->spring_count == 0;
+  bool alone = group->contact_couplings + group->spring_couplings == 0;
   double *blocks = spore_group_precondition_blocks(group);
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
     body_diagonal(group, body, blocks + 3 * site->v);
   }
-  spore_couplings_diagonal(contact_couplings(group), group->island->contact_count, blocks);
-  spore_couplings_diagonal(spring_couplings(group), group->island->spring_count, blocks);
+  spore_couplings_diagonal(contact_couplings(group), group->contact_couplings, blocks);
+  spore_couplings_diagonal(spring_couplings(group), group->spring_couplings, blocks);
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
@@ -109,7 +117,7 @@ void spore_group_linearise(void *data, const double *q, const double *v, double 
     SporeBody *body = spore_group_body(group, b, &site);
     assemble(group, body, q + site->q, (group->shape ? group->shape : q) + site->q, v + site->v, c, c2);
   }
-  linearise_terms(group, q, v, c, c2);
+  linearise_terms(group, q, v, c, c2, false);
   make_preconditioner(group);
 }
 
@@ -133,7 +141,7 @@ bool spore_group_reuse(void *data, const double *q, const double *v, double c, d
     spore_group_body(group, b, &site)->choice.start = kept ? SPORE_START_KEPT : SPORE_START_NEW;
   }
   if (!kept) return false;
-  linearise_terms(group, q, v, c, c2);
+  linearise_terms(group, q, v, c, c2, true);
   make_preconditioner(group);
   return true;
 }
@@ -141,7 +149,6 @@ bool spore_group_reuse(void *data, const double *q, const double *v, double c, d
 double spore_group_factor_cost(void *data) {
   SporeGroup *group = data;
   double linearisation = 0, iteration = 0;
-  if (group->island->contact_count + group->island->spring_count > 0) return 0; /* no factor knows how terms couple */
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_group_body(group, b, &site);
@@ -150,7 +157,8 @@ double spore_group_factor_cost(void *data) {
     linearisation += spore_body_linearisation_work(body);
     iteration += spore_body_iteration_work(body);
   }
-  return iteration > 0 ? linearisation / iteration : 0;
+  /* No factor knows how terms couple bodies. */
+  return iteration > 0 && !spore_group_couples(group) ? linearisation / iteration : 0;
 }
 
 bool spore_group_factorised(void *data) {
@@ -175,8 +183,8 @@ void spore_group_multiply(void *data, const double *x, double *y) {
     memset(y + site->v, 0, 3 * body->block_count * sizeof *y);
     spore_block_matrix_multiply_add(&body->matrix, x + site->v, y + site->v);
   }
-  spore_couplings_multiply(contact_couplings(group), group->island->contact_count, x, y);
-  spore_couplings_multiply(spring_couplings(group), group->island->spring_count, x, y);
+  spore_couplings_multiply(contact_couplings(group), group->contact_couplings, x, y);
+  spore_couplings_multiply(spring_couplings(group), group->spring_couplings, x, y);
   spore_group_filter(group, y);
 }
 

@@ -96,7 +96,7 @@ typedef struct SporeBody {
   SporeBlockCholesky factor; /* without blocks: not worth it for this body */
   uint8_t *held_flags;       /* a block, for the factor */
   SporeFactorChoice choice;
-  bool factor_ready, factor_alone; /* the factor is that of the current A; no terms were in it */
+  bool factor_ready, factor_alone; /* the factor is that of the current A; no couplings were in it */
 
   /* What its integrator remembers of the step before, see SporeHistory: by which method, and for which step alone. */
   SporeIntegratorKind history_kind;
@@ -390,6 +390,7 @@ typedef struct SporeGroup {
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
   bool apart;            /* explicit bodies are masses alone: see mixed.c */
   double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
+  size_t contact_couplings, spring_couplings; /* of the current A, first in their arrays: see fold.h */
 } SporeGroup;
 /* Motion of a body free of force; q1 and v1 may be q0 and v. */
 void spore_body_drift(const SporeBody *body, const double *q0, const double *v, double h, double *q1, double *v1);

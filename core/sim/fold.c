@@ -1,0 +1,72 @@
+#include "core/sim/fold.h"
+
+#define NODES_MAXIMUM 16 /* of both ends of a term */
+
+/* How the motion of one end relative to the other is made of that of nodes. */
+typedef struct Nodes {
+  size_t count;
+  uint32_t block[NODES_MAXIMUM];
+  double weight[NODES_MAXIMUM];
+} Nodes;
+
+static bool add_end(Nodes *nodes, const SporeEnd *end, double sign) {
+  if (end->prescribed) return true;
+  const SporeMapping *mapping = end->mapping;
+  if (mapping->kind == SPORE_MAPPING_IDENTITY) {
+    nodes->block[nodes->count] = end->point;
+    nodes->weight[nodes->count++] = sign;
+    return true;
+  }
+  if (mapping->kind != SPORE_MAPPING_LINEAR) return false;
+  uint32_t start = mapping->row_start[end->point], stop = mapping->row_start[end->point + 1];
+  if (nodes->count + (stop - start) > NODES_MAXIMUM) return false;
+  for (uint32_t k = start; k < stop; k++) {
+    nodes->block[nodes->count] = mapping->block[k];
+    nodes->weight[nodes->count++] = sign * mapping->weight[k];
+  }
+  return true;
+}
+
+static bool find_nodes(Nodes *nodes, const SporeEnd *a, const SporeEnd *b) {
+  nodes->count = 0;
+  return add_end(nodes, a, 1) && add_end(nodes, b, -1);
+}
+
+static size_t find_block(const SporeBlockMatrix *matrix, uint32_t i, uint32_t j) {
+  return i == j ? matrix->diagonal[i] : spore_block_matrix_find(matrix, i, j);
+}
+
+uint32_t spore_group_folds(const SporeGroup *group, const SporeEnd *a, const SporeEnd *b) {
+  if (!a->prescribed && !b->prescribed && a->body != b->body) return SPORE_NO_BODY;
+  uint32_t index = a->prescribed ? b->body : a->body;
+  const SporeBody *body = &group->world->bodies[index];
+  Nodes nodes;
+  if (!spore_group_assembles(group, body) || !find_nodes(&nodes, a, b)) return SPORE_NO_BODY;
+  for (size_t i = 0; i < nodes.count; i++)
+    for (size_t j = 0; j < i; j++)
+      if (find_block(&body->matrix, nodes.block[i], nodes.block[j]) == SIZE_MAX) return SPORE_NO_BODY;
+  return index;
+}
+
+void spore_body_fold(SporeBody *body, const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k) {
+  Nodes nodes;
+  find_nodes(&nodes, a, b);
+  for (size_t i = 0; i < nodes.count; i++)
+    for (size_t j = 0; j < nodes.count; j++) {
+      double scale = nodes.weight[i] * nodes.weight[j];
+      double *block = body->matrix.values + 9 * find_block(&body->matrix, nodes.block[i], nodes.block[j]);
+      for (int e = 0; e < 9; e++) block[e] += scale * k->m[e];
+    }
+}
+
+bool spore_group_couples(const SporeGroup *group) {
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_group_contact(group, i);
+    if (spore_group_folds(group, &term->a, &term->b) == SPORE_NO_BODY) return true;
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_group_spring(group, i);
+    if (spore_group_folds(group, &term->a, &term->b) == SPORE_NO_BODY) return true;
+  }
+  return false;
+}
