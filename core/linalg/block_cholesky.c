@@ -6,7 +6,6 @@
 
 static size_t columns_of(const SporeSupernode *node) { return 3 * (size_t)node->column_count; }
 static size_t rows_of(const SporeSupernode *node) { return 3 * (size_t)node->row_count; }
-static size_t update_size(const SporeSupernode *node) { return rows_of(node) * spore_cholesky_pad(rows_of(node)); }
 
 static void subtract_three(double *to, const double *from) {
   to[0] -= from[0];
@@ -14,33 +13,25 @@ static void subtract_three(double *to, const double *from) {
   to[2] -= from[2];
 }
 
-static void add_three(double *to, const double *from) {
-  to[0] += from[0];
-  to[1] += from[1];
-  to[2] += from[2];
-}
-
-/* Adds a child's update matrix to the front of its parent. */
-static void extend_add(const SporeBlockCholesky *factor, const SporeSupernode *child, const double *from,
-                       const SporeSupernode *node, double *t, double *b, double *update) {
-  const uint32_t *target = factor->targets + child->row_start;
-  size_t lead = spore_cholesky_pad(rows_of(child)), columns = node->column_count, inside = 0,
-         ldt = spore_cholesky_pad(columns_of(node)), ld = spore_cholesky_pad(rows_of(node));
-  while (inside < child->row_count && target[inside] < columns) inside++;
-  for (size_t j = 0; j < child->row_count; j++) {
+/* Adds columns first .. end of a child's update, its rows below the diagonal from row_first to row_end, to a matrix of
+ * the parent's front that begins at its block (column, row). */
+static void add_update(const SporeBlockCholesky *factor, const SporeSupernode *child, size_t first, size_t end,
+                       size_t row_first, size_t row_end, double *to, size_t ld, size_t column, size_t row) {
+  const uint32_t *target = factor->targets + child->row_start, *run = factor->runs + child->row_start;
+  size_t lead = spore_cholesky_pad(rows_of(child));
+  for (size_t j = first; j < end; j++)
     for (size_t c = 0; c < 3; c++) {
-      const double *source = from + (3 * j + c) * lead;
-      size_t column = 3 * (size_t)target[j] + c, i = j;
-      for (; i < inside; i++) add_three(t + column * ldt + 3 * (size_t)target[i], source + 3 * i);
-      double *to = j < inside ? b + column * ld : update + (column - 3 * columns) * ld;
-      for (; i < child->row_count; i++) add_three(to + 3 * (target[i] - columns), source + 3 * i);
+      const double *from = factor->updates + child->update + (3 * j + c) * lead;
+      double *into = to + (3 * (target[j] - column) + c) * ld;
+      for (size_t i = j > row_first ? j : row_first; i < row_end; i += run[i]) {
+        double *place = into + 3 * (target[i] - row);
+        for (size_t k = 0; k < 3 * run[i]; k++) place[k] += from[3 * i + k];
+      }
     }
-  }
 }
 
-static void assemble(SporeBlockCholesky *factor, const SporeSupernode *node, const SporeBlockMatrix *matrix,
-                     const double *diagonal, const uint8_t *held) {
-  double *front = factor->front;
+static void assemble(const SporeBlockCholesky *factor, const SporeSupernode *node, const SporeBlockMatrix *matrix,
+                     const double *diagonal, const uint8_t *held, double *front) {
   static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   size_t columns = columns_of(node), ldt = spore_cholesky_pad(columns), ld = spore_cholesky_pad(rows_of(node));
   memset(front, 0, (ldt + ld) * columns * sizeof(double));
@@ -63,12 +54,12 @@ static void assemble(SporeBlockCholesky *factor, const SporeSupernode *node, con
 /* How much of a pivot may have cancelled away for single precision still to hold what is left. */
 #define CANCELLED 1e-4
 
-/* Keeps an eliminated front: rounded where its pivots are not small against the diagonal that they came from. */
-static void keep(SporeBlockCholesky *factor, SporeSupernode *node, const double *diagonal, bool may_round) {
+/* Keeps an eliminated front, rounded where its pivots are not small against the diagonal that they came from. */
+static void keep(SporeBlockCholesky *factor, SporeSupernode *node, const double *diagonal) {
   size_t columns = columns_of(node), ldt = spore_cholesky_pad(columns);
   size_t size = columns * (ldt + spore_cholesky_pad(rows_of(node)));
   double *values = factor->values + node->panel;
-  node->rounded = may_round;
+  node->rounded = true;
   for (size_t j = 0; j < columns && node->rounded; j++) {
     double inverse = factor->front[j * ldt + j];
     node->rounded = CANCELLED * diagonal[j] * inverse * inverse < 1;
@@ -77,30 +68,40 @@ static void keep(SporeBlockCholesky *factor, SporeSupernode *node, const double 
   else memcpy(values, factor->front, size * sizeof *values);
 }
 
+static const SporeSupernode *child_before(const SporeBlockCholesky *factor, const SporeSupernode *child) {
+  return child->sibling == UINT32_MAX ? NULL : factor->supernodes + child->sibling;
+}
+
+/* What the children take from a front goes in before it is eliminated, what they take from its update behind it. */
+static bool eliminate(SporeBlockCholesky *factor, const SporeSupernode *node, double *t) {
+  size_t columns = node->column_count, ldt = spore_cholesky_pad(columns_of(node)),
+         ld = spore_cholesky_pad(rows_of(node));
+  double *b = t + columns_of(node) * ldt, *update = factor->updates + node->update;
+  const SporeSupernode *last = node->child_count > 0 ? node - 1 : NULL;
+  for (const SporeSupernode *child = last; child; child = child_before(factor, child)) {
+    add_update(factor, child, 0, child->inside, 0, child->inside, t, ldt, 0, 0);
+    add_update(factor, child, 0, child->inside, child->inside, child->row_count, b, ld, 0, columns);
+  }
+  if (!SPORE_KERNEL(spore_cholesky_eliminate)(columns_of(node), rows_of(node), t, b, update, factor->work))
+    return false;
+  for (const SporeSupernode *child = last; child; child = child_before(factor, child))
+    add_update(factor, child, child->inside, child->row_count, child->inside, child->row_count, update, ld, columns,
+               columns);
+  return true;
+}
+
 bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
                                     const uint8_t *held, bool may_round) {
   if (factor->band.block_count > 0) return spore_block_band_factorise(&factor->band, matrix, diagonal, held);
-  bool (*eliminate)(size_t, size_t, double *, double *, double *, double *) = SPORE_KERNEL(spore_cholesky_eliminate);
-  double *top = factor->stack;
   for (size_t s = 0; s < factor->supernode_count; s++) {
     SporeSupernode *node = &factor->supernodes[s];
-    const SporeSupernode *child = node;
-    size_t columns = columns_of(node), ldt = spore_cholesky_pad(columns), size = update_size(node);
-    double *t = factor->front, *b = t + columns * ldt, *update = top, *from = top;
-    double *before = factor->work + 3 * columns;
-    assemble(factor, node, matrix, diagonal, held);
+    size_t columns = columns_of(node), ldt = spore_cholesky_pad(columns);
+    double *t = may_round ? factor->front : factor->values + node->panel, *before = factor->work + 3 * columns;
+    assemble(factor, node, matrix, diagonal, held, t);
     for (size_t j = 0; j < columns; j++) before[j] = t[j * ldt + j];
-    memset(update, 0, size * sizeof *update);
-    /* The children's updates lie on top of the stack, the last child's uppermost. */
-    for (uint32_t c = 0; c < node->child_count; c++) {
-      child = factor->supernodes + (c == 0 ? s - 1 : child->sibling);
-      from -= update_size(child);
-      extend_add(factor, child, from, node, t, b, update);
-    }
-    if (!eliminate(columns, rows_of(node), t, b, update, factor->work)) return false;
-    keep(factor, node, before, may_round);
-    memmove(from, update, size * sizeof *update);
-    top = from + size;
+    if (!eliminate(factor, node, t)) return false;
+    node->rounded = false;
+    if (may_round) keep(factor, node, before);
   }
   return true;
 }

@@ -11,12 +11,13 @@
 
 /* Columns `first`.. of L that are kept together as one dense panel. */
 typedef struct SporeSupernode {
-  uint32_t first, column_count;  /* in elimination order */
-  uint32_t row_start, row_count; /* in `rows`: the rows below those columns */
-  uint32_t child_count;
+  uint32_t first, column_count;    /* in elimination order */
+  uint32_t row_start, row_count;   /* in `rows`: the rows below those columns */
+  uint32_t child_count, inside;    /* inside: rows that are columns of the parent */
   uint32_t sibling;                /* the child of the same parent before this one */
   uint32_t entry_start, entry_end; /* in `entries` */
   size_t panel;                    /* in `values`: L11^-1 and L21, as in core/linalg/cholesky_kernels.h */
+  size_t update;                   /* in `updates`: what it takes from its parent's front */
   bool rounded;                    /* to floats, in the same place */
 } SporeSupernode;
 
@@ -42,10 +43,11 @@ typedef struct SporeBlockCholesky {
   uint32_t *order;            /* block_count: the matrix's block that is eliminated at each place */
   uint32_t *rows;             /* in elimination order */
   uint32_t *targets;          /* as rows: where a row lies in the parent's front, in blocks */
+  uint32_t *runs;             /* as rows: how many from there on lie side by side in the parent's front, too */
   SporeFactorEntry *entries;
   double *values;   /* panels */
-  double *front;    /* the panel that is being eliminated */
-  double *stack;    /* update matrices that wait for their parents */
+  double *front;    /* the panel that is being eliminated, where it is rounded then */
+  double *updates;  /* matrices that wait for their parents: two stacks, for one generation and the next */
   size_t most_rows; /* of a panel's L21, padded */
   double *work;     /* 3 block_count and padding, most_rows, and the most columns of a panel three times, padded */
 } SporeBlockCholesky;

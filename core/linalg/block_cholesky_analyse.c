@@ -176,13 +176,59 @@ static size_t update_size(const SporeSupernode *node) {
   return 3 * (size_t)node->row_count * spore_cholesky_pad(3 * (size_t)node->row_count);
 }
 
-/* Ties supernodes to their parents, and lays out the panels. Gives the sizes of values, front, stack and work. */
-static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t *values, size_t *front, size_t *stack,
-                    size_t *work) {
+/* Where the rows of a supernode lie in its parent's front. */
+static void find_targets(SporeBlockCholesky *factor, SporeSupernode *node, const SporeSupernode *parent) {
+  uint32_t end = node->row_start + node->row_count;
+  for (uint32_t k = node->row_start; k < end; k++) factor->targets[k] = row_in_front(factor, parent, factor->rows[k]);
+  while (node->inside < node->row_count && factor->targets[node->row_start + node->inside] < parent->column_count)
+    node->inside++;
+  for (uint32_t k = end; k-- > node->row_start;) {
+    bool next =
+        k + 1 < end && k + 1 != node->row_start + node->inside && factor->targets[k + 1] == factor->targets[k] + 1;
+    factor->runs[k] = next ? factor->runs[k + 1] + 1 : 1;
+  }
+}
+
+static void tie_to_parents(const Analysis *analysis, SporeBlockCholesky *factor) {
   uint32_t *last_child = analysis->other;
-  size_t height = 0, most_columns = 0;
-  *values = *front = *stack = 0;
   for (uint32_t s = 0; s < factor->supernode_count; s++) last_child[s] = NONE;
+  for (uint32_t s = 0; s < factor->supernode_count; s++) {
+    SporeSupernode *node = &factor->supernodes[s];
+    if (node->row_count == 0) continue;
+    uint32_t parent = analysis->owner[factor->rows[node->row_start]];
+    find_targets(factor, node, &factor->supernodes[parent]);
+    node->sibling = last_child[parent];
+    last_child[parent] = s;
+    factor->supernodes[parent].child_count++;
+  }
+}
+
+/* Updates of one generation lie on one stack, those of the next on the other: what a supernode takes from its parent's
+ * front is put down while what its children take from its own still lies there. Returns the size of both. */
+static size_t place_updates(const Analysis *analysis, SporeBlockCholesky *factor) {
+  uint32_t *odd = analysis->mark;
+  size_t height[2] = {0, 0}, most[2] = {0, 0};
+  for (uint32_t s = (uint32_t)factor->supernode_count; s-- > 0;) {
+    const SporeSupernode *node = &factor->supernodes[s];
+    odd[s] = node->row_count > 0 && !odd[analysis->owner[factor->rows[node->row_start]]];
+  }
+  for (uint32_t s = 0; s < factor->supernode_count; s++) {
+    SporeSupernode *node = &factor->supernodes[s];
+    node->update = height[odd[s]];
+    height[odd[s]] += update_size(node);
+    if (height[odd[s]] > most[odd[s]]) most[odd[s]] = height[odd[s]];
+    for (uint32_t c = node->child_count > 0 ? s - 1 : NONE; c != NONE; c = factor->supernodes[c].sibling)
+      height[!odd[s]] -= update_size(&factor->supernodes[c]);
+  }
+  for (uint32_t s = 0; s < factor->supernode_count; s++)
+    if (odd[s]) factor->supernodes[s].update += most[0];
+  return most[0] + most[1];
+}
+
+/* Lays out the panels. Gives the sizes of values, front and work. */
+static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t *values, size_t *front, size_t *work) {
+  size_t most_columns = 0;
+  *values = *front = 0;
   for (uint32_t s = 0; s < factor->supernode_count; s++) {
     SporeSupernode *node = &factor->supernodes[s];
     size_t columns = 3 * (size_t)node->column_count, rows = 3 * (size_t)node->row_count;
@@ -192,19 +238,8 @@ static void lay_out(const Analysis *analysis, SporeBlockCholesky *factor, size_t
     if (panel > *front) *front = panel;
     factor->solve_flops += 4.0 * (double)((columns / 2 + rows) * columns);
     for (size_t c = 0; c < columns; c++) factor->factor_flops += (double)((columns + rows - c) * (columns + rows - c));
-    if (height + update_size(node) > *stack) *stack = height + update_size(node);
     if (columns > most_columns) most_columns = columns;
     if (spore_cholesky_pad(rows) > factor->most_rows) factor->most_rows = spore_cholesky_pad(rows);
-    for (uint32_t c = last_child[s]; c != NONE; c = factor->supernodes[c].sibling)
-      height -= update_size(&factor->supernodes[c]);
-    height += update_size(node);
-    if (node->row_count == 0) continue;
-    uint32_t parent = analysis->owner[factor->rows[node->row_start]];
-    for (uint32_t k = node->row_start; k < node->row_start + node->row_count; k++)
-      factor->targets[k] = row_in_front(factor, &factor->supernodes[parent], factor->rows[k]);
-    node->sibling = last_child[parent];
-    last_child[parent] = s;
-    factor->supernodes[parent].child_count++;
   }
   *work = 3 * (size_t)analysis->count + SPORE_LANES + factor->most_rows + 3 * spore_cholesky_pad(most_columns);
 }
@@ -244,7 +279,7 @@ static size_t all_rows(const Analysis *analysis) {
 
 static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
   const SporeBlockMatrix *pattern = analysis->pattern;
-  size_t n = analysis->count, values, front, stack, work;
+  size_t n = analysis->count, values, front, work;
   place_blocks(analysis, factor->order);
   find_parents(analysis, factor->order);
   postorder(analysis, factor->order);
@@ -254,16 +289,18 @@ static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
   factor->supernodes = SPORE_NEW_ARRAY(SporeSupernode, factor->supernode_count);
   factor->rows = SPORE_NEW_ARRAY(uint32_t, all_rows(analysis));
   factor->targets = SPORE_NEW_ARRAY(uint32_t, all_rows(analysis));
+  factor->runs = SPORE_NEW_ARRAY(uint32_t, all_rows(analysis));
   factor->entries = SPORE_NEW_ARRAY(SporeFactorEntry, (pattern->row_start[n] + n) / 2);
-  if (!factor->supernodes || !factor->rows || !factor->targets || !factor->entries) return false;
+  if (!factor->supernodes || !factor->rows || !factor->targets || !factor->runs || !factor->entries) return false;
   fill_supernodes(analysis, factor);
-  lay_out(analysis, factor, &values, &front, &stack, &work);
+  tie_to_parents(analysis, factor);
+  lay_out(analysis, factor, &values, &front, &work);
   place_entries(analysis, factor);
   factor->values = SPORE_NEW_ARRAY(double, values);
   factor->front = SPORE_NEW_ARRAY(double, front);
-  factor->stack = SPORE_NEW_ARRAY(double, stack);
+  factor->updates = SPORE_NEW_ARRAY(double, place_updates(analysis, factor));
   factor->work = SPORE_NEW_ARRAY(double, work);
-  return factor->values && factor->front && factor->stack && factor->work;
+  return factor->values && factor->front && factor->updates && factor->work;
 }
 
 static bool create_sparse(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, double most_flops) {
@@ -311,8 +348,8 @@ bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMat
 }
 
 void spore_block_cholesky_clear(SporeBlockCholesky *factor) {
-  void *arrays[] = {factor->supernodes, factor->order, factor->rows, factor->targets, factor->entries,
-                    factor->values,     factor->stack, factor->work, factor->front};
+  void *arrays[] = {factor->supernodes, factor->order,  factor->rows,    factor->targets, factor->runs,
+                    factor->entries,    factor->values, factor->updates, factor->work,    factor->front};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
   spore_block_band_clear(&factor->band);
   *factor = (SporeBlockCholesky){0};

@@ -21,23 +21,23 @@ SPORE_INLINE void sum_products(int vectors, int columns, size_t depth, const dou
 }
 
 SPORE_INLINE void subtract_tile(int vectors, int columns, size_t depth, const double *a, size_t lda, const double *b,
-                                size_t ldb, double *c, size_t ldc) {
+                                size_t ldb, bool from_zero, double *c, size_t ldc) {
   SporeVd sum[6][2];
   sum_products(vectors, columns, depth, a, lda, b, ldb, sum);
   for (int j = 0; j < columns; j++)
     for (int p = 0; p < vectors; p++) {
       double *place = c + (size_t)j * ldc + p * SPORE_WIDTH;
-      spore_vd_store(place, spore_vd_load(place) - sum[j][p]);
+      spore_vd_store(place, from_zero ? -sum[j][p] : spore_vd_load(place) - sum[j][p]);
     }
 }
 
-/* c -= a b^T for the rows from `first`, a multiple of the lanes, to `end`, and three or six columns. */
+/* c -= a b^T, or c = -a b^T, for the rows from `first`, a multiple of the lanes, to `end`, and three or six columns. */
 SPORE_INLINE void subtract_rows(int columns, size_t first, size_t end, size_t depth, const double *a, size_t lda,
-                                const double *b, size_t ldb, double *c, size_t ldc) {
+                                const double *b, size_t ldb, bool from_zero, double *c, size_t ldc) {
   size_t i = first;
   for (; i + 2 * SPORE_WIDTH <= end; i += 2 * SPORE_WIDTH)
-    subtract_tile(2, columns, depth, a + i, lda, b, ldb, c + i, ldc);
-  if (i < end) subtract_tile(1, columns, depth, a + i, lda, b, ldb, c + i, ldc);
+    subtract_tile(2, columns, depth, a + i, lda, b, ldb, from_zero, c + i, ldc);
+  if (i < end) subtract_tile(1, columns, depth, a + i, lda, b, ldb, from_zero, c + i, ldc);
 }
 
 /* The Cholesky factor of the 3x3 block on the diagonal: l00, l10, l20, l11, l21, l22. */
@@ -57,7 +57,7 @@ static bool factorise_block(const double *t, size_t ld, double l[6]) {
 SPORE_INLINE bool factorise_triangle(size_t columns, size_t ld, double *t) {
   for (size_t j = 0; j < columns; j += 3) {
     double *c = t + j * ld, l[6];
-    if (j > 0) subtract_rows(3, DOWN(j), ld, j, t, ld, t + j, ld, c, ld);
+    if (j > 0) subtract_rows(3, DOWN(j), ld, j, t, ld, t + j, ld, false, c, ld);
     if (!factorise_block(c + j, ld, l)) return false;
     double i0 = 1 / l[0], i1 = 1 / l[3], i2 = 1 / l[5];
     for (size_t i = DOWN(j + 3); i < ld; i += SPORE_WIDTH) {
@@ -117,8 +117,8 @@ bool SPORE_LEVEL_NAME(spore_cholesky_eliminate)(size_t columns, size_t rows, dou
   invert_triangle(columns, ldt, t, work);
   for (; i + 2 * SPORE_WIDTH <= ld; i += 2 * SPORE_WIDTH) apply_columns(2, columns, t, ldt, b + i, ld);
   if (i < ld) apply_columns(1, columns, t, ldt, b + i, ld);
-  for (; j + 6 <= rows; j += 6) subtract_rows(6, DOWN(j), ld, columns, b, ld, b + j, ld, u + j * ld, ld);
-  if (j < rows) subtract_rows(3, DOWN(j), ld, columns, b, ld, b + j, ld, u + j * ld, ld);
+  for (; j + 6 <= rows; j += 6) subtract_rows(6, DOWN(j), ld, columns, b, ld, b + j, ld, true, u + j * ld, ld);
+  if (j < rows) subtract_rows(3, DOWN(j), ld, columns, b, ld, b + j, ld, true, u + j * ld, ld);
   return true;
 }
 

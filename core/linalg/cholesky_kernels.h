@@ -10,8 +10,8 @@
 static inline size_t spore_cholesky_pad(size_t rows) { return (rows + SPORE_LANES - 1) / SPORE_LANES * SPORE_LANES; }
 
 /* Eliminates the columns of a front. t: columns x columns, the lower triangle of A11 in, L11^-1 out, zeros above its
- * diagonal. b: rows x columns, A21 in, L21 = A21 L11^-T out. u: rows x rows, the lower triangle of it less
- * L21 L21^T; above its diagonal it is undefined. work: 3 columns. False where a pivot is not positive. */
+ * diagonal. b: rows x columns, A21 in, L21 = A21 L11^-T out. u: rows x rows, the lower triangle of -L21 L21^T
+ * out; above its diagonal it is undefined. work: 3 columns. False where a pivot is not positive. */
 SPORE_DECLARE_KERNEL(bool, spore_cholesky_eliminate, size_t columns, size_t rows, double *t, double *b, double *u,
                      double *work);
 /* Rounds `count` numbers, a multiple of the lanes, to single precision. */
