@@ -7,7 +7,6 @@
 
 #define SWEEPS 8           /* of the weights; each about halves what is wrong */
 #define ROUNDS 4           /* in search of the deepest point of a ball */
-#define FULL_ROUNDS 2      /* those after go half the way: between two walls the search would not settle */
 #define BEFORE_MIDDLE 0.25 /* of a sphere's radius */
 #define MARGIN 1.3         /* of the distance to the nearest neighbour, */
 #define WIDEST_MARGIN 1.5  /* of the radius */
@@ -201,22 +200,37 @@ bool spore_depth_field_create(SporeDepthField *field, const double *centre, cons
   return false;
 }
 
+/* Part of the way from n to where the field says out is, next in the search. What is off of the normal of a sphere of
+ * radius r comes back -ahead/r times as large, seen from the deepest point of a ball of radius `ahead`: so much less is
+ * taken at first, and then what the last step has shown (J. Barzilai and J. M. Borwein, "Two-Point Step Size Gradient
+ * Methods", IMA Journal of Numerical Analysis 8, 1988). */
+static double search_step(double least, SporeVec3 moved, SporeVec3 change) {
+  double along = spore_vec3_dot(moved, change);
+  return along > 0 ? fmin(fmax(spore_vec3_dot(moved, moved) / along, least), 1) : least;
+}
+
 double spore_depth_field_ball(const SporeDepthField *field, uint32_t nearest, SporeVec3 centre, double radius,
                               SporeVec3 *normal) {
   SporeVec3 offset = spore_vec3_sub(centre, centre_of(field, nearest));
-  *normal = spore_vec3_normalise(offset, spore_vec3(0, 1, 0));
+  SporeVec3 n = spore_vec3_normalise(offset, spore_vec3(0, 1, 0)), before = n, wrong_before = {0, 0, 0};
   /* The field is looked at in the ball's deepest point, but not beyond the middle of the sphere, where out is the other
    * way. */
   double farthest = spore_vec3_length(offset) - BEFORE_MIDDLE * radius_of(field, nearest);
   double ahead = fmin(radius, fmax(farthest, 0)), depth = 0;
+  double least = radius_of(field, nearest) / (radius_of(field, nearest) + ahead);
   for (int round = 0; round < ROUNDS; round++) {
-    SporeVec3 gradient, place = spore_vec3_add_scaled(centre, -ahead, *normal);
+    SporeVec3 gradient, place = spore_vec3_add_scaled(centre, -ahead, n);
     double value = spore_depth_field_at(field, nearest, place, &gradient), slope = spore_vec3_length(gradient);
+    *normal = n;
     depth = value / fmax(slope, 0.5) + radius - ahead;
     if (!(slope > 1e-6)) return value > 0 ? value + radius - ahead : 0;
     if (round + 1 == ROUNDS) break;
-    SporeVec3 out = spore_vec3_scale(-1 / slope, gradient);
-    *normal = round < FULL_ROUNDS ? out : spore_vec3_normalise(spore_vec3_add(*normal, out), out);
+    SporeVec3 wrong = spore_vec3_add_scaled(n, 1 / slope, gradient);
+    double step =
+        round == 0 ? least : search_step(least, spore_vec3_sub(n, before), spore_vec3_sub(wrong, wrong_before));
+    before = n;
+    wrong_before = wrong;
+    n = spore_vec3_normalise(spore_vec3_add_scaled(n, -step, wrong), n);
   }
   return depth;
 }

@@ -60,7 +60,10 @@ static const SporeParameter parameters[] = {
      .offset = offsetof(SporeContactFields, surface),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("What others feel of a body that keeps its shape: each of its spheres, or one depth that is smooth from "
-               "sphere to sphere, at a few times the cost of a contact: for what others slide over.")},
+               "sphere to sphere, for what others slide over. A ball led over spheres a radius apart is pushed 0.9 "
+               "degrees off the true normal instead of 14, by 2% of its depth too much or too little instead of 48%; "
+               "over a womb of 110 spheres 4.2 degrees instead of 3.7, and 20% instead of 210%, since spheres that "
+               "overlap add up. A contact costs about four times as much.")},
 };
 
 const SporeParameterTable spore_contact_parameters = {parameters, sizeof parameters / sizeof *parameters,

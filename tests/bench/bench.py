@@ -17,10 +17,11 @@ import sofa
 import kernels
 import peers
 import solvers
+import surface
 import table
 import table1
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **solvers.BENCHES, **peers.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **solvers.BENCHES, **peers.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():
