@@ -117,10 +117,12 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
                    "what it holds together is apart), broken (1: for good)")},
       {"tools", N_("where instruments do more than touch: each one's name, opening_rad, squeeze_Nm (torque against "
                    "closing), held and lost (spheres)")},
-      {"monitor", N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
-                     "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
-                     "deep_contacts, soft_contacts, over_budget, held_inputs (refused from devices), broken_links, "
-                     "lost_holds (that tore away from jaws)")},
+      {"monitor",
+       N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
+          "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
+          "deep_contacts, soft_contacts, over_budget, held_inputs (refused from devices), shortened_forces (to "
+          "hands), broken_links, "
+          "lost_holds (that tore away from jaws)")},
       {"monitor.frozen", N_("names of bodies that could not be computed")},
       {"monitor.made_safer", N_("names of bodies that were moved by a safer method than the scene says")},
       {"monitor.messages", N_("the last of them, each naming body and cause")},

@@ -79,6 +79,7 @@ static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
                 {"soft_contacts", monitor->soft_contacts},
                 {"over_budget", monitor->over_budget},
                 {"held_inputs", monitor->held_inputs},
+                {"shortened_forces", monitor->shortened_forces},
                 {"broken_links", monitor->broken_links},
                 {"lost_holds", monitor->lost_holds}};
   spore_cli_open(cli, "monitor");

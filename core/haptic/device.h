@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "core/base/error.h"
+#include "core/haptic/passivity.h"
 
 /* What a device says. Poses are in the scene's frame. */
 typedef struct SporeDeviceState {
@@ -30,15 +31,19 @@ typedef struct SporeDevice SporeDevice;
 typedef struct SporeDeviceType {
   const char *name;
   const char *doc; /* translatable */
-  /* Gives the state for simulation time time_s, and takes the force of the last step. Called once a step by the
-   * simulation thread; must neither block nor allocate. False: nothing to give, the last state is held. */
+  /* Gives the state for simulation time time_s, and takes the force of the last step: for what shows it. Called once a
+   * step by the simulation thread; must neither block nor allocate. False: nothing to give, the last state is held. */
   bool (*exchange)(SporeDevice *device, double time_s, const SporeDeviceCommand *command, SporeDeviceState *state);
   void (*close)(SporeDevice *device);
+  /* Of a device that pushes a hand, NULL of others: called right after exchange with the same force, shortened so that
+   * the hand never gets more energy than it gave; to be held until the next call. Torque and grip are not looked at. */
+  void (*push)(SporeDevice *device, const SporeDeviceCommand *command);
 } SporeDeviceType;
 
 /* First member of every device's own structure. */
 struct SporeDevice {
   const SporeDeviceType *type;
+  SporePassivityLimits hand; /* of a type with push */
 };
 
 #endif

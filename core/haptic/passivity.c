@@ -22,12 +22,16 @@ static double allowed_part(double stored, double speed_part, double square_part)
 }
 
 bool spore_passivity_limit(SporePassivity *passivity, const SporePassivityLimits *limits, const double position[3],
-                           const double velocity[3], double dt_s, double force[3]) {
-  SporeVec3 at = spore_vec3_load(position), wanted = spore_vec3_load(force);
-  if (passivity->started) settle(passivity, limits, at);
+                           double dt_s, double force[3]) {
+  SporeVec3 at = spore_vec3_load(position), wanted = spore_vec3_load(force), velocity = {0, 0, 0};
+  double length = spore_vec3_length(wanted);
+  if (length > limits->force) wanted = spore_vec3_scale(limits->force / length, wanted);
+  if (passivity->started) {
+    velocity = spore_vec3_scale(1 / dt_s, spore_vec3_sub(at, spore_vec3_load(passivity->position)));
+    settle(passivity, limits, at);
+  }
   /* The velocity comes from two positions: it may be more than it seems. */
-  double speed_part =
-      spore_vec3_dot(wanted, spore_vec3_load(velocity)) * dt_s + limits->resolution * spore_vec3_length(wanted);
+  double speed_part = spore_vec3_dot(wanted, velocity) * dt_s + limits->resolution * spore_vec3_length(wanted);
   double square_part = 0.5 * spore_vec3_dot(wanted, wanted) * dt_s * dt_s / limits->mass;
   double part = square_part > 0 ? allowed_part(fmax(passivity->stored, 0), speed_part, square_part) : 1;
   SporeVec3 told = spore_vec3_scale(part, wanted);

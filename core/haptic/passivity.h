@@ -1,5 +1,6 @@
 /* A wall that is felt must not give the hand more energy than the hand gave it, however stiff it is and however late
- * the force comes. For whoever drives a device: between reading where it is and telling it its force.
+ * the force comes. The world does this for each device that pushes a hand, between reading where it is and telling it
+ * its force (core/sim/sense.c).
  *
  * The force is held until the next tick, so the work of the last one is known exactly afterwards (B. Hannaford and
  * J.-H. Ryu, "Time-domain passivity control of haptic interfaces", IEEE Transactions on Robotics and Automation 18,
@@ -11,6 +12,7 @@
 #include <stdbool.h>
 
 typedef struct SporePassivityLimits {
+  double force;      /* N: the most that the device can give */
   double mass;       /* kg: of the device alone, the least that a force can move */
   double resolution; /* m: positions are known to half of it, 0: exactly */
   double tank;       /* J: more is not kept, so that nothing given long ago comes back at once */
@@ -23,9 +25,9 @@ typedef struct SporePassivity {
   double position[3], force[3]; /* at the last tick, and held since */
 } SporePassivity;
 
-/* One tick: the device stands at `position` (m) and moves with `velocity` (m/s); `force` (N) is to be held for dt_s
- * seconds and is shortened where it has to be. True: it was not. */
+/* One tick, dt_s seconds after the last: the device stands at `position` (m); `force` (N) is to be held until the next
+ * and is shortened to what the device can give, and where it would give too much. True: for the latter it was not. */
 bool spore_passivity_limit(SporePassivity *passivity, const SporePassivityLimits *limits, const double position[3],
-                           const double velocity[3], double dt_s, double force[3]);
+                           double dt_s, double force[3]);
 
 #endif

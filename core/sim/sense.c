@@ -18,6 +18,17 @@ void spore_active_set_velocity(SporeWorld *world, uint32_t index) {
   spore_vec3_store(v + 3, spore_vec3_scale(rate, spore_quat_to_rotation_vector(turn)));
 }
 
+/* Between reading where a hand is and pushing it. */
+static void push(SporeWorld *world, SporeBody *body) {
+  SporeDevice *device = body->device;
+  if (!device->type->push) return;
+  SporeDeviceCommand command = body->command;
+  bool whole = spore_passivity_limit(&body->passivity, &device->hand, body->input.position, world->solver.time_step,
+                                     command.force);
+  world->monitor.shortened_forces += !whole;
+  device->type->push(device, &command);
+}
+
 static void sense(SporeWorld *world, SporeBody *body) {
   double time_s = (double)(world->step + 1) * world->solver.time_step;
   SporeDeviceState said = body->input;
@@ -26,6 +37,7 @@ static void sense(SporeWorld *world, SporeBody *body) {
       world->monitor.held_inputs++ == 0)
     spore_world_report(world, _("%s: its device said what cannot be; held, or followed at %g m/s; check the device"),
                        body->name, limits.speed);
+  push(world, body);
   body->input_time_s = time_s;
   body->has_input |= spoke;
   double *target = world->target_q + body->q_offset;

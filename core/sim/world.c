@@ -140,6 +140,7 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->has_input = false;
   body->command = (SporeDeviceCommand){0};
   spore_guard_start(&body->guard, 0, body->rest_pose);
+  body->passivity = (SporePassivity){0};
   if (body->model) spore_body_set_mass(world, body);
   if (body->model && body->model->type->forget) body->model->type->forget(body->model);
 }
@@ -163,7 +164,7 @@ void spore_world_reset(SporeWorld *world) {
   SporeMonitor *monitor = &world->monitor;
   monitor->recoveries = monitor->substeps = monitor->not_finite = monitor->too_fast = monitor->energy = 0;
   monitor->not_converged = monitor->deep_contacts = monitor->soft_contacts = monitor->over_budget =
-      monitor->held_inputs = monitor->broken_links = monitor->lost_holds = 0;
+      monitor->held_inputs = monitor->shortened_forces = monitor->broken_links = monitor->lost_holds = 0;
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_snapshot_publish(world);

@@ -247,19 +247,20 @@ typedef struct SporeMonitorMessage {
   char text[256]; /* names body and cause, translated */
 } SporeMonitorMessage;
 typedef struct SporeMonitor {
-  uint64_t recoveries;    /* steps taken again from the last good state, implicitly and in smaller ones */
-  uint64_t substeps;      /* extra steps that this cost */
-  uint64_t not_finite;    /* taken again for that; what cannot be mended is frozen */
-  uint64_t too_fast;      /* the same, above maximum_speed */
-  uint64_t energy;        /* the same, where an explicit step made energy without bound; implicit from then on */
-  uint64_t not_converged; /* solver ended above its tolerance; taken again where it did by far, or gained energy */
-  uint64_t deep_contacts; /* contacts deeper than the smaller sphere's radius: said, and let be */
-  uint64_t soft_contacts; /* contacts at rest that hold less than half of what they should: said, and let be */
-  uint64_t over_budget;   /* steps that took longer than the budget: said, and let be */
-  uint64_t held_inputs;   /* device states refused (not finite, or a jump) */
-  uint64_t broken_links;  /* that held too much */
-  uint64_t lost_holds;    /* of jaws, the same */
-  uint64_t message_count; /* ever */
+  uint64_t recoveries;       /* steps taken again from the last good state, implicitly and in smaller ones */
+  uint64_t substeps;         /* extra steps that this cost */
+  uint64_t not_finite;       /* taken again for that; what cannot be mended is frozen */
+  uint64_t too_fast;         /* the same, above maximum_speed */
+  uint64_t energy;           /* the same, where an explicit step made energy without bound; implicit from then on */
+  uint64_t not_converged;    /* solver ended above its tolerance; taken again where it did by far, or gained energy */
+  uint64_t deep_contacts;    /* contacts deeper than the smaller sphere's radius: said, and let be */
+  uint64_t soft_contacts;    /* contacts at rest that hold less than half of what they should: said, and let be */
+  uint64_t over_budget;      /* steps that took longer than the budget: said, and let be */
+  uint64_t held_inputs;      /* device states refused (not finite, or a jump) */
+  uint64_t shortened_forces; /* that would have given a hand more energy than it gave */
+  uint64_t broken_links;     /* that held too much */
+  uint64_t lost_holds;       /* of jaws, the same */
+  uint64_t message_count;    /* ever */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
 } SporeMonitor;
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);

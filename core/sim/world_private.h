@@ -107,6 +107,7 @@ typedef struct SporeBody {
   SporeGuard guard;
   SporeDeviceState input;
   SporeDeviceCommand command;
+  SporePassivity passivity; /* of a device that pushes a hand */
   double input_time_s;
   bool has_input;
 } SporeBody;
