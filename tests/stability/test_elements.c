@@ -31,8 +31,38 @@ static double least_volume(const double *q, const double *rest, const SporeTetra
   return least;
 }
 
+/* Angle between the element's faces at its edge from `from` to `to`; 0: it has no such edge. */
+static double dihedral_angle(const double *q, const uint32_t *corners, uint32_t from, uint32_t to) {
+  SporeVec3 origin = spore_vec3_load(q + 3 * (size_t)from), flat[4];
+  SporeVec3 edge = spore_vec3_sub(spore_vec3_load(q + 3 * (size_t)to), origin);
+  edge = spore_vec3_normalise(edge, (SporeVec3){0, 0, 0});
+  int others = 0;
+  for (int k = 0; k < 4; k++) {
+    if (corners[k] == from || corners[k] == to) continue;
+    SporeVec3 side = spore_vec3_sub(spore_vec3_load(q + 3 * (size_t)corners[k]), origin);
+    flat[others++] = spore_vec3_add_scaled(side, -spore_vec3_dot(side, edge), edge);
+  }
+  if (others != 2) return 0;
+  return atan2(spore_vec3_length(spore_vec3_cross(flat[0], flat[1])), spore_vec3_dot(flat[0], flat[1]));
+}
+
+/* The most that the elements around an edge inside the mesh turn about it: 1 in a sound one. */
+static double most_turns(const double *q, const double *rest, const SporeTetrahedralMesh *mesh) {
+  double most = 0;
+  for (uint32_t a = 0; a < mesh->vertex_count; a++)
+    for (uint32_t b = a + 1; b < mesh->vertex_count; b++) {
+      double turns = 0, whole = 0;
+      for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
+        turns += dihedral_angle(q, mesh->tetrahedra + 4 * t, a, b) / (2 * G_PI);
+        whole += dihedral_angle(rest, mesh->tetrahedra + 4 * t, a, b) / (2 * G_PI);
+      }
+      if (fabs(whole - 1) < 1e-9) most = fmax(most, turns);
+    }
+  return most;
+}
+
 typedef struct Recovery {
-  double error, least_volume;
+  double error, least_volume, turns;
   gboolean frozen;
 } Recovery;
 
@@ -59,7 +89,7 @@ static Recovery recover(const SporeModelType *type, const char *name, guint32 se
   }
   const double *q1 = spore_world_q(world, 0);
   Recovery recovery = {shape_error(q1, copy.vertices, &copy), least_volume(q1, copy.vertices, &copy),
-                       rig_any_frozen(world)};
+                       most_turns(q1, copy.vertices, &copy), rig_any_frozen(world)};
   g_test_message(
       "%s, %s: edges off by %.2e at first, %.2e after %g s; energy %.2e J, at most %.2e J; %u not converged; %s", name,
       type->name, before, recovery.error, spore_world_time_s(world), start, most,
@@ -163,8 +193,9 @@ static void case_8(void) {
 }
 
 /* The table asks recovery of the neo-Hookean element; of the corotational one the common pass is asked, and what is
- * left is said. One heap of these twelve ends with the mesh wound twice round an edge: no element is inside out then,
- * and no energy of single elements knows of it. */
+ * left is said. A heap that does not recover (here one of twelve, of forty three) has come to rest with the mesh wound
+ * twice round an edge: no element is inside out then, and no energy of single elements knows of it, so that no search
+ * for less energy leaves it. */
 static void case_9(void) {
   enum { HEAPS = 12, RECOVERED = 11 };
   unsigned recovered = 0;
@@ -172,7 +203,9 @@ static void case_9(void) {
     Recovery recovery = recover(&spore_neo_hookean_tetrahedra, "case 9: all vertices random", seed, shuffle, 600);
     g_assert_false(recovery.frozen);
     g_assert_cmpfloat(recovery.least_volume, >, 0);
-    recovered += recovery.error < 1e-4;
+    if (recovery.error < 1e-4) recovered++;
+    else g_test_message("case 9: heap %u is wound %.6f times round an edge", seed, recovery.turns);
+    g_assert_true(recovery.error < 1e-4 || fabs(recovery.turns - 2) < 1e-6);
   }
   g_test_message("case 9: %u of %u heaps recovered", recovered, (unsigned)HEAPS);
   g_assert_cmpuint(recovered, >=, RECOVERED);
