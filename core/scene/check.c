@@ -97,7 +97,7 @@ gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object,
 }
 
 /* Elements of the tools that move a body. */
-#define TOOLS "probe|grasper|clamp"
+#define TOOLS "probe|grasper|clamp|suction"
 
 /* Bodies. */
 
@@ -166,6 +166,27 @@ static void check_tool(SporeCheck *check, SporeObject *tool) {
   check_jaw(check, tool, "jaw_b");
 }
 
+/* Effects. */
+
+static void check_emitter(SporeCheck *check, SporeObject *emitter) {
+  if (!spore_object_text(emitter, "body"))
+    spore_check_say(check, SPORE_FAULT, emitter, _("name a fluid of particles, or remove the emitter"),
+                    _("nothing comes out of the emitter \"%s\": it has no body"), spore_object_name(emitter));
+}
+
+/* Suction without a fluid. */
+static void check_suction(SporeCheck *check, SporeObject *suction) {
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    const SporeObject *mechanical = spore_object_child_of(spore_object_child(bodies, i), "mechanical");
+    if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
+    if (spore_object_type(spore_object_child(mechanical, 0))->model->particles) return;
+  }
+  spore_check_say(check, SPORE_NOTE, suction, _("add a fluid, or make it a probe"),
+                  _("\"%s\" has nothing to take away: the scene has no fluid of particles"),
+                  spore_object_name(suction));
+}
+
 /* The whole. */
 
 static gint worst_first(gconstpointer a, gconstpointer b) {
@@ -184,6 +205,8 @@ GPtrArray *spore_document_check(SporeDocument *document) {
     spore_check_say(&check, SPORE_NOTE, NULL, _("import a mesh, or add a body"), "%s", _("the scene has no bodies"));
   spore_check_each(&check, "bodies", NULL, check_body);
   spore_check_each(&check, "tools", NULL, check_tool);
+  spore_check_each(&check, "tools", "suction", check_suction);
+  spore_check_each(&check, "effects", "emitter", check_emitter);
   spore_check_links(&check);
   spore_check_assets(&check);
   spore_check_solver(&check);

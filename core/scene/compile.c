@@ -14,6 +14,7 @@ typedef struct Compiler {
   GArray *bodies;     /* of SporeBodyDescription */
   GArray *links;      /* of SporeLinkDescription */
   GArray *tools;      /* of SporeToolDescription */
+  GArray *emitters;   /* of SporeEmitterDescription */
   GPtrArray *spheres; /* of SporeSphereSet: models' own */
   GError **error;
 } Compiler;
@@ -306,10 +307,36 @@ static gboolean add_jaws(Compiler *compiler, const SporeObject *object, SporeToo
   return TRUE;
 }
 
+static gboolean add_suction(Compiler *compiler, const SporeObject *object) {
+  SporeSuctionToolFields fields = {0};
+  spore_object_fields(object, &fields);
+  SporeToolDescription tool = {.name = fields.name,
+                               .kind = SPORE_TOOL_SUCTION,
+                               .point = spore_vec3_load(fields.point),
+                               .suction = fields.suction};
+  if (!body_index(compiler, object, "body", &tool.body)) return FALSE;
+  g_array_append_val(compiler->tools, tool);
+  return TRUE;
+}
+
+static gboolean add_emitter(Compiler *compiler, const SporeObject *object) {
+  SporeWoundFields fields = {0};
+  spore_object_fields(object, &fields);
+  SporeEmitterDescription emitter = {.name = fields.name,
+                                     .point = spore_vec3_load(fields.point),
+                                     .direction = spore_vec3_load(fields.direction),
+                                     .fields = fields.emitter};
+  if (!body_index(compiler, object, "body", &emitter.body) || !body_index(compiler, object, "source", &emitter.source))
+    return FALSE;
+  g_array_append_val(compiler->emitters, emitter);
+  return TRUE;
+}
+
 static gboolean add_tool(Compiler *compiler, const SporeObject *object) {
   const char *element = spore_object_type(object)->element;
   if (strcmp(element, "grasper") == 0) return add_jaws(compiler, object, SPORE_TOOL_GRASPER);
   if (strcmp(element, "clamp") == 0) return add_jaws(compiler, object, SPORE_TOOL_CLAMP);
+  if (strcmp(element, "suction") == 0) return add_suction(compiler, object);
   return TRUE;
 }
 
@@ -418,6 +445,9 @@ static gboolean describe(Compiler *compiler) {
   SporeObject *tools = spore_document_section(compiler->document, "tools");
   for (guint i = 0; i < spore_object_child_count(tools); i++)
     if (!add_tool(compiler, spore_object_child(tools, i))) return FALSE;
+  SporeObject *effects = spore_document_section(compiler->document, "effects");
+  for (guint i = 0; i < spore_object_child_count(effects); i++)
+    if (!add_emitter(compiler, spore_object_child(effects, i))) return FALSE;
   return TRUE;
 }
 
@@ -441,6 +471,8 @@ static SporeWorld *create_world(Compiler *compiler, SporePool *pool) {
   SporeWorldDescription description = {.body_count = compiler->bodies->len,
                                        .link_count = compiler->links->len,
                                        .tool_count = compiler->tools->len,
+                                       .emitter_count = compiler->emitters->len,
+                                       .emitters = (const SporeEmitterDescription *)(void *)compiler->emitters->data,
                                        .bodies = (const SporeBodyDescription *)(void *)compiler->bodies->data,
                                        .links = (const SporeLinkDescription *)(void *)compiler->links->data,
                                        .tools = (const SporeToolDescription *)(void *)compiler->tools->data};
@@ -480,12 +512,14 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
   compiler.bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
   compiler.links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
   compiler.tools = g_array_new(FALSE, TRUE, sizeof(SporeToolDescription));
+  compiler.emitters = g_array_new(FALSE, TRUE, sizeof(SporeEmitterDescription));
   compiler.spheres = g_ptr_array_new_with_free_func(free_spheres);
   SporeSimulation *simulation = assemble(&compiler, pool, input);
   g_ptr_array_unref(compiler.objects);
   g_array_unref(compiler.bodies);
   g_array_unref(compiler.links);
   g_array_unref(compiler.tools);
+  g_array_unref(compiler.emitters);
   g_ptr_array_unref(compiler.spheres);
   return simulation;
 }

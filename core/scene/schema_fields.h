@@ -102,6 +102,18 @@ typedef struct SporeJawToolFields {
   SporeJawFields jaws;
 } SporeJawToolFields;
 
+typedef struct SporeSuctionToolFields {
+  const char *name, *body, *device;
+  double point[3];
+  SporeSuctionFields suction;
+} SporeSuctionToolFields;
+
+typedef struct SporeWoundFields {
+  const char *name, *body, *source;
+  double point[3], direction[3];
+  SporeEmitterFields emitter;
+} SporeWoundFields;
+
 typedef struct SporeMouseFields {
   const char *name;
 } SporeMouseFields;

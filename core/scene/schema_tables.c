@@ -557,6 +557,21 @@ static const SporeParameter jaw_tool_parameters[] = {
                       "second against it.")),
 };
 
+static const SporeParameter suction_parameters[] = {
+    NAME(SporeSuctionToolFields, N_("Name of the tool.")),
+    TOOL_BODY(SporeSuctionToolFields, body, N_("Active body that the tool moves: the tube.")),
+    TOOL_DEVICE(SporeSuctionToolFields),
+    TOOL_PLACE(SporeSuctionToolFields, point, N_("Middle of the mouth at the start, in the scene.")),
+};
+
+static const SporeParameter emitter_parameters[] = {
+    NAME(SporeWoundFields, N_("Name of the emitter.")),
+    TOOL_BODY(SporeWoundFields, body, N_("Fluid that comes out.")),
+    TOOL_BODY(SporeWoundFields, source, N_("Body that the mouth is in and moves with; none: the scene.")),
+    TOOL_PLACE(SporeWoundFields, point, N_("Middle of the mouth at the start, in the scene.")),
+    TOOL_DIRECTION(SporeWoundFields, direction, N_("Direction in which it comes out at the start, in the scene.")),
+};
+
 static const SporeParameter mouse_parameters[] = {
     NAME(SporeMouseFields, N_("Name by which tools refer to the mouse.")),
 };
@@ -631,14 +646,20 @@ const SporeElement spore_scene_elements[] = {
     {"port", N_("Port"),
      N_("Lets an instrument through at one point of its shaft, as a trocar does: it turns and slides there."),
      TABLE(port_parameters, SporeLinkFields), JOINT},
-    {"effects", N_("Effects"), N_("What is shown without being simulated.")},
+    {"effects", N_("Effects"), N_("What goes on besides what bodies do."), .children = CHILDREN("emitter")},
+    {"emitter", N_("Emitter"), N_("A mouth that particles of a fluid come out of: a wound that bleeds."),
+     TABLE(emitter_parameters, SporeWoundFields), .extra = &spore_emitter_parameters,
+     .extra_offset = offsetof(SporeWoundFields, emitter)},
     {"tools", N_("Tools"), N_("What the user holds, and looks through."),
-     .children = CHILDREN("probe", "grasper", "clamp", "camera")},
+     .children = CHILDREN("probe", "grasper", "clamp", "suction", "camera")},
     {"probe", N_("Probe"), N_("An active body moved by a device."), TABLE(probe_parameters, SporeProbeFields)},
     {"grasper", N_("Grasper"), N_("Two jaws that close on tissue and hold it."),
      TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
     {"clamp", N_("Clamp"), N_("Two jaws that stay closed on what they took hold of, until the second button."),
      TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
+    {"suction", N_("Suction"), N_("A tube that takes the particles of fluids away."),
+     TABLE(suction_parameters, SporeSuctionToolFields), .extra = &spore_suction_parameters,
+     .extra_offset = offsetof(SporeSuctionToolFields, suction)},
     {"camera", N_("Camera"), N_("A view of the scene."), TABLE(camera_parameters, SporeCameraFields)},
     {"devices", N_("Devices"), N_("Where input comes from."), .children = CHILDREN("mouse", "track")},
     {"mouse", N_("Mouse"), N_("The pointer on the screen."), TABLE(mouse_parameters, SporeMouseFields)},

@@ -45,11 +45,13 @@ void spore_world_commit(SporeWorld *world) {
     spore_body_mark_changed(world, body); /* its velocity is what sensing found */
     memcpy(world->next_q + body->q_offset, world->target_q + body->q_offset, body->q_count * sizeof(double));
   }
+  if (spore_world_exchanges_particles(world)) spore_world_exchange_particles(world);
   spore_world_advance_state(world);
   for (size_t i = 0; i < world->island_count; i++) settle_island(world, &world->islands[i]);
   spore_world_keep_grips(world);
   spore_world_break_links(world);
-  for (size_t i = 0; i < world->tool_count; i++) spore_jaws_tear(world, &world->tools[i]);
+  for (size_t i = 0; i < world->tool_count; i++)
+    if (spore_tool_has_jaws(&world->tools[i])) spore_jaws_tear(world, &world->tools[i]);
   spore_world_watch_contacts(world);
   spore_world_report_islands(world);
   world->step++;

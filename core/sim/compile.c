@@ -55,8 +55,15 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
                            _("gravity is not finite; expected a vector in m/s^2; correct it"));
   for (size_t i = 0; i < description->body_count; i++)
     if (!check_body(&description->bodies[i], error)) return false;
-  for (size_t i = 0; i < description->tool_count; i++)
-    if (!spore_parameters_check(&spore_jaw_parameters, &description->tools[i].jaws, error)) return false;
+  for (size_t i = 0; i < description->tool_count; i++) {
+    const SporeToolDescription *tool = &description->tools[i];
+    bool sucks = tool->kind == SPORE_TOOL_SUCTION;
+    if (!spore_parameters_check(sucks ? &spore_suction_parameters : &spore_jaw_parameters,
+                                sucks ? (const void *)&tool->suction : (const void *)&tool->jaws, error))
+      return false;
+  }
+  for (size_t i = 0; i < description->emitter_count; i++)
+    if (!spore_parameters_check(&spore_emitter_parameters, &description->emitters[i].fields, error)) return false;
   return true;
 }
 

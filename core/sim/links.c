@@ -48,6 +48,7 @@ static bool collect_held(SporeWorld *world, const uint8_t *marks) {
     if (!body->held) return false;
     for (size_t i = 0; i < body->block_count; i++)
       if (held[i]) body->held[body->held_count++] = (uint32_t)i;
+    body->pin_count = body->held_count;
     spore_pin_filter(body->held, body->held_count, world->rest_v + body->v_offset);
   }
   return true;

@@ -97,7 +97,7 @@ void spore_world_make_plan(SporeWorld *world) {
   add(world, "sense", active, active ? _("active bodies follow their devices") : no_active, spore_world_sense,
       active_bodies);
   bool tools = world->tool_count > 0;
-  add(world, "tools", tools, tools ? _("instruments open, close and hold") : _("no instrument does more than touch"),
+  add(world, "tools", tools, tools ? _("instruments close, hold or suck") : _("no instrument does more than touch"),
       spore_world_use_tools, tool_count);
   plan_collision(world, &census);
   add(world, "link", moves && (linked || pulled || world->hold_count),
@@ -112,6 +112,8 @@ void spore_world_make_plan(SporeWorld *world) {
   add(world, "feedback", active, active ? _("devices feel what active bodies touch") : no_active, spore_world_feed_back,
       active_bodies);
   add(world, "commit", true, _("checks, accepts and publishes the new state"), spore_world_commit, bodies);
+  if (!spore_world_exchanges_particles(world))
+    leave_out(world, _("exchange of particles"), _("nothing sucks particles away or lets them out"));
   if (!tools) leave_out(world, _("tools"), _("no instrument does more than touch"));
   if (!active) leave_out(world, _("devices and feedback"), no_active);
   if (!linked && !pulled && !world->port_count) leave_out(world, _("links"), _("the scene has none"));

@@ -64,7 +64,8 @@ void spore_world_feed_back(SporeWorld *world) {
     memcpy(body->command.torque, world->reaction + 6 * b + 3, sizeof body->command.torque);
     body->command.grip_N = 0;
   }
-  for (size_t i = 0; i < world->tool_count; i++) spore_jaws_feed_back(world, &world->tools[i]);
+  for (size_t i = 0; i < world->tool_count; i++)
+    if (spore_tool_has_jaws(&world->tools[i])) spore_jaws_feed_back(world, &world->tools[i]);
   for (size_t b = 0; b < world->body_count; b++)
     if (world->bodies[b].role == SPORE_ACTIVE) spore_guard_command(&limits, &world->bodies[b].command);
 }

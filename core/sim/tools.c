@@ -9,21 +9,28 @@
 
 size_t spore_tools_hold_count(const SporeWorldDescription *description) {
   size_t count = 0;
-  for (size_t i = 0; i < description->tool_count; i++) count += (size_t)description->tools[i].jaws.holds;
+  for (size_t i = 0; i < description->tool_count; i++)
+    if (description->tools[i].kind != SPORE_TOOL_SUCTION) count += (size_t)description->tools[i].jaws.holds;
   return count;
 }
 
 static const char *tool_fault(const SporeWorld *world, const SporeToolDescription *from) {
   if (from->body >= world->body_count || world->bodies[from->body].role != SPORE_ACTIVE)
     return _("the tool's body is not active; expected a body that a device moves; choose one");
-  return spore_jaws_fault(world, from);
+  if (from->kind != SPORE_TOOL_SUCTION) return spore_jaws_fault(world, from);
+  return spore_vec3_is_finite(from->point) ? NULL : _("the mouth is nowhere; expected a point in m; correct it");
 }
 
 static bool make_tool(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
   tool->name = spore_copy_text(from->name ? from->name : "");
   tool->kind = from->kind;
   tool->body = from->body;
-  return tool->name && spore_jaws_make(world, tool, from);
+  if (from->kind != SPORE_TOOL_SUCTION) return tool->name && spore_jaws_make(world, tool, from);
+  const SporePose *frame = &world->bodies[from->body].rest_pose;
+  tool->suction = from->suction;
+  tool->point =
+      spore_quat_rotate(spore_quat_conjugate(frame->orientation), spore_vec3_sub(from->point, frame->position));
+  return tool->name != NULL;
 }
 
 bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
@@ -38,7 +45,7 @@ bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *d
     if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
     SporeTool *tool = &world->tools[world->tool_count++];
     tool->hold_start = hold;
-    hold += (size_t)from->jaws.holds;
+    if (from->kind != SPORE_TOOL_SUCTION) hold += (size_t)from->jaws.holds;
     made = make_tool(world, tool, from);
   }
   return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the tools"));
@@ -50,6 +57,8 @@ void spore_world_reset_tools(SporeWorld *world) {
     spore_jaws_let_go(world, tool);
     tool->opening = tool->squeeze = 0;
     tool->latched = false;
+    tool->due = 0;
+    tool->taken = 0;
   }
 }
 
@@ -62,14 +71,15 @@ void spore_world_clear_tools(SporeWorld *world) {
 }
 
 void spore_world_use_tools(SporeWorld *world) {
-  for (size_t i = 0; i < world->tool_count; i++) spore_jaws_use(world, &world->tools[i]);
+  for (size_t i = 0; i < world->tool_count; i++)
+    if (spore_tool_has_jaws(&world->tools[i])) spore_jaws_use(world, &world->tools[i]);
 }
 
 size_t spore_world_tool_count(const SporeWorld *world) { return world->tool_count; }
 
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
   const SporeTool *tool = &world->tools[index];
-  SporeToolState state = {.name = tool->name, .opening = tool->opening, .squeeze = tool->squeeze};
+  SporeToolState state = {.name = tool->name, .opening = tool->opening, .squeeze = tool->squeeze, .taken = tool->taken};
   for (size_t i = 0; i < (size_t)tool->fields.holds; i++) {
     state.held += tool->holds[i].state == SPORE_HOLD_TIED;
     state.lost += tool->holds[i].state == SPORE_HOLD_LOST;

@@ -39,6 +39,7 @@ static void free_arrays(SporeWorld *world) {
                     world->reaction,
                     world->contacts,
                     world->links,
+                    world->emitters,
                     world->ports,
                     world->springs,
                     world->spring_active,
@@ -108,7 +109,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   bool made = spore_world_compile_bodies(world, description, error) &&
               spore_world_compile_spheres(world, description, error) &&
               spore_world_compile_links(world, description, error) &&
-              spore_world_compile_tools(world, description, error) && spore_world_compile_factors(world, error) &&
+              spore_world_compile_tools(world, description, error) &&
+              spore_world_compile_particles(world, description, error) && spore_world_compile_factors(world, error) &&
               spore_world_allocate_vectors(world, error) && spore_world_check_step(world, error);
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {
@@ -156,6 +158,7 @@ void spore_world_reset(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
   spore_world_mend_links(world);
   spore_world_reset_tools(world);
+  spore_world_reset_particles(world);
   world->step = 0;
   world->contact_count = world->grip_count = 0;
   world->counts = (SporeStepCounts){0};
@@ -176,6 +179,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   memcpy(world->next_q + body->q_offset, q, body->q_count * sizeof *q);
   memcpy(world->target_q + body->q_offset, q, body->q_count * sizeof *q);
   memcpy(world->next_v + body->v_offset, v, 3 * body->block_count * sizeof *v);
+  if (body->parking_gap > 0) spore_body_find_parked(body, q);
   spore_pin_filter(body->held, body->held_count, world->next_v + body->v_offset);
   spore_body_mark_changed(world, body);
   spore_world_advance_state(world);

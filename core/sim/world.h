@@ -91,8 +91,9 @@ typedef struct SporeLinkDescription {
 
 /* What an instrument does besides being there. Its parts are active bodies: the device moves `body`, the tool the rest.
  *   grasper  two jaws on a hinge close while the device says so, and hold what they press
- *   clamp    the same, and stays closed once it has pressed something, until the second button opens it */
-typedef enum SporeToolKind { SPORE_TOOL_GRASPER, SPORE_TOOL_CLAMP } SporeToolKind;
+ *   clamp    the same, and stays closed once it has pressed something, until the second button opens it
+ *   suction  takes the particles of fluids away that come into its mouth */
+typedef enum SporeToolKind { SPORE_TOOL_GRASPER, SPORE_TOOL_CLAMP, SPORE_TOOL_SUCTION } SporeToolKind;
 
 typedef enum SporeTrigger {
   SPORE_TRIGGER_GRIP,  /* opening is the device's grip angle */
@@ -111,18 +112,50 @@ typedef struct SporeJawFields {
 } SporeJawFields;
 extern const SporeParameterTable spore_jaw_parameters;
 
+typedef enum SporeSuctionTrigger { SPORE_SUCTION_ALWAYS, SPORE_SUCTION_BUTTON } SporeSuctionTrigger;
+
+/* The table is spore_suction_parameters. */
+typedef struct SporeSuctionFields {
+  double radius; /* m, of the mouth */
+  double rate;   /* particles a second, at most */
+  int trigger;   /* SporeSuctionTrigger */
+} SporeSuctionFields;
+extern const SporeParameterTable spore_suction_parameters;
+
 typedef struct SporeToolDescription {
   const char *name;
   SporeToolKind kind;
   uint32_t body;         /* active */
   uint32_t jaw_a, jaw_b; /* active, without a device; closed at time 0 */
   SporeVec3 hinge, axis; /* world, at time 0: jaw_a opens by turning about the axis, jaw_b against it */
-  SporeJawFields jaws;
+  SporeJawFields jaws;   /* of what has jaws */
+  SporeVec3 point;       /* of suction: middle of its mouth, world, at time 0 */
+  SporeSuctionFields suction;
 } SporeToolDescription;
 
+/* Where particles of a fluid come from while it runs: a wound that bleeds. The fluid keeps `reserve` of its particles
+ * back at time 0; those, and what suction takes away, come out again. The table is spore_emitter_parameters. */
+typedef struct SporeEmitterFields {
+  double rate;     /* particles a second, at most: none comes where one still is */
+  double speed;    /* m/s */
+  double radius;   /* m, of the mouth */
+  double start;    /* s */
+  int64_t reserve; /* particles */
+} SporeEmitterFields;
+extern const SporeParameterTable spore_emitter_parameters;
+
+typedef struct SporeEmitterDescription {
+  const char *name;
+  uint32_t body;              /* the fluid */
+  uint32_t source;            /* body that the mouth is in; SPORE_NO_BODY: the world */
+  SporeVec3 point, direction; /* world, at time 0 */
+  SporeEmitterFields fields;
+} SporeEmitterDescription;
+
 typedef struct SporeWorldDescription {
-  size_t body_count, link_count, tool_count;
+  size_t body_count, link_count, tool_count, emitter_count;
   const SporeToolDescription *tools;
+  const SporeEmitterDescription *emitters;
   const SporeBodyDescription *bodies;
   const SporeLinkDescription *links;
   SporeVec3 gravity; /* m/s^2 */
@@ -188,9 +221,13 @@ typedef struct SporeToolState {
   double opening;    /* rad */
   double squeeze;    /* torque against closing, on the jaw where it is more, N m */
   size_t held, lost; /* spheres that it holds; that tore away since it last opened */
+  size_t taken;      /* particles that suction took away so far */
 } SporeToolState;
 size_t spore_world_tool_count(const SporeWorld *world);
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
+
+/* Particles of a body that are in the world: not kept back, nor taken away. */
+size_t spore_world_particle_count(const SporeWorld *world, uint32_t body);
 
 /* Energy, J. */
 typedef struct SporeEnergy {

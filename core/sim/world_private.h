@@ -71,8 +71,9 @@ typedef struct SporeBody {
   size_t sphere_start;
   SporeDepthField field; /* empty: its spheres are felt one by one */
   double total_mass;     /* kg, of a model */
-  uint32_t *held;        /* blocks that pins hold still */
-  size_t held_count;
+  uint32_t *held;        /* blocks that pins hold still; behind them particles that are out of the world */
+  size_t held_count, pin_count;
+  double parking_gap; /* m, between particles out of the world; 0: none ever are */
 
   bool frozen;
   /* Rest: see sleep.c. */
@@ -187,11 +188,23 @@ typedef struct SporeTool {
   SporeVec3 hinge, axis; /* in its frame */
   SporeJaw jaws[2];
   SporeJawFields fields;
+  SporeVec3 point; /* of suction, in its frame */
+  SporeSuctionFields suction;
+  double due;        /* particles that suction may take away by now */
+  size_t taken;      /* by suction */
   size_t hold_start; /* its terms in springs, fields.holds of them */
   SporeHold *holds;
   double opening, squeeze, held_at; /* rad, N m; opening at which it began to hold; negative: holds nothing */
   bool latched;                     /* of a clamp */
 } SporeTool;
+
+typedef struct SporeEmitter {
+  uint32_t body, source;
+  SporeVec3 point, direction; /* in the frame of the source */
+  SporeEmitterFields fields;
+  double due; /* particles that may come by now */
+  uint64_t tries;
+} SporeEmitter;
 
 typedef struct SporeStage {
   void (*run)(SporeWorld *world);
@@ -245,8 +258,9 @@ struct SporeWorld {
   size_t link_count, port_count;
   SporeLink *links;
   SporePort *ports;
-  size_t tool_count;
+  size_t tool_count, emitter_count;
   SporeTool *tools;
+  SporeEmitter *emitters;
   size_t link_term_count, hold_count; /* springs of links; of tools, behind them; behind those one pull a body */
   SporeSpringTerm *springs;
   bool *spring_active;
@@ -333,6 +347,16 @@ void spore_world_reset_tools(SporeWorld *world);
 void spore_world_clear_tools(SporeWorld *world);
 void spore_world_use_tools(SporeWorld *world);
 
+/* particles.c: particles that leave the world and come back. */
+bool spore_world_compile_particles(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
+/* Once the next state is written, but not the state yet: what suction takes, and emitters give. */
+void spore_world_exchange_particles(SporeWorld *world);
+/* Whether anything may take or give particles. */
+bool spore_world_exchanges_particles(const SporeWorld *world);
+/* After a body's state was set from outside: which of its particles are out of the world. */
+void spore_body_find_parked(SporeBody *body, const double *q);
+void spore_world_reset_particles(SporeWorld *world);
+
 /* jaws.c: from what the last step did to where the jaws are to be. */
 const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription *from);
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from);
@@ -345,6 +369,8 @@ void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool);
 
 /* sense.c: the velocity that takes an active body to its target in one step. */
 void spore_active_set_velocity(SporeWorld *world, uint32_t body);
+
+static inline bool spore_tool_has_jaws(const SporeTool *tool) { return tool->kind <= SPORE_TOOL_CLAMP; }
 
 /* pulls.c: commands take hold of a body. */
 bool spore_world_make_pulls(SporeWorld *world);

@@ -431,6 +431,31 @@ def jaws_lift_and_links_break():
 
 
 @check
+def blood_comes_and_is_sucked_away():
+    """An emitter lets particles out of a wound, a suction tube takes them away: planned, run, the same each time."""
+    file("flow/drop.off", shapes.off(*shapes.sphere(radius=0.005)))
+    file("flow/tube.spheres", "0 0 0 0.001\n")
+    scene = file("flow/flow.spore", """<spore version="1.0">
+  <environment gravity="0 0 0"/>
+  <solver time_step="0.001"/>
+  <assets><mesh name="drop" file="drop.off"/><spheres name="tube" file="tube.spheres"/></assets>
+  <bodies>
+    <body name="blood"><mechanical geometry="drop"><lennard_jones particles="100" drag="5"/></mechanical></body>
+    <body name="tube" role="active" position="0.03 0.008 0"><collision spheres="tube"/></body>
+  </bodies>
+  <effects><emitter name="wound" body="blood" point="0.03 0 0" direction="0 1 0" rate="100" reserve="30"/></effects>
+  <tools><suction name="tube" body="tube" point="0.03 0.006 0" radius="0.004"/></tools>
+</spore>
+""")
+    assert not [d for d in report("check", scene)["diagnostics"] if d["severity"] == "fault"]
+    assert all("particles" not in left["what"] for left in report("plan", scene)["left_out"])
+    first = report("run", scene, "--time", 2)
+    assert first["tools"][0]["taken"] > 5, first["tools"]
+    assert report("run", scene, "--time", 2, "--threads", 2)["state_hash"] == first["state_hash"]
+    refuses("run", file("flow/much.spore", scene.read_text().replace('"30"', '"3000"')), says=["much.spore:9:", "reserve"])
+
+
+@check
 def a_fluid_lands_on_a_floor():
     """A fluid whose collision unit names no spheres collides with its own: checked, planned, run, the same each time."""
     file("fluid/drop.off", shapes.off(*shapes.sphere(radius=0.006)))

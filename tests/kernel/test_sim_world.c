@@ -163,7 +163,7 @@ static void test_plan(void) {
     g_assert_cmpuint(stage(plan, in[i])->profile->count, ==, 3);
   }
   g_assert_cmpuint(stage(plan, "integrate")->items, ==, 24);
-  g_assert_cmpuint(plan->left_out_count, ==, 4);
+  g_assert_cmpuint(plan->left_out_count, ==, 5);
   g_assert_cmpuint(spore_world_profile(world)->count, ==, 3);
   const SporeCommand pull = {.kind = SPORE_COMMAND_PULL, .vector = {0, 1, 0}, .number = 10},
                      let_go = {SPORE_COMMAND_RELEASE};

@@ -1,0 +1,141 @@
+/* Particles that leave the world by suction and come into it from a wound. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "tests/stability/rig.h"
+
+#define PARTICLES 200
+
+/* A drop of blood, weightless, about the origin; `tools` and `emitters` may be 0. */
+static Rig *drop(size_t tools, size_t emitters, int64_t reserve, double rate) {
+  static SporeToolDescription suction;
+  static SporeEmitterDescription wound;
+  Rig *rig = rig_new();
+  rig->description.solver.time_step = 5e-4;
+  rig->description.gravity = spore_vec3(0, 0, 0);
+  SporeTriangleMesh box;
+  shape_box(&box, spore_vec3(0, 0, 0), spore_vec3(0.01, 0.01, 0.01));
+  rig_passive(rig, "blood", rig_fluid_model(&box, PARTICLES, "drag", 5.0, NULL), NULL);
+  rig_active(rig, "sucker", rig_sphere(rig, 0.0005))->pose.position = spore_vec3(0, 0.02, 0);
+  suction = (SporeToolDescription){.name = "suction", .kind = SPORE_TOOL_SUCTION, .body = 1};
+  spore_parameters_set_initial(&spore_suction_parameters, &suction.suction);
+  suction.suction.rate = rate;
+  suction.suction.radius = 0.004;
+  rig->description.tools = &suction;
+  rig->description.tool_count = tools;
+  wound = (SporeEmitterDescription){.name = "wound",
+                                    .body = 0,
+                                    .source = SPORE_NO_BODY,
+                                    .point = {0.02, 0, 0},
+                                    .direction = {0, 1, 0}};
+  spore_parameters_set_initial(&spore_emitter_parameters, &wound.fields);
+  wound.fields.rate = rate;
+  wound.fields.reserve = reserve;
+  wound.fields.start = 0.1;
+  rig->description.emitters = &wound;
+  rig->description.emitter_count = emitters;
+  return rig;
+}
+
+static size_t particles(const SporeWorld *world) { return spore_world_particle_count(world, 0); }
+
+/* Fastest of the particles, m/s. */
+static double fastest(const SporeWorld *world) {
+  const double *v = spore_world_v(world, 0);
+  double most = 0;
+  for (size_t i = 0; i < spore_world_body_model(world, 0)->node_count; i++)
+    most = fmax(most, spore_vec3_length(spore_vec3_load(v + 3 * i)));
+  return most;
+}
+
+static void run_to(SporeWorld *world, double time_s) {
+  while (spore_world_time_s(world) < time_s - 1e-9) spore_world_step(world);
+  g_assert_true(rig_finite(world));
+  g_assert_false(rig_any_frozen(world));
+}
+
+/* It takes as many as it can in a second, of those that are in its mouth, and the rest stays a drop. */
+static void test_suction(void) {
+  Rig *rig = drop(1, 0, 0, 100);
+  rig->description.tools = memcpy(g_new(SporeToolDescription, 1), rig->description.tools, sizeof(SporeToolDescription));
+  SporeWorld *world = rig_build(rig);
+  size_t start = particles(world);
+  g_assert_cmpuint(start, ==, spore_world_body_model(world, 0)->node_count);
+  run_to(world, 0.5);
+  size_t taken = spore_world_tool_state(world, 0).taken;
+  g_test_message("%zu of %zu particles taken in 0.5 s at 100 a second; fastest %.3f m/s; %s", taken, start,
+                 fastest(world), rig_last_message(world));
+  g_assert_cmpuint(taken, >=, 49);
+  g_assert_cmpuint(taken, <=, 50);
+  g_assert_cmpuint(particles(world), ==, start - taken);
+  uint64_t before = spore_allocation_count();
+  run_to(world, 0.6);
+  g_assert_cmpuint(spore_allocation_count(), ==, before);
+  uint64_t hash = spore_world_hash(world);
+  spore_world_reset(world);
+  g_assert_cmpuint(particles(world), ==, start);
+  run_to(world, 0.6);
+  g_assert_cmpuint(spore_world_hash(world), ==, hash);
+  g_free((SporeToolDescription *)(uintptr_t)rig->description.tools);
+  rig_free(rig);
+}
+
+/* A wound gives what was kept back, no faster than it may, and where it is free. */
+static void test_emitter(void) {
+  Rig *rig = drop(0, 1, 60, 100);
+  SporeWorld *world = rig_build(rig);
+  size_t all = spore_world_body_model(world, 0)->node_count;
+  g_assert_cmpuint(particles(world), ==, all - 60);
+  run_to(world, 0.09);
+  g_assert_cmpuint(particles(world), ==, all - 60);
+  run_to(world, 0.4);
+  size_t come = particles(world) - (all - 60);
+  g_test_message("%zu particles came in 0.3 s at 100 a second; fastest %.3f m/s; %s", come, fastest(world),
+                 rig_last_message(world));
+  g_assert_cmpuint(come, >=, 20);
+  g_assert_cmpuint(come, <=, 31);
+  g_assert_cmpfloat(fastest(world), <, 1);
+  run_to(world, 3);
+  g_test_message("%zu in the end", particles(world) - (all - 60));
+  g_assert_cmpuint(particles(world), ==, all);
+  rig_free(rig);
+}
+
+/* What is taken comes again: bleeding and suction together go on for ever. */
+static void test_circle(void) {
+  Rig *rig = drop(1, 1, 20, 200);
+  SporeToolDescription suction = rig->description.tools[0];
+  suction.point = spore_vec3(0.02, 0.004, 0);
+  rig->description.tools = &suction;
+  SporeWorld *world = rig_build(rig);
+  run_to(world, 2);
+  size_t taken = spore_world_tool_state(world, 0).taken;
+  g_test_message("%zu taken in 2 s, %zu of %zu in the world", taken, particles(world),
+                 spore_world_body_model(world, 0)->node_count);
+  g_assert_cmpuint(taken, >, 20); /* more than were kept back */
+  rig_free(rig);
+}
+
+static void test_refused(void) {
+  Rig *rig = drop(0, 1, 10000, 100);
+  SporeError error = SPORE_ERROR_INIT;
+  g_assert_null(rig_try_build(rig, &error));
+  g_assert_cmpstr(error.place, ==, "effects/wound");
+  rig_free(rig);
+  rig = drop(0, 1, 10, 100);
+  SporeEmitterDescription wound = rig->description.emitters[0];
+  wound.body = 1;
+  rig->description.emitters = &wound;
+  g_assert_null(rig_try_build(rig, &error));
+  rig_free(rig);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/flow/suction", test_suction);
+  g_test_add_func("/flow/emitter", test_emitter);
+  g_test_add_func("/flow/circle", test_circle);
+  g_test_add_func("/flow/refused", test_refused);
+  return g_test_run();
+}
