@@ -7,7 +7,6 @@
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
 
-/* The organ stays where it is until its author gives it a mechanical unit. */
 static gboolean add_organ(SporeCli *cli, SporeDocument *document, const char *file, const char *unit, const char *frame,
                           GError **error) {
   SporeTriangleMesh mesh = {0};
@@ -15,8 +14,7 @@ static gboolean add_organ(SporeCli *cli, SporeDocument *document, const char *fi
   int unit_index = 0, frame_index = 0;
   if (!spore_cli_read_mesh(cli, file, unit, frame, &mesh, &content, &unit_index, &frame_index, error)) return FALSE;
   spore_triangle_mesh_clear(&mesh);
-  SporeObject *body = spore_organ_insert(document, file, content, unit_index, frame_index, error);
-  return body && spore_document_set_text(document, body, "role", "unmovable", error);
+  return spore_organ_insert(document, file, content, unit_index, frame_index, error) != NULL;
 }
 
 static void report(SporeCli *cli, SporeDocument *document) {

@@ -72,6 +72,7 @@ SporeObject *spore_organ_insert(SporeDocument *document, const char *file, GByte
   SporeObject *body = spore_document_insert(document, bodies, "body", name, G_MAXUINT, error);
   if (!body) return NULL;
   SporeObject *visual = spore_document_insert(document, body, "visual", NULL, G_MAXUINT, error);
-  if (!visual || !spore_document_set_text(document, visual, "mesh", spore_object_name(mesh), error)) return NULL;
-  return body;
+  gboolean done = visual && spore_document_set_text(document, visual, "mesh", spore_object_name(mesh), error) &&
+                  spore_document_set_text(document, body, "role", "unmovable", error);
+  return done ? body : NULL;
 }

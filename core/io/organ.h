@@ -4,7 +4,8 @@
 
 #include "core/scene/document.h"
 
-/* A mesh asset named after `file`, its content a waiting blob, and a body that shows it. unit and frame index
+/* A mesh asset named after `file`, its content a waiting blob, and a body that shows it, unmovable until it is
+ * given a mechanical model. unit and frame index
  * spore_length_units and spore_mesh_frames. Returns the body; NULL with a GError: what was inserted by then stays, so
  * call it inside a group where that matters. */
 SporeObject *spore_organ_insert(SporeDocument *document, const char *file, GBytes *content, int unit, int frame,

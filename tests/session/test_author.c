@@ -68,6 +68,7 @@ static void test_add_organ(Fixture *fixture, gconstpointer data) {
   SporeObject *mesh = spore_edit_visual_mesh(fixture->document, body, NULL);
   g_assert_nonnull(mesh);
   g_assert_cmpuint(spore_document_mesh(fixture->document, mesh, NULL)->triangle_count, ==, 4);
+  g_assert_cmpint((int)spore_object_number(body, "role"), ==, SPORE_UNMOVABLE);
   assert_one_step(fixture, before);
 }
 
@@ -118,6 +119,7 @@ static void test_set_model(Fixture *fixture, gconstpointer data) {
   g_assert_true(spore_edit_set_model(fixture->document, body, "mass_spring_net", &error));
   g_assert_cmpstr(spore_object_type(spore_edit_body_model(body))->element, ==, "mass_spring_net");
   g_assert_cmpstr(spore_object_text(spore_object_child_of(body, "mechanical"), "geometry"), ==, "my_organ");
+  g_assert_cmpint((int)spore_object_number(body, "role"), ==, SPORE_PASSIVE);
   assert_one_step(fixture, before);
   g_autofree char *net = text_of(fixture);
   g_assert_false(spore_edit_set_model(fixture->document, body, "no_such_model", &error));
@@ -127,6 +129,7 @@ static void test_set_model(Fixture *fixture, gconstpointer data) {
   g_assert_cmpstr(kept, ==, net);
   g_assert_true(spore_edit_set_model(fixture->document, body, "", &error));
   g_assert_null(spore_edit_body_model(body));
+  g_assert_cmpint((int)spore_object_number(body, "role"), ==, SPORE_UNMOVABLE);
 }
 
 static void test_probe_and_pin(Fixture *fixture, gconstpointer data) {
@@ -315,7 +318,8 @@ static void test_player_follows_edits(Fixture *fixture, gconstpointer data) {
 static void count_failure(SporePlayer *player, const char *message, guint *count) { (*count)++; }
 
 static void test_player_refuses(Fixture *fixture, gconstpointer data) {
-  add_organ(fixture); /* passive, without a model */
+  SporeObject *body = add_organ(fixture);
+  g_assert_true(spore_document_set_text(fixture->document, body, "role", "passive", NULL)); /* without a model */
   g_autoptr(SporePlayer) player = spore_player_new(fixture->editor);
   guint failures = 0;
   g_signal_connect(player, "failed", G_CALLBACK(count_failure), &failures);

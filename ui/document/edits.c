@@ -174,8 +174,17 @@ static const char *geometry_for(SporeDocument *document, SporeObject *body, Spor
   return NULL;
 }
 
+/* A model makes an unmovable body passive, and it is unmovable again without one; what a device moves stays active. */
+static gboolean set_role(SporeDocument *document, SporeObject *body, SporeRole role, GError **error) {
+  if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE) return TRUE;
+  guint property = (guint)spore_parameter_find(spore_object_type(body)->table, "role");
+  return role == SPORE_PASSIVE ? spore_document_unset(document, body, property, error)
+                               : spore_document_set_text(document, body, "role", "unmovable", error);
+}
+
 static gboolean set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error) {
   SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  if (!set_role(document, body, *model ? SPORE_PASSIVE : SPORE_UNMOVABLE, error)) return FALSE;
   if (*model == '\0') return !mechanical || spore_document_remove(document, mechanical, error);
   if (!mechanical) mechanical = spore_document_insert(document, body, "mechanical", NULL, G_MAXUINT, error);
   if (!mechanical) return FALSE;

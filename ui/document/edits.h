@@ -24,8 +24,8 @@ gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, c
                                    const char *source_hash, gsize cells, const SporeTetrahedralMesh *mesh,
                                    GError **error);
 
-/* Gives the body a mechanical model of that element, on the geometry it asks for where the body has it; "" takes the
- * mechanical unit away. */
+/* Gives the body a mechanical model of that element and so makes it passive, on the geometry it asks for where the body
+ * has it; "" takes the mechanical unit away. */
 gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error);
 /* Element of the body's model, or NULL. */
 SporeObject *spore_edit_body_model(SporeObject *body);
