@@ -86,11 +86,25 @@ static gboolean decode_in_helper(const char *place, SporeMeshFormat format, cons
   return done;
 }
 
-/* Checks what came, brings it to metres and SPORE's axes, and welds it. */
+/* A surface without border, each edge of which two triangles share, has an outside: triangles that look inward are
+ * turned. Others are left as they are: nothing says where their outside is. */
+static bool turn_outward(SporeTriangleMesh *mesh, SporeError *error) {
+  SporeMeshReport report;
+  if (!spore_triangle_mesh_report(mesh, &report, error)) return false;
+  if (report.boundary_edges + report.nonmanifold_edges > 0) return true;
+  gsize size = 3 * mesh->triangle_count * sizeof *mesh->triangles;
+  g_autofree uint32_t *before = g_memdup2(mesh->triangles, size);
+  if (!spore_triangle_mesh_orient(mesh, error)) return false;
+  mesh->reoriented = memcmp(before, mesh->triangles, size) != 0;
+  return true;
+}
+
+/* Checks what came, brings it to metres and SPORE's axes, welds it and turns it outward. */
 static gboolean finish(const char *place, int unit, int frame, SporeTriangleMesh *mesh, GError **error) {
   apply_unit_and_frame(mesh, unit, frame);
   SporeError failure = SPORE_ERROR_INIT;
-  if (!spore_triangle_mesh_validate(mesh, &failure) || !spore_triangle_mesh_weld(mesh, WELD, &failure)) {
+  if (!spore_triangle_mesh_validate(mesh, &failure) || !spore_triangle_mesh_weld(mesh, WELD, &failure) ||
+      !turn_outward(mesh, &failure)) {
     spore_error_at(&failure, place);
     return spore_error_propagate(&failure, error);
   }

@@ -17,7 +17,8 @@ extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
 
 /* Decodes STL, OBJ, PLY, OFF, glTF (embedded) or GLB; by content, the extension of `file` only breaks ties. OFF is read
  * here; the rest by assimp in a helper process that may open no file, reach no network and outlive no time limit.
- * All sub-meshes are joined, their node transforms applied; then validated, welded (1e-6), unit and frame applied.
+ * All sub-meshes are joined, their node transforms applied; then validated, welded (1e-6), turned outward, unit
+ * and frame applied.
  * place (usually the path) begins every message. Cancelled by progress. */
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error);

@@ -13,6 +13,7 @@ typedef struct SporeTriangleMesh {
   size_t vertex_count, triangle_count;
   double *vertices;    /* vertex_count x 3 */
   uint32_t *triangles; /* triangle_count x 3, counter-clockwise seen from outside */
+  bool reoriented;     /* so only since it was read: its file has some the other way round */
 } SporeTriangleMesh;
 
 typedef struct SporeTetrahedralMesh {

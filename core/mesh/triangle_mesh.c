@@ -18,6 +18,7 @@ bool spore_triangle_mesh_copy(SporeTriangleMesh *to, const SporeTriangleMesh *fr
   if (!spore_triangle_mesh_allocate(to, from->vertex_count, from->triangle_count, error)) return false;
   if (from->vertex_count) memcpy(to->vertices, from->vertices, 3 * from->vertex_count * sizeof(double));
   if (from->triangle_count) memcpy(to->triangles, from->triangles, 3 * from->triangle_count * sizeof(uint32_t));
+  to->reoriented = from->reoriented;
   return true;
 }
 

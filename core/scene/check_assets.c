@@ -41,6 +41,10 @@ static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error
   SporeError fault = SPORE_ERROR_INIT;
   if (!spore_triangle_mesh_report(mesh, &report, &fault)) return spore_error_propagate(&fault, error);
   check_size(check, asset, report.diagonal);
+  if (mesh->reoriented)
+    spore_check_say(check, SPORE_NOTE, asset, _("nothing, or export it again, facing outward"),
+                    _("\"%s\" faces inward in its file, wholly or in part: its triangles are turned outward"),
+                    spore_object_name(asset));
   if (!report.closed && spore_check_is_used(check, asset, "mechanical|spheres|tetrahedra")) /* more than drawn */
     spore_check_say(
         check, SPORE_NOTE, asset, _("tetrahedra can still be generated: the surface is repaired or wrapped then"),

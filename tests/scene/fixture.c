@@ -63,6 +63,9 @@ static const char open_off[] =
 static const char cube_off[] =
     "OFF\n8 12 0\n" CORNERS "3 0 3 2\n3 0 2 1\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n3 2 3 7\n3 2 "
     "7 6\n3 1 2 6\n3 1 6 5\n3 0 4 7\n3 0 7 3\n";
+static const char inside_off[] =
+    "OFF\n8 12 0\n" CORNERS
+    "3 0 2 3\n3 0 1 2\n3 4 6 5\n3 4 7 6\n3 0 5 1\n3 0 4 5\n3 2 7 3\n3 2 6 7\n3 1 6 2\n3 1 5 6\n3 0 7 4\n3 0 3 7\n";
 static const char large_off[] =
     "OFF\n4 4 0\n0 0 0\n100 0 0\n0 100 0\n100 100 100\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 static const char cube_mesh[] =
@@ -74,6 +77,7 @@ char *fixture_scene_folder_new(const char *scene) {
   char *folder = fixture_folder_new();
   g_free(fixture_write(folder, "cube.off", cube_off));
   g_free(fixture_write(folder, "open.off", open_off));
+  g_free(fixture_write(folder, "inside.off", inside_off));
   g_free(fixture_write(folder, "large.off", large_off));
   g_free(fixture_write(folder, "cube.mesh", cube_mesh));
   g_free(fixture_write(folder, "ball.spheres", "# one\n0 0 0 0.05\n"));

@@ -129,6 +129,11 @@ static const Mistake mistakes[] = {
            "source=\"o\"/></assets>\n"
            "<bodies>\n<body name=\"floor\" role=\"unmovable\">" BALL "<visual mesh=\"o\"/></body></bodies>\n"),
      {"note 2:9: \"o\" is not a closed surface: 4 open"}},
+    {"inside-out",
+     SCENE("<assets><mesh name=\"i\" file=\"inside.off\"/><spheres name=\"ball\" file=\"ball.spheres\" "
+           "source=\"i\"/></assets>\n"
+           "<bodies>\n<body name=\"floor\" role=\"unmovable\">" BALL "<visual mesh=\"i\"/></body></bodies>\n"),
+     {"note 2:9: \"i\" faces inward in its file"}},
     {"stale",
      SCENE(
          "<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\" source=\"cube\" "
