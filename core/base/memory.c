@@ -65,28 +65,3 @@ void spore_free(void *memory) {
 uint64_t spore_allocation_count(void) { return atomic_load(&allocation_count); }
 
 void spore_allocation_fail_at(uint64_t n) { atomic_store(&allocations_until_failure, n); }
-
-bool spore_arena_reserve(SporeArena *arena, size_t bytes) {
-  if (bytes <= arena->capacity) return true;
-  unsigned char *memory = spore_allocate(bytes, 1);
-  if (!memory) return false;
-  spore_free(arena->memory);
-  arena->memory = memory;
-  arena->capacity = bytes;
-  return true;
-}
-
-void *spore_arena_take(SporeArena *arena, size_t count, size_t size) {
-  size_t bytes, end;
-  if (!padded_size(count, size, &bytes) || __builtin_add_overflow(arena->used, bytes, &end)) return NULL;
-  if (end > arena->high_water) arena->high_water = end;
-  if (end > arena->capacity) return NULL;
-  void *block = arena->memory + arena->used;
-  arena->used = end;
-  return block;
-}
-
-void spore_arena_clear(SporeArena *arena) {
-  spore_free(arena->memory);
-  *arena = (SporeArena){0};
-}

@@ -21,18 +21,4 @@ uint64_t spore_allocation_count(void);
 /* For tests. The n-th allocation from now (1 = the next) gives NULL; 0 switches it off. */
 void spore_allocation_fail_at(uint64_t n);
 
-/* Arena: scratch memory of a step. Blocks are taken with spore_arena_take and given back all together by
- * releasing a mark. It never grows inside a step: a take that does not fit returns NULL and is remembered in
- * high_water, and spore_arena_reserve between steps makes room. */
-typedef struct SporeArena {
-  unsigned char *memory;
-  size_t capacity, used, high_water; /* bytes */
-} SporeArena;
-
-bool spore_arena_reserve(SporeArena *arena, size_t bytes);            /* only when nothing is taken; false: no memory */
-void *spore_arena_take(SporeArena *arena, size_t count, size_t size); /* not zeroed, aligned to 64 */
-static inline size_t spore_arena_mark(const SporeArena *arena) { return arena->used; }
-static inline void spore_arena_release(SporeArena *arena, size_t mark) { arena->used = mark; }
-void spore_arena_clear(SporeArena *arena); /* frees everything */
-
 #endif

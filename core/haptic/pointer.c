@@ -14,10 +14,8 @@ typedef struct Moment {
 
 typedef struct SporePointer {
   SporeDevice device;
-  SporeTriple target_buffer, command_buffer;
+  SporeTriple target_buffer;
   SporeDeviceState targets[3];
-  SporeDeviceCommand commands[3];
-  bool commanded; /* the setting thread's own */
 
   /* The simulation's own. The moment before the last is kept because a step may be taken again from there. */
   bool has_target, has_moment;
@@ -47,10 +45,6 @@ static void glide(SporePointer *pointer, double time_s) {
 static bool pointer_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
                              SporeDeviceState *state) {
   SporePointer *pointer = (SporePointer *)device;
-  if (command) {
-    pointer->commands[pointer->command_buffer.writing] = *command;
-    spore_triple_publish(&pointer->command_buffer);
-  }
   if (spore_triple_acquire(&pointer->target_buffer)) pointer->has_target = true;
   if (!pointer->has_target) return false;
   if (!pointer->has_moment || time_s < pointer->before.time_s) jump(pointer, time_s);
@@ -68,7 +62,7 @@ SporeDevice *spore_pointer_device_create(void) {
   SporePointer *pointer = SPORE_NEW(SporePointer);
   if (!pointer) return NULL;
   pointer->device.type = &pointer_type;
-  pointer->target_buffer = pointer->command_buffer = SPORE_TRIPLE_INIT;
+  pointer->target_buffer = SPORE_TRIPLE_INIT;
   return &pointer->device;
 }
 
@@ -79,17 +73,9 @@ void spore_pointer_device_set(SporeDevice *device, const SporeDeviceState *state
   spore_triple_publish(&pointer->target_buffer);
 }
 
-bool spore_pointer_device_command(SporeDevice *device, SporeDeviceCommand *command) {
-  SporePointer *pointer = (SporePointer *)device;
-  if (!pointer) return false;
-  if (spore_triple_acquire(&pointer->command_buffer)) pointer->commanded = true;
-  if (pointer->commanded) *command = pointer->commands[pointer->command_buffer.reading];
-  return pointer->commanded;
-}
-
 void spore_pointer_device_release(SporeDevice *device) {
   SporePointer *pointer = (SporePointer *)device;
   if (!pointer) return;
-  pointer->target_buffer = pointer->command_buffer = SPORE_TRIPLE_INIT;
-  pointer->has_target = pointer->has_moment = pointer->commanded = false;
+  pointer->target_buffer = SPORE_TRIPLE_INIT;
+  pointer->has_target = pointer->has_moment = false;
 }

@@ -13,8 +13,6 @@
 SporeDevice *spore_pointer_device_create(void);
 /* Where to be; velocities are ignored: they follow from the glide. From one thread at a time. */
 void spore_pointer_device_set(SporeDevice *device, const SporeDeviceState *state);
-/* The force that the simulation last told the device; false: none yet. From the same thread as set. */
-bool spore_pointer_device_command(SporeDevice *device, SporeDeviceCommand *command);
 /* Forgets what was set: it says nothing again. Only while neither side uses it. */
 void spore_pointer_device_release(SporeDevice *device);
 

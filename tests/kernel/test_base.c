@@ -98,30 +98,6 @@ static void test_injected_failure(void) {
   spore_free(block);
 }
 
-static void test_arena(void) {
-  SporeArena arena = {0};
-  g_assert_null(spore_arena_take(&arena, 10, 8));
-  g_assert_cmpuint(arena.high_water, ==, 128);
-  g_assert_true(spore_arena_reserve(&arena, 512));
-  size_t mark = spore_arena_mark(&arena);
-  unsigned char *a = spore_arena_take(&arena, 10, 8), *b = spore_arena_take(&arena, 1, 1);
-  g_assert_cmpuint((uintptr_t)a % 64, ==, 0);
-  g_assert_cmpuint((uintptr_t)b % 64, ==, 0);
-  g_assert_true(b >= a + 80);
-  g_assert_null(spore_arena_take(&arena, 512, 1));
-  g_assert_null(spore_arena_take(&arena, SIZE_MAX, 2));
-  g_assert_cmpuint(arena.high_water, ==, 128 + 64 + 512);
-  spore_arena_release(&arena, mark);
-  g_assert_true(spore_arena_take(&arena, 1, 1) == a);
-  spore_arena_release(&arena, mark);
-  g_assert_true(spore_arena_reserve(&arena, arena.high_water));
-  g_assert_nonnull(spore_arena_take(&arena, arena.capacity, 1));
-  spore_arena_clear(&arena);
-  g_assert_cmpuint(arena.capacity, ==, 0);
-  spore_allocation_fail_at(1);
-  g_assert_false(spore_arena_reserve(&arena, 64));
-}
-
 static void check_number(double value) {
   char text[SPORE_NUMBER_TEXT];
   int length = spore_number_format(value, text);
@@ -351,7 +327,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/base/allocate", test_allocate);
   g_test_add_func("/base/reallocate", test_reallocate);
   g_test_add_func("/base/injected-failure", test_injected_failure);
-  g_test_add_func("/base/arena", test_arena);
   g_test_add_func("/base/number", test_number);
   g_test_add_func("/base/number-in-other-locale", test_number_in_other_locale);
   g_test_add_func("/base/name", test_name);

@@ -204,10 +204,7 @@ static void test_pointer(void) {
   SporeDevice *device = spore_pointer_device_create();
   g_assert_cmpstr(device->type->name, ==, "pointer");
   SporeDeviceState state, target = at(1, 0, 0);
-  SporeDeviceCommand command;
-  g_assert_false(spore_pointer_device_command(device, &command));
   g_assert_false(ask(device, 0, &state));
-  g_assert_true(spore_pointer_device_command(device, &command));
   spore_pointer_device_set(device, &target);
   g_assert_true(ask(device, 0.001, &state)); /* the first time it is there at once */
   g_assert_cmpfloat(state.position[0], ==, 1);
@@ -226,14 +223,11 @@ static void test_pointer(void) {
     if (i == 13) g_assert_cmpfloat(fabs(2 - before - exp(-0.012 / SPORE_POINTER_GLIDE_S)), <, 1e-9);
   }
   g_assert_cmpfloat(2 - before, <, 1e-6);
-  g_assert_true(spore_pointer_device_command(device, &command));
-  g_assert_cmpfloat(command.force[0], ==, 0.199);
   spore_pointer_device_release(device);
   g_assert_false(ask(device, 0, &state));
   device->type->close(device);
   spore_pointer_device_set(NULL, &target);
   spore_pointer_device_release(NULL);
-  g_assert_false(spore_pointer_device_command(NULL, &command));
   spore_allocation_fail_at(1);
   g_assert_null(spore_pointer_device_create());
 }
