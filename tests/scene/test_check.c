@@ -207,6 +207,13 @@ static const Mistake mistakes[] = {
            "file=\"away.spheres\"/></assets>\n"
            "<bodies>\n" FLOOR STAND "</bodies>\n"),
      {"note 5:74: 1 of the 2 spheres of \"stone\" lie away from its geometry"}},
+    {"spheres-far",
+     SCENE("<assets><spheres name=\"ball\" file=\"far.spheres\"/><tetrahedra name=\"cells\" "
+           "file=\"cube.mesh\"/></assets>\n"
+           "<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><corotational_tetrahedra/></mechanical>" BALL
+           "</body></bodies>\n"),
+     {"warning 5:88: 1 of the 2 spheres of \"organ\" lie away from its geometry, and follow it as on a lever: up to "}},
     {"cannot-run",
      SCENE(ASSETS "<bodies>\n" FLOOR
                   "<body name=\"stone\"><mechanical geometry=\"cube\"><corotational_tetrahedra/></mechanical>" BALL
