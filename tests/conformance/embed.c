@@ -7,7 +7,7 @@
 static SporeModel *make_stone(SporeError *error) {
   static double corners[] = {0, 0, 0, .02, 0, 0, 0, .02, 0, 0, 0, .02};
   static uint32_t faces[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-  SporeTriangleMesh mesh = {4, 4, corners, faces};
+  SporeTriangleMesh mesh = {.vertex_count = 4, .triangle_count = 4, .vertices = corners, .triangles = faces};
   SporeGeometry geometry = {.surface = &mesh};
   const SporeModelType *type = spore_model_type_find(spore_model_registry, "rigid_body");
   void *fields = spore_allocate(1, type->parameters.size);
