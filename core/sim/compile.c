@@ -258,6 +258,7 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   world->best_v = SPORE_NEW_ARRAY(double, v);
   world->scratch = spore_allocate(v / 3, world->scratch_per_block * sizeof(double));
   world->reaction = SPORE_NEW_ARRAY(double, 6 * n);
+  world->frames = SPORE_NEW_ARRAY(double, SPORE_FRAME_DOUBLES *n);
   world->parent = SPORE_NEW_ARRAY(uint32_t, n);
   world->island_of = SPORE_NEW_ARRAY(uint32_t, n);
   world->island_bodies = SPORE_NEW_ARRAY(uint32_t, n);
@@ -267,7 +268,7 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   bool made = world->target_q && world->mass && world->mass_inverse && world->precondition && world->block_stiffness &&
               world->local_q0 && world->local_q1 && world->local_v0 && world->local_v1 && world->scratch &&
               world->reaction && world->parent && world->island_of && world->island_bodies && world->islands &&
-              world->local_sites && world->commands.ring && world->still && world->best_q && world->best_v &&
-              allocate_history(world);
+              world->local_sites && world->frames && world->commands.ring && world->still && world->best_q &&
+              world->best_v && allocate_history(world);
   return made || no_memory(error);
 }

@@ -33,12 +33,16 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   if (terms) world->contacts = terms;
   SporeCoupling *couplings = spore_reallocate(world->contact_couplings, old, wanted, sizeof *couplings);
   if (couplings) world->contact_couplings = couplings;
+  size_t bodies = world->body_count; /* each island may leave lanes empty */
+  SporeContactLanes *lanes = spore_reallocate(world->contact_lanes, old ? spore_lanes_for(old) + bodies : 0,
+                                              spore_lanes_for(wanted) + bodies, sizeof *lanes);
+  if (lanes) world->contact_lanes = lanes;
   SporeFelt *felt = spore_reallocate(world->felt, old, wanted, sizeof *felt);
   if (felt) world->felt = felt;
   bool gripped = spore_grips_reserve(world, old, wanted);
   uint32_t *order = spore_reallocate(world->contact_order, old, wanted, sizeof *order);
   if (order) world->contact_order = order;
-  if (!terms || !couplings || !felt || !gripped || !order) return false;
+  if (!terms || !couplings || !lanes || !felt || !gripped || !order) return false;
   world->contact_capacity = wanted;
   world->missed = 0;
   return true;

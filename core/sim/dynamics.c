@@ -17,8 +17,7 @@ static void add_body_forces(const SporeGroup *group, const double *q, const doub
 }
 
 static void add_term_forces(const SporeGroup *group, const double *q, const double *v, double *f) {
-  for (size_t i = 0; i < group->island->contact_count; i++)
-    spore_contact_term_force(spore_group_contact(group, i), group->world->local_sites, q, v, f);
+  spore_group_add_contact_forces(group, q, v, f);
   for (size_t i = 0; i < group->island->spring_count; i++)
     spore_spring_term_force(spore_group_spring(group, i), group->world->local_sites, q, v, f);
 }
@@ -122,9 +121,11 @@ static SporeSoftening softening(double h, bool resolved, double inverse_mass, do
 
 static bool soften(void *data, double h, bool resolved) {
   const SporeVec3 none = {0, 0, 0};
-  const SporeGroup *group = data;
+  SporeGroup *group = data;
   const SporeWorld *world = group->world;
   if (group->island->contact_count + group->island->spring_count == 0) return false;
+  if (group->softened_s == h) return true;
+  group->softened_s = h;
   double *counts = spore_group_precondition_blocks(group); /* free: only implicit steps precondition */
   count_terms(group, counts);
   for (size_t i = 0; i < group->island->contact_count; i++) {
@@ -138,6 +139,7 @@ static bool soften(void *data, double h, bool resolved) {
         end_inverse_mass(world, &term->a, none, NULL, counts) + end_inverse_mass(world, &term->b, none, NULL, counts);
     term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
   }
+  spore_group_soften_lanes(group);
   return true;
 }
 
@@ -151,12 +153,6 @@ bool spore_group_resolves_contacts(const SporeGroup *group, double h) {
     if (!resolves(h, inverse_mass, term->law.stiffness, term->law.damping)) return false;
   }
   return true;
-}
-
-void spore_group_harden(SporeGroup *group) {
-  const SporeSoftening none = {0, 0, 0};
-  for (size_t i = 0; i < group->island->contact_count; i++) spore_group_contact(group, i)->softening = none;
-  for (size_t i = 0; i < group->island->spring_count; i++) spore_group_spring(group, i)->softening = none;
 }
 
 static void term_force(void *data, const double *q, const double *v, double *f) {
@@ -289,6 +285,7 @@ static bool is_held(const SporeGroup *group) {
 }
 
 SporeDynamics spore_group_dynamics(SporeGroup *group) {
+  spore_group_lay_contacts(group);
   return (SporeDynamics){.data = group,
                          .q_count = group->island->q_count,
                          .block_count = group->island->v_count / 3,

@@ -103,6 +103,12 @@ static inline void spore_group_filter(const SporeGroup *group, double *vector) {
   }
 }
 
+/* contact_lanes.c: terms are as stiff as they are, and contacts lie in lanes; adds the forces of all contacts; takes
+ * over how the terms were softened. */
+void spore_group_lay_contacts(SporeGroup *group);
+void spore_group_add_contact_forces(const SporeGroup *group, const double *q, const double *v, double *f);
+void spore_group_soften_lanes(const SporeGroup *group);
+
 /* linearise.c: the slots of SporeDynamics that stand for A = M + c D + c2 K. */
 void spore_group_linearise(void *data, const double *q, const double *v, double c, double c2);
 bool spore_group_reuse(void *data, const double *q, const double *v, double c, double c2);

@@ -30,7 +30,6 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
   /* What one method remembers says nothing to another. */
   SporeHistory none = {0}, *history = kind == island->integrator ? &island->history : &none;
   if (kind != island->integrator) island->history.step_s = 0;
-  spore_group_harden(&group);
   SporeStepResult total = {.converged = true};
   SporeSolverFields fields = world->solver;
   if (effort) effort->given_up = false;
@@ -48,6 +47,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
     spore_step_result_add(&total, &result);
     if (effort && !go_on(effort, &result)) break;
   }
+  spore_group_keep_contacts(&group);
   return total;
 }
 

@@ -106,11 +106,13 @@ static void set_starts(SporeWorld *world) {
     SporeIsland *island = &world->islands[i];
     island->body_start = end.body_start;
     island->contact_start = end.contact_start;
+    island->lanes_start = end.lanes_start;
     island->spring_start = end.spring_start;
     island->q_start = end.q_start;
     island->v_start = end.v_start;
     end.body_start += island->body_count;
     end.contact_start += island->contact_count;
+    end.lanes_start += spore_lanes_for(island->contact_count);
     end.spring_start += island->spring_count;
     end.q_start += island->q_count;
     end.v_start += island->v_count;

@@ -150,7 +150,6 @@ SporeStepResult spore_island_advance_mixed(SporeWorld *world, SporeIsland *islan
   SporeStepResult total = {.converged = true};
   const double *q0 = island->q0, *v0 = island->v0;
   double *v = mixed.q + 2 * island->v_count;
-  spore_group_harden(&group);
   for (size_t part = 0; part < mixed.parts; part++) {
     if (part > 0) {
       q0 = memcpy(mixed.q, island->q1, island->q_count * sizeof *q0);
@@ -160,6 +159,7 @@ SporeStepResult spore_island_advance_mixed(SporeWorld *world, SporeIsland *islan
     SporeStepResult result = advance_part(&mixed, &group, q0, v0);
     spore_step_result_add(&total, &result);
   }
+  spore_group_keep_contacts(&group);
   return total;
 }
 

@@ -168,20 +168,22 @@ INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *
 
 /* What is left of N when the ends alone take a step in which N' presses: the law at the gap speed and depth that it
  * leads to, less N'. */
-static double unbalanced(const SporeContactTerm *term, double depth, double gap_speed, double pressing) {
-  double faster = term->softening.inverse_mass * term->softening.h * pressing;
-  return spore_contact_normal(&term->law, depth - term->softening.ahead * faster, gap_speed + faster).force - pressing;
+static double unbalanced(const SporeContactLaw *law, double ahead, double faster, double depth, double gap_speed,
+                         double pressing) {
+  double change = faster * pressing;
+  return spore_contact_normal(law, depth - ahead * change, gap_speed + change).force - pressing;
 }
 
-/* Normal force N of one implicit step of the two ends alone, 0..most: it falls with the gap speed that it leads to, so
- * false position (the Illinois variant) closes in on it. */
-static double implicit_pressing(const SporeContactTerm *term, double depth, double gap_speed, double most) {
-  double low = 0, high = most;
-  double above = unbalanced(term, depth, gap_speed, low), below = unbalanced(term, depth, gap_speed, high);
+/* It falls with the gap speed that it leads to, so false position (the Illinois variant) closes in on it. */
+double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
+                                       double gap_speed, double most) {
+  double low = 0, high = most, above = unbalanced(law, ahead, faster, depth, gap_speed, low);
+  double below = unbalanced(law, ahead, faster, depth, gap_speed, high);
   if (!(above > 0)) return low;
   if (!(below < 0)) return high;
   for (int i = 0, side = 0; i < 40 && high - low > 1e-9 * most; i++) {
-    double middle = low + (high - low) * above / (above - below), value = unbalanced(term, depth, gap_speed, middle);
+    double middle = low + (high - low) * above / (above - below);
+    double value = unbalanced(law, ahead, faster, depth, gap_speed, middle);
     if (value > 0) {
       low = middle, above = value;
       if (side == 1) below *= 0.5;
@@ -207,7 +209,7 @@ static void soften_contact(SporeContactTerm *term, const SporeContactState *stat
   SporeContactNormal law = spore_contact_normal(&term->law, state->depth, gap_speed);
   double pressing = term->pressing / (1 + w * h * (law.damping + softening->ahead * law.stiffness));
   if (gap_speed + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
-    pressing = implicit_pressing(term, state->depth, gap_speed, pressing);
+    pressing = spore_contact_implicit_pressing(&term->law, softening->ahead, w * h, state->depth, gap_speed, pressing);
   term->pressing = term->yield = pressing;
   term->force = spore_vec3_scale(pressing, n);
   if (!(term->law.friction > 0)) return;

@@ -36,6 +36,10 @@ typedef struct SporeSoftening {
 } SporeSoftening;
 
 SporeSoftening spore_softening(double h, double inverse_mass, double stiffness);
+/* Normal force N, 0..most, of one implicit step of the two ends alone from a depth (m) and a gap speed; ahead: t, and
+ * faster: w h, of the softening. */
+double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
+                                       double gap_speed, double most);
 
 typedef struct SporeContactTerm {
   SporeEnd a, b; /* sphere centres */

@@ -44,6 +44,8 @@ static void free_arrays(SporeWorld *world) {
                     world->springs,
                     world->spring_active,
                     world->contact_couplings,
+                    world->contact_lanes,
+                    world->frames,
                     world->spring_couplings,
                     world->parent,
                     world->island_of,

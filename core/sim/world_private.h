@@ -15,6 +15,7 @@
 #include "core/haptic/guard.h"
 #include "core/integrate/integrator.h"
 #include "core/linalg/block_cholesky.h"
+#include "core/sim/contact_lanes.h"
 #include "core/sim/coupling.h"
 #include "core/sim/world.h"
 
@@ -116,6 +117,7 @@ typedef struct SporeBody {
 typedef struct SporeIsland {
   size_t body_start, body_count;             /* in island_bodies */
   size_t contact_start, contact_count;       /* in contact_order */
+  size_t lanes_start;                        /* in contact_lanes */
   size_t spring_start, spring_count;         /* in spring_order */
   size_t q_start, q_count, v_start, v_count; /* in the local vectors */
   /* From where to where a step takes it: see spore_island_gather. */
@@ -253,8 +255,10 @@ struct SporeWorld {
   double *reach;   /* a sphere: its radius as the grid sees it, m */
   SporeFelt *felt; /* contact_capacity: what comes of the contacts found */
   SporeContactTerm *contacts;
-  size_t grip_count;             /* what friction held at the end of the last step, in the order of the pairs */
-  SporeGrip *grips, *kept_grips; /* kept_grips: scratch */
+  SporeContactLanes *contact_lanes; /* room for those of all islands */
+  double *frames;                   /* SPORE_FRAME_DOUBLES a body: of rigid ones, at the last evaluation */
+  size_t grip_count;                /* what friction held at the end of the last step, in the order of the pairs */
+  SporeGrip *grips, *kept_grips;    /* kept_grips: scratch */
   size_t link_count, port_count;
   SporeLink *links;
   SporePort *ports;
@@ -418,14 +422,17 @@ typedef struct SporeGroup {
   bool apart;            /* explicit bodies are masses alone: see mixed.c */
   double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
   size_t contact_couplings, spring_couplings; /* of the current A, first in their arrays: see fold.h */
+  bool frames;           /* some contacts are evaluated by the frames of rigid bodies */
+  double softened_s;     /* the step that terms are softened for; 0: they are not */
 } SporeGroup;
 /* Motion of a body free of force; q1 and v1 may be q0 and v. */
 void spore_body_drift(const SporeBody *body, const double *q0, const double *v, double h, double *q1, double *v1);
 SporeDynamics spore_group_dynamics(SporeGroup *group);
 /* Whether a step of h seconds is short for all contacts of the island. */
 bool spore_group_resolves_contacts(const SporeGroup *group, double h);
-/* Takes away the softening that an explicit step before has left on the island's terms. */
-void spore_group_harden(SporeGroup *group);
+/* contact_lanes.c: when the island's forces were evaluated for the last time: what its contacts came to, into the
+ * terms. */
+void spore_group_keep_contacts(const SporeGroup *group);
 /* Mass and its inverse at q, the body's own. */
 /* Mass and its inverse at the world's q; and after that, of a frame that has turned. */
 void spore_body_set_mass(SporeWorld *world, const SporeBody *body);

@@ -1,0 +1,195 @@
+#include "core/sim/contact_lanes.h"
+
+#include "core/sim/group.h"
+
+static SporeContactLanes *group_lanes(const SporeGroup *group, size_t i) {
+  return &group->world->contact_lanes[group->island->lanes_start + i];
+}
+
+static size_t lanes_count(const SporeGroup *group) { return spore_lanes_for(group->island->contact_count); }
+
+/* Contacts that lie in the i-th lanes. */
+static size_t count_in(const SporeGroup *group, size_t i) {
+  size_t left = group->island->contact_count - i * SPORE_LANES;
+  return left < SPORE_LANES ? left : SPORE_LANES;
+}
+
+/* How the ends of a contact are evaluated; `kind`: of the ends before. */
+static SporeLanesKind join_kind(const SporeGroup *group, const SporeEnd *end, bool field, SporeLanesKind kind) {
+  if (field) return SPORE_LANES_APART;
+  if (end->prescribed) return kind;
+  SporeLanesKind its = SPORE_LANES_APART;
+  if (end->mapping->kind == SPORE_MAPPING_RIGID) its = SPORE_LANES_FRAMES;
+  else if (end->mapping->kind == SPORE_MAPPING_IDENTITY && group->world->local_sites[end->body].q % 3 == 0)
+    its = SPORE_LANES_NODES;
+  return kind == its ? kind : SPORE_LANES_APART;
+}
+
+static SporeLanesKind kind_of(const SporeGroup *group, size_t first, size_t count) {
+  const SporeContactTerm *term = spore_group_contact(group, first);
+  const SporeEnd *moving = term->a.prescribed ? &term->b : &term->a;
+  bool frames = !moving->prescribed && moving->mapping->kind == SPORE_MAPPING_RIGID;
+  SporeLanesKind kind = frames ? SPORE_LANES_FRAMES : SPORE_LANES_NODES;
+  for (size_t i = first; i < first + count; i++) {
+    term = spore_group_contact(group, i);
+    kind = join_kind(group, &term->a, term->field_a, kind);
+    kind = join_kind(group, &term->b, term->field_b, kind);
+  }
+  return kind;
+}
+
+static void set_lane(SporeLaneVector *vector, size_t k, SporeVec3 value) {
+  vector->x[k] = value.x, vector->y[k] = value.y, vector->z[k] = value.z;
+}
+
+static SporeVec3 lane_of(const SporeLaneVector *vector, size_t k) {
+  return (SporeVec3){vector->x[k], vector->y[k], vector->z[k]};
+}
+
+static void fill_end(const SporeGroup *group, const SporeEnd *end, SporeVec3 arm, SporeVec3 frame_arm,
+                     SporeLaneEnd *lanes, size_t k) {
+  set_lane(&lanes->start, k, end->position);
+  lanes->moves[k] = end->prescribed ? 0 : -1;
+  lanes->at[k] = lanes->v_node[k] = 0;
+  lanes->v[k] = SPORE_LANE_FIXED;
+  bool turns = !end->prescribed && end->mapping->kind == SPORE_MAPPING_RIGID;
+  const SporeVec3 none = {0, 0, 0};
+  set_lane(&lanes->point, k, turns ? spore_vec3_load(end->mapping->points + 3 * (size_t)end->point) : none);
+  set_lane(&lanes->arm, k, turns ? arm : none);
+  set_lane(&lanes->frame_arm, k, turns ? frame_arm : none);
+  if (end->prescribed) return;
+  const SporeSite *site = &group->world->local_sites[end->body];
+  uint32_t node = turns ? 0 : end->point;
+  lanes->v[k] = lanes->v_node[k] = (uint32_t)(site->v / 3) + node;
+  lanes->at[k] = turns ? SPORE_FRAME_DOUBLES / 3 * end->body : (uint32_t)(site->q / 3) + node;
+}
+
+static void fill_lane(const SporeGroup *group, const SporeContactTerm *term, SporeContactLanes *lanes, size_t k) {
+  fill_end(group, &term->a, term->arm_a, term->frame_arm_a, &lanes->a, k);
+  fill_end(group, &term->b, term->arm_b, term->frame_arm_b, &lanes->b, k);
+  set_lane(&lanes->normal, k, term->normal);
+  SporeVec3 none = {0, 0, 0}, driven = term->a.prescribed ? term->a.velocity : none;
+  set_lane(&lanes->driven, k, term->b.prescribed ? spore_vec3_sub(driven, term->b.velocity) : driven);
+  set_lane(&lanes->stretch, k, term->stretch);
+  lanes->depth[k] = term->depth;
+  lanes->stiffness[k] = term->law.stiffness;
+  lanes->damping[k] = term->law.damping;
+  lanes->damping_depth[k] = term->law.damping_depth;
+  lanes->friction[k] = term->law.friction;
+  lanes->ahead[k] = lanes->faster[k] = 0;
+  lanes->rubs |= term->law.friction > 0;
+}
+
+/* A lane that feels nothing and reads what the first one reads. */
+static void empty_lane(SporeContactLanes *lanes, size_t k) {
+  SporeLaneEnd *ends[2] = {&lanes->a, &lanes->b};
+  const SporeVec3 none = {0, 0, 0};
+  for (int e = 0; e < 2; e++) {
+    ends[e]->at[k] = ends[e]->v_node[k] = 0;
+    ends[e]->moves[k] = 0;
+    set_lane(&ends[e]->start, k, none);
+    set_lane(&ends[e]->point, k, none);
+    set_lane(&ends[e]->arm, k, none);
+    set_lane(&ends[e]->frame_arm, k, none);
+  }
+  set_lane(&lanes->normal, k, none);
+  set_lane(&lanes->driven, k, none);
+  set_lane(&lanes->stretch, k, none);
+  lanes->depth[k] = lanes->stiffness[k] = lanes->damping[k] = lanes->friction[k] = 0;
+  lanes->ahead[k] = lanes->faster[k] = 0;
+  lanes->damping_depth[k] = 1;
+}
+
+static void harden(const SporeGroup *group) {
+  const SporeSoftening none = {0, 0, 0};
+  for (size_t i = 0; i < group->island->contact_count; i++) spore_group_contact(group, i)->softening = none;
+  for (size_t i = 0; i < group->island->spring_count; i++) spore_group_spring(group, i)->softening = none;
+}
+
+void spore_group_lay_contacts(SporeGroup *group) {
+  harden(group);
+  group->softened_s = 0;
+  group->frames = false;
+  for (size_t i = 0; i < lanes_count(group); i++) {
+    SporeContactLanes *lanes = group_lanes(group, i);
+    size_t first = i * SPORE_LANES, count = count_in(group, i);
+    lanes->kind = kind_of(group, first, count);
+    lanes->count = (uint32_t)count;
+    lanes->rubs = lanes->softened = false;
+    if (lanes->kind == SPORE_LANES_APART) continue;
+    group->frames |= lanes->kind == SPORE_LANES_FRAMES;
+    for (size_t k = 0; k < count; k++) fill_lane(group, spore_group_contact(group, first + k), lanes, k);
+    for (size_t k = count; k < SPORE_LANES; k++) empty_lane(lanes, k);
+  }
+}
+
+void spore_group_soften_lanes(const SporeGroup *group) {
+  for (size_t i = 0; i < lanes_count(group); i++) {
+    SporeContactLanes *lanes = group_lanes(group, i);
+    lanes->softened = false;
+    for (size_t k = 0; k < lanes->count; k++) {
+      const SporeSoftening *softening = &spore_group_contact(group, i * SPORE_LANES + k)->softening;
+      lanes->ahead[k] = softening->ahead;
+      lanes->faster[k] = softening->inverse_mass * softening->h;
+      lanes->softened |= softening->inverse_mass > 0;
+    }
+  }
+}
+
+void spore_group_keep_contacts(const SporeGroup *group) {
+  for (size_t i = 0; i < lanes_count(group); i++) {
+    const SporeContactLanes *lanes = group_lanes(group, i);
+    if (lanes->kind == SPORE_LANES_APART) continue;
+    for (size_t k = 0; k < lanes->count; k++) {
+      SporeContactTerm *term = spore_group_contact(group, i * SPORE_LANES + k);
+      term->force = lane_of(&lanes->force, k);
+      term->pressing = lanes->pressing[k];
+      term->yield = lanes->yield[k];
+    }
+  }
+}
+
+static void find_frames(const SporeGroup *group, const double *q, const double *v) {
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_group_body(group, b, &site);
+    if (body->spheres.kind != SPORE_MAPPING_RIGID) continue;
+    double *frame = group->world->frames + SPORE_FRAME_DOUBLES * (size_t)(body - group->world->bodies);
+    SporeMat3 rotation = spore_quat_to_mat3(spore_quat_load(q + site->q + 3));
+    memcpy(frame, rotation.m, sizeof rotation.m);
+    memcpy(frame + 9, q + site->q, 3 * sizeof *q);
+    memcpy(frame + 12, v + site->v, 6 * sizeof *v);
+  }
+}
+
+static void scatter(const SporeLaneEnd *end, size_t k, bool turns, SporeVec3 force, double *f) {
+  if (end->v[k] == SPORE_LANE_FIXED) return;
+  double *local = f + 3 * (size_t)end->v[k];
+  spore_vec3_accumulate(local, force);
+  if (turns) spore_vec3_accumulate(local + 3, spore_vec3_cross(lane_of(&end->lever, k), force));
+}
+
+/* In the order of the contacts, so that the sums are the same at any width. */
+static void scatter_lanes(const SporeContactLanes *lanes, double *f) {
+  bool turns = lanes->kind == SPORE_LANES_FRAMES;
+  for (size_t k = 0; k < lanes->count; k++) {
+    SporeVec3 force = lane_of(&lanes->force, k);
+    scatter(&lanes->a, k, turns, force, f);
+    scatter(&lanes->b, k, turns, spore_vec3_scale(-1, force), f);
+  }
+}
+
+void spore_group_add_contact_forces(const SporeGroup *group, const double *q, const double *v, double *f) {
+  if (group->frames) find_frames(group, q, v);
+  for (size_t i = 0; i < lanes_count(group); i++) {
+    SporeContactLanes *lanes = group_lanes(group, i);
+    if (lanes->kind == SPORE_LANES_APART) {
+      for (size_t k = 0; k < lanes->count; k++)
+        spore_contact_term_force(spore_group_contact(group, i * SPORE_LANES + k), group->world->local_sites, q, v, f);
+      continue;
+    }
+    const double *at = lanes->kind == SPORE_LANES_FRAMES ? group->world->frames : q;
+    SPORE_KERNEL(spore_contact_lanes_force)(lanes, at, v, group->now_s);
+    scatter_lanes(lanes, f);
+  }
+}
