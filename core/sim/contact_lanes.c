@@ -100,15 +100,28 @@ static void empty_lane(SporeContactLanes *lanes, size_t k) {
   lanes->damping_depth[k] = 1;
 }
 
-static void harden(const SporeGroup *group) {
+static bool is_driven(const SporeEnd *end) {
+  return end->prescribed && spore_vec3_dot(end->velocity, end->velocity) > 0;
+}
+
+static void begin_terms(SporeGroup *group) {
   const SporeSoftening none = {0, 0, 0};
-  for (size_t i = 0; i < group->island->contact_count; i++) spore_group_contact(group, i)->softening = none;
-  for (size_t i = 0; i < group->island->spring_count; i++) spore_group_spring(group, i)->softening = none;
+  group->softened_s = 0;
+  group->driven = false;
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    SporeContactTerm *term = spore_group_contact(group, i);
+    term->softening = none;
+    group->driven |= is_driven(&term->a) || is_driven(&term->b);
+  }
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    SporeSpringTerm *term = spore_group_spring(group, i);
+    term->softening = none;
+    group->driven |= is_driven(&term->a) || is_driven(&term->b);
+  }
 }
 
 void spore_group_lay_contacts(SporeGroup *group) {
-  harden(group);
-  group->softened_s = 0;
+  begin_terms(group);
   group->frames = false;
   for (size_t i = 0; i < lanes_count(group); i++) {
     SporeContactLanes *lanes = group_lanes(group, i);

@@ -170,6 +170,7 @@ static void set_time(void *data, double elapsed_s) {
   double at_s = group->start_s + elapsed_s;
   if (at_s == group->now_s) return;
   group->now_s = at_s;
+  if (!group->driven) return;
   for (size_t i = 0; i < group->island->contact_count; i++) {
     SporeContactTerm *term = spore_group_contact(group, i);
     move_end(&term->a, at_s);

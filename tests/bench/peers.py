@@ -273,6 +273,13 @@ def bench_pile(build, work):
         label = f"{mine['integrator']}, {answer['contacts']} contacts, its {other['contacts']}"
         yield row("pile", label, 1e6 * ours * 0.002, "us", floor=1e6 * f.seconds(1400 * 150 + 500 * 200), peer_name=peer.name,
                   peer=1e6 * others * 0.002, error_ours=answer["depth"], error_peer=other["depth"], least=least)
+    falling = {"time": 0.2, "steps": 100, "settle": 100}
+    mine = {**falling, "stiffness": 2e5, "damping": 20, **PILE_CANDIDATES[-1]}
+    for peer in f.bullet:
+        ours, others, answer, other = race("pile", f.ours, mine, peer, falling)
+        label = f"while it falls, {mine['integrator']}, {answer['contacts']} contacts, its {other['contacts']}"
+        yield row("pile", label, 1e6 * ours * 0.002, "us", peer_name=peer.name, peer=1e6 * others * 0.002, error_ours=answer["depth"],
+                  error_peer=other["depth"])
 
 
 BENCHES = {"cloth": bench_cloth, "rope": bench_rope, "bar": bench_bar, "pile": bench_pile}
