@@ -422,9 +422,9 @@ typedef struct SporeGroup {
   bool apart;            /* explicit bodies are masses alone: see mixed.c */
   double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
   size_t contact_couplings, spring_couplings; /* of the current A, first in their arrays: see fold.h */
-  bool driven;           /* some end is moved by a device */
-  bool frames;           /* some contacts are evaluated by the frames of rigid bodies */
-  double softened_s;     /* the step that terms are softened for; 0: they are not */
+  bool driven;                                /* some end is moved by a device */
+  bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
+  double softened_s;                          /* the step that terms are softened for; 0: they are not */
 } SporeGroup;
 /* Motion of a body free of force; q1 and v1 may be q0 and v. */
 void spore_body_drift(const SporeBody *body, const double *q0, const double *v, double h, double *q1, double *v1);
