@@ -39,9 +39,9 @@ static double jacobian_work(const SporeBody *body) {
   return JACOBIAN_WORK * body->matrix.row_start[body->matrix.block_count];
 }
 
-double spore_body_linearisation_work(const SporeBody *body) {
-  return jacobian_work(body) + FACTOR_WEIGHT * body->factor.factor_flops;
-}
+static double factor_work(const SporeBody *body) { return FACTOR_WEIGHT * body->factor.factor_flops; }
+
+double spore_body_linearisation_work(const SporeBody *body) { return jacobian_work(body) + factor_work(body); }
 
 double spore_body_iteration_work(const SporeBody *body) {
   return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
@@ -100,8 +100,8 @@ static double expected_with(const SporeBody *body, const SporeStepResult *result
 }
 
 /* What it took with a factor, and what it would take without, by the conjugate gradients of then. */
-static double work_with(const SporeBody *body, const SporeStepResult *result) {
-  return (double)result->linearisations * spore_body_linearisation_work(body) +
+static double work_with(const SporeBody *body, const SporeStepResult *result, uint32_t factors) {
+  return (double)result->linearisations * jacobian_work(body) + factors * factor_work(body) +
          (double)result->linear_iterations * (solve_work(body) + product_work(body));
 }
 
@@ -136,9 +136,26 @@ static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepR
   if (choice->keep < KEEP_MAXIMUM) choice->keep += (choice->keep + 1) / 2;
 }
 
+/* Among couplings Newton makes a new matrix in every iteration, but keeps the factor as long as the conjugate gradients
+ * that its age costs are less work than a new one. */
+static void judge_kept_factor(SporeBody *body, const SporeStepResult *result) {
+  SporeFactorChoice *choice = &body->choice;
+  if (!body->factor_kept || result->newton_iterations == 0) return;
+  double iterations = (double)result->newton_iterations, linear = (double)result->linear_iterations / iterations;
+  if (choice->factors > 0) {
+    choice->linear = linear;
+    choice->debt = 0;
+    return;
+  }
+  choice->debt += fmax(linear - choice->linear, 0) * iterations * (solve_work(body) + product_work(body));
+  if (choice->debt > factor_work(body) || result->unsolved > 0) body->factor_kept = false;
+}
+
 /* alone: no contact or link couples bodies, for which a factor would be no start of Broyden's. */
 static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result, bool alone) {
   SporeFactorChoice *choice = &body->choice;
+  uint32_t factors = choice->factors;
+  choice->factors = 0;
   if (alone && choice->factorised && is_banded(body)) return;
   if (choice->needed) {
     /* What once did not converge without a factor may do now; where not, that step is taken again. */
@@ -150,7 +167,7 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   if (result->newton_iterations == 0) return; /* at rest: nothing to learn */
   double iterations = (double)result->linear_iterations / (double)result->newton_iterations;
   bool broyden = alone && world->solver.nonlinear != SPORE_NONLINEAR_NEWTON;
-  choice->present += choice->factorised ? work_with(body, result) : work_without(body, result);
+  choice->present += choice->factorised ? work_with(body, result, factors) : work_without(body, result);
   choice->other += choice->factorised ? expected_without(body, result) : expected_with(body, result, broyden);
   choice->steps++;
   if (++choice->votes >= choice->patience) {
@@ -179,6 +196,7 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
     if (body->factor.block_count == 0) continue;
     if (island->mixed && !spore_integrator(body->integrator)->implicit) continue; /* its matrix was not asked for */
     judge_age(world, body, result);
+    judge_kept_factor(body, result);
     if (world->solver.linear != SPORE_LINEAR_AUTOMATIC) continue;
     if (result->unsolved > 0 && !choice->factorised) {
       change(body, 0);

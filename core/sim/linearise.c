@@ -60,6 +60,8 @@ static void factorise(SporeBody *body, const double *blocks, bool alone) {
   body->factor_alone = alone;
   body->factor_ready =
       spore_block_cholesky_factorise(&body->factor, &body->matrix, blocks, body->held_flags, may_round);
+  body->factor_kept = body->factor_ready && !alone;
+  body->choice.factors++;
 }
 
 /* Root mean square of the eigenvalues of A - M in each diagonal block. */
@@ -71,6 +73,8 @@ static void measure_stiffness(const double *blocks, const double *mass, size_t c
   }
 }
 
+/* Among couplings conjugate gradients make up for what a factor does not know, so that one of an earlier matrix does as
+ * long as it does well: see factor.c. Alone it is all there is. */
 static void make_preconditioner(SporeGroup *group) {
   bool alone = group->contact_couplings + group->spring_couplings == 0;
   double *blocks = spore_group_precondition_blocks(group);
@@ -87,7 +91,8 @@ static void make_preconditioner(SporeGroup *group) {
     measure_stiffness(blocks + 3 * site->v, spore_group_mass(group, body), body->block_count,
                       block_stiffness(group) + site->v / 3);
     bool current = body->factor_ready && body->factor_alone && alone;
-    if (!body->choice.factorised || !spore_group_assembles(group, body)) body->factor_ready = false;
+    if (!body->choice.factorised || !spore_group_assembles(group, body)) body->factor_ready = body->factor_kept = false;
+    else if (body->factor_kept && !alone) body->factor_ready = true;
     else if (!current) factorise(body, blocks + 3 * site->v, alone);
   }
   spore_blocks_invert(blocks, group->island->v_count / 3);
@@ -105,6 +110,7 @@ static void assemble(const SporeGroup *group, SporeBody *body, const double *q, 
     for (int e = 0; e < 9; e++) block[e] += inertia * mass[9 * i + e];
   }
   body->factor_ready = false;
+  body->factor_kept &= body->matrix_c == c && body->matrix_c2 == c2;
   body->matrix_c = c;
   body->matrix_c2 = c2;
   body->matrix_step = group->world->step;

@@ -47,6 +47,9 @@ typedef struct SporeFactorChoice {
   uint32_t keep;            /* steps that a linearisation is kept */
   uint32_t calm, trial;     /* steps that this went well; after how many it may be kept longer */
   double fresh, excess;     /* iterations of a step with a new one; what those since then took above that */
+  uint32_t factors;         /* made in the present step */
+  double linear, debt; /* among couplings: conjugate gradients a Newton iteration with a new factor; their work above
+                          that since it was made */
 } SporeFactorChoice;
 
 /* Energy of a body in explicit steps: see energy_watch.c. J. */
@@ -98,7 +101,8 @@ typedef struct SporeBody {
   SporeBlockCholesky factor; /* without blocks: not worth it for this body */
   uint8_t *held_flags;       /* a block, for the factor */
   SporeFactorChoice choice;
-  bool factor_ready, factor_alone; /* the factor is that of the current A; no couplings were in it */
+  bool factor_ready, factor_alone; /* the factor is that of the current A, or kept; no couplings were in it */
+  bool factor_kept;                /* among couplings: it preconditions later matrices of the same c and c2 too */
 
   /* What its integrator remembers of the step before, see SporeHistory: by which method, and for which step alone. */
   SporeIntegratorKind history_kind;
