@@ -6,6 +6,7 @@
 #include "core/nonlinear/line_search.h"
 
 #define LOAD_STEPS_MAXIMUM 16
+#define PARTS_EFFORT 4          /* of the iterations that the load as a whole may take */
 #define PSEUDO_STEP_MAXIMUM 1e5 /* of h: beyond it inertia is nothing beside stiffness */
 #define GROWTH_MINIMUM 3.0
 #define GROWTH_MAXIMUM 100.0
@@ -59,6 +60,11 @@ static void change_pseudo_step(Balance *balance, double length, double before, d
   balance->pseudo_step = fmin(balance->pseudo_step * factor, PSEUDO_STEP_MAXIMUM * balance->h);
 }
 
+/* Over all parts of the load. */
+static size_t most_iterations(const SporeSolverFields *fields) {
+  return PARTS_EFFORT * (size_t)fields->newton_iterations;
+}
+
 /* To balance at one load, from `base`. False: not reached. scratch: rest, d, r, trial, trial_r, and those of the linear
  * solver. */
 static bool balance_load(Balance *balance, const SporeSolverFields *fields, double wanted, double *scratch,
@@ -77,7 +83,7 @@ static bool balance_load(Balance *balance, const SporeSolverFields *fields, doub
     result->residual = wanted > 0 ? norm / scale(balance) / wanted : norm;
     if (!isfinite(norm)) return false;
     if (norm <= fields->tolerance * wanted * scale(balance)) return true;
-    if (i == fields->newton_iterations) break;
+    if (i == fields->newton_iterations || result->newton_iterations == most_iterations(fields)) break;
     double c2 = balance->pseudo_step * balance->pseudo_step;
     dynamics->linearise(dynamics->data, balance->q, balance->moved, c2 / balance->h, c2);
     result->linearisations++;
@@ -124,6 +130,7 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
   double wanted = fmax(dual_norm(&balance, balance.start), dynamics->gravity_momentum);
   SporeStepResult result = {.force_evaluations = 1};
   for (int parts = 1; parts <= LOAD_STEPS_MAXIMUM && !result.converged; parts *= 2) {
+    if (result.newton_iterations == most_iterations(fields)) break;
     memcpy(balance.base, q0, dynamics->q_count * sizeof *q0);
     memset(balance.moved, 0, n * sizeof *balance.moved);
     dynamics->set_mass(dynamics->data, q0);

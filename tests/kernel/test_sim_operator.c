@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/linalg/pcg.h"
 #include "core/sim/world_private.h"
 #include "tests/kernel/chain_model.h"
 
@@ -202,6 +203,40 @@ static void test_folded(void) {
   spore_world_free(world);
 }
 
+/* Among couplings the factor of an earlier matrix of the same c and c2 stays, until it is given up or they change. */
+static void test_kept_factor(void) {
+  SporeWorld *world = make();
+  SporeIsland *island = &world->islands[0];
+  SporeGroup group = {world, island};
+  SporeDynamics dynamics = spore_group_dynamics(&group);
+  const double *v = island->v0, c = 0.03;
+  double q[N], shifted[N], r[N] = {0}, first[N], later[N], solved[N], back[N], scratch[SPORE_PCG_SCRATCH * N];
+  memcpy(q, island->q0, sizeof q);
+  memcpy(shifted, q, sizeof q);
+  for (int i = 0; i < N; i++) shifted[i] += 0.02 * sin(i), r[i] = i >= 9 && i < 12 ? 0 : cos(i);
+  for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = true;
+  dynamics.linearise(dynamics.data, q, v, c, 0.002);
+  g_assert_cmpuint(group.contact_couplings, >, 0);
+  dynamics.precondition(dynamics.data, r, first);
+  dynamics.linearise(dynamics.data, shifted, v, c, 0.002);
+  dynamics.precondition(dynamics.data, r, later);
+  g_assert_cmpmem(first, sizeof first, later, sizeof later);
+  for (int b = 0; b < 2; b++) g_assert_cmpuint(world->bodies[b].choice.factors, ==, 1);
+  /* A itself is that of the present. */
+  SporeLinearOperator operator= {dynamics.data, N, dynamics.multiply, dynamics.precondition};
+  SporeLinearResult result = spore_pcg(&operator, r, 1e-10, 100, solved, scratch);
+  g_assert_cmpint(result.status, ==, SPORE_LINEAR_CONVERGED);
+  world->bodies[0].factor_kept = false;
+  dynamics.linearise(dynamics.data, shifted, v, c, 0.002);
+  g_assert_cmpuint(world->bodies[0].choice.factors, ==, 2);
+  g_assert_cmpuint(world->bodies[1].choice.factors, ==, 1);
+  dynamics.multiply(dynamics.data, solved, back);
+  for (int i = 0; i < N; i++) g_assert_cmpfloat_with_epsilon(back[i], r[i], 1e-7);
+  dynamics.linearise(dynamics.data, shifted, v, c, 0.003);
+  for (int b = 0; b < 2; b++) g_assert_cmpuint(world->bodies[b].choice.factors, ==, 3 - b);
+  spore_world_free(world);
+}
+
 #define STIFF_CHAINS 3
 #define WIDE (SPORE_BAND_WIDEST + 1)
 
@@ -277,6 +312,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/sim/operator/preconditioner", test_preconditioner);
   g_test_add_func("/sim/operator/factor", test_factor);
   g_test_add_func("/sim/operator/folded", test_folded);
+  g_test_add_func("/sim/operator/kept-factor", test_kept_factor);
   g_test_add_func("/sim/operator/choice", test_choice);
   return g_test_run();
 }
