@@ -22,6 +22,7 @@ typedef struct Net {
   double *rest; /* node_count x 3, body's frame */
   SporeTriangleMesh mesh;
   SporeSprings springs[KINDS];
+  SporeSpringsWhole whole[KINDS]; /* where something may cut it */
 } Net;
 
 static const SporeParameter parameters[] = {
@@ -47,7 +48,10 @@ static bool no_memory(SporeError *error) {
 static void destroy(SporeModel *model) {
   Net *net = (Net *)model;
   spore_triangle_mesh_clear(&net->mesh);
-  for (int kind = 0; kind < KINDS; kind++) spore_springs_clear(&net->springs[kind]);
+  for (int kind = 0; kind < KINDS; kind++) {
+    spore_springs_clear(&net->springs[kind]);
+    spore_springs_forget(&net->whole[kind]);
+  }
   spore_model_clear(&net->base);
   spore_free(net);
 }
@@ -170,6 +174,28 @@ static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   return true;
 }
 
+static bool prepare_cut(SporeModel *model) {
+  Net *net = (Net *)model;
+  bool kept = true;
+  for (int kind = 0; kind < KINDS && !net->whole[kind].neighbour; kind++)
+    kept = kept && spore_springs_keep(&net->springs[kind], &net->whole[kind]);
+  return kept;
+}
+
+static size_t cut(SporeModel *model, const double *q, const double *triangle) {
+  const SporeVec3 corners[3] = {spore_vec3_load(triangle), spore_vec3_load(triangle + 3),
+                                spore_vec3_load(triangle + 6)};
+  size_t count = 0;
+  for (int kind = 0; kind < KINDS; kind++) count += spore_springs_cut(&((Net *)model)->springs[kind], q, corners);
+  return count;
+}
+
+static void mend(SporeModel *model) {
+  Net *net = (Net *)model;
+  for (int kind = 0; kind < KINDS; kind++)
+    if (net->whole[kind].neighbour) spore_springs_restore(&net->springs[kind], &net->whole[kind]);
+}
+
 const SporeModelType spore_mass_spring_net = {
     .name = "mass_spring_net",
     .label = N_("Mass-spring net"),
@@ -188,4 +214,7 @@ const SporeModelType spore_mass_spring_net = {
     .pattern = pattern,
     .jacobian = jacobian,
     .retune = retune,
+    .prepare_cut = prepare_cut,
+    .cut = cut,
+    .mend = mend,
 };

@@ -5,6 +5,7 @@
 #include "core/base/threads.h"
 #include "core/linalg/block_matrix.h"
 #include "core/math/simd.h"
+#include "core/math/vec3.h"
 
 /* A spring between nodes at distance l pulls with stiffness (l - length) along the line between them, and damps the
  * speed of that distance. Where the nodes meet and there is no line, it works along that of rest.
@@ -61,5 +62,17 @@ static inline double spore_springs_potential(const SporeSprings *springs, const 
 void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
                             const double *shape, double stiffness_scale, double damping_scale,
                             SporeBlockMatrix *matrix);
+
+/* springs_cut.c: springs may be cut, and be made whole again. */
+typedef struct SporeSpringsWhole { /* as they were */
+  uint32_t *neighbour, *block;
+  double *length;
+  bool *is_run;
+} SporeSpringsWhole;
+bool spore_springs_keep(const SporeSprings *springs, SporeSpringsWhole *whole); /* false: no memory; forget it then */
+void spore_springs_restore(SporeSprings *springs, const SporeSpringsWhole *whole);
+void spore_springs_forget(SporeSpringsWhole *whole);
+/* Cuts those that cross the triangle at q; returns their number. */
+size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3]);
 
 #endif

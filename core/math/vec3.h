@@ -46,4 +46,17 @@ static inline SporeVec3 spore_vec3_transport(SporeVec3 across, SporeVec3 from, S
   return spore_vec3_add_scaled(turned, spore_vec3_dot(axis, across) / (1 + cosine), axis);
 }
 
+/* Six times the signed volume of a tetrahedron. */
+static inline double spore_vec3_volume(SporeVec3 a, SporeVec3 b, SporeVec3 c, SporeVec3 d) {
+  return spore_vec3_dot(spore_vec3_cross(spore_vec3_sub(b, a), spore_vec3_sub(c, a)), spore_vec3_sub(d, a));
+}
+
+/* Whether the segment from p to r goes through the triangle; the same from either end. */
+static inline bool spore_vec3_crosses(SporeVec3 p, SporeVec3 r, SporeVec3 a, SporeVec3 b, SporeVec3 c) {
+  double before = spore_vec3_volume(a, b, c, p), behind = spore_vec3_volume(a, b, c, r);
+  if (!(before * behind < 0)) return false;
+  double u = spore_vec3_volume(p, r, a, b), v = spore_vec3_volume(p, r, b, c), w = spore_vec3_volume(p, r, c, a);
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
 #endif

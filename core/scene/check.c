@@ -97,7 +97,7 @@ gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object,
 }
 
 /* Elements of the tools that move a body. */
-#define TOOLS "probe|grasper|clamp|suction"
+#define TOOLS "probe|grasper|clamp|scissors|suction"
 
 /* Bodies. */
 
@@ -162,6 +162,8 @@ static void check_tool(SporeCheck *check, SporeObject *tool) {
     spore_check_say(check, SPORE_WARNING, tool, _("name a mouse or a track"),
                     _("the tool \"%s\" has no device: nothing moves it"), name);
   if (spore_parameter_find(spore_object_type(tool)->table, "jaw_a") < 0) return;
+  if (strcmp(element, "scissors") == 0 && !spore_object_text(tool, "jaw_a") && !spore_object_text(tool, "jaw_b"))
+    return;
   check_jaw(check, tool, "jaw_a");
   check_jaw(check, tool, "jaw_b");
 }
@@ -172,6 +174,18 @@ static void check_emitter(SporeCheck *check, SporeObject *emitter) {
   if (!spore_object_text(emitter, "body"))
     spore_check_say(check, SPORE_FAULT, emitter, _("name a fluid of particles, or remove the emitter"),
                     _("nothing comes out of the emitter \"%s\": it has no body"), spore_object_name(emitter));
+}
+
+/* Scissors that nothing can be cut by. */
+static void check_scissors(SporeCheck *check, SporeObject *scissors) {
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    const SporeObject *mechanical = spore_object_child_of(spore_object_child(bodies, i), "mechanical");
+    if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
+    if (spore_object_type(spore_object_child(mechanical, 0))->model->cut) return;
+  }
+  spore_check_say(check, SPORE_NOTE, scissors, _("make what is to be cut a mass_spring_net, or the tool a grasper"),
+                  _("\"%s\" has nothing to cut: no body has a model that can be"), spore_object_name(scissors));
 }
 
 /* Suction without a fluid. */
@@ -205,6 +219,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
     spore_check_say(&check, SPORE_NOTE, NULL, _("import a mesh, or add a body"), "%s", _("the scene has no bodies"));
   spore_check_each(&check, "bodies", NULL, check_body);
   spore_check_each(&check, "tools", NULL, check_tool);
+  spore_check_each(&check, "tools", "scissors", check_scissors);
   spore_check_each(&check, "tools", "suction", check_suction);
   spore_check_each(&check, "effects", "emitter", check_emitter);
   spore_check_links(&check);

@@ -299,6 +299,7 @@ static gboolean add_jaws(Compiler *compiler, const SporeObject *object, SporeToo
                                .kind = kind,
                                .hinge = spore_vec3_load(fields.hinge),
                                .axis = spore_vec3_load(fields.axis),
+                               .point = spore_vec3_load(fields.tip),
                                .jaws = fields.jaws};
   if (!body_index(compiler, object, "body", &tool.body) || !body_index(compiler, object, "jaw_a", &tool.jaw_a) ||
       !body_index(compiler, object, "jaw_b", &tool.jaw_b))
@@ -336,6 +337,7 @@ static gboolean add_tool(Compiler *compiler, const SporeObject *object) {
   const char *element = spore_object_type(object)->element;
   if (strcmp(element, "grasper") == 0) return add_jaws(compiler, object, SPORE_TOOL_GRASPER);
   if (strcmp(element, "clamp") == 0) return add_jaws(compiler, object, SPORE_TOOL_CLAMP);
+  if (strcmp(element, "scissors") == 0) return add_jaws(compiler, object, SPORE_TOOL_SCISSORS);
   if (strcmp(element, "suction") == 0) return add_suction(compiler, object);
   return TRUE;
 }

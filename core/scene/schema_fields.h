@@ -87,7 +87,7 @@ typedef struct SporeLinkFields {
 } SporeLinkFields;
 
 typedef struct SporeCameraFields {
-  const char *name;
+  const char *name, *body;
   double position[3], target[3], field_of_view;
 } SporeCameraFields;
 
@@ -95,10 +95,10 @@ typedef struct SporeProbeFields {
   const char *name, *body, *device;
 } SporeProbeFields;
 
-/* Of a grasper or clamp. */
+/* Of a grasper, clamp or scissors. */
 typedef struct SporeJawToolFields {
   const char *name, *body, *device, *jaw_a, *jaw_b;
-  double hinge[3], axis[3];
+  double hinge[3], axis[3], tip[3]; /* tip: of scissors */
   SporeJawFields jaws;
 } SporeJawToolFields;
 

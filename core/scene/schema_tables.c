@@ -490,6 +490,13 @@ static const SporeParameter port_parameters[] = {
 
 static const SporeParameter camera_parameters[] = {
     NAME(SporeCameraFields, N_("Name of the camera.")),
+    {.name = "body",
+     .type = SPORE_REFERENCE,
+     .unit = "",
+     .references = "body",
+     FIELD(SporeCameraFields, body),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Body that the camera moves with, such as an endoscope, rigid or active; none: it stands still.")},
     {.name = "position",
      .type = SPORE_VECTOR,
      .unit = "m",
@@ -498,7 +505,7 @@ static const SporeParameter camera_parameters[] = {
      .initial = {0, 0, 0.3},
      FIELD(SporeCameraFields, position),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Where the camera stands.")},
+     .doc = N_("Where the camera stands, with its body at the start.")},
     {.name = "target",
      .type = SPORE_VECTOR,
      .unit = "m",
@@ -506,7 +513,7 @@ static const SporeParameter camera_parameters[] = {
      .maximum = POSITION_M,
      FIELD(SporeCameraFields, target),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("What it looks at; up is the scene's y.")},
+     .doc = N_("What it looks at, with its body at the start; up is the scene's y.")},
     {.name = "field_of_view",
      .type = SPORE_REAL,
      .unit = "rad",
@@ -545,16 +552,22 @@ static const SporeParameter probe_parameters[] = {
     TOOL_DEVICE(SporeProbeFields),
 };
 
-static const SporeParameter jaw_tool_parameters[] = {
-    NAME(SporeJawToolFields, N_("Name of the tool.")),
-    TOOL_BODY(SporeJawToolFields, body, N_("Active body that the tool moves: the shaft.")),
-    TOOL_DEVICE(SporeJawToolFields),
-    TOOL_BODY(SporeJawToolFields, jaw_a, N_("Active body of the first jaw, where it is when closed.")),
-    TOOL_BODY(SporeJawToolFields, jaw_b, N_("Active body of the second jaw, where it is when closed.")),
-    TOOL_PLACE(SporeJawToolFields, hinge, N_("Where the jaws are hinged at the start, in the scene.")),
-    TOOL_DIRECTION(SporeJawToolFields, axis,
-                   N_("Axis of the hinge at the start, in the scene: the first jaw opens by turning about it, the "
-                      "second against it.")),
+#define JAW_TOOL                                                                                                       \
+  NAME(SporeJawToolFields, N_("Name of the tool.")),                                                                   \
+      TOOL_BODY(SporeJawToolFields, body, N_("Active body that the tool moves: the shaft.")),                          \
+      TOOL_DEVICE(SporeJawToolFields),                                                                                 \
+      TOOL_BODY(SporeJawToolFields, jaw_a, N_("Active body of the first jaw, where it is when closed.")),              \
+      TOOL_BODY(SporeJawToolFields, jaw_b, N_("Active body of the second jaw, where it is when closed.")),             \
+      TOOL_PLACE(SporeJawToolFields, hinge, N_("Where the jaws are hinged at the start, in the scene.")),              \
+      TOOL_DIRECTION(SporeJawToolFields, axis,                                                                         \
+                     N_("Axis of the hinge at the start, in the scene: the first jaw opens by turning about it, the "  \
+                        "second against it."))
+
+static const SporeParameter jaw_tool_parameters[] = {JAW_TOOL};
+
+static const SporeParameter scissors_parameters[] = {
+    JAW_TOOL,
+    TOOL_PLACE(SporeJawToolFields, tip, N_("Where the blades end at the start, closed, in the scene.")),
 };
 
 static const SporeParameter suction_parameters[] = {
@@ -651,12 +664,16 @@ const SporeElement spore_scene_elements[] = {
      TABLE(emitter_parameters, SporeWoundFields), .extra = &spore_emitter_parameters,
      .extra_offset = offsetof(SporeWoundFields, emitter)},
     {"tools", N_("Tools"), N_("What the user holds, and looks through."),
-     .children = CHILDREN("probe", "grasper", "clamp", "suction", "camera")},
+     .children = CHILDREN("probe", "grasper", "clamp", "scissors", "suction", "camera")},
     {"probe", N_("Probe"), N_("An active body moved by a device."), TABLE(probe_parameters, SporeProbeFields)},
     {"grasper", N_("Grasper"), N_("Two jaws that close on tissue and hold it."),
      TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
     {"clamp", N_("Clamp"), N_("Two jaws that stay closed on what they took hold of, until the second button."),
      TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
+    {"scissors", N_("Scissors"),
+     N_("Blades that cut nets where they close; jaws are the bodies that are seen and felt of them, and may be left "
+        "out."),
+     TABLE(scissors_parameters, SporeJawToolFields), JAWS},
     {"suction", N_("Suction"), N_("A tube that takes the particles of fluids away."),
      TABLE(suction_parameters, SporeSuctionToolFields), .extra = &spore_suction_parameters,
      .extra_offset = offsetof(SporeSuctionToolFields, suction)},

@@ -83,8 +83,9 @@ static bool active(const SporeWorld *world, uint32_t body) {
 }
 
 const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription *from) {
-  if (!active(world, from->jaw_a) || !active(world, from->jaw_b) || from->jaw_a == from->jaw_b ||
-      from->jaw_a == from->body || from->jaw_b == from->body)
+  bool bare = from->kind == SPORE_TOOL_SCISSORS && from->jaw_a == SPORE_NO_BODY && from->jaw_b == SPORE_NO_BODY;
+  if (!bare && (!active(world, from->jaw_a) || !active(world, from->jaw_b) || from->jaw_a == from->jaw_b ||
+                from->jaw_a == from->body || from->jaw_b == from->body))
     return _("the jaws are not two more active bodies; expected one body for the shaft and one for each jaw; set them");
   if (!spore_vec3_is_finite(from->hinge) || !spore_vec3_is_finite(from->axis) || !(spore_vec3_length(from->axis) > 0))
     return _("the jaws have no axis to turn about; expected a direction; set it");
@@ -106,10 +107,13 @@ bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescript
     SporeJaw *jaw = &tool->jaws[j];
     jaw->body = j ? from->jaw_b : from->jaw_a;
     jaw->side = j ? -1 : 1;
+    if (jaw->body == SPORE_NO_BODY) continue;
     const SporePose *pose = &world->bodies[jaw->body].rest_pose;
     jaw->closed = (SporePose){to_frame(frame, pose->position), spore_quat_multiply(back, pose->orientation)};
   }
   tool->held_at = -1;
+  tool->point = to_frame(frame, from->point);
+  if (!spore_tool_kind_holds(from->kind)) tool->fields.holds = 0;
   tool->holds = SPORE_NEW_ARRAY(SporeHold, (size_t)tool->fields.holds);
   bool made = tool->holds != NULL;
   for (size_t i = 0; made && i < (size_t)tool->fields.holds; i++) {
@@ -200,6 +204,7 @@ void spore_jaws_tear(SporeWorld *world, SporeTool *tool) {
 
 /* Torque about the hinge that opens the jaw, of the last step. */
 static double opening_torque(const SporeWorld *world, const SporeTool *tool, const SporeJaw *jaw) {
+  if (jaw->body == SPORE_NO_BODY) return 0;
   const double *shaft = world->q + world->bodies[tool->body].q_offset;
   const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
   const double *reaction = world->reaction + 6 * (size_t)jaw->body;
@@ -247,13 +252,17 @@ void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
   double wanted = wanted_opening(tool, &body->input, body->has_input);
   tool->squeeze =
       fmax(0, fmax(opening_torque(world, tool, &tool->jaws[0]), opening_torque(world, tool, &tool->jaws[1])));
+  double before = tool->opening;
   bool shut = wanted <= 0 && tool->opening <= 0;
   bool presses = shut ? tool->squeeze > 0 : wanted < tool->opening && tool->squeeze >= HOLD_SHARE * tool->fields.torque;
-  if (presses) hold_touched(world, tool);
+  if (presses && spore_tool_kind_holds(tool->kind)) hold_touched(world, tool);
   if (presses && tool->kind == SPORE_TOOL_CLAMP) tool->latched = true;
   if (tool->held_at >= 0 && wanted > tool->held_at + LET_GO_RAD) spore_jaws_let_go(world, tool);
   tool->opening = next_opening(tool, wanted, world->solver.time_step);
-  for (int j = 0; j < 2; j++) place_jaw(world, tool, &tool->jaws[j]);
+  for (int j = 0; j < 2; j++)
+    if (tool->jaws[j].body != SPORE_NO_BODY) place_jaw(world, tool, &tool->jaws[j]);
+  if (tool->kind == SPORE_TOOL_SCISSORS && tool->opening < before)
+    spore_scissors_cut(world, tool, before, tool->opening);
 }
 
 void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool) {
@@ -261,6 +270,7 @@ void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool) {
   SporeVec3 origin = spore_vec3_load(world->q + world->bodies[tool->body].q_offset);
   for (int j = 0; j < 2; j++) {
     uint32_t jaw = tool->jaws[j].body;
+    if (jaw == SPORE_NO_BODY) continue;
     const double *reaction = world->reaction + 6 * (size_t)jaw;
     SporeVec3 arm = spore_vec3_sub(spore_vec3_load(world->q + world->bodies[jaw].q_offset), origin);
     SporeVec3 force = spore_vec3_load(reaction);

@@ -92,6 +92,13 @@ struct SporeModelType {
   /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none: one at each
    * material point, in their order, so that map gives the identity for their centres. *set: spore_sphere_set_clear. */
   bool (*spheres)(const SporeModel *model, SporeSphereSet *set, SporeError *error);
+  /* Room for what mend needs, when the world has something that cuts; false: no memory. */
+  bool (*prepare_cut)(SporeModel *model);
+  /* Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend. How many ties; allocates
+   * nothing, and the pattern stays. NULL: cannot be cut. */
+  size_t (*cut)(SporeModel *model, const double *q, const double *triangle);
+  /* As it was created. */
+  void (*mend)(SporeModel *model);
   /* What the last evaluation had to mend (translated: cause and remedy), or NULL. Told once a body. */
   const char *(*notice)(const SporeModel *model);
 };

@@ -6,10 +6,10 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-#define PARKING_M 1000.  /* along x; particles beyond half of it are out of the world */
-#define GAP_SPACINGS 10. /* between them, in mean distances of the fluid's particles */
-#define NEAREST 1.1      /* of that distance: as near another a particle may come into the world without being thrown */
-#define TRIES 8          /* places in an emitter's mouth that are looked at in a step, for a particle */
+#define PARKING_M (2 * SPORE_PARTICLES_OUT_M) /* along x */
+#define GAP_SPACINGS 10.                      /* between them, in mean distances of the fluid's particles */
+#define NEAREST 1.1 /* of that distance: as near another a particle may come into the world without being thrown */
+#define TRIES 8     /* places in an emitter's mouth that are looked at in a step, for a particle */
 
 static const char *const suction_triggers[] = {"always", "button", NULL};
 
@@ -63,8 +63,6 @@ static SporeVec3 parking_place(const SporeBody *body, size_t particle) {
   return (SporeVec3){PARKING_M + body->parking_gap * (double)particle, 0, 0};
 }
 
-static bool is_parked(const double *q) { return q[0] > 0.5 * PARKING_M; }
-
 static double spacing(const SporeBody *body) { return body->parking_gap / GAP_SPACINGS; }
 
 /* Room to hold all of its particles, and how far they are apart out of the world. */
@@ -86,7 +84,7 @@ static bool make_parking(SporeWorld *world, SporeBody *body) {
 void spore_body_find_parked(SporeBody *body, const double *q) {
   body->held_count = body->pin_count;
   for (size_t i = 0; i < body->block_count; i++)
-    if (is_parked(q + 3 * i)) body->held[body->held_count++] = (uint32_t)i;
+    if (spore_particle_is_out(q + 3 * i)) body->held[body->held_count++] = (uint32_t)i;
 }
 
 size_t spore_world_particle_count(const SporeWorld *world, uint32_t index) {
@@ -244,7 +242,7 @@ static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDesc
 static void keep_back(SporeWorld *world, SporeBody *body, size_t count) {
   for (size_t i = body->block_count; i-- > 0 && count > 0;) {
     double *q = world->rest_q + body->q_offset + 3 * i;
-    if (is_parked(q)) continue;
+    if (spore_particle_is_out(q)) continue;
     spore_vec3_store(q, parking_place(body, i));
     spore_vec3_store(world->rest_v + body->v_offset + 3 * i, (SporeVec3){0, 0, 0});
     body->held[body->held_count++] = (uint32_t)i;

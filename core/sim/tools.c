@@ -10,15 +10,15 @@
 size_t spore_tools_hold_count(const SporeWorldDescription *description) {
   size_t count = 0;
   for (size_t i = 0; i < description->tool_count; i++)
-    if (description->tools[i].kind != SPORE_TOOL_SUCTION) count += (size_t)description->tools[i].jaws.holds;
+    if (spore_tool_kind_holds(description->tools[i].kind)) count += (size_t)description->tools[i].jaws.holds;
   return count;
 }
 
 static const char *tool_fault(const SporeWorld *world, const SporeToolDescription *from) {
   if (from->body >= world->body_count || world->bodies[from->body].role != SPORE_ACTIVE)
     return _("the tool's body is not active; expected a body that a device moves; choose one");
-  if (from->kind != SPORE_TOOL_SUCTION) return spore_jaws_fault(world, from);
-  return spore_vec3_is_finite(from->point) ? NULL : _("the mouth is nowhere; expected a point in m; correct it");
+  if (!spore_vec3_is_finite(from->point)) return _("a point of the tool is not finite; expected it in m; correct it");
+  return from->kind == SPORE_TOOL_SUCTION ? NULL : spore_jaws_fault(world, from);
 }
 
 static bool make_tool(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
@@ -45,9 +45,10 @@ bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *d
     if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
     SporeTool *tool = &world->tools[world->tool_count++];
     tool->hold_start = hold;
-    if (from->kind != SPORE_TOOL_SUCTION) hold += (size_t)from->jaws.holds;
+    if (spore_tool_kind_holds(from->kind)) hold += (size_t)from->jaws.holds;
     made = make_tool(world, tool, from);
   }
+  made = made && spore_world_compile_cutting(world);
   return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the tools"));
 }
 
@@ -58,7 +59,7 @@ void spore_world_reset_tools(SporeWorld *world) {
     tool->opening = tool->squeeze = 0;
     tool->latched = false;
     tool->due = 0;
-    tool->taken = 0;
+    tool->taken = tool->cut = 0;
   }
 }
 
@@ -79,7 +80,8 @@ size_t spore_world_tool_count(const SporeWorld *world) { return world->tool_coun
 
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
   const SporeTool *tool = &world->tools[index];
-  SporeToolState state = {.name = tool->name, .opening = tool->opening, .squeeze = tool->squeeze, .taken = tool->taken};
+  SporeToolState state = {
+      .name = tool->name, .opening = tool->opening, .squeeze = tool->squeeze, .taken = tool->taken, .cut = tool->cut};
   for (size_t i = 0; i < (size_t)tool->fields.holds; i++) {
     state.held += tool->holds[i].state == SPORE_HOLD_TIED;
     state.lost += tool->holds[i].state == SPORE_HOLD_LOST;

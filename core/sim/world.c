@@ -12,6 +12,7 @@ static void clear_body(SporeBody *body) {
   spore_mapping_clear(&body->spheres);
   spore_depth_field_clear(&body->field);
   spore_free(body->held);
+  spore_free(body->whole_weight);
   spore_block_matrix_clear(&body->matrix);
   spore_block_cholesky_clear(&body->factor);
   spore_free(body->held_flags);
@@ -108,12 +109,11 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   world->solver = description->solver;
   world->gravity = description->gravity;
   world->profile.name = "step";
-  bool made = spore_world_compile_bodies(world, description, error) &&
-              spore_world_compile_spheres(world, description, error) &&
-              spore_world_compile_links(world, description, error) &&
-              spore_world_compile_tools(world, description, error) &&
-              spore_world_compile_particles(world, description, error) && spore_world_compile_factors(world, error) &&
-              spore_world_allocate_vectors(world, error) && spore_world_check_step(world, error);
+  bool made =
+      spore_world_compile_bodies(world, description, error) && spore_world_compile_spheres(world, description, error) &&
+      spore_world_compile_links(world, description, error) && spore_world_compile_tools(world, description, error) &&
+      spore_world_compile_particles(world, description, error) && spore_world_compile_factors(world, error) &&
+      spore_world_allocate_vectors(world, error) && spore_world_check_step(world, error);
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));
@@ -160,6 +160,7 @@ void spore_world_reset(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
   spore_world_mend_links(world);
   spore_world_reset_tools(world);
+  spore_world_mend_bodies(world);
   spore_world_reset_particles(world);
   world->step = 0;
   world->contact_count = world->grip_count = 0;

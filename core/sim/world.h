@@ -92,8 +92,14 @@ typedef struct SporeLinkDescription {
 /* What an instrument does besides being there. Its parts are active bodies: the device moves `body`, the tool the rest.
  *   grasper  two jaws on a hinge close while the device says so, and hold what they press
  *   clamp    the same, and stays closed once it has pressed something, until the second button opens it
+ *   scissors blades on a hinge that cut what they close on: nets, along the way of the blades; they need no jaws
  *   suction  takes the particles of fluids away that come into its mouth */
-typedef enum SporeToolKind { SPORE_TOOL_GRASPER, SPORE_TOOL_CLAMP, SPORE_TOOL_SUCTION } SporeToolKind;
+typedef enum SporeToolKind {
+  SPORE_TOOL_GRASPER,
+  SPORE_TOOL_CLAMP,
+  SPORE_TOOL_SCISSORS,
+  SPORE_TOOL_SUCTION
+} SporeToolKind;
 
 typedef enum SporeTrigger {
   SPORE_TRIGGER_GRIP,  /* opening is the device's grip angle */
@@ -126,10 +132,10 @@ typedef struct SporeToolDescription {
   const char *name;
   SporeToolKind kind;
   uint32_t body;         /* active */
-  uint32_t jaw_a, jaw_b; /* active, without a device; closed at time 0 */
+  uint32_t jaw_a, jaw_b; /* active, without a device; closed at time 0; of scissors SPORE_NO_BODY: none */
   SporeVec3 hinge, axis; /* world, at time 0: jaw_a opens by turning about the axis, jaw_b against it */
   SporeJawFields jaws;   /* of what has jaws */
-  SporeVec3 point;       /* of suction: middle of its mouth, world, at time 0 */
+  SporeVec3 point;       /* of suction: middle of its mouth; of scissors: end of the closed blades; world, at time 0 */
   SporeSuctionFields suction;
 } SporeToolDescription;
 
@@ -222,12 +228,16 @@ typedef struct SporeToolState {
   double squeeze;    /* torque against closing, on the jaw where it is more, N m */
   size_t held, lost; /* spheres that it holds; that tore away since it last opened */
   size_t taken;      /* particles that suction took away so far */
+  size_t cut;        /* ties that scissors cut so far */
 } SporeToolState;
 size_t spore_world_tool_count(const SporeWorld *world);
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
 
-/* Particles of a body that are in the world: not kept back, nor taken away. */
+/* Particles of a body that are in the world: not kept back, nor taken away. Those stand so far off that they are told
+ * by it. */
 size_t spore_world_particle_count(const SporeWorld *world, uint32_t body);
+#define SPORE_PARTICLES_OUT_M 500.
+static inline bool spore_particle_is_out(const double *position) { return position[0] > SPORE_PARTICLES_OUT_M; }
 
 /* Energy, J. */
 typedef struct SporeEnergy {

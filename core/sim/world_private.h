@@ -77,7 +77,8 @@ typedef struct SporeBody {
   double total_mass;     /* kg, of a model */
   uint32_t *held;        /* blocks that pins hold still; behind them particles that are out of the world */
   size_t held_count, pin_count;
-  double parking_gap; /* m, between particles out of the world; 0: none ever are */
+  double *whole_weight; /* of its spheres' mapping, before anything cut it; NULL: nothing does */
+  double parking_gap;   /* m, between particles out of the world; 0: none ever are */
 
   bool frozen;
   /* Rest: see sleep.c. */
@@ -194,7 +195,8 @@ typedef struct SporeTool {
   SporeVec3 hinge, axis; /* in its frame */
   SporeJaw jaws[2];
   SporeJawFields fields;
-  SporeVec3 point; /* of suction, in its frame */
+  SporeVec3 point; /* of suction and scissors, in its frame */
+  size_t cut;      /* by scissors */
   SporeSuctionFields suction;
   double due;        /* particles that suction may take away by now */
   size_t taken;      /* by suction */
@@ -365,6 +367,13 @@ bool spore_world_exchanges_particles(const SporeWorld *world);
 void spore_body_find_parked(SporeBody *body, const double *q);
 void spore_world_reset_particles(SporeWorld *world);
 
+/* cutting.c */
+bool spore_world_compile_cutting(SporeWorld *world);
+/* The blades, half of the angle each, went with their body from the last state to its target, and closed from one
+ * opening to another. */
+void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double to);
+void spore_world_mend_bodies(SporeWorld *world);
+
 /* jaws.c: from what the last step did to where the jaws are to be. */
 const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription *from);
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from);
@@ -378,7 +387,8 @@ void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool);
 /* sense.c: the velocity that takes an active body to its target in one step. */
 void spore_active_set_velocity(SporeWorld *world, uint32_t body);
 
-static inline bool spore_tool_has_jaws(const SporeTool *tool) { return tool->kind <= SPORE_TOOL_CLAMP; }
+static inline bool spore_tool_has_jaws(const SporeTool *tool) { return tool->kind <= SPORE_TOOL_SCISSORS; }
+static inline bool spore_tool_kind_holds(SporeToolKind kind) { return kind <= SPORE_TOOL_CLAMP; }
 
 /* pulls.c: commands take hold of a body. */
 bool spore_world_make_pulls(SporeWorld *world);

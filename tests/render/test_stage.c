@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/io/scene_xml.h"
+#include "core/scene/schema_fields.h"
 #include "models/registry.h"
 #include "tests/render/scenery.h"
 #include "ui/render/stage.h"
@@ -196,6 +197,26 @@ static void test_cameras(void) {
   setting_close(&setting);
 }
 
+/* A camera on a body looks from where the body has come. */
+static void test_camera_on_body(void) {
+  Setting setting = setting_open(MINIMAL);
+  SporeObject *object = spore_document_find(setting.document, "camera", "front");
+  SporeCamera before, after;
+  g_assert_true(spore_stage_camera(setting.stage, "front", 1, &before, NULL));
+  g_assert_true(spore_document_set_text(setting.document, object, "body", "ball", NULL));
+  setting_run(&setting, 20);
+  guint32 ball = spore_world_find_body(setting.simulation->world, "ball");
+  SporeVec3 now = spore_vec3_load(spore_world_q(setting.simulation->world, ball));
+  g_assert_true(spore_stage_camera(setting.stage, "front", 1, &after, NULL));
+  SporeBodyFields fields;
+  spore_object_fields(spore_document_find(setting.document, "body", "ball"), &fields);
+  double fallen = fields.position[1] - now.y;
+  g_assert_cmpfloat(fallen, >, 1e-4);
+  g_assert_cmpfloat_with_epsilon(before.target.y - after.target.y, fallen, 1e-12);
+  g_assert_cmpfloat_with_epsilon(before.azimuth, after.azimuth, 1e-9);
+  setting_close(&setting);
+}
+
 static void test_empty_scene(void) {
   Bench bench = bench_open();
   SporeSchema *schema = spore_schema_new(spore_model_registry);
@@ -240,6 +261,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/own-spheres", test_own_spheres);
   g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
   g_test_add_func("/render/stage/cameras", test_cameras);
+  g_test_add_func("/render/stage/camera-on-body", test_camera_on_body);
   g_test_add_func("/render/stage/empty-scene", test_empty_scene);
   g_test_add_func("/render/stage/liquid", test_liquid);
   return g_test_run();

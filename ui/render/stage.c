@@ -111,7 +111,8 @@ void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3
     const SporeStageBody *body = stage->bodies->pdata[b];
     for (gsize i = 0; i < body->surface.count; i++) take_in(lower, upper, body->surface.positions + 3 * i, 0);
     for (gsize i = 0; body->solid && i < body->centres.count; i++)
-      take_in(lower, upper, body->spheres + 4 * i, body->spheres[4 * i + 3]);
+      if (!spore_particle_is_out(body->centres.positions + 3 * i))
+        take_in(lower, upper, body->spheres + 4 * i, body->spheres[4 * i + 3]);
   }
   if (!(lower[0] <= upper[0])) /* an empty scene: a place the size of a hand */
     for (int i = 0; i < 3; i++) lower[i] = -0.05, upper[i] = 0.05;
@@ -121,6 +122,21 @@ void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3
 static const SporeObject *find_camera(const SporeStage *stage, const char *name) {
   if (name) return spore_document_find(stage->document, "camera", name);
   return spore_object_child_of(spore_document_section(stage->document, "tools"), "camera");
+}
+
+/* Where a point of the scene at the start has come with a body that moves as a whole; as it is with any other. */
+static SporeVec3 carried(const SporeStage *stage, const SporeObject *body, SporeVec3 point) {
+  SporeBodyFields fields;
+  for (guint i = 0; body && i < stage->bodies->len; i++) {
+    const SporeStageBody *shown = stage->bodies->pdata[i];
+    if (shown->object != spore_object_id(body) || !shown->moves || shown->q_count != 7) continue;
+    spore_object_fields(body, &fields);
+    SporeQuat start = spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation));
+    SporeVec3 arm = spore_vec3_sub(point, spore_vec3_load(fields.position));
+    SporePose now = {spore_vec3_load(shown->q), spore_quat_load(shown->q + 3)};
+    return spore_pose_apply(now, spore_quat_rotate(spore_quat_conjugate(start), arm));
+  }
+  return point;
 }
 
 /* A camera of the scene was placed for a picture as wide as this; a narrower one shows as much to the sides. */
@@ -142,8 +158,9 @@ gboolean spore_stage_camera(const SporeStage *stage, const char *name, double as
   }
   SporeCameraFields fields;
   spore_object_fields(object, &fields);
-  SporeVec3 target = spore_vec3_load(fields.target);
-  SporeVec3 back = spore_vec3_sub(spore_vec3_load(fields.position), target);
+  const SporeObject *body = spore_object_reference(object, "body");
+  SporeVec3 target = carried(stage, body, spore_vec3_load(fields.target));
+  SporeVec3 back = spore_vec3_sub(carried(stage, body, spore_vec3_load(fields.position)), target);
   double distance = spore_vec3_length(back);
   if (!(distance > 0)) back = spore_vec3(0, 0, 1), distance = 1e-3;
   *camera = (SporeCamera){.target = target,

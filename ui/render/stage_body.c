@@ -251,10 +251,13 @@ static void place_spheres(SporeStage *stage, SporeStageBody *body) {
 
 static void place_liquid(SporeStage *stage, SporeStageBody *body) {
   SporeTriangleMesh skin;
-  spore_mapping_positions(&body->centres.mapping, body->q, body->centres.positions);
-  if (!spore_particle_skin(body->centres.positions, body->centres.count, 2 * LIQUID_SPACING * body->spheres[3], &skin,
-                           NULL))
-    return;
+  double *positions = body->centres.positions;
+  gsize count = 0;
+  spore_mapping_positions(&body->centres.mapping, body->q, positions);
+  for (gsize i = 0; i < body->centres.count; i++)
+    if (!spore_particle_is_out(positions + 3 * i))
+      memmove(positions + 3 * count++, positions + 3 * i, 3 * sizeof(double));
+  if (!spore_particle_skin(positions, count, 2 * LIQUID_SPACING * body->spheres[3], &skin, NULL)) return;
   body->style.material = SPORE_MATERIAL_LIQUID;
   show_own_surface(stage, body, &skin);
   spore_free(skin.vertices);

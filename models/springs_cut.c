@@ -1,0 +1,63 @@
+/* Springs that are cut while they run: a cut one becomes an empty slot, at both of its ends. */
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "models/springs.h"
+
+static size_t lane_count(const SporeSprings *springs) {
+  return SPORE_LANES * (size_t)springs->slot_start[springs->group_count];
+}
+
+bool spore_springs_keep(const SporeSprings *springs, SporeSpringsWhole *whole) {
+  size_t lanes = lane_count(springs);
+  whole->neighbour = SPORE_NEW_ARRAY(uint32_t, lanes);
+  whole->block = SPORE_NEW_ARRAY(uint32_t, lanes);
+  whole->length = SPORE_NEW_ARRAY(double, lanes);
+  whole->is_run = SPORE_NEW_ARRAY(bool, lanes / SPORE_LANES);
+  if (!whole->neighbour || !whole->block || !whole->length || !whole->is_run) return false;
+  memcpy(whole->neighbour, springs->neighbour, lanes * sizeof *whole->neighbour);
+  memcpy(whole->block, springs->block, lanes * sizeof *whole->block);
+  memcpy(whole->length, springs->length, lanes * sizeof *whole->length);
+  memcpy(whole->is_run, springs->is_run, lanes / SPORE_LANES * sizeof *whole->is_run);
+  return true;
+}
+
+void spore_springs_restore(SporeSprings *springs, const SporeSpringsWhole *whole) {
+  size_t lanes = lane_count(springs);
+  memcpy(springs->neighbour, whole->neighbour, lanes * sizeof *whole->neighbour);
+  memcpy(springs->block, whole->block, lanes * sizeof *whole->block);
+  memcpy(springs->length, whole->length, lanes * sizeof *whole->length);
+  memcpy(springs->is_run, whole->is_run, lanes / SPORE_LANES * sizeof *whole->is_run);
+}
+
+void spore_springs_forget(SporeSpringsWhole *whole) {
+  spore_free(whole->neighbour);
+  spore_free(whole->block);
+  spore_free(whole->length);
+  spore_free(whole->is_run);
+  *whole = (SporeSpringsWhole){0};
+}
+
+/* From the lower node, so that both ends of a spring are told the same. */
+static bool is_cut(const double *q, uint32_t a, uint32_t b, const SporeVec3 triangle[3]) {
+  uint32_t low = a < b ? a : b, high = a < b ? b : a;
+  return spore_vec3_crosses(spore_vec3_load(q + 3 * (size_t)low), spore_vec3_load(q + 3 * (size_t)high), triangle[0],
+                            triangle[1], triangle[2]);
+}
+
+size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3]) {
+  size_t ends = 0;
+  for (size_t g = 0; g < springs->group_count; g++)
+    for (size_t s = springs->slot_start[g]; s < springs->slot_start[g + 1]; s++)
+      for (size_t lane = 0; lane < springs->lanes[g]; lane++) {
+        size_t at = s * SPORE_LANES + lane;
+        uint32_t node = springs->node[g * SPORE_LANES + lane], other = springs->neighbour[at];
+        if (node == other || !is_cut(q, node, other, triangle)) continue;
+        springs->neighbour[at] = node;
+        springs->length[at] = -0.0;
+        springs->block[at] = springs->diagonal[g * SPORE_LANES + lane];
+        springs->is_run[s] = false;
+        ends++;
+      }
+  return ends / 2;
+}
