@@ -24,6 +24,14 @@ def tissue(u, v):
     return np.stack([x, y, 0.020 + 0.003 * np.sin(2 * np.pi * u) * np.sin(np.pi * v)], 1)
 
 
+def even_sheet(side, place):
+    """A sheet whose squares are all cut along the same diagonal: its springs follow one another in memory."""
+    vertices, _ = sheet(side, side, place)
+    i = np.arange(side * side).reshape(side, side)
+    a, b, c, d = (x.ravel() for x in (i[:-1, :-1], i[1:, :-1], i[1:, 1:], i[:-1, 1:]))
+    return vertices, np.stack([a, b, c, a, c, d], 1).reshape(-1, 3)
+
+
 def tissue_spheres(rows, columns, radius):
     """Evenly over the sheet, in its middle surface."""
     v, u = np.meshgrid((np.arange(rows) + 0.5) / rows, (np.arange(columns) + 0.5) / columns, indexing="ij")
@@ -57,7 +65,7 @@ def pelvis_spheres(radius, spacing):
 def main():
     organs, table = (pathlib.Path(folder) for folder in sys.argv[1:])
     write_rows(organs / "peritoneum.spheres", pelvis_spheres(0.008, 0.0075), "# x y z r, in metres")
-    write_off(table, "tissue", sheet(20, 20, tissue))
+    write_off(table, "tissue", even_sheet(20, tissue))
     write_rows(table / "tissue.spheres", tissue_spheres(23, 22, 0.0018), "# x y z r, in metres")
     write_rows(table / "string.curve", [(*p, 0.0016) for p in string(120)], "# x y z r, in metres")
     write_rows(table / "string.spheres", [(*p, 0.0016) for p in string(60)], "# x y z r, in metres")
