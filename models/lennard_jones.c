@@ -238,7 +238,7 @@ static void rates(const SporeModel *model, double *frequency, double *damping) {
 
 static void forget(SporeModel *model) { ((Fluid *)model)->memory->list.made = false; }
 
-static const char *notice(const SporeModel *model) {
+static const char *notice(const SporeModel *model, const double *q) {
   return ((const Fluid *)model)->memory->capped
              ? _("particles are so near each other that the force between them was capped; start them farther apart "
                  "or take a smaller time step")

@@ -1,8 +1,15 @@
-/* Linear tetrahedra, SPORE_LANES at a time, of several materials.
+/* Tetrahedra, SPORE_LANES at a time, of several materials.
  *
- * F = Ds Dm^-1. Forces on corners 1..3 are the columns of -V P Dm^-T, with the stress P of the material and of
- * viscosity: P += eta F (2 mu E' + lambda tr E' I) with E' = sym(F^T F'), the rate of Green's strain: at rest this is
- * stiffness-proportional damping with factor eta (s), and it keeps momentum and takes energy in any state.
+ * Four nodes: F = Ds Dm^-1. Forces on corners 1..3 are the columns of -V P Dm^-T, with the stress P of the material and
+ * of viscosity: P += eta F (2 mu E' + lambda tr E' I) with E' = sym(F^T F'), the rate of Green's strain: at rest this
+ * is stiffness-proportional damping with factor eta (s), and it keeps momentum and takes energy in any state.
+ *
+ * Ten nodes, one more on the middle of each edge: F varies, and is taken at four points (Hammer's rule, exact to second
+ * order). Each material's energy density is that of shear plus k/2 (t - t0)^2 in a measure t of the change of volume.
+ * Near a Poisson's ratio of 0.5 most of k acts on the mean of t over the element, or the element would be too stiff
+ * (Nagtegaal, Parks and Rice 1974, "On numerically accurate finite element solutions in the fully plastic range";
+ * Hughes 1980, "Generalization of selective integration procedures to anisotropic and nonlinear media"). That is one
+ * more term of rank one in the element's matrix, and couples no more nodes. The viscosity does the same.
  *
  * Corotated linear elasticity: F = R S, energy density mu |F - R|^2 + lambda/2 (tr S - 3)^2, so
  * P = 2 mu (F - R) + lambda (tr S - 3) R.
@@ -15,7 +22,10 @@
  * Stable neo-Hookean (Smith, De Goes and Kim 2018, "Stable neo-Hookean flesh simulation"): with m = 4 mu / 3,
  * l = lambda + 5 mu / 6, alpha = 1 + m/l - m/(4 l) and I = |F|^2, energy density
  * m/2 (I - 3) - m/2 log((I + 1)/4) + l/2 ((J - alpha)^2 - (1 - alpha)^2), so
- * P = m (1 - 1/(I + 1)) F + l (J - alpha) cof F. */
+ * P = m (1 - 1/(I + 1)) F + l (J - alpha) cof F.
+ *
+ * St Venant-Kirchhoff: with Green's strain E = (F^T F - I)/2, energy density mu E:E + lambda/2 (tr E)^2, so
+ * P = F (2 mu E + lambda tr E I). Squeezed below 0.58 of its length it gives way, and turned inside out it stays so. */
 #ifndef SPORE_MODELS_TETRAHEDRA_H
 #define SPORE_MODELS_TETRAHEDRA_H
 
@@ -28,6 +38,11 @@ typedef struct SporeTetrahedronBatch {
   double volume[SPORE_LANES];     /* m^3; 0 in lanes without a tetrahedron, which repeat another */
 } SporeTetrahedronBatch;
 
+/* Nodes on the edges between corners 01 02 03 12 13 23. */
+typedef struct SporeMiddleBatch {
+  uint32_t node[6][SPORE_LANES];
+} SporeMiddleBatch;
+
 /* Slabs of the mesh: no two even ones have a node in common, nor two odd ones, so that those may be computed on several
  * threads, and what is added to a node is added in the same order on any number. Of n batches in a slab, its
  * tetrahedron t lies in batch t % n, lane t / n: neighbours, which push on the same nodes, come one after the other and
@@ -37,8 +52,8 @@ typedef struct SporeTetrahedra {
   uint32_t *slab_start; /* slab_count + 1: its first batch */
   uint8_t *lanes;       /* batch_count: how many hold a tetrahedron */
   SporeTetrahedronBatch *batches;
-  uint32_t (
-      *blocks)[SPORE_LANES][16]; /* batch_count: where corner pair (a, b) lies in the model's matrix, at 4 a + b */
+  SporeMiddleBatch *middles; /* batch_count; NULL: tetrahedra of four nodes */
+  uint32_t *blocks;          /* batch_count x SPORE_LANES x n x n: where node pair (a, b) lies in the model's matrix */
 } SporeTetrahedra;
 
 typedef struct SporeElasticity {
@@ -46,24 +61,24 @@ typedef struct SporeElasticity {
   double viscosity;  /* eta, s */
 } SporeElasticity;
 
-/* f += forces of a slab, the viscous ones with F as it is in shape. */
-SPORE_DECLARE_KERNEL(void, spore_corotation_force, const SporeTetrahedra *tetrahedra, size_t slab,
-                     SporeElasticity elasticity, const double *q, const double *shape, const double *v, double *f);
-SPORE_DECLARE_KERNEL(void, spore_neo_hookean_force, const SporeTetrahedra *tetrahedra, size_t slab,
-                     SporeElasticity elasticity, const double *q, const double *shape, const double *v, double *f);
-/* Energy of all, J. */
-SPORE_DECLARE_KERNEL(double, spore_corotation_potential, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                     const double *q);
-SPORE_DECLARE_KERNEL(double, spore_neo_hookean_potential, const SporeTetrahedra *tetrahedra, SporeElasticity elasticity,
-                     const double *q);
-/* matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv) of a slab; where shape is q, the viscous force's
- * dependence on it is left out. Modes that would make the stiffness indefinite are clamped (Smith, De Goes and Kim
- * 2019, "Analytic eigensystems for isotropic distortion energies"). */
-SPORE_DECLARE_KERNEL(void, spore_corotation_jacobian, const SporeTetrahedra *tetrahedra, size_t slab,
-                     SporeElasticity elasticity, const double *q, const double *shape, double stiffness_scale,
-                     double damping_scale, SporeBlockMatrix *matrix);
-SPORE_DECLARE_KERNEL(void, spore_neo_hookean_jacobian, const SporeTetrahedra *tetrahedra, size_t slab,
-                     SporeElasticity elasticity, const double *q, const double *shape, double stiffness_scale,
-                     double damping_scale, SporeBlockMatrix *matrix);
+/* Kernels of a material:
+ *
+ * _force: f += forces of a slab, the viscous ones with F as it is in shape.
+ * _potential: energy of all, J.
+ * _jacobian: matrix += stiffness_scale (-df/dq) + damping_scale (-df/dv) of a slab; where shape is q, the viscous
+ * force's dependence on it is left out. Modes that would make the stiffness indefinite are clamped (Smith, De Goes and
+ * Kim 2019, "Analytic eigensystems for isotropic distortion energies"). */
+#define SPORE_DECLARE_MATERIAL(name)                                                                                   \
+  SPORE_DECLARE_KERNEL(void, spore_##name##_force, const SporeTetrahedra *tetrahedra, size_t slab,                     \
+                       SporeElasticity elasticity, const double *q, const double *shape, const double *v, double *f);  \
+  SPORE_DECLARE_KERNEL(double, spore_##name##_potential, const SporeTetrahedra *tetrahedra,                            \
+                       SporeElasticity elasticity, const double *q);                                                   \
+  SPORE_DECLARE_KERNEL(void, spore_##name##_jacobian, const SporeTetrahedra *tetrahedra, size_t slab,                  \
+                       SporeElasticity elasticity, const double *q, const double *shape, double stiffness_scale,       \
+                       double damping_scale, SporeBlockMatrix *matrix)
+
+SPORE_DECLARE_MATERIAL(corotation);
+SPORE_DECLARE_MATERIAL(neo_hookean);
+SPORE_DECLARE_MATERIAL(saint_venant_kirchhoff);
 
 #endif

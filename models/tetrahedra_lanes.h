@@ -118,6 +118,15 @@ SPORE_INLINE SporePart spore_part_at(const SporeTetrahedra *tetrahedra, size_t i
                        index % (SPORE_LANES / SPORE_WIDTH) * SPORE_WIDTH);
 }
 
+/* From the gradients to the roots. */
+SPORE_INLINE void spore_chunk_solve(SporeChunk *chunk) {
+  SPORE_UNROLL for (size_t n = 0; n < SPORE_TOGETHER; n++) {
+    chunk->cofactor[n] = spore_vd33_cofactor(&chunk->gradient[n]);
+    chunk->invariants[n] = spore_invariants_of(&chunk->gradient[n], &chunk->cofactor[n]);
+  }
+  spore_greatest_roots(chunk->invariants, chunk->sum, chunk->failed);
+}
+
 SPORE_INLINE void spore_chunk_begin(const SporeTetrahedra *tetrahedra, size_t first, size_t end, const double *q,
                                     SporeChunk *chunk) {
   size_t left = end - first;
@@ -125,10 +134,8 @@ SPORE_INLINE void spore_chunk_begin(const SporeTetrahedra *tetrahedra, size_t fi
   for (size_t n = 0; n < SPORE_TOGETHER; n++) { /* behind the last part: that again */
     SporePart part = spore_part_at(tetrahedra, first + (n < chunk->count ? n : chunk->count - 1));
     chunk->gradient[n] = spore_part_gradient(&part, q);
-    chunk->cofactor[n] = spore_vd33_cofactor(&chunk->gradient[n]);
-    chunk->invariants[n] = spore_invariants_of(&chunk->gradient[n], &chunk->cofactor[n]);
   }
-  spore_greatest_roots(chunk->invariants, chunk->sum, chunk->failed);
+  spore_chunk_solve(chunk);
 }
 
 /* R of F = R S from the root i: with II_S = s1 s2 + s2 s3 + s3 s1 and C = F^T F, the derivative of the quartic is
@@ -171,15 +178,15 @@ SPORE_INLINE SporeVd33 spore_rotation_stretch(const SporeRotation *rotation, con
   return stretch;
 }
 
-/* P += eta F (2 mu E' + lambda tr E' I) */
-SPORE_INLINE void spore_part_add_viscous(const SporePart *part, SporeElasticity elasticity, const SporeVd33 *f,
-                                         const double *v, SporeVd33 *stress) {
-  SporeVd33 rate = spore_part_gradient(part, v), strain, viscous;
+/* P += eta F (2 mu E' + lambda r I), with F' and the rate r of volume, which is tr E' = F : F' or a mean of it. */
+SPORE_INLINE void spore_add_viscous(SporeElasticity elasticity, const SporeVd33 *f, const SporeVd33 *rate, SporeVd r,
+                                    SporeVd33 *stress) {
+  SporeVd33 strain, viscous;
   double mu = elasticity.viscosity * elasticity.mu, lambda = elasticity.viscosity * elasticity.lambda;
-  SporeVd volumetric = lambda * spore_vd33_product(f, &rate);
+  SporeVd volumetric = lambda * r;
   SPORE_UNROLL for (int i = 0; i < 3; i++) SPORE_UNROLL for (int j = i; j < 3; j++) {
-    SporeVd ab = f->m[i] * rate.m[j] + f->m[3 + i] * rate.m[3 + j] + f->m[6 + i] * rate.m[6 + j];
-    SporeVd ba = f->m[j] * rate.m[i] + f->m[3 + j] * rate.m[3 + i] + f->m[6 + j] * rate.m[6 + i];
+    SporeVd ab = f->m[i] * rate->m[j] + f->m[3 + i] * rate->m[3 + j] + f->m[6 + i] * rate->m[6 + j];
+    SporeVd ba = f->m[j] * rate->m[i] + f->m[3 + j] * rate->m[3 + i] + f->m[6 + j] * rate->m[6 + i];
     strain.m[3 * i + j] = mu * (ab + ba);
     if (i == j) strain.m[3 * i + j] += volumetric;
     strain.m[3 * j + i] = strain.m[3 * i + j];
@@ -196,20 +203,27 @@ SPORE_INLINE size_t spore_part_lanes(const SporeTetrahedra *tetrahedra, const Sp
 
 typedef double SporeTwo __attribute__((vector_size(16), aligned(8), may_alias));
 
+/* pull[k] = volume P Dm^-T of corner k; of corner 0 what makes the sum nothing. */
+SPORE_INLINE void spore_corner_pulls(const SporeVd33 *inverse, SporeVd volume, const SporeVd33 *stress,
+                                     SporeVd3 pull[4]) {
+  const SporeVd *p = stress->m;
+  pull[0] = (SporeVd3){0};
+  SPORE_UNROLL for (int k = 0; k < 3; k++) {
+    const SporeVd *b = inverse->m + 3 * k;
+    pull[k + 1] = (SporeVd3){volume * (p[0] * b[0] + p[1] * b[1] + p[2] * b[2]),
+                             volume * (p[3] * b[0] + p[4] * b[1] + p[5] * b[2]),
+                             volume * (p[6] * b[0] + p[7] * b[1] + p[8] * b[2])};
+    pull[0] = spore_vd3_sub(pull[0], pull[k + 1]);
+  }
+}
+
 /* f -= V P Dm^-T */
 SPORE_INLINE void spore_part_add_forces(const SporeTetrahedra *tetrahedra, const SporePart *part,
                                         const SporeVd33 *stress, double *f) {
   double rows[4][4 * SPORE_WIDTH];
-  SporeVd3 sum = {0};
-  SPORE_UNROLL for (int k = 0; k < 3; k++) {
-    const SporeVd *b = part->inverse.m + 3 * k, *p = stress->m;
-    SporeVd3 pull = {part->volume * (p[0] * b[0] + p[1] * b[1] + p[2] * b[2]),
-                     part->volume * (p[3] * b[0] + p[4] * b[1] + p[5] * b[2]),
-                     part->volume * (p[6] * b[0] + p[7] * b[1] + p[8] * b[2])};
-    sum.x -= pull.x, sum.y -= pull.y, sum.z -= pull.z;
-    spore_vd3_store_rows(rows[k + 1], pull);
-  }
-  spore_vd3_store_rows(rows[0], sum);
+  SporeVd3 pull[4];
+  spore_corner_pulls(&part->inverse, part->volume, stress, pull);
+  SPORE_UNROLL for (int k = 0; k < 4; k++) spore_vd3_store_rows(rows[k], pull[k]);
   for (size_t i = 0, lanes = spore_part_lanes(tetrahedra, part); i < lanes; i++)
     SPORE_UNROLL for (int a = 0; a < 4; a++) {
       double *corner = f + 3 * (size_t)part->batch->node[a][part->lane + i];
@@ -224,17 +238,16 @@ typedef struct SporeElementBlocks {
 } SporeElementBlocks;
 
 /* -df/dv of the viscous force between corners a and b, with F b_a the carried gradients:
- * V eta (mu (b_a . b_b) F F^T + mu (F b_b)(F b_a)^T + lambda (F b_a)(F b_b)^T) */
-SPORE_INLINE void spore_part_add_viscosity(const SporePart *part, SporeElasticity elasticity, double by,
-                                           const SporeVd33 *f, SporeElementBlocks *blocks) {
-  SporeVd mu = part->volume * (by * elasticity.viscosity * elasticity.mu);
-  SporeVd lambda = part->volume * (by * elasticity.viscosity * elasticity.lambda);
+ * V eta (mu (b_a . b_b) F F^T + mu (F b_b)(F b_a)^T + lambda (F b_a)(F b_b)^T); weight is V eta. */
+SPORE_INLINE void spore_add_viscosity(SporeVd weight, double mu_, double lambda_, const SporeVd33 *inverse,
+                                      const SporeVd33 *f, SporeElementBlocks *blocks) {
+  SporeVd mu = weight * mu_, lambda = weight * lambda_;
   SporeVd3 gradient[3], carried[3];
   SporeVd33 square;
   SPORE_UNROLL for (int i = 0; i < 3; i++) SPORE_UNROLL for (int j = 0; j < 3; j++) square.m[3 * i + j] =
       spore_vd3_dot(spore_vd33_row(f, i), spore_vd33_row(f, j));
   SPORE_UNROLL for (int a = 0; a < 3; a++) {
-    gradient[a] = spore_vd33_row(&part->inverse, a);
+    gradient[a] = spore_vd33_row(inverse, a);
     carried[a] = spore_vd33_apply(f, gradient[a]);
   }
   int n = 0;
@@ -277,10 +290,44 @@ SPORE_INLINE void spore_part_add_blocks(const SporeTetrahedra *tetrahedra, const
                                         const SporeElementBlocks *blocks, SporeBlockMatrix *matrix) {
   SporeBlockRows rows[16];
   spore_store_blocks(rows, blocks);
-  for (size_t i = 0, lanes = spore_part_lanes(tetrahedra, part); i < lanes; i++)
-    for (int pair = 0; pair < 16; pair++)
-      spore_block_add_rows(matrix->values + 9 * (size_t)tetrahedra->blocks[part->index][part->lane + i][pair],
-                           rows[pair], i);
+  for (size_t i = 0, lanes = spore_part_lanes(tetrahedra, part); i < lanes; i++) {
+    const uint32_t *place = tetrahedra->blocks + 16 * (SPORE_LANES * part->index + part->lane + i);
+    for (int pair = 0; pair < 16; pair++) spore_block_add_rows(matrix->values + 9 * (size_t)place[pair], rows[pair], i);
+  }
+}
+
+/* A place where a material is asked: F, cof F, and where the caller needs it the rotation of F. */
+typedef struct SporePoint {
+  SporeVd33 f, c;
+  SporeRotation rotation;
+} SporePoint;
+
+SPORE_INLINE SporePoint spore_point_of(const SporeVd33 *f) {
+  return (SporePoint){.f = *f, .c = spore_vd33_cofactor(f)};
+}
+
+SPORE_INLINE SporePoint spore_chunk_point(const SporeChunk *chunk, size_t n) {
+  return (SporePoint){chunk->gradient[n], chunk->cofactor[n], spore_chunk_rotation(chunk, n)};
+}
+
+/* The part of a material that resists the change of volume: energy density k/2 (t - balance)^2, less that at t = still,
+ * where the material is at rest. An element of several points takes the mean of t there, and adds local/2 times the
+ * mean square of what t differs from it: without that, its points could swell and shrink against each other for
+ * nothing. */
+typedef struct SporeBulk {
+  double k, balance, still, local;
+} SporeBulk;
+
+/* Up to a Poisson's ratio of 0.3 all of it is local, and the element is the plain one. */
+SPORE_INLINE double spore_bulk_local(double k, double mu) { return k < 2.5 * mu ? k : 2.5 * mu; }
+
+SPORE_INLINE SporeBulk spore_bulk(double k, double balance, double still, double mu) {
+  return (SporeBulk){k, balance, still, spore_bulk_local(k, mu)};
+}
+
+SPORE_INLINE SporeVd spore_bulk_pressure(SporeBulk bulk, SporeVd t) { return bulk.k * (t - bulk.balance); }
+SPORE_INLINE SporeVd spore_bulk_density(SporeBulk bulk, SporeVd t) {
+  return 0.5 * bulk.k * (t - bulk.still) * (t + (bulk.still - 2 * bulk.balance));
 }
 
 #endif

@@ -108,17 +108,41 @@ static double locate(const Grid *grid, const SporeTetrahedralMesh *mesh, SporeVe
   return best;
 }
 
-static void weigh(const SporeTetrahedralMesh *mesh, uint32_t tetrahedron, SporeVec3 p, uint32_t *blocks,
-                  double *weights) {
+/* Weights of the corners of a tetrahedron for p. */
+static void weigh_corners(const SporeTetrahedralMesh *mesh, uint32_t tetrahedron, SporeVec3 p, double weights[4]) {
   const uint32_t *corners = mesh->tetrahedra + 4 * (size_t)tetrahedron;
   SporeVec3 gradient[3], arm = spore_vec3_sub(p, spore_vec3_load(mesh->vertices + 3 * (size_t)corners[0]));
   spore_tetrahedron_gradients(mesh->vertices, corners, gradient);
-  memcpy(blocks, corners, 4 * sizeof *blocks);
   weights[0] = 1;
   for (int k = 0; k < 3; k++) {
     weights[k + 1] = spore_vec3_dot(gradient[k], arm);
     weights[0] -= weights[k + 1];
   }
+}
+
+/* Shape functions of ten nodes at corner weights l, carried on affinely to those of p. */
+static void weigh_ten(const double l[4], const double p[4], double weights[10]) {
+  static const int edges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+  for (int i = 0; i < 4; i++) weights[i] = l[i] * (2 * l[i] - 1) + (4 * l[i] - 1) * (p[i] - l[i]);
+  for (int e = 0; e < 6; e++) {
+    int i = edges[e][0], j = edges[e][1];
+    weights[4 + e] = 4 * (l[i] * l[j] + l[j] * (p[i] - l[i]) + l[i] * (p[j] - l[j]));
+  }
+}
+
+/* at: the place of p, or where the tetrahedron is nearest to it. */
+static void weigh(const SporeTetrahedronNodes *nodes, uint32_t tetrahedron, SporeVec3 at, SporeVec3 p, uint32_t *blocks,
+                  double *weights) {
+  size_t per = nodes->per_element;
+  memcpy(blocks, nodes->nodes + per * tetrahedron, per * sizeof *blocks);
+  if (per == 4) {
+    weigh_corners(&nodes->mesh, tetrahedron, p, weights);
+    return;
+  }
+  double inside[4], outside[4];
+  weigh_corners(&nodes->mesh, tetrahedron, at, inside);
+  weigh_corners(&nodes->mesh, tetrahedron, p, outside);
+  weigh_ten(inside, outside, weights);
 }
 
 static SporeBvh *boundary_of(const SporeTetrahedralMesh *mesh, SporeError *error) {
@@ -132,34 +156,35 @@ static SporeBvh *boundary_of(const SporeTetrahedralMesh *mesh, SporeError *error
   return bvh;
 }
 
-static bool map_points(const SporeTetrahedralMesh *mesh, const Grid *grid, const double *points, size_t count,
+static bool map_points(const SporeTetrahedronNodes *nodes, const Grid *grid, const double *points, size_t count,
                        uint32_t *blocks, double *weights, SporeError *error) {
+  const SporeTetrahedralMesh *mesh = &nodes->mesh;
   SporeBvh *boundary = NULL;
   for (size_t i = 0; i < count; i++) {
-    SporeVec3 p = spore_vec3_load(points + 3 * i), nearest;
+    SporeVec3 p = spore_vec3_load(points + 3 * i), nearest = p;
     uint32_t tetrahedron = 0;
     if (locate(grid, mesh, p, &tetrahedron) < -1e-9) {
       if (!boundary && !(boundary = boundary_of(mesh, error))) return false;
       spore_bvh_distance(boundary, p, &nearest, NULL);
       locate(grid, mesh, nearest, &tetrahedron);
     }
-    weigh(mesh, tetrahedron, p, blocks + 4 * i, weights + 4 * i);
+    weigh(nodes, tetrahedron, nearest, p, blocks + nodes->per_element * i, weights + nodes->per_element * i);
   }
   spore_bvh_free(boundary);
   return true;
 }
 
-bool spore_tetrahedra_map(const SporeTetrahedralMesh *mesh, const double *points, size_t count, SporeMapping *mapping,
+bool spore_tetrahedra_map(const SporeTetrahedronNodes *nodes, const double *points, size_t count, SporeMapping *mapping,
                           SporeError *error) {
-  if (count == mesh->vertex_count && !memcmp(points, mesh->vertices, 3 * count * sizeof *points))
+  if (count == nodes->count && !memcmp(points, nodes->rest, 3 * count * sizeof *points))
     return spore_mapping_init_identity(mapping, count);
   Grid grid = {0};
-  uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, 4 * count);
-  double *weights = SPORE_NEW_ARRAY(double, 4 * count);
-  bool good = blocks && weights && grid_create(&grid, mesh);
+  uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, nodes->per_element * count);
+  double *weights = SPORE_NEW_ARRAY(double, nodes->per_element *count);
+  bool good = blocks && weights && grid_create(&grid, &nodes->mesh);
   if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  good = good && map_points(mesh, &grid, points, count, blocks, weights, error) &&
-         spore_mapping_init_linear(mapping, count, 4, blocks, weights, error);
+  good = good && map_points(nodes, &grid, points, count, blocks, weights, error) &&
+         spore_mapping_init_linear(mapping, count, nodes->per_element, blocks, weights, error);
   grid_clear(&grid);
   spore_free(blocks);
   spore_free(weights);

@@ -83,6 +83,14 @@ static void act_set_model(GSimpleAction *action, GVariant *parameter, gpointer d
     spore_window_failed(self, error);
 }
 
+static void act_use_preset(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = body_to_work_on(self);
+  g_autoptr(GError) error = NULL;
+  if (body && !spore_edit_use_preset(document_of(self), body, g_variant_get_string(parameter, NULL), &error))
+    spore_window_failed(self, error);
+}
+
 static void act_add_probe(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
@@ -271,6 +279,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"set-property", act_set_property, "(sss)"},
       {"unset-property", act_unset_property, "(ss)"},
       {"set-model", act_set_model, "s"},
+      {"use-preset", act_use_preset, "s"},
       {"add-probe", act_add_probe},
       {"add-pin", act_add_pin},
       {"generate-spheres", act_generate_spheres, "u"},

@@ -47,6 +47,24 @@ static void report_parameter(SporeCli *cli, const SporeParameter *parameter) {
                 range, parameter->required ? _("(required)") : initial, _(parameter->doc));
 }
 
+static void report_preset(SporeCli *cli, const SporePreset *preset) {
+  g_autoptr(GPtrArray) settings = g_ptr_array_new_with_free_func(g_free);
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", preset->name);
+  spore_cli_text(cli, "label", _(preset->label));
+  spore_cli_text(cli, "source", preset->source);
+  spore_cli_open_array(cli, "settings");
+  for (const char *const *setting = preset->settings; *setting; setting += 2) {
+    g_ptr_array_add(settings, g_strdup_printf("%s=%s", setting[0], setting[1]));
+    spore_cli_text(cli, NULL, settings->pdata[settings->len - 1]);
+  }
+  spore_cli_close_array(cli);
+  spore_cli_close(cli);
+  g_ptr_array_add(settings, NULL);
+  g_autofree char *text = g_strjoinv(" ", (char **)settings->pdata);
+  spore_cli_say(cli, _("  preset %-17s %s (%s)\n"), preset->name, text, preset->source);
+}
+
 static void report_model(SporeCli *cli, const SporeModelType *type) {
   static const char *const geometry[] = {"none", "surface", "solid", "tetrahedra", "curve"};
   spore_cli_open(cli, NULL);
@@ -58,16 +76,21 @@ static void report_model(SporeCli *cli, const SporeModelType *type) {
   spore_cli_open_array(cli, "parameters");
   for (gsize i = 0; i < type->parameters.count; i++) report_parameter(cli, &type->parameters.parameters[i]);
   spore_cli_close_array(cli);
+  spore_cli_open_array(cli, "presets");
+  for (const SporePreset *preset = type->presets; preset && preset->name; preset++) report_preset(cli, preset);
+  spore_cli_close_array(cli);
   spore_cli_close(cli);
   spore_cli_say(cli, "\n");
 }
 
 int spore_command_models(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
-      {"models", N_("each with name, label, doc, geometry (none, surface, solid, tetrahedra, curve) and parameters")},
+      {"models",
+       N_("each with name, label, doc, geometry (none, surface, solid, tetrahedra, curve), parameters and presets")},
       {"models.parameters",
        N_("each with name, type, unit, minimum, maximum, default, change (what a running simulation does with a new "
           "value: live, rebuild, restart), doc, and choices where there are some")},
+      {"models.presets", N_("values that go together: each with name, label, source and settings (as PROPERTY=VALUE)")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {"models", "[NAME]", N_("Lists models and their parameters."), 0, 1, members};
   const GOptionEntry entries[] = {G_OPTION_ENTRY_NULL};

@@ -13,7 +13,7 @@ typedef struct SporeDiagnostic {
 void spore_diagnostic_free(SporeDiagnostic *diagnostic);
 /* GPtrArray of SporeDiagnostic *, worst first; never NULL. Format is checked by reading; this checks references,
  * assets, units (an organ 150 m long), mesh quality, initial overlap, loose passive bodies, unused assets, stale
- * generated data, and the step against the stiffness. */
+ * generated data, the step against the stiffness, and what a model says that it computes badly. */
 GPtrArray *spore_document_check(SporeDocument *document);
 
 #endif

@@ -231,6 +231,22 @@ static void check_piles(SporeCheck *check, const SporeSimulation *simulation) {
   }
 }
 
+/* What a model says of itself. */
+static void check_doubts(SporeCheck *check, const SporeSimulation *simulation) {
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    guint32 index = spore_simulation_body_of(simulation, body);
+    const SporeModel *model = index == SPORE_NO_BODY ? NULL : spore_world_body_model(simulation->world, index);
+    const char *doubt = model && model->type->doubt ? model->type->doubt(model) : NULL;
+    if (!doubt) continue;
+    g_autoptr(GError) error = NULL;
+    spore_error_raise(&error, SPORE_ERROR_INPUT, NULL, "%s", doubt);
+    spore_check_say_error(check, SPORE_WARNING, spore_object_child(spore_object_child_of(body, "mechanical"), 0),
+                          error);
+  }
+}
+
 /* What only shows when the scene is put together: models that refuse their geometry, pins that hold nothing, a time
  * step too large for the stiffness. */
 static SporeSimulation *check_compiled(SporeCheck *check) {
@@ -250,6 +266,7 @@ void spore_check_motion(SporeCheck *check) {
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     check_reach(check, simulation, spore_object_child(bodies, i));
   if (simulation) check_piles(check, simulation);
+  if (simulation) check_doubts(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);
   spore_simulation_free(simulation);
   g_array_sort(start.balls, by_left_end);

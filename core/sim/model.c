@@ -72,6 +72,23 @@ static bool check_parameter(const SporeParameterTable *table, size_t index, cons
   return good;
 }
 
+static bool check_preset(const SporeParameterTable *table, const SporePreset *preset, const char *place,
+                         SporeError *error) {
+  for (const char *const *setting = preset->settings; *setting; setting += 2) {
+    int index = spore_parameter_find(table, setting[0]);
+    if (index < 0 || !setting[1])
+      return spore_error_set(error, SPORE_ERROR_INTERNAL, place, _("the preset %s sets %s, which is no parameter"),
+                             preset->name, setting[0]);
+    SporeValue value = {0};
+    if (!spore_parameter_parse(&table->parameters[index], setting[1], &value, error)) {
+      spore_error_at(error, place);
+      return false;
+    }
+    spore_value_clear(&value);
+  }
+  return true;
+}
+
 bool spore_model_type_check(const SporeModelType *type, SporeError *error) {
   if (!type->name || !*type->name)
     return spore_error_set(error, SPORE_ERROR_INTERNAL, "models", _("a model has no name; every model needs one"));
@@ -83,5 +100,7 @@ bool spore_model_type_check(const SporeModelType *type, SporeError *error) {
                            _("the model has no `%s`; that slot is required; fill it"), slot);
   for (size_t i = 0; i < type->parameters.count; i++)
     if (!check_parameter(&type->parameters, i, place, error)) return false;
+  for (const SporePreset *preset = type->presets; preset && preset->name; preset++)
+    if (!check_preset(&type->parameters, preset, place, error)) return false;
   return true;
 }

@@ -35,6 +35,13 @@ typedef struct SporeGeometry {
 
 typedef struct SporeModelType SporeModelType;
 
+/* Values of parameters that go together, from measurements. */
+typedef struct SporePreset {
+  const char *name, *label; /* label: for people, translatable (N_) */
+  const char *source;       /* where they were published */
+  const char *settings[9];  /* a parameter, its value as in the file, the next parameter, ... NULL */
+} SporePreset;
+
 /* Base of every model: the first member of the model's own structure. Filled by create. */
 typedef struct SporeModel {
   const SporeModelType *type;
@@ -49,6 +56,7 @@ struct SporeModelType {
   const char *doc;   /* one paragraph, translatable (N_) */
   SporeParameterTable parameters;
   SporeGeometryKind geometry;
+  const SporePreset *presets; /* ended by one without a name; NULL: none */
   bool particles; /* its points keep no neighbours: shown by the skin around them, not by a surface that follows them */
 
   /* Required. */
@@ -99,8 +107,11 @@ struct SporeModelType {
   size_t (*cut)(SporeModel *model, const double *q, const double *triangle);
   /* As it was created. */
   void (*mend)(SporeModel *model);
-  /* What the last evaluation had to mend (translated: cause and remedy), or NULL. Told once a body. */
-  const char *(*notice)(const SporeModel *model);
+  /* What the last evaluation had to mend, or what the state after a step is not meant for (translated: cause and
+   * remedy), or NULL. Told once a body. */
+  const char *(*notice)(const SporeModel *model, const double *q);
+  /* What the model as it was made computes badly (translated: "what; what to do"), or NULL. `spore check` tells it. */
+  const char *(*doubt)(const SporeModel *model);
 };
 
 /* Helpers for models. */
@@ -118,7 +129,8 @@ double spore_model_total_mass(const SporeModel *model);
 /* A registry is an explicit NULL-terminated array; models/registry.c holds the one of this program. */
 typedef const SporeModelType *const *SporeModelRegistry;
 const SporeModelType *spore_model_type_find(SporeModelRegistry registry, const char *name);
-/* Refuses a type that misses a required slot or whose table is inconsistent (duplicate names, default out of range). */
+/* Refuses a type that misses a required slot or whose table is inconsistent (duplicate names, default out of range,
+ * presets of other parameters). */
 bool spore_model_type_check(const SporeModelType *type, SporeError *error);
 
 #endif

@@ -62,7 +62,7 @@ static void report_mended(SporeWorld *world, const SporeIsland *island) {
 static void report_notice(SporeWorld *world, SporeBody *body) {
   const SporeModel *model = body->model;
   if (body->noticed || !model || !model->type->notice) return;
-  const char *notice = model->type->notice(model);
+  const char *notice = model->type->notice(model, world->q + body->q_offset);
   if (!notice) return;
   body->noticed = true;
   spore_world_report(world, "%s: %s", body->name, notice);

@@ -122,8 +122,8 @@ static void net(const char *name, double damping, double others) {
   spore_triangle_mesh_clear(&mesh);
 }
 
-/* A beam of 20x4x4 cells of six tetrahedra, 5 cm thick: 525 nodes. */
-static void beam(const char *name, const SporeModelType *type, double damping) {
+/* A beam of 20x4x4 cells of six tetrahedra, 5 cm thick: 525 nodes at corners. element: the index of the choice. */
+static void beam(const char *name, const SporeModelType *type, int element, double damping) {
   enum { X = 20, Y = 4, Z = 4 };
   static const uint8_t paths[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}}; /* corners between 0 and 7 */
   SporeTetrahedralMesh mesh = {0};
@@ -142,6 +142,9 @@ static void beam(const char *name, const SporeModelType *type, double damping) {
       }
   void *fields = new_fields(type);
   set(type, fields, "stiffness_damping", damping);
+  int choice = spore_parameter_find(&type->parameters, "element");
+  SporeValue value = {.type = SPORE_CHOICE, .number = {element}};
+  if (choice >= 0) spore_parameter_store(&type->parameters.parameters[choice], &value, fields);
   SporeGeometry geometry = {.tetrahedra = &mesh};
   SporeError error = SPORE_ERROR_INIT;
   Case run = {.name = name, .model = type->create(&geometry, fields, &error)};
@@ -155,8 +158,11 @@ int main(void) {
   net("net 20x20, 1121 springs,", 0, 0);
   net("net 20x20, 1121 damped springs,", 0.01, 0);
   net("net 20x20, all springs damped,", 0.01, 10);
-  beam("1920 corotational tetrahedra", &spore_corotational_tetrahedra, 0);
-  beam("1920 damped corotational tetrahedra", &spore_corotational_tetrahedra, 0.01);
-  beam("1920 neo-Hookean tetrahedra", &spore_neo_hookean_tetrahedra, 0);
+  beam("1920 corotational tetrahedra", &spore_corotational_tetrahedra, 0, 0);
+  beam("1920 damped corotational tetrahedra", &spore_corotational_tetrahedra, 0, 0.01);
+  beam("1920 neo-Hookean tetrahedra", &spore_neo_hookean_tetrahedra, 0, 0);
+  beam("1920 St Venant-Kirchhoff tetrahedra", &spore_saint_venant_kirchhoff_tetrahedra, 0, 0);
+  beam("1920 linear tetrahedra", &spore_linear_tetrahedra, 0, 0);
+  beam("1920 quadratic neo-Hookean tetrahedra", &spore_neo_hookean_tetrahedra, 1, 0);
   return 0;
 }

@@ -24,13 +24,33 @@ static void shape(Specimen *specimen, const char *name) {
   if (!strcmp(name, "one_cell")) shape_block(&specimen->tetrahedra, 1, 1, 1, spore_vec3(0.02, 0.02, 0.02));
 }
 
-static Specimen *specimen_new(const SporeModelType *type, const char *name) {
+/* The parameter by which the type makes another kind of body of the same geometry, or NULL. */
+static const SporeParameter *variants_of(const SporeModelType *type) {
+  int index = spore_parameter_find(&type->parameters, "element");
+  return index < 0 ? NULL : &type->parameters.parameters[index];
+}
+
+const char *specimen_variant(const SporeModelType *type, int variant) {
+  const SporeParameter *parameter = variants_of(type);
+  if (!parameter) return variant == 0 ? "" : NULL;
+  return parameter->choices[variant];
+}
+
+void specimen_set_variant(const SporeModelType *type, int variant, void *fields) {
+  const SporeParameter *parameter = variants_of(type);
+  SporeValue value = {.type = SPORE_CHOICE, .number = {variant}};
+  if (parameter) spore_parameter_store(parameter, &value, fields);
+}
+
+static Specimen *specimen_new(const SporeModelType *type, const char *name, int variant) {
   Specimen *specimen = g_new0(Specimen, 1);
+  const char *kind = specimen_variant(type, variant);
   specimen->type = type;
-  specimen->name = g_strdup_printf("%s/%s", type->name, name);
+  specimen->name = g_strdup_printf("%s/%s%s%s", type->name, name, *kind ? "/" : "", kind);
   specimen->size = strcmp(name, "needle") ? 0.02 : 1e-3;
   specimen->fields = g_malloc0(type->parameters.size);
   spore_parameters_set_initial(&type->parameters, specimen->fields);
+  specimen_set_variant(type, variant, specimen->fields);
   shape(specimen, name);
   specimen->geometry = (SporeGeometry){&specimen->surface, &specimen->tetrahedra, &specimen->curve};
   return specimen;
@@ -67,15 +87,17 @@ static const char *const *shapes_for(const SporeModelType *type) {
   }
 }
 
+static void add_test(const char *prefix, GTestDataFunc check, Specimen *specimen) {
+  char *path = g_strdup_printf("%s/%s", prefix, specimen->name);
+  g_test_add_data_func_full(path, specimen, check, (GDestroyNotify)(void (*)(void))specimen_free);
+  g_free(path);
+}
+
 void specimen_add_tests(const char *prefix, GTestDataFunc check, gboolean (*applies)(const SporeModelType *type)) {
   for (SporeModelRegistry type = spore_model_registry; *type; type++)
-    for (const char *const *name = shapes_for(*type); *name; name++) {
-      if (applies && !applies(*type)) continue;
-      Specimen *specimen = specimen_new(*type, *name);
-      char *path = g_strdup_printf("%s/%s", prefix, specimen->name);
-      g_test_add_data_func_full(path, specimen, check, (GDestroyNotify)(void (*)(void))specimen_free);
-      g_free(path);
-    }
+    for (const char *const *name = shapes_for(*type); *name; name++)
+      for (int variant = 0; specimen_variant(*type, variant) && (!applies || applies(*type)); variant++)
+        add_test(prefix, check, specimen_new(*type, *name, variant));
 }
 
 SporeModel *specimen_model(const Specimen *specimen) {

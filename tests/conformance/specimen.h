@@ -23,6 +23,11 @@ typedef struct Specimen {
 /* Calls check once for every specimen whose type `applies` (NULL: all), as test PREFIX/NAME. */
 void specimen_add_tests(const char *prefix, GTestDataFunc check, gboolean (*applies)(const SporeModelType *type));
 
+/* Kinds of body that a type makes of the same geometry (its parameter `element`): their names from 0 on, then NULL; ""
+ * where there is but one. */
+const char *specimen_variant(const SporeModelType *type, int variant);
+void specimen_set_variant(const SporeModelType *type, int variant, void *fields);
+
 /* In a check, data is the specimen. */
 SporeModel *specimen_model(const Specimen *specimen); /* never NULL; destroy through its type */
 /* A specimen of the same type with other vertex numbers; specimen_free. */

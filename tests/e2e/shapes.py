@@ -38,3 +38,21 @@ def stl(vertices, triangles):
     for t in triangles:
         out.append(struct.pack("<12fH", 0, 0, 0, *(x for i in t for x in vertices[i]), 0))
     return b"".join(out)
+
+
+def bar(along=8, across=2, length=0.08, width=0.02):
+    """Medit text of a bar along x from the origin, six tetrahedra in each of along x across x across cells."""
+    n = across + 1
+    vertices = [(length * i / along, width * j / across, width * k / across)
+                for i in range(along + 1) for j in range(n) for k in range(n)]
+    paths = ((4, 6), (6, 2), (2, 3), (3, 1), (1, 5), (5, 4))
+    tetrahedra = []
+    for i in range(along):
+        for j in range(across):
+            for k in range(across):
+                corner = [((i + (c >> 2)) * n + j + (c >> 1 & 1)) * n + k + (c & 1) for c in range(8)]
+                tetrahedra += [(corner[0], corner[a], corner[b], corner[7]) for a, b in paths]
+    lines = ["MeshVersionFormatted 2", "Dimension 3", "Vertices", str(len(vertices))]
+    lines += ["%.9g %.9g %.9g 0" % v for v in vertices] + ["Tetrahedra", str(len(tetrahedra))]
+    lines += ["%d %d %d %d 0" % tuple(i + 1 for i in t) for t in tetrahedra] + ["End"]
+    return "\n".join(lines) + "\n"

@@ -214,6 +214,18 @@ static const Mistake mistakes[] = {
            "<body name=\"organ\"><mechanical geometry=\"cells\"><corotational_tetrahedra/></mechanical>" BALL
            "</body></bodies>\n"),
      {"warning 5:88: 1 of the 2 spheres of \"organ\" lie away from its geometry, and follow it as on a lever: up to "}},
+    {"locking",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra poisson_ratio=\"0.48\"/>"
+           "</mechanical>" BALL "</body></bodies>\n"),
+     {"warning 6:49: linear elements with a Poisson's ratio above 0.45 are much too stiff"}},
+    {"not-locking",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra poisson_ratio=\"0.48\" "
+           "element=\"quadratic\"/></mechanical>" BALL "</body></bodies>\n"),
+     {NULL}},
     {"cannot-run",
      SCENE(ASSETS "<bodies>\n" FLOOR
                   "<body name=\"stone\"><mechanical geometry=\"cube\"><corotational_tetrahedra/></mechanical>" BALL

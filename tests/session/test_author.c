@@ -112,6 +112,28 @@ static void test_use_spheres(Fixture *fixture, gconstpointer data) {
   g_assert_cmpfloat(spore_document_spheres(fixture->document, asset, NULL)->spheres[3], ==, 0.02);
 }
 
+/* Tetrahedra bring their usual model to a body that has none, and leave one that was chosen. */
+static void test_usual_model(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  double corners[12] = {0, 0, 0, 0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01};
+  uint32_t numbers[4] = {0, 1, 2, 3};
+  SporeTetrahedralMesh mesh = {4, 1, corners, numbers};
+  SporeObject *body = add_organ(fixture);
+  g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, "my_organ", "0", 1, &mesh, &error));
+  SporeObject *model = spore_edit_body_model(body);
+  g_assert_cmpstr(spore_object_type(model)->element, ==, "neo_hookean_tetrahedra");
+  g_autofree char *made = text_of(fixture);
+  g_assert_true(spore_edit_use_preset(fixture->document, body, "liver", &error));
+  g_assert_cmpfloat(spore_object_number(model, "young_modulus"), ==, 5220);
+  assert_one_step(fixture, made);
+  g_assert_false(spore_edit_use_preset(fixture->document, body, "marble", &error));
+  g_assert_nonnull(strstr(error->message, "marble"));
+  g_clear_error(&error);
+  g_assert_true(spore_edit_set_model(fixture->document, body, "corotational_tetrahedra", &error));
+  g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, "my_organ", "0", 1, &mesh, &error));
+  g_assert_cmpstr(spore_object_type(spore_edit_body_model(body))->element, ==, "corotational_tetrahedra");
+}
+
 static void test_set_model(Fixture *fixture, gconstpointer data) {
   GError *error = NULL;
   SporeObject *body = add_organ(fixture);
@@ -399,6 +421,7 @@ int main(int argc, char **argv) {
       {"add-organ", test_add_organ},
       {"add-twice", test_add_twice},
       {"use-spheres", test_use_spheres},
+      {"usual-model", test_usual_model},
       {"set-model", test_set_model},
       {"probe-and-pin", test_probe_and_pin},
       {"set-property", test_set_property},

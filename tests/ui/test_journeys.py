@@ -112,15 +112,19 @@ def spheres_with_their_error():
 
 @check
 def tetrahedra_and_model():
-    """tetrahedra are generated, and the model for them chosen."""
+    """tetrahedra are generated with their usual model, and another one is chosen for them."""
     if "cgal" not in FEATURES:
         raise Skip("built without CGAL")
     with start() as editor:
         import_ball(editor)
         editor.act("generate-tetrahedra", "u", 200)
         editor.find("label", r"(?s)\d+ tetrahedra, .* ml.*Least angle", 120, showing=False)
-        editor.act("set-model", "s", "corotational_tetrahedra")
         text = saved(editor, "tetrahedra")
+        assert "<neo_hookean_tetrahedra" in text and 'geometry="ball_tetrahedra"' in text, text
+        editor.act("use-preset", "s", "liver")
+        assert 'young_modulus="5220" poisson_ratio="0.45"' in saved(editor, "tetrahedra_preset")
+        editor.act("set-model", "s", "corotational_tetrahedra")
+        text = saved(editor, "tetrahedra_chosen")
         assert "<corotational_tetrahedra" in text and 'geometry="ball_tetrahedra"' in text, text
         editor.act("generate-spheres", "u", 20)
         ui.wait(lambda: editor.row("ball_spheres"), "spheres")

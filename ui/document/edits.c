@@ -131,26 +131,6 @@ gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, cons
   return finish(document, use_spheres(document, body, source, source_hash, options, set, error));
 }
 
-static gboolean use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
-                               gsize cells, const SporeTetrahedralMesh *mesh, GError **error) {
-  SporeObject *mechanical = child_or_new(document, body, "mechanical", error);
-  if (!mechanical) return FALSE;
-  SporeObject *asset = generated_asset(document, body, spore_edit_body_tetrahedra(document, body), "tetrahedra", error);
-  if (!asset) return FALSE;
-  gsize size;
-  char *text = spore_medit_format(mesh, &size);
-  return fill_generated(document, asset, text, size, "mesh", source, source_hash, error) &&
-         set_integer(document, asset, "cells", cells, error) &&
-         spore_document_set_text(document, mechanical, "geometry", spore_object_name(asset), error);
-}
-
-gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source,
-                                   const char *source_hash, gsize cells, const SporeTetrahedralMesh *mesh,
-                                   GError **error) {
-  spore_document_begin(document, _("Generate tetrahedra"));
-  return finish(document, use_tetrahedra(document, body, source, source_hash, cells, mesh, error));
-}
-
 /* Models. */
 
 /* The geometry that a model asks for, where the body has it; NULL: leave what is there. */
@@ -201,6 +181,52 @@ static gboolean set_model(SporeDocument *document, SporeObject *body, const char
 gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error) {
   spore_document_begin(document, _("Choose model"));
   return finish(document, set_model(document, body, model, error));
+}
+
+/* A body that no model moves yet gets the usual one for the geometry: the first that takes it. */
+static gboolean give_usual_model(SporeDocument *document, SporeObject *body, SporeGeometryKind kind, GError **error) {
+  SporeModelRegistry type = spore_schema_registry(spore_document_schema(document));
+  while (*type && (*type)->geometry != kind) type++;
+  return !*type || spore_edit_body_model(body) || set_model(document, body, (*type)->name, error);
+}
+
+static gboolean use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
+                               gsize cells, const SporeTetrahedralMesh *mesh, GError **error) {
+  SporeObject *mechanical = child_or_new(document, body, "mechanical", error);
+  if (!mechanical) return FALSE;
+  SporeObject *asset = generated_asset(document, body, spore_edit_body_tetrahedra(document, body), "tetrahedra", error);
+  if (!asset) return FALSE;
+  gsize size;
+  char *text = spore_medit_format(mesh, &size);
+  return fill_generated(document, asset, text, size, "mesh", source, source_hash, error) &&
+         set_integer(document, asset, "cells", cells, error) &&
+         spore_document_set_text(document, mechanical, "geometry", spore_object_name(asset), error) &&
+         give_usual_model(document, body, SPORE_GEOMETRY_TETRAHEDRA, error);
+}
+
+gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source,
+                                   const char *source_hash, gsize cells, const SporeTetrahedralMesh *mesh,
+                                   GError **error) {
+  spore_document_begin(document, _("Generate tetrahedra"));
+  return finish(document, use_tetrahedra(document, body, source, source_hash, cells, mesh, error));
+}
+
+static gboolean use_preset(SporeDocument *document, SporeObject *model, const char *name, GError **error) {
+  const SporePreset *preset = spore_object_type(model)->model->presets;
+  while (preset && preset->name && strcmp(preset->name, name) != 0) preset++;
+  if (!preset || !preset->name)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, NULL, _("there is no preset “%s”; choose one of the list"),
+                             name);
+  for (const char *const *setting = preset->settings; *setting; setting += 2)
+    if (!spore_document_set_text(document, model, setting[0], setting[1], error)) return FALSE;
+  return TRUE;
+}
+
+gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const char *name, GError **error) {
+  SporeObject *model = spore_edit_body_model(body);
+  if (!model) return spore_error_raise(error, SPORE_ERROR_INPUT, NULL, _("the body has no model; choose one first"));
+  spore_document_begin(document, _("Use preset"));
+  return finish(document, use_preset(document, model, name, error));
 }
 
 /* Probe. */

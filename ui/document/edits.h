@@ -17,7 +17,8 @@ SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, 
 SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body);
 SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body);
 
-/* Generated spheres become an asset of the body (its earlier generated one is replaced). */
+/* What was generated becomes an asset of the body (its earlier generated one is replaced). With tetrahedra a body that
+ * has no model yet gets the usual one for them. */
 gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
                                 const SporeSpheresOptions *options, const SporeSphereSet *set, GError **error);
 gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source,
@@ -27,6 +28,8 @@ gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, c
 /* Gives the body a mechanical model of that element and so makes it passive, on the geometry it asks for where the body
  * has it; "" takes the mechanical unit away. */
 gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error);
+/* Sets the parameters of the body's model to those of one of its presets. */
+gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const char *name, GError **error);
 /* Element of the body's model, or NULL. */
 SporeObject *spore_edit_body_model(SporeObject *body);
 

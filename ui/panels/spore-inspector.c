@@ -219,22 +219,61 @@ static void model_chosen(GtkComboBox *combo, SporeInspector *self) {
   if (id && !self->filling) spore_activate(GTK_WIDGET(self), "set-model", g_variant_new_string(id));
 }
 
-static void add_model_choice(SporeInspector *self, GtkBox *box) {
-  GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *label = gtk_label_new(_("Model"));
-  self->model = gtk_combo_box_text_new();
-  gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(self->model), "", _("None"));
-  SporeModelRegistry registry = spore_schema_registry(spore_document_schema(document_of(self)));
-  for (; *registry; registry++)
-    gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(self->model), (*registry)->name, _((*registry)->label));
-  g_signal_connect(self->model, "changed", G_CALLBACK(model_chosen), self);
-  spore_ignore_wheel(self->model);
+/* A line of `box` with a list to choose from. */
+static GtkComboBoxText *add_choice(GtkBox *box, const char *text) {
+  GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *label = gtk_label_new(text);
+  GtkWidget *combo = gtk_combo_box_text_new();
+  spore_ignore_wheel(combo);
   gtk_label_set_xalign(GTK_LABEL(label), 0);
-  gtk_label_set_mnemonic_widget(GTK_LABEL(label), self->model);
+  gtk_label_set_mnemonic_widget(GTK_LABEL(label), combo);
   gtk_widget_set_hexpand(label, TRUE);
   gtk_style_context_add_class(gtk_widget_get_style_context(line), "generator");
   gtk_container_add(GTK_CONTAINER(line), label);
-  gtk_container_add(GTK_CONTAINER(line), self->model);
+  gtk_container_add(GTK_CONTAINER(line), combo);
   gtk_container_add(GTK_CONTAINER(box), line);
+  return GTK_COMBO_BOX_TEXT(combo);
+}
+
+static void add_model_choice(SporeInspector *self, GtkBox *box) {
+  GtkComboBoxText *combo = add_choice(box, _("Model"));
+  self->model = GTK_WIDGET(combo);
+  gtk_combo_box_text_append(combo, "", _("None"));
+  SporeModelRegistry registry = spore_schema_registry(spore_document_schema(document_of(self)));
+  for (; *registry; registry++) gtk_combo_box_text_append(combo, (*registry)->name, _((*registry)->label));
+  g_signal_connect(combo, "changed", G_CALLBACK(model_chosen), self);
+}
+
+static void preset_chosen(GtkComboBox *combo, SporeInspector *self) {
+  const char *id = gtk_combo_box_get_active_id(combo);
+  if (id && *id) spore_activate(GTK_WIDGET(self), "use-preset", g_variant_new_string(id));
+}
+
+/* Whether the model has the preset's values. */
+static gboolean has_preset(SporeObject *model, const SporePreset *preset) {
+  const SporeParameterTable *table = spore_object_type(model)->table;
+  gboolean same = TRUE;
+  for (const char *const *setting = preset->settings; *setting && same; setting += 2) {
+    SporeValue value = {0};
+    int index = spore_parameter_find(table, setting[0]);
+    same = index >= 0 && spore_parameter_parse(&table->parameters[index], setting[1], &value, NULL) &&
+           spore_value_equal(&value, spore_object_value(model, (guint)index));
+    spore_value_clear(&value);
+  }
+  return same;
+}
+
+static void add_preset_choice(SporeInspector *self, GtkBox *box, SporeObject *model) {
+  const SporePreset *preset = spore_object_type(model)->model->presets;
+  if (!preset) return;
+  GtkComboBoxText *combo = add_choice(box, _("Preset"));
+  gtk_combo_box_text_append(combo, "", _("Own values"));
+  gtk_combo_box_set_active_id(GTK_COMBO_BOX(combo), "");
+  for (; preset->name; preset++) {
+    g_autofree char *text = g_strdup_printf("%s (%s)", _(preset->label), preset->source);
+    gtk_combo_box_text_append(combo, preset->name, text);
+    if (has_preset(model, preset)) gtk_combo_box_set_active_id(GTK_COMBO_BOX(combo), preset->name);
+  }
+  g_signal_connect(combo, "changed", G_CALLBACK(preset_chosen), self);
 }
 
 static guint last_count(SporeObject *asset, const char *property, guint otherwise) {
@@ -267,6 +306,7 @@ static void add_body(SporeInspector *self, SporeObject *body) {
     const SporeModelType *type = spore_object_type(model)->model;
     GtkBox *parameters = add_section(self, type ? _(type->label) : spore_object_type(model)->element);
     if (type) gtk_widget_set_tooltip_text(GTK_WIDGET(parameters), _(type->doc));
+    if (type) add_preset_choice(self, parameters, model);
     add_object(self, parameters, model);
   }
   add_unit(self, add_section(self, _("Fidelity")), body, "fidelity");
