@@ -48,11 +48,11 @@ const SporeModelType spore_linear_tetrahedra = {
     .name = "linear_tetrahedra",
     .label = N_("Linear tetrahedra"),
     .doc =
-        N_("A solid of linear elasticity with a stiffness made once, in a frame that turns with the whole body: forces "
-           "are one product with it, the quickest there are. For small strains only, and where no part turns by more "
-           "than about 0.2 rad against the others: beyond that it swells and bends too little, and says so. It does "
-           "not feel being turned inside out. With few cells across or a Poisson's ratio near 0.5 it bends less than "
-           "it should."),
+        N_("A solid of linear elasticity with a stiffness made once, in a frame that turns with the whole body: a "
+           "force is one product with it. For small strains only, and where no part turns by more than about 0.2 rad "
+           "against the others: beyond that it swells and bends too little, and says so. It does not feel being "
+           "turned inside out. With few cells across or a Poisson's ratio near 0.5 it bends less than it should. Its "
+           "steps take about as long as those of neo-Hookean tetrahedra, which have no limit of strain."),
     .create = create,
     .map = map,
     SPORE_LINEAR_SOLID_SLOTS,
