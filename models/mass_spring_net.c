@@ -174,19 +174,21 @@ static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   return true;
 }
 
-static bool prepare_cut(SporeModel *model) {
+static bool prepare_cut(SporeModel *model, size_t *edges) {
   Net *net = (Net *)model;
   bool kept = true;
   for (int kind = 0; kind < KINDS && !net->whole[kind].neighbour; kind++)
     kept = kept && spore_springs_keep(&net->springs[kind], &net->whole[kind]);
+  *edges += 3 * net->mesh.triangle_count;
   return kept;
 }
 
-static size_t cut(SporeModel *model, const double *q, const double *triangle) {
+static size_t cut(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts) {
   const SporeVec3 corners[3] = {spore_vec3_load(triangle), spore_vec3_load(triangle + 3),
                                 spore_vec3_load(triangle + 6)};
   size_t count = 0;
-  for (int kind = 0; kind < KINDS; kind++) count += spore_springs_cut(&((Net *)model)->springs[kind], q, corners);
+  for (int kind = 0; kind < KINDS; kind++)
+    count += spore_springs_cut(&((Net *)model)->springs[kind], q, corners, body, kind == STRUCTURAL ? cuts : NULL);
   return count;
 }
 

@@ -6,6 +6,7 @@
 #include "core/linalg/block_matrix.h"
 #include "core/math/simd.h"
 #include "core/math/vec3.h"
+#include "core/sim/model.h"
 
 /* A spring between nodes at distance l pulls with stiffness (l - length) along the line between them, and damps the
  * speed of that distance. Where the nodes meet and there is no line, it works along that of rest.
@@ -72,7 +73,9 @@ typedef struct SporeSpringsWhole { /* as they were */
 bool spore_springs_keep(const SporeSprings *springs, SporeSpringsWhole *whole); /* false: no memory; forget it then */
 void spore_springs_restore(SporeSprings *springs, const SporeSpringsWhole *whole);
 void spore_springs_forget(SporeSpringsWhole *whole);
-/* Cuts those that cross the triangle at q; returns their number. */
-size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3]);
+/* Cuts those that cross the triangle at q; returns their number, and adds them to `cuts` as edges of `body`; NULL: they
+ * are none. */
+size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3], uint32_t body,
+                         SporeCuts *cuts);
 
 #endif

@@ -45,7 +45,12 @@ static bool is_cut(const double *q, uint32_t a, uint32_t b, const SporeVec3 tria
                             triangle[1], triangle[2]);
 }
 
-size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3]) {
+static void record(SporeCuts *cuts, uint32_t body, uint32_t a, uint32_t b) {
+  if (cuts && a < b && cuts->count < cuts->capacity) cuts->edges[cuts->count++] = (SporeCutEdge){body, a, b};
+}
+
+size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3], uint32_t body,
+                         SporeCuts *cuts) {
   size_t ends = 0;
   for (size_t g = 0; g < springs->group_count; g++)
     for (size_t s = springs->slot_start[g]; s < springs->slot_start[g + 1]; s++)
@@ -57,6 +62,7 @@ size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3
         springs->length[at] = -0.0;
         springs->block[at] = springs->diagonal[g * SPORE_LANES + lane];
         springs->is_run[s] = false;
+        record(cuts, body, node, other); /* of its two ends the lower */
         ends++;
       }
   return ends / 2;

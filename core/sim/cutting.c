@@ -15,17 +15,20 @@ bool spore_world_compile_cutting(SporeWorld *world) {
   for (size_t b = 0; made && cuts && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!can_be_cut(body)) continue;
-    made = body->model->type->prepare_cut(body->model);
+    made = body->model->type->prepare_cut(body->model, &world->cuts.capacity);
     if (!made || body->spheres.kind != SPORE_MAPPING_LINEAR) continue;
     size_t count = body->spheres.row_start[body->spheres.point_count];
     body->whole_weight = SPORE_NEW_ARRAY(double, count);
     made = body->whole_weight != NULL;
     if (made) memcpy(body->whole_weight, body->spheres.weight, count * sizeof(double));
   }
-  return made;
+  world->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->cuts.capacity);
+  return made && world->cuts.edges;
 }
 
 void spore_world_mend_bodies(SporeWorld *world) {
+  world->cuts.count = 0;
+  world->cut_run++;
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (can_be_cut(body)) body->model->type->mend(body->model);
@@ -77,7 +80,7 @@ static void forget_steps(const SporeWorld *world, SporeBody *body) {
 static size_t cut_body(SporeWorld *world, uint32_t index, const double *triangle) {
   SporeBody *body = &world->bodies[index];
   const double *q = world->q + body->q_offset;
-  size_t count = body->model->type->cut(body->model, q, triangle);
+  size_t count = body->model->type->cut(body->model, q, triangle, index, &world->cuts);
   if (count == 0) return 0;
   spore_world_wake(world, index);
   forget_steps(world, body);

@@ -42,6 +42,15 @@ typedef struct SporePreset {
   const char *settings[9];  /* a parameter, its value as in the file, the next parameter, ... NULL */
 } SporePreset;
 
+/* Edges of a body's surface that were cut, between nodes a < b, so that what is drawn can follow. */
+typedef struct SporeCutEdge {
+  uint32_t body, a, b;
+} SporeCutEdge;
+typedef struct SporeCuts {
+  size_t count, capacity;
+  SporeCutEdge *edges;
+} SporeCuts;
+
 /* Base of every model: the first member of the model's own structure. Filled by create. */
 typedef struct SporeModel {
   const SporeModelType *type;
@@ -100,11 +109,12 @@ struct SporeModelType {
   /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none: one at each
    * material point, in their order, so that map gives the identity for their centres. *set: spore_sphere_set_clear. */
   bool (*spheres)(const SporeModel *model, SporeSphereSet *set, SporeError *error);
-  /* Room for what mend needs, when the world has something that cuts; false: no memory. */
-  bool (*prepare_cut)(SporeModel *model);
-  /* Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend. How many ties; allocates
-   * nothing, and the pattern stays. NULL: cannot be cut. */
-  size_t (*cut)(SporeModel *model, const double *q, const double *triangle);
+  /* Room for what mend needs, when the world has something that cuts; *edges += how many can be cut. False: no memory.
+   */
+  bool (*prepare_cut)(SporeModel *model, size_t *edges);
+  /* Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend, and adds the edges among
+   * it to `cuts`, as of `body`. How many ties; allocates nothing, and the pattern stays. NULL: cannot be cut. */
+  size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
   /* As it was created. */
   void (*mend)(SporeModel *model);
   /* What the last evaluation had to mend, or what the state after a step is not meant for (translated: cause and

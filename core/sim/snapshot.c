@@ -22,7 +22,9 @@ static bool init_buffer(SporeWorld *world, int index) {
   snapshot->v_count = world->v_count;
   snapshot->reaction = SPORE_NEW_ARRAY(double, 6 * world->body_count);
   snapshot->contacts = SPORE_NEW_ARRAY(SporeSnapshotContact, snapshot->contact_capacity);
-  return snapshot->q && snapshot->v && snapshot->reaction && snapshot->contacts;
+  snapshot->cuts.capacity = world->cuts.capacity;
+  snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->cuts.capacity);
+  return snapshot->q && snapshot->v && snapshot->reaction && snapshot->contacts && snapshot->cuts.edges;
 }
 
 static void set_next(SporeWorld *world) {
@@ -48,6 +50,7 @@ void spore_snapshots_clear(SporeSnapshots *snapshots) {
     spore_free(snapshots->v[i]);
     spore_free(snapshots->buffers[i].reaction);
     spore_free(snapshots->buffers[i].contacts);
+    spore_free(snapshots->buffers[i].cuts.edges);
   }
 }
 
@@ -69,6 +72,14 @@ static void copy_messages(const SporeWorld *world, SporeSnapshot *snapshot) {
   for (uint64_t i = monitor->message_count - missing; i < monitor->message_count; i++)
     snapshot->messages[i % SPORE_MONITOR_MESSAGES] = monitor->messages[i % SPORE_MONITOR_MESSAGES];
   snapshot->message_count = monitor->message_count;
+}
+
+/* The same. */
+static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
+  SporeCuts *cuts = &snapshot->cuts;
+  if (snapshot->cut_run != world->cut_run) cuts->count = 0;
+  snapshot->cut_run = world->cut_run;
+  for (; cuts->count < world->cuts.count; cuts->count++) cuts->edges[cuts->count] = world->cuts.edges[cuts->count];
 }
 
 void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) { body->changed = world->snapshots.newest + 1; }
@@ -104,6 +115,7 @@ void spore_snapshot_publish(SporeWorld *world) {
   snapshot->counts = world->counts;
   snapshot->energy = recent_energy(world);
   copy_messages(world, snapshot);
+  copy_cuts(world, snapshot);
   snapshot->step_us = world->step_us;
   spore_triple_publish(&snapshots->triple);
   set_next(world);

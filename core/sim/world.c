@@ -40,6 +40,7 @@ static void free_arrays(SporeWorld *world) {
                     world->reaction,
                     world->contacts,
                     world->links,
+                    world->cuts.edges,
                     world->emitters,
                     world->ports,
                     world->springs,

@@ -352,6 +352,8 @@ typedef struct SporeSnapshot {
   size_t contact_count; /* total of bodies that are awake; at most contact_capacity are listed */
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
+  SporeCuts cuts;   /* since time 0 */
+  uint64_t cut_run; /* another number: they began anew */
   SporeStepCounts counts;
   SporeEnergy energy;     /* of this state, or of the first one after the snapshot before was acquired */
   uint64_t message_count; /* of the monitor, and its messages */

@@ -268,6 +268,8 @@ struct SporeWorld {
   size_t link_count, port_count;
   SporeLink *links;
   SporePort *ports;
+  SporeCuts cuts;
+  uint64_t cut_run;
   size_t tool_count, emitter_count;
   SporeTool *tools;
   SporeEmitter *emitters;

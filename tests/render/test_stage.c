@@ -252,6 +252,33 @@ static void test_liquid(void) {
   setting_close(&setting);
 }
 
+/* Triangles that a cut goes through are no longer drawn, nor picked; whole again when a run begins anew. */
+static void test_cut_is_seen(void) {
+  Setting setting = setting_open(SPORE_SCENES "/table1-mass-spring.spore");
+  setting_run(&setting, 0);
+  const SporeWorld *world = setting.simulation->world;
+  guint32 body = spore_world_find_body(world, "tissue");
+  SporeObject *mesh = spore_document_find(setting.document, "mesh", "tissue");
+  const SporeTriangleMesh *surface = spore_document_mesh(setting.document, mesh, NULL);
+  const double *q = spore_world_q(world, body);
+  const uint32_t *corner = surface->triangles + 3 * (surface->triangle_count / 2);
+  SporeVec3 middle = {0, 0, 0}, point;
+  for (int k = 0; k < 3; k++) middle = spore_vec3_add_scaled(middle, 1. / 3, spore_vec3_load(q + 3 * (gsize)corner[k]));
+  SporeVec3 from = spore_vec3_add(middle, spore_vec3(0, 0.002, 0)), down = spore_vec3(0, -1, 0);
+  guint32 id = id_of(&setting, "tissue");
+  g_assert_cmpuint(spore_stage_pick(setting.stage, from, down, &point), ==, id);
+  SporeSnapshot cut = *spore_world_snapshot_acquire(setting.simulation->world);
+  SporeCutEdge edge = {body, MIN(corner[0], corner[1]), MAX(corner[0], corner[1])};
+  cut.cuts = (SporeCuts){1, 1, &edge};
+  spore_stage_update(setting.stage, &cut);
+  g_assert_cmpuint(spore_stage_pick(setting.stage, from, down, &point), !=, id);
+  cut.cuts.count = 0;
+  cut.cut_run++;
+  spore_stage_update(setting.stage, &cut);
+  g_assert_cmpuint(spore_stage_pick(setting.stage, from, down, &point), ==, id);
+  setting_close(&setting);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/stage/standing", test_standing);
@@ -264,5 +291,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/camera-on-body", test_camera_on_body);
   g_test_add_func("/render/stage/empty-scene", test_empty_scene);
   g_test_add_func("/render/stage/liquid", test_liquid);
+  g_test_add_func("/render/stage/cut-is-seen", test_cut_is_seen);
   return g_test_run();
 }

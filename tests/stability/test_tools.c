@@ -236,6 +236,12 @@ static void test_scissors(void) {
   uint64_t before = spore_allocation_count();
   run_to(world, 1.4);
   g_assert_cmpuint(spore_allocation_count(), ==, before);
+  const SporeCuts *cuts = &spore_world_snapshot_acquire(world)->cuts;
+  g_assert_cmpuint(cuts->count, >=, COLUMNS); /* an edge of each row, and the diagonals between them */
+  for (size_t i = 0; i < cuts->count; i++) {
+    bool left = cuts->edges[i].a % COLUMNS < COLUMNS / 2, other = cuts->edges[i].b % COLUMNS < COLUMNS / 2;
+    g_assert_true(left != other);
+  }
   size_t cut = spore_world_tool_state(world, 0).cut;
   const SporeCommand gravity = {.kind = SPORE_COMMAND_GRAVITY, .vector = {0, 0, -9.81}};
   spore_world_post(world, &gravity);
@@ -259,6 +265,7 @@ static void test_scissors(void) {
   uint64_t hash = spore_world_hash(world);
   const SporeCommand none = {.kind = SPORE_COMMAND_GRAVITY};
   spore_world_reset(world);
+  g_assert_cmpuint(spore_world_snapshot_acquire(world)->cuts.count, ==, 0);
   spore_world_post(world, &none);
   run_to(world, 1.4);
   g_assert_cmpuint(spore_world_tool_state(world, 0).cut, ==, cut);

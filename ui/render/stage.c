@@ -38,6 +38,7 @@ void spore_stage_free(SporeStage *stage) {
 void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   static const float contact_colour[3] = {0.95f, 0.62f, 0.05f};
   clear(stage);
+  stage->cut_count = 0;
   const SporeObject *bodies = spore_document_section(stage->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     g_ptr_array_add(stage->bodies, spore_stage_body_new(stage, spore_object_child(bodies, i), simulation));
@@ -64,6 +65,13 @@ static void show_contacts(SporeStage *stage, const SporeSnapshot *snapshot) {
   spore_renderer_move_lines(stage->renderer, stage->contact_handle, (const double *)stage->contacts->data, count);
 }
 
+static void show_cuts(SporeStage *stage, const SporeSnapshot *snapshot) {
+  if (stage->cut_count == snapshot->cuts.count && stage->cut_run == snapshot->cut_run) return;
+  stage->cut_count = snapshot->cuts.count;
+  stage->cut_run = snapshot->cut_run;
+  for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_cut(stage, stage->bodies->pdata[i], &snapshot->cuts);
+}
+
 void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
   for (guint i = 0; i < stage->bodies->len; i++) {
     SporeStageBody *body = stage->bodies->pdata[i];
@@ -73,6 +81,7 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
     memcpy(body->q, q, body->q_count * sizeof *q);
     spore_stage_body_place(stage, body);
   }
+  show_cuts(stage, snapshot);
   if (stage->options.contacts && stage->contact_handle) show_contacts(stage, snapshot);
 }
 

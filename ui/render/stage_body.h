@@ -22,6 +22,8 @@ typedef struct SporeStageBody {
   gsize triangle_count;
   const guint32 *triangles; /* triangle_count x 3; borrowed from the document, or own_triangles */
   uint32_t *own_triangles;
+  const guint32 *whole_triangles; /* before anything cut them; NULL: nothing did */
+  gsize whole_count;
   SporeSurfaceStyle style;
   guint surface_handle; /* handles: 0 is none */
 
@@ -49,6 +51,8 @@ struct SporeStage {
   GPtrArray *bodies; /* SporeStageBody * */
   GHashTable *fit;   /* const SporeSphereSet * -> float *: error of each sphere, 0..1 */
   guint contact_handle;
+  gsize cut_count; /* of the snapshot that is shown, and its cut_run */
+  guint64 cut_run;
   GArray *contacts; /* double: segments of the contacts shown */
 };
 
@@ -61,5 +65,8 @@ void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
 /* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|, 1 at a fiftieth of the
  * diagonal. NULL: no such mesh. Kept by the stage. */
 const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
+
+/* Takes away the triangles that cuts of the snapshot go through. */
+void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
 
 #endif
