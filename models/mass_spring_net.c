@@ -192,6 +192,14 @@ static size_t cut(SporeModel *model, const double *q, const double *triangle, ui
   return count;
 }
 
+static size_t shrink(SporeModel *model, const double *q, SporeVec3 point, double radius, double factor, double least) {
+  Net *net = (Net *)model;
+  size_t count = 0;
+  for (int kind = 0; kind < KINDS; kind++)
+    count += spore_springs_shrink(&net->springs[kind], &net->whole[kind], q, point, radius, factor, least);
+  return count;
+}
+
 static void mend(SporeModel *model) {
   Net *net = (Net *)model;
   for (int kind = 0; kind < KINDS; kind++)
@@ -218,5 +226,6 @@ const SporeModelType spore_mass_spring_net = {
     .retune = retune,
     .prepare_cut = prepare_cut,
     .cut = cut,
+    .shrink = shrink,
     .mend = mend,
 };

@@ -78,4 +78,8 @@ void spore_springs_forget(SporeSpringsWhole *whole);
 size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3], uint32_t body,
                          SporeCuts *cuts);
 
+/* Shortens those whose ends are both nearer than radius to the point, to no less than `least` of what they were. */
+size_t spore_springs_shrink(SporeSprings *springs, const SporeSpringsWhole *whole, const double *q, SporeVec3 point,
+                            double radius, double factor, double least);
+
 #endif

@@ -67,3 +67,26 @@ size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3
       }
   return ends / 2;
 }
+
+static bool is_near(const double *q, uint32_t node, SporeVec3 point, double radius) {
+  return spore_vec3_distance(spore_vec3_load(q + 3 * (size_t)node), point) < radius;
+}
+
+size_t spore_springs_shrink(SporeSprings *springs, const SporeSpringsWhole *whole, const double *q, SporeVec3 point,
+                            double radius, double factor, double least) {
+  size_t ends = 0;
+  for (size_t g = 0; g < springs->group_count; g++)
+    for (size_t lane = 0; lane < springs->lanes[g]; lane++) {
+      uint32_t node = springs->node[g * SPORE_LANES + lane];
+      if (!is_near(q, node, point, radius)) continue;
+      for (size_t s = springs->slot_start[g]; s < springs->slot_start[g + 1]; s++) {
+        size_t at = s * SPORE_LANES + lane;
+        double floor = least * whole->length[at], length = factor * springs->length[at];
+        if (springs->neighbour[at] == node || !is_near(q, springs->neighbour[at], point, radius)) continue;
+        if (springs->length[at] <= floor) continue;
+        springs->length[at] = length > floor ? length : floor;
+        ends++;
+      }
+    }
+  return ends / 2;
+}

@@ -97,7 +97,7 @@ gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object,
 }
 
 /* Elements of the tools that move a body. */
-#define TOOLS "probe|grasper|clamp|scissors|suction"
+#define TOOLS "probe|grasper|clamp|scissors|suction|bipolar"
 
 /* Bodies. */
 
@@ -176,7 +176,7 @@ static void check_emitter(SporeCheck *check, SporeObject *emitter) {
                     _("nothing comes out of the emitter \"%s\": it has no body"), spore_object_name(emitter));
 }
 
-/* Scissors that nothing can be cut by. */
+/* Scissors and bipolar forceps where nothing can be changed by them. */
 static void check_scissors(SporeCheck *check, SporeObject *scissors) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
@@ -184,8 +184,10 @@ static void check_scissors(SporeCheck *check, SporeObject *scissors) {
     if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
     if (spore_object_type(spore_object_child(mechanical, 0))->model->cut) return;
   }
-  spore_check_say(check, SPORE_NOTE, scissors, _("make what is to be cut a mass_spring_net, or the tool a grasper"),
-                  _("\"%s\" has nothing to cut: no body has a model that can be"), spore_object_name(scissors));
+  spore_check_say(check, SPORE_NOTE, scissors,
+                  _("make what is to be cut or coagulated a mass_spring_net, or the tool a grasper"),
+                  _("\"%s\" has nothing to work on: no body has a model that can be cut or coagulated"),
+                  spore_object_name(scissors));
 }
 
 /* Suction without a fluid. */
@@ -220,6 +222,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
   spore_check_each(&check, "bodies", NULL, check_body);
   spore_check_each(&check, "tools", NULL, check_tool);
   spore_check_each(&check, "tools", "scissors", check_scissors);
+  spore_check_each(&check, "tools", "bipolar", check_scissors);
   spore_check_each(&check, "tools", "suction", check_suction);
   spore_check_each(&check, "effects", "emitter", check_emitter);
   spore_check_links(&check);

@@ -320,6 +320,18 @@ static gboolean add_suction(Compiler *compiler, const SporeObject *object) {
   return TRUE;
 }
 
+static gboolean add_bipolar(Compiler *compiler, const SporeObject *object) {
+  SporeBipolarToolFields fields = {0};
+  spore_object_fields(object, &fields);
+  SporeToolDescription tool = {.name = fields.name,
+                               .kind = SPORE_TOOL_BIPOLAR,
+                               .point = spore_vec3_load(fields.point),
+                               .bipolar = fields.bipolar};
+  if (!body_index(compiler, object, "body", &tool.body)) return FALSE;
+  g_array_append_val(compiler->tools, tool);
+  return TRUE;
+}
+
 static gboolean add_emitter(Compiler *compiler, const SporeObject *object) {
   SporeWoundFields fields = {0};
   spore_object_fields(object, &fields);
@@ -338,6 +350,7 @@ static gboolean add_tool(Compiler *compiler, const SporeObject *object) {
   if (strcmp(element, "grasper") == 0) return add_jaws(compiler, object, SPORE_TOOL_GRASPER);
   if (strcmp(element, "clamp") == 0) return add_jaws(compiler, object, SPORE_TOOL_CLAMP);
   if (strcmp(element, "scissors") == 0) return add_jaws(compiler, object, SPORE_TOOL_SCISSORS);
+  if (strcmp(element, "bipolar") == 0) return add_bipolar(compiler, object);
   if (strcmp(element, "suction") == 0) return add_suction(compiler, object);
   return TRUE;
 }

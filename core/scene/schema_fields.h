@@ -108,6 +108,12 @@ typedef struct SporeSuctionToolFields {
   SporeSuctionFields suction;
 } SporeSuctionToolFields;
 
+typedef struct SporeBipolarToolFields {
+  const char *name, *body, *device;
+  double point[3];
+  SporeBipolarFields bipolar;
+} SporeBipolarToolFields;
+
 typedef struct SporeWoundFields {
   const char *name, *body, *source;
   double point[3], direction[3];

@@ -577,6 +577,13 @@ static const SporeParameter suction_parameters[] = {
     TOOL_PLACE(SporeSuctionToolFields, point, N_("Middle of the mouth at the start, in the scene.")),
 };
 
+static const SporeParameter bipolar_parameters[] = {
+    NAME(SporeBipolarToolFields, N_("Name of the tool.")),
+    TOOL_BODY(SporeBipolarToolFields, body, N_("Active body that the tool moves: the forceps.")),
+    TOOL_DEVICE(SporeBipolarToolFields),
+    TOOL_PLACE(SporeBipolarToolFields, point, N_("Where it heats, between its tips, at the start, in the scene.")),
+};
+
 static const SporeParameter emitter_parameters[] = {
     NAME(SporeWoundFields, N_("Name of the emitter.")),
     TOOL_BODY(SporeWoundFields, body, N_("Fluid that comes out.")),
@@ -664,7 +671,7 @@ const SporeElement spore_scene_elements[] = {
      TABLE(emitter_parameters, SporeWoundFields), .extra = &spore_emitter_parameters,
      .extra_offset = offsetof(SporeWoundFields, emitter)},
     {"tools", N_("Tools"), N_("What the user holds, and looks through."),
-     .children = CHILDREN("probe", "grasper", "clamp", "scissors", "suction", "camera")},
+     .children = CHILDREN("probe", "grasper", "clamp", "scissors", "suction", "bipolar", "camera")},
     {"probe", N_("Probe"), N_("An active body moved by a device."), TABLE(probe_parameters, SporeProbeFields)},
     {"grasper", N_("Grasper"), N_("Two jaws that close on tissue and hold it."),
      TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
@@ -677,6 +684,10 @@ const SporeElement spore_scene_elements[] = {
     {"suction", N_("Suction"), N_("A tube that takes the particles of fluids away."),
      TABLE(suction_parameters, SporeSuctionToolFields), .extra = &spore_suction_parameters,
      .extra_offset = offsetof(SporeSuctionToolFields, suction)},
+    {"bipolar", N_("Bipolar forceps"),
+     N_("Forceps that coagulate nets while the first button is down: these shrink there, for good."),
+     TABLE(bipolar_parameters, SporeBipolarToolFields), .extra = &spore_bipolar_parameters,
+     .extra_offset = offsetof(SporeBipolarToolFields, bipolar)},
     {"camera", N_("Camera"), N_("A view of the scene."), TABLE(camera_parameters, SporeCameraFields)},
     {"devices", N_("Devices"), N_("Where input comes from."), .children = CHILDREN("mouse", "track")},
     {"mouse", N_("Mouse"), N_("The pointer on the screen."), TABLE(mouse_parameters, SporeMouseFields)},

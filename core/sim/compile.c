@@ -45,6 +45,12 @@ static bool check_body(const SporeBodyDescription *body, SporeError *error) {
   return true;
 }
 
+static bool check_tool_fields(const SporeToolDescription *tool, SporeError *error) {
+  if (tool->kind == SPORE_TOOL_SUCTION) return spore_parameters_check(&spore_suction_parameters, &tool->suction, error);
+  if (tool->kind == SPORE_TOOL_BIPOLAR) return spore_parameters_check(&spore_bipolar_parameters, &tool->bipolar, error);
+  return spore_parameters_check(&spore_jaw_parameters, &tool->jaws, error);
+}
+
 static bool check_description(const SporeWorldDescription *description, SporeError *error) {
   if (!spore_parameters_check(&spore_solver_parameters, &description->solver, error)) {
     spore_error_at(error, "solver");
@@ -57,10 +63,7 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
     if (!check_body(&description->bodies[i], error)) return false;
   for (size_t i = 0; i < description->tool_count; i++) {
     const SporeToolDescription *tool = &description->tools[i];
-    bool sucks = tool->kind == SPORE_TOOL_SUCTION;
-    if (!spore_parameters_check(sucks ? &spore_suction_parameters : &spore_jaw_parameters,
-                                sucks ? (const void *)&tool->suction : (const void *)&tool->jaws, error))
-      return false;
+    if (!check_tool_fields(tool, error)) return false;
   }
   for (size_t i = 0; i < description->emitter_count; i++)
     if (!spore_parameters_check(&spore_emitter_parameters, &description->emitters[i].fields, error)) return false;

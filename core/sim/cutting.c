@@ -11,7 +11,8 @@ static bool can_be_cut(const SporeBody *body) { return body->model && body->mode
 
 bool spore_world_compile_cutting(SporeWorld *world) {
   bool cuts = false, made = true;
-  for (size_t i = 0; i < world->tool_count; i++) cuts |= world->tools[i].kind == SPORE_TOOL_SCISSORS;
+  for (size_t i = 0; i < world->tool_count; i++)
+    cuts |= world->tools[i].kind == SPORE_TOOL_SCISSORS || world->tools[i].kind == SPORE_TOOL_BIPOLAR;
   for (size_t b = 0; made && cuts && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!can_be_cut(body)) continue;
@@ -69,7 +70,9 @@ static void part_row(SporeMapping *spheres, size_t point, const double *q, const
 }
 
 /* What the body remembers of steps before is of one that was whole. */
-static void forget_steps(const SporeWorld *world, SporeBody *body) {
+void spore_body_changed_model(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  spore_world_wake(world, index);
   body->matrix_c = 0;
   body->history_s = 0;
   body->watch.started = false;
@@ -82,8 +85,7 @@ static size_t cut_body(SporeWorld *world, uint32_t index, const double *triangle
   const double *q = world->q + body->q_offset;
   size_t count = body->model->type->cut(body->model, q, triangle, index, &world->cuts);
   if (count == 0) return 0;
-  spore_world_wake(world, index);
-  forget_steps(world, body);
+  spore_body_changed_model(world, index);
   for (size_t i = 0; body->whole_weight && i < body->spheres.point_count; i++) part_row(&body->spheres, i, q, triangle);
   return count;
 }

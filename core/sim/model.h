@@ -115,6 +115,9 @@ struct SporeModelType {
   /* Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend, and adds the edges among
    * it to `cuts`, as of `body`. How many ties; allocates nothing, and the pattern stays. NULL: cannot be cut. */
   size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
+  /* Shrinks, at q, what lies nearer than radius to the point, by a factor, but to no less than `least` of what it was
+   * when it was created. How many ties; after prepare_cut. NULL: heat does nothing. */
+  size_t (*shrink)(SporeModel *model, const double *q, SporeVec3 point, double radius, double factor, double least);
   /* As it was created. */
   void (*mend)(SporeModel *model);
   /* What the last evaluation had to mend, or what the state after a step is not meant for (translated: cause and

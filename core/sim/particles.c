@@ -202,13 +202,13 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
 
 bool spore_world_exchanges_particles(const SporeWorld *world) {
   for (size_t i = 0; i < world->tool_count; i++)
-    if (!spore_tool_has_jaws(&world->tools[i])) return true;
+    if (world->tools[i].kind == SPORE_TOOL_SUCTION) return true;
   return world->emitter_count > 0;
 }
 
 void spore_world_exchange_particles(SporeWorld *world) {
   for (size_t i = 0; i < world->tool_count; i++)
-    if (!spore_tool_has_jaws(&world->tools[i])) suck(world, &world->tools[i]);
+    if (world->tools[i].kind == SPORE_TOOL_SUCTION) suck(world, &world->tools[i]);
   for (size_t i = 0; i < world->emitter_count; i++) emit(world, &world->emitters[i]);
 }
 

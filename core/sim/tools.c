@@ -18,16 +18,17 @@ static const char *tool_fault(const SporeWorld *world, const SporeToolDescriptio
   if (from->body >= world->body_count || world->bodies[from->body].role != SPORE_ACTIVE)
     return _("the tool's body is not active; expected a body that a device moves; choose one");
   if (!spore_vec3_is_finite(from->point)) return _("a point of the tool is not finite; expected it in m; correct it");
-  return from->kind == SPORE_TOOL_SUCTION ? NULL : spore_jaws_fault(world, from);
+  return from->kind >= SPORE_TOOL_SUCTION ? NULL : spore_jaws_fault(world, from);
 }
 
 static bool make_tool(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
   tool->name = spore_copy_text(from->name ? from->name : "");
   tool->kind = from->kind;
   tool->body = from->body;
-  if (from->kind != SPORE_TOOL_SUCTION) return tool->name && spore_jaws_make(world, tool, from);
+  if (spore_tool_has_jaws(tool)) return tool->name && spore_jaws_make(world, tool, from);
   const SporePose *frame = &world->bodies[from->body].rest_pose;
   tool->suction = from->suction;
+  tool->bipolar = from->bipolar;
   tool->point =
       spore_quat_rotate(spore_quat_conjugate(frame->orientation), spore_vec3_sub(from->point, frame->position));
   return tool->name != NULL;
@@ -59,7 +60,7 @@ void spore_world_reset_tools(SporeWorld *world) {
     tool->opening = tool->squeeze = 0;
     tool->latched = false;
     tool->due = 0;
-    tool->taken = tool->cut = 0;
+    tool->taken = tool->cut = tool->shrunk = 0;
   }
 }
 
@@ -72,16 +73,23 @@ void spore_world_clear_tools(SporeWorld *world) {
 }
 
 void spore_world_use_tools(SporeWorld *world) {
-  for (size_t i = 0; i < world->tool_count; i++)
-    if (spore_tool_has_jaws(&world->tools[i])) spore_jaws_use(world, &world->tools[i]);
+  for (size_t i = 0; i < world->tool_count; i++) {
+    SporeTool *tool = &world->tools[i];
+    if (spore_tool_has_jaws(tool)) spore_jaws_use(world, tool);
+    if (tool->kind == SPORE_TOOL_BIPOLAR) spore_bipolar_use(world, tool);
+  }
 }
 
 size_t spore_world_tool_count(const SporeWorld *world) { return world->tool_count; }
 
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
   const SporeTool *tool = &world->tools[index];
-  SporeToolState state = {
-      .name = tool->name, .opening = tool->opening, .squeeze = tool->squeeze, .taken = tool->taken, .cut = tool->cut};
+  SporeToolState state = {.name = tool->name,
+                          .opening = tool->opening,
+                          .squeeze = tool->squeeze,
+                          .taken = tool->taken,
+                          .cut = tool->cut,
+                          .shrunk = tool->shrunk};
   for (size_t i = 0; i < (size_t)tool->fields.holds; i++) {
     state.held += tool->holds[i].state == SPORE_HOLD_TIED;
     state.lost += tool->holds[i].state == SPORE_HOLD_LOST;

@@ -93,12 +93,14 @@ typedef struct SporeLinkDescription {
  *   grasper  two jaws on a hinge close while the device says so, and hold what they press
  *   clamp    the same, and stays closed once it has pressed something, until the second button opens it
  *   scissors blades on a hinge that cut what they close on: nets, along the way of the blades; they need no jaws
- *   suction  takes the particles of fluids away that come into its mouth */
+ *   suction  takes the particles of fluids away that come into its mouth
+ *   bipolar  coagulates nets near its point while the first button is down: they shrink there, for good */
 typedef enum SporeToolKind {
   SPORE_TOOL_GRASPER,
   SPORE_TOOL_CLAMP,
   SPORE_TOOL_SCISSORS,
-  SPORE_TOOL_SUCTION
+  SPORE_TOOL_SUCTION,
+  SPORE_TOOL_BIPOLAR
 } SporeToolKind;
 
 typedef enum SporeTrigger {
@@ -128,6 +130,14 @@ typedef struct SporeSuctionFields {
 } SporeSuctionFields;
 extern const SporeParameterTable spore_suction_parameters;
 
+/* The table is spore_bipolar_parameters. */
+typedef struct SporeBipolarFields {
+  double radius; /* m, about its point */
+  double rate;   /* 1/s: the part of its length that tissue there loses in a second */
+  double least;  /* part of the length that it keeps */
+} SporeBipolarFields;
+extern const SporeParameterTable spore_bipolar_parameters;
+
 typedef struct SporeToolDescription {
   const char *name;
   SporeToolKind kind;
@@ -135,7 +145,9 @@ typedef struct SporeToolDescription {
   uint32_t jaw_a, jaw_b; /* active, without a device; closed at time 0; of scissors SPORE_NO_BODY: none */
   SporeVec3 hinge, axis; /* world, at time 0: jaw_a opens by turning about the axis, jaw_b against it */
   SporeJawFields jaws;   /* of what has jaws */
-  SporeVec3 point;       /* of suction: middle of its mouth; of scissors: end of the closed blades; world, at time 0 */
+  SporeVec3 point; /* of suction: middle of its mouth; of bipolar: between its tips; of scissors: end of the closed
+                      blades; world, at time 0 */
+  SporeBipolarFields bipolar;
   SporeSuctionFields suction;
 } SporeToolDescription;
 
@@ -229,6 +241,7 @@ typedef struct SporeToolState {
   size_t held, lost; /* spheres that it holds; that tore away since it last opened */
   size_t taken;      /* particles that suction took away so far */
   size_t cut;        /* ties that scissors cut so far */
+  size_t shrunk;     /* ties that bipolar shrank in the last step */
 } SporeToolState;
 size_t spore_world_tool_count(const SporeWorld *world);
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);

@@ -197,6 +197,8 @@ typedef struct SporeTool {
   SporeJawFields fields;
   SporeVec3 point; /* of suction and scissors, in its frame */
   size_t cut;      /* by scissors */
+  SporeBipolarFields bipolar;
+  size_t shrunk; /* by bipolar, in the last step */
   SporeSuctionFields suction;
   double due;        /* particles that suction may take away by now */
   size_t taken;      /* by suction */
@@ -374,7 +376,10 @@ bool spore_world_compile_cutting(SporeWorld *world);
 /* The blades, half of the angle each, went with their body from the last state to its target, and closed from one
  * opening to another. */
 void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double to);
+void spore_bipolar_use(SporeWorld *world, SporeTool *tool);
 void spore_world_mend_bodies(SporeWorld *world);
+/* After its model was changed: forgets what it remembers of steps before, and wakes it. */
+void spore_body_changed_model(SporeWorld *world, uint32_t body);
 
 /* jaws.c: from what the last step did to where the jaws are to be. */
 const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription *from);

@@ -264,7 +264,11 @@ static void test_cut_is_seen(void) {
   const uint32_t *corner = surface->triangles + 3 * (surface->triangle_count / 2);
   SporeVec3 middle = {0, 0, 0}, point;
   for (int k = 0; k < 3; k++) middle = spore_vec3_add_scaled(middle, 1. / 3, spore_vec3_load(q + 3 * (gsize)corner[k]));
-  SporeVec3 from = spore_vec3_add(middle, spore_vec3(0, 0.002, 0)), down = spore_vec3(0, -1, 0);
+  SporeVec3 first = spore_vec3_load(q + 3 * (gsize)corner[0]);
+  SporeVec3 up = spore_vec3_cross(spore_vec3_sub(spore_vec3_load(q + 3 * (gsize)corner[1]), first),
+                                  spore_vec3_sub(spore_vec3_load(q + 3 * (gsize)corner[2]), first));
+  up = spore_vec3_normalise(up, spore_vec3(0, 1, 0));
+  SporeVec3 from = spore_vec3_add_scaled(middle, 1e-4, up), down = spore_vec3_scale(-1, up);
   guint32 id = id_of(&setting, "tissue");
   g_assert_cmpuint(spore_stage_pick(setting.stage, from, down, &point), ==, id);
   SporeSnapshot cut = *spore_world_snapshot_acquire(setting.simulation->world);

@@ -275,6 +275,46 @@ static void test_scissors(void) {
   rig_free(rig);
 }
 
+static bool pedal_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
+                           SporeDeviceState *state) {
+  *state = (SporeDeviceState){.position = {0.035, -0.01, 0}, .orientation = {1, 0, 0, 0}, .buttons = time_s > 0.1};
+  return true;
+}
+static const SporeDeviceType pedal_type = {.name = "pedal", .doc = "", .exchange = pedal_exchange, .close = hand_close};
+
+static double apart(const SporeWorld *world, int a, int b) {
+  const double *q = spore_world_q(world, 0);
+  return spore_vec3_distance(spore_vec3_load(q + 3 * a), spore_vec3_load(q + 3 * b));
+}
+
+/* A net shrinks where it is coagulated, to what is left of it and no more; elsewhere it keeps its length. */
+static void test_bipolar(void) {
+  SporeToolDescription tool;
+  Rig *rig = net_and_scissors(&tool);
+  tool.kind = SPORE_TOOL_BIPOLAR;
+  tool.point = spore_vec3(0.04, 0.03, 0);
+  tool.bipolar = (SporeBipolarFields){.radius = 0.015, .rate = 2, .least = 0.6};
+  SporeDevice pedal = {&pedal_type};
+  SporeWorld *world = rig_build(rig);
+  spore_world_set_device(world, 1, &pedal);
+  int middle = 3 * COLUMNS + 4, corner = COLUMNS * COLUMNS - 1;
+  run_to(world, 0.1);
+  g_assert_cmpfloat_with_epsilon(apart(world, middle, middle + 1), 0.01, 1e-9);
+  run_to(world, 0.2);
+  g_assert_cmpuint(spore_world_tool_state(world, 0).shrunk, >, 0);
+  run_to(world, 2);
+  double near = apart(world, middle, middle + 1), far = apart(world, corner, corner - 1);
+  g_test_message("10 mm between neighbours became %.2f mm at the forceps, %.2f mm far from them; %zu still shrink; %s",
+                 1e3 * near, 1e3 * far, spore_world_tool_state(world, 0).shrunk, rig_last_message(world));
+  g_assert_cmpuint(spore_world_tool_state(world, 0).shrunk, ==, 0); /* as short as they get */
+  g_assert_cmpfloat(near, <, 0.0085);
+  g_assert_cmpfloat(far, >, 0.0095);
+  spore_world_reset(world);
+  run_to(world, 0.1);
+  g_assert_cmpfloat_with_epsilon(apart(world, middle, middle + 1), 0.01, 1e-9);
+  rig_free(rig);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tools/grasper", test_grasper);
@@ -283,5 +323,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/tools/repeats", test_repeats);
   g_test_add_func("/tools/refused", test_refused);
   g_test_add_func("/tools/scissors", test_scissors);
+  g_test_add_func("/tools/bipolar", test_bipolar);
   return g_test_run();
 }
