@@ -373,7 +373,7 @@ static SporeMat3 positive_part(SporeMat3 a) {
 }
 
 /* Elastic ties; turning the core also turns the places, which adds the symmetric part of k ((d.s) 1 - s d^T). */
-static void shape_jacobian(const Surface *body, const double *q, double scale, SporeBlockMatrix *matrix) {
+static void shape_jacobian(const Surface *body, const double *q, double scale, bool whole, SporeBlockMatrix *matrix) {
   Core core = core_at(body, q);
   CoreSum sum = {0};
   SporeMat3 bent = spore_mat3_diagonal(0, 0, 0);
@@ -386,7 +386,7 @@ static void shape_jacobian(const Surface *body, const double *q, double scale, S
     bent = spore_mat3_add(bent, spore_mat3_scale(k, spore_mat3_diagonal(dot, dot, dot)));
     bent = spore_mat3_sub(bent, spore_mat3_scale(0.5 * k, both));
   }
-  sum.turning = spore_mat3_add(sum.turning, positive_part(bent));
+  sum.turning = spore_mat3_add(sum.turning, whole ? bent : positive_part(bent));
   add_core(body, &sum, matrix);
 }
 
@@ -399,12 +399,18 @@ static void damping_jacobian(const Surface *body, const double *q, double scale,
   add_core(body, &sum, matrix);
 }
 
+static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  const Surface *body = (const Surface *)model;
+  spore_springs_jacobian(body->springs, KINDS, model->pool, at, matrix);
+  if (at->stiffness_scale != 0) shape_jacobian(body, at->q, at->stiffness_scale, at->whole, matrix);
+  if (at->damping_scale != 0 && body->damping > 0) damping_jacobian(body, at->shape, at->damping_scale, matrix);
+}
+
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  const Surface *body = (const Surface *)model;
-  spore_springs_jacobian(body->springs, KINDS, model->pool, q, shape, stiffness_scale, damping_scale, matrix);
-  if (stiffness_scale != 0) shape_jacobian(body, q, stiffness_scale, matrix);
-  if (damping_scale != 0 && body->damping > 0) damping_jacobian(body, shape, damping_scale, matrix);
+  const SporeTangent at = {
+      .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
+  tangent(model, &at, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
@@ -434,6 +440,7 @@ const SporeModelType spore_deformable_surface = {
     .map = map,
     .pattern = pattern,
     .jacobian = jacobian,
+    .tangent = tangent,
     .drift = drift,
     .retune = retune,
 };

@@ -159,10 +159,16 @@ static double potential(const SporeModel *model, const double *q) {
   return sum;
 }
 
+static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  const Net *net = (const Net *)model;
+  spore_springs_jacobian(net->springs, KINDS, model->pool, at, matrix);
+}
+
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  const Net *net = (const Net *)model;
-  spore_springs_jacobian(net->springs, KINDS, model->pool, q, shape, stiffness_scale, damping_scale, matrix);
+  const SporeTangent at = {
+      .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
+  tangent(model, &at, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
@@ -223,6 +229,7 @@ const SporeModelType spore_mass_spring_net = {
     .map = map,
     .pattern = pattern,
     .jacobian = jacobian,
+    .tangent = tangent,
     .retune = retune,
     .prepare_cut = prepare_cut,
     .cut = cut,

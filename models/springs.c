@@ -169,7 +169,7 @@ typedef struct Loop {
   size_t kinds;
   const double *q, *shape, *v;
   double *f;
-  double stiffness_scale, damping_scale;
+  const SporeTangent *at;
   SporeBlockMatrix *matrix;
 } Loop;
 
@@ -189,19 +189,12 @@ void spore_springs_force(const SporeSprings *springs, size_t kinds, SporePool *p
 static void add_jacobian(void *data, size_t chunk) {
   const Loop *loop = data;
   for (size_t k = 0; k < loop->kinds; k++)
-    if (loop->springs[k].stiffness > 0) SPORE_KERNEL(spore_springs_chunk_jacobian)
-  (&loop->springs[k], chunk, loop->q, loop->shape, loop->stiffness_scale, loop->damping_scale, loop->matrix);
+    if (loop->springs[k].stiffness > 0)
+      SPORE_KERNEL(spore_springs_chunk_jacobian)(&loop->springs[k], chunk, loop->at, loop->matrix);
 }
 
-void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
-                            const double *shape, double stiffness_scale, double damping_scale,
+void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const SporeTangent *at,
                             SporeBlockMatrix *matrix) {
-  Loop loop = {.springs = springs,
-               .kinds = kinds,
-               .q = q,
-               .shape = shape,
-               .stiffness_scale = stiffness_scale,
-               .damping_scale = damping_scale,
-               .matrix = matrix};
+  Loop loop = {.springs = springs, .kinds = kinds, .at = at, .matrix = matrix};
   spore_pool_run(spore_pool_for(pool, 4 * slot_count(springs, kinds)), springs->chunk_count, add_jacobian, &loop);
 }

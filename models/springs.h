@@ -49,8 +49,8 @@ void spore_springs_find_blocks(SporeSprings *springs, const SporeBlockMatrix *ma
 SPORE_DECLARE_KERNEL(void, spore_springs_chunk_force, const SporeSprings *springs, size_t chunk, const double *q,
                      const double *shape, const double *v, double *f);
 SPORE_DECLARE_KERNEL(double, spore_springs_potential, const SporeSprings *springs, const double *q);
-SPORE_DECLARE_KERNEL(void, spore_springs_chunk_jacobian, const SporeSprings *springs, size_t chunk, const double *q,
-                     const double *shape, double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+SPORE_DECLARE_KERNEL(void, spore_springs_chunk_jacobian, const SporeSprings *springs, size_t chunk,
+                     const SporeTangent *at, SporeBlockMatrix *matrix);
 
 /* f += the forces of several kinds of springs between the same nodes, damped along the lines that they have in
  * `shape`. */
@@ -59,9 +59,8 @@ void spore_springs_force(const SporeSprings *springs, size_t kinds, SporePool *p
 static inline double spore_springs_potential(const SporeSprings *springs, const double *q) {
   return springs->stiffness > 0 ? SPORE_KERNEL(spore_springs_potential)(springs, q) : 0;
 }
-/* Under compression the stiffness across the spring is negative and left out. */
-void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
-                            const double *shape, double stiffness_scale, double damping_scale,
+/* Under compression the stiffness across the spring is negative, and left out unless the tangent is to be whole. */
+void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const SporeTangent *at,
                             SporeBlockMatrix *matrix);
 
 /* springs_cut.c: springs may be cut, and be made whole again. */

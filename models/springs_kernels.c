@@ -1,5 +1,7 @@
 #include "models/springs.h"
 
+#include <math.h>
+
 #include "models/block_rows.h"
 
 /* Below this part of the rest length a spring has no direction of its own. */
@@ -132,35 +134,42 @@ SPORE_INLINE void store_matrices(double rows[3][4 * SPORE_WIDTH], const Symmetri
   spore_vd3_store_rows(rows[2], (SporeVd3){a->xz, a->yz, a->zz});
 }
 
-/* k (1 - L/l)+ (I - nn^T) + (k + c) nn^T; where there is no line (k + c) nn^T alone. */
-SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd square, SporeVd length, double stiffness, double damping) {
-  SporeVd inverse = 1 / spore_vd_sqrt(square), none = {0};
-  SporeVl empty = (SporeVl)length < 0;
+/* k t (I - nn^T) + (k + c) nn^T; where there is no line (k + c) nn^T alone. t: the tension over k l. */
+SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd inverse, SporeVd length, SporeVd tension, double stiffness,
+                                    double damping) {
+  SporeVd none = {0}, across = spore_vd_select((SporeVl)length < 0, none, stiffness * tension);
   SporeVd nx = line.x * inverse, ny = line.y * inverse, nz = line.z * inverse;
-  SporeVd across = spore_vd_select(empty, none, stiffness * spore_vd_max(1 - length * inverse, none));
   SporeVd along = stiffness - across + damping;
   SporeVd ax = along * nx, ay = along * ny, az = along * nz;
   return (Symmetric){ax * nx + across, ax * ny, ax * nz, ay * ny + across, ay * nz, az * nz + across};
 }
 
-/* damping: along the lines at q; drag: along those in shape. */
-SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const double *q, const double *shape,
-                               double stiffness, double damping, double drag, int damped, SporeBlockMatrix *matrix) {
-  double rows[3][4 * SPORE_WIDTH];
+/* damping: along the lines at q; drag: along those in shape. promised: the tension is that which linearising at `from`
+ * gives at q, k (n . d - L) with the direction n of there. */
+SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const SporeTangent *at, double damping,
+                               double drag, int damped, bool promised, SporeBlockMatrix *matrix) {
+  double rows[3][4 * SPORE_WIDTH], stiffness = at->stiffness_scale * springs->stiffness;
+  SporeVd none = {0}, least = none + (at->whole ? -HUGE_VAL : 0);
   for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
     size_t lanes = lanes_from(springs, first);
-    SporeVd3 position = spore_vd3_gather(q, node), before;
-    if (damped == DAMPED_AT_SHAPE) before = spore_vd3_gather(shape, node);
+    SporeVd3 position = spore_vd3_gather(at->q, node), before, old;
+    if (damped == DAMPED_AT_SHAPE) before = spore_vd3_gather(at->shape, node);
+    if (promised) old = spore_vd3_gather(at->from, node);
     Symmetric sum = {0};
     for (size_t s = start[0]; s < start[1]; s++) {
       size_t slot = s * SPORE_LANES + first % SPORE_LANES;
       SporeVd length = spore_vd_load(springs->length + slot), square;
-      SporeVd3 line = line_of(springs, node, slot, position, q, length, &square);
-      Symmetric block = stiffness_of(line, square, length, stiffness, damping);
+      SporeVd3 line = line_of(springs, node, slot, position, at->q, length, &square);
+      SporeVd inverse = 1 / spore_vd_sqrt(square), tension = 1 - length * inverse;
+      if (promised) {
+        SporeVd3 along = line_of(springs, node, slot, old, at->from, length, &square);
+        tension = (spore_vd3_dot(along, line) / spore_vd_sqrt(square) - length) * inverse;
+      }
+      Symmetric block = stiffness_of(line, inverse, length, spore_vd_max(tension, least), stiffness, damping);
       if (damped == DAMPED_AT_SHAPE) {
-        line = line_of(springs, node, slot, before, shape, length, &square);
-        Symmetric part = stiffness_of(line, square, length, 0, drag);
+        line = line_of(springs, node, slot, before, at->shape, length, &square);
+        Symmetric part = stiffness_of(line, 1 / spore_vd_sqrt(square), length, none, 0, drag);
         block.xx += part.xx, block.xy += part.xy, block.xz += part.xz;
         block.yy += part.yy, block.yz += part.yz, block.zz += part.zz;
       }
@@ -178,10 +187,12 @@ SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const 
   }
 }
 
-void SPORE_LEVEL_NAME(spore_springs_chunk_jacobian)(const SporeSprings *springs, size_t chunk, const double *q,
-                                                    const double *shape, double stiffness_scale, double damping_scale,
+void SPORE_LEVEL_NAME(spore_springs_chunk_jacobian)(const SporeSprings *springs, size_t chunk, const SporeTangent *at,
                                                     SporeBlockMatrix *matrix) {
-  double stiffness = stiffness_scale * springs->stiffness, damping = damping_scale * springs->damping;
-  if (shape == q || damping == 0) add_jacobian(springs, chunk, q, q, stiffness, damping, 0, DAMPED_AT_Q, matrix);
-  else add_jacobian(springs, chunk, q, shape, stiffness, 0, damping, DAMPED_AT_SHAPE, matrix);
+  double damping = at->damping_scale * springs->damping;
+  bool at_q = at->shape == at->q || damping == 0;
+  if (at_q && !at->from) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, false, matrix);
+  else if (at_q) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, true, matrix);
+  else if (!at->from) add_jacobian(springs, chunk, at, 0, damping, DAMPED_AT_SHAPE, false, matrix);
+  else add_jacobian(springs, chunk, at, 0, damping, DAMPED_AT_SHAPE, true, matrix);
 }

@@ -14,6 +14,7 @@ typedef struct Stage {
   double c;
   size_t linear_iterations;
   double *q, *v;        /* where the force is evaluated */
+  double *from;         /* as q: of the linearisation before */
   double *force, *work; /* 3 block_count each */
   double *linear;       /* SPORE_PCG_SCRATCH vectors */
 } Stage;
@@ -29,11 +30,12 @@ static void residual(void *data, const double *v, double *r) {
   for (size_t i = 0; i < n; i++) r[i] = stage->c * stage->force[i] - r[i];
 }
 
-static void linearise(void *data, const double *v) {
+static void linearise(void *data, const double *v, const double *from) {
   Stage *stage = data;
   const SporeDynamics *dynamics = stage->dynamics;
+  if (from) dynamics->drift(dynamics->data, stage->qa, from, stage->c, stage->from, stage->v);
   dynamics->drift(dynamics->data, stage->qa, v, stage->c, stage->q, stage->v);
-  dynamics->linearise(dynamics->data, stage->q, v, stage->c, stage->c * stage->c);
+  dynamics->linearise(dynamics->data, stage->q, from ? stage->from : NULL, v, stage->c, stage->c * stage->c);
 }
 
 static bool reuse(void *data, const double *v) {
@@ -172,8 +174,9 @@ SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolv
   stage.v = scratch + 2 * n;
   stage.force = scratch + 3 * n;
   stage.work = scratch + 4 * n;
-  stage.linear = scratch + 5 * n;
-  double *r = scratch + (5 + SPORE_PCG_SCRATCH) * n;
+  stage.from = scratch + 5 * n;
+  stage.linear = scratch + 7 * n;
+  double *r = scratch + (7 + SPORE_PCG_SCRATCH) * n;
   SporeSystem system = stage_system(&stage);
   size_t evaluations = guess(&stage, change, system.scale_r, fields->tolerance * system.scale_x, v, r);
   SporeNonlinearResult result = solve_system(&system, fields, v, r, r + n);

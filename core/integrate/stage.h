@@ -8,8 +8,8 @@
 #include "core/integrate/integrator.h"
 #include "core/nonlinear/system.h"
 
-/* Vectors of 3 block_count: q of at most 4/3 of one rounded up to 2; v, force, work; r. */
-#define SPORE_STAGE_SCRATCH (6 + SPORE_PCG_SCRATCH + SPORE_BROYDEN_SCRATCH)
+/* Vectors of 3 block_count: q and from, of at most 4/3 of one rounded up to 2; v, force, work; r. */
+#define SPORE_STAGE_SCRATCH (8 + SPORE_PCG_SCRATCH + SPORE_BROYDEN_SCRATCH)
 
 /* v (written) is the velocity at qa; drift from there. qa and va are not changed. change: what v - va may be near, for
  * a better start than va; NULL: not known. */

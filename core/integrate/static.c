@@ -85,7 +85,7 @@ static bool balance_load(Balance *balance, const SporeSolverFields *fields, doub
     if (norm <= fields->tolerance * wanted * scale(balance)) return true;
     if (i == fields->newton_iterations || result->newton_iterations == most_iterations(fields)) break;
     double c2 = balance->pseudo_step * balance->pseudo_step;
-    dynamics->linearise(dynamics->data, balance->q, balance->moved, c2 / balance->h, c2);
+    dynamics->linearise(dynamics->data, balance->q, NULL, balance->moved, c2 / balance->h, c2);
     result->linearisations++;
     if (norm <= dynamics->rounding(dynamics->data, balance->q, balance->h, false)) return true;
     SporeLinearResult solved = spore_pcg(&operator, r, LINEAR_TOLERANCE, (size_t)fields->linear_iterations, d, linear);

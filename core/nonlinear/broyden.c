@@ -9,6 +9,7 @@
 #define SINGULAR 1e-12        /* of a pivot: a difference that the newer ones span already */
 #define FRESH_CONTRACTION 0.3 /* what a new linearisation promises of an iteration */
 #define SETTLED 2             /* iterations before the contraction is judged */
+#define SHORT 0.3             /* Newton's step cut to less says that iterations with one linearisation will not do */
 
 /* Differences of the last iterations, in a ring: of g = A^-1 r, and of x + g. */
 typedef struct History {
@@ -81,8 +82,7 @@ static void accelerate(History *history, const double *g, const double *weights,
 /* Newton takes over where Broyden stood, with the iterations that are left: those until now cost half as much. */
 static SporeNonlinearResult hand_over(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
                                       double *r, double *scratch, SporeNonlinearResult so_far) {
-  SporeNonlinearOptions left = {options->iterations - so_far.iterations / 2, options->tolerance};
-  SporeNonlinearResult result = spore_newton(system, &left, x, r, scratch);
+  SporeNonlinearResult result = spore_newton(system, options, x, r, scratch);
   result.iterations += so_far.iterations;
   result.linear_iterations += so_far.linear_iterations;
   result.evaluations += so_far.evaluations;
@@ -125,7 +125,7 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
   if (result.converged) return result;
   bool fresh = !system->reuse(system->data, x), pending = false;
   if (fresh) {
-    system->linearise(system->data, x);
+    system->linearise(system->data, x, NULL);
     result.linearisations++;
   }
   if (spore_convergence_rounding(&test, system, x, &result)) return result;
@@ -149,6 +149,7 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
       length = spore_line_search(system, x, g, r, test.norm, false, trial, trial_r, &trial_norm, &result.evaluations);
       memcpy(d, g, n * sizeof *d);
     }
+    if (fresh && since == 0 && length < SHORT) break;
     if (length > 0) {
       memcpy(history.change[history.next], g, n * sizeof *g);
       memset(history.path[history.next], 0, n * sizeof *d);
@@ -162,11 +163,9 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
       spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
       since++;
       if (result.converged) break;
-    } else if (fresh && since == 0) {
-      break;
     }
     if (length == 0 || worth_linearising(system, start, test.norm, target, since)) {
-      system->linearise(system->data, x);
+      system->linearise(system->data, x, NULL);
       result.linearisations++;
       if (spore_convergence_rounding(&test, system, x, &result)) break;
       history.count = 0;
@@ -177,5 +176,8 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
     }
   }
   if (result.converged || !result.finite) return result;
-  return hand_over(system, options, x, r, scratch, result);
+  SporeNonlinearOptions left = *options;
+  left.iterations -= result.iterations / 2;
+  left.linearised = fresh && since == 0;
+  return hand_over(system, &left, x, r, scratch, result);
 }

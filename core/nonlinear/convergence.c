@@ -6,8 +6,9 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
                              double norm, SporeNonlinearResult *result) {
   *test = (SporeConvergence){options->tolerance, fmax(norm, system->scale_r), norm};
   result->finite = isfinite(norm);
-  /* A is no less than the matrix of `dot`, so the change that is still missing is at most the norm. Only the load that
-   * the system names counts here: beside the residual itself any guess would do. */
+  /* A is no less than the matrix of `dot`, so the change that is still missing is at most the norm; where something
+   * buckles it may be more, and that is what so small a disturbance would do. Only the load that the system names
+   * counts here: beside the residual itself any guess would do. */
   result->converged = norm <= options->tolerance * fmin(system->scale_r, system->scale_x);
   result->residual = norm == 0 ? 0 : result->finite ? norm / test->scale_r : INFINITY;
   return result->finite;
@@ -18,11 +19,13 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
  * a body at rest that nothing pulls or touches, rounding is all there is. */
 #define ROUNDING_OF_LOAD 0.1
 
+static bool within_load(const SporeConvergence *test) { return test->norm <= ROUNDING_OF_LOAD * test->scale_r; }
+
 static bool accept_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                             SporeNonlinearResult *result) {
   bool loaded = system->scale_r > 0 || !system->load || system->load(system->data, x) > 0;
   if (!loaded) result->residual = 0;
-  return !loaded || test->norm <= ROUNDING_OF_LOAD * test->scale_r;
+  return !loaded || within_load(test);
 }
 
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
@@ -46,10 +49,13 @@ void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, c
   result->iterations++;
   result->residual = norm == 0 ? 0 : norm / test->scale_r;
   result->converged = false;
-  if (norm > test->tolerance * test->scale_r) return;
+  bool small = norm <= test->tolerance * test->scale_r;
+  if (!small && !within_load(test)) return;
   /* What is still missing: the change made, times how much the residual shrank with it. */
   double change = length * sqrt(system->dot(system->data, d, d));
   double size = fmax(sqrt(system->dot(system->data, x, x)), system->scale_x);
   double missing = before > 0 ? change * fmin(norm / before, 1) : 0;
-  result->converged = missing <= test->tolerance * size;
+  if (missing > test->tolerance * size) return;
+  /* Along what is very stiff, rounding is more than the tolerance, and more iterations would only stir it. */
+  result->converged = small || norm <= system->rounding(system->data, x, true);
 }

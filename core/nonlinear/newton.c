@@ -14,21 +14,33 @@ static double forcing_term(double norm, double previous, double target) {
   return fmin(fmax(eta, 0.1 * target / norm), LOOSEST);
 }
 
-/* A full step may climb far and yet be the way: where springs are very stiff it stretches them, and only the step after
- * it shows how little was missing. Such a step is taken on trust; where the next one has not made it good, Newton goes
- * back and searches along the line (watchdog: R. M. Chamberlain, M. J. D. Powell, C. Lemarechal, H. C. Pedersen,
- * Mathematical Programming Study 16, 1982). Not where forces set in and end: there it is
- * the next contact that was missed, and the step beyond says nothing. */
+/* A full step may climb far and yet be the way: where springs are very stiff it stretches them, and only the steps
+ * after it show how little was missing. Such a step is taken on trust, which goes on while the steps get shorter; where
+ * they have not made it good, Newton goes back and searches along the line (watchdog: R. M. Chamberlain, M. J. D.
+ * Powell, C. Lemarechal, H. C. Pedersen, Mathematical Programming Study 16, 1982). Not where forces set in and end:
+ * there it is the next contact that was missed, and the step beyond says nothing. */
 typedef struct Trust {
   bool given;
   double *x, *d, *r; /* where it was given: point, direction, residual */
   double norm;
-  size_t steps;    /* since then */
+  double shortest; /* step since then */
+  size_t idle;     /* steps since the shortest */
   size_t failures; /* so far */
 } Trust;
 
-#define TRUST_STEPS 2
+#define TRUST_IDLE 6
 #define TRUST_FAILURES 2
+
+/* Whether the steps still get shorter. */
+static bool is_promising(Trust *trust, double step, double norm) {
+  if (!isfinite(norm)) return false;
+  trust->idle++;
+  if (step < 0.9 * trust->shortest) {
+    trust->shortest = step;
+    trust->idle = 0;
+  }
+  return trust->idle < TRUST_IDLE;
+}
 
 static void move(size_t n, const double *x, const double *d, double *to) {
   memcpy(to, x, n * sizeof *to);
@@ -50,13 +62,16 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   size_t n = system->count;
   double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
   Trust trust = {.x = scratch + 3 * n, .d = scratch + 4 * n, .r = scratch + 5 * n};
+  double *from = scratch + 6 * n; /* where x was before the last step */
   SporeNonlinearResult result = {0};
   SporeConvergence test;
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
   double previous = 0;
   while (!result.converged && result.iterations < options->iterations) {
-    system->linearise(system->data, x);
-    result.linearisations++;
+    if (result.iterations > 0 || !options->linearised) {
+      system->linearise(system->data, x, result.iterations > 0 ? from : NULL);
+      result.linearisations++;
+    }
     /* A residual no greater than rounding may still be more than that: one more iteration takes away what is left. */
     bool last = spore_convergence_rounding(&test, system, x, &result), solved = result.converged;
     if (last && result.iterations == 0) break;
@@ -66,10 +81,11 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     system->residual(system->data, trial, trial_r);
     result.evaluations++;
     trial_norm = system->norm(system->data, trial_r);
-    bool good = trial_norm <= fmax(0.5 * (trust.given ? trust.norm : test.norm), test.tolerance * test.scale_r);
+    bool good = trial_norm <= 0.5 * (trust.given ? trust.norm : test.norm);
+    double step = sqrt(system->dot(system->data, d, d));
     if (good) {
       trust.given = false;
-    } else if (trust.given && (++trust.steps >= TRUST_STEPS || !isfinite(trial_norm))) {
+    } else if (trust.given && !is_promising(&trust, step, trial_norm)) {
       /* Not made good: back, and along the line. */
       trust.given = false;
       trust.failures++;
@@ -82,7 +98,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
       bool overshoots = spore_vector_dot(n, trial_r, d) < 0 && isfinite(trial_norm);
       if (!system->switches && overshoots && trust.failures < TRUST_FAILURES) {
         trust.given = true;
-        trust.steps = 0;
+        trust.idle = 0;
+        trust.shortest = step;
         trust.norm = test.norm;
         memcpy(trust.x, x, n * sizeof *x);
         memcpy(trust.r, r, n * sizeof *r);
@@ -92,6 +109,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
       }
     }
     if (length == 0) break;
+    memcpy(from, x, n * sizeof *from);
     memcpy(x, trial, n * sizeof *x);
     memcpy(r, trial_r, n * sizeof *r);
     previous = test.norm;

@@ -2,7 +2,7 @@
  *
  * The system linearises itself: A ~ -dr/dx, symmetric positive definite, is kept by the system until the next
  * `linearise`. `dot` is an inner product on x (kinetic energy's), `norm` the dual norm of a residual. A is no less than
- * the matrix of `dot`, so that |A^-1 r| <= norm(r). */
+ * the matrix of `dot`, so that |A^-1 r| <= norm(r), but where something buckles. */
 #ifndef SPORE_NONLINEAR_SYSTEM_H
 #define SPORE_NONLINEAR_SYSTEM_H
 
@@ -17,7 +17,9 @@ typedef struct SporeSystem {
   bool switches; /* there are forces that set in or end with x, such as those of contacts */
   /* r(x); entries that are not finite are allowed and make `norm` not finite. */
   void (*residual)(void *data, const double *x, double *r);
-  void (*linearise)(void *data, const double *x);
+  /* from: where the step to x was taken by the linearisation there, or NULL; what that promised of x may serve better
+   * than what x shows. */
+  void (*linearise)(void *data, const double *x, const double *from);
   /* True when an earlier linearisation may stand in for a new one, and is now the current one. */
   bool (*reuse)(void *data, const double *x);
   /* dx ~ A^-1 r to a relative residual. */
@@ -43,6 +45,7 @@ typedef struct SporeSystem {
 typedef struct SporeNonlinearOptions {
   size_t iterations; /* Newton's, at most */
   double tolerance;  /* of the residual and of the next change of x, both relative */
+  bool linearised;   /* the system is, at the guess: Newton's method begins with that */
 } SporeNonlinearOptions;
 
 typedef struct SporeNonlinearResult {
@@ -56,7 +59,7 @@ typedef struct SporeNonlinearResult {
 /* Newton's method with inexact linear solves and a line search. x holds the guess, and the answer after it; what is
  * best so far when it did not converge. r: the residual at the guess, overwritten. scratch: SPORE_NEWTON_SCRATCH x
  * count doubles. */
-#define SPORE_NEWTON_SCRATCH 6
+#define SPORE_NEWTON_SCRATCH 7
 SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x, double *r,
                                   double *scratch);
 

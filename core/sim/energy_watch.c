@@ -8,7 +8,7 @@
 #include "core/sim/world_private.h"
 
 #define GROWTH 20
-#define WATCH_STEPS 32      /* energy costs as much as a force, so that it is looked at so seldom */
+#define WATCH_STEPS 32      /* energy costs as much as a force, so that it is looked at so seldom in explicit ones */
 #define SMALLEST_SPEED 1e-6 /* m/s: below, it is rounding */
 
 /* A model with a Jacobian is elastic: its potential is least, 0, at rest. */
@@ -39,34 +39,49 @@ static void add_works(SporeWorld *world, const SporeIsland *island) {
   }
 }
 
+/* Steps between two looks at most. To one that solves equations it adds little, which may go wrong in a single one. */
+static uint32_t steps_between(const SporeBody *body) {
+  return spore_integrator(body->integrator)->implicit ? 1 : WATCH_STEPS;
+}
+
 /* Slower than this it may be by rounding, and by gravity within the time between two looks. */
 static double noise(const SporeWorld *world, const SporeBody *body) {
-  double speed = SMALLEST_SPEED + WATCH_STEPS * world->solver.time_step * spore_vec3_length(world->gravity);
+  double speed = SMALLEST_SPEED + steps_between(body) * world->solver.time_step * spore_vec3_length(world->gravity);
   return body->total_mass * speed * speed;
 }
 
 /* Often at first, for what was changed may go wrong at once: after 1, 2, 4, 8, ... steps. */
-static bool is_time_to_look(uint32_t steps) {
-  return steps < WATCH_STEPS ? (steps & (steps - 1)) == 0 : steps % WATCH_STEPS == 0;
+static bool is_time_to_look(uint32_t steps, uint32_t between) {
+  return steps < between ? (steps & (steps - 1)) == 0 : steps % between == 0;
+}
+
+static double own_energy(const SporeWorld *world, const SporeBody *body, const double *q, const double *v) {
+  return spore_body_kinetic_energy(world, body, v) + body->model->type->potential(body->model, q);
+}
+
+/* From the state that the step began in. */
+static void start(const SporeWorld *world, SporeBody *body) {
+  const double *q = world->q + body->q_offset;
+  body->watch = (SporeEnergyWatch){.started = true,
+                                   .own = own_energy(world, body, q, world->v + body->v_offset),
+                                   .height = spore_body_gravity_energy(world, body, q)};
 }
 
 static bool holds(const SporeWorld *world, SporeBody *body, const double *q, const double *v) {
   SporeEnergyWatch *watch = &body->watch;
-  if (watch->started && !is_time_to_look(++watch->steps)) return true;
-  double own = spore_body_kinetic_energy(world, body, v) + body->model->type->potential(body->model, q);
-  double height = spore_body_gravity_energy(world, body, q);
-  if (!watch->started) {
-    *watch = (SporeEnergyWatch){.started = true, .own = own, .height = height};
-    return true;
-  }
-  double had = watch->own + watch->given + fmax(watch->height - height, 0);
-  return own <= GROWTH * had + noise(world, body);
+  if (!is_time_to_look(++watch->steps, steps_between(body))) return true;
+  double had = watch->own + watch->given + fmax(watch->height - spore_body_gravity_energy(world, body, q), 0);
+  return own_energy(world, body, q, v) <= GROWTH * had + noise(world, body);
 }
 
 bool spore_island_energy_holds(SporeWorld *world, SporeIsland *island) {
   bool watched = false;
-  for (size_t i = 0; i < island->kept_count; i++)
-    watched |= is_watched(&world->bodies[world->island_bodies[island->body_start + i]]);
+  for (size_t i = 0; i < island->kept_count; i++) {
+    SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
+    if (!is_watched(body)) continue;
+    if (!body->watch.started) start(world, body);
+    watched = true;
+  }
   if (!watched) return true;
   add_works(world, island);
   for (size_t i = 0; i < island->kept_count; i++) {

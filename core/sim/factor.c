@@ -160,7 +160,7 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   if (choice->needed) {
     /* What once did not converge without a factor may do now; where not, that step is taken again. */
     if (++choice->steps < TRIAL_STEPS) return;
-    choice->needed = false;
+    choice->needed = choice->stuck = false;
     change(body, 0);
     return;
   }
@@ -198,9 +198,13 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
     judge_age(world, body, result);
     judge_kept_factor(body, result);
     if (world->solver.linear != SPORE_LINEAR_AUTOMATIC) continue;
-    if (result->unsolved > 0 && !choice->factorised) {
+    /* Newton's method, which did not get there, may with a factor: only that takes the tangent whole. */
+    bool loose = island->contact_count + island->spring_count == 0; /* among terms it is not taken whole */
+    bool stuck = loose && !result->converged && body->model->type->tangent != NULL;
+    if ((result->unsolved > 0 || stuck) && !choice->factorised) {
       change(body, 0);
       choice->needed = true;
+      choice->stuck = stuck;
       again |= !result->converged;
     } else {
       choose(world, body, result, alone);

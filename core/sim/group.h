@@ -110,7 +110,7 @@ void spore_group_add_contact_forces(const SporeGroup *group, const double *q, co
 void spore_group_soften_lanes(const SporeGroup *group);
 
 /* linearise.c: the slots of SporeDynamics that stand for A = M + c D + c2 K. */
-void spore_group_linearise(void *data, const double *q, const double *v, double c, double c2);
+void spore_group_linearise(void *data, const double *q, const double *from, const double *v, double c, double c2);
 bool spore_group_reuse(void *data, const double *q, const double *v, double c, double c2);
 void spore_group_multiply(void *data, const double *x, double *y);
 void spore_group_precondition(void *data, const double *r, double *z);

@@ -98,11 +98,11 @@ static void make_preconditioner(SporeGroup *group) {
   spore_blocks_invert(blocks, group->island->v_count / 3);
 }
 
-static void assemble(const SporeGroup *group, SporeBody *body, const double *q, const double *shape, const double *v,
-                     double c, double c2) {
-  if (!spore_group_assembles(group, body)) return;
+static void assemble(const SporeGroup *group, SporeBody *body, const SporeTangent *at, double c, double c2) {
+  const SporeModelType *type = body->model->type;
   spore_block_matrix_zero(&body->matrix);
-  body->model->type->jacobian(body->model, q, shape, v, c2, spore_body_is_static(body) ? 0 : c, &body->matrix);
+  if (type->tangent) type->tangent(body->model, at, &body->matrix);
+  else type->jacobian(body->model, at->q, at->shape, at->v, at->stiffness_scale, at->damping_scale, &body->matrix);
   const double *mass = spore_group_mass(group, body);
   double inertia = spore_group_inertia(group, body);
   for (size_t i = 0; i < body->block_count; i++) {
@@ -116,15 +116,42 @@ static void assemble(const SporeGroup *group, SporeBody *body, const double *q, 
   body->matrix_step = group->world->step;
 }
 
-void spore_group_linearise(void *data, const double *q, const double *v, double c, double c2) {
-  SporeGroup *group = data;
+/* What is compressed may make the whole matrix indefinite. A factor tells, and then the matrix is made again without
+ * that; conjugate gradients are not put at risk, nor are terms that no factor knows. */
+static bool takes_whole(const SporeGroup *group, const SporeBody *body) {
+  return body->choice.factorised && body->model->type->tangent && !spore_body_is_static(body) &&
+         group->island->contact_count + group->island->spring_count == 0;
+}
+
+/* whole: as far as a body takes it; else what has no factor yet, without. */
+static bool assemble_bodies(const SporeGroup *group, const double *q, const double *from, const double *v, double c,
+                            double c2, bool whole) {
+  bool any = false;
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    assemble(group, body, q + site->q, (group->shape ? group->shape : q) + site->q, v + site->v, c, c2);
+    if (!spore_group_assembles(group, body)) continue;
+    if (!whole && (body->factor_ready || !takes_whole(group, body))) continue;
+    assemble(group, body,
+             &(SporeTangent){.q = q + site->q,
+                             .shape = (group->shape ? group->shape : q) + site->q,
+                             .v = v + site->v,
+                             .from = from ? from + site->q : NULL,
+                             .stiffness_scale = c2,
+                             .damping_scale = spore_body_is_static(body) ? 0 : c,
+                             .whole = whole && takes_whole(group, body)},
+             c, c2);
+    any = true;
   }
+  return any;
+}
+
+void spore_group_linearise(void *data, const double *q, const double *from, const double *v, double c, double c2) {
+  SporeGroup *group = data;
+  assemble_bodies(group, q, from, v, c, c2, true);
   linearise_terms(group, q, v, c, c2, false);
   make_preconditioner(group);
+  if (assemble_bodies(group, q, from, v, c, c2, false)) make_preconditioner(group);
 }
 
 /* Whether every matrix of the island is that of c and c2, and not older than it is kept. */
@@ -159,7 +186,7 @@ double spore_group_factor_cost(void *data) {
     const SporeSite *site;
     const SporeBody *body = spore_group_body(group, b, &site);
     if (!spore_group_assembles(group, body)) continue;
-    if (!body->choice.factorised) return 0;
+    if (!body->choice.factorised || body->choice.stuck) return 0;
     linearisation += spore_body_linearisation_work(body);
     iteration += spore_body_iteration_work(body);
   }

@@ -51,6 +51,14 @@ typedef struct SporeCuts {
   SporeCutEdge *edges;
 } SporeCuts;
 
+/* Where and how a model's force is linearised for Newton's method. */
+typedef struct SporeTangent {
+  const double *q, *shape, *v; /* as for force */
+  const double *from;          /* the configuration from which Newton's last step led to q; NULL: none did */
+  double stiffness_scale, damping_scale;
+  bool whole; /* the exact matrix, even where it is indefinite */
+} SporeTangent;
+
 /* Base of every model: the first member of the model's own structure. Filled by create. */
 typedef struct SporeModel {
   const SporeModelType *type;
@@ -94,6 +102,11 @@ struct SporeModelType {
    * the exact matrix is indefinite, its positive semi-definite part. NULL: no internal stiffness (rigid). */
   void (*jacobian)(const SporeModel *model, const double *q, const double *shape, const double *v,
                    double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+  /* The same for Newton's method. Stress is stiff across its line; where `from` is given, that stiffness is of the
+   * stress that linearising there promised for q, and not of what q has. The two differ by how much the step bent what
+   * is stiff, to second order; but times the stiffness, which hides all else (the stress is an unknown of its own, as
+   * in mixed and primal-dual methods). NULL: jacobian serves. */
+  void (*tangent)(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix);
   /* Moves q along v for h seconds, free of force: q1, v1 from q, v (may alias). NULL: q1 = q + h v, v1 = v.
    * A rigid body turns here and keeps its angular momentum. */
   void (*drift)(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1);

@@ -37,7 +37,8 @@ typedef enum SporeStart { SPORE_START_NONE, SPORE_START_NEW, SPORE_START_KEPT } 
 
 /* Whether a body's matrix is factorised, how long a linearisation is kept, and what led to it: see factor.c. */
 typedef struct SporeFactorChoice {
-  bool factorised, needed;  /* needed: conjugate gradients alone did not solve a step */
+  bool factorised, needed; /* needed: conjugate gradients alone did not solve a step */
+  bool stuck; /* nor did Newton's method with them, and there is a tangent that only a factor takes whole */
   uint32_t votes, patience; /* steps that work was counted in; how many it takes to judge */
   double present, other;    /* work that they took, and would have taken the other way */
   uint32_t steps;           /* since the last change */

@@ -30,6 +30,7 @@ static void check_gradient(gconstpointer data) {
 }
 
 static gboolean has_jacobian(const SporeModelType *type) { return type->jacobian != NULL; }
+static gboolean has_tangent(const SporeModelType *type) { return type->tangent != NULL; }
 static gboolean is_nodal(const SporeModelType *type) { return type->drift == NULL; }
 
 static void make_matrix(const SporeModel *model, SporeBlockMatrix *matrix) {
@@ -59,13 +60,10 @@ static State displaced(const SporeModel *model, const State *state, const double
 }
 
 /* Relative distance of A w from -(f(ahead) - f(behind)) / 2 step, with positions (or speeds) moved along w. */
-static double jacobian_error(const SporeModel *model, const State *state, const double *w, double step,
-                             gboolean damping) {
-  SporeBlockMatrix matrix;
-  make_matrix(model, &matrix);
-  model->type->jacobian(model, state->q, state->q, state->v, damping ? 0 : 1, damping ? 1 : 0, &matrix);
+static double matrix_error(const SporeModel *model, const State *state, const SporeBlockMatrix *matrix, const double *w,
+                           double step, gboolean damping) {
   double *product = vector_new(state->v_count);
-  spore_block_matrix_multiply_add(&matrix, w, product);
+  spore_block_matrix_multiply_add(matrix, w, product);
   State ahead = displaced(model, state, w, step, damping), behind = displaced(model, state, w, -step, damping);
   double *fa = model_force(model, &ahead), *fb = model_force(model, &behind);
   for (size_t i = 0; i < state->v_count; i++) fa[i] = -(fa[i] - fb[i]) / (2 * step);
@@ -76,6 +74,15 @@ static double jacobian_error(const SporeModel *model, const State *state, const 
   g_free(fa);
   g_free(fb);
   g_free(product);
+  return error;
+}
+
+static double jacobian_error(const SporeModel *model, const State *state, const double *w, double step,
+                             gboolean damping) {
+  SporeBlockMatrix matrix;
+  make_matrix(model, &matrix);
+  model->type->jacobian(model, state->q, state->q, state->v, damping ? 0 : 1, damping ? 1 : 0, &matrix);
+  double error = matrix_error(model, state, &matrix, w, step, damping);
   spore_block_matrix_clear(&matrix);
   return error;
 }
@@ -110,6 +117,58 @@ static void check_jacobian(gconstpointer data) {
   g_test_message("%s: worst relative error, stiffness %.2e, damping %.2e", specimen->name, worst[0], worst[1]);
   g_assert_cmpfloat(worst[0], <, 1e-7);
   g_assert_cmpfloat(worst[1], <, 1e-10);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
+/* How far the tangent at q after a step from `from` is from that at q, relative to the latter. */
+static double promise_error(const SporeModel *model, const State *state, const double *from) {
+  SporeBlockMatrix shown, promised;
+  make_matrix(model, &shown);
+  make_matrix(model, &promised);
+  SporeTangent at = {.q = state->q, .shape = state->q, .v = state->v, .stiffness_scale = 1, .whole = true};
+  model->type->tangent(model, &at, &shown);
+  at.from = from;
+  model->type->tangent(model, &at, &promised);
+  size_t count = 9 * (size_t)shown.row_start[shown.block_count];
+  double error = vector_distance(shown.values, promised.values, count) / vector_length(shown.values, count);
+  spore_block_matrix_clear(&shown);
+  spore_block_matrix_clear(&promised);
+  return error;
+}
+
+/* The whole tangent is exact where what is compressed buckles, too, and what a step promised is wrong by its square. */
+static void check_tangent(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(7);
+  double worst = 0, of_step = 0, of_half = 0, none = 0;
+  for (int trial = 0; trial < 20; trial++) {
+    State state = state_random(model, random, 0.8, 0.05 * specimen->size);
+    memset(state.v, 0, state.v_count * sizeof(double));
+    double *w = vector_random(random, state.v_count, 1);
+    SporeBlockMatrix matrix;
+    make_matrix(model, &matrix);
+    SporeTangent at = {.q = state.q, .shape = state.q, .v = state.v, .stiffness_scale = 1, .whole = true};
+    model->type->tangent(model, &at, &matrix);
+    worst = fmax(worst, matrix_error(model, &state, &matrix, w, 1e-5 * specimen->size, FALSE));
+    State near = state_moved(model, &state, w, 1e-3 * specimen->size);
+    State nearer = state_moved(model, &state, w, 5e-4 * specimen->size);
+    none = fmax(none, promise_error(model, &state, state.q));
+    of_step += promise_error(model, &state, near.q);
+    of_half += promise_error(model, &state, nearer.q);
+    state_clear(&nearer);
+    state_clear(&near);
+    spore_block_matrix_clear(&matrix);
+    state_clear(&state);
+    g_free(w);
+  }
+  g_test_message("%s: worst relative error %.2e, promise of a step off by %.2e, of half of it by %.2e", specimen->name,
+                 worst, of_step / 20, of_half / 20);
+  g_assert_cmpfloat(worst, <, 1e-7);
+  g_assert_cmpfloat(none, <, 1e-14);
+  g_assert_cmpfloat(of_step / of_half, >, 3.5);
+  g_assert_cmpfloat(of_step / of_half, <, 4.5);
   g_rand_free(random);
   model->type->destroy(model);
 }
@@ -335,6 +394,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   specimen_add_tests("/conformance/gradient", check_gradient, NULL);
   specimen_add_tests("/conformance/jacobian", check_jacobian, has_jacobian);
+  specimen_add_tests("/conformance/tangent", check_tangent, has_tangent);
   specimen_add_tests("/conformance/viscosity", check_viscosity, has_jacobian);
   specimen_add_tests("/conformance/definite", check_definite, has_jacobian);
   specimen_add_tests("/conformance/momentum", check_momentum, is_nodal);

@@ -30,7 +30,7 @@ static void fill(Cubic *cubic, const double *x, double factor) {
     cubic->diagonal[i] = factor * (1 + 3 * cubic->strength * x[i] * x[i] + 2 * cubic->coupling);
 }
 
-static void linearise(void *data, const double *x) {
+static void linearise(void *data, const double *x, const double *from) {
   Cubic *cubic = data;
   cubic->linearisations++;
   fill(cubic, x, 1);
@@ -264,7 +264,7 @@ static void pull(void *data, const double *x, double *r) {
   r[1] = -pull * x[1] - 1;
 }
 
-static void pull_matrix(void *data, const double *x) {
+static void pull_matrix(void *data, const double *x, const double *from) {
   Pendulum *pendulum = data;
   double length = hypot(x[0], x[1]), c = x[0] / length, s = x[1] / length;
   double across = pendulum->stiffness * fmax(1 - 1 / length, 0), along = pendulum->stiffness - across;

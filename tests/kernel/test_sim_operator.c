@@ -81,7 +81,7 @@ static void test_dense(void) {
   memcpy(q, island->q0, sizeof q);
   memcpy(v, island->v0, sizeof v);
   const double c = 0.03, c2 = 0.002;
-  dynamics.linearise(dynamics.data, q, v, c, c2);
+  dynamics.linearise(dynamics.data, q, NULL, v, c, c2);
   double worst = 0, largest = 0, asymmetry = 0, dense[N][N];
   for (int j = 0; j < N; j++) {
     double unit[N] = {0}, product[N], mass[N], stiffness[N], damping[N];
@@ -113,7 +113,7 @@ static void test_preconditioner(void) {
   SporeGroup group = {world, &world->islands[0]};
   SporeDynamics dynamics = spore_group_dynamics(&group);
   for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = false;
-  dynamics.linearise(dynamics.data, world->islands[0].q0, world->islands[0].v0, 0.03, 0.002);
+  dynamics.linearise(dynamics.data, world->islands[0].q0, NULL, world->islands[0].v0, 0.03, 0.002);
   for (int j = 0; j < N; j++) {
     if (j >= 9 && j < 12) continue;
     double unit[N] = {0}, product[N], block[N] = {0}, back[N];
@@ -132,7 +132,7 @@ static void test_factor(void) {
   SporeGroup group = {world, &world->islands[0]};
   SporeDynamics dynamics = spore_group_dynamics(&group);
   for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = true;
-  dynamics.linearise(dynamics.data, world->islands[0].q0, world->islands[0].v0, 0.03, 0.002);
+  dynamics.linearise(dynamics.data, world->islands[0].q0, NULL, world->islands[0].v0, 0.03, 0.002);
   for (int b = 0; b < 2; b++) g_assert_true(world->bodies[b].factor_ready);
   for (int j = 0; j < N; j++) {
     if (j >= 9 && j < 12) continue;
@@ -172,7 +172,7 @@ static void test_folded(void) {
   /* Still: how a damper's direction turns with its ends is left out of A. */
   double q[ALONE], v[ALONE] = {0}, worst = 0, largest = 0;
   memcpy(q, island->q0, sizeof q);
-  dynamics.linearise(dynamics.data, q, v, c, c2);
+  dynamics.linearise(dynamics.data, q, NULL, v, c, c2);
   g_assert_cmpuint(group.contact_couplings + group.spring_couplings, ==, 0);
   g_assert_true(body->factor_ready);
   g_assert_cmpfloat(dynamics.factor_cost(dynamics.data), >, 0);
@@ -215,10 +215,10 @@ static void test_kept_factor(void) {
   memcpy(shifted, q, sizeof q);
   for (int i = 0; i < N; i++) shifted[i] += 0.02 * sin(i), r[i] = i >= 9 && i < 12 ? 0 : cos(i);
   for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = true;
-  dynamics.linearise(dynamics.data, q, v, c, 0.002);
+  dynamics.linearise(dynamics.data, q, NULL, v, c, 0.002);
   g_assert_cmpuint(group.contact_couplings, >, 0);
   dynamics.precondition(dynamics.data, r, first);
-  dynamics.linearise(dynamics.data, shifted, v, c, 0.002);
+  dynamics.linearise(dynamics.data, shifted, NULL, v, c, 0.002);
   dynamics.precondition(dynamics.data, r, later);
   g_assert_cmpmem(first, sizeof first, later, sizeof later);
   for (int b = 0; b < 2; b++) g_assert_cmpuint(world->bodies[b].choice.factors, ==, 1);
@@ -227,12 +227,12 @@ static void test_kept_factor(void) {
   SporeLinearResult result = spore_pcg(&operator, r, 1e-10, 100, solved, scratch);
   g_assert_cmpint(result.status, ==, SPORE_LINEAR_CONVERGED);
   world->bodies[0].factor_kept = false;
-  dynamics.linearise(dynamics.data, shifted, v, c, 0.002);
+  dynamics.linearise(dynamics.data, shifted, NULL, v, c, 0.002);
   g_assert_cmpuint(world->bodies[0].choice.factors, ==, 2);
   g_assert_cmpuint(world->bodies[1].choice.factors, ==, 1);
   dynamics.multiply(dynamics.data, solved, back);
   for (int i = 0; i < N; i++) g_assert_cmpfloat_with_epsilon(back[i], r[i], 1e-7);
-  dynamics.linearise(dynamics.data, shifted, v, c, 0.003);
+  dynamics.linearise(dynamics.data, shifted, NULL, v, c, 0.003);
   for (int b = 0; b < 2; b++) g_assert_cmpuint(world->bodies[b].choice.factors, ==, 3 - b);
   spore_world_free(world);
 }

@@ -44,10 +44,16 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   return true;
 }
 
+static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  const Chain *chain = (const Chain *)model;
+  spore_springs_jacobian(chain->springs, chain->count, model->pool, at, matrix);
+}
+
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  const Chain *chain = (const Chain *)model;
-  spore_springs_jacobian(chain->springs, chain->count, model->pool, q, shape, stiffness_scale, damping_scale, matrix);
+  const SporeTangent at = {
+      .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
+  tangent(model, &at, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
@@ -66,7 +72,8 @@ static const SporeModelType type = {.name = "chain",
                                     .potential = potential,
                                     .map = map,
                                     .pattern = pattern,
-                                    .jacobian = jacobian};
+                                    .jacobian = jacobian,
+                                    .tangent = tangent};
 
 static void find_blocks(Chain *chain) {
   SporeBlockPattern blocks;

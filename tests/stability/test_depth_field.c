@@ -140,7 +140,7 @@ static void test_forces(void) {
   g_assert_cmpfloat(spore_vec3_length(sum), <, 1e-14);
   g_assert_cmpfloat(spore_vec3_length(torque), <, 1e-14);
   const double c = 1e-3, c2 = 1e-6;
-  dynamics.linearise(dynamics.data, island->q0, island->v0, c, c2);
+  dynamics.linearise(dynamics.data, island->q0, NULL, island->v0, c, c2);
   double worst = 0, largest = 0;
   for (int j = 0; j < V; j++) {
     double unit[V] = {0}, back[V] = {0}, product[V], mass[V], ahead[V], behind[V], faster[V], slower[V];

@@ -159,7 +159,7 @@ static void test_jacobian(void) {
     double q[14], v[DOFS] = {0}, worst = 0, largest = 0;
     memcpy(q, world->islands[0].q0, sizeof q);
     dynamics.force(dynamics.data, q, v, (double[DOFS]){0});
-    dynamics.linearise(dynamics.data, q, v, c, c2);
+    dynamics.linearise(dynamics.data, q, NULL, v, c, c2);
     for (int j = 0; j < DOFS; j++) {
       double unit[DOFS] = {0}, product[DOFS], mass[DOFS], plus[DOFS], minus[DOFS], moved[14], step = 1e-6;
       unit[j] = 1;

@@ -42,16 +42,18 @@ static void case_1_chain(void) {
   }
 }
 
-/* Case 1: a net with stiff edges and soft diagonals, held at two corners, swings at 16 ms. Its energy may only fall;
- * how well the stiffest springs are solved shows in their stretch. */
+/* Case 1: a net with stiff edges and soft diagonals, held at two corners, swings at 16 ms. Every step is solved, its
+ * energy may only fall, and what does not stretch comes down by its 5 cm; how well the stiffest springs are solved
+ * shows in their stretch. */
 static void case_1_net(void) {
   const unsigned side = 6, edges = 2 * side * (side - 1) + (side - 1) * (side - 1);
-  for (int decade = 0; decade <= 12; decade += 4) {
+  for (int decade = 0; decade <= 12; decade += 2) {
     SporeTriangleMesh sheet;
     shape_sheet(&sheet, side, side, 0.01, TRUE);
     Rig *rig = rig_new();
     rig->description.gravity = spore_vec3(0, 0, -G);
     rig->description.solver.time_step = 0.016;
+    rig->description.solver.newton_iterations = 40; /* with 20 a few steps at 1e8 and above are taken in smaller ones */
     rig_passive(rig, "net",
                 rig_surface_model(&spore_mass_spring_net, &sheet, "structural_stiffness", pow(10, decade),
                                   "shear_stiffness", 1.0, "bending_stiffness", 1.0, NULL),
@@ -67,16 +69,16 @@ static void case_1_net(void) {
       stored = fmax(stored, energy.internal);
     }
     double stretch = sqrt(2 * stored / pow(10, decade) / edges) / 0.01;
+    double fallen = -spore_world_q(world, 0)[3 * (side * side - 1) + 2];
     g_test_message("case 1: net, ratio 1e%d at 16 ms: energy at most %.2e J above the start, mean "
                    "stretch of the stiff edges at most %.1e, fallen %.2e m, not converged %u",
-                   decade, total, stretch, -spore_world_q(world, 0)[3 * (side * side - 1) + 2],
-                   (unsigned)spore_world_monitor(world)->not_converged);
+                   decade, total, stretch, fallen, (unsigned)spore_world_monitor(world)->not_converged);
     g_assert_true(rig_finite(world));
     g_assert_false(rig_any_frozen(world));
     g_assert_cmpfloat(total, <, 1e-12);
-    if (decade > 0) g_assert_cmpfloat(stretch, <, 1e-3);
-    /* What was not solved to tolerance is said, with the body. */
-    if (spore_world_monitor(world)->not_converged) g_assert_true(g_str_has_prefix(rig_last_message(world), "net: "));
+    g_assert_cmpuint(spore_world_monitor(world)->not_converged, ==, 0);
+    if (decade >= 4) g_assert_cmpfloat(stretch, <, 1e-3);
+    if (decade >= 4) g_assert_cmpfloat_with_epsilon(fallen, 0.01 * (side - 1), 2e-4);
     rig_free(rig);
   }
 }

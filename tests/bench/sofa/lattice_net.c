@@ -95,13 +95,19 @@ static double potential(const SporeModel *model, const double *q) {
   return spore_springs_potential(&net->springs[EDGES], q) + spore_springs_potential(&net->springs[DIAGONALS], q);
 }
 
-static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
-                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
   const Net *net = (const Net *)model;
-  spore_springs_jacobian(net->springs, KINDS, model->pool, q, shape, stiffness_scale, damping_scale, matrix);
+  spore_springs_jacobian(net->springs, KINDS, model->pool, at, matrix);
   for (size_t i = 0; i < model->block_count; i++)
     for (int k = 0; k < 3; k++)
-      matrix->values[9 * net->diagonal[i] + 4 * k] += damping_scale * net->mass_damping * model->block_mass[i];
+      matrix->values[9 * net->diagonal[i] + 4 * k] += at->damping_scale * net->mass_damping * model->block_mass[i];
+}
+
+static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  const SporeTangent at = {
+      .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
+  tangent(model, &at, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
@@ -118,7 +124,8 @@ static const SporeModelType type = {.name = "lattice_net",
                                     .potential = potential,
                                     .map = map,
                                     .pattern = pattern,
-                                    .jacobian = jacobian};
+                                    .jacobian = jacobian,
+                                    .tangent = tangent};
 
 SporeModel *lattice_net_new(const LatticeNet *net) {
   Net *model = g_new0(Net, 1);
