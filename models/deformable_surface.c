@@ -81,24 +81,6 @@ static void destroy(SporeModel *model) {
 
 /* Making. */
 
-static bool check_surface(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error) {
-  if (!mesh || mesh->triangle_count == 0)
-    return spore_error_set(
-        error, SPORE_ERROR_INPUT, NULL,
-        _("there is no surface; a deformable surface body needs a closed one; give the body a mesh"));
-  if (!spore_triangle_mesh_validate(mesh, error) || !spore_triangle_mesh_report(mesh, report, error)) return false;
-  if (report->boundary_edges > 0 || report->misoriented_edges > 0)
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("the surface is open at %zu edges and turns inside out at %zu; a deformable surface body "
-                             "needs a closed one with one outside; repair the mesh or choose a mass-spring net"),
-                           report->boundary_edges, report->misoriented_edges);
-  if (fabs(report->volume) > 1e-12 * report->diagonal * report->diagonal * report->diagonal) return true;
-  return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                         _("the surface holds no volume (%g m^3); a deformable surface body needs a solid; check unit "
-                           "and mesh"),
-                         report->volume);
-}
-
 /* The core's mass is spread as the surface's is: same centre, same shape of inertia. */
 static bool set_core(Surface *body, double surface_mass, SporeError *error) {
   SporeVec3 first = {0, 0, 0};
@@ -212,7 +194,7 @@ static bool build(Surface *body, const SporeTriangleMesh *mesh, const SurfaceFie
 
 static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   SporeMeshReport report;
-  if (!check_surface(geometry->surface, &report, error)) return NULL;
+  if (!spore_triangle_mesh_report_solid(geometry->surface, &report, error)) return NULL;
   Surface *body = SPORE_NEW(Surface);
   if (!body) {
     no_memory(error);

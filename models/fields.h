@@ -11,4 +11,11 @@
     .initial = {initial_}, .offset = offsetof(Fields, field), .change = change_, .doc = doc_                           \
   }
 
+/* The same for an int64_t. */
+#define SPORE_INTEGER_FIELD(Fields, field, minimum_, maximum_, initial_, change_, doc_)                                \
+  {                                                                                                                    \
+    .name = #field, .type = SPORE_INTEGER, .unit = "", .minimum = minimum_, .maximum = maximum_,                       \
+    .initial = {initial_}, .offset = offsetof(Fields, field), .change = change_, .doc = doc_                           \
+  }
+
 #endif

@@ -45,15 +45,9 @@ typedef struct Fluid {
 } Fluid;
 
 static const SporeParameter parameters[] = {
-    {.name = "particles",
-     .type = SPORE_INTEGER,
-     .unit = "",
-     .minimum = 4,
-     .maximum = 1e6,
-     .initial = {300},
-     .offset = offsetof(FluidFields, particles),
-     .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("About how many particles fill the surface; more of them are finer and need a smaller step.")},
+    SPORE_INTEGER_FIELD(
+        FluidFields, particles, 4, 1e6, 300, SPORE_CHANGE_REBUILD,
+        N_("About how many particles fill the surface; more of them are finer and need a smaller step.")),
     SPORE_REAL_FIELD(FluidFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
                      N_("Mass per volume; 1060 is blood, 998 water.")),
     SPORE_REAL_FIELD(FluidFields, surface_tension, "N/m", 1e-9, 1e9, 0.056, SPORE_CHANGE_REBUILD,

@@ -12,27 +12,6 @@ static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the particles"));
 }
 
-/* A fluid's container. */
-static bool check_solid(const SporeTriangleMesh *surface, SporeMeshReport *report, SporeError *error) {
-  if (!surface || surface->triangle_count == 0)
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("there is no surface; particles need a closed one to fill; give the body a mesh"));
-  if (!spore_triangle_mesh_validate(surface, error) || !spore_triangle_mesh_report(surface, report, error))
-    return false;
-  if (!report->closed)
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("the surface is not closed (%zu open, %zu non-manifold edges); particles need a closed "
-                             "one to fill; repair the mesh"),
-                           report->boundary_edges, report->nonmanifold_edges);
-  double size = report->diagonal;
-  if (!(fabs(report->volume) > 1e-12 * size * size * size))
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("the surface holds no volume (%g m^3); particles need a solid to fill; check unit and "
-                             "mesh"),
-                           fabs(report->volume));
-  return true;
-}
-
 typedef struct Fill {
   const SporeBvh *bvh;
   double cell; /* m */
@@ -104,7 +83,7 @@ static bool fill_best(Fill *fill, const SporeMeshReport *report, size_t wanted) 
 bool spore_particle_fill(const SporeTriangleMesh *surface, size_t wanted, double **points, size_t *count,
                          double *volume, SporeError *error) {
   SporeMeshReport report;
-  if (!check_solid(surface, &report, error)) return false;
+  if (!spore_triangle_mesh_report_solid(surface, &report, error)) return false;
   *volume = fabs(report.volume);
   SporeBvh *bvh = spore_bvh_create(surface, error);
   if (!bvh) return false;

@@ -60,34 +60,12 @@ static SporeVec3 middle_of(const SporeTriangleMesh *mesh) {
   return spore_vec3_scale(1.0 / (double)mesh->vertex_count, sum);
 }
 
-static bool check_closed(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error) {
-  if (!mesh || mesh->triangle_count == 0)
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("there is no surface; a rigid body needs a closed one; give the body a mesh"));
-  if (!spore_triangle_mesh_validate(mesh, error) || !spore_triangle_mesh_report(mesh, report, error)) return false;
-  if (report->boundary_edges > 0)
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("the surface is open at %zu edges; a rigid body needs a closed one to know its mass; "
-                             "repair the mesh or choose another model"),
-                           report->boundary_edges);
-  if (report->misoriented_edges > 0)
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("triangles on the two sides of %zu edges face opposite ways; a rigid body needs a surface "
-                             "with one outside; orient the mesh again"),
-                           report->misoriented_edges);
-  return true;
-}
-
 /* A surface that is turned inside out holds the same solid: only the signs differ. */
-static bool set_inertia(RigidBody *body, const SporeTriangleMesh *mesh, const RigidBodyFields *fields, double size,
+static bool set_inertia(RigidBody *body, const SporeTriangleMesh *mesh, const RigidBodyFields *fields,
                         SporeError *error) {
   SporeVec3 origin = middle_of(mesh);
   Moments moments = moments_of(mesh, origin);
   double sign = moments.volume < 0 ? -1 : 1, volume = fabs(moments.volume);
-  if (!(volume > 1e-12 * size * size * size))
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("the surface holds no volume (%g m^3); a rigid body needs a solid; check unit and mesh"),
-                           volume);
   double density = fields->mass > 0 ? fields->mass / volume : fields->density;
   SporeVec3 arm = spore_vec3_scale(1 / moments.volume, moments.first);
   SporeMat3 second = spore_mat3_scale(sign, moments.second);
@@ -112,14 +90,14 @@ static void destroy(SporeModel *model) {
 
 static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   SporeMeshReport report;
-  if (!check_closed(geometry->surface, &report, error)) return NULL;
+  if (!spore_triangle_mesh_report_solid(geometry->surface, &report, error)) return NULL;
   RigidBody *body = SPORE_NEW(RigidBody);
   if (!body) {
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a rigid body"));
     return NULL;
   }
   if (!spore_model_init(&body->base, &spore_rigid_body, 1, true, error) ||
-      !set_inertia(body, geometry->surface, fields, report.diagonal, error)) {
+      !set_inertia(body, geometry->surface, fields, error)) {
     destroy(&body->base);
     return NULL;
   }

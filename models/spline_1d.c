@@ -23,15 +23,8 @@ typedef struct Spline1d {
 } Spline1d;
 
 static const SporeParameter parameters[] = {
-    {.name = "control_points",
-     .type = SPORE_INTEGER,
-     .unit = "",
-     .minimum = 4,
-     .maximum = 100000,
-     .initial = {30},
-     .offset = offsetof(SplineFields, control_points),
-     .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("How many points the line is led by, evenly along it; more of them bend more sharply.")},
+    SPORE_INTEGER_FIELD(SplineFields, control_points, 4, 100000, 30, SPORE_CHANGE_REBUILD,
+                        N_("How many points the line is led by, evenly along it; more of them bend more sharply.")),
     SPORE_REAL_FIELD(SplineFields, young_modulus, "Pa", 1e-3, 1e13, 1e6, SPORE_CHANGE_LIVE,
                      N_("Stiffness of the material: stretch takes it times the area of the section, bending times the "
                         "section's second moment.")),

@@ -81,6 +81,10 @@ typedef struct SporeMeshReport {
 } SporeMeshReport;
 bool spore_triangle_mesh_report(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error);
 
+/* The report of a mesh that a solid can be made of: valid, closed, with one outside, around a volume, whichever way its
+ * triangles face. False with what is wrong and the remedy. */
+bool spore_triangle_mesh_report_solid(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error);
+
 /* Makes neighbouring triangles turn the same way and closed components outward; the wall of a cavity (a closed
  * component inside another one that came turned the other way) looks into the cavity. False only without memory. */
 bool spore_triangle_mesh_orient(SporeTriangleMesh *mesh, SporeError *error);

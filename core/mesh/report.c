@@ -1,8 +1,10 @@
 #include <math.h>
 
+#include "core/base/text.h"
 #include "core/mesh/common.h"
 #include "core/mesh/half_edges.h"
 
+#define HOLLOW_VOLUME 1e-12   /* of the cubed diagonal */
 #define DEGENERATE_AREA 1e-12 /* of the squared longest side */
 
 static bool degenerate(SporeVec3 a, SporeVec3 b, SporeVec3 c, double area) {
@@ -55,4 +57,22 @@ bool spore_triangle_mesh_report(const SporeTriangleMesh *mesh, SporeMeshReport *
   spore_half_edges_clear(&halves);
   spore_free(parent);
   return true;
+}
+
+bool spore_triangle_mesh_report_solid(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error) {
+  if (!mesh || mesh->triangle_count == 0)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("there is no surface; expected a closed one; give the body a mesh"));
+  if (!spore_triangle_mesh_validate(mesh, error) || !spore_triangle_mesh_report(mesh, report, error)) return false;
+  if (!report->closed)
+    return spore_error_set(
+        error, SPORE_ERROR_INPUT, NULL,
+        _("the surface is not closed (%zu open, %zu non-manifold, %zu misoriented edges); expected a "
+          "closed one with one outside for this model; repair it or generate tetrahedra from it"),
+        report->boundary_edges, report->nonmanifold_edges, report->misoriented_edges);
+  double size = report->diagonal;
+  if (fabs(report->volume) > HOLLOW_VOLUME * size * size * size) return true;
+  return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                         _("the surface holds no volume (%g m^3); expected a solid; check unit and mesh"),
+                         fabs(report->volume));
 }

@@ -64,16 +64,12 @@ static gboolean resolve(Compiler *compiler, const SporeObject *object, const cha
 
 /* Bodies. */
 
-static gboolean is_closed(Compiler *compiler, const SporeObject *mechanical, const SporeObject *asset,
-                          const SporeTriangleMesh *mesh) {
+static gboolean is_solid(Compiler *compiler, const SporeObject *mechanical, const SporeObject *asset,
+                         const SporeTriangleMesh *mesh) {
   SporeMeshReport report;
   SporeError fault = SPORE_ERROR_INIT;
-  if (!spore_triangle_mesh_report(mesh, &report, &fault)) return refuse(compiler, mechanical, "%s", fault.message);
-  if (report.closed) return TRUE;
-  return refuse(compiler, mechanical,
-                _("the mesh \"%s\" is not closed (%zu open, %zu non-manifold edges); expected a closed "
-                  "one for this model; repair it or generate tetrahedra from it"),
-                spore_object_name(asset), report.boundary_edges, report.nonmanifold_edges);
+  return spore_triangle_mesh_report_solid(mesh, &report, &fault) ||
+         refuse(compiler, mechanical, "\"%s\": %s", spore_object_name(asset), fault.message);
 }
 
 /* The kind of asset that each kind of geometry asks for, and how messages tell of it. */
@@ -125,7 +121,7 @@ static gboolean find_geometry(Compiler *compiler, const SporeObject *mechanical,
     geometry->surface = spore_document_mesh(compiler->document, asset, compiler->error);
   }
   if (!geometry->surface) return FALSE;
-  return type->geometry != SPORE_GEOMETRY_SOLID || is_closed(compiler, mechanical, asset, geometry->surface);
+  return type->geometry != SPORE_GEOMETRY_SOLID || is_solid(compiler, mechanical, asset, geometry->surface);
 }
 
 /* The object of a body's model, or NULL. */
