@@ -46,8 +46,10 @@ SPORE_INLINE EndState frame_state(SporeLaneEnd *end, int k, SporeVl moves, const
   return (EndState){spore_vd3_select(moves, motion, none()), spore_vd3_select(moves, velocity, none()), turned};
 }
 
+SPORE_INLINE SporeVl mask(const int64_t *lanes) { return (SporeVl)spore_vd_load((const double *)(const void *)lanes); }
+
 SPORE_INLINE EndState end_state(SporeContactLanes *lanes, SporeLaneEnd *end, int k, const double *at, const double *v) {
-  SporeVl moves = (SporeVl)spore_vd_load((const double *)(const void *)(end->moves + k));
+  SporeVl moves = mask(end->moves + k);
   if (lanes->kind == SPORE_LANES_NODES) return node_state(end, k, moves, at, v);
   return frame_state(end, k, moves, at, lanes->rubs);
 }
@@ -124,6 +126,12 @@ SPORE_INLINE void evaluate(SporeContactLanes *lanes, int k, const double *at, co
   spore_vd_store(lanes->pressing + k, pressing);
   if (lanes->rubs) {
     moved = spore_vd3_add(moved, spore_vd3_sub(a.turned, b.turned));
+    if (lanes->kind == SPORE_LANES_FRAMES) {
+      SporeVl rolls = mask(lanes->rolls + k);
+      SporeVd3 slip = spore_vd3_scale(spore_vd_all(elapsed_s), velocity);
+      if (lanes->softened) slip = spore_vd3_add(slip, spore_vd3_scale(spore_vd_load(lanes->ahead + k), own));
+      moved = spore_vd3_select(rolls, slip, moved);
+    }
     force = spore_vd3_sub(force, hold(lanes, k, n, moved, velocity, viscous, pressing));
   } else {
     spore_vd_store(lanes->yield + k, pressing);

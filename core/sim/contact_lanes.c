@@ -71,7 +71,8 @@ static void fill_lane(const SporeGroup *group, const SporeContactTerm *term, Spo
   SporeVec3 none = {0, 0, 0}, driven = term->a.prescribed ? term->a.velocity : none;
   set_lane(&lanes->driven, k, term->b.prescribed ? spore_vec3_sub(driven, term->b.velocity) : driven);
   set_lane(&lanes->stretch, k, term->stretch);
-  lanes->depth[k] = term->depth;
+  lanes->depth[k] = term->depth - term->slack;
+  lanes->rolls[k] = spore_contact_term_rolls(term) ? -1 : 0;
   lanes->stiffness[k] = term->law.stiffness;
   lanes->damping[k] = term->law.damping;
   lanes->damping_depth[k] = term->law.damping_depth;
@@ -95,6 +96,7 @@ static void empty_lane(SporeContactLanes *lanes, size_t k) {
   set_lane(&lanes->normal, k, none);
   set_lane(&lanes->driven, k, none);
   set_lane(&lanes->stretch, k, none);
+  lanes->rolls[k] = 0;
   lanes->depth[k] = lanes->stiffness[k] = lanes->damping[k] = lanes->friction[k] = 0;
   lanes->ahead[k] = lanes->faster[k] = 0;
   lanes->damping_depth[k] = 1;
@@ -198,7 +200,8 @@ void spore_group_add_contact_forces(const SporeGroup *group, const double *q, co
     SporeContactLanes *lanes = group_lanes(group, i);
     if (lanes->kind == SPORE_LANES_APART) {
       for (size_t k = 0; k < lanes->count; k++)
-        spore_contact_term_force(spore_group_contact(group, i * SPORE_LANES + k), group->world->local_sites, q, v, f);
+        spore_contact_term_force(spore_group_contact(group, i * SPORE_LANES + k), group->world->local_sites, q, v,
+                                 group->now_s, f);
       continue;
     }
     const double *at = lanes->kind == SPORE_LANES_FRAMES ? group->world->frames : q;

@@ -36,7 +36,8 @@ typedef struct SporeContactLanes {
   uint32_t count;
   SporeLaneEnd a, b;
   SporeLaneVector normal, driven; /* driven: velocity of prescribed ends, a less b, m/s */
-  double depth[SPORE_LANES];
+  int64_t rolls[SPORE_LANES];     /* -1, or 0: see spore_contact_term_rolls */
+  double depth[SPORE_LANES];      /* that presses, m */
   double stiffness[SPORE_LANES], damping[SPORE_LANES], damping_depth[SPORE_LANES], friction[SPORE_LANES];
   double ahead[SPORE_LANES], faster[SPORE_LANES]; /* t, and w h, of the softening */
   SporeLaneVector stretch;

@@ -149,6 +149,7 @@ static void fill_term(const SporeWorld *world, const SporeFelt *felt, SporeConta
   term->field_b = felt->field_b;
   term->normal = contact->normal;
   term->depth = contact->depth;
+  term->slack = 0;
   set_arms(world, term);
   turn_driven_end(world, &term->a, term->frame_arm_a, term->arm_a, term->field_a, term->normal);
   turn_driven_end(world, &term->b, term->frame_arm_b, term->arm_b, term->field_b, term->normal);
@@ -166,7 +167,7 @@ void spore_world_respond(SporeWorld *world) {
     /* Two bodies that physics does not move (a tool and a wall, or one is frozen) still press on each other: the tool
      * is to feel it. */
     SporeContactTerm *term = &world->contacts[i];
-    if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, NULL);
+    if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, 0, NULL);
     const double *radius = world->spheres.radius;
     if (term->depth > fmin(radius[term->sphere_a], radius[term->sphere_b])) spore_world_report_depth(world, term);
   }

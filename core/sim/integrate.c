@@ -1,4 +1,5 @@
 /* Integrates the islands, each on its own and on any thread. */
+#include <math.h>
 #include <string.h>
 
 #include "core/sim/world_private.h"
@@ -51,11 +52,19 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
   return total;
 }
 
-/* Whether bodies that are apart as yet meet within the step. Which of their contacts will press, only the step's end
- * tells: symplectic Euler, which softens all of them, would let what is fast go through what is thin. */
+/* Particles have no Jacobian for an implicit step. */
+static bool has_particles(const SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++)
+    if (world->bodies[world->island_bodies[island->body_start + i]].model->type->rates) return true;
+  return false;
+}
+
+/* Whether bodies that are apart as yet meet within the step, which only fast ones do. Which of their contacts will
+ * press, only the step's end tells: an explicit method evaluates forces where the bodies are still apart or already
+ * past each other, or softens all of them alike, and would let them go through. */
 static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->contact_count; i++)
-    if (world->contacts[world->contact_order[island->contact_start + i]].depth <= 0) return true;
+    if (spore_contact_term_meets(&world->contacts[world->contact_order[island->contact_start + i]])) return true;
   return false;
 }
 
@@ -64,13 +73,24 @@ static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
  * after its error. */
 static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) {
   const SporeIntegrator *integrator = spore_integrator(island->integrator);
-  if (island->integrator == SPORE_INTEGRATOR_SYMPLECTIC_EULER && meets_in_step(world, island))
-    return SPORE_INTEGRATOR_IMPLICIT_EULER;
+  if (!integrator->implicit)
+    return meets_in_step(world, island) && !has_particles(world, island) ? SPORE_INTEGRATOR_IMPLICIT_EULER
+                                                                         : island->integrator;
   bool controlled = island->integrator == SPORE_INTEGRATOR_TR_BDF2 && world->solver.error_tolerance > 0;
-  if (!integrator->implicit || integrator->damping == SPORE_DAMPING_FULL || controlled) return island->integrator;
+  if (integrator->damping == SPORE_DAMPING_FULL || controlled) return island->integrator;
   const SporeGroup group = {.world = world, .island = island};
   bool resolved = spore_group_resolves_contacts(&group, world->solver.time_step / (double)island->substeps);
   return resolved ? island->integrator : SPORE_INTEGRATOR_IMPLICIT_EULER;
+}
+
+/* A step of implicit Euler in an explicit one's place would push bodies apart all at once that lie deeper in each other
+ * than their contacts hold, for explicit steps soften these: it would give back more energy than the contacts took.
+ * What overlaps already is only kept from going deeper. */
+static void slacken(SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->contact_count; i++) {
+    SporeContactTerm *term = &world->contacts[world->contact_order[island->contact_start + i]];
+    term->slack = fmax(term->depth, 0);
+  }
 }
 
 static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
@@ -86,7 +106,9 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
     mixed.residual = whole.residual;
     return mixed;
   }
-  return spore_island_advance(world, island, method(world, island), island->substeps, NULL);
+  SporeIntegratorKind kind = method(world, island);
+  if (kind != island->integrator && !spore_integrator(island->integrator)->implicit) slacken(world, island);
+  return spore_island_advance(world, island, kind, island->substeps, NULL);
 }
 
 static void integrate_island(void *data, size_t index) {

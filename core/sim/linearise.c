@@ -28,7 +28,7 @@ static void linearise_terms(SporeGroup *group, const double *q, const double *v,
     SporeContactTerm *term = spore_group_contact(group, i);
     uint32_t body = spore_group_folds(group, &term->a, &term->b);
     if (body != SPORE_NO_BODY && kept) continue;
-    SporeMat3 k = spore_contact_term_jacobian(term, sites, q, v, c, c2);
+    SporeMat3 k = spore_contact_term_jacobian(term, sites, q, v, group->now_s, c, c2);
     if (body != SPORE_NO_BODY) spore_body_fold(&group->world->bodies[body], &term->a, &term->b, &k);
     else contact_couplings(group)[group->contact_couplings++] = spore_coupling(&term->a, &term->b, &k, sites);
   }

@@ -132,6 +132,10 @@ INLINE SporeVec3 stretch_after(const SporeContactTerm *term, const Motion *motio
   return spore_vec3_add(term->stretch, across(term->normal, spore_vec3_sub(motion->point_a, motion->point_b)));
 }
 
+bool spore_contact_term_rolls(const SporeContactTerm *term) {
+  return spore_contact_term_meets(term) && (turns(&term->a) || turns(&term->b));
+}
+
 static Motion motion_at(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
   return motion_of(term, position_of(&term->a, sites, q), position_of(&term->b, sites, q), sites, q);
 }
@@ -143,21 +147,26 @@ INLINE void meet_at(SporeEnd *end, SporeVec3 point, const SporeSite *sites, cons
 }
 
 SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
-  if (!(term->law.friction > 0)) return (SporeVec3){0, 0, 0};
+  if (!(term->law.friction > 0) || spore_contact_term_rolls(term)) return (SporeVec3){0, 0, 0};
   Motion motion = motion_at(term, sites, q);
   return spore_contact_slip(&term->law, stretch_after(term, &motion), term->yield);
 }
 
 /* At q and v; a little ahead where the term is softened. */
-INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q,
-                                       const double *v) {
+INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                                       double elapsed_s) {
   SporeVec3 a = locate(&term->a, term->arm_a, sites, q), b = locate(&term->b, term->arm_b, sites, q);
   if (term->field_a) meet_at(&term->a, spore_vec3_add(b, term->arm_b), sites, q);
   if (term->field_b) meet_at(&term->b, spore_vec3_add(a, term->arm_a), sites, q);
   Motion motion = motion_of(term, a, b, sites, q);
-  SporeContactState state = {term->normal, depth_after(term, &motion)};
+  SporeContactState state = {term->normal, depth_after(term, &motion) - term->slack};
   state.velocity = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
-  if (term->law.friction > 0) state.stretch = stretch_after(term, &motion);
+  if (spore_contact_term_rolls(term)) {
+    SporeVec3 slip = across(term->normal, spore_vec3_scale(elapsed_s, state.velocity));
+    state.stretch = spore_vec3_add(term->stretch, slip);
+  } else if (term->law.friction > 0) {
+    state.stretch = stretch_after(term, &motion);
+  }
   if (term->softening.ahead > 0) {
     SporeVec3 ahead = spore_vec3_scale(term->softening.ahead, own_motion(&term->a, &term->b, sites, v));
     state.depth -= spore_vec3_dot(term->normal, ahead);
@@ -222,8 +231,8 @@ static void soften_contact(SporeContactTerm *term, const SporeContactState *stat
 }
 
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
-                              double *f) {
-  SporeContactState state = contact_state(term, sites, q, v);
+                              double elapsed_s, double *f) {
+  SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
   term->force = spore_contact_force(&term->law, &state);
   term->yield = term->pressing = spore_vec3_dot(term->normal, term->force);
   if (term->softening.inverse_mass > 0) soften_contact(term, &state);
@@ -231,8 +240,8 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
 }
 
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
-                                      double c, double c2) {
-  SporeContactState state = contact_state(term, sites, q, v);
+                                      double elapsed_s, double c, double c2) {
+  SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
   return spore_contact_jacobian(&term->law, &state, c2, c);
 }
 

@@ -47,6 +47,7 @@ typedef struct SporeContactTerm {
   uint32_t grip_a, grip_b;            /* what friction remembers the pair by */
   SporeVec3 normal;                   /* from b to a */
   double depth;                       /* m, when the step began */
+  double slack;                       /* of the depth, m: in this step it presses nothing */
   SporeVec3 arm_a, arm_b;             /* from the centres to the contact point when the step began, m */
   SporeVec3 frame_arm_a, frame_arm_b; /* the same in the frames of rigid bodies */
   bool field_a, field_b;              /* the body is felt as one: depth follows its contact point, not the centre */
@@ -67,14 +68,25 @@ typedef struct SporeSpringTerm {
 
 /* Below, q and v are the vectors that `sites` (by body) belongs to. */
 
-/* Evaluates the term's force and adds it to f. */
+/* Whether two spheres that are apart when the step begins meet within it, which only fast ones do; what is felt as one
+ * is a contact shortly before it touches. */
+static inline bool spore_contact_term_meets(const SporeContactTerm *term) {
+  return term->depth <= 0 && !term->field_a && !term->field_b;
+}
+
+/* Bodies that meet within the step may turn by radians in it. An arm that has turned so far does not tell how far its
+ * sphere has rolled, and friction that follows it pulls any way, and makes energy: such a contact has slipped by its
+ * slip velocity times the time since the step began. */
+bool spore_contact_term_rolls(const SporeContactTerm *term);
+
+/* Evaluates the term's force and adds it to f. elapsed_s: since the step began. */
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
-                              double *f);
+                              double elapsed_s, double *f);
 void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                              double *f);
 /* c (-df/dv) + c2 (-df/dx) for the motion of end a relative to end b. */
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
-                                      double c, double c2);
+                                      double elapsed_s, double c, double c2);
 SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                                      double c, double c2);
 /* Potential energy, J. */

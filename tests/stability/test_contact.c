@@ -159,7 +159,9 @@ static void case_18(void) {
 /* Case 18, the other way round: a ball of 5 mm that physics throws at 10 m/s against a wall of 2 mm spheres. */
 static void case_18_passive(void) {
   static const double steps[] = {2e-4, 5e-4, 1e-3, 2e-3, 5e-3};
-  static const SporeIntegratorKind kinds[] = {SPORE_INTEGRATOR_SYMPLECTIC_EULER, SPORE_INTEGRATOR_IMPLICIT_EULER};
+  static const SporeIntegratorKind kinds[] = {SPORE_INTEGRATOR_SYMPLECTIC_EULER, SPORE_INTEGRATOR_IMPLICIT_EULER,
+                                              SPORE_INTEGRATOR_EXPLICIT_EULER, SPORE_INTEGRATOR_VERLET,
+                                              SPORE_INTEGRATOR_RK4};
   for (unsigned s = 0; s < G_N_ELEMENTS(steps); s++)
     for (unsigned k = 0; k < G_N_ELEMENTS(kinds); k++)
       for (int surface = SPORE_SURFACE_SPHERES; surface <= SPORE_SURFACE_DEPTH_FIELD; surface++) {
@@ -186,6 +188,44 @@ static void case_18_passive(void) {
         g_assert_cmpfloat(low, >, 0);
         rig_free(rig);
       }
+}
+
+/* Case 18, what comes back: no contact gives a ball that comes at 10 m/s more kinetic energy than it had, whatever the
+ * method that moves it, the step, the stiffness and the friction, against a wall or a ball like it. */
+static void case_18_return(void) {
+  static const double steps[] = {5e-4, 2e-3, 8e-3}, stiffnesses[] = {1e3, 1e4, 1e6, 1e8};
+  for (SporeIntegratorKind kind = SPORE_INTEGRATOR_EXPLICIT_EULER; kind < SPORE_INTEGRATOR_STATIC; kind++)
+    for (unsigned s = 0; s < G_N_ELEMENTS(steps); s++)
+      for (unsigned k = 0; k < G_N_ELEMENTS(stiffnesses); k++)
+        for (unsigned variant = 0; variant < 4; variant++) {
+          gboolean free = variant & 1, rough = variant & 2;
+          Rig *rig = rig_new();
+          rig->description.solver.integrator = (int)kind;
+          rig->description.solver.time_step = steps[s];
+          SporeBodyDescription *other = free ? rig_passive(rig, "other", ball(0.004), rig_sphere(rig, 0.0025))
+                                             : rig_unmovable(rig, "wall", rig_floor(rig, 31, 31, 0.0015, 0.001));
+          other->contact.stiffness = stiffnesses[k];
+          other->contact.friction = rough ? 0.5 : 0;
+          SporeBodyDescription *body = rig_passive(rig, "ball", ball(0.004), rig_sphere(rig, 0.0025));
+          body->contact = other->contact;
+          body->pose.position = spore_vec3(0.0003, 0.0517, 0.0004);
+          body->velocity = spore_vec3(0.1, -10, 0.05);
+          SporeWorld *world = rig_build(rig);
+          double came = spore_world_energy(world).kinetic, most = 0;
+          size_t contacts = 0;
+          for (unsigned i = 0; i < (unsigned)lround(0.1 / steps[s]); i++) {
+            spore_world_step(world);
+            contacts += spore_world_counts(world).contacts;
+            most = fmax(most, spore_world_energy(world).kinetic);
+          }
+          g_test_message("case 18: %s, %s%s, %g N/m, %g ms a step: at most %.4f of the kinetic energy it came with, "
+                         "leaves with %.4f",
+                         spore_integrator_names[kind], free ? "a ball" : "a wall", rough ? ", rough" : "",
+                         stiffnesses[k], steps[s] * 1e3, most / came, spore_world_energy(world).kinetic / came);
+          g_assert_cmpuint(contacts, >, 0);
+          g_assert_cmpfloat(most, <=, came * (1 + 1e-9));
+          rig_free(rig);
+        }
 }
 
 /* A cube of tetrahedra with spheres on all its nodes. */
@@ -292,5 +332,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/stability/15_many", case_15);
   g_test_add_func("/stability/18_fast_tool", case_18);
   g_test_add_func("/stability/18_fast_body", case_18_passive);
+  g_test_add_func("/stability/18_return", case_18_return);
   return g_test_run();
 }
