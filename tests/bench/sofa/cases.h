@@ -14,7 +14,7 @@ typedef struct Case {
   double required_ms;     /* what ours is to be; 0: nothing is promised */
   unsigned before, steps; /* steps before those that are measured, and those */
   bool truncated;         /* one nodal body and nothing to touch: also stepped as SOFA steps it, for its error */
-  unsigned substeps;      /* by symplectic Euler in so many; 0: implicit Euler */
+  unsigned substeps;      /* more than 0: a second row by symplectic Euler in so many; others are by implicit Euler */
   unsigned compared;      /* steps from the start after which it is compared with much shorter ones; 0: not */
   double lowest;          /* SOFA's lowest y after the steps, m, quoted; 0: not told */
   size_t elements;        /* tetrahedra, springs or spans, each of so many operations: */
