@@ -62,9 +62,10 @@ static const SporeParameter parameters[] = {
      .choices = elements,
      .offset = offsetof(TetrahedraFields, element),
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("Linear: a node at each corner; quick, and too stiff in bending where few cells lie across. Quadratic: "
-               "one more on each edge, and the change of volume averaged over the element; right to a few percent with "
-               "two cells across up to a Poisson's ratio of 0.49999, at ten to fifteen times the cost for the same mesh.")},
+     .doc = N_(
+         "Linear: a node at each corner; quick, and too stiff in bending where few cells lie across. Quadratic: "
+         "one more on each edge, and the change of volume averaged over the element; right to a few percent with "
+         "two cells across up to a Poisson's ratio of 0.49999, at ten to fifteen times the cost for the same mesh.")},
 };
 
 static bool no_memory(SporeError *error) {
@@ -255,10 +256,11 @@ const SporeModelType spore_corotational_tetrahedra = {
 const SporeModelType spore_neo_hookean_tetrahedra = {
     .name = "neo_hookean_tetrahedra",
     .label = N_("Neo-Hookean tetrahedra"),
-    .doc = N_("A solid of tetrahedra that stiffen as rubber and tissue do when they are squeezed, and that turn the "
-              "right way out again from any heap: the usual choice for organs. The same as the corotational ones for "
-              "small strains; an implicit step costs somewhat more. With few linear elements across or a Poisson's "
-              "ratio near 0.5 it bends less than it should: a bar 2 cells thick by half, 4 by a fifth."),
+    .doc = N_(
+        "A solid of tetrahedra that stiffen as rubber and tissue do when they are squeezed, and that turn the "
+        "right way out again from nearly any heap: the usual choice for organs. The same as the corotational ones for "
+        "small strains; an implicit step costs somewhat more. With few linear elements across or a Poisson's "
+        "ratio near 0.5 it bends less than it should: a bar 2 cells thick by half, 4 by a fifth."),
     .create = create_neo_hookean,
     SLOTS,
 };
