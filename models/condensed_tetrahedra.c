@@ -191,7 +191,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_surface_map(&((const SporeLinearSolid *)model)->surface, points, count, mapping, error);
+  return spore_surface_map(&((const SporeLinearSolid *)model)->surface, NULL, points, count, mapping, error);
 }
 
 const SporeModelType spore_condensed_tetrahedra = {

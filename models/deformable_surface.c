@@ -1,7 +1,8 @@
 /* Deformable surface body (Meseure and Chaillou 2000, "A deformable body model for surgical simulation"): a surface of
  * mass points and springs, and a virtual rigid core that gives it back its shape. Each node is tied to its place in the
  * core's frame by a spring of no length; what the spring pulls with acts on the core too, as force and torque, so that
- * both momenta are kept. The core touches nothing: the environment meets the nodes alone.
+ * both momenta are kept. The core touches nothing itself: the environment meets the surface, and points that lie off
+ * it, which a triangle and the core's centre carry together.
  *
  * Nodes: the surface's vertices, then the core's centre; the frame is the core's. With x a node, c the centre and
  * s = R r its place in the core's frame, d = x - c - s:
@@ -396,7 +397,8 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_surface_map(&((const Surface *)model)->mesh, points, count, mapping, error);
+  const Surface *body = (const Surface *)model;
+  return spore_surface_map(&body->mesh, &body->centre, points, count, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {

@@ -172,7 +172,7 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_surface_map(&((const Net *)model)->mesh, points, count, mapping, error);
+  return spore_surface_map(&((const Net *)model)->mesh, NULL, points, count, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {

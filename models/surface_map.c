@@ -10,8 +10,9 @@
 
 #define WIDTH 4             /* weights a point */
 #define WEIGHTS_AT_MOST 100 /* sum of absolute weights */
-#define FLAT 1e-6           /* offset that a flat surface may drop, of its size */
-#define ROUNDING 1e-14      /* of the surface's size: a point this near a vertex is that vertex */
+#define CORE_WEIGHTS_AT_MOST 4
+#define FLAT 1e-6      /* offset that a flat surface may drop, of its size */
+#define ROUNDING 1e-14 /* of the surface's size: a point this near a vertex is that vertex */
 
 static SporeVec3 vertex_at(const SporeTriangleMesh *mesh, uint32_t i) {
   return spore_vec3_load(mesh->vertices + 3 * (size_t)i);
@@ -45,24 +46,38 @@ typedef struct Row {
   double weight[WIDTH];
 } Row;
 
-/* Finds the vertex that makes the best tetrahedron with the row's triangle. False: none is good enough. */
-static bool lift(const SporeTriangleMesh *mesh, SporeVec3 p, SporeVec3 normal, double offset, double size, Row *row) {
-  SporeVec3 a = vertex_at(mesh, row->block[0]), b = vertex_at(mesh, row->block[1]), c = vertex_at(mesh, row->block[2]);
-  double best = HUGE_VAL;
+/* Makes a tetrahedron of the row's triangle and node i at d, to carry what lies at `offset` from the triangle. The sum
+ * of the absolute weights, infinite where they cannot be. */
+static double lift_by(const SporeTriangleMesh *mesh, uint32_t i, SporeVec3 d, double offset, Row *row) {
+  double foot[3], height, sum;
+  SporeVec3 unused;
+  in_plane(vertex_at(mesh, row->block[0]), vertex_at(mesh, row->block[1]), vertex_at(mesh, row->block[2]), d, foot,
+           &unused, &height);
+  if (fabs(height) * WEIGHTS_AT_MOST < fabs(offset)) return HUGE_VAL;
+  row->block[3] = i;
+  row->weight[3] = offset / height;
+  sum = fabs(row->weight[3]);
+  for (int k = 0; k < 3; k++) {
+    row->weight[k] -= row->weight[3] * foot[k];
+    sum += fabs(row->weight[k]);
+  }
+  return sum;
+}
+
+/* Finds what makes the best tetrahedron with the row's triangle: the core where it does, else a vertex. False: nothing
+ * is good enough. */
+static bool lift(const SporeTriangleMesh *mesh, const SporeVec3 *core, SporeVec3 p, double offset, double size,
+                 Row *row) {
   Row result = *row;
+  if (core && lift_by(mesh, (uint32_t)mesh->vertex_count, *core, offset, &result) <= CORE_WEIGHTS_AT_MOST) {
+    *row = result;
+    return true;
+  }
+  double best = HUGE_VAL;
   for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-    SporeVec3 d = vertex_at(mesh, i), unused;
-    double foot[3], height;
-    in_plane(a, b, c, d, foot, &unused, &height);
-    if (fabs(height) * WEIGHTS_AT_MOST < fabs(offset)) continue;
     Row candidate = *row;
-    candidate.block[3] = i;
-    candidate.weight[3] = offset / height;
-    double sum = fabs(candidate.weight[3]);
-    for (int k = 0; k < 3; k++) {
-      candidate.weight[k] -= candidate.weight[3] * foot[k];
-      sum += fabs(candidate.weight[k]);
-    }
+    SporeVec3 d = vertex_at(mesh, i);
+    double sum = lift_by(mesh, i, d, offset, &candidate);
     if (!(sum <= WEIGHTS_AT_MOST)) continue;
     double cost = sum + 0.1 * spore_vec3_distance(p, d) / size;
     if (cost < best) best = cost, result = candidate;
@@ -71,8 +86,8 @@ static bool lift(const SporeTriangleMesh *mesh, SporeVec3 p, SporeVec3 normal, d
   return best < HUGE_VAL;
 }
 
-static bool map_point(const SporeTriangleMesh *mesh, const SporeBvh *bvh, double size, const double *point,
-                      size_t index, Row *row, SporeError *error) {
+static bool map_point(const SporeTriangleMesh *mesh, const SporeVec3 *core, const SporeBvh *bvh, double size,
+                      const double *point, size_t index, Row *row, SporeError *error) {
   SporeVec3 p = spore_vec3_load(point), normal;
   uint32_t triangle = 0;
   double offset;
@@ -87,7 +102,7 @@ static bool map_point(const SporeTriangleMesh *mesh, const SporeBvh *bvh, double
   in_plane(vertex_at(mesh, row->block[0]), vertex_at(mesh, row->block[1]), vertex_at(mesh, row->block[2]), p,
            row->weight, &normal, &offset);
   row->weight[3] = 0;
-  if (fabs(offset) <= ROUNDING * size || lift(mesh, p, normal, offset, size, row) || fabs(offset) <= FLAT * size)
+  if (fabs(offset) <= ROUNDING * size || lift(mesh, core, p, offset, size, row) || fabs(offset) <= FLAT * size)
     return true;
   char place[64];
   snprintf(place, sizeof place, "point %zu", index);
@@ -115,15 +130,15 @@ static SporeTriangleMesh without_flat(const SporeTriangleMesh *mesh, uint32_t **
   return view;
 }
 
-static bool map_points(const SporeTriangleMesh *mesh, const double *points, size_t count, uint32_t *blocks,
-                       double *weights, SporeError *error) {
+static bool map_points(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
+                       uint32_t *blocks, double *weights, SporeError *error) {
   SporeBvh *bvh = spore_bvh_create(mesh, error);
   if (!bvh) return false;
   double size = size_of(mesh);
   bool good = true;
   for (size_t i = 0; good && i < count; i++) {
     Row row;
-    good = map_point(mesh, bvh, size, points + 3 * i, i, &row, error);
+    good = map_point(mesh, core, bvh, size, points + 3 * i, i, &row, error);
     memcpy(blocks + WIDTH * i, row.block, sizeof row.block);
     memcpy(weights + WIDTH * i, row.weight, sizeof row.weight);
   }
@@ -131,15 +146,15 @@ static bool map_points(const SporeTriangleMesh *mesh, const double *points, size
   return good;
 }
 
-bool spore_surface_map(const SporeTriangleMesh *mesh, const double *points, size_t count, SporeMapping *mapping,
-                       SporeError *error) {
+bool spore_surface_map(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
+                       SporeMapping *mapping, SporeError *error) {
   if (is_identity(mesh, points, count)) return spore_mapping_init_identity(mapping, count);
   uint32_t *triangles, *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   SporeTriangleMesh view = without_flat(mesh, &triangles);
   bool good = triangles && blocks && weights;
   if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  good = good && map_points(&view, points, count, blocks, weights, error) &&
+  good = good && map_points(&view, core, points, count, blocks, weights, error) &&
          spore_mapping_init_linear(mapping, count, WIDTH, blocks, weights, error);
   spore_free(triangles);
   spore_free(blocks);

@@ -9,8 +9,12 @@
  * point on a triangle follows its corners by barycentric weights. A point off the surface follows the nearest triangle
  * and one more vertex: the four make a tetrahedron that carries it affinely. That vertex is chosen so that the sum of
  * the absolute weights is least, then by nearness. Where even the best sum passes 100 the surface is flat there and
- * cannot carry the point: an offset up to 1e-6 of the surface's size is dropped, a greater one refused. */
-bool spore_surface_map(const SporeTriangleMesh *mesh, const double *points, size_t count, SporeMapping *mapping,
-                       SporeError *error);
+ * cannot carry the point: an offset up to 1e-6 of the surface's size is dropped, a greater one refused.
+ *
+ * core: place of a node within the body that comes after those of the surface, which carries points off the surface
+ * instead of one more vertex wherever the sum is at most 4; NULL: there is none. A matrix that couples the core with
+ * every vertex has room for what hangs on such a point. */
+bool spore_surface_map(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
+                       SporeMapping *mapping, SporeError *error);
 
 #endif

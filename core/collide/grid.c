@@ -13,23 +13,23 @@
 /* Pairs are looked for among balls that are larger than the spheres need by a skin, and the list of them serves for as
  * long as every sphere stays within its ball: the narrow phase alone decides what touches, so that the contacts are
  * those of a fresh search. */
-#define SKIN_STEPS 8       /* the skin lasts for so many steps at the speed of now */
-#define SKIN_SMALLEST 0.05 /* of the radius */
-#define SKIN_LARGEST 1.0   /* of the radius */
-#define LIST_STEPS 3       /* a list that serves for fewer steps does not pay */
+#define SKIN_STEPS                                                                                                     \
+  12 /* the skin lasts for so many steps at the speed of now, however fast: one stray is enough to end a list */
+#define SKIN_SMALLEST 0.1 /* of the radius */
+#define LIST_STEPS 3      /* a list that serves for fewer steps does not pay */
 #define PAUSE_LONGEST 128
 #define CONTACT_PAIRS 3 /* room for pairs, per contact that there is room for */
 
 /* Lists. */
 
-/* The balls of this step with a skin: steps at the speed of now, within bounds; steps = 0: none. */
+/* The balls of this step with a skin: steps at the speed of now, or what a slow sphere needs; steps = 0: none. */
 static void add_skins(SporeGrid *grid, const SporeSpheres *spheres, double steps) {
   size_t moving = grid->count - grid->static_count;
   const double *ball = grid->balls + 4 * grid->static_count, *radius = spheres->radius + grid->static_count;
   double *skinned = grid->moving.unsorted;
   for (size_t i = 0; i < moving; i++, ball += 4, skinned += 4) {
     double travel = 2 * (ball[3] - radius[i]);
-    double skin = fmin(fmax(steps * travel, SKIN_SMALLEST * radius[i]), SKIN_LARGEST * radius[i]);
+    double skin = fmax(steps * travel, SKIN_SMALLEST * radius[i]);
     for (int k = 0; k < 4; k++) skinned[k] = ball[k];
     if (steps > 0 && ball[3] >= 0) skinned[3] += skin;
   }
