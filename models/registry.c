@@ -9,5 +9,6 @@ const SporeModelType *const spore_model_registry[] = {&spore_rigid_body,
                                                       &spore_condensed_tetrahedra,
                                                       &spore_deformable_surface,
                                                       &spore_lennard_jones,
+                                                      &spore_smoke,
                                                       &spore_spline_1d,
                                                       NULL};

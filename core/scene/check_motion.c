@@ -197,6 +197,13 @@ static gboolean has_support(const Start *start, guint body, SporeVec3 down) {
   return FALSE;
 }
 
+/* The air holds it up. */
+static gboolean is_smoke(const SporeObject *body) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  return mechanical && spore_object_child_count(mechanical) > 0 &&
+         spore_object_type(spore_object_child(mechanical, 0))->model->puff;
+}
+
 static void check_loose(const Start *start) {
   SporeEnvironmentFields environment;
   SporeDocument *document = start->check->document;
@@ -206,8 +213,8 @@ static void check_loose(const Start *start) {
   SporeVec3 down = spore_vec3_normalise(gravity, gravity);
   for (guint i = 0; i < start->bodies->len; i++) {
     const SporeObject *body = start->bodies->pdata[i];
-    if (role_of(start, i) != SPORE_PASSIVE || spore_check_is_used(start->check, body, SPORE_HOLDING_LINKS) ||
-        has_support(start, i, down))
+    if (role_of(start, i) != SPORE_PASSIVE || is_smoke(body) ||
+        spore_check_is_used(start->check, body, SPORE_HOLDING_LINKS) || has_support(start, i, down))
       continue;
     spore_check_say(
         start->check, SPORE_NOTE, body, _("pin it, tie it with a spring, or put an unmovable body under it"),

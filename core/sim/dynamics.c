@@ -4,7 +4,6 @@
 #include "core/sim/group.h"
 
 static void add_body_forces(const SporeGroup *group, const double *q, const double *v, double *f) {
-  const double gravity[3] = {group->world->gravity.x, group->world->gravity.y, group->world->gravity.z};
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
@@ -12,6 +11,8 @@ static void add_body_forces(const SporeGroup *group, const double *q, const doub
     if (spore_group_leaves(group, body)) continue;
     const double *velocity = spore_body_is_static(body) ? group->world->still : v + site->v;
     body->model->type->force(body->model, q + site->q, shape, velocity, f + site->v);
+    double gravity[3];
+    spore_vec3_store(gravity, spore_body_gravity(group->world, body));
     spore_nodes_pull(body->block_count, f + site->v, body->model->block_mass, gravity);
   }
 }

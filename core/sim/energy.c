@@ -9,9 +9,10 @@ double spore_body_kinetic_energy(const SporeWorld *world, const SporeBody *body,
 }
 
 double spore_body_gravity_energy(const SporeWorld *world, const SporeBody *body, const double *q) {
+  SporeVec3 gravity = spore_body_gravity(world, body);
   double energy = 0;
   for (size_t i = 0; i < body->model->node_count; i++)
-    energy -= body->model->block_mass[i] * spore_vec3_dot(world->gravity, spore_vec3_load(q + 3 * i));
+    energy -= body->model->block_mass[i] * spore_vec3_dot(gravity, spore_vec3_load(q + 3 * i));
   return energy;
 }
 

@@ -22,6 +22,10 @@ static double *block_positions(const SporeWorld *world, const SporeBody *body) {
   return points;
 }
 
+static bool hangs_on_smoke(const SporeWorld *world, uint32_t index) {
+  return index < world->body_count && world->bodies[index].model && world->bodies[index].model->life_s > 0;
+}
+
 /* What is wrong with a pin, or NULL; *memory: there was none. */
 static const char *select_pin(const SporeWorld *world, const SporeLinkDescription *link, uint8_t *held, bool *memory) {
   if (link->body_a >= world->body_count || world->bodies[link->body_a].role != SPORE_PASSIVE)
@@ -103,6 +107,8 @@ static bool compile_link(SporeWorld *world, const SporeLinkDescription *link, ui
   snprintf(place, sizeof place, "links/%s", link->name ? link->name : "");
   bool memory = true, pin = link->kind == SPORE_LINK_PIN;
   const char *fault = spore_link_fault(world, link);
+  if (!fault && (hangs_on_smoke(world, link->body_a) || hangs_on_smoke(world, link->body_b)))
+    fault = _("the link hangs on particles that dissolve; expected a body that stays; choose another");
   if (!fault && pin) fault = select_pin(world, link, marks, &memory);
   if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
   if (!memory) return no_memory(error);

@@ -8,7 +8,7 @@
  * the frame's orientation (quaternion wxyz). A rigid body is one node with such a frame.
  *
  * The world solves M v' = f(q, v) + gravity + contacts + links. Models add their own internal force and, if they
- * can, its Jacobian in 3x3 blocks. Gravity is the world's: it pulls block i with block_mass[i] g. */
+ * can, its Jacobian in 3x3 blocks. Gravity is the world's: it pulls block i with (1 - buoyancy) block_mass[i] g. */
 #ifndef SPORE_SIM_MODEL_H
 #define SPORE_SIM_MODEL_H
 
@@ -64,6 +64,9 @@ typedef struct SporeModel {
   const SporeModelType *type;
   size_t q_count, block_count, node_count;
   double *block_mass; /* kg, block_count; above 0 for nodes, 0 for the turning of a frame */
+  double buoyancy;    /* share of its weight that the air around bears: above 1 it rises */
+  double life_s;      /* of particles, after which they are taken out of the world, with the age of each, s, behind the
+                         nodes in q; 0: they last */
   SporePool *pool;    /* for long loops of force and jacobian, given by the world; whatever it is, the same bits */
 } SporeModel;
 
@@ -133,6 +136,8 @@ struct SporeModelType {
   size_t (*shrink)(SporeModel *model, const double *q, SporeVec3 point, double radius, double factor, double least);
   /* As it was created. */
   void (*mend)(SporeModel *model);
+  /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. */
+  void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);
   /* What the last evaluation had to mend, or what the state after a step is not meant for (translated: cause and
    * remedy), or NULL. Told once a body. */
   const char *(*notice)(const SporeModel *model, const double *q);

@@ -1,5 +1,6 @@
-/* Particles that leave the world, by suction, and come into it, from a wound. A particle out of the world is held far
- * away from everything and from its like, where forces of short reach do not find it: the number of unknowns stays. */
+/* Particles that leave the world, by suction or as they dissolve, and come into it, from a wound. A particle out of the
+ * world is held far away from everything and from its like, where forces of short reach do not find it: the number of
+ * unknowns stays. */
 #include <stdio.h>
 
 #include "core/base/memory.h"
@@ -11,7 +12,13 @@
 #define NEAREST 1.1 /* of that distance: as near another a particle may come into the world without being thrown */
 #define TRIES 8     /* places in an emitter's mouth that are looked at in a step, for a particle */
 
-static const char *const suction_triggers[] = {"always", "button", NULL};
+static const char *const flow_triggers[] = {"always", "button", NULL};
+
+#define TRIGGER(Type, text)                                                                                            \
+  {                                                                                                                    \
+    .name = "trigger", .type = SPORE_CHOICE, .unit = "", .minimum = 0, .maximum = 1, .choices = flow_triggers,         \
+    .offset = offsetof(Type, trigger), .change = SPORE_CHANGE_REBUILD, .doc = text                                     \
+  }
 
 #define REAL(Type, field, unit_text, least, most, start, text)                                                         \
   {                                                                                                                    \
@@ -23,15 +30,7 @@ static const SporeParameter suction_parameters[] = {
     REAL(SporeSuctionFields, radius, "m", 1e-6, 1, 0.003,
          N_("Radius of the mouth: what comes so near to its middle is taken.")),
     REAL(SporeSuctionFields, rate, "1/s", 0, 1e9, 200, N_("Particles that it takes in a second, at most.")),
-    {.name = "trigger",
-     .type = SPORE_CHOICE,
-     .unit = "",
-     .minimum = 0,
-     .maximum = 1,
-     .choices = suction_triggers,
-     .offset = offsetof(SporeSuctionFields, trigger),
-     .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("When it sucks: always, or while the device's first button is down.")},
+    TRIGGER(SporeSuctionFields, N_("When it sucks: always, or while the device's first button is down.")),
 };
 const SporeParameterTable spore_suction_parameters = {
     suction_parameters, sizeof suction_parameters / sizeof *suction_parameters, sizeof(SporeSuctionFields)};
@@ -51,6 +50,8 @@ static const SporeParameter emitter_parameters[] = {
      .offset = offsetof(SporeEmitterFields, reserve),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Particles of the fluid that are kept back at the start, to come out here.")},
+    TRIGGER(SporeEmitterFields, N_("When they come out: always, or while the first button is down on the device of the "
+                                   "instrument that the mouth is in.")),
 };
 const SporeParameterTable spore_emitter_parameters = {
     emitter_parameters, sizeof emitter_parameters / sizeof *emitter_parameters, sizeof(SporeEmitterFields)};
@@ -104,11 +105,33 @@ static void drop_contacts(SporeWorld *world, const SporeBody *body, size_t parti
   }
 }
 
+/* Of particles that dissolve. */
+static double *age_of(SporeBody *body, double *q, size_t particle) {
+  return &q[3 * body->model->node_count + particle];
+}
+
 static void put(SporeWorld *world, SporeBody *body, size_t particle, SporeVec3 at, SporeVec3 velocity) {
   spore_vec3_store(world->next_q + body->q_offset + 3 * particle, at);
+  if (body->model->life_s > 0) *age_of(body, world->next_q + body->q_offset, particle) = 0;
   spore_vec3_store(world->next_v + body->v_offset + 3 * particle, velocity);
   drop_contacts(world, body, particle);
   body->history_s = 0;
+}
+
+static void take_out(SporeWorld *world, SporeBody *body, size_t particle) {
+  body->held[body->held_count++] = (uint32_t)particle;
+  put(world, body, particle, parking_place(body, particle), (SporeVec3){0, 0, 0});
+}
+
+/* Dissolving. */
+
+static bool dissolves(const SporeBody *body) { return body->model && body->model->life_s > 0; }
+
+static void dissolve(SporeWorld *world, SporeBody *body) {
+  double *q = world->next_q + body->q_offset;
+  if (body->asleep || body->frozen) return; /* nor does it grow older */
+  for (size_t i = 0; i < body->block_count; i++)
+    if (*age_of(body, q, i) >= body->model->life_s && !spore_particle_is_out(q + 3 * i)) take_out(world, body, i);
 }
 
 /* Suction. */
@@ -130,16 +153,20 @@ static void suck_from(SporeWorld *world, SporeTool *tool, uint32_t index, SporeV
       spore_world_wake(world, index); /* and is taken from after the next step */
       return;
     }
-    body->held[body->held_count++] = (uint32_t)i;
-    put(world, body, i, parking_place(body, i), (SporeVec3){0, 0, 0});
+    take_out(world, body, i);
     tool->due--;
     tool->taken++;
   }
 }
 
+/* Whether the trigger of what is in a body is pulled. */
+static bool flows(const SporeWorld *world, int trigger, uint32_t index) {
+  const SporeBody *holder = index == SPORE_NO_BODY ? NULL : &world->bodies[index];
+  return trigger == SPORE_FLOW_ALWAYS || (holder && holder->has_input && (holder->input.buttons & 1u));
+}
+
 static void suck(SporeWorld *world, SporeTool *tool) {
-  const SporeBody *holder = &world->bodies[tool->body];
-  bool on = tool->suction.trigger == SPORE_SUCTION_ALWAYS || (holder->has_input && (holder->input.buttons & 1u));
+  bool on = flows(world, tool->suction.trigger, tool->body);
   double most = tool->suction.rate * world->solver.time_step;
   tool->due = on ? fmin(tool->due + most, fmax(most, 1)) : 0;
   if (tool->due < 1) return;
@@ -158,6 +185,7 @@ static double next_random(uint64_t *state) {
 
 static bool is_free(const SporeWorld *world, const SporeBody *body, SporeVec3 at) {
   const double *q = world->next_q + body->q_offset;
+  if (dissolves(body)) return true; /* puffs mingle */
   for (size_t i = 0; i < body->block_count; i++)
     if (spore_vec3_distance(spore_vec3_load(q + 3 * i), at) < NEAREST * spacing(body)) return false;
   return true;
@@ -185,7 +213,8 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
   const SporeEmitterFields *fields = &emitter->fields;
   double time_s = (double)(world->step + 1) * world->solver.time_step, most = fields->rate * world->solver.time_step;
   if (time_s < fields->start || body->frozen || body->held_count == body->pin_count) return;
-  emitter->due = fmin(emitter->due + most, fmax(most, 1));
+  bool on = flows(world, fields->trigger, emitter->source);
+  emitter->due = on ? fmin(emitter->due + most, fmax(most, 1)) : 0;
   if (emitter->due < 1) return;
   if (body->asleep) {
     spore_world_wake(world, emitter->body); /* and is given to after the next step */
@@ -203,10 +232,14 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
 bool spore_world_exchanges_particles(const SporeWorld *world) {
   for (size_t i = 0; i < world->tool_count; i++)
     if (world->tools[i].kind == SPORE_TOOL_SUCTION) return true;
+  for (size_t b = 0; b < world->body_count; b++)
+    if (dissolves(&world->bodies[b])) return true;
   return world->emitter_count > 0;
 }
 
 void spore_world_exchange_particles(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++)
+    if (dissolves(&world->bodies[b])) dissolve(world, &world->bodies[b]);
   for (size_t i = 0; i < world->tool_count; i++)
     if (world->tools[i].kind == SPORE_TOOL_SUCTION) suck(world, &world->tools[i]);
   for (size_t i = 0; i < world->emitter_count; i++) emit(world, &world->emitters[i]);
@@ -233,6 +266,9 @@ static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDesc
       !(spore_vec3_length(from->direction) > 0))
     return _("the mouth has no direction; expected a vector of any length but 0; set it");
   size_t parked = world->bodies[from->body].held_count - world->bodies[from->body].pin_count;
+  if (from->fields.trigger == SPORE_FLOW_BUTTON && (to_world || world->bodies[from->source].role != SPORE_ACTIVE))
+    return _("the mouth is in nothing that a device moves, so that no button lets anything out; expected an active "
+             "body; choose one, or let it flow always");
   if ((size_t)from->fields.reserve + parked > world->bodies[from->body].block_count)
     return _("the reserve is more than the fluid's particles; expected fewer; make it smaller, or the fluid larger");
   return NULL;
@@ -261,9 +297,11 @@ static void make_emitter(SporeWorld *world, SporeEmitter *emitter, const SporeEm
 }
 
 static bool make_parkings(SporeWorld *world, const SporeWorldDescription *description) {
-  bool sucks = spore_world_exchanges_particles(world), made = true;
-  for (size_t b = 0; made && sucks && b < world->body_count; b++)
-    if (is_fluid(&world->bodies[b])) made = make_parking(world, &world->bodies[b]);
+  bool sucks = false, made = true;
+  for (size_t i = 0; i < world->tool_count; i++) sucks |= world->tools[i].kind == SPORE_TOOL_SUCTION;
+  for (size_t b = 0; made && b < world->body_count; b++)
+    if ((sucks && is_fluid(&world->bodies[b])) || dissolves(&world->bodies[b]))
+      made = make_parking(world, &world->bodies[b]);
   for (size_t i = 0; made && i < description->emitter_count; i++) {
     uint32_t fluid = description->emitters[i].body;
     if (fluid < world->body_count && is_fluid(&world->bodies[fluid])) made = make_parking(world, &world->bodies[fluid]);

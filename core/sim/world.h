@@ -120,13 +120,13 @@ typedef struct SporeJawFields {
 } SporeJawFields;
 extern const SporeParameterTable spore_jaw_parameters;
 
-typedef enum SporeSuctionTrigger { SPORE_SUCTION_ALWAYS, SPORE_SUCTION_BUTTON } SporeSuctionTrigger;
+typedef enum SporeFlowTrigger { SPORE_FLOW_ALWAYS, SPORE_FLOW_BUTTON } SporeFlowTrigger;
 
 /* The table is spore_suction_parameters. */
 typedef struct SporeSuctionFields {
   double radius; /* m, of the mouth */
   double rate;   /* particles a second, at most */
-  int trigger;   /* SporeSuctionTrigger */
+  int trigger;   /* SporeFlowTrigger */
 } SporeSuctionFields;
 extern const SporeParameterTable spore_suction_parameters;
 
@@ -159,6 +159,7 @@ typedef struct SporeEmitterFields {
   double radius;   /* m, of the mouth */
   double start;    /* s */
   int64_t reserve; /* particles */
+  int trigger;     /* SporeFlowTrigger; button: of the device that moves the source */
 } SporeEmitterFields;
 extern const SporeParameterTable spore_emitter_parameters;
 
@@ -246,8 +247,8 @@ typedef struct SporeToolState {
 size_t spore_world_tool_count(const SporeWorld *world);
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
 
-/* Particles of a body that are in the world: not kept back, nor taken away. Those stand so far off that they are told
- * by it. */
+/* Particles of a body that are in the world: not kept back, taken away or dissolved. Those stand so far off that they
+ * are told by it. */
 size_t spore_world_particle_count(const SporeWorld *world, uint32_t body);
 #define SPORE_PARTICLES_OUT_M 500.
 static inline bool spore_particle_is_out(const double *position) { return position[0] > SPORE_PARTICLES_OUT_M; }

@@ -324,6 +324,10 @@ static inline bool spore_body_moves(const SporeBody *body) {
 }
 /* Forces of its own do not depend on how it moves. */
 static inline bool spore_body_is_static(const SporeBody *body) { return body->integrator == SPORE_INTEGRATOR_STATIC; }
+/* What weight is to it, less what the air bears, m/s^2. */
+static inline SporeVec3 spore_body_gravity(const SporeWorld *world, const SporeBody *body) {
+  return spore_vec3_scale(1 - body->model->buoyancy, world->gravity);
+}
 static inline size_t spore_world_spring_count(const SporeWorld *world) {
   return world->link_term_count + world->hold_count + world->body_count;
 }

@@ -13,7 +13,8 @@ RATE_HZ = 50
 # Where the instruments go through the wall of the belly, m.
 RIGHT, LEFT, NAVEL = (0.105, 0.045, 0.190), (-0.105, 0.045, 0.190), (0.020, 0.130, 0.180)
 
-# Scene: instrument: place of entry, then rows of time (s) and place of the tip (m).
+# Scene: instrument: place of entry, then rows of time (s) and place of the tip (m) and, where it is used, the buttons
+# that are down from then on.
 TRACKS = {
     "laparoscopy": {
         "probe": (RIGHT, [
@@ -59,6 +60,11 @@ TRACKS = {
     "plate4-deformed-ovary": {"probe": (RIGHT, [
         (0.0, 0.080, 0.045, 0.070), (1.0, 0.060, 0.018, 0.026), (1.8, 0.056, 0.012, 0.009), (2.6, 0.056, 0.012, 0.009),
         (3.2, 0.062, 0.024, 0.030), (4.0, 0.080, 0.045, 0.070)])},
+    # Touches the ovary and coagulates it there, in two bursts.
+    "plate7-steam": {"probe": (RIGHT, [
+        (0.0, 0.080, 0.045, 0.070, 0), (0.8, 0.061, 0.024, 0.030, 0), (1.1, 0.059, 0.0175, 0.0215, 1),
+        (2.6, 0.057, 0.0180, 0.0210, 0), (2.9, 0.060, 0.022, 0.027, 0), (3.2, 0.055, 0.0185, 0.0205, 1),
+        (4.2, 0.054, 0.0185, 0.0205, 0), (5.0, 0.080, 0.045, 0.070, 0)])},
     "plate5-string": {"probe": (RIGHT, [
         (0.0, 0.085, 0.040, 0.080), (0.8, 0.060, -0.026, 0.040), (1.2, 0.056, -0.026, 0.018), (2.2, 0.056, 0.006, 0.018),
         (3.0, 0.056, -0.026, 0.020), (3.4, 0.070, -0.020, 0.050), (4.0, 0.085, 0.040, 0.080)])},
@@ -70,26 +76,27 @@ def ease(x):
 
 
 def tip(points, t):
+    """Place and buttons."""
     k = max(i for i, p in enumerate(points[:-1]) if i == 0 or t >= p[0])
     (start, *a), (end, *b) = points[k], points[k + 1]
     s = ease(min(1, (t - start) / (end - start)))
-    return [x + s * (y - x) for x, y in zip(a, b)]
+    return [x + s * (y - x) for x, y in zip(a[:3], b)], a[3] if len(a) > 3 else 0
 
 
-def row(t, place, entry):
+def row(t, place, buttons, entry):
     """The shaft lies along the body's +z, from the tip to the place of entry: the least turn that brings z there."""
     d = [e - p for e, p in zip(entry, place)]
     length = math.hypot(*d)
     w, x, y = 1 + d[2] / length, -d[1] / length, d[0] / length
     norm = math.hypot(w, x, y)
-    return "%.2f %.6f %.6f %.6f %.7f %.7f %.7f 0 0 0" % (t, *place, w / norm, x / norm, y / norm)
+    return "%.2f %.6f %.6f %.6f %.7f %.7f %.7f 0 0 %d" % (t, *place, w / norm, x / norm, y / norm, buttons)
 
 
 def track(instruments):
     lines = ["spore-track 1"]
     for name, (entry, points) in instruments.items():
         lines.append("device " + name)
-        lines += [row(n / RATE_HZ, tip(points, n / RATE_HZ), entry) for n in range(round(RATE_HZ * points[-1][0]) + 1)]
+        lines += [row(n / RATE_HZ, *tip(points, n / RATE_HZ), entry) for n in range(round(RATE_HZ * points[-1][0]) + 1)]
     return "\n".join(lines) + "\n"
 
 

@@ -83,6 +83,34 @@ static void test_overlays(void) {
   draw_and_check(&bench, "overlays", FALSE, FALSE);
 }
 
+/* A plume before an organ, whose lower puffs run into it. */
+static void add_smoke(Bench *bench) {
+  static const float white[3] = {0.8f, 0.8f, 0.82f};
+  SporePuff puffs[40];
+  for (int i = 0; i < 40; i++) {
+    double age = i / 39.0;
+    puffs[i] = (SporePuff){{0.012 * sin(0.9 * i), 0.09 * age - 0.03, 0.045 + 0.008 * cos(1.3 * i)},
+                           0.008 + 0.012 * age,
+                           0.5 * (1 - age),
+                           fmod(6.18 * i, 10)};
+  }
+  spore_renderer_move_puffs(bench->renderer, spore_renderer_add_puffs(bench->renderer, white), puffs, 40);
+}
+
+static void test_smoke_fast(void) {
+  Bench bench = bench_open();
+  add_organ(&bench, &tissue);
+  add_smoke(&bench);
+  draw_and_check(&bench, "smoke_fast", FALSE, FALSE);
+}
+
+static void test_smoke_full(void) {
+  Bench bench = bench_open();
+  add_organ(&bench, &tissue);
+  add_smoke(&bench);
+  draw_and_check(&bench, "smoke_full", TRUE, FALSE);
+}
+
 static void test_shadow_between_bodies(void) {
   static const float pale[3] = {0.55f, 0.40f, 0.33f};
   Bench bench = bench_open();
@@ -98,6 +126,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/golden/tissue-full", test_tissue_full);
   g_test_add_func("/render/golden/metal-selected", test_metal_selected);
   g_test_add_func("/render/golden/overlays", test_overlays);
+  g_test_add_func("/render/golden/smoke-fast", test_smoke_fast);
+  g_test_add_func("/render/golden/smoke-full", test_smoke_full);
   g_test_add_func("/render/golden/shadow", test_shadow_between_bodies);
   return g_test_run();
 }

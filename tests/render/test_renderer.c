@@ -100,7 +100,7 @@ static void test_depth_and_stride(void) {
   memcpy(&middle, pixels + 32 * 400 + 32 * 4, 4);
   g_assert_cmpuint(middle >> 16 & 255, >, 2 * (middle & 255));
   for (int i = 256; i < 400; i++) g_assert_cmpint(pixels[i], ==, 0);
-  spore_renderer_move_spheres(bench.renderer, sphere, before);
+  spore_renderer_move_spheres(bench.renderer, sphere, before, 1);
   g_assert_true(spore_renderer_draw(bench.renderer, &camera, &options, pixels, 400, NULL));
   memcpy(&middle, pixels + 32 * 400 + 32 * 4, 4);
   g_assert_cmpuint(middle & 255, >, 2 * (middle >> 16 & 255));
@@ -129,6 +129,41 @@ static void test_far_from_the_origin(void) {
   g_assert_cmpfloat(difference.mean, <, 0.2);
   picture_clear(&pictures[0]);
   picture_clear(&pictures[1]);
+}
+
+static int middle_blue(const Bench *bench, gboolean antialias) {
+  SporeCamera camera = straight_camera(0.3);
+  int rgb[3];
+  Picture picture = draw_picture(bench->renderer, &camera, 64, 64, antialias, FALSE);
+  picture_pixel(&picture, 32, 32, rgb);
+  picture_clear(&picture);
+  return rgb[2];
+}
+
+/* Smoke covers what is behind it in part, is covered by what is before it, and the order of its puffs is no matter. */
+static void test_puffs(void) {
+  static const double ball[4] = {0, 0, 0, 0.02};
+  static const SporePuff behind = {{0, 0, -0.1}, 0.03, 0.9, 3}, before = {{0, 0, 0.06}, 0.03, 0.9, 3};
+  const SporePuff both[2] = {{{0, 0, 0.08}, 0.03, 0.5, 3}, {{0, 0, 0.05}, 0.03, 0.9, 5}},
+                  turned[2] = {both[1], both[0]};
+  Bench bench = bench_open();
+  spore_renderer_add_spheres(bench.renderer, ball, 1, red, NULL, FALSE);
+  for (int antialias = 0; antialias < 2; antialias++) {
+    int bare = middle_blue(&bench, antialias);
+    guint smoke = spore_renderer_add_puffs(bench.renderer, blue);
+    g_assert_cmpint(middle_blue(&bench, antialias), ==, bare);
+    spore_renderer_move_puffs(bench.renderer, smoke, &behind, 1);
+    g_assert_cmpint(abs(middle_blue(&bench, antialias) - bare), <=, 1); /* the range of depth is another */
+    spore_renderer_move_puffs(bench.renderer, smoke, &before, 1);
+    g_test_message("blue of 255: %d bare, %d behind smoke", bare, middle_blue(&bench, antialias));
+    g_assert_cmpint(middle_blue(&bench, antialias), >, bare + 20);
+    spore_renderer_move_puffs(bench.renderer, smoke, both, 2);
+    int sorted = middle_blue(&bench, antialias);
+    spore_renderer_move_puffs(bench.renderer, smoke, turned, 2);
+    g_assert_cmpint(middle_blue(&bench, antialias), ==, sorted);
+    spore_renderer_remove(bench.renderer, smoke);
+  }
+  bench_close(&bench);
 }
 
 static void test_handles(void) {
@@ -219,6 +254,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/renderer/rows-from-the-top", test_rows_from_the_top);
   g_test_add_func("/render/renderer/depth-and-stride", test_depth_and_stride);
   g_test_add_func("/render/renderer/far-from-the-origin", test_far_from_the_origin);
+  g_test_add_func("/render/renderer/puffs", test_puffs);
   g_test_add_func("/render/renderer/handles", test_handles);
   g_test_add_func("/render/renderer/bad-sizes", test_bad_sizes);
   g_test_add_func("/render/renderer/two-contexts", test_two_contexts);

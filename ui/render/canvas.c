@@ -17,7 +17,8 @@ static gboolean background(SporeCanvas *canvas, SporeVariant variant, GError **e
   return TRUE;
 }
 
-/* In the order that writes each pixel least often: solids, then the background behind them, then overlays. */
+/* In the order that writes each pixel least often: solids, then the background behind them, then smoke, then overlays.
+ */
 gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
                            GError **error) {
   GPtrArray *drawables = canvas->drawables;
@@ -25,6 +26,7 @@ gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVa
   return spore_surface_pass(drawables, frame, programs, variant, error) &&
          spore_sphere_pass(drawables, frame, programs, variant, FALSE, error) && background(canvas, variant, error) &&
          (!grid || spore_line_pass(canvas->grid, frame, programs, variant, FALSE, error)) &&
+         spore_puff_pass(drawables, frame, programs, variant, error) &&
          spore_sphere_pass(drawables, frame, programs, variant, TRUE, error) &&
          spore_line_pass(drawables, frame, programs, variant, TRUE, error);
 }

@@ -38,6 +38,12 @@ static void free_spheres(SporeSphereGroup *group) {
   glDeleteVertexArrays(1, &group->vertex_array);
 }
 
+static void free_puffs(SporePuffGroup *group) {
+  glDeleteBuffers(1, &group->moving);
+  glDeleteVertexArrays(1, &group->vertex_array);
+  g_free(group->puffs);
+}
+
 static void free_lines(SporeLineGroup *group) {
   glDeleteBuffers(1, &group->moving);
   glDeleteVertexArrays(1, &group->vertex_array);
@@ -51,6 +57,9 @@ void spore_drawable_free(SporeDrawable *drawable) {
     break;
   case SPORE_DRAW_SPHERES:
     free_spheres((SporeSphereGroup *)drawable);
+    break;
+  case SPORE_DRAW_PUFFS:
+    free_puffs((SporePuffGroup *)drawable);
     break;
   case SPORE_DRAW_LINES:
     free_lines((SporeLineGroup *)drawable);

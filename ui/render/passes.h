@@ -19,6 +19,7 @@ typedef enum SporeProgramKind {
   SPORE_PROGRAM_SURFACE,
   SPORE_PROGRAM_SPHERE,
   SPORE_PROGRAM_HIDDEN_SPHERE,
+  SPORE_PROGRAM_PUFF,
   SPORE_PROGRAM_LINE,
   SPORE_PROGRAM_BACKGROUND,
   SPORE_PROGRAM_OCCLUSION,
@@ -58,7 +59,12 @@ typedef struct SporeFrame {
 
 /* What is drawn. Buffers hold positions relative to `origin`, so that single precision suffices far from the world's.
  */
-typedef enum SporeDrawableKind { SPORE_DRAW_SURFACE, SPORE_DRAW_SPHERES, SPORE_DRAW_LINES } SporeDrawableKind;
+typedef enum SporeDrawableKind {
+  SPORE_DRAW_SURFACE,
+  SPORE_DRAW_SPHERES,
+  SPORE_DRAW_PUFFS,
+  SPORE_DRAW_LINES
+} SporeDrawableKind;
 typedef struct SporeDrawable {
   SporeDrawableKind kind;
   gboolean visible;
@@ -85,6 +91,14 @@ typedef struct SporeSphereGroup {
   gboolean overlay;
 } SporeSphereGroup;
 
+typedef struct SporePuffGroup {
+  SporeDrawable base;
+  GLuint vertex_array, moving;
+  gsize count;
+  SporePuff *puffs; /* sorted anew for every picture */
+  float colour[3];
+} SporePuffGroup;
+
 typedef struct SporeLineGroup {
   SporeDrawable base;
   GLuint vertex_array, moving;
@@ -99,7 +113,9 @@ SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, cons
 void spore_surface_move(SporeSurface *surface, const double *vertices);
 SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
                                          gboolean overlay);
-void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres);
+void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres, gsize count);
+SporePuffGroup *spore_puff_group_new(const float colour[3]);
+void spore_puff_group_move(SporePuffGroup *group, const SporePuff *puffs, gsize count);
 SporeLineGroup *spore_line_group_new(const double *points, gsize count, const float colour[3], float width);
 void spore_line_group_move(SporeLineGroup *group, const double *points, gsize count);
 void spore_drawable_free(SporeDrawable *drawable);
@@ -116,6 +132,9 @@ gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, Spore
 /* overlays FALSE: solid spheres; TRUE: overlays, dimmed where hidden. */
 gboolean spore_sphere_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                            gboolean overlays, GError **error);
+/* Over what is solid, and nothing is hidden by them. Sorted within a group. */
+gboolean spore_puff_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
+                         GError **error);
 /* hidden: lines are drawn dimmed where something stands before them. */
 gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                          gboolean hidden, GError **error);

@@ -14,6 +14,7 @@ static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
     [SPORE_PROGRAM_SURFACE] = {"surface.vert", "surface.frag"},
     [SPORE_PROGRAM_SPHERE] = {"sphere.vert", "sphere.frag"},
     [SPORE_PROGRAM_HIDDEN_SPHERE] = {"sphere.vert", "sphere.frag", "#define HIDDEN\n"},
+    [SPORE_PROGRAM_PUFF] = {"puff.vert", "puff.frag"},
     [SPORE_PROGRAM_LINE] = {"line.vert", "line.frag"},
     [SPORE_PROGRAM_BACKGROUND] = {"screen.vert", "background.frag"},
     [SPORE_PROGRAM_OCCLUSION] = {"screen.vert", "occlusion.frag"},

@@ -100,9 +100,19 @@ guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres,
   return add(renderer, &spore_sphere_group_new(spheres, count, colour, values, overlay)->base);
 }
 
-void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres) {
+void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres, gsize count) {
   SporeSphereGroup *drawable = find_kind(renderer, group, SPORE_DRAW_SPHERES);
-  if (drawable) spore_sphere_group_move(drawable, spheres);
+  if (drawable) spore_sphere_group_move(drawable, spheres, count);
+}
+
+guint spore_renderer_add_puffs(SporeRenderer *renderer, const float colour[3]) {
+  spore_offscreen_make_current(renderer->offscreen);
+  return add(renderer, &spore_puff_group_new(colour)->base);
+}
+
+void spore_renderer_move_puffs(SporeRenderer *renderer, guint group, const SporePuff *puffs, gsize count) {
+  SporePuffGroup *drawable = find_kind(renderer, group, SPORE_DRAW_PUFFS);
+  if (drawable) spore_puff_group_move(drawable, puffs, count);
 }
 
 guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3],

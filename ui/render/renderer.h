@@ -47,7 +47,16 @@ void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const 
 /* Spheres as impostors that write depth. values: one a sphere in 0..1 for the colour map, or NULL for `colour`. */
 guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres, gsize count, const float colour[3],
                                  const float *values, gboolean overlay);
-void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres);
+/* count: as many as were added or, of spheres without values, fewer. */
+void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres, gsize count);
+/* Puffs of smoke, each soft and translucent; none at first. */
+typedef struct SporePuff {
+  double centre[3], radius; /* m, world */
+  double opacity;           /* 0..1, of its middle */
+  double seed;              /* of its pattern: any small number that it keeps */
+} SporePuff;
+guint spore_renderer_add_puffs(SporeRenderer *renderer, const float colour[3]);
+void spore_renderer_move_puffs(SporeRenderer *renderer, guint group, const SporePuff *puffs, gsize count);
 /* Line segments, count x 2 points x 3; overlays are drawn dimmed where hidden. */
 guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3],
                                float width);

@@ -25,7 +25,6 @@ SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, con
   SporeSphereGroup *group = g_new0(SporeSphereGroup, 1);
   group->base.kind = SPORE_DRAW_SPHERES;
   group->base.visible = TRUE;
-  group->count = count;
   group->overlay = overlay;
   memcpy(group->colour, colour, sizeof group->colour);
   glGenVertexArrays(1, &group->vertex_array);
@@ -36,12 +35,13 @@ SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, con
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof(float)), values, GL_STATIC_DRAW);
   }
   spore_drawable_set_bounds(&group->base, spheres, count, 4, TRUE, TRUE);
-  spore_sphere_group_move(group, spheres);
+  spore_sphere_group_move(group, spheres, count);
   describe(group);
   return group;
 }
 
-void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres) {
+void spore_sphere_group_move(SporeSphereGroup *group, const double *spheres, gsize count) {
+  group->count = count;
   spore_drawable_set_bounds(&group->base, spheres, group->count, 4, TRUE, FALSE);
   float *moved = g_new(float, 4 * group->count);
   for (gsize s = 0; s < group->count; s++) {

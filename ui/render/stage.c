@@ -119,9 +119,8 @@ void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3
   for (guint b = 0; b < stage->bodies->len; b++) {
     const SporeStageBody *body = stage->bodies->pdata[b];
     for (gsize i = 0; i < body->surface.count; i++) take_in(lower, upper, body->surface.positions + 3 * i, 0);
-    for (gsize i = 0; body->solid && i < body->centres.count; i++)
-      if (!spore_particle_is_out(body->centres.positions + 3 * i))
-        take_in(lower, upper, body->spheres + 4 * i, body->spheres[4 * i + 3]);
+    for (gsize i = 0; body->solid && i < body->shown; i++)
+      take_in(lower, upper, body->spheres + 4 * i, body->spheres[4 * i + 3]);
   }
   if (!(lower[0] <= upper[0])) /* an empty scene: a place the size of a hand */
     for (int i = 0; i < 3; i++) lower[i] = -0.05, upper[i] = 0.05;

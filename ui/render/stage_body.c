@@ -132,6 +132,16 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
                                                       body->triangle_count, &body->style);
 }
 
+/* Puffs instead of a surface and spheres. */
+static void build_smoke(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation) {
+  if (body->world_body == SPORE_NO_BODY) return;
+  const SporeModel *model = spore_world_body_model(simulation->world, body->world_body);
+  if (!model || !model->type->puff) return;
+  body->smoke = model;
+  body->puffs = g_new(SporePuff, model->node_count);
+  body->puffs_handle = spore_renderer_add_puffs(stage->renderer, body->style.colour);
+}
+
 static gboolean is_liquid(const SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation) {
   return body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object) &&
          spore_world_body_model(simulation->world, body->world_body)->type->particles;
@@ -142,6 +152,7 @@ static gboolean is_liquid(const SporeStageBody *body, const SporeObject *object,
 static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
                           const SporeSimulation *simulation) {
   const SporeObject *visual = spore_object_child_of(object, "visual");
+  if (body->smoke) return;
   SporeObject *asset = asset_of(stage, visual, "mesh", "mesh");
   body->liquid = !asset && is_liquid(body, object, simulation);
   if (body->liquid) return; /* comes with its spheres */
@@ -171,6 +182,7 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   g_free(centres);
   if (!mapped) return;
   body->spheres = g_memdup2(set->spheres, set->count * 4 * sizeof(double));
+  body->shown = set->count;
   body->solid = !body->surface_handle && !body->liquid;
   const float *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
   body->spheres_handle = spore_renderer_add_spheres(
@@ -186,6 +198,7 @@ static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeOb
     show_spheres(stage, body, simulation, set, asset);
   } else if (body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object)) {
     const SporeModel *model = spore_world_body_model(simulation->world, body->world_body);
+    body->particles = model->type->particles;
     if (model->type->spheres(model, &own, NULL)) show_spheres(stage, body, simulation, &own, NULL);
     spore_sphere_set_clear(&own);
   }
@@ -214,6 +227,7 @@ SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, con
   body->style.material = fields.role == SPORE_ACTIVE ? SPORE_MATERIAL_METAL : SPORE_MATERIAL_TISSUE;
   body->style.selected = stage->selection == body->object;
   init_configuration(body, object, simulation);
+  build_smoke(stage, body, simulation);
   build_surface(stage, body, object, simulation);
   build_spheres(stage, body, object, simulation);
   build_wire(stage, body, object, simulation);
@@ -223,7 +237,7 @@ SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, con
 }
 
 void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
-  const guint handles[] = {body->surface_handle, body->spheres_handle, body->wire_handle};
+  const guint handles[] = {body->surface_handle, body->spheres_handle, body->puffs_handle, body->wire_handle};
   for (guint i = 0; i < G_N_ELEMENTS(handles); i++)
     if (handles[i]) spore_renderer_remove(stage->renderer, handles[i]);
   clear_points(&body->surface);
@@ -234,16 +248,45 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
   spore_free(body->own_triangles);
   spore_free(body->edges);
   g_free(body->spheres);
+  g_free(body->puffs);
   g_free(body->segments);
   g_free(body->q);
   g_free(body);
 }
 
-static void place_spheres(SporeStage *stage, SporeStageBody *body) {
+/* Of particles, those that are in the world; each of a body's has the same radius. */
+static void place_centres(SporeStageBody *body) {
   spore_mapping_positions(&body->centres.mapping, body->q, body->centres.positions);
-  for (gsize i = 0; i < body->centres.count; i++)
+  if (!body->particles) return;
+  body->shown = 0;
+  for (gsize i = 0; i < body->centres.count; i++) {
+    const double *centre = body->centres.positions + 3 * i;
+    if (!spore_particle_is_out(centre))
+      memmove(body->centres.positions + 3 * body->shown++, centre, 3 * sizeof *centre);
+  }
+}
+
+static void place_spheres(SporeStage *stage, SporeStageBody *body) {
+  place_centres(body);
+  for (gsize i = 0; i < body->shown; i++)
     memcpy(body->spheres + 4 * i, body->centres.positions + 3 * i, 3 * sizeof(double));
-  spore_renderer_move_spheres(stage->renderer, body->spheres_handle, body->spheres);
+  spore_renderer_move_spheres(stage->renderer, body->spheres_handle, body->spheres, body->shown);
+}
+
+/* Neighbours in number do not look alike, and each keeps its look. */
+#define GOLDEN_TURN 0.6180339887498949
+
+static void place_smoke(SporeStage *stage, SporeStageBody *body) {
+  gsize count = 0;
+  for (gsize i = 0; i < body->smoke->node_count; i++) {
+    SporePuff *puff = &body->puffs[count];
+    if (spore_particle_is_out(body->q + 3 * i)) continue;
+    memcpy(puff->centre, body->q + 3 * i, sizeof puff->centre);
+    body->smoke->type->puff(body->smoke, body->q, i, &puff->radius, &puff->opacity);
+    puff->seed = 10 * fmod(GOLDEN_TURN * (double)i, 1);
+    count++;
+  }
+  spore_renderer_move_puffs(stage->renderer, body->puffs_handle, body->puffs, count);
 }
 
 /* Neighbours in a liquid at rest stand where their attraction is strongest, 2^(1/6) of the width of their spheres. */
@@ -251,13 +294,9 @@ static void place_spheres(SporeStage *stage, SporeStageBody *body) {
 
 static void place_liquid(SporeStage *stage, SporeStageBody *body) {
   SporeTriangleMesh skin;
-  double *positions = body->centres.positions;
-  gsize count = 0;
-  spore_mapping_positions(&body->centres.mapping, body->q, positions);
-  for (gsize i = 0; i < body->centres.count; i++)
-    if (!spore_particle_is_out(positions + 3 * i))
-      memmove(positions + 3 * count++, positions + 3 * i, 3 * sizeof(double));
-  if (!spore_particle_skin(positions, count, 2 * LIQUID_SPACING * body->spheres[3], &skin, NULL)) return;
+  place_centres(body);
+  if (!spore_particle_skin(body->centres.positions, body->shown, 2 * LIQUID_SPACING * body->spheres[3], &skin, NULL))
+    return;
   body->style.material = SPORE_MATERIAL_LIQUID;
   show_own_surface(stage, body, &skin);
   spore_free(skin.vertices);
@@ -279,6 +318,7 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
     spore_mapping_positions(&body->surface.mapping, body->q, body->surface.positions);
     spore_renderer_move_surface(stage->renderer, body->surface_handle, body->surface.positions);
   }
+  if (body->smoke) place_smoke(stage, body);
   if (body->spheres_handle && (stage->options.spheres || body->solid)) place_spheres(stage, body);
   if (body->wire_handle && stage->options.tetrahedra) place_wire(stage, body);
 }
@@ -290,5 +330,6 @@ void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {
     spore_renderer_set_visible(renderer, body->spheres_handle,
                                body->solid ? stage->options.surfaces || stage->options.spheres
                                            : stage->options.spheres);
+  if (body->puffs_handle) spore_renderer_set_visible(renderer, body->puffs_handle, stage->options.surfaces);
   if (body->wire_handle) spore_renderer_set_visible(renderer, body->wire_handle, stage->options.tetrahedra);
 }

@@ -31,10 +31,16 @@ typedef struct SporeStageBody {
   SporeCurve tube;       /* the axis as it is shown, with its radii; without points: there is none */
 
   SporeStagePoints centres;
-  gboolean liquid; /* the surface is the skin around the centres, made anew as they move */
-  double *spheres; /* centres.count x 4, world */
-  gboolean solid;  /* the spheres are all there is to see of the body */
+  gboolean particles; /* a model's own spheres, one at each of its particles */
+  gboolean liquid;    /* the surface is the skin around the centres, made anew as they move */
+  double *spheres;    /* centres.count x 4, world */
+  gsize shown;        /* of the centres and spheres, those that are in the world come first */
+  gboolean solid;     /* the spheres are all there is to see of the body */
   guint spheres_handle;
+
+  const SporeModel *smoke; /* shown by its puffs alone; NULL: is none */
+  SporePuff *puffs;        /* smoke->node_count */
+  guint puffs_handle;
 
   SporeStagePoints nodes;
   gsize edge_count;

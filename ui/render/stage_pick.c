@@ -51,7 +51,7 @@ static double meet_body(const SporeStageBody *body, SporeVec3 origin, SporeVec3 
   if (body->surface_handle && meets_box(body->surface.positions, body->surface.count, o, d, nearest))
     for (gsize i = 0; i < body->triangle_count; i++)
       nearest = MIN(nearest, meet_triangle(origin, direction, body->surface.positions, body->triangles + 3 * i));
-  for (gsize i = 0; body->solid && i < body->centres.count; i++)
+  for (gsize i = 0; body->solid && i < body->shown; i++)
     nearest = MIN(nearest, meet_sphere(origin, direction, body->spheres + 4 * i));
   return nearest;
 }
