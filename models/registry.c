@@ -11,4 +11,5 @@ const SporeModelType *const spore_model_registry[] = {&spore_rigid_body,
                                                       &spore_lennard_jones,
                                                       &spore_smoke,
                                                       &spore_spline_1d,
+                                                      &spore_intestine,
                                                       NULL};

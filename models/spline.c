@@ -199,19 +199,11 @@ bool spore_spline_pattern(const SporeSpline *spline, SporeBlockPattern *pattern)
   return true;
 }
 
-bool spore_spline_find_blocks(SporeSpline *spline) {
-  SporeBlockPattern pattern;
-  SporeBlockMatrix matrix;
+void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matrix) {
   size_t count = spline->span_count + 3;
-  spore_block_pattern_init(&pattern, count);
-  bool made = spore_spline_pattern(spline, &pattern) && spore_block_matrix_create(&matrix, &pattern);
-  spore_block_pattern_clear(&pattern);
-  if (!made) return false;
   for (uint32_t i = 0; i < count; i++)
     for (uint32_t k = 0; k < 4 && i + k < count; k++) {
-      spline->upper[4 * i + k] = (uint32_t)spore_block_matrix_find(&matrix, i, i + k);
-      spline->lower[4 * i + k] = (uint32_t)spore_block_matrix_find(&matrix, i + k, i);
+      spline->upper[4 * i + k] = (uint32_t)spore_block_matrix_find(matrix, i, i + k);
+      spline->lower[4 * i + k] = (uint32_t)spore_block_matrix_find(matrix, i + k, i);
     }
-  spore_block_matrix_clear(&matrix);
-  return true;
 }

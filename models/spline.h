@@ -45,8 +45,8 @@ typedef struct SporeSpline {
 bool spore_spline_allocate(SporeSpline *spline, size_t span_count);
 void spore_spline_clear(SporeSpline *spline);
 bool spore_spline_pattern(const SporeSpline *spline, SporeBlockPattern *pattern);
-/* False: no memory. */
-bool spore_spline_find_blocks(SporeSpline *spline);
+/* In a matrix of the model's whole pattern; the control points are its first blocks. */
+void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matrix);
 
 /* Rows of points by control points (in the body's frame): a point on the line by its section's four; one off the line
  * by as few more around it as span its offset. Refused where the line is too straight to carry the offset. */

@@ -122,8 +122,8 @@ struct SporeModelType {
   /* Drops what evaluations leave behind to make the next one quicker: the state was set from outside, and what follows
    * from it must not depend on what was before. */
   void (*forget)(SporeModel *model);
-  /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none: one at each
-   * material point, in their order, so that map gives the identity for their centres. *set: spore_sphere_set_clear. */
+  /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none, where map
+   * takes them; of particles one at each node, in their order. *set: spore_sphere_set_clear. */
   bool (*spheres)(const SporeModel *model, SporeSphereSet *set, SporeError *error);
   /* Room for what mend needs, when the world has something that cuts; *edges += how many can be cut. False: no memory.
    */
@@ -156,6 +156,8 @@ static inline bool spore_model_is_rigid(const SporeModel *model) {
 /* Block-diagonal mass at q, block_count x 9. */
 void spore_model_mass(const SporeModel *model, const double *q, double *blocks);
 double spore_model_total_mass(const SporeModel *model);
+/* A matrix of the model's own pattern, in which it looks up its blocks. False: no memory. */
+bool spore_model_matrix_create(const SporeModel *model, SporeBlockMatrix *matrix);
 
 /* A registry is an explicit NULL-terminated array; models/registry.c holds the one of this program. */
 typedef const SporeModelType *const *SporeModelRegistry;

@@ -47,7 +47,8 @@ static Specimen *specimen_new(const SporeModelType *type, const char *name, int 
   const char *kind = specimen_variant(type, variant);
   specimen->type = type;
   specimen->name = g_strdup_printf("%s/%s%s%s", type->name, name, *kind ? "/" : "", kind);
-  specimen->size = strcmp(name, "needle") ? 0.02 : 1e-3;
+  /* A helix: what moves its points farther may straighten its bends, whose stiffness is then clamped. */
+  specimen->size = !strcmp(name, "needle") ? 1e-3 : !strcmp(name, "helix") ? 0.01 : 0.02;
   specimen->fields = g_malloc0(type->parameters.size);
   spore_parameters_set_initial(&type->parameters, specimen->fields);
   specimen_set_variant(type, variant, specimen->fields);

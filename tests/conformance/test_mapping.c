@@ -141,7 +141,41 @@ static void check_without_memory(gconstpointer data) {
 
 static gboolean has_spheres(const SporeModelType *type) { return type->spheres != NULL; }
 
-/* The model's own spheres: one at each material point, which it follows exactly. */
+/* Of particles: one at each material point, which it follows exactly, apart at rest; and nothing passes between them.
+ */
+static void check_particle_spheres(const SporeModel *model, const SporeMapping *mapping, const SporeSphereSet *set,
+                                   const double *points) {
+  g_assert_cmpuint(set->count, ==, model->node_count);
+  g_assert_cmpint(mapping->kind, ==, SPORE_MAPPING_IDENTITY);
+  double nearest = HUGE_VAL, widest = 0;
+  for (size_t i = 0; i < set->count; i++) {
+    widest = fmax(widest, set->spheres[4 * i + 3]);
+    for (size_t k = 0; k < i; k++)
+      nearest = fmin(nearest, spore_vec3_distance(spore_vec3_load(points + 3 * i), spore_vec3_load(points + 3 * k)));
+  }
+  g_test_message("%zu spheres of up to %.3g m, %.3g m apart at least", set->count, widest, nearest);
+  g_assert_cmpfloat(2 * widest, <, nearest);
+  g_assert_cmpfloat(2 * widest, >, 0.7 * nearest);
+}
+
+/* Of a line: from end to end, each a radius from the next. */
+static void check_line_spheres(const Specimen *specimen, const SporeSphereSet *set) {
+  const SporeCurve *curve = &specimen->curve;
+  double ends[2] = {spore_vec3_distance(spore_vec3_load(set->spheres), spore_vec3_load(curve->points)),
+                    spore_vec3_distance(spore_vec3_load(set->spheres + 4 * (set->count - 1)),
+                                        spore_vec3_load(curve->points + 4 * (curve->count - 1)))};
+  g_assert_cmpfloat(fmax(ends[0], ends[1]), <, 1e-15);
+  double apart = 0;
+  for (size_t i = 1; i < set->count; i++) {
+    const double *one = set->spheres + 4 * i, *before = one - 4;
+    apart = fmax(apart, spore_vec3_distance(spore_vec3_load(one), spore_vec3_load(before)) / fmin(one[3], before[3]));
+  }
+  g_test_message("%zu spheres, at most %.6f radii from one to the next", set->count, apart);
+  g_assert_cmpfloat(apart, <, 1.001);
+  g_assert_cmpfloat(apart, >, 0.9);
+}
+
+/* The model's own spheres: its mapping takes them and leaves them where they are at rest. */
 static void check_spheres(gconstpointer data) {
   const Specimen *specimen = data;
   SporeModel *model = specimen_model(specimen);
@@ -155,29 +189,22 @@ static void check_spheres(gconstpointer data) {
     if (!made) g_assert_cmpint(error.code, ==, SPORE_ERROR_MEMORY);
     g_assert_cmpuint(n, <, 10);
   }
-  g_assert_cmpuint(set.count, ==, model->node_count);
   g_assert_true(spore_sphere_set_validate(&set, &error));
-  double *points = vector_new(3 * set.count);
+  double *points = vector_new(3 * set.count), *at_rest = vector_new(3 * set.count);
   for (size_t i = 0; i < set.count; i++) memcpy(points + 3 * i, set.spheres + 4 * i, 3 * sizeof *points);
   SporeMapping mapping;
   map(model, points, set.count, &mapping);
-  g_assert_cmpint(mapping.kind, ==, SPORE_MAPPING_IDENTITY);
   const SporeVec3 still = {0, 0, 0};
   State state = state_new(model, spore_pose_identity(), still, still);
-  g_assert_cmpfloat(vector_distance(points, state.q, 3 * set.count), <, 1e-15);
-  double nearest = HUGE_VAL, widest = 0;
-  for (size_t i = 0; i < set.count; i++) {
-    widest = fmax(widest, set.spheres[4 * i + 3]);
-    for (size_t k = 0; k < i; k++)
-      nearest = fmin(nearest, spore_vec3_distance(spore_vec3_load(points + 3 * i), spore_vec3_load(points + 3 * k)));
-  }
-  g_test_message("%s: %zu spheres of up to %.3g m, %.3g m apart at least", specimen->name, set.count, widest, nearest);
-  g_assert_cmpfloat(2 * widest, <, nearest); /* apart at rest, and nothing passes between them */
-  g_assert_cmpfloat(2 * widest, >, 0.7 * nearest);
+  spore_mapping_positions(&mapping, state.q, at_rest);
+  g_assert_cmpfloat(vector_distance(points, at_rest, 3 * set.count), <, 1e-14);
+  if (model->type->particles) check_particle_spheres(model, &mapping, &set, points);
+  else check_line_spheres(specimen, &set);
   spore_mapping_clear(&mapping);
   spore_sphere_set_clear(&set);
   state_clear(&state);
   g_free(points);
+  g_free(at_rest);
   model->type->destroy(model);
 }
 

@@ -20,7 +20,7 @@ typedef struct Kind {
 } Kind;
 
 static gboolean is_stiffness(const SporeParameter *parameter) {
-  static const char *const units[] = {"N/m", "Pa", "N/m^3"};
+  static const char *const units[] = {"N/m", "Pa", "N/m^2", "N/m^3"};
   for (unsigned i = 0; i < G_N_ELEMENTS(units); i++)
     if (parameter->type == SPORE_REAL && !strcmp(parameter->unit, units[i])) return TRUE;
   return FALSE;
@@ -178,8 +178,9 @@ static void check_model(gconstpointer data) {
                      spore_integrator_names[kind], line->str);
       g_string_free(line, TRUE);
     }
-  /* Not mended yet: a spline that the static method lets float, and one of 1e12 Pa by BDF2. */
-  unsigned known = type == &spore_spline_1d ? 2 : 0;
+  /* Not mended yet: a spline that the static method lets float, and one of 1e12 Pa by BDF2; an intestine of 3e11 Pa by
+   * BDF2 and TR-BDF2. */
+  unsigned known = type == &spore_spline_1d || type == &spore_intestine ? 2 : 0;
   g_assert_cmpuint(failed, <=, known);
   if (failed > 0) g_test_incomplete("cells fail as said above: energy from nothing");
 }

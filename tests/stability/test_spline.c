@@ -55,7 +55,7 @@ static Statics statics_new(SporeModel *model) {
                      n,
                      g_new0(gboolean, model->block_count),
                      g_new0(double, n),
-                     g_new0(double, n),
+                     g_new0(double, model->q_count),
                      g_new0(double, n),
                      g_new0(double, n *n)};
   SporePose pose = {{0, 0, 0}, {1, 0, 0, 0}};
@@ -123,7 +123,7 @@ static double energy(const Statics *statics, const double *q) {
 /* Newton's method with a line search on the energy. Returns the force that is left, relative to the load. */
 static double balance(Statics *statics) {
   size_t n = statics->n;
-  double *step = g_new(double, n), *next = g_new(double, n), left = 1;
+  double *step = g_new(double, n), *next = g_memdup2(statics->q, statics->model->q_count * sizeof *next), left = 1;
   for (int round = 0; round < 2000 && left > 1e-9; round++) {
     double squares = 0, load = 0, before = energy(statics, statics->q), share = 1;
     memcpy(step, statics->load, n * sizeof *step);
@@ -309,6 +309,62 @@ static void curved_at_rest(void) {
   statics_free(&statics);
 }
 
+/* A straight bowel on its mesentery alone sags by its weight per length over the mesentery's stiffness, everywhere the
+ * same: a uniform load on springs that stand for as much of the line as it does bends nothing. */
+static void bowel_on_its_mesentery(void) {
+  double length = 0.3, radius = 0.012, wall = 0.002, density = 1060, content = 300, stiffness = 300;
+  SporeCurve curve;
+  g_assert_true(spore_curve_allocate(&curve, 2, NULL));
+  const double points[8] = {0, 0, 0, radius, length, 0, 0, radius};
+  memcpy(curve.points, points, sizeof points);
+  Statics statics = statics_new(rig_curve_model(&spore_intestine, &curve, "wall_thickness", wall, "density", density,
+                                                "content_density", content, "mesentery_stiffness", stiffness, NULL));
+  size_t root = statics.model->node_count - 1;
+  statics.held[root] = statics.held[root + 1] = TRUE;
+  for (size_t i = 0; i < root; i++) statics.load[3 * i + 1] = -9.81 * statics.model->block_mass[i];
+  double left = balance(&statics), inner = radius - wall;
+  double weight = 9.81 * G_PI * (density * (radius * radius - inner * inner) + content * inner * inner);
+  double expected = weight / stiffness, error = 0;
+  for (size_t i = 0; i < root; i++) error = fmax(error, fabs(-statics.q[3 * i + 1] / expected - 1));
+  g_test_message("sag %.9f m of %.9f m, worst %+.1e; force left %.0e", -statics.q[1], expected, error, left);
+  g_assert_cmpfloat(left, <, 1e-9);
+  g_assert_cmpfloat(error, <, 1e-9);
+  statics_free(&statics);
+}
+
+/* A bowel far longer than its bending reaches, pulled down at its middle: a beam on an elastic foundation (Hetenyi
+ * 1946), w = P b / 2 k, b^4 = k / 4 E I. */
+static void bowel_pulled_aside(void) {
+  double length = 1.2, radius = 0.012, wall = 0.002, young = 3e5, stiffness = 300, load = 1e-3, error = 1;
+  double inner = radius - wall, bending = young * 0.25 * G_PI * (pow(radius, 4) - pow(inner, 4));
+  double expected = load * pow(stiffness / (4 * bending), 0.25) / (2 * stiffness);
+  for (int points = 21; points <= 161; points = 2 * points - 1) {
+    SporeCurve curve;
+    g_assert_true(spore_curve_allocate(&curve, 2, NULL));
+    const double ends[8] = {0, 0, 0, radius, length, 0, 0, radius};
+    memcpy(curve.points, ends, sizeof ends);
+    SporeModel *model =
+        rig_curve_model(&spore_intestine, &curve, "control_points", (double)points, "young_modulus", young,
+                        "bending_scale", 1.0, "wall_thickness", wall, "mesentery_stiffness", stiffness, NULL);
+    Statics statics = statics_new(model);
+    size_t root = model->node_count - 1;
+    statics.held[root] = statics.held[root + 1] = TRUE;
+    double middle[3] = {0.5 * length, 0, 0}, force[3] = {0, -load, 0};
+    SporeMapping mapping;
+    g_assert_true(model->type->map(model, middle, 1, &mapping, NULL));
+    spore_mapping_add_force(&mapping, 0, statics.q, spore_vec3_load(force), statics.load);
+    double left = balance(&statics), down = -spore_mapping_position(&mapping, 0, statics.q).y;
+    double now = fabs(down / expected - 1);
+    g_test_message("%d control points: %.9f m of %.9f m: %+.1e; force left %.0e", points, down, expected,
+                   down / expected - 1, left);
+    g_assert_cmpfloat(now, <, error);
+    error = now / 3; /* second order */
+    spore_mapping_clear(&mapping);
+    statics_free(&statics);
+  }
+  g_assert_cmpfloat(error, <, 1e-3);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/spline/cantilever", cantilever);
@@ -316,5 +372,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/spline/catenary", catenary);
   g_test_add_func("/spline/first-mode", first_mode);
   g_test_add_func("/spline/curved-at-rest", curved_at_rest);
+  g_test_add_func("/intestine/sag", bowel_on_its_mesentery);
+  g_test_add_func("/intestine/pulled-aside", bowel_pulled_aside);
   return g_test_run();
 }

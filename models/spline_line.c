@@ -1,0 +1,143 @@
+#include "models/spline_line.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+
+#define SAMPLES 16 /* a span, of the walk along the line that spaces spheres */
+
+static bool no_memory(SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a spline"));
+}
+
+void spore_spline_line_clear(SporeSplineLine *line) {
+  spore_spline_clear(&line->spline);
+  spore_sphere_set_clear(&line->spheres);
+  spore_free(line->rest);
+  spore_free(line->mass);
+  spore_free(line->length);
+  *line = (SporeSplineLine){0};
+}
+
+static SporeVec3 combine(const double *control, size_t span, const double weight[4]) {
+  SporeVec3 sum = {0, 0, 0};
+  for (size_t k = 0; k < 4; k++) sum = spore_vec3_add_scaled(sum, weight[k], spore_vec3_load(control + 3 * (span + k)));
+  return sum;
+}
+
+/* One Gauss point, with derivatives by the length at rest: d/dS = 1/l d/du, d2/dS2 = 1/l^2 (d2/du2 - l'/l d/du).
+ * Returns the length l for which it stands; 0 where the line turns back. */
+static double set_point(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section, size_t span,
+                        int point) {
+  SporeSpline *spline = &line->spline;
+  double u = (double)span + 0.5 + (point ? 0.5 : -0.5) / sqrt(3);
+  SporeSplineBasis basis = spore_spline_basis(spline->span_count, u, &span);
+  SporeVec3 slope = combine(line->rest, span, basis.first), bend = combine(line->rest, span, basis.second);
+  double speed = spore_vec3_length(slope), inverse = 1 / speed;
+  double change = spore_vec3_dot(slope, bend) * inverse * inverse;
+  if (!(speed > 0)) return 0;
+  SporeSplineGauss *gauss = &spline->gauss[span / SPORE_LANES * SPORE_SPLINE_POINTS + (size_t)point];
+  size_t lane = span % SPORE_LANES;
+  double outer = spore_spline_radius(curve, spline->span_count, u), length = speed / SPORE_SPLINE_POINTS;
+  double inner = section->wall_thickness > 0 ? fmax(outer - section->wall_thickness, 0) : 0;
+  double second[4], area = M_PI * (outer * outer - inner * inner), lumen = M_PI * inner * inner;
+  for (size_t k = 0; k < 4; k++) {
+    gauss->first[k][lane] = inverse * basis.first[k];
+    gauss->second[k][lane] = second[k] = inverse * inverse * (basis.second[k] - change * basis.first[k]);
+    line->length[span + k] += length * basis.value[k];
+    line->mass[span + k] += (section->density * area + section->content_density * lumen) * length * basis.value[k];
+  }
+  SporeVec3 curvature = combine(line->rest, span, second);
+  gauss->area[lane] = area * length;
+  gauss->inertia[lane] = 0.25 * area * (outer * outer + inner * inner) * length;
+  gauss->rest[lane] = section->straight_at_rest ? 0 : spore_vec3_dot(curvature, curvature);
+  return length;
+}
+
+static bool set_points(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section,
+                       SporeError *error) {
+  SporeSpline *spline = &line->spline;
+  double whole = 0;
+  for (size_t span = 0; span < spline->span_count; span++)
+    for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
+      double length = set_point(line, curve, section, span, point);
+      whole += length;
+      if (length > 1e-6 * spore_curve_length(curve) / (double)spline->span_count) continue;
+      char place[64];
+      snprintf(place, sizeof place, "control point %zu", span);
+      return spore_error_set(error, SPORE_ERROR_INPUT, place,
+                             _("the curve turns back on itself here, and the spline has no direction; a smooth curve "
+                               "was expected; smooth it or set another number of control points"));
+    }
+  spline->straight = 1e-2 / (whole * whole);
+  for (size_t i = 0; i < SPORE_SPLINE_POINTS * spline->group_count; i++)
+    for (size_t lane = 0; lane < SPORE_LANES; lane++)
+      if (spline->gauss[i].rest[lane] < 1e-10 * spline->straight) spline->gauss[i].rest[lane] = 0;
+  return true;
+}
+
+/* How many radii long the line is over one sample. */
+static double radii_of_sample(const SporeSplineLine *line, const SporeCurve *curve, size_t sample) {
+  size_t span;
+  double u = ((double)sample + 0.5) / SAMPLES;
+  SporeSplineBasis basis = spore_spline_basis(line->spline.span_count, u, &span);
+  return spore_vec3_length(combine(line->rest, span, basis.first)) / SAMPLES /
+         spore_spline_radius(curve, line->spline.span_count, u);
+}
+
+static void set_sphere(SporeSplineLine *line, const SporeCurve *curve, double u, double *sphere) {
+  size_t span;
+  SporeSplineBasis basis = spore_spline_basis(line->spline.span_count, u, &span);
+  spore_vec3_store(sphere, combine(line->rest, span, basis.value));
+  sphere[3] = spore_spline_radius(curve, line->spline.span_count, u);
+}
+
+/* From end to end, as far apart as each is thick: smooth to what slides over them. */
+static bool set_spheres(SporeSplineLine *line, const SporeCurve *curve, SporeError *error) {
+  size_t samples = SAMPLES * line->spline.span_count;
+  double whole = 0, walked = 0;
+  for (size_t i = 0; i < samples; i++) whole += radii_of_sample(line, curve, i);
+  size_t gaps = (size_t)fmin(fmax(ceil(whole), 1), 1e6), next = 0;
+  if (!spore_sphere_set_allocate(&line->spheres, gaps + 1, error)) return false;
+  for (size_t i = 0; i < samples; i++) {
+    double step = radii_of_sample(line, curve, i);
+    for (; next < gaps && (double)next / (double)gaps * whole <= walked + step; next++) {
+      double part = ((double)next / (double)gaps * whole - walked) / step;
+      set_sphere(line, curve, ((double)i + part) / SAMPLES, line->spheres.spheres + 4 * next);
+    }
+    walked += step;
+  }
+  for (; next <= gaps; next++)
+    set_sphere(line, curve, (double)line->spline.span_count, line->spheres.spheres + 4 * next);
+  return true;
+}
+
+bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, size_t control_points,
+                            const SporeSplineSection *section, SporeError *error) {
+  *line = (SporeSplineLine){.control_count = control_points};
+  if (!curve || curve->count == 0)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("there is no curve; a spline follows one; give the body a curve as its geometry"));
+  if (!spore_curve_validate(curve, error)) return false;
+  line->rest = SPORE_NEW_ARRAY(double, 3 * control_points);
+  line->mass = SPORE_NEW_ARRAY(double, control_points);
+  line->length = SPORE_NEW_ARRAY(double, control_points);
+  if (!line->rest || !line->mass || !line->length || !spore_spline_allocate(&line->spline, control_points - 3) ||
+      !spore_spline_fit(curve, control_points - 3, line->rest))
+    return no_memory(error);
+  return set_points(line, curve, section, error) && set_spheres(line, curve, error);
+}
+
+bool spore_spline_line_map(const SporeSplineLine *line, const double *points, size_t count, SporeMapping *mapping,
+                           SporeError *error) {
+  return spore_spline_map(line->spline.span_count, line->rest, points, count, mapping, error);
+}
+
+bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error) {
+  if (!spore_sphere_set_allocate(set, line->spheres.count, error)) return false;
+  memcpy(set->spheres, line->spheres.spheres, 4 * set->count * sizeof *set->spheres);
+  return true;
+}

@@ -1,0 +1,32 @@
+/* What bodies along a curve share: a spline made from it, what it weighs, and spheres along it. */
+#ifndef SPORE_MODELS_SPLINE_LINE_H
+#define SPORE_MODELS_SPLINE_LINE_H
+
+#include "core/sim/model.h"
+#include "models/spline.h"
+
+/* What a line is across: a round tube, or solid. */
+typedef struct SporeSplineSection {
+  double density, content_density; /* of the wall and of what is inside it, kg/m^3 */
+  double wall_thickness;           /* m; 0, or at least the radius: solid */
+  bool straight_at_rest;           /* would be straight if nothing bent it */
+} SporeSplineSection;
+
+typedef struct SporeSplineLine {
+  size_t control_count;
+  double *rest;           /* control points, 3 each, body's frame, m */
+  double *mass, *length;  /* of each control point: integrals of its function, kg and m */
+  SporeSphereSet spheres; /* along the line, each a radius from the next */
+  SporeSpline spline;     /* young, bending and viscous are the model's to set; its blocks are not looked up yet */
+} SporeSplineLine;
+
+/* Refuses no curve, one of no use and one that turns back on itself. Clear it in either case. */
+bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, size_t control_points,
+                            const SporeSplineSection *section, SporeError *error);
+void spore_spline_line_clear(SporeSplineLine *line);
+/* The slots map and spheres of SporeModelType. */
+bool spore_spline_line_map(const SporeSplineLine *line, const double *points, size_t count, SporeMapping *mapping,
+                           SporeError *error);
+bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error);
+
+#endif
