@@ -29,3 +29,4 @@ for side in left right; do
   "$spore" spheres --quiet "organs/ovary_$side.off" --count 60 -o "organs/ovary_$side.spheres"
   "$spore" tetrahedra --quiet "organs/ovary_$side.off" --cells 450 -o "organs/ovary_$side.mesh"
 done
+/usr/bin/python3 ../meshes/make_intestine.py organs plate6-intestine
