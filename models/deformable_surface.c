@@ -179,7 +179,7 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   const Surface *body = (const Surface *)model;
-  return spore_surface_map(&body->mesh, &body->centre, points, count, mapping, error);
+  return spore_surface_map(&body->mesh, &body->core.centre, points, count, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
