@@ -12,4 +12,5 @@ const SporeModelType *const spore_model_registry[] = {&spore_rigid_body,
                                                       &spore_smoke,
                                                       &spore_spline_1d,
                                                       &spore_intestine,
+                                                      &spore_spline_2d,
                                                       NULL};

@@ -5,8 +5,6 @@
 
 #include "core/base/memory.h"
 
-#define SAMPLES 8 /* a span, of the curve that a spline is fitted to */
-
 static double knot(size_t span_count, size_t i) { return i < 3 ? 0 : fmin((double)(i - 3), (double)span_count); }
 
 /* From the functions of one degree less (or their derivatives) to those of `degree` that are not 0 in the span. */
@@ -97,8 +95,8 @@ static bool line_create(Line *line, const SporeCurve *curve) {
 /* Products of the functions (band: i x 4, with i + k) and of them with the line (in control). */
 static void add_products(const Line *line, size_t span_count, double *band, double *control) {
   double whole = line->length[line->curve->count - 1];
-  for (size_t n = 0; n < SAMPLES * span_count; n++) {
-    double u = ((double)n + 0.5) / SAMPLES;
+  for (size_t n = 0; n < SPORE_SPLINE_SAMPLES * span_count; n++) {
+    double u = ((double)n + 0.5) / SPORE_SPLINE_SAMPLES;
     size_t span;
     SporeSplineBasis basis = spore_spline_basis(span_count, u, &span);
     SporeVec3 p = line_at(line, u / (double)span_count * whole);
@@ -129,8 +127,7 @@ static void hold(size_t count, size_t held, SporeVec3 at, double *band, double *
   spore_vec3_store(control + 3 * held, at);
 }
 
-/* Solves in place by Cholesky's L L^T within the band. */
-static void solve_band(size_t count, double *band, double *x) {
+void spore_spline_solve_band(size_t count, double *band, double *x) {
   for (size_t i = 0; i < count; i++) {
     double pivot = sqrt(band[4 * i]);
     for (size_t k = 0; k < 4; k++) band[4 * i + k] /= pivot;
@@ -157,7 +154,7 @@ bool spore_spline_fit(const SporeCurve *curve, size_t span_count, double *contro
     add_products(&line, span_count, band, control);
     hold(count, 0, point(curve, 0), band, control);
     hold(count, count - 1, point(curve, curve->count - 1), band, control);
-    solve_band(count, band, control);
+    spore_spline_solve_band(count, band, control);
   }
   spore_free(line.length);
   spore_free(band);

@@ -7,7 +7,8 @@
 #include "core/mesh/mesh.h"
 #include "core/sim/mapping.h"
 
-#define SPORE_SPLINE_POINTS 2 /* Gauss points a span */
+#define SPORE_SPLINE_POINTS 2  /* Gauss points a span */
+#define SPORE_SPLINE_SAMPLES 8 /* a span, of what a spline is fitted to */
 
 /* The four functions of a span, and what they become by derivation. */
 typedef struct SporeSplineBasis {
@@ -16,6 +17,10 @@ typedef struct SporeSplineBasis {
 
 /* At `parameter` from 0 to span_count; *span: control points span .. span + 3 have the weights. */
 SporeSplineBasis spore_spline_basis(size_t span_count, double parameter, size_t *span);
+
+/* Solves B x = x in place by Cholesky's L L^T within the band: B is symmetric positive definite of half-width 3, its
+ * entry (i, i + k) in band[4 i + k], which is overwritten; x: count x 3. */
+void spore_spline_solve_band(size_t count, double *band, double *x);
 
 /* Control points (span_count + 3, three entries each) of the spline nearest to the curve in the mean square: through
  * its ends, and along a smooth line through its points. False: no memory. */

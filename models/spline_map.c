@@ -4,12 +4,12 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "models/carry.h"
 #include "models/spline.h"
 
-#define WIDTH 16            /* control points of a row, at most */
-#define WEIGHTS_AT_MOST 100 /* sum of absolute weights that carry an offset */
-#define ROUNDING 1e-14      /* of the line's size: an offset that is none */
-#define SAMPLES 8           /* a span, to begin the search for the nearest */
+#define WIDTH 16       /* control points of a row, at most */
+#define ROUNDING 1e-14 /* of the line's size: an offset that is none */
+#define SAMPLES 8      /* a span, to begin the search for the nearest */
 
 typedef struct Spline {
   size_t span_count;
@@ -49,36 +49,10 @@ typedef struct Row {
   double weight[WIDTH];
 } Row;
 
-/* Adds weights, of sum 0, on `width` control points from `first` that make `offset`: the least by squares. Returns the
- * sum of their absolute values. */
+/* spore_carry_offset of `width` control points from `first`. */
 static double carry(const Spline *spline, SporeVec3 offset, size_t first, size_t width, double *weight) {
-  const double *control = spline->control + 3 * first;
-  SporeVec3 centre = {0, 0, 0};
-  for (size_t i = 0; i < width; i++)
-    centre = spore_vec3_add_scaled(centre, 1 / (double)width, spore_vec3_load(control + 3 * i));
-  SporeMat3 square = {{0}}, axes;
-  double value[3], sum = 0;
-  for (size_t i = 0; i < width; i++) {
-    SporeVec3 arm = spore_vec3_sub(spore_vec3_load(control + 3 * i), centre);
-    const double x[3] = {arm.x, arm.y, arm.z};
-    for (int r = 0; r < 3; r++)
-      for (int c = 0; c < 3; c++) square.m[3 * r + c] += x[r] * x[c];
-  }
-  spore_mat3_eigen_symmetric(square, value, &axes);
-  double added[WIDTH] = {0}, mean = 0;
-  for (int k = 0; k < 3; k++) {
-    SporeVec3 axis = spore_mat3_column(axes, k);
-    double part = spore_vec3_dot(offset, axis);
-    if (fabs(part) <= ROUNDING * spline->size) continue;
-    for (size_t i = 0; i < width; i++)
-      added[i] += part / value[k] * spore_vec3_dot(axis, spore_vec3_sub(spore_vec3_load(control + 3 * i), centre));
-  }
-  for (size_t i = 0; i < width; i++) mean += added[i] / (double)width; /* rounding */
-  for (size_t i = 0; i < width; i++) {
-    weight[i] += added[i] - mean;
-    sum += fabs(added[i]);
-  }
-  return isfinite(sum) ? sum : HUGE_VAL;
+  double work[WIDTH];
+  return spore_carry_offset(spline->control + 3 * first, width, offset, ROUNDING * spline->size, weight, work);
 }
 
 /* From where the row puts the point to p. */
@@ -102,7 +76,7 @@ static bool map_point(const Spline *spline, const double *point, size_t index, R
     bool on = off <= ROUNDING * spline->size;
     double sum = on ? 0 : carry(spline, offset, first, used, extra);
     bool last = width + 4 > WIDTH || used == count;
-    if (sum > (last ? WEIGHTS_AT_MOST : 4)) {
+    if (sum > (last ? SPORE_CARRY_AT_MOST : SPORE_CARRY_LIGHT)) {
       if (last) break;
       continue;
     }
@@ -123,18 +97,9 @@ static bool map_point(const Spline *spline, const double *point, size_t index, R
       off);
 }
 
-static double size_of(const double *control, size_t count) {
-  double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (size_t i = 0; i < 3 * count; i++) {
-    lower[i % 3] = fmin(lower[i % 3], control[i]);
-    upper[i % 3] = fmax(upper[i % 3], control[i]);
-  }
-  return spore_vec3_distance(spore_vec3_load(lower), spore_vec3_load(upper));
-}
-
 bool spore_spline_map(size_t span_count, const double *control, const double *points, size_t count,
                       SporeMapping *mapping, SporeError *error) {
-  Spline spline = {span_count, control, size_of(control, span_count + 3)};
+  Spline spline = {span_count, control, spore_carry_size(control, span_count + 3)};
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   bool good = blocks && weights;

@@ -5,7 +5,7 @@ from kernel import SCENES, run_scene
 from table import row
 
 # Scene, the paper's milliseconds a loop.
-PAPER = (("rigid", 1), ("fluid", 2), ("mass-spring", 4), ("deformable", 2), ("spline-1d", 8))
+PAPER = (("rigid", 1), ("fluid", 2), ("mass-spring", 4), ("deformable", 2), ("spline-1d", 8), ("spline-2d", 16))
 TARGET_MS, DEMO_MS = 0.1, 1
 TRACK_S = 4
 

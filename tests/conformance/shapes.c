@@ -37,6 +37,14 @@ void shape_sheet(SporeTriangleMesh *mesh, unsigned columns, unsigned rows, doubl
     }
 }
 
+void shape_level_sheet(SporeTriangleMesh *mesh, unsigned columns, unsigned rows, double spacing) {
+  shape_sheet(mesh, columns, rows, spacing, FALSE);
+  for (size_t i = 0; i < mesh->vertex_count; i++) {
+    double *x = mesh->vertices + 3 * i;
+    x[2] = x[1], x[1] = 0;
+  }
+}
+
 void shape_line(SporeCurve *curve, unsigned count, double length, double radius) {
   g_assert_true(spore_curve_allocate(curve, count, NULL));
   for (unsigned i = 0; i < count; i++) {

@@ -12,6 +12,8 @@ void shape_box(SporeTriangleMesh *mesh, SporeVec3 centre, SporeVec3 sides);
 /* Sheet of columns x rows vertices in the plane z = 0, spacing apart, vertex (column, row) at index row * columns +
  * column, first at the origin; diagonals alternate when `alternate`. */
 void shape_sheet(SporeTriangleMesh *mesh, unsigned columns, unsigned rows, double spacing, gboolean alternate);
+/* The same in the plane of x and z. */
+void shape_level_sheet(SporeTriangleMesh *mesh, unsigned columns, unsigned rows, double spacing);
 /* Block of nx x ny x nz cells from the origin to `size`, six tetrahedra a cell; vertex (i, j, k) at index
  * (i (ny + 1) + j) (nz + 1) + k. */
 void shape_block(SporeTetrahedralMesh *mesh, unsigned nx, unsigned ny, unsigned nz, SporeVec3 size);

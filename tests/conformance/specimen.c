@@ -73,6 +73,7 @@ static const char *const *shapes_for(const SporeModelType *type) {
   static const char *const lines[] = {"straight", "helix", NULL};
   static const char *const containers[] = {"box", "closed", NULL}; /* particles do not go into a needle */
   static const char *const none[] = {"parameters", NULL};
+  if (type == &spore_spline_2d) return surfaces + 1; /* open ones */
   if (type->particles) return containers;
   switch (type->geometry) {
   case SPORE_GEOMETRY_SURFACE:

@@ -181,8 +181,13 @@ def every_model():
     soft_ball()
     file("soft/cells.mesh", (SCENES / "organs" / "ovary_left.mesh").read_bytes())
     file("soft/line.curve", "0 0 0 0.01\n0.1 0.05 0 0.01\n0.2 0 0.1 0.01\n")
+    grid = [(i, j) for j in range(4) for i in range(4)]
+    halves = [(a, a + 1, a + 5, a, a + 5, a + 4) for a in range(11) if a % 4 < 3]
+    file("soft/sheet.off", "OFF\n16 18 0\n" + "".join(f"{0.02 * i} {0.02 * j} 0\n" for i, j in grid)
+         + "".join(f"3 {h[0]} {h[1]} {h[2]}\n3 {h[3]} {h[4]} {h[5]}\n" for h in halves))
     for model in report("models")["models"]:
-        asset, shape = {"tetrahedra": ("tetrahedra", "cells.mesh"), "curve": ("curve", "line.curve")}.get(model["geometry"], ("mesh", "ball.off"))
+        surface = "sheet.off" if model["name"] == "spline_2d" else "ball.off"
+        asset, shape = {"tetrahedra": ("tetrahedra", "cells.mesh"), "curve": ("curve", "line.curve")}.get(model["geometry"], ("mesh", surface))
         yield model["name"], file(f"soft/{model['name']}.spore", f"""<spore version="1.0">
   <solver time_step="0.001"/>
   <assets><{asset} name="shape" file="{shape}"/></assets>

@@ -35,7 +35,8 @@ static Rig *fall(const SporeModelType *type, SporeIntegratorKind integrator) {
     model = rig_curve_model(type, &curve, NULL);
   } else {
     SporeTriangleMesh mesh;
-    shape_block_surface(&mesh, 6, 1, 1, spore_vec3(0.06, 0.01, 0.01));
+    if (type == &spore_spline_2d) shape_level_sheet(&mesh, 7, 3, 0.01);
+    else shape_block_surface(&mesh, 6, 1, 1, spore_vec3(0.06, 0.01, 0.01));
     gboolean fluid = type == &spore_lennard_jones;
     if (!fluid) spheres = rig_spheres(rig, mesh.vertices, mesh.vertex_count, 0.004);
     model = fluid ? rig_fluid_model(&mesh, 60, NULL) : rig_surface_model(type, &mesh, NULL);
