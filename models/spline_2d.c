@@ -24,16 +24,12 @@ typedef struct Spline2d {
   SporePatch patch;
 } Spline2d;
 
-#define CONTROL_POINTS(field_, doc_)                                                                                   \
-  {                                                                                                                    \
-    .name = #field_, .type = SPORE_INTEGER, .unit = "", .minimum = SPORE_PATCH_SPANS + 3, .maximum = 200,              \
-    .initial = {12}, .offset = offsetof(SheetFields, field_), .change = SPORE_CHANGE_REBUILD, .doc = doc_              \
-  }
-
 static const SporeParameter parameters[] = {
-    CONTROL_POINTS(control_points_u,
-                   N_("How many points the sheet is led by along its longer side; more of them bend more sharply.")),
-    CONTROL_POINTS(control_points_v, N_("How many points the sheet is led by along its shorter side.")),
+    SPORE_INTEGER_FIELD(
+        SheetFields, control_points_u, SPORE_PATCH_SPANS + 3, 200, 12, SPORE_CHANGE_REBUILD,
+        N_("How many points the sheet is led by along its longer side; more of them bend more sharply.")),
+    SPORE_INTEGER_FIELD(SheetFields, control_points_v, SPORE_PATCH_SPANS + 3, 200, 12, SPORE_CHANGE_REBUILD,
+                        N_("How many points the sheet is led by along its shorter side.")),
     SPORE_REAL_FIELD(
         SheetFields, young_modulus, "Pa", 1e-3, 1e13, 5e4, SPORE_CHANGE_LIVE,
         N_("Stiffness of the material: stretch takes it times the thickness, bending times the cube of the "
