@@ -6,9 +6,8 @@
  *   files       new, open [s path], open-dialog, open-demo, import [s path, s unit, s frame], import-dialog, save,
  *               save-as [s path], save-as-dialog, save-recording [s path], save-recording-dialog, close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
- *               set-property [s path, s name, s value], unset-property [s path, s name], set-model [s element], use-preset [s name],
- *               generate-spheres [u count], generate-tetrahedra [u cells], add-probe, add-pin,
- *               cancel-job
+ *               set-property [s path, s name, s value], unset-property [s path, s name], set-model [s element],
+ * use-preset [s name], generate-spheres [u count], generate-tetrahedra [u cells], add-probe, add-pin, cancel-job
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state]
  *   view        tool [s "select" or "probe"; state], show-surfaces, show-spheres, show-tetrahedra, show-contacts
  * (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector, show-problems (state), filter

@@ -24,11 +24,8 @@ static Rig *drop(size_t tools, size_t emitters, int64_t reserve, double rate) {
   suction.suction.radius = 0.004;
   rig->description.tools = &suction;
   rig->description.tool_count = tools;
-  wound = (SporeEmitterDescription){.name = "wound",
-                                    .body = 0,
-                                    .source = SPORE_NO_BODY,
-                                    .point = {0.02, 0, 0},
-                                    .direction = {0, 1, 0}};
+  wound = (SporeEmitterDescription){
+      .name = "wound", .body = 0, .source = SPORE_NO_BODY, .point = {0.02, 0, 0}, .direction = {0, 1, 0}};
   spore_parameters_set_initial(&spore_emitter_parameters, &wound.fields);
   wound.fields.rate = rate;
   wound.fields.reserve = reserve;
