@@ -13,15 +13,16 @@
 #define STEP 0.5
 #define RADIUS 0.55
 #define REACH 1.5
+#define NEAR 0.95 /* outside where no particle is so near: the mean of two that stand apart is no particle */
 
 #define KEY_BITS 21
 #define KEY_HALF (1 << (KEY_BITS - 1))
 #define EMPTY UINT64_MAX
 
 typedef struct Sample {
-  uint64_t key; /* lattice coordinates, KEY_BITS each */
-  double weight, mean[3], value;
-  uint32_t vertex; /* of the cell whose lowest corner this is */
+  uint64_t key;                            /* lattice coordinates, KEY_BITS each */
+  double weight, mean[3], nearness, value; /* nearness: 1 - square of (distance of the nearest particle / reach) */
+  uint32_t vertex;                         /* of the cell whose lowest corner this is */
 } Sample;
 
 typedef struct Lattice {
@@ -83,6 +84,7 @@ static void add_particle(Lattice *lattice, const double *centre, double reach) {
         lattice->used += sample->key == EMPTY;
         sample->key = key;
         sample->weight += weight;
+        sample->nearness = fmax(sample->nearness, near);
         for (int i = 0; i < 3; i++) sample->mean[i] += weight * centre[i];
       }
 }
@@ -94,7 +96,7 @@ static bool within(const double *centre, double step) {
   return true;
 }
 
-static void evaluate(Lattice *lattice, double radius) {
+static void evaluate(Lattice *lattice, double spacing) {
   for (size_t s = 0; s <= lattice->mask; s++) {
     Sample *sample = &lattice->samples[s];
     if (sample->key == EMPTY) continue;
@@ -102,7 +104,8 @@ static void evaluate(Lattice *lattice, double radius) {
     place_of(sample->key, place);
     double square = 0;
     for (int i = 0; i < 3; i++) square += pow((double)place[i] * lattice->step - sample->mean[i] / sample->weight, 2);
-    sample->value = sqrt(square) - radius;
+    double nearest = REACH * spacing * sqrt(1 - sample->nearness);
+    sample->value = fmax(sqrt(square) - RADIUS * spacing, nearest - NEAR * spacing);
   }
 }
 
@@ -182,7 +185,7 @@ static bool lattice_init(Lattice *lattice, const double *centres, size_t count, 
     if (2 * (lattice->used + MOST_NEW) > lattice->mask && !reserve(lattice, 2 * (lattice->mask + 1))) return false;
     add_particle(lattice, centres + 3 * p, REACH * spacing);
   }
-  evaluate(lattice, RADIUS * spacing);
+  evaluate(lattice, spacing);
   return true;
 }
 

@@ -45,6 +45,14 @@ static void test_drops_part(void) {
   g_assert_cmpuint(report.components, ==, 2);
 }
 
+/* No strand is spun between particles that are near enough to weigh in each other's surroundings. */
+static void test_strangers_part(void) {
+  const double centres[6] = {0, 0, 0, 2 * SPACING, 0, 0};
+  SporeMeshReport report = report_of(centres, 2);
+  g_assert_true(report.closed);
+  g_assert_cmpuint(report.components, ==, 2);
+}
+
 /* Particles that are nowhere, and ones beyond all bounds, leave the others' skin as it is. */
 static void test_lost_particles(void) {
   double centres[3 * 66] = {0};
@@ -81,6 +89,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/mesh/particle-skin/block", test_block);
   g_test_add_func("/mesh/particle-skin/drops-part", test_drops_part);
+  g_test_add_func("/mesh/particle-skin/strangers-part", test_strangers_part);
   g_test_add_func("/mesh/particle-skin/lost-particles", test_lost_particles);
   g_test_add_func("/mesh/particle-skin/none", test_none);
   g_test_add_func("/mesh/particle-skin/no-memory", test_no_memory);
