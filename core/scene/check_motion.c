@@ -30,10 +30,16 @@ typedef struct Start {
   SporeCheck *check;
   GPtrArray *bodies; /* SporeObject * */
   GArray *roles;     /* SporeRole, of the bodies */
+  GArray *groups;    /* gint64, of the bodies */
   GArray *balls;     /* of Ball, along x */
 } Start;
 
 static SporeRole role_of(const Start *start, guint body) { return g_array_index(start->roles, SporeRole, body); }
+
+static gboolean may_touch(const Start *start, guint a, guint b) {
+  gint64 group = g_array_index(start->groups, gint64, a);
+  return a != b && (group == 0 || group != g_array_index(start->groups, gint64, b));
+}
 
 /* Those of its model, which only the world knows. */
 static void place_own_spheres(Start *start, SporeObject *body, guint index, const SporeSimulation *simulation) {
@@ -56,7 +62,10 @@ static void place_body(Start *start, SporeObject *body, const SporeSimulation *s
   SporeBodyFields fields;
   spore_object_fields(body, &fields);
   SporeRole role = (SporeRole)fields.role;
+  SporeCollisionFields touch = {0};
+  if (collision) spore_object_fields(collision, &touch);
   g_array_append_val(start->roles, role);
+  g_array_append_val(start->groups, touch.contact.group);
   if (simulation && spore_body_has_own_spheres(body)) place_own_spheres(start, body, index, simulation);
   SporePose pose = {spore_vec3_load(fields.position),
                     spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))};
@@ -75,7 +84,7 @@ static gint by_left_end(gconstpointer a, gconstpointer b) {
 /* Overlaps. */
 
 static void meet(const Start *start, const Ball *a, const Ball *b, Overlap *overlaps) {
-  if (a->body == b->body) return;
+  if (!may_touch(start, a->body, b->body)) return;
   if (role_of(start, a->body) != SPORE_PASSIVE && role_of(start, b->body) != SPORE_PASSIVE) return;
   double depth = a->radius + b->radius - spore_vec3_distance(a->centre, b->centre);
   Overlap *overlap = &overlaps[MAX(a->body, b->body)];
@@ -181,7 +190,7 @@ static void check_reach(SporeCheck *check, const SporeSimulation *simulation, co
 
 /* Whether a ball of another body that does not fall lies in the way of this one's fall along unit vector `down`. */
 static gboolean catches(const Start *start, const Ball *falling, const Ball *under, SporeVec3 down) {
-  if (under->body == falling->body || role_of(start, under->body) != SPORE_UNMOVABLE) return FALSE;
+  if (!may_touch(start, under->body, falling->body) || role_of(start, under->body) != SPORE_UNMOVABLE) return FALSE;
   SporeVec3 apart = spore_vec3_sub(under->centre, falling->centre);
   double along = spore_vec3_dot(apart, down), reach = under->radius + falling->radius;
   return along > -reach && spore_vec3_length(spore_vec3_add_scaled(apart, -along, down)) < reach;
@@ -264,8 +273,11 @@ static SporeSimulation *check_compiled(SporeCheck *check) {
 }
 
 void spore_check_motion(SporeCheck *check) {
-  Start start = {check, g_ptr_array_new(), g_array_new(FALSE, FALSE, sizeof(SporeRole)),
-                 g_array_new(FALSE, FALSE, sizeof(Ball))};
+  Start start = {.check = check,
+                 .bodies = g_ptr_array_new(),
+                 .roles = g_array_new(FALSE, FALSE, sizeof(SporeRole)),
+                 .groups = g_array_new(FALSE, FALSE, sizeof(gint64)),
+                 .balls = g_array_new(FALSE, FALSE, sizeof(Ball))};
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   SporeSimulation *simulation = check->faults == 0 ? check_compiled(check) : NULL;
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
@@ -281,5 +293,6 @@ void spore_check_motion(SporeCheck *check) {
   check_loose(&start);
   g_ptr_array_unref(start.bodies);
   g_array_unref(start.roles);
+  g_array_unref(start.groups);
   g_array_unref(start.balls);
 }

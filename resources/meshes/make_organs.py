@@ -348,6 +348,12 @@ def probe():
     return turned(profile + [(radius, z) for z in np.linspace(0.09, length - 0.0006, 15)] + [(radius - 0.0006, length)])
 
 
+def jaw():
+    """One jaw of a clamp, 18 mm long, along -z from the hinge at the origin, on the side of +y."""
+    vertices, triangles = turned([(0.0008, 0.0), (0.0015, 0.0006), (0.0015, 0.0170), (0.0009, 0.0180)])
+    return vertices * [1, 1, -1] + [0, 0.0015, 0], triangles[:, ::-1]
+
+
 def endoscope():
     """Tube of 10 mm: a pane of glass, set back in a bevelled rim, and a smooth shaft."""
     radius, length = 0.005, 0.30
@@ -403,6 +409,9 @@ def main():
     write_off(folder, "peritoneum", joined([sheet(64, 90, wall), broad_ligament(-1), broad_ligament(1)]))
     write_off(instruments, "probe", probe())
     write_off(instruments, "endoscope", endoscope())
+    vertices, triangles = jaw()
+    write_off(instruments, "jaw_upper", (vertices, triangles))
+    write_off(instruments, "jaw_lower", (vertices * [1, -1, 1], triangles[:, ::-1]))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import sys
 import numpy as np
 
 from make_minimal import ball
-from make_organs import sheet, spline, wall, write_off
+from make_organs import sheet, spline, tube_path, wall, write_off
 
 
 def write_rows(path, rows, header):
@@ -65,6 +65,10 @@ def pelvis_spheres(radius, spacing):
 def main():
     organs, table = (pathlib.Path(folder) for folder in sys.argv[1:])
     write_rows(organs / "peritoneum.spheres", pelvis_spheres(0.008, 0.0075), "# x y z r, in metres")
+    path = tube_path(1)
+    along = np.linspace(0, 1, len(path))
+    write_rows(organs / "tube_right.curve", np.column_stack([path, 0.0024 + 0.0026 * np.clip((along - 0.25) / 0.5, 0, 1) ** 1.3]),
+               "# x y z r, in metres")
     write_off(table, "tissue", even_sheet(20, tissue))
     write_rows(table / "tissue.spheres", tissue_spheres(23, 22, 0.0018), "# x y z r, in metres")
     write_rows(table / "string.curve", [(*p, 0.0016) for p in string(120)], "# x y z r, in metres")

@@ -23,6 +23,10 @@ shaft_spheres() {
 lattice >minimal/floor.spheres
 echo "0 0 0 0.02" >minimal/ball.spheres
 shaft_spheres 0.0025 0.14 0.05 0.002 0.004 >instruments/probe.spheres
+for side in upper lower; do
+  awk -v y="$([ $side = upper ] && echo 0.0015 || echo -0.0015)" \
+    'BEGIN { for (z = 0.0015; z < 0.017; z += 0.0015) print 0, y, -z, 0.0015 }' >instruments/jaw_$side.spheres
+done
 shaft_spheres 0.005 0.16 0.03 0.003 0.006 >instruments/endoscope.spheres
 "$spore" spheres --quiet organs/uterus.off --count 110 -o organs/uterus.spheres
 for side in left right; do

@@ -145,6 +145,12 @@ static const Mistake mistakes[] = {
     {"small-overlap",
      BODIES(FLOOR "<body name=\"stone\" position=\"0 -0.01 0\">" STONE BALL "</body>\n"),
      {"note 5:1: \"stone\" and \"floor\" overlap by 10 mm"}},
+    {"overlap-in-a-group",
+     BODIES("<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\"><collision spheres=\"ball\" "
+            "group=\"1\"/></body>\n"
+            "<body name=\"stone\" position=\"0.02 -0.1 0\">" STONE
+            "<collision spheres=\"ball\" group=\"1\"/></body>\n"),
+     {"note 5:1: \"stone\" is held by nothing"}},
     {"loose",
      BODIES("<body name=\"floor\" role=\"unmovable\" position=\"1 -1 0\">" BALL "</body>\n" STAND),
      {"note 5:1: \"stone\" is held by nothing"}},
