@@ -206,8 +206,9 @@ static void case_18_return(void) {
                                              : rig_unmovable(rig, "wall", rig_floor(rig, 31, 31, 0.0015, 0.001));
           other->contact.stiffness = stiffnesses[k];
           other->contact.friction = rough ? 0.5 : 0;
+          SporeContactFields touch = other->contact; /* another body may move the first */
           SporeBodyDescription *body = rig_passive(rig, "ball", ball(0.004), rig_sphere(rig, 0.0025));
-          body->contact = other->contact;
+          body->contact = touch;
           body->pose.position = spore_vec3(0.0003, 0.0517, 0.0004);
           body->velocity = spore_vec3(0.1, -10, 0.05);
           SporeWorld *world = rig_build(rig);
