@@ -102,12 +102,8 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 
 /* Looks up each spring's blocks once, in a matrix of the pattern that the world will make too. */
 static bool find_blocks(Net *net) {
-  SporeBlockPattern blocks;
   SporeBlockMatrix matrix;
-  spore_block_pattern_init(&blocks, net->base.block_count);
-  bool made = pattern(&net->base, &blocks) && spore_block_matrix_create(&matrix, &blocks);
-  spore_block_pattern_clear(&blocks);
-  if (!made) return false;
+  if (!spore_model_matrix_create(&net->base, &matrix)) return false;
   for (int kind = 0; kind < KINDS; kind++) spore_springs_find_blocks(&net->springs[kind], &matrix);
   spore_block_matrix_clear(&matrix);
   return true;

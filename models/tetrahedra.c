@@ -87,12 +87,8 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 
 /* In a matrix of the pattern that the world will make too. */
 static bool find_blocks(Body *body) {
-  SporeBlockPattern blocks;
   SporeBlockMatrix matrix;
-  spore_block_pattern_init(&blocks, body->base.block_count);
-  bool made = pattern(&body->base, &blocks) && spore_block_matrix_create(&matrix, &blocks);
-  spore_block_pattern_clear(&blocks);
-  if (!made) return false;
+  if (!spore_model_matrix_create(&body->base, &matrix)) return false;
   spore_tetrahedra_find_blocks(&body->tetrahedra, &matrix);
   for (size_t i = 0; i < body->base.block_count; i++) body->diagonal[i] = matrix.diagonal[i];
   spore_block_matrix_clear(&matrix);

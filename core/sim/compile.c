@@ -123,12 +123,7 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
 
 static bool make_matrix(SporeBody *body, SporeError *error) {
   if (!body->model || !body->model->type->jacobian) return true;
-  SporeBlockPattern pattern;
-  spore_block_pattern_init(&pattern, body->block_count);
-  bool made = (!body->model->type->pattern || body->model->type->pattern(body->model, &pattern)) &&
-              spore_block_matrix_create(&body->matrix, &pattern);
-  spore_block_pattern_clear(&pattern);
-  return made || no_memory(error);
+  return spore_model_matrix_create(body->model, &body->matrix) || no_memory(error);
 }
 
 static void place_body(SporeWorld *world, const SporeBody *body, const SporeBodyDescription *from) {

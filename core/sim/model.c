@@ -108,7 +108,8 @@ bool spore_model_type_check(const SporeModelType *type, SporeError *error) {
 bool spore_model_matrix_create(const SporeModel *model, SporeBlockMatrix *matrix) {
   SporeBlockPattern pattern;
   spore_block_pattern_init(&pattern, model->block_count);
-  bool made = model->type->pattern(model, &pattern) && spore_block_matrix_create(matrix, &pattern);
+  bool made =
+      (!model->type->pattern || model->type->pattern(model, &pattern)) && spore_block_matrix_create(matrix, &pattern);
   spore_block_pattern_clear(&pattern);
   return made;
 }

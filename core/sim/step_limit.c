@@ -81,11 +81,7 @@ static double largest_eigenvalue(const Power *power) {
 
 static bool allocate(Power *power, const SporeModel *model) {
   size_t n = 3 * model->block_count;
-  SporeBlockPattern pattern;
-  spore_block_pattern_init(&pattern, model->block_count);
-  bool made = (!model->type->pattern || model->type->pattern(model, &pattern)) &&
-              spore_block_matrix_create(&power->matrix, &pattern);
-  spore_block_pattern_clear(&pattern);
+  bool made = spore_model_matrix_create(model, &power->matrix);
   power->inverse = SPORE_NEW_ARRAY(double, 3 * n);
   power->x = SPORE_NEW_ARRAY(double, n);
   power->y = SPORE_NEW_ARRAY(double, n);

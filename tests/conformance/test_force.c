@@ -35,11 +35,8 @@ static gboolean has_tangent(const SporeModelType *type) { return type->tangent !
 static gboolean is_alone(const SporeModelType *type) { return !type->inertia && !type->puff; }
 
 static void make_matrix(const SporeModel *model, SporeBlockMatrix *matrix) {
-  SporeBlockPattern pattern;
-  spore_block_pattern_init(&pattern, model->block_count);
-  g_assert_true(model->type->pattern(model, &pattern));
-  g_assert_true(spore_block_matrix_create(matrix, &pattern));
-  spore_block_pattern_clear(&pattern);
+  g_assert_nonnull(model->type->pattern);
+  g_assert_true(spore_model_matrix_create(model, matrix));
 }
 
 /* A frame turns the axes that its torque is measured along: its own derivative has half of w x torque more than the

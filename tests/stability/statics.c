@@ -31,14 +31,10 @@ void statics_free(Statics *statics) {
 
 /* The stiffness, factored as L L^T; held points have a row of their own. */
 static void factor(Statics *statics) {
-  SporeBlockPattern pattern;
   SporeBlockMatrix blocks;
   size_t n = statics->n;
   double *a = statics->matrix;
-  spore_block_pattern_init(&pattern, statics->model->block_count);
-  g_assert_true(statics->model->type->pattern(statics->model, &pattern));
-  g_assert_true(spore_block_matrix_create(&blocks, &pattern));
-  spore_block_pattern_clear(&pattern);
+  g_assert_true(spore_model_matrix_create(statics->model, &blocks));
   statics->model->type->jacobian(statics->model, statics->q, statics->q, statics->still, 1, 0, &blocks);
   memset(a, 0, n * n * sizeof *a);
   for (size_t i = 0; i < blocks.block_count; i++)

@@ -20,12 +20,8 @@ typedef struct Statics {
 } Statics;
 
 static void prepare(Statics *statics) {
-  SporeBlockPattern pattern;
-  spore_block_pattern_init(&pattern, statics->model->block_count);
-  g_assert_true(statics->model->type->pattern(statics->model, &pattern));
-  g_assert_true(spore_block_matrix_create(&statics->matrix, &pattern));
+  g_assert_true(spore_model_matrix_create(statics->model, &statics->matrix));
   g_assert_true(spore_block_cholesky_create(&statics->factor, &statics->matrix, SPORE_FACTOR_AUTOMATIC, HUGE_VAL));
-  spore_block_pattern_clear(&pattern);
 }
 
 /* What is left of the forces at free nodes. */
