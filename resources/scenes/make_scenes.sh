@@ -19,6 +19,7 @@ shaft_spheres() {
 /usr/bin/python3 ../meshes/make_organs.py organs instruments
 /usr/bin/python3 ../meshes/make_minimal.py minimal
 /usr/bin/python3 ../meshes/make_tissue.py organs table1
+/usr/bin/python3 ../meshes/make_bag.py bag
 /usr/bin/python3 ../meshes/make_tracks.py .
 lattice >minimal/floor.spheres
 echo "0 0 0 0.02" >minimal/ball.spheres
