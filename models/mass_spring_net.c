@@ -176,13 +176,17 @@ static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   return true;
 }
 
+static bool keep_whole(Net *net) {
+  bool kept = true;
+  for (int kind = 0; kind < KINDS && kept; kind++)
+    if (!net->whole[kind].neighbour) kept = spore_springs_keep(&net->springs[kind], &net->whole[kind]);
+  return kept;
+}
+
 static bool prepare_cut(SporeModel *model, size_t *edges) {
   Net *net = (Net *)model;
-  bool kept = true;
-  for (int kind = 0; kind < KINDS && !net->whole[kind].neighbour; kind++)
-    kept = kept && spore_springs_keep(&net->springs[kind], &net->whole[kind]);
   *edges += 3 * net->mesh.triangle_count;
-  return kept;
+  return keep_whole(net);
 }
 
 static size_t cut(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts) {
@@ -194,11 +198,18 @@ static size_t cut(SporeModel *model, const double *q, const double *triangle, ui
   return count;
 }
 
-static size_t shrink(SporeModel *model, const double *q, SporeVec3 point, double radius, double factor, double least) {
+static bool prepare_heat(SporeModel *model) {
+  Net *net = (Net *)model;
+  bool shared = keep_whole(net);
+  for (int kind = 0; kind < KINDS && shared; kind++) shared = spore_springs_share(&net->springs[kind]);
+  return shared;
+}
+
+static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *heat) {
   Net *net = (Net *)model;
   size_t count = 0;
   for (int kind = 0; kind < KINDS; kind++)
-    count += spore_springs_shrink(&net->springs[kind], &net->whole[kind], q, point, radius, factor, least);
+    count += spore_springs_coagulate(&net->springs[kind], &net->whole[kind], q, heat);
   return count;
 }
 
@@ -229,6 +240,7 @@ const SporeModelType spore_mass_spring_net = {
     .retune = retune,
     .prepare_cut = prepare_cut,
     .cut = cut,
-    .shrink = shrink,
+    .prepare_heat = prepare_heat,
+    .coagulate = coagulate,
     .mend = mend,
 };

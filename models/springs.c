@@ -13,6 +13,8 @@ void spore_springs_clear(SporeSprings *springs) {
   spore_free(springs->length);
   spore_free(springs->block);
   spore_free(springs->diagonal);
+  spore_free(springs->share);
+  spore_free(springs->dose);
   *springs = (SporeSprings){0};
 }
 

@@ -33,6 +33,8 @@ typedef struct SporeSprings {
   uint32_t *diagonal;   /* as node: where (node, node) lies */
   const double *rest;   /* positions of nodes at rest, borrowed */
   double stiffness;     /* N/m, of each; 0: there are none */
+  double *share;        /* slot x lane: of that stiffness; NULL: all have it whole */
+  double *dose;         /* as share: how far coagulated, 0 to 1 */
   double damping;       /* N s/m, of each */
 } SporeSprings;
 
@@ -77,8 +79,10 @@ void spore_springs_forget(SporeSpringsWhole *whole);
 size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3], uint32_t body,
                          SporeCuts *cuts);
 
-/* Shortens those whose ends are both nearer than radius to the point, to no less than `least` of what they were. */
-size_t spore_springs_shrink(SporeSprings *springs, const SporeSpringsWhole *whole, const double *q, SporeVec3 point,
-                            double radius, double factor, double least);
+/* Room for stiffnesses of their own. False: no memory. */
+bool spore_springs_share(SporeSprings *springs);
+/* Coagulates those whose ends are both in the heat; returns their number. */
+size_t spore_springs_coagulate(SporeSprings *springs, const SporeSpringsWhole *whole, const double *q,
+                               const SporeHeat *heat);
 
 #endif

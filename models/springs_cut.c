@@ -1,4 +1,5 @@
-/* Springs that are cut while they run: a cut one becomes an empty slot, at both of its ends. */
+/* Springs that change while they run: a cut one becomes an empty slot, at both of its ends; a coagulated one gets
+ * shorter and stiffer. */
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -28,6 +29,7 @@ void spore_springs_restore(SporeSprings *springs, const SporeSpringsWhole *whole
   memcpy(springs->block, whole->block, lanes * sizeof *whole->block);
   memcpy(springs->length, whole->length, lanes * sizeof *whole->length);
   memcpy(springs->is_run, whole->is_run, lanes / SPORE_LANES * sizeof *whole->is_run);
+  for (size_t i = 0; springs->share && i < lanes; i++) springs->share[i] = 1, springs->dose[i] = 0;
 }
 
 void spore_springs_forget(SporeSpringsWhole *whole) {
@@ -68,24 +70,38 @@ size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3
   return ends / 2;
 }
 
-static bool is_near(const double *q, uint32_t node, SporeVec3 point, double radius) {
-  return spore_vec3_distance(spore_vec3_load(q + 3 * (size_t)node), point) < radius;
+bool spore_springs_share(SporeSprings *springs) {
+  size_t lanes = lane_count(springs);
+  springs->share = SPORE_NEW_ARRAY(double, lanes);
+  springs->dose = SPORE_NEW_ARRAY(double, lanes);
+  if (!springs->share || !springs->dose) return false;
+  for (size_t i = 0; i < lanes; i++) springs->share[i] = 1;
+  return true;
 }
 
-size_t spore_springs_shrink(SporeSprings *springs, const SporeSpringsWhole *whole, const double *q, SporeVec3 point,
-                            double radius, double factor, double least) {
+static bool is_near(const double *q, uint32_t node, const SporeHeat *heat) {
+  return spore_vec3_distance(spore_vec3_load(q + 3 * (size_t)node), heat->point) < heat->radius;
+}
+
+static bool coagulate(SporeSprings *springs, const SporeSpringsWhole *whole, size_t at, const SporeHeat *heat) {
+  double dose = spore_heat_dose(heat, springs->dose[at]);
+  springs->dose[at] += dose;
+  springs->length[at] -= heat->shrinkage * dose * whole->length[at];
+  springs->share[at] += (heat->stiffening - 1) * dose;
+  return dose > 0;
+}
+
+size_t spore_springs_coagulate(SporeSprings *springs, const SporeSpringsWhole *whole, const double *q,
+                               const SporeHeat *heat) {
   size_t ends = 0;
   for (size_t g = 0; g < springs->group_count; g++)
     for (size_t lane = 0; lane < springs->lanes[g]; lane++) {
       uint32_t node = springs->node[g * SPORE_LANES + lane];
-      if (!is_near(q, node, point, radius)) continue;
+      if (!is_near(q, node, heat)) continue;
       for (size_t s = springs->slot_start[g]; s < springs->slot_start[g + 1]; s++) {
         size_t at = s * SPORE_LANES + lane;
-        double floor = least * whole->length[at], length = factor * springs->length[at];
-        if (springs->neighbour[at] == node || !is_near(q, springs->neighbour[at], point, radius)) continue;
-        if (springs->length[at] <= floor) continue;
-        springs->length[at] = length > floor ? length : floor;
-        ends++;
+        uint32_t other = springs->neighbour[at];
+        if (other != node && is_near(q, other, heat)) ends += coagulate(springs, whole, at, heat);
       }
     }
   return ends / 2;

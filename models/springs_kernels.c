@@ -64,10 +64,16 @@ SPORE_INLINE void subtract_rows(const SporeSprings *springs, size_t first, Spore
 
 enum { UNDAMPED, DAMPED_AT_Q, DAMPED_AT_SHAPE };
 
+/* shared: some have more stiffness than others, or less. */
+SPORE_INLINE SporeVd stiffness_at(const SporeSprings *springs, size_t slot, double stiffness, bool shared) {
+  SporeVd all = spore_vd_all(stiffness);
+  return shared ? all * spore_vd_load(springs->share + slot) : all;
+}
+
 /* f = -k (1 - L/l) d - c (e . w) / |e|^2 e, with e = d or as it is in shape. Nodes that meet with L = 0 feel nothing.
  */
 SPORE_INLINE void add_forces(const SporeSprings *springs, size_t chunk, const double *q, const double *shape,
-                             const double *v, double *f, int damped) {
+                             const double *v, double *f, int damped, bool shared) {
   for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
     SporeVd3 position = spore_vd3_gather(q, node), velocity, before, sum = {0};
@@ -77,7 +83,7 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, size_t chunk, const do
       size_t slot = s * SPORE_LANES + first % SPORE_LANES;
       SporeVd length = spore_vd_load(springs->length + slot), square;
       SporeVd3 line = line_of(springs, node, slot, position, q, length, &square);
-      SporeVd pull = springs->stiffness * (1 - length / spore_vd_sqrt(square));
+      SporeVd pull = stiffness_at(springs, slot, springs->stiffness, shared) * (1 - length / spore_vd_sqrt(square));
       if (damped) {
         SporeVd3 speed = spore_vd3_sub(velocity, at_neighbours(springs, slot, v));
         if (damped == DAMPED_AT_Q) pull += springs->damping * spore_vd3_dot(line, speed) / square;
@@ -96,11 +102,17 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, size_t chunk, const do
   }
 }
 
+SPORE_INLINE void add_damped_forces(const SporeSprings *springs, size_t chunk, const double *q, const double *shape,
+                                    const double *v, double *f, bool shared) {
+  if (!(springs->damping > 0)) add_forces(springs, chunk, q, q, v, f, UNDAMPED, shared);
+  else if (shape == q) add_forces(springs, chunk, q, q, v, f, DAMPED_AT_Q, shared);
+  else add_forces(springs, chunk, q, shape, v, f, DAMPED_AT_SHAPE, shared);
+}
+
 void SPORE_LEVEL_NAME(spore_springs_chunk_force)(const SporeSprings *springs, size_t chunk, const double *q,
                                                  const double *shape, const double *v, double *f) {
-  if (!(springs->damping > 0)) add_forces(springs, chunk, q, q, v, f, UNDAMPED);
-  else if (shape == q) add_forces(springs, chunk, q, q, v, f, DAMPED_AT_Q);
-  else add_forces(springs, chunk, q, shape, v, f, DAMPED_AT_SHAPE);
+  if (springs->share) add_damped_forces(springs, chunk, q, shape, v, f, true);
+  else add_damped_forces(springs, chunk, q, shape, v, f, false);
 }
 
 /* Each spring comes twice, hence a quarter of k (l - L)^2. */
@@ -115,7 +127,7 @@ double SPORE_LEVEL_NAME(spore_springs_potential)(const SporeSprings *springs, co
       size_t slot = s * SPORE_LANES + first % SPORE_LANES;
       SporeVd3 line = spore_vd3_sub(position, at_neighbours(springs, slot, q));
       SporeVd stretch = spore_vd_sqrt(spore_vd3_dot(line, line)) - spore_vd_load(springs->length + slot);
-      sum += stretch * stretch;
+      sum += stiffness_at(springs, slot, 1, springs->share != NULL) * stretch * stretch;
     }
     spore_vd_store(lane, sum);
   }
@@ -135,7 +147,7 @@ SPORE_INLINE void store_matrices(double rows[3][4 * SPORE_WIDTH], const Symmetri
 }
 
 /* k t (I - nn^T) + (k + c) nn^T; where there is no line (k + c) nn^T alone. t: the tension over k l. */
-SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd inverse, SporeVd length, SporeVd tension, double stiffness,
+SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd inverse, SporeVd length, SporeVd tension, SporeVd stiffness,
                                     double damping) {
   SporeVd none = {0}, across = spore_vd_select((SporeVl)length < 0, none, stiffness * tension);
   SporeVd nx = line.x * inverse, ny = line.y * inverse, nz = line.z * inverse;
@@ -147,7 +159,7 @@ SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd inverse, SporeVd leng
 /* damping: along the lines at q; drag: along those in shape. promised: the tension is that which linearising at `from`
  * gives at q, k (n . d - L) with the direction n of there. */
 SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const SporeTangent *at, double damping,
-                               double drag, int damped, bool promised, SporeBlockMatrix *matrix) {
+                               double drag, int damped, bool promised, bool shared, SporeBlockMatrix *matrix) {
   double rows[3][4 * SPORE_WIDTH], stiffness = at->stiffness_scale * springs->stiffness;
   SporeVd none = {0}, least = none + (at->whole ? -HUGE_VAL : 0);
   for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
@@ -166,10 +178,11 @@ SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const 
         SporeVd3 along = line_of(springs, node, slot, old, at->from, length, &square);
         tension = (spore_vd3_dot(along, line) / spore_vd_sqrt(square) - length) * inverse;
       }
-      Symmetric block = stiffness_of(line, inverse, length, spore_vd_max(tension, least), stiffness, damping);
+      Symmetric block = stiffness_of(line, inverse, length, spore_vd_max(tension, least),
+                                     stiffness_at(springs, slot, stiffness, shared), damping);
       if (damped == DAMPED_AT_SHAPE) {
         line = line_of(springs, node, slot, before, at->shape, length, &square);
-        Symmetric part = stiffness_of(line, 1 / spore_vd_sqrt(square), length, none, 0, drag);
+        Symmetric part = stiffness_of(line, 1 / spore_vd_sqrt(square), length, none, none, drag);
         block.xx += part.xx, block.xy += part.xy, block.xz += part.xz;
         block.yy += part.yy, block.yz += part.yz, block.zz += part.zz;
       }
@@ -187,12 +200,18 @@ SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const 
   }
 }
 
-void SPORE_LEVEL_NAME(spore_springs_chunk_jacobian)(const SporeSprings *springs, size_t chunk, const SporeTangent *at,
-                                                    SporeBlockMatrix *matrix) {
+SPORE_INLINE void add_damped_jacobian(const SporeSprings *springs, size_t chunk, const SporeTangent *at, bool shared,
+                                      SporeBlockMatrix *matrix) {
   double damping = at->damping_scale * springs->damping;
   bool at_q = at->shape == at->q || damping == 0;
-  if (at_q && !at->from) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, false, matrix);
-  else if (at_q) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, true, matrix);
-  else if (!at->from) add_jacobian(springs, chunk, at, 0, damping, DAMPED_AT_SHAPE, false, matrix);
-  else add_jacobian(springs, chunk, at, 0, damping, DAMPED_AT_SHAPE, true, matrix);
+  if (at_q && !at->from) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, false, shared, matrix);
+  else if (at_q) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, true, shared, matrix);
+  else if (!at->from) add_jacobian(springs, chunk, at, 0, damping, DAMPED_AT_SHAPE, false, shared, matrix);
+  else add_jacobian(springs, chunk, at, 0, damping, DAMPED_AT_SHAPE, true, shared, matrix);
+}
+
+void SPORE_LEVEL_NAME(spore_springs_chunk_jacobian)(const SporeSprings *springs, size_t chunk, const SporeTangent *at,
+                                                    SporeBlockMatrix *matrix) {
+  if (springs->share) add_damped_jacobian(springs, chunk, at, true, matrix);
+  else add_damped_jacobian(springs, chunk, at, false, matrix);
 }

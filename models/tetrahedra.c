@@ -9,6 +9,7 @@
 #include "models/nodal.h"
 #include "models/registry.h"
 #include "models/tetrahedra_elements.h"
+#include "models/tetrahedra_heat.h"
 #include "models/tetrahedra_map.h"
 #include "models/tissues.h"
 
@@ -40,6 +41,7 @@ typedef struct Body {
   SporeElasticity elasticity;
   double mass_damping; /* 1/s */
   bool locks;
+  SporeTetrahedraHeat heated;
 } Body;
 
 static const SporeParameter parameters[] = {
@@ -76,6 +78,7 @@ static void destroy(SporeModel *model) {
   Body *body = (Body *)model;
   spore_tetrahedron_nodes_clear(&body->nodes);
   spore_tetrahedra_clear(&body->tetrahedra);
+  spore_tetrahedra_heat_clear(&body->heated);
   spore_free(body->diagonal);
   spore_model_clear(&body->base);
   spore_free(body);
@@ -213,11 +216,27 @@ static const char *doubt(const SporeModel *model) {
            "of 0.45 or less");
 }
 
+static bool prepare_heat(SporeModel *model) {
+  Body *body = (Body *)model;
+  return body->heated.whole || spore_tetrahedra_heat_create(&body->heated, &body->tetrahedra);
+}
+
+static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *heat) {
+  Body *body = (Body *)model;
+  return spore_tetrahedra_coagulate(&body->tetrahedra, &body->heated, q, heat);
+}
+
+static void mend(SporeModel *model) {
+  Body *body = (Body *)model;
+  spore_tetrahedra_cool(&body->tetrahedra, &body->heated);
+}
+
 /* What the types have in common. */
 #define SLOTS                                                                                                          \
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
   .geometry = SPORE_GEOMETRY_TETRAHEDRA, .presets = spore_tissues, .destroy = destroy, .place = place, .force = force, \
-  .potential = potential, .map = map, .pattern = pattern, .jacobian = jacobian, .retune = retune, .doubt = doubt
+  .potential = potential, .map = map, .pattern = pattern, .jacobian = jacobian, .retune = retune, .doubt = doubt,      \
+  .prepare_heat = prepare_heat, .coagulate = coagulate, .mend = mend
 
 static SporeModel *create_corotational(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_corotation_force_by_level, spore_corotation_potential_by_level,

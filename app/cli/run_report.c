@@ -126,7 +126,7 @@ static void report_tools(SporeCli *cli, const SporeWorld *world) {
     spore_cli_count(cli, "lost", (gint64)state.lost);
     spore_cli_count(cli, "taken", (gint64)state.taken);
     spore_cli_count(cli, "cut", (gint64)state.cut);
-    spore_cli_count(cli, "shrunk", (gint64)state.shrunk);
+    spore_cli_count(cli, "coagulated", (gint64)state.coagulated);
     spore_cli_close(cli);
   }
   spore_cli_close_array(cli);

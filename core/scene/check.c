@@ -176,18 +176,35 @@ static void check_emitter(SporeCheck *check, SporeObject *emitter) {
                     _("nothing comes out of the emitter \"%s\": it has no body"), spore_object_name(emitter));
 }
 
-/* Scissors and bipolar forceps where nothing can be changed by them. */
-static void check_scissors(SporeCheck *check, SporeObject *scissors) {
+typedef gboolean (*CanBeChanged)(const SporeModelType *type);
+
+static gboolean can_be_cut(const SporeModelType *type) { return type->cut != NULL; }
+static gboolean can_be_coagulated(const SporeModelType *type) { return type->coagulate != NULL; }
+
+static gboolean some_body(const SporeCheck *check, CanBeChanged can) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     const SporeObject *mechanical = spore_object_child_of(spore_object_child(bodies, i), "mechanical");
     if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
-    if (spore_object_type(spore_object_child(mechanical, 0))->model->cut) return;
+    if (can(spore_object_type(spore_object_child(mechanical, 0))->model)) return TRUE;
   }
-  spore_check_say(check, SPORE_NOTE, scissors,
-                  _("make what is to be cut or coagulated a mass_spring_net, or the tool a grasper"),
-                  _("\"%s\" has nothing to work on: no body has a model that can be cut or coagulated"),
-                  spore_object_name(scissors));
+  return FALSE;
+}
+
+/* Scissors where nothing can be changed by them. */
+static void check_scissors(SporeCheck *check, SporeObject *scissors) {
+  if (some_body(check, can_be_cut)) return;
+  spore_check_say(check, SPORE_NOTE, scissors, _("make what is to be cut a mass_spring_net, or the tool a grasper"),
+                  _("\"%s\" has nothing to work on: no body has a model that can be cut"), spore_object_name(scissors));
+}
+
+/* The same of bipolar forceps. */
+static void check_bipolar(SporeCheck *check, SporeObject *bipolar) {
+  if (some_body(check, can_be_coagulated)) return;
+  spore_check_say(check, SPORE_NOTE, bipolar,
+                  _("make what is to be coagulated a mass_spring_net or neo_hookean_tetrahedra, or the tool a grasper"),
+                  _("\"%s\" has nothing to work on: no body has a model that can be coagulated"),
+                  spore_object_name(bipolar));
 }
 
 /* Suction without a fluid. */
@@ -222,7 +239,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
   spore_check_each(&check, "bodies", NULL, check_body);
   spore_check_each(&check, "tools", NULL, check_tool);
   spore_check_each(&check, "tools", "scissors", check_scissors);
-  spore_check_each(&check, "tools", "bipolar", check_scissors);
+  spore_check_each(&check, "tools", "bipolar", check_bipolar);
   spore_check_each(&check, "tools", "suction", check_suction);
   spore_check_each(&check, "effects", "emitter", check_emitter);
   spore_check_links(&check);

@@ -685,7 +685,8 @@ const SporeElement spore_scene_elements[] = {
      TABLE(suction_parameters, SporeSuctionToolFields), .extra = &spore_suction_parameters,
      .extra_offset = offsetof(SporeSuctionToolFields, suction)},
     {"bipolar", N_("Bipolar forceps"),
-     N_("Forceps that coagulate nets while the first button is down: these shrink there, for good."),
+     N_("Forceps that coagulate nets and tetrahedra while the first button is down: these shrink and stiffen there, "
+        "for good."),
      TABLE(bipolar_parameters, SporeBipolarToolFields), .extra = &spore_bipolar_parameters,
      .extra_offset = offsetof(SporeBipolarToolFields, bipolar)},
     {"camera", N_("Camera"), N_("A view of the scene."), TABLE(camera_parameters, SporeCameraFields)},

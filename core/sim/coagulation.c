@@ -1,4 +1,5 @@
-/* Bipolar forceps: heat shrinks tissue near their tips, for good. */
+/* Bipolar forceps: heat shrinks and stiffens tissue near their tips, for good. It does so in time, by no more than
+ * `rate` allows, so that energy comes in little by little. */
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
@@ -10,25 +11,48 @@
 
 static const SporeParameter parameters[] = {
     REAL(radius, "m", 1e-6, 1, 0.003, N_("How far from its point it coagulates.")),
-    REAL(rate, "1/s", 0, 1000, 0.5, N_("Part of its length that tissue there loses in a second.")),
-    REAL(least, "", 0.1, 1, 0.6, N_("Part of its length that coagulated tissue keeps.")),
+    REAL(rate, "1/s", 0, 10, 0.5, N_("Part of the tissue there that coagulates in a second.")),
+    REAL(least, "", 0.1, 1, 0.8,
+         N_("Part of its length that coagulated tissue keeps: 0.88 of liver heated to 60 degrees Celsius, 0.78 at 95 "
+            "(Rossmann et al. 2014, Physiological Measurement 35).")),
+    REAL(stiffening, "", 1, 100, 7,
+         N_("Stiffness of coagulated tissue against what it was: 46 kPa instead of 6.6 were measured in liver beside "
+            "an electrode.")),
 };
 const SporeParameterTable spore_bipolar_parameters = {parameters, sizeof parameters / sizeof *parameters,
                                                       sizeof(SporeBipolarFields)};
 
+static bool heats(const SporeBody *body) { return body->model && body->model->type->coagulate; }
+
+bool spore_world_compile_coagulation(SporeWorld *world) {
+  bool any = false, made = true;
+  for (size_t i = 0; i < world->tool_count; i++) any |= world->tools[i].kind == SPORE_TOOL_BIPOLAR;
+  for (size_t b = 0; made && any && b < world->body_count; b++)
+    if (heats(&world->bodies[b])) made = world->bodies[b].model->type->prepare_heat(world->bodies[b].model);
+  return made;
+}
+
+/* A step's dose changes little: how its matrix is best factorised it still knows. */
+static void warm(SporeWorld *world, uint32_t index) {
+  SporeFactorChoice choice = world->bodies[index].choice;
+  spore_body_changed_model(world, index);
+  world->bodies[index].choice = choice;
+}
+
 void spore_bipolar_use(SporeWorld *world, SporeTool *tool) {
   const SporeBody *holder = &world->bodies[tool->body];
-  tool->shrunk = 0;
+  tool->coagulated = 0;
   if (!holder->has_input || !(holder->input.buttons & 1u)) return;
   const double *q = world->q + holder->q_offset;
   SporeVec3 point = spore_pose_apply((SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}, tool->point);
-  double factor = exp(-tool->bipolar.rate * world->solver.time_step);
+  const SporeBipolarFields *fields = &tool->bipolar;
+  const SporeHeat heat = {point, fields->radius, fields->rate * world->solver.time_step, 1 - fields->least,
+                          fields->stiffening};
   for (uint32_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (!body->model || !body->model->type->shrink) continue;
-    size_t count = body->model->type->shrink(body->model, world->q + body->q_offset, point, tool->bipolar.radius,
-                                             factor, tool->bipolar.least);
-    if (count > 0) spore_body_changed_model(world, b);
-    tool->shrunk += count;
+    if (!heats(body)) continue;
+    size_t count = body->model->type->coagulate(body->model, world->q + body->q_offset, &heat);
+    if (count > 0) warm(world, b);
+    tool->coagulated += count;
   }
 }

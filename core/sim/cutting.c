@@ -11,8 +11,7 @@ static bool can_be_cut(const SporeBody *body) { return body->model && body->mode
 
 bool spore_world_compile_cutting(SporeWorld *world) {
   bool cuts = false, made = true;
-  for (size_t i = 0; i < world->tool_count; i++)
-    cuts |= world->tools[i].kind == SPORE_TOOL_SCISSORS || world->tools[i].kind == SPORE_TOOL_BIPOLAR;
+  for (size_t i = 0; i < world->tool_count; i++) cuts |= world->tools[i].kind == SPORE_TOOL_SCISSORS;
   for (size_t b = 0; made && cuts && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!can_be_cut(body)) continue;
@@ -32,7 +31,7 @@ void spore_world_mend_bodies(SporeWorld *world) {
   world->cut_run++;
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
-    if (can_be_cut(body)) body->model->type->mend(body->model);
+    if (body->model && body->model->type->mend) body->model->type->mend(body->model);
     if (!body->whole_weight) continue;
     memcpy(body->spheres.weight, body->whole_weight,
            body->spheres.row_start[body->spheres.point_count] * sizeof(double));

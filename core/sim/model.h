@@ -51,6 +51,19 @@ typedef struct SporeCuts {
   SporeCutEdge *edges;
 } SporeCuts;
 
+/* What a step's heat does to tissue nearer than radius to the point: it coagulates by `dose` more, of the 1 that is all
+ * of it. With the dose its lengths at rest lose `shrinkage`, and its stiffness gains `stiffening` - 1, of what they
+ * were when the model was created. */
+typedef struct SporeHeat {
+  SporeVec3 point;
+  double radius; /* m */
+  double dose, shrinkage, stiffening;
+} SporeHeat;
+/* What of the dose tissue still takes that got so much before. */
+static inline double spore_heat_dose(const SporeHeat *heat, double before) {
+  return heat->dose < 1 - before ? heat->dose : 1 - before;
+}
+
 /* Where and how a model's force is linearised for Newton's method. */
 typedef struct SporeTangent {
   const double *q, *shape, *v; /* as for force */
@@ -125,16 +138,18 @@ struct SporeModelType {
   /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none, where map
    * takes them; of particles one at each node, in their order. *set: spore_sphere_set_clear. */
   bool (*spheres)(const SporeModel *model, SporeSphereSet *set, SporeError *error);
-  /* Room for what mend needs, when the world has something that cuts; *edges += how many can be cut. False: no memory.
+  /* Room for what mend needs, when the world has scissors; *edges += how many can be cut. False: no memory.
    */
   bool (*prepare_cut)(SporeModel *model, size_t *edges);
   /* Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend, and adds the edges among
    * it to `cuts`, as of `body`. How many ties; allocates nothing, and the pattern stays. NULL: cannot be cut. */
   size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
-  /* Shrinks, at q, what lies nearer than radius to the point, by a factor, but to no less than `least` of what it was
-   * when it was created. How many ties; after prepare_cut. NULL: heat does nothing. */
-  size_t (*shrink)(SporeModel *model, const double *q, SporeVec3 point, double radius, double factor, double least);
-  /* As it was created. */
+  /* Room for coagulate, and what mend needs after it, when the world has something that heats. False: no memory. */
+  bool (*prepare_heat)(SporeModel *model);
+  /* Coagulates, at q, until mend. How many ties or elements took some of the dose; allocates nothing, and the pattern
+   * stays. NULL: heat does nothing. */
+  size_t (*coagulate)(SporeModel *model, const double *q, const SporeHeat *heat);
+  /* As it was created: of a model that was prepared for either. */
   void (*mend)(SporeModel *model);
   /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. */
   void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);

@@ -49,7 +49,7 @@ bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *d
     if (spore_tool_kind_holds(from->kind)) hold += (size_t)from->jaws.holds;
     made = make_tool(world, tool, from);
   }
-  made = made && spore_world_compile_cutting(world);
+  made = made && spore_world_compile_cutting(world) && spore_world_compile_coagulation(world);
   return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the tools"));
 }
 
@@ -60,7 +60,7 @@ void spore_world_reset_tools(SporeWorld *world) {
     tool->opening = tool->squeeze = 0;
     tool->latched = false;
     tool->due = 0;
-    tool->taken = tool->cut = tool->shrunk = 0;
+    tool->taken = tool->cut = tool->coagulated = 0;
   }
 }
 
@@ -89,7 +89,7 @@ SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
                           .squeeze = tool->squeeze,
                           .taken = tool->taken,
                           .cut = tool->cut,
-                          .shrunk = tool->shrunk};
+                          .coagulated = tool->coagulated};
   for (size_t i = 0; i < (size_t)tool->fields.holds; i++) {
     state.held += tool->holds[i].state == SPORE_HOLD_TIED;
     state.lost += tool->holds[i].state == SPORE_HOLD_LOST;

@@ -94,7 +94,8 @@ typedef struct SporeLinkDescription {
  *   clamp    the same, and stays closed once it has pressed something, until the second button opens it
  *   scissors blades on a hinge that cut what they close on: nets, along the way of the blades; they need no jaws
  *   suction  takes the particles of fluids away that come into its mouth
- *   bipolar  coagulates nets near its point while the first button is down: they shrink there, for good */
+ *   bipolar  coagulates nets and tetrahedra near its point while the first button is down: they shrink and stiffen
+ *            there, for good */
 typedef enum SporeToolKind {
   SPORE_TOOL_GRASPER,
   SPORE_TOOL_CLAMP,
@@ -132,9 +133,10 @@ extern const SporeParameterTable spore_suction_parameters;
 
 /* The table is spore_bipolar_parameters. */
 typedef struct SporeBipolarFields {
-  double radius; /* m, about its point */
-  double rate;   /* 1/s: the part of its length that tissue there loses in a second */
-  double least;  /* part of the length that it keeps */
+  double radius;     /* m, about its point */
+  double rate;       /* 1/s: the part of the tissue there that coagulates in a second */
+  double least;      /* part of their length that coagulated tissue keeps */
+  double stiffening; /* its stiffness against what it was */
 } SporeBipolarFields;
 extern const SporeParameterTable spore_bipolar_parameters;
 
@@ -242,7 +244,7 @@ typedef struct SporeToolState {
   size_t held, lost; /* spheres that it holds; that tore away since it last opened */
   size_t taken;      /* particles that suction took away so far */
   size_t cut;        /* ties that scissors cut so far */
-  size_t shrunk;     /* ties that bipolar shrank in the last step */
+  size_t coagulated; /* ties and elements that bipolar coagulated in the last step */
 } SporeToolState;
 size_t spore_world_tool_count(const SporeWorld *world);
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);

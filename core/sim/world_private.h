@@ -199,7 +199,7 @@ typedef struct SporeTool {
   SporeVec3 point; /* of suction and scissors, in its frame */
   size_t cut;      /* by scissors */
   SporeBipolarFields bipolar;
-  size_t shrunk; /* by bipolar, in the last step */
+  size_t coagulated; /* by bipolar, in the last step */
   SporeSuctionFields suction;
   double due;        /* particles that suction may take away by now */
   size_t taken;      /* by suction */
@@ -381,6 +381,8 @@ bool spore_world_compile_cutting(SporeWorld *world);
 /* The blades, half of the angle each, went with their body from the last state to its target, and closed from one
  * opening to another. */
 void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double to);
+/* Room for it in models, where the world has something that heats. False: no memory. */
+bool spore_world_compile_coagulation(SporeWorld *world);
 void spore_bipolar_use(SporeWorld *world, SporeTool *tool);
 void spore_world_mend_bodies(SporeWorld *world);
 /* After its model was changed: forgets what it remembers of steps before, and wakes it. */

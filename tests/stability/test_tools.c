@@ -293,7 +293,7 @@ static void test_bipolar(void) {
   Rig *rig = net_and_scissors(&tool);
   tool.kind = SPORE_TOOL_BIPOLAR;
   tool.point = spore_vec3(0.04, 0.03, 0);
-  tool.bipolar = (SporeBipolarFields){.radius = 0.015, .rate = 2, .least = 0.6};
+  tool.bipolar = (SporeBipolarFields){.radius = 0.015, .rate = 2, .least = 0.6, .stiffening = 3};
   SporeDevice pedal = {&pedal_type};
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, 1, &pedal);
@@ -301,12 +301,12 @@ static void test_bipolar(void) {
   run_to(world, 0.1);
   g_assert_cmpfloat_with_epsilon(apart(world, middle, middle + 1), 0.01, 1e-9);
   run_to(world, 0.2);
-  g_assert_cmpuint(spore_world_tool_state(world, 0).shrunk, >, 0);
+  g_assert_cmpuint(spore_world_tool_state(world, 0).coagulated, >, 0);
   run_to(world, 2);
   double near = apart(world, middle, middle + 1), far = apart(world, corner, corner - 1);
-  g_test_message("10 mm between neighbours became %.2f mm at the forceps, %.2f mm far from them; %zu still shrink; %s",
-                 1e3 * near, 1e3 * far, spore_world_tool_state(world, 0).shrunk, rig_last_message(world));
-  g_assert_cmpuint(spore_world_tool_state(world, 0).shrunk, ==, 0); /* as short as they get */
+  g_test_message("10 mm between neighbours became %.2f mm at the forceps, %.2f mm far from them; %zu still change; %s",
+                 1e3 * near, 1e3 * far, spore_world_tool_state(world, 0).coagulated, rig_last_message(world));
+  g_assert_cmpuint(spore_world_tool_state(world, 0).coagulated, ==, 0); /* as short as they get */
   g_assert_cmpfloat(near, <, 0.0085);
   g_assert_cmpfloat(far, >, 0.0095);
   spore_world_reset(world);
