@@ -54,8 +54,9 @@ bool spore_spline_pattern(const SporeSpline *spline, SporeBlockPattern *pattern)
 void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matrix);
 
 /* Rows of points by control points (in the body's frame): a point on the line by its section's four; one off the line
- * by as few more around it as span its offset. Refused where the line is too straight to carry the offset. */
-bool spore_spline_map(size_t span_count, const double *control, const double *points, size_t count,
+ * by the arms of its twist (ends at each knot, the nodes behind the control points; NULL: it has none), or by as few
+ * more points around it as span its offset. Refused where the line is too straight to carry the offset. */
+bool spore_spline_map(size_t span_count, const double *control, const double *arms, const double *points, size_t count,
                       SporeMapping *mapping, SporeError *error);
 
 /* Forces, energy and stiffness as SporeModelType says. Viscous: the speed of |a| and that of |b| across the line, each

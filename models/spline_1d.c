@@ -1,5 +1,6 @@
 /* A thread or a tube: a cubic B-spline with mass, stretch and bending (Qin and Terzopoulos 1996; Lenoir et al. 2002).
  * Its nodes are the control points; the mass of each is the integral of its function. */
+#include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -8,16 +9,18 @@
 #include "models/nodal.h"
 #include "models/registry.h"
 #include "models/spline_line.h"
+#include "models/spline_twist.h"
 
 typedef struct SplineFields {
   int64_t control_points;
-  double young_modulus, density, wall_thickness, bending_scale, damping;
+  double young_modulus, density, wall_thickness, bending_scale, twist_modulus, turns, damping;
   bool straight_at_rest;
 } SplineFields;
 
 typedef struct Spline1d {
   SporeModel base;
   SporeSplineLine line;
+  SporeSplineTwist twist; /* of no spans: the line turns freely about itself */
 } Spline1d;
 
 static const SporeParameter parameters[] = {
@@ -33,6 +36,12 @@ static const SporeParameter parameters[] = {
     SPORE_REAL_FIELD(
         SplineFields, bending_scale, "", 0, 1e6, 1, SPORE_CHANGE_LIVE,
         N_("Factor on the stiffness against bending: below 1 for what is woven of fibres, 0 for a chain.")),
+    SPORE_REAL_FIELD(SplineFields, twist_modulus, "Pa", 0, 1e13, 0, SPORE_CHANGE_REBUILD,
+                     N_("Stiffness of the material against twist, its shear modulus: a third of Young's for what keeps "
+                        "its volume. 0: the line turns freely about itself, which costs less.")),
+    SPORE_REAL_FIELD(SplineFields, turns, "", -1e4, 1e4, 0, SPORE_CHANGE_REBUILD,
+                     N_("Turns by which the line is twisted at the start, from its beginning to its end; above 0: as a "
+                        "right-handed screw. It untwists where its ends are not held from turning.")),
     SPORE_REAL_FIELD(SplineFields, damping, "s", 0, 1e6, 0.01, SPORE_CHANGE_LIVE,
                      N_("Time by which stretch and bending lag behind their forces: viscosity over elasticity. A line "
                         "bends freely where it is straight.")),
@@ -50,6 +59,7 @@ static bool no_memory(SporeError *error) {
 
 static void destroy(SporeModel *model) {
   Spline1d *body = (Spline1d *)model;
+  spore_spline_twist_clear(&body->twist);
   spore_spline_line_clear(&body->line);
   spore_model_clear(&body->base);
   spore_free(body);
@@ -58,7 +68,19 @@ static void destroy(SporeModel *model) {
 static void tune(Spline1d *body, const SplineFields *fields) {
   body->line.spline.young = fields->young_modulus;
   body->line.spline.bending = fields->bending_scale;
-  body->line.spline.viscous = fields->damping;
+  body->line.spline.viscous = body->twist.viscous = fields->damping;
+}
+
+static bool make_twist(Spline1d *body, const SporeCurve *curve, const SporeSplineSection *section,
+                       const SplineFields *fields, SporeError *error) {
+  if (fields->twist_modulus > 0)
+    return spore_spline_twist_init(&body->twist, &body->line, curve, section, fields->twist_modulus, fields->turns,
+                                   error);
+  if (fields->turns == 0) return true;
+  return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                         _("the line is to be twisted by %g turns, but nothing in it resists twist; expected a "
+                           "twist_modulus above 0; set it, or no turns"),
+                         fields->turns);
 }
 
 static bool build(Spline1d *body, const SporeCurve *curve, const SplineFields *fields, SporeError *error) {
@@ -66,14 +88,18 @@ static bool build(Spline1d *body, const SporeCurve *curve, const SplineFields *f
   SporeSplineSection section = {.density = fields->density,
                                 .wall_thickness = fields->wall_thickness,
                                 .straight_at_rest = fields->straight_at_rest};
-  if (!spore_model_init(&body->base, &spore_spline_1d, count, false, error) ||
-      !spore_spline_line_init(&body->line, curve, count, &section, error))
+  if (!spore_spline_line_init(&body->line, curve, count, &section, error) ||
+      !make_twist(body, curve, &section, fields, error))
     return false;
+  size_t arms = body->twist.span_count > 0 ? body->twist.span_count + 1 : 0;
+  if (!spore_model_init(&body->base, &spore_spline_1d, count + arms, false, error)) return false;
   SporeBlockMatrix matrix;
   if (!spore_model_matrix_create(&body->base, &matrix)) return no_memory(error);
   spore_spline_find_blocks(&body->line.spline, &matrix);
+  spore_spline_twist_find_blocks(&body->twist, &matrix);
   spore_block_matrix_clear(&matrix);
   memcpy(body->base.block_mass, body->line.mass, count * sizeof(double));
+  if (arms > 0) memcpy(body->base.block_mass + count, body->twist.mass, arms * sizeof(double));
   tune(body, fields);
   return true;
 }
@@ -90,29 +116,44 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
-  spore_nodal_place(((const Spline1d *)model)->line.rest, model->block_count, pose, velocity, spin, q, v);
+  const Spline1d *body = (const Spline1d *)model;
+  size_t count = body->line.control_count;
+  spore_nodal_place(body->line.rest, count, pose, velocity, spin, q, v);
+  spore_nodal_place(body->twist.rest, model->node_count - count, pose, velocity, spin, q + 3 * count, v + 3 * count);
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
-  SPORE_KERNEL(spore_spline_force)(&((const Spline1d *)model)->line.spline, q, shape, v, f);
+  const Spline1d *body = (const Spline1d *)model;
+  SPORE_KERNEL(spore_spline_force)(&body->line.spline, q, shape, v, f);
+  spore_spline_twist_force(&body->twist, q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
-  return SPORE_KERNEL(spore_spline_potential)(&((const Spline1d *)model)->line.spline, q);
+  const Spline1d *body = (const Spline1d *)model;
+  return SPORE_KERNEL(spore_spline_potential)(&body->line.spline, q) + spore_spline_twist_potential(&body->twist, q);
 }
 
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
-  return spore_spline_pattern(&((const Spline1d *)model)->line.spline, blocks);
+  const Spline1d *body = (const Spline1d *)model;
+  return spore_spline_pattern(&body->line.spline, blocks) && spore_spline_twist_pattern(&body->twist, blocks);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  SPORE_KERNEL(spore_spline_jacobian)
-  (&((const Spline1d *)model)->line.spline, q, shape, stiffness_scale, damping_scale, matrix);
+  const Spline1d *body = (const Spline1d *)model;
+  SPORE_KERNEL(spore_spline_jacobian)(&body->line.spline, q, shape, stiffness_scale, damping_scale, matrix);
+  spore_spline_twist_jacobian(&body->twist, q, shape, stiffness_scale, damping_scale, matrix);
+}
+
+static const char *notice(const SporeModel *model, const double *q) {
+  if (spore_spline_twist_worst(&((const Spline1d *)model)->twist, q) < 0.5 * M_PI) return NULL;
+  return _("it is twisted by more than a quarter of a turn between control points, and slips where that becomes half a "
+           "turn; set more control points");
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_spline_line_map(&((const Spline1d *)model)->line, points, count, mapping, error);
+  const Spline1d *body = (const Spline1d *)model;
+  return spore_spline_line_map(&body->line, body->twist.rest, points, count, mapping, error);
 }
 
 static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *error) {
@@ -129,10 +170,13 @@ const SporeModelType spore_spline_1d = {
     .label = N_("Spline"),
     .doc =
         N_("A smooth line along a curve, with the curve's radius: threads, vessels, tubes. It resists stretch and "
-           "bending as a thin rod of its material does, and not twist: what is curved at rest keeps how sharply it "
-           "bends, but may turn freely about its own line. It touches other bodies with spheres along the line, unless "
-           "its collision unit names other spheres: put those on the line too, since points off a straight line cannot "
-           "follow it, and points off a bent one follow it only while its bends change little."),
+           "bending as a thin rod of its material does; what is curved at rest keeps how sharply it bends. With a "
+           "twist_modulus it resists twist too, and coils up where it is twisted and slack: what holds a piece of it "
+           "as long as it is from one control point to the next (a weld, or a pin of that radius, at least four radii "
+           "of the line) holds it from turning. It touches other bodies with spheres along the line, unless its "
+           "collision unit names other spheres: put those on the line too, since points off a straight line cannot "
+           "follow it unless it resists twist, and points off a bent one follow it only while its bends change "
+           "little."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(SplineFields)},
     .geometry = SPORE_GEOMETRY_CURVE,
     .create = create,
@@ -145,4 +189,5 @@ const SporeModelType spore_spline_1d = {
     .jacobian = jacobian,
     .retune = retune,
     .spheres = spheres,
+    .notice = notice,
 };

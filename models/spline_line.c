@@ -28,6 +28,13 @@ static SporeVec3 combine(const double *control, size_t span, const double weight
   return sum;
 }
 
+double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSection *section, size_t span_count,
+                                   double parameter, double *inner) {
+  double outer = spore_spline_radius(curve, span_count, parameter);
+  *inner = section->wall_thickness > 0 ? fmax(outer - section->wall_thickness, 0) : 0;
+  return outer;
+}
+
 /* One Gauss point, with derivatives by the length at rest: d/dS = 1/l d/du, d2/dS2 = 1/l^2 (d2/du2 - l'/l d/du).
  * Returns the length l for which it stands; 0 where the line turns back. */
 static double set_point(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section, size_t span,
@@ -41,8 +48,8 @@ static double set_point(SporeSplineLine *line, const SporeCurve *curve, const Sp
   if (!(speed > 0)) return 0;
   SporeSplineGauss *gauss = &spline->gauss[span / SPORE_LANES * SPORE_SPLINE_POINTS + (size_t)point];
   size_t lane = span % SPORE_LANES;
-  double outer = spore_spline_radius(curve, spline->span_count, u), length = speed / SPORE_SPLINE_POINTS;
-  double inner = section->wall_thickness > 0 ? fmax(outer - section->wall_thickness, 0) : 0;
+  double inner, outer = spore_spline_section_radius(curve, section, spline->span_count, u, &inner);
+  double length = speed / SPORE_SPLINE_POINTS;
   double second[4], area = M_PI * (outer * outer - inner * inner), lumen = M_PI * inner * inner;
   for (size_t k = 0; k < 4; k++) {
     gauss->first[k][lane] = inverse * basis.first[k];
@@ -131,9 +138,9 @@ bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, size
   return set_points(line, curve, section, error) && set_spheres(line, curve, error);
 }
 
-bool spore_spline_line_map(const SporeSplineLine *line, const double *points, size_t count, SporeMapping *mapping,
-                           SporeError *error) {
-  return spore_spline_map(line->spline.span_count, line->rest, points, count, mapping, error);
+bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
+                           SporeMapping *mapping, SporeError *error) {
+  return spore_spline_map(line->spline.span_count, line->rest, arms, points, count, mapping, error);
 }
 
 bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error) {

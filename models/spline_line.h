@@ -12,6 +12,10 @@ typedef struct SporeSplineSection {
   bool straight_at_rest;           /* would be straight if nothing bent it */
 } SporeSplineSection;
 
+/* Radius of the section at a parameter of the spline, m; *inner: of what is hollow, 0 where it is solid. */
+double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSection *section, size_t span_count,
+                                   double parameter, double *inner);
+
 typedef struct SporeSplineLine {
   size_t control_count;
   double *rest;           /* control points, 3 each, body's frame, m */
@@ -24,9 +28,9 @@ typedef struct SporeSplineLine {
 bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, size_t control_points,
                             const SporeSplineSection *section, SporeError *error);
 void spore_spline_line_clear(SporeSplineLine *line);
-/* The slots map and spheres of SporeModelType. */
-bool spore_spline_line_map(const SporeSplineLine *line, const double *points, size_t count, SporeMapping *mapping,
-                           SporeError *error);
+/* The slots map and spheres of SporeModelType; arms as for spore_spline_map. */
+bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
+                           SporeMapping *mapping, SporeError *error);
 bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error);
 
 #endif

@@ -13,7 +13,7 @@
 
 typedef struct Spline {
   size_t span_count;
-  const double *control;
+  const double *control, *arms;
   double size;
 } Spline;
 
@@ -45,48 +45,70 @@ static double nearest(const Spline *spline, SporeVec3 p) {
 }
 
 typedef struct Row {
+  size_t used;
   uint32_t block[WIDTH];
   double weight[WIDTH];
 } Row;
 
-/* spore_carry_offset of `width` control points from `first`. */
-static double carry(const Spline *spline, SporeVec3 offset, size_t first, size_t width, double *weight) {
-  double work[WIDTH];
-  return spore_carry_offset(spline->control + 3 * first, width, offset, ROUNDING * spline->size, weight, work);
+static SporeVec3 node(const Spline *spline, uint32_t index) {
+  size_t count = spline->span_count + 3;
+  return spore_vec3_load(index < count ? spline->control + 3 * (size_t)index : spline->arms + 3 * (index - count));
+}
+
+/* spore_carry_offset of the row's points. */
+static double carry(const Spline *spline, SporeVec3 offset, const Row *row, double *weight) {
+  double work[WIDTH], points[3 * WIDTH];
+  for (size_t i = 0; i < row->used; i++) spore_vec3_store(points + 3 * i, node(spline, row->block[i]));
+  return spore_carry_offset(points, row->used, offset, ROUNDING * spline->size, weight, work);
 }
 
 /* From where the row puts the point to p. */
-static SporeVec3 missing(const Spline *spline, const Row *row, size_t used, SporeVec3 p) {
-  for (size_t i = 0; i < used; i++)
-    p = spore_vec3_add_scaled(p, -row->weight[i], spore_vec3_load(spline->control + 3 * (size_t)row->block[i]));
+static SporeVec3 missing(const Spline *spline, const Row *row, SporeVec3 p) {
+  for (size_t i = 0; i < row->used; i++) p = spore_vec3_add_scaled(p, -row->weight[i], node(spline, row->block[i]));
   return p;
+}
+
+/* Control points about the span, `width` of them or all. Returns where the span's begin among them. */
+static size_t take_points(const Spline *spline, size_t span, size_t width, Row *row) {
+  size_t count = spline->span_count + 3, used = width < count ? width : count, before = (used - 4) / 2;
+  size_t first = span < before ? 0 : span - before;
+  if (first + used > count) first = count - used;
+  *row = (Row){.used = used};
+  for (size_t i = 0; i < used; i++) row->block[i] = (uint32_t)(first + i);
+  return span - first;
+}
+
+/* The span's, and the arms at its knots and at so many before and behind. */
+static size_t take_arms(const Spline *spline, size_t span, size_t more, Row *row) {
+  size_t first = take_points(spline, span, 4, row), from = span > more ? span - more : 0;
+  for (size_t knot = from; knot <= span + 1 + more && knot <= spline->span_count; knot++)
+    row->block[row->used++] = (uint32_t)(spline->span_count + 3 + knot);
+  return first;
+}
+
+/* A row that carries the offset; false: those points do not. `last`: there are none to take in their place. */
+static bool fill_row(const Spline *spline, SporeVec3 p, const SporeSplineBasis *basis, size_t span, size_t first,
+                     bool last, Row *row) {
+  SporeVec3 offset = spore_vec3_sub(p, at(spline, basis->value, span));
+  bool on = spore_vec3_length(offset) <= ROUNDING * spline->size;
+  double sum = on ? 0 : carry(spline, offset, row, row->weight);
+  if (sum > (last ? SPORE_CARRY_AT_MOST : SPORE_CARRY_LIGHT)) return false;
+  for (size_t k = 0; k < 4; k++) row->weight[first + k] += basis->value[k];
+  if (!on) carry(spline, missing(spline, row, p), row, row->weight); /* what rounding took */
+  for (size_t i = row->used; i < WIDTH; i++) row->block[i] = row->block[0];
+  return true;
 }
 
 static bool map_point(const Spline *spline, const double *point, size_t index, Row *row, SporeError *error) {
   SporeVec3 p = spore_vec3_load(point);
   size_t span, count = spline->span_count + 3;
   SporeSplineBasis basis = spore_spline_basis(spline->span_count, nearest(spline, p), &span);
-  SporeVec3 offset = spore_vec3_sub(p, at(spline, basis.value, span));
-  double off = spore_vec3_length(offset);
-  for (size_t width = 4; width <= WIDTH; width += 4) {
-    size_t used = width < count ? width : count, before = (used - 4) / 2;
-    size_t first = span < before ? 0 : span - before;
-    if (first + used > count) first = count - used;
-    double extra[WIDTH] = {0};
-    bool on = off <= ROUNDING * spline->size;
-    double sum = on ? 0 : carry(spline, offset, first, used, extra);
-    bool last = width + 4 > WIDTH || used == count;
-    if (sum > (last ? SPORE_CARRY_AT_MOST : SPORE_CARRY_LIGHT)) {
-      if (last) break;
-      continue;
-    }
-    for (size_t i = 0; i < WIDTH; i++) {
-      row->block[i] = (uint32_t)(first + (i < used ? i : 0));
-      row->weight[i] = i < used ? extra[i] : 0;
-    }
-    for (size_t k = 0; k < 4; k++) row->weight[span - first + k] += basis.value[k];
-    if (!on) carry(spline, missing(spline, row, used, p), first, used, row->weight); /* what rounding took */
-    return true;
+  bool last = false;
+  for (size_t more = 0; spline->arms && more < 2; more++)
+    if (fill_row(spline, p, &basis, span, take_arms(spline, span, more, row), more > 0, row)) return true;
+  for (size_t width = 4; !last; width += 4) {
+    last = width + 4 > WIDTH || width >= count;
+    if (fill_row(spline, p, &basis, span, take_points(spline, span, width, row), last, row)) return true;
   }
   char place[64];
   snprintf(place, sizeof place, "point %zu", index);
@@ -94,12 +116,12 @@ static bool map_point(const Spline *spline, const double *point, size_t index, R
       error, SPORE_ERROR_INPUT, place,
       _("the point lies %g m off a line that is too straight there to carry it; points of a straight "
         "thread must lie on it; move spheres and visual vertices onto the line"),
-      off);
+      spore_vec3_distance(p, at(spline, basis.value, span)));
 }
 
-bool spore_spline_map(size_t span_count, const double *control, const double *points, size_t count,
+bool spore_spline_map(size_t span_count, const double *control, const double *arms, const double *points, size_t count,
                       SporeMapping *mapping, SporeError *error) {
-  Spline spline = {span_count, control, spore_carry_size(control, span_count + 3)};
+  Spline spline = {span_count, control, arms, spore_carry_size(control, span_count + 3)};
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   bool good = blocks && weights;

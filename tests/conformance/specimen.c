@@ -27,19 +27,23 @@ static void shape(Specimen *specimen, const char *name) {
 /* The parameter by which the type makes another kind of body of the same geometry, or NULL. */
 static const SporeParameter *variants_of(const SporeModelType *type) {
   int index = spore_parameter_find(&type->parameters, "element");
+  if (index < 0) index = spore_parameter_find(&type->parameters, "twist_modulus");
   return index < 0 ? NULL : &type->parameters.parameters[index];
 }
 
 const char *specimen_variant(const SporeModelType *type, int variant) {
+  static const char *const twist[] = {"", "twist", NULL};
   const SporeParameter *parameter = variants_of(type);
   if (!parameter) return variant == 0 ? "" : NULL;
-  return parameter->choices[variant];
+  return parameter->type == SPORE_CHOICE ? parameter->choices[variant] : twist[variant];
 }
 
 void specimen_set_variant(const SporeModelType *type, int variant, void *fields) {
   const SporeParameter *parameter = variants_of(type);
-  SporeValue value = {.type = SPORE_CHOICE, .number = {variant}};
-  if (parameter) spore_parameter_store(parameter, &value, fields);
+  if (!parameter) return;
+  SporeValue value = {.type = parameter->type, .number = {variant}};
+  if (value.type == SPORE_REAL) value.number[0] *= 3e5; /* Pa */
+  spore_parameter_store(parameter, &value, fields);
 }
 
 static Specimen *specimen_new(const SporeModelType *type, const char *name, int variant) {
@@ -47,6 +51,7 @@ static Specimen *specimen_new(const SporeModelType *type, const char *name, int 
   const char *kind = specimen_variant(type, variant);
   specimen->type = type;
   specimen->name = g_strdup_printf("%s/%s%s%s", type->name, name, *kind ? "/" : "", kind);
+  specimen->twists = !strcmp(kind, "twist");
   /* A helix: what moves its points farther may straighten its bends, whose stiffness is then clamped. */
   specimen->size = !strcmp(name, "needle") ? 1e-3 : !strcmp(name, "helix") ? 0.01 : 0.02;
   specimen->fields = g_malloc0(type->parameters.size);

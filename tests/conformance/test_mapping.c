@@ -24,7 +24,7 @@ static double *points_of(const Specimen *specimen, GRand *random, int kind, size
     SporeVec3 p = spore_vec3_add_scaled(a, g_rand_double(random), spore_vec3_sub(b, a));
     SporeVec3 off = shape_random_vector(random, 0.3 * specimen->size);
     if (flat) off.z = 0;
-    if (strstr(specimen->name, "straight")) off = spore_vec3(0, 0, 0);
+    if (strstr(specimen->name, "straight") && !specimen->twists) off = spore_vec3(0, 0, 0);
     spore_vec3_store(points + 3 * i, spore_vec3_add(p, off));
   }
   g_free(x);

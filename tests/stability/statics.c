@@ -83,10 +83,14 @@ double statics_balance(Statics *statics) {
     statics->model->type->force(statics->model, statics->q, statics->q, statics->still, step);
     for (size_t i = 0; i < n; i++) {
       load += statics->load[i] * statics->load[i];
-      if (statics->held[i / 3]) step[i] = 0;
+      if (!statics->held[i / 3]) continue;
+      load += step[i] * step[i];
+      step[i] = 0;
+    }
+    for (size_t i = 0; i < n; i++) {
       squares += step[i] * step[i];
     }
-    left = sqrt(squares / load);
+    left = load > 0 ? sqrt(squares / load) : 0;
     if (left <= 1e-9) break;
     if (left < 0.5 * least) least = left, since = 0;
     factor(statics);

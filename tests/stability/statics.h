@@ -17,7 +17,8 @@ typedef struct Statics {
 /* Takes the model, at rest in its own frame. */
 Statics statics_new(SporeModel *model);
 void statics_free(Statics *statics);
-/* Newton's method with a line search on the energy. Returns the force that is left, relative to the load. */
+/* Newton's method with a line search on the energy. Returns the force that is left, relative to the load and
+ * what the held points bear. */
 double statics_balance(Statics *statics);
 /* Lowest angular frequency of modes along `axis` (0 x, 1 y, 2 z), by inverse iteration, rad/s. */
 double statics_lowest_frequency(Statics *statics, size_t axis);
