@@ -5,7 +5,6 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "models/fields.h"
 #include "models/nodal.h"
 #include "models/tetrahedra_map.h"
 
@@ -14,17 +13,10 @@
 #define LOOKED_AT 32     /* triangles of the surface, each time */
 
 const SporeParameter spore_linear_parameters[SPORE_LINEAR_PARAMETERS] = {
-    SPORE_REAL_FIELD(SporeLinearFields, young_modulus, "Pa", 1e-3, 1e15, 5000, SPORE_CHANGE_LIVE,
-                     N_("Young's modulus, 2 (1 + Poisson's ratio) times the shear modulus; the presets give some for "
-                        "organs.")),
+    SPORE_TISSUE_YOUNG_MODULUS(SporeLinearFields),
     SPORE_REAL_FIELD(SporeLinearFields, poisson_ratio, "", 0, 0.499, 0.4, SPORE_CHANGE_REBUILD,
                      N_("Poisson's ratio; near 0.5 volume is kept, and linear elements become too stiff in bending.")),
-    SPORE_REAL_FIELD(SporeLinearFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
-                     N_("Mass per volume; 1060 is soft tissue.")),
-    SPORE_REAL_FIELD(SporeLinearFields, mass_damping, "1/s", 0, 1e6, 0, SPORE_CHANGE_LIVE,
-                     N_("Damping of all motion, as by a surrounding fluid: force per mass and speed.")),
-    SPORE_REAL_FIELD(SporeLinearFields, stiffness_damping, "s", 0, 1e3, 0.01, SPORE_CHANGE_LIVE,
-                     N_("Damping of deformation: viscous stress is this time times the stress of the strain rate.")),
+    SPORE_TISSUE_DENSITY_AND_DAMPING(SporeLinearFields),
 };
 
 bool spore_linear_solid_no_memory(SporeError *error) {

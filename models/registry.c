@@ -12,5 +12,6 @@ const SporeModelType *const spore_model_registry[] = {&spore_rigid_body,
                                                       &spore_smoke,
                                                       &spore_spline_1d,
                                                       &spore_intestine,
+                                                      &spore_finite_differences,
                                                       &spore_spline_2d,
                                                       NULL};

@@ -5,7 +5,6 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "models/fields.h"
 #include "models/nodal.h"
 #include "models/registry.h"
 #include "models/tetrahedra_elements.h"
@@ -45,17 +44,10 @@ typedef struct Body {
 } Body;
 
 static const SporeParameter parameters[] = {
-    SPORE_REAL_FIELD(
-        TetrahedraFields, young_modulus, "Pa", 1e-3, 1e15, 5000, SPORE_CHANGE_LIVE,
-        N_("Young's modulus, 2 (1 + Poisson's ratio) times the shear modulus; the presets give some for organs.")),
+    SPORE_TISSUE_YOUNG_MODULUS(TetrahedraFields),
     SPORE_REAL_FIELD(TetrahedraFields, poisson_ratio, "", 0, 0.49999, 0.4, SPORE_CHANGE_LIVE,
                      N_("Poisson's ratio; near 0.5 volume is kept, and linear elements become too stiff in bending.")),
-    SPORE_REAL_FIELD(TetrahedraFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
-                     N_("Mass per volume; 1060 is soft tissue.")),
-    SPORE_REAL_FIELD(TetrahedraFields, mass_damping, "1/s", 0, 1e6, 0, SPORE_CHANGE_LIVE,
-                     N_("Damping of all motion, as by a surrounding fluid: force per mass and speed.")),
-    SPORE_REAL_FIELD(TetrahedraFields, stiffness_damping, "s", 0, 1e3, 0.01, SPORE_CHANGE_LIVE,
-                     N_("Damping of deformation: viscous stress is this time times the stress of the strain rate.")),
+    SPORE_TISSUE_DENSITY_AND_DAMPING(TetrahedraFields),
     {.name = "element",
      .type = SPORE_CHOICE,
      .unit = "",

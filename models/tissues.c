@@ -1,7 +1,5 @@
 #include "models/tissues.h"
 
-#include "core/base/text.h"
-
 /* A shear modulus in kPa gives young_modulus in Pa: times 2900. */
 #define TISSUE(name, label, young)                                                                                     \
   {                                                                                                                    \

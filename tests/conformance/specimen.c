@@ -38,6 +38,13 @@ const char *specimen_variant(const SporeModelType *type, int variant) {
   return parameter->type == SPORE_CHOICE ? parameter->choices[variant] : twist[variant];
 }
 
+/* Of a grid fewer cells than it has by itself. */
+static void set_cells(const SporeModelType *type, void *fields) {
+  const SporeValue value = {.type = SPORE_INTEGER, .number = {3}};
+  int index = spore_parameter_find(&type->parameters, "cells");
+  if (index >= 0) spore_parameter_store(&type->parameters.parameters[index], &value, fields);
+}
+
 void specimen_set_variant(const SporeModelType *type, int variant, void *fields) {
   const SporeParameter *parameter = variants_of(type);
   if (!parameter) return;
@@ -57,6 +64,7 @@ static Specimen *specimen_new(const SporeModelType *type, const char *name, int 
   specimen->fields = g_malloc0(type->parameters.size);
   spore_parameters_set_initial(&type->parameters, specimen->fields);
   specimen_set_variant(type, variant, specimen->fields);
+  set_cells(type, specimen->fields);
   shape(specimen, name);
   specimen->geometry = (SporeGeometry){&specimen->surface, &specimen->tetrahedra, &specimen->curve};
   return specimen;
@@ -76,10 +84,10 @@ static const char *const *shapes_for(const SporeModelType *type) {
   static const char *const solids[] = {"box", "needle", NULL};
   static const char *const blocks[] = {"block", "one_cell", NULL};
   static const char *const lines[] = {"straight", "helix", NULL};
-  static const char *const containers[] = {"box", "closed", NULL}; /* particles do not go into a needle */
+  static const char *const containers[] = {"box", "closed", NULL}; /* particles and grids do not go into a needle */
   static const char *const none[] = {"parameters", NULL};
   if (type == &spore_spline_2d) return surfaces + 1; /* open ones */
-  if (type->particles) return containers;
+  if (type->particles || type == &spore_finite_differences) return containers;
   switch (type->geometry) {
   case SPORE_GEOMETRY_SURFACE:
     return surfaces;

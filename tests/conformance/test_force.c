@@ -93,7 +93,7 @@ static gboolean is_linear(const SporeModelType *type) {
 /* How far to stretch a model so that nothing is clamped: a neo-Hookean one to where its volume pushes neither way. */
 static double unclamped_stretch(const SporeModelType *type) {
   if (is_linear(type)) return 1 + 1e-12;
-  return type == &spore_neo_hookean_tetrahedra ? 1.065 : 1.5;
+  return type == &spore_neo_hookean_tetrahedra || type == &spore_finite_differences ? 1.065 : 1.5;
 }
 
 /* Where nothing is clamped the Jacobian is exact. */

@@ -46,6 +46,7 @@ static SporeModel *small_body(Kind of, double factor) {
     char *field = fields + parameter->offset;
     if (is_stiffness(parameter)) *(double *)(void *)field *= factor;
     if (!strcmp(parameter->name, "particles")) *(int64_t *)(void *)field = 40;
+    if (!strcmp(parameter->name, "cells")) *(int64_t *)(void *)field = 2;
     if (g_str_has_prefix(parameter->name, "control_points_")) *(int64_t *)(void *)field = 6;
   }
   SporeError error = SPORE_ERROR_INIT;

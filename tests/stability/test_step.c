@@ -39,7 +39,9 @@ static Rig *fall(const SporeModelType *type, SporeIntegratorKind integrator) {
     else shape_block_surface(&mesh, 6, 1, 1, spore_vec3(0.06, 0.01, 0.01));
     gboolean fluid = type == &spore_lennard_jones;
     if (!fluid) spheres = rig_spheres(rig, mesh.vertices, mesh.vertex_count, 0.004);
-    model = fluid ? rig_fluid_model(&mesh, 60, NULL) : rig_surface_model(type, &mesh, NULL);
+    if (fluid) model = rig_fluid_model(&mesh, 60, NULL);
+    else if (type == &spore_finite_differences) model = rig_surface_model(type, &mesh, "cells", 6.0, NULL);
+    else model = rig_surface_model(type, &mesh, NULL);
     if (fluid) spheres = particle_spheres(rig, model, 0.0022);
   }
   rig->description.gravity = spore_vec3(0, -9.81, 0);
