@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Makes the curve of the bowel of plate 6: loops that lie before the womb on the floor of the pelvis, in the frame of
+"""Makes the curve of a bowel: loops that lie before the womb on the floor of the pelvis, in the frame of
 make_organs.py. Rows in two layers follow the floor and bend into each other; the script refuses to write a bowel that touches itself.
 Needs the spheres of the peritoneum, of the womb and of the ovaries, to say how far it lies from them.
 
-    make_intestine.py ORGANS PLATE6
+    make_intestine.py ORGANS FOLDER FIRST LOWER UPPER
+
+FIRST: how far down the slope of the floor it begins, 0 to 1; LOWER, UPPER: rows in each layer.
 """
 import pathlib
 import sys
@@ -25,10 +27,10 @@ def floor(x, v, height):
     return np.mean(around, axis=0) + np.outer(height, [0, 0.8, 0.6])
 
 
-def rows():
+def rows(first, lower, upper):
     """To and fro, down the slope of the floor and back above, with a bend from each row to the next."""
-    lower = [(0.70 + 0.047 * k, LAYER * 0.6) for k in range(5)]
-    upper = [(0.865 - 0.047 * k, LAYER * 1.6) for k in range(4)]
+    lower = [(first + 0.047 * k, LAYER * 0.6) for k in range(lower)]
+    upper = [(lower[-1][0] - 0.023 - 0.047 * k, LAYER * 1.6) for k in range(upper)]
     turns = [0.066, -0.072, 0.078, -0.076, 0.072, -0.070, 0.064, -0.068, 0.062, -0.058]  # x where a row ends
     points = []
     for n, (v, height) in enumerate(lower + upper):
@@ -75,9 +77,10 @@ def push_apart(start, balls, rounds):
 
 
 def main():
-    organs, folder = (pathlib.Path(name) for name in sys.argv[1:])
+    organs, folder = (pathlib.Path(name) for name in sys.argv[1:3])
+    first, lower, upper = float(sys.argv[3]), int(sys.argv[4]), int(sys.argv[5])
     balls = np.concatenate([np.loadtxt(organs / (name + ".spheres")) for name in ("peritoneum", "uterus", "ovary_left", "ovary_right")])
-    p = push_apart(evenly(spline(rows(), 4000), 360)[0], balls, 400)
+    p = push_apart(evenly(spline(rows(first, lower, upper), 4000), 360)[0], balls, 400)
     p, s = evenly(spline(p, 4000), 700)
     length = s[-1]
     apart = stretches_apart(p, length / len(p))

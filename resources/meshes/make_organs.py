@@ -312,20 +312,25 @@ def wall(u, v):
     return p
 
 
-def broad_ligament(side):
+def ligament_place(side, short=10, reach=0.074):
+    """Of the fold of peritoneum between tube and floor: along the tube, but for the last points of its path, and down."""
     path = tube_path(side)
 
     def place(u, v):
-        at = u * (len(path) - 10)
+        at = u * (len(path) - short)
         i = np.minimum(at.astype(int), len(path) - 2)
         t = (at - i)[:, None]
         top = path[i] * (1 - t) + path[i + 1] * t - [0, 0.0008, 0.0012]
-        bottom = np.stack([side * (0.016 + 0.074 * u), -0.030 + 0.004 * np.sin(9 * u), -0.022 - 0.028 * u * (1 - u)], 1)
+        bottom = np.stack([side * (0.016 + reach * u), -0.030 + 0.004 * np.sin(9 * u), -0.022 - 0.028 * u * (1 - u)], 1)
         p = top * (1 - v[:, None]) + bottom * v[:, None]
         p[:, 2] += -0.010 * np.sin(np.pi * v) + 0.0016 * np.sin(np.pi * v) * noise(p + 4, 0.013)
         return p
 
-    vertices, triangles = sheet(20, 26, place)
+    return place
+
+
+def broad_ligament(side):
+    vertices, triangles = sheet(20, 26, ligament_place(side))
     return vertices, triangles if side < 0 else triangles[:, ::-1]
 
 
@@ -406,6 +411,7 @@ def main():
         path = tube_path(side)
         write_off(folder, "tube_" + name,
                   organ(lambda p: tube(p, side), path.min(0) - 0.016, path.max(0) + 0.016, 0.0014, 8))
+    write_off(folder, "pelvis", sheet(64, 90, wall))
     write_off(folder, "peritoneum", joined([sheet(64, 90, wall), broad_ligament(-1), broad_ligament(1)]))
     write_off(instruments, "probe", probe())
     write_off(instruments, "endoscope", endoscope())

@@ -20,6 +20,7 @@ shaft_spheres() {
 /usr/bin/python3 ../meshes/make_minimal.py minimal
 /usr/bin/python3 ../meshes/make_tissue.py organs table1
 /usr/bin/python3 ../meshes/make_bag.py bag
+/usr/bin/python3 ../meshes/make_laparoscopy.py laparoscopy
 /usr/bin/python3 ../meshes/make_tracks.py .
 lattice >minimal/floor.spheres
 echo "0 0 0 0.02" >minimal/ball.spheres
@@ -33,5 +34,8 @@ shaft_spheres 0.005 0.16 0.03 0.003 0.006 >instruments/endoscope.spheres
 for side in left right; do
   "$spore" spheres --quiet "organs/ovary_$side.off" --count 60 -o "organs/ovary_$side.spheres"
   "$spore" tetrahedra --quiet "organs/ovary_$side.off" --cells 450 -o "organs/ovary_$side.mesh"
+  "$spore" spheres --quiet "organs/tube_$side.off" --count 50 -o "organs/tube_$side.spheres"
+  "$spore" tetrahedra --quiet "organs/tube_$side.off" --cells 900 -o "organs/tube_$side.mesh"
 done
-/usr/bin/python3 ../meshes/make_intestine.py organs plate6-intestine
+/usr/bin/python3 ../meshes/make_intestine.py organs plate6-intestine 0.70 5 4
+/usr/bin/python3 ../meshes/make_intestine.py organs laparoscopy 0.815 3 2

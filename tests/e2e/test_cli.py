@@ -337,9 +337,10 @@ def plan_names_methods():
     assert body["nonlinear"] == {"name": "newton", "said_by": "automatic"}
     assert body["linear"] == {"name": "conjugate_gradients", "said_by": "automatic"}
     chosen = ["--set", "solver/nonlinear=broyden", "--set", "solver/linear=cholesky"]
-    for ovary in report("plan", SCENES / "laparoscopy.spore", *chosen)["bodies"]:
-        assert ovary["nonlinear"] == {"name": "broyden", "said_by": "scene"}
-        assert ovary["linear"] == {"name": "cholesky", "said_by": "scene"}
+    bodies = {b["name"]: b for b in report("plan", SCENES / "laparoscopy.spore", *chosen)["bodies"]}
+    for tube in (bodies["tube_left"], bodies["tube_right"]):
+        assert tube["nonlinear"] == {"name": "broyden", "said_by": "scene"}
+        assert tube["linear"] == {"name": "cholesky", "said_by": "scene"}
     (body,) = report("plan", soft_ball(), *chosen)["bodies"]  # a rigid body has no matrix to factorise
     assert body["linear"] == {"name": "conjugate_gradients", "said_by": "automatic"}
     mechanical = f"bodies/{body['name']}/mechanical"
