@@ -223,6 +223,13 @@ uint32_t spore_world_find_body(const SporeWorld *world, const char *name) {
 
 const char *spore_world_body_name(const SporeWorld *world, uint32_t body) { return world->bodies[body].name; }
 SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body) { return world->bodies[body].role; }
+uint32_t spore_world_hand(const SporeWorld *world, uint32_t body) {
+  if (world->bodies[body].role != SPORE_ACTIVE) return SPORE_NO_BODY;
+  for (size_t i = 0; i < world->tool_count; i++)
+    for (int side = 0; side < 2; side++)
+      if (world->tools[i].jaws[side].body == body) return world->tools[i].body;
+  return body;
+}
 const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body) { return world->bodies[body].model; }
 bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body) {
   return world->bodies[body].integrator != world->bodies[body].chosen;

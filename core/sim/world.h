@@ -205,6 +205,8 @@ size_t spore_world_body_count(const SporeWorld *world);
 uint32_t spore_world_find_body(const SporeWorld *world, const char *name); /* SPORE_NO_BODY: none */
 const char *spore_world_body_name(const SporeWorld *world, uint32_t body);
 SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body);
+/* The body whose device moves the active body: the shaft for a jaw, else itself; SPORE_NO_BODY for one not active. */
+uint32_t spore_world_hand(const SporeWorld *world, uint32_t body);
 const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body); /* NULL: none */
 uint64_t spore_world_step_count(const SporeWorld *world);
 double spore_world_time_s(const SporeWorld *world);

@@ -225,7 +225,7 @@ static void test_two_contexts(void) {
 static void test_camera(void) {
   const double lower[3] = {-0.1, 0.2, -0.3}, upper[3] = {0.3, 0.4, 0.1};
   for (int i = 0; i < 20; i++) {
-    SporeCamera camera = {.azimuth = 0.7 * i, .elevation = sin(i), .field_of_view = 0.7};
+    SporeCamera camera = {.azimuth = 0.7 * i, .elevation = sin(i), .roll = 0.4 * i, .field_of_view = 0.7};
     double aspect = i % 2 ? 1.6 : 0.6;
     int height = 500, width = (int)(aspect * height);
     spore_camera_frame(&camera, lower, upper, aspect);

@@ -214,6 +214,29 @@ static void test_camera_on_body(void) {
   g_assert_cmpfloat(fallen, >, 1e-4);
   g_assert_cmpfloat_with_epsilon(before.target.y - after.target.y, fallen, 1e-12);
   g_assert_cmpfloat_with_epsilon(before.azimuth, after.azimuth, 1e-9);
+  g_assert_cmpfloat_with_epsilon(after.roll, 0, 1e-9);
+  setting_close(&setting);
+}
+
+/* A camera on a body that turns about the line of sight turns with it. */
+static void test_camera_rolls(void) {
+  Setting setting = setting_open(MINIMAL);
+  SporeObject *object = spore_document_find(setting.document, "camera", "front");
+  SporeObject *ball = spore_document_find(setting.document, "body", "ball");
+  g_assert_true(spore_document_set_text(setting.document, ball, "spin", "0 0 20", NULL));
+  g_assert_true(spore_document_set_text(setting.document, object, "body", "ball", NULL));
+  g_assert_true(spore_document_set_text(setting.document, object, "position", "0 0.06 0.2", NULL));
+  g_assert_true(spore_document_set_text(setting.document, object, "target", "0 0.06 0", NULL));
+  setting_run(&setting, 20);
+  const double *q = spore_world_q(setting.simulation->world, spore_world_find_body(setting.simulation->world, "ball"));
+  double turned = 2 * atan2(q[6], q[3]);
+  SporeCamera camera;
+  SporeVec3 eye, right, up, forward;
+  g_assert_true(spore_stage_camera(setting.stage, "front", 1, &camera, NULL));
+  spore_camera_eye(&camera, &eye, &right, &up, &forward);
+  g_assert_cmpfloat(turned, >, 0.3);
+  g_assert_cmpfloat_with_epsilon(up.x, -sin(turned), 1e-6);
+  g_assert_cmpfloat_with_epsilon(up.y, cos(turned), 1e-6);
   setting_close(&setting);
 }
 
@@ -293,6 +316,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
   g_test_add_func("/render/stage/cameras", test_cameras);
   g_test_add_func("/render/stage/camera-on-body", test_camera_on_body);
+  g_test_add_func("/render/stage/camera-rolls", test_camera_rolls);
+  g_test_add_func("/stage/camera-rolls", test_camera_rolls);
   g_test_add_func("/render/stage/empty-scene", test_empty_scene);
   g_test_add_func("/render/stage/liquid", test_liquid);
   g_test_add_func("/render/stage/cut-is-seen", test_cut_is_seen);

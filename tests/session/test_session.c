@@ -192,17 +192,30 @@ static void test_pointer_leads_and_pushes(Fixture *fixture, gconstpointer data) 
   spore_session_free(session);
 }
 
-static void test_track_wins_over_pointer(Fixture *fixture, gconstpointer data) {
+/* The mouse takes a body from its track until the reset. */
+static void test_pointer_takes_over(Fixture *fixture, gconstpointer data) {
   SporeSession *session = new_session(fixture, 1, &fixture->track);
-  lead(session, 1, 1);
+  g_assert_cmpfloat(spore_session_input(session, probe_of(session)).grip_rad, >, 1);
+  spore_session_step(session, 60);
+  g_assert_cmpfloat_with_epsilon(probe_q(session)[0], 0.08, 1e-3);
+  g_assert_cmpfloat_with_epsilon(spore_session_input(session, probe_of(session)).position[0], 0.08, 1e-3);
+  lead(session, 0.1, 0.02);
+  spore_session_step(session, 140);
+  g_assert_cmpfloat_with_epsilon(probe_q(session)[0], 0.1, 1e-4);
+  spore_session_reset(session);
   spore_session_step(session, STEPS);
   g_assert_cmphex(spore_snapshot_hash(spore_session_snapshot(session)), ==, loop_hash(fixture, &fixture->track, STEPS));
   spore_session_free(session);
 }
 
-/* A recording is input that leads to the same bits. */
+static void free_track(SporeTrack *track) {
+  spore_track_clear(track);
+  g_free(track);
+}
+
+/* A recording is input that leads to the same bits, with a track beneath or without one. */
 static void test_recording_repeats(Fixture *fixture, gconstpointer data) {
-  SporeSession *session = new_session(fixture, 1, NULL);
+  SporeSession *session = new_session(fixture, 1, data ? &fixture->track : NULL);
   spore_session_step(session, 30);
   lead(session, 0.08, 0.01);
   spore_session_step(session, 60);
@@ -222,8 +235,18 @@ static void test_recording_repeats(Fixture *fixture, gconstpointer data) {
   g_assert_cmphex(loop_hash(fixture, &read, 150), ==, expected);
   spore_free(text);
   spore_track_clear(&read);
-  spore_track_clear(recording);
-  g_free(recording);
+  free_track(recording);
+}
+
+/* What nobody took is recorded as its author wrote it. */
+static void test_recording_keeps_track(Fixture *fixture, gconstpointer data) {
+  SporeSession *session = new_session(fixture, 1, &fixture->track);
+  spore_session_step(session, 30);
+  SporeTrack *recording = spore_session_recording(session);
+  spore_session_free(session);
+  g_assert_cmpuint(recording->channel_count, ==, 1);
+  g_assert_cmpuint(recording->channels[0].count, ==, fixture->track.channels[0].count);
+  free_track(recording);
 }
 
 static void test_carry_over(Fixture *fixture, gconstpointer data) {
@@ -252,6 +275,7 @@ int main(int argc, char **argv) {
   static const struct {
     const char *name;
     void (*run)(Fixture *fixture, gconstpointer data);
+    gboolean scripted;
   } tests[] = {
       {"steps-equal-loop", test_steps_equal_loop},
       {"free-run-equals-loop", test_free_run_equals_loop},
@@ -259,15 +283,17 @@ int main(int argc, char **argv) {
       {"pause-stands-still", test_pause_stands_still},
       {"reset-goes-back", test_reset_goes_back},
       {"pointer-leads-and-pushes", test_pointer_leads_and_pushes},
-      {"track-wins-over-pointer", test_track_wins_over_pointer},
+      {"pointer-takes-over", test_pointer_takes_over},
       {"recording-repeats", test_recording_repeats},
+      {"recording-repeats-taken-over", test_recording_repeats, TRUE},
+      {"recording-keeps-track", test_recording_keeps_track},
       {"carry-over", test_carry_over},
       {"refused-scene", test_refused_scene},
   };
   g_test_init(&argc, &argv, NULL);
   for (gsize i = 0; i < G_N_ELEMENTS(tests); i++) {
     g_autofree char *path = g_strconcat("/session/", tests[i].name, NULL);
-    g_test_add(path, Fixture, NULL, set_up, tests[i].run, tear_down);
+    g_test_add(path, Fixture, GINT_TO_POINTER(tests[i].scripted), set_up, tests[i].run, tear_down);
   }
   return g_test_run();
 }

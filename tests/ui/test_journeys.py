@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ from tap import Skip, check, main
 
 PROGRAM = sys.argv[1]
 FEATURES = sys.argv[2].split(",")
+SCENES = HERE.parent.parent / "resources" / "scenes"
 
 
 def folder(name):
@@ -235,6 +237,66 @@ def probe_pushes():
         force = ui.wait(lambda: editor.hud(r"Probe force (\d+\.\d+)"), "a force on the probe")
         editor.mouse("mouseup", 1)
         assert force > 0
+
+
+@check
+def mouse_takes_an_instrument_from_its_track():
+    """the mouse takes the clamp of plate 8 from its track, turns and closes it; the recording tells so."""
+    recording = folder("taken") / "taken.track"
+    with start(SCENES / "plate8-clamp.spore") as editor:
+        ui.wait(lambda: editor.row("shaft"), "the scene")
+        editor.act("select", "s", "bodies/jaw_upper")
+        editor.act("tool", "s", "probe")
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.02, "time to advance")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        middle = x + width // 2, y + height // 2
+        editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", -40, 0)
+        time.sleep(0.1)
+        editor.mouse("keydown", "Shift_L", "mousemove_relative", "--", 0, 40, "sleep", 0.2, "keyup", "Shift_L")
+        editor.mouse("mousedown", 3)
+        time.sleep(0.3)
+        editor.mouse("mouseup", 3, "mouseup", 1)
+        time.sleep(0.3)
+        editor.act("pause")
+        editor.act("save-recording", "s", str(recording))
+        ui.wait(recording.exists, "the recording")
+    samples = [line.split() for line in recording.read_text().partition("device shaft\n")[2].splitlines()]
+    pressed = [int(sample[9]) & 1 for sample in samples]
+    assert 1 in pressed and pressed[-1] == 0, "the right button presses and lets go"
+    assert samples[0][4:8] != samples[-1][4:8], "Shift and a drag turn"
+
+
+@check
+def view_goes_with_the_camera():
+    """the view looks through the scene's camera and with its body, until it is moved by hand; 0 looks through it again."""
+    path = folder("carried") / "scene.spore"
+    camera = '<camera name="front" body="ball" position="0.0015 0.06 0.2" target="0.0015 0.06 0.001" field_of_view="0.6"/>'
+    path.write_text(re.sub(r"<camera .*/>", camera, (SCENES / "minimal.spore").read_text()))
+    shutil.copytree(SCENES / "minimal", path.parent / "minimal")
+    with start(path) as editor:
+        ui.wait(lambda: editor.row("ball"), "the scene")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+
+        def middle_is_ball():
+            editor.act("select", "s", "")
+            ui.wait(lambda: not editor.look("text", "^Name$"), "the ball to be let go")
+            editor.mouse("mousemove", x + width // 2, y + height // 2, "click", 1)
+            time.sleep(0.3)
+            name = editor.look("text", "^Name$")
+            return name and editor.text_of(name) == "ball"
+
+        ui.wait(middle_is_ball, "the ball in the middle")
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.15, "the ball to fall")
+        editor.act("pause")
+        assert middle_is_ball(), "the view falls with the ball"
+        editor.act("view", "s", "front")
+        editor.act("reset")
+        assert not middle_is_ball(), "moved by hand, it stays"
+        editor.focus()
+        editor.keys("0")
+        assert middle_is_ball(), "0 looks through the camera again"
 
 
 @check

@@ -20,8 +20,10 @@ void spore_camera_eye(const SporeCamera *camera, SporeVec3 *eye, SporeVec3 *righ
   SporeVec3 back = spore_vec3(sa * ce, se, ca * ce);
   SporeVec3 side = spore_vec3(ca, 0, -sa);
   *eye = spore_vec3_add_scaled(camera->target, camera->distance, back);
-  *right = side;
-  *up = spore_vec3_cross(back, side);
+  SporeVec3 level = spore_vec3_cross(back, side);
+  double cr = cos(camera->roll), sr = sin(camera->roll);
+  *right = spore_vec3_add_scaled(spore_vec3_scale(cr, side), -sr, level);
+  *up = spore_vec3_add_scaled(spore_vec3_scale(cr, level), sr, side);
   *forward = spore_vec3_scale(-1, back);
 }
 

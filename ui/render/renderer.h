@@ -20,6 +20,7 @@ typedef struct SporeCamera {
   SporeVec3 target;          /* looked at, and orbited */
   double distance;           /* m */
   double azimuth, elevation; /* rad; 0, 0 looks along -z from +z, y up */
+  double roll;               /* rad about the line of sight; what is seen turns the other way: to the left */
   double field_of_view;      /* vertical, rad */
 } SporeCamera;
 void spore_camera_frame(SporeCamera *camera, const double lower[3], const double upper[3], double aspect);

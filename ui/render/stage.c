@@ -147,8 +147,39 @@ static SporeVec3 carried(const SporeStage *stage, const SporeObject *body, Spore
   return point;
 }
 
+gboolean spore_stage_has_camera(const SporeStage *stage) { return find_camera(stage, NULL) != NULL; }
+
 /* A camera of the scene was placed for a picture as wide as this; a narrower one shows as much to the sides. */
 #define AUTHORED_ASPECT (16.0 / 9)
+
+static SporeCamera look_from(SporeVec3 position, SporeVec3 target, double field_of_view) {
+  SporeVec3 back = spore_vec3_sub(position, target);
+  double distance = spore_vec3_length(back);
+  if (!(distance > 0)) back = spore_vec3(0, 0, 1), distance = 1e-3;
+  return (SporeCamera){.target = target,
+                       .distance = distance,
+                       .azimuth = atan2(back.x, back.z),
+                       .elevation = asin(CLAMP(back.y / spore_vec3_length(back), -1, 1)),
+                       .field_of_view = field_of_view};
+}
+
+/* It is level at the start, and turns with its body. */
+static SporeCamera look_with(const SporeStage *stage, const SporeObject *object) {
+  SporeCameraFields fields;
+  SporeVec3 eye, right, up, forward;
+  spore_object_fields(object, &fields);
+  SporeVec3 position = spore_vec3_load(fields.position), target = spore_vec3_load(fields.target);
+  const SporeObject *body = spore_object_reference(object, "body");
+  SporeCamera camera = look_from(position, target, fields.field_of_view);
+  if (!body) return camera;
+  spore_camera_eye(&camera, &eye, &right, &up, &forward);
+  SporeVec3 now = carried(stage, body, target);
+  SporeVec3 upward = spore_vec3_sub(carried(stage, body, spore_vec3_add(target, up)), now);
+  camera = look_from(carried(stage, body, position), now, fields.field_of_view);
+  spore_camera_eye(&camera, &eye, &right, &up, &forward);
+  camera.roll = atan2(spore_vec3_dot(upward, right), spore_vec3_dot(upward, up));
+  return camera;
+}
 
 gboolean spore_stage_camera(const SporeStage *stage, const char *name, double aspect, SporeCamera *camera,
                             GError **error) {
@@ -164,20 +195,9 @@ gboolean spore_stage_camera(const SporeStage *stage, const char *name, double as
     spore_camera_frame(camera, lower, upper, aspect);
     return TRUE;
   }
-  SporeCameraFields fields;
-  spore_object_fields(object, &fields);
-  const SporeObject *body = spore_object_reference(object, "body");
-  SporeVec3 target = carried(stage, body, spore_vec3_load(fields.target));
-  SporeVec3 back = spore_vec3_sub(carried(stage, body, spore_vec3_load(fields.position)), target);
-  double distance = spore_vec3_length(back);
-  if (!(distance > 0)) back = spore_vec3(0, 0, 1), distance = 1e-3;
-  *camera = (SporeCamera){.target = target,
-                          .distance = distance,
-                          .azimuth = atan2(back.x, back.z),
-                          .elevation = asin(CLAMP(back.y / spore_vec3_length(back), -1, 1)),
-                          .field_of_view = fields.field_of_view};
+  *camera = look_with(stage, object);
   if (aspect < AUTHORED_ASPECT)
-    camera->field_of_view = 2 * atan(tan(fields.field_of_view / 2) * AUTHORED_ASPECT / aspect);
+    camera->field_of_view = 2 * atan(tan(camera->field_of_view / 2) * AUTHORED_ASPECT / aspect);
   return TRUE;
 }
 

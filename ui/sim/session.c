@@ -15,16 +15,25 @@ typedef struct {
   SporeDeviceState state;
 } Sample;
 
-/* Stands between the world and a pointer and keeps what the pointer said; while it says nothing, where the body stood,
- * so that the recording begins at time 0. */
+/* Stands between the world and a body's devices and keeps what they said. The pointer goes before the track that the
+ * scene gives the body: what the mouse took it keeps until a reset. While nobody says anything, the recording holds
+ * where the body stood, so that it begins at time 0. */
 typedef struct {
   SporeDevice device;
   SporeDevice *pointer;
+  SporeDevice *script; /* plays the body's track; NULL: it has none */
   const SporeWorld *world;
   guint32 body;
   guint count;
   Sample samples[SAMPLES_A_STEP];
+  /* Of the last step. */
+  gboolean led, spoke; /* by the pointer; by anybody */
+
+  SporeDeviceState input; /* last thing said; guarded by the session's mutex */
 } Recorder;
+
+/* What a hand that nobody moves yet says of the jaws; wider than any. */
+#define OPEN_HAND ((SporeDeviceState){.orientation = {1}, .grip_rad = G_PI})
 
 struct SporeSession {
   SporeSimulation *simulation;
@@ -51,7 +60,11 @@ struct SporeSession {
 static bool recorder_exchange(SporeDevice *device, double time_s, const SporeDeviceCommand *command,
                               SporeDeviceState *state) {
   Recorder *recorder = (Recorder *)device;
+  SporeDevice *script = recorder->script;
   bool said = recorder->pointer->type->exchange(recorder->pointer, time_s, command, state);
+  recorder->led = said;
+  if (!said && script) said = script->type->exchange(script, time_s, command, state);
+  recorder->spoke = said;
   SporeDeviceState kept = {0};
   if (said) {
     kept = *state;
@@ -69,23 +82,23 @@ static void recorder_close(SporeDevice *device) {}
 
 static const SporeDeviceType recorder_type = {"recorder", "", recorder_exchange, recorder_close};
 
-static gboolean has_channel(const SporeTrack *track, const char *name) {
-  return track && spore_track_channel(track, name) != NULL;
+/* The device that plays the body's track. */
+static SporeDevice *script_of(const SporeSimulation *simulation, const char *body) {
+  for (gsize i = 0; simulation->track && i < simulation->track->channel_count; i++)
+    if (g_str_equal(simulation->track->channels[i].name, body)) return simulation->devices->pdata[i];
+  return NULL;
 }
 
-/* Every active body that no track drives follows the pointer. */
-static gboolean make_recorders(SporeSession *session, const SporeTrack *input, GError **error) {
+static gboolean make_recorders(SporeSession *session, GError **error) {
   SporeWorld *world = session->simulation->world;
   gsize bodies = spore_world_body_count(world);
   session->recorders = g_new0(Recorder, bodies);
   for (guint32 body = 0; body < bodies; body++) {
     const char *name = spore_world_body_name(world, body);
-    if (spore_world_body_role(world, body) != SPORE_ACTIVE) continue;
-    if (has_channel(session->simulation->track, name) || has_channel(input, name)) continue;
+    if (spore_world_hand(world, body) != body) continue;
     Recorder *recorder = &session->recorders[session->recorder_count];
-    recorder->device.type = &recorder_type;
-    recorder->world = world;
-    recorder->body = body;
+    *recorder = (Recorder){.device.type = &recorder_type, .world = world, .body = body, .input = OPEN_HAND};
+    recorder->script = script_of(session->simulation, name);
     recorder->pointer = spore_pointer_device_create();
     if (!recorder->pointer)
       return spore_error_raise(error, SPORE_ERROR_MEMORY, name, "not enough memory for a pointer");
@@ -119,6 +132,7 @@ static void drain_recorders(SporeSession *session) {
     SporeTrackChannel *channel = spore_track_channel(&session->recording, name);
     if (!channel) channel = spore_track_add_channel(&session->recording, name);
     for (guint s = 0; channel && s < recorder->count; s++) keep_sample(channel, &recorder->samples[s]);
+    if (recorder->spoke) recorder->input = recorder->samples[recorder->count - 1].state;
     recorder->count = 0;
   }
 }
@@ -165,8 +179,11 @@ static void take_paced_step(SporeSession *session) {
 static void take_reset(SporeSession *session) {
   spore_world_reset(session->simulation->world);
   for (guint i = 0; i < session->recorder_count; i++) {
-    spore_pointer_device_release(session->recorders[i].pointer);
-    session->recorders[i].count = 0;
+    Recorder *recorder = &session->recorders[i];
+    spore_pointer_device_release(recorder->pointer);
+    recorder->count = 0;
+    recorder->led = FALSE;
+    recorder->input = OPEN_HAND;
   }
   spore_track_clear(&session->recording);
   session->reset = FALSE;
@@ -217,7 +234,7 @@ SporeSession *spore_session_new(SporeDocument *document, int threads, const Spor
     return NULL;
   }
   session->simulation = spore_simulation_new(document, session->pool, input, error);
-  if (!session->simulation || !make_recorders(session, input, error)) {
+  if (!session->simulation || !make_recorders(session, error)) {
     spore_session_free(session);
     return NULL;
   }
@@ -314,9 +331,23 @@ gboolean spore_session_post(SporeSession *session, const SporeCommand *command) 
   return spore_world_post(session->simulation->world, command);
 }
 
-void spore_session_set_pointer(SporeSession *session, guint32 body, const SporeDeviceState *state) {
+static Recorder *recorder_of(const SporeSession *session, guint32 body) {
   for (guint i = 0; i < session->recorder_count; i++)
-    if (session->recorders[i].body == body) spore_pointer_device_set(session->recorders[i].pointer, state);
+    if (session->recorders[i].body == body) return &session->recorders[i];
+  return NULL;
+}
+
+void spore_session_set_pointer(SporeSession *session, guint32 body, const SporeDeviceState *state) {
+  Recorder *recorder = recorder_of(session, body);
+  if (recorder) spore_pointer_device_set(recorder->pointer, state);
+}
+
+SporeDeviceState spore_session_input(SporeSession *session, guint32 body) {
+  const Recorder *recorder = recorder_of(session, body);
+  g_mutex_lock(&session->mutex);
+  SporeDeviceState input = recorder ? recorder->input : OPEN_HAND;
+  g_mutex_unlock(&session->mutex);
+  return input;
 }
 
 double spore_session_real_time_factor(const SporeSession *session) {
@@ -336,20 +367,24 @@ void spore_session_late_steps(const SporeSession *session, guint64 *late, guint6
   g_mutex_unlock(&locked->mutex);
 }
 
-static void copy_channels(SporeTrack *to, const SporeTrack *from) {
-  for (size_t c = 0; c < from->channel_count; c++) {
-    const SporeTrackChannel *source = &from->channels[c];
-    SporeTrackChannel *channel = spore_track_add_channel(to, source->name);
-    for (size_t i = 0; channel && i < source->count; i++)
-      if (!spore_track_append(channel, source->time_s[i], &source->states[i])) return;
-  }
+static void copy_channel(SporeTrack *to, const SporeTrackChannel *source) {
+  SporeTrackChannel *channel = spore_track_add_channel(to, source->name);
+  for (size_t i = 0; channel && i < source->count; i++)
+    if (!spore_track_append(channel, source->time_s[i], &source->states[i])) return;
 }
 
 SporeTrack *spore_session_recording(SporeSession *session) {
   SporeTrack *copy = g_new0(SporeTrack, 1);
-  if (session->simulation->track) copy_channels(copy, session->simulation->track);
+  const SporeWorld *world = session->simulation->world;
   g_mutex_lock(&session->mutex);
-  copy_channels(copy, &session->recording);
+  for (guint i = 0; i < session->recorder_count; i++) {
+    const Recorder *recorder = &session->recorders[i];
+    const char *name = spore_world_body_name(world, recorder->body);
+    /* What the mouse did not take stays as its author wrote it. */
+    const SporeTrack *from = recorder->script && !recorder->led ? session->simulation->track : &session->recording;
+    const SporeTrackChannel *channel = spore_track_channel(from, name);
+    if (channel) copy_channel(copy, channel);
+  }
   g_mutex_unlock(&session->mutex);
   return copy;
 }

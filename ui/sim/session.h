@@ -23,8 +23,10 @@ void spore_session_set_speed(SporeSession *session, double speed); /* 1: real ti
 /* Newest state; valid until the next call; one reader (the GTK thread). */
 const SporeSnapshot *spore_session_snapshot(SporeSession *session);
 gboolean spore_session_post(SporeSession *session, const SporeCommand *command);
-/* Where the mouse holds the active body `body`; ignored for a body that a track drives. */
+/* Where the mouse holds the active body `body`; from then on it leads that body, not its track, until a reset. */
 void spore_session_set_pointer(SporeSession *session, guint32 body, const SporeDeviceState *state);
+/* What a device last said for the active body `body`; as long as none did, an open hand. */
+SporeDeviceState spore_session_input(SporeSession *session, guint32 body);
 /* Simulated seconds per second of clock over the last second. */
 double spore_session_real_time_factor(const SporeSession *session);
 /* Steps taken since it plays, and how many of them ended after they were due; 0 of 0 where nothing is due. */

@@ -5,6 +5,7 @@
 #define ZOOM_A_NOTCH 0.88
 /* Depth of the probe, as a part of the distance to the camera. */
 #define DEPTH_A_NOTCH 0.02
+#define TURN_RAD_A_PIXEL 0.01
 /* A hand's pull on soft tissue. */
 #define PULL_STIFFNESS_N_M 100.0
 
@@ -32,9 +33,10 @@ static guint32 pick(SporeViewport *self, double x, double y, SporeVec3 *point) {
 static guint32 active_body(SporeViewport *self, const SporeSimulation *simulation) {
   SporeObject *selected = spore_editor_document_selected_body(self->document);
   guint32 body = selected ? spore_simulation_body_of(simulation, selected) : SPORE_NO_BODY;
-  if (body != SPORE_NO_BODY && spore_world_body_role(simulation->world, body) == SPORE_ACTIVE) return body;
+  if (body != SPORE_NO_BODY) body = spore_world_hand(simulation->world, body);
+  if (body != SPORE_NO_BODY) return body;
   for (body = 0; body < spore_world_body_count(simulation->world); body++)
-    if (spore_world_body_role(simulation->world, body) == SPORE_ACTIVE) return body;
+    if (spore_world_hand(simulation->world, body) == body) return body;
   return SPORE_NO_BODY;
 }
 
@@ -48,39 +50,74 @@ gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *pos
   return TRUE;
 }
 
-static void lead_probe(SporeViewport *self, SporeVec3 position) {
+/* Goes on from where the body's device, the mouse or a track, has brought it. */
+static gboolean take_hand(SporeViewport *self) {
+  SporeVec3 position;
+  if (!spore_viewport_probe(self, &self->body, &position)) return FALSE;
   SporeSession *session = session_of(self);
   const SporeWorld *world = spore_session_simulation(session)->world;
   const double *q = spore_session_snapshot(session)->q + spore_world_q_offset(world, self->body);
-  SporeDeviceState state = {.t_ns = spore_clock_ns()};
-  spore_vec3_store(state.position, position);
-  for (int i = 0; i < 4; i++) state.orientation[i] = q[3 + i];
-  self->cursor = position;
-  spore_session_set_pointer(session, self->body, &state);
+  if (self->drag == DRAG_PROBE) return TRUE;
+  self->hand = spore_session_input(session, self->body);
+  spore_vec3_store(self->hand.position, position);
+  spore_quat_store(self->hand.orientation, spore_quat_load(q + 3));
+  return TRUE;
+}
+
+static SporeVec3 hand_position(const SporeViewport *self) { return spore_vec3_load(self->hand.position); }
+
+static void lead_probe(SporeViewport *self) {
+  self->hand.t_ns = spore_clock_ns();
+  spore_session_set_pointer(session_of(self), self->body, &self->hand);
+}
+
+static void lead_probe_to(SporeViewport *self, SporeVec3 position) {
+  spore_vec3_store(self->hand.position, position);
+  lead_probe(self);
 }
 
 static gboolean begin_probe(SporeViewport *self) {
-  if (!spore_viewport_probe(self, &self->body, &self->start)) return FALSE;
+  if (!take_hand(self)) return FALSE;
   self->drag = DRAG_PROBE;
-  self->cursor = self->start;
-  self->offset = spore_vec3_sub(self->start, under_cursor(self, self->start));
+  self->hand_before = self->hand;
+  self->offset = spore_vec3_sub(hand_position(self), under_cursor(self, hand_position(self)));
+  lead_probe(self);
   return TRUE;
 }
 
 static void move_probe(SporeViewport *self) {
-  lead_probe(self, spore_vec3_add(under_cursor(self, self->cursor), self->offset));
+  lead_probe_to(self, spore_vec3_add(under_cursor(self, hand_position(self)), self->offset));
+}
+
+/* About the tip, as a ball under the cursor would roll. */
+static void turn_probe(SporeViewport *self, double dx, double dy) {
+  SporeVec3 eye, right, up, forward;
+  spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
+  SporeVec3 turn =
+      spore_vec3_add(spore_vec3_scale(dx * TURN_RAD_A_PIXEL, up), spore_vec3_scale(dy * TURN_RAD_A_PIXEL, right));
+  SporeQuat orientation =
+      spore_quat_multiply(spore_quat_from_rotation_vector(turn), spore_quat_load(self->hand.orientation));
+  spore_quat_store(self->hand.orientation, spore_quat_normalise(orientation));
+  self->offset = spore_vec3_sub(hand_position(self), under_cursor(self, hand_position(self)));
+  lead_probe(self);
 }
 
 /* Moves in depth; the point under the cursor stays there. */
 static void deepen_probe(SporeViewport *self, double notches) {
-  SporeVec3 position, eye, right, up, forward;
-  if (!spore_viewport_probe(self, &self->body, &position)) return;
-  if (self->drag == DRAG_PROBE) position = self->cursor;
+  SporeVec3 eye, right, up, forward;
+  if (!take_hand(self)) return;
   spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
-  double depth = spore_vec3_distance(eye, position);
-  position = spore_vec3_add_scaled(position, -notches * DEPTH_A_NOTCH * depth, forward);
-  lead_probe(self, position);
-  self->offset = spore_vec3_sub(position, under_cursor(self, position));
+  double depth = spore_vec3_distance(eye, hand_position(self));
+  lead_probe_to(self, spore_vec3_add_scaled(hand_position(self), -notches * DEPTH_A_NOTCH * depth, forward));
+  self->offset = spore_vec3_sub(hand_position(self), under_cursor(self, hand_position(self)));
+}
+
+/* Closes the jaws, presses the pedal. */
+static void squeeze_probe(SporeViewport *self, gboolean squeezed) {
+  if (!take_hand(self)) return;
+  self->hand.grip_rad = squeezed ? 0 : G_PI;
+  self->hand.buttons = squeezed ? 1 : 0;
+  lead_probe(self);
 }
 
 /* Pull. */
@@ -124,12 +161,16 @@ void spore_viewport_end_drag(SporeViewport *self) {
 
 static void abort_drag(SporeViewport *self) {
   if (self->drag == DRAG_ORBIT || self->drag == DRAG_PAN) self->camera = self->camera_before;
-  if (self->drag == DRAG_PROBE) lead_probe(self, self->start);
+  if (self->drag == DRAG_PROBE) {
+    self->hand = self->hand_before;
+    lead_probe(self);
+  }
   spore_viewport_end_drag(self);
   spore_viewport_redraw(self);
 }
 
 static void begin_camera(SporeViewport *self, gboolean pan) {
+  spore_viewport_leave_scene_camera(self);
   self->camera_before = self->camera;
   self->drag = pan ? DRAG_PAN : DRAG_ORBIT;
 }
@@ -143,7 +184,12 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
 
 gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
   gtk_widget_grab_focus(area);
-  if (self->drag != DRAG_NONE || event->type != GDK_BUTTON_PRESS || !self->document) return GDK_EVENT_STOP;
+  if (event->type != GDK_BUTTON_PRESS || !self->document) return GDK_EVENT_STOP;
+  if (event->button == GDK_BUTTON_SECONDARY && self->tool == SPORE_TOOL_PROBE) {
+    squeeze_probe(self, TRUE);
+    return GDK_EVENT_STOP;
+  }
+  if (self->drag != DRAG_NONE) return GDK_EVENT_STOP;
   self->last_x = event->x;
   self->last_y = event->y;
   if (event->button == GDK_BUTTON_PRIMARY) press_left(self, event);
@@ -152,6 +198,11 @@ gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, Spo
 }
 
 gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
+  if (event->button == GDK_BUTTON_SECONDARY) {
+    /* With Shift they stay as they are, until the button is pressed and let go again. */
+    if (self->tool == SPORE_TOOL_PROBE && !(event->state & GDK_SHIFT_MASK)) squeeze_probe(self, FALSE);
+    return GDK_EVENT_STOP;
+  }
   spore_viewport_end_drag(self);
   spore_viewport_redraw(self);
   return GDK_EVENT_STOP;
@@ -171,7 +222,8 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
     spore_camera_pan(&self->camera, dx, dy, height_of(self));
     break;
   case DRAG_PROBE:
-    move_probe(self);
+    if (event->state & GDK_SHIFT_MASK) turn_probe(self, dx, dy);
+    else move_probe(self);
     break;
   case DRAG_PULL:
     move_pull(self);
@@ -190,8 +242,10 @@ static double notches_of(const GdkEventScroll *event) {
 gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeViewport *self) {
   double notches = notches_of(event);
   if (self->tool == SPORE_TOOL_PROBE && session_of(self)) deepen_probe(self, notches);
-  else
+  else {
+    spore_viewport_leave_scene_camera(self);
     spore_camera_zoom(&self->camera, pow(ZOOM_A_NOTCH, -notches), event->x, event->y, width_of(self), height_of(self));
+  }
   spore_viewport_redraw(self);
   return GDK_EVENT_STOP;
 }
@@ -205,6 +259,10 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
     break;
   case GDK_KEY_f:
     spore_viewport_frame(self);
+    break;
+  case GDK_KEY_0:
+  case GDK_KEY_KP_0:
+    spore_viewport_view(self, "camera");
     break;
   case GDK_KEY_1:
   case GDK_KEY_KP_1:

@@ -27,15 +27,16 @@ struct _SporeViewport {
   double draw_ms;
 
   SporeCamera camera;
+  gboolean through; /* it looks through the scene's camera, and goes where that goes */
   gboolean framed, waiting;
 
   SporeDrag drag;
   double last_x, last_y;
   SporeCamera camera_before;
-  guint32 body;     /* of the world: held by the probe or pull drag */
-  SporeVec3 start;  /* probe: where it stood; pull: the point taken */
-  SporeVec3 offset; /* from the cursor's point to the probe */
-  SporeVec3 cursor; /* where the probe or the pull is led */
+  guint32 body;                       /* of the world: held by the probe or pull drag */
+  SporeDeviceState hand, hand_before; /* what the mouse tells the probe; when the drag began */
+  SporeVec3 offset;                   /* from the cursor's point to the probe */
+  SporeVec3 start, cursor;            /* pull: the point taken, where it is led */
 };
 
 void spore_viewport_redraw(SporeViewport *self);
@@ -49,6 +50,8 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
 /* Ends a drag without taking it back. */
 void spore_viewport_end_drag(SporeViewport *self);
 
+/* What moves the view by hand comes after this: it looks through no camera of the scene any more. */
+void spore_viewport_leave_scene_camera(SporeViewport *self);
 /* Active body that the pointer leads, and its position (m); FALSE: none, or no simulation. */
 gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *position);
 

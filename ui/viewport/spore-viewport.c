@@ -50,6 +50,10 @@ static const SporeSimulation *simulation_of(SporeViewport *self) {
   return session ? spore_session_simulation(session) : NULL;
 }
 
+static double aspect_of(SporeViewport *self) {
+  return (double)gtk_widget_get_allocated_width(self->area) / MAX(gtk_widget_get_allocated_height(self->area), 1);
+}
+
 static void update_stage(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
   if (self->stage && session) {
@@ -57,6 +61,7 @@ static void update_stage(SporeViewport *self) {
     spore_stage_update(self->stage, snapshot);
     self->shown_step = snapshot->step;
   }
+  if (self->through) spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
   spore_viewport_redraw(self);
 }
 
@@ -65,14 +70,17 @@ static void show_welcome(SporeViewport *self) {
                          !self->waiting && !has_anything(self) && !gtk_widget_get_visible(self->failure));
 }
 
-static double aspect_of(SporeViewport *self) {
-  return (double)gtk_widget_get_allocated_width(self->area) / MAX(gtk_widget_get_allocated_height(self->area), 1);
-}
-
 /* As the author's camera looks, where the scene has one. */
-static void look_first(SporeViewport *self) {
+static void look_through_camera(SporeViewport *self) {
+  if (!self->stage || !has_anything(self)) return;
   spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
   self->framed = TRUE;
+  self->through = spore_stage_has_camera(self->stage);
+}
+
+void spore_viewport_leave_scene_camera(SporeViewport *self) {
+  self->through = FALSE;
+  self->camera.roll = 0;
 }
 
 static gboolean rebuild(gpointer data) {
@@ -83,7 +91,7 @@ static gboolean rebuild(gpointer data) {
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
   spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
-  if (!self->framed && has_anything(self)) look_first(self);
+  if (!self->framed) look_through_camera(self);
   update_stage(self);
   return G_SOURCE_REMOVE;
 }
@@ -180,7 +188,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   return FALSE;
 }
 
-static void size_changed(GtkWidget *area, GdkRectangle *allocation, SporeViewport *self) { self->stale = TRUE; }
+static void size_changed(GtkWidget *area, GdkRectangle *allocation, SporeViewport *self) { update_stage(self); }
 
 /* Following the simulation. */
 
@@ -303,6 +311,7 @@ void spore_viewport_frame(SporeViewport *self) {
   double lower[3], upper[3];
   spore_stage_bounds(self->stage, lower, upper);
   if (!(lower[0] <= upper[0])) return;
+  spore_viewport_leave_scene_camera(self);
   spore_camera_frame(&self->camera, lower, upper, aspect_of(self));
   self->framed = TRUE;
   spore_viewport_redraw(self);
@@ -314,7 +323,13 @@ void spore_viewport_frame_soon(SporeViewport *self) {
 }
 
 void spore_viewport_view(SporeViewport *self, const char *view) {
+  if (g_str_equal(view, "camera")) {
+    look_through_camera(self);
+    spore_viewport_redraw(self);
+    return;
+  }
   gboolean right = g_str_equal(view, "right"), top = g_str_equal(view, "top");
+  spore_viewport_leave_scene_camera(self);
   self->camera.azimuth = right ? G_PI_2 : 0;
   self->camera.elevation = top ? G_PI_2 * 0.99 : 0;
   spore_viewport_redraw(self);

@@ -1,8 +1,9 @@
 /* The scene as it stands, and the gestures on it.
  *
- * Left selects (with the Probe tool: moves the probe), Ctrl+left pulls tissue, middle orbits, Shift+middle pans, the
- * wheel zooms to the cursor (with the Probe tool: moves it in depth); F frames, 1, 3, 7 look along the axes, Escape
- * takes a drag back. */
+ * Left selects, Ctrl+left pulls tissue, middle orbits, Shift+middle pans, the wheel zooms to the cursor; F frames, 1,
+ * 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the Probe tool,
+ * left moves the probe and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its
+ * jaws and presses its pedal; with Shift let go, they stay so. */
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 
@@ -26,7 +27,7 @@ void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *op
 void spore_viewport_frame(SporeViewport *self);
 /* When what was just changed is there to be seen. */
 void spore_viewport_frame_soon(SporeViewport *self);
-/* "front", "right" or "top". */
+/* "front", "right", "top", or "camera": through the first one of the scene, and with it; without any, all of it. */
 void spore_viewport_view(SporeViewport *self, const char *view);
 /* GL_RENDERER, or why nothing is drawn. */
 const char *spore_viewport_get_renderer(SporeViewport *self);
