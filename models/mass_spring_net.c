@@ -5,24 +5,25 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "models/fields.h"
+#include "models/net_ties.h"
 #include "models/nodal.h"
 #include "models/registry.h"
 #include "models/spring_pairs.h"
-#include "models/springs.h"
 #include "models/surface_map.h"
 
 typedef struct NetFields {
-  double surface_density, mass, structural_stiffness, shear_stiffness, bending_stiffness, damping;
+  double surface_density, mass, structural_stiffness, shear_stiffness, bending_stiffness, damping, tear_strain;
 } NetFields;
 
-enum { STRUCTURAL, SHEAR, BENDING, KINDS };
+enum { STRUCTURAL = SPORE_NET_EDGES, SHEAR = SPORE_NET_SHEAR, BENDING = SPORE_NET_BENDING, KINDS = SPORE_NET_KINDS };
 
 typedef struct Net {
   SporeModel base;
   double *rest; /* node_count x 3, body's frame */
   SporeTriangleMesh mesh;
   SporeSprings springs[KINDS];
-  SporeSpringsWhole whole[KINDS]; /* where something may cut it */
+  SporeNetTies ties; /* empty where nothing cuts it and it does not tear */
+  double tear_strain;
 } Net;
 
 static const SporeParameter parameters[] = {
@@ -39,6 +40,9 @@ static const SporeParameter parameters[] = {
                      N_("Stiffness of each spring that skips a vertex: resists folding.")),
     SPORE_REAL_FIELD(NetFields, damping, "N s/m", 0, 1e12, 0.01, SPORE_CHANGE_LIVE,
                      N_("Damping of each spring along its direction.")),
+    SPORE_REAL_FIELD(NetFields, tear_strain, "", 0, 1e6, 0, SPORE_CHANGE_REBUILD,
+                     N_("Tears where an edge is longer by more than this part of its length at rest, and so does what "
+                        "shears as much; a tear grows by one edge a step. 0: never.")),
 };
 
 static bool no_memory(SporeError *error) {
@@ -48,10 +52,8 @@ static bool no_memory(SporeError *error) {
 static void destroy(SporeModel *model) {
   Net *net = (Net *)model;
   spore_triangle_mesh_clear(&net->mesh);
-  for (int kind = 0; kind < KINDS; kind++) {
-    spore_springs_clear(&net->springs[kind]);
-    spore_springs_forget(&net->whole[kind]);
-  }
+  for (int kind = 0; kind < KINDS; kind++) spore_springs_clear(&net->springs[kind]);
+  spore_net_ties_clear(&net->ties);
   spore_model_clear(&net->base);
   spore_free(net);
 }
@@ -117,6 +119,8 @@ static bool build(Net *net, const SporeTriangleMesh *mesh, const NetFields *fiel
   if (!set_masses(net, fields, error)) return false;
   if (!make_springs(net) || !find_blocks(net)) return no_memory(error);
   tune(net, fields);
+  net->tear_strain = fields->tear_strain;
+  net->base.tears = fields->tear_strain > 0;
   return true;
 }
 
@@ -176,31 +180,34 @@ static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   return true;
 }
 
-static bool keep_whole(Net *net) {
-  bool kept = true;
-  for (int kind = 0; kind < KINDS && kept; kind++)
-    if (!net->whole[kind].neighbour) kept = spore_springs_keep(&net->springs[kind], &net->whole[kind]);
-  return kept;
+static bool keep_ties(Net *net) {
+  return net->ties.gone || spore_net_ties_create(&net->ties, net->springs, &net->mesh);
 }
 
 static bool prepare_cut(SporeModel *model, size_t *edges) {
   Net *net = (Net *)model;
   *edges += 3 * net->mesh.triangle_count;
-  return keep_whole(net);
+  return keep_ties(net);
 }
 
 static size_t cut(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts) {
   const SporeVec3 corners[3] = {spore_vec3_load(triangle), spore_vec3_load(triangle + 3),
                                 spore_vec3_load(triangle + 6)};
-  size_t count = 0;
-  for (int kind = 0; kind < KINDS; kind++)
-    count += spore_springs_cut(&((Net *)model)->springs[kind], q, corners, body, kind == STRUCTURAL ? cuts : NULL);
-  return count;
+  return spore_net_ties_cut(&((Net *)model)->ties, q, corners, body, cuts);
+}
+
+static size_t tear(SporeModel *model, const double *q, uint32_t body, SporeCuts *cuts) {
+  Net *net = (Net *)model;
+  return spore_net_ties_tear(&net->ties, q, net->tear_strain, body, cuts);
+}
+
+static SporeTie tie(const SporeModel *model, uint32_t a, uint32_t b) {
+  return spore_net_ties_between(&((const Net *)model)->ties, a, b);
 }
 
 static bool prepare_heat(SporeModel *model) {
   Net *net = (Net *)model;
-  bool shared = keep_whole(net);
+  bool shared = keep_ties(net);
   for (int kind = 0; kind < KINDS && shared; kind++) shared = spore_springs_share(&net->springs[kind]);
   return shared;
 }
@@ -209,14 +216,13 @@ static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *hea
   Net *net = (Net *)model;
   size_t count = 0;
   for (int kind = 0; kind < KINDS; kind++)
-    count += spore_springs_coagulate(&net->springs[kind], &net->whole[kind], q, heat);
+    count += spore_springs_coagulate(&net->springs[kind], &net->ties.whole[kind], q, heat);
   return count;
 }
 
 static void mend(SporeModel *model) {
   Net *net = (Net *)model;
-  for (int kind = 0; kind < KINDS; kind++)
-    if (net->whole[kind].neighbour) spore_springs_restore(&net->springs[kind], &net->whole[kind]);
+  if (net->ties.gone) spore_net_ties_mend(&net->ties);
 }
 
 const SporeModelType spore_mass_spring_net = {
@@ -240,6 +246,8 @@ const SporeModelType spore_mass_spring_net = {
     .retune = retune,
     .prepare_cut = prepare_cut,
     .cut = cut,
+    .tear = tear,
+    .tie = tie,
     .prepare_heat = prepare_heat,
     .coagulate = coagulate,
     .mend = mend,

@@ -65,19 +65,35 @@ static inline double spore_springs_potential(const SporeSprings *springs, const 
 void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const SporeTangent *at,
                             SporeBlockMatrix *matrix);
 
-/* springs_cut.c: springs may be cut, and be made whole again. */
+/* Whether any is longer by more than this part of its length at rest. */
+SPORE_DECLARE_KERNEL(bool, spore_springs_exceed, const SporeSprings *springs, const double *q, double strain);
+
+/* springs_cut.c: springs may go, and come back all together. */
 typedef struct SporeSpringsWhole { /* as they were */
   uint32_t *neighbour, *block;
   double *length;
   bool *is_run;
+  uint32_t *place; /* node: where it is in springs->node; UINT32_MAX: it has no springs */
 } SporeSpringsWhole;
-bool spore_springs_keep(const SporeSprings *springs, SporeSpringsWhole *whole); /* false: no memory; forget it then */
+/* False: no memory; forget it then. */
+bool spore_springs_keep(const SporeSprings *springs, size_t node_count, SporeSpringsWhole *whole);
 void spore_springs_restore(SporeSprings *springs, const SporeSpringsWhole *whole);
 void spore_springs_forget(SporeSpringsWhole *whole);
-/* Cuts those that cross the triangle at q; returns their number, and adds them to `cuts` as edges of `body`; NULL: they
- * are none. */
-size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3], uint32_t body,
-                         SporeCuts *cuts);
+
+#define SPORE_NO_SPRING SIZE_MAX
+/* Slot x lane at node a of the spring to b that there was, gone or not; SPORE_NO_SPRING: there was none. */
+size_t spore_springs_find(const SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, uint32_t b);
+/* Whether there is one still. */
+static inline bool spore_springs_tie(const SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a,
+                                     uint32_t b) {
+  size_t at = spore_springs_find(springs, whole, a, b);
+  return at != SPORE_NO_SPRING && springs->neighbour[at] == b;
+}
+/* Calls visit(data, lower node, higher node, length at rest) for each, in a fixed order; it may take that one away. */
+void spore_springs_visit(const SporeSprings *springs, void (*visit)(void *data, uint32_t a, uint32_t b, double length),
+                         void *data);
+/* Takes the spring away; false where there is none. */
+bool spore_springs_part(SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, uint32_t b);
 
 /* Room for stiffnesses of their own. False: no memory. */
 bool spore_springs_share(SporeSprings *springs);

@@ -1,4 +1,4 @@
-/* Springs that change while they run: a cut one becomes an empty slot, at both of its ends; a coagulated one gets
+/* Springs that change while they run: one that is gone is an empty slot, at both of its ends; a coagulated one gets
  * shorter and stiffer. */
 #include <string.h>
 
@@ -9,17 +9,22 @@ static size_t lane_count(const SporeSprings *springs) {
   return SPORE_LANES * (size_t)springs->slot_start[springs->group_count];
 }
 
-bool spore_springs_keep(const SporeSprings *springs, SporeSpringsWhole *whole) {
+bool spore_springs_keep(const SporeSprings *springs, size_t node_count, SporeSpringsWhole *whole) {
   size_t lanes = lane_count(springs);
   whole->neighbour = SPORE_NEW_ARRAY(uint32_t, lanes);
   whole->block = SPORE_NEW_ARRAY(uint32_t, lanes);
   whole->length = SPORE_NEW_ARRAY(double, lanes);
   whole->is_run = SPORE_NEW_ARRAY(bool, lanes / SPORE_LANES);
-  if (!whole->neighbour || !whole->block || !whole->length || !whole->is_run) return false;
+  whole->place = SPORE_NEW_ARRAY(uint32_t, node_count);
+  if (!whole->neighbour || !whole->block || !whole->length || !whole->is_run || !whole->place) return false;
   memcpy(whole->neighbour, springs->neighbour, lanes * sizeof *whole->neighbour);
   memcpy(whole->block, springs->block, lanes * sizeof *whole->block);
   memcpy(whole->length, springs->length, lanes * sizeof *whole->length);
   memcpy(whole->is_run, springs->is_run, lanes / SPORE_LANES * sizeof *whole->is_run);
+  for (size_t i = 0; i < node_count; i++) whole->place[i] = UINT32_MAX;
+  for (size_t g = 0; g < springs->group_count; g++)
+    for (size_t lane = 0; lane < springs->lanes[g]; lane++)
+      whole->place[springs->node[g * SPORE_LANES + lane]] = (uint32_t)(g * SPORE_LANES + lane);
   return true;
 }
 
@@ -37,37 +42,45 @@ void spore_springs_forget(SporeSpringsWhole *whole) {
   spore_free(whole->block);
   spore_free(whole->length);
   spore_free(whole->is_run);
+  spore_free(whole->place);
   *whole = (SporeSpringsWhole){0};
 }
 
-/* From the lower node, so that both ends of a spring are told the same. */
-static bool is_cut(const double *q, uint32_t a, uint32_t b, const SporeVec3 triangle[3]) {
-  uint32_t low = a < b ? a : b, high = a < b ? b : a;
-  return spore_vec3_crosses(spore_vec3_load(q + 3 * (size_t)low), spore_vec3_load(q + 3 * (size_t)high), triangle[0],
-                            triangle[1], triangle[2]);
+size_t spore_springs_find(const SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, uint32_t b) {
+  uint32_t place = whole->place[a];
+  if (place == UINT32_MAX || a == b) return SPORE_NO_SPRING;
+  size_t g = place / SPORE_LANES;
+  for (size_t s = springs->slot_start[g]; s < springs->slot_start[g + 1]; s++) {
+    size_t at = s * SPORE_LANES + place % SPORE_LANES;
+    if (whole->neighbour[at] == b) return at;
+  }
+  return SPORE_NO_SPRING;
 }
 
-static void record(SporeCuts *cuts, uint32_t body, uint32_t a, uint32_t b) {
-  if (cuts && a < b && cuts->count < cuts->capacity) cuts->edges[cuts->count++] = (SporeCutEdge){body, a, b};
-}
-
-size_t spore_springs_cut(SporeSprings *springs, const double *q, const SporeVec3 triangle[3], uint32_t body,
-                         SporeCuts *cuts) {
-  size_t ends = 0;
+void spore_springs_visit(const SporeSprings *springs, void (*visit)(void *data, uint32_t a, uint32_t b, double length),
+                         void *data) {
   for (size_t g = 0; g < springs->group_count; g++)
     for (size_t s = springs->slot_start[g]; s < springs->slot_start[g + 1]; s++)
       for (size_t lane = 0; lane < springs->lanes[g]; lane++) {
         size_t at = s * SPORE_LANES + lane;
-        uint32_t node = springs->node[g * SPORE_LANES + lane], other = springs->neighbour[at];
-        if (node == other || !is_cut(q, node, other, triangle)) continue;
-        springs->neighbour[at] = node;
-        springs->length[at] = -0.0;
-        springs->block[at] = springs->diagonal[g * SPORE_LANES + lane];
-        springs->is_run[s] = false;
-        record(cuts, body, node, other); /* of its two ends the lower */
-        ends++;
+        uint32_t node = springs->node[g * SPORE_LANES + lane];
+        if (node < springs->neighbour[at]) visit(data, node, springs->neighbour[at], springs->length[at]);
       }
-  return ends / 2;
+}
+
+/* One end, at node a. */
+static void empty(SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, size_t at) {
+  springs->neighbour[at] = a;
+  springs->length[at] = -0.0;
+  springs->block[at] = springs->diagonal[whole->place[a]];
+  springs->is_run[at / SPORE_LANES] = false;
+}
+
+bool spore_springs_part(SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, uint32_t b) {
+  if (!spore_springs_tie(springs, whole, a, b)) return false;
+  empty(springs, whole, a, spore_springs_find(springs, whole, a, b));
+  empty(springs, whole, b, spore_springs_find(springs, whole, b, a));
+  return true;
 }
 
 bool spore_springs_share(SporeSprings *springs) {

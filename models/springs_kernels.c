@@ -134,6 +134,23 @@ double SPORE_LEVEL_NAME(spore_springs_potential)(const SporeSprings *springs, co
   return 0.25 * springs->stiffness * spore_lanes_sum(lanes);
 }
 
+bool SPORE_LEVEL_NAME(spore_springs_exceed)(const SporeSprings *springs, const double *q, double strain) {
+  double limit = (1 + strain) * (1 + strain);
+  for (size_t first = 0; first < SPORE_LANES * springs->group_count; first += SPORE_WIDTH) {
+    const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
+    SporeVd3 position = spore_vd3_gather(q, node);
+    SporeVl over = {0};
+    for (size_t s = start[0]; s < start[1]; s++) {
+      size_t slot = s * SPORE_LANES + first % SPORE_LANES;
+      SporeVd3 line = spore_vd3_sub(position, at_neighbours(springs, slot, q));
+      SporeVd length = spore_vd_load(springs->length + slot);
+      over |= (spore_vd3_dot(line, line) > limit * length * length) & (length > 0);
+    }
+    if (spore_vl_any(over)) return true;
+  }
+  return false;
+}
+
 /* A symmetric 3x3 matrix a lane. */
 typedef struct Symmetric {
   SporeVd xx, xy, xz, yy, yz, zz;

@@ -122,7 +122,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
           "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
           "deep_contacts, soft_contacts, over_budget, held_inputs (refused from devices), shortened_forces (to "
           "hands), broken_links, "
-          "lost_holds (that tore away from jaws)")},
+          "lost_holds (that tore away from jaws), torn_springs (of nets)")},
       {"monitor.frozen", N_("names of bodies that could not be computed")},
       {"monitor.made_safer", N_("names of bodies that were moved by a safer method than the scene says")},
       {"monitor.messages", N_("the last of them, each naming body and cause")},

@@ -81,13 +81,15 @@ static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
                 {"held_inputs", monitor->held_inputs},
                 {"shortened_forces", monitor->shortened_forces},
                 {"broken_links", monitor->broken_links},
-                {"lost_holds", monitor->lost_holds}};
+                {"lost_holds", monitor->lost_holds},
+                {"torn_springs", monitor->torn_springs}};
   spore_cli_open(cli, "monitor");
   for (gsize i = 0; i < G_N_ELEMENTS(counts); i++) spore_cli_count(cli, counts[i].member, (gint64)counts[i].count);
   if (monitor->not_converged || monitor->recoveries)
     spore_cli_say(cli, _("monitor: %llu steps above the solver's tolerance, %llu taken again with %llu substeps\n"),
                   (unsigned long long)monitor->not_converged, (unsigned long long)monitor->recoveries,
                   (unsigned long long)monitor->substeps);
+  if (monitor->torn_springs) spore_cli_say(cli, _("torn: %llu springs\n"), (unsigned long long)monitor->torn_springs);
   guint frozen = report_bodies(cli, "frozen", world, spore_world_body_frozen);
   guint safer = report_bodies(cli, "made_safer", world, spore_world_body_made_safer);
   report_messages(cli, monitor);

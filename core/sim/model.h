@@ -64,6 +64,13 @@ static inline double spore_heat_dose(const SporeHeat *heat, double before) {
   return heat->dose < 1 - before ? heat->dose : 1 - before;
 }
 
+/* Whether an edge of a body's surface ties two of its nodes. */
+typedef enum SporeTie {
+  SPORE_TIE_NONE, /* and never did */
+  SPORE_TIE_GONE, /* it was cut, or tore */
+  SPORE_TIE_HOLDS
+} SporeTie;
+
 /* Where and how a model's force is linearised for Newton's method. */
 typedef struct SporeTangent {
   const double *q, *shape, *v; /* as for force */
@@ -80,6 +87,7 @@ typedef struct SporeModel {
   double buoyancy;    /* share of its weight that the air around bears: above 1 it rises */
   double life_s;      /* of particles, after which they are taken out of the world, with the age of each, s, behind the
                          nodes in q; 0: they last */
+  bool tears;         /* tear has to be called at each step */
   SporePool *pool;    /* for long loops of force and jacobian, given by the world; whatever it is, the same bits */
 } SporeModel;
 
@@ -138,12 +146,16 @@ struct SporeModelType {
   /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none, where map
    * takes them; of particles one at each node, in their order. *set: spore_sphere_set_clear. */
   bool (*spheres)(const SporeModel *model, SporeSphereSet *set, SporeError *error);
-  /* Room for what mend needs, when the world has scissors; *edges += how many can be cut. False: no memory.
-   */
+  /* Room for what mend needs, when the world has scissors, or the model tears; *edges += how many can be
+   * cut. False: no memory. */
   bool (*prepare_cut)(SporeModel *model, size_t *edges);
   /* Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend, and adds the edges among
    * it to `cuts`, as of `body`. How many ties; allocates nothing, and the pattern stays. NULL: cannot be cut. */
   size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
+  /* The same for what is strained, at q, more than it bears. Required where the model says that it tears. */
+  size_t (*tear)(SporeModel *model, const double *q, uint32_t body, SporeCuts *cuts);
+  /* After prepare_cut. Required where something can be cut. */
+  SporeTie (*tie)(const SporeModel *model, uint32_t a, uint32_t b);
   /* Room for coagulate, and what mend needs after it, when the world has something that heats. False: no memory. */
   bool (*prepare_heat)(SporeModel *model);
   /* Coagulates, at q, until mend. How many ties or elements took some of the dose; allocates nothing, and the pattern

@@ -33,6 +33,7 @@ static size_t all_spheres(const SporeWorld *world) { return world->spheres.count
 static size_t contacts(const SporeWorld *world) { return world->contact_count; }
 static size_t links(const SporeWorld *world) { return world->link_count + world->port_count + world->pull_count; }
 static size_t tool_count(const SporeWorld *world) { return world->tool_count; }
+static size_t tearing(const SporeWorld *world) { return world->tearing_count; }
 static size_t sleeping(const SporeWorld *world) { return world->sleeping_count; }
 static size_t islands(const SporeWorld *world) { return world->island_count; }
 static size_t degrees_of_freedom(const SporeWorld *world) { return world->dof; }
@@ -99,6 +100,9 @@ void spore_world_make_plan(SporeWorld *world) {
   bool tools = world->tool_count > 0;
   add(world, "tools", tools, tools ? _("instruments close, hold or suck") : _("no instrument does more than touch"),
       spore_world_use_tools, tool_count);
+  bool tears = world->tearing_count > 0;
+  add(world, "tear", tears, tears ? _("nets may tear where they are strained too much") : _("no body tears"),
+      spore_world_tear, tearing);
   plan_collision(world, &census);
   add(world, "link", moves && (linked || pulled || world->hold_count),
       linked              ? _("links tie bodies together")

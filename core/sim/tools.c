@@ -49,7 +49,7 @@ bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *d
     if (spore_tool_kind_holds(from->kind)) hold += (size_t)from->jaws.holds;
     made = make_tool(world, tool, from);
   }
-  made = made && spore_world_compile_cutting(world) && spore_world_compile_coagulation(world);
+  made = made && spore_world_compile_parting(world) && spore_world_compile_coagulation(world);
   return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the tools"));
 }
 

@@ -171,7 +171,8 @@ void spore_world_reset(SporeWorld *world) {
   SporeMonitor *monitor = &world->monitor;
   monitor->recoveries = monitor->substeps = monitor->not_finite = monitor->too_fast = monitor->energy = 0;
   monitor->not_converged = monitor->deep_contacts = monitor->soft_contacts = monitor->over_budget =
-      monitor->held_inputs = monitor->shortened_forces = monitor->broken_links = monitor->lost_holds = 0;
+      monitor->held_inputs = monitor->shortened_forces = monitor->broken_links = monitor->lost_holds =
+          monitor->torn_springs = 0;
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_snapshot_publish(world);

@@ -325,6 +325,7 @@ typedef struct SporeMonitor {
   uint64_t shortened_forces; /* that would have given a hand more energy than it gave */
   uint64_t broken_links;     /* that held too much */
   uint64_t lost_holds;       /* of jaws, the same */
+  uint64_t torn_springs;     /* of nets, strained more than they bear, and what went with those */
   uint64_t message_count;    /* ever */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
 } SporeMonitor;

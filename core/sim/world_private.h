@@ -22,7 +22,7 @@
 #define SPORE_COMMAND_CAPACITY 1024
 #define SPORE_POSE_Q 7 /* a body without a model: position, orientation; velocity, spin */
 #define SPORE_POSE_BLOCKS 2
-#define SPORE_STAGE_MAXIMUM 13
+#define SPORE_STAGE_MAXIMUM 14
 #define SPORE_LEFT_OUT_MAXIMUM 16
 
 typedef enum SporeTrouble { /* worst last */
@@ -92,6 +92,7 @@ typedef struct SporeBody {
   SporeTrouble told; /* the worst that the monitor has said of it */
   bool told_deep;    /* that it lies too deep in another */
   bool told_soft;    /* that its contacts hold too little */
+  bool told_torn;    /* that it tears */
   uint64_t soft_since, soft_last; /* see soft_contact.c: number of the step, from 1 */
   SporeEnergyWatch watch;
   uint32_t pause, pauses; /* steps until smaller ones are tried again that did not help; how many that were last */
@@ -273,6 +274,7 @@ struct SporeWorld {
   SporePort *ports;
   SporeCuts cuts;
   uint64_t cut_run;
+  size_t tearing_count; /* bodies that may tear */
   size_t tool_count, emitter_count;
   SporeTool *tools;
   SporeEmitter *emitters;
@@ -376,17 +378,21 @@ bool spore_world_exchanges_particles(const SporeWorld *world);
 void spore_body_find_parked(SporeBody *body, const double *q);
 void spore_world_reset_particles(SporeWorld *world);
 
-/* cutting.c */
-bool spore_world_compile_cutting(SporeWorld *world);
-/* The blades, half of the angle each, went with their body from the last state to its target, and closed from one
- * opening to another. */
+/* parting.c: bodies that lose ties between their nodes. */
+static inline bool spore_body_can_part(const SporeBody *body) { return body->model && body->model->type->cut; }
+bool spore_world_compile_parting(SporeWorld *world);
+void spore_world_mend_bodies(SporeWorld *world);
+/* After it lost some: the spheres follow, and it is another model. */
+void spore_body_parted(SporeWorld *world, uint32_t body);
+/* After its model was changed: forgets what it remembers of steps before, and wakes it. */
+void spore_body_changed_model(SporeWorld *world, uint32_t body);
+
+/* cutting.c: the blades, half of the angle each, went with their body from the last state to its target, and closed
+ * from one opening to another. */
 void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double to);
 /* Room for it in models, where the world has something that heats. False: no memory. */
 bool spore_world_compile_coagulation(SporeWorld *world);
 void spore_bipolar_use(SporeWorld *world, SporeTool *tool);
-void spore_world_mend_bodies(SporeWorld *world);
-/* After its model was changed: forgets what it remembers of steps before, and wakes it. */
-void spore_body_changed_model(SporeWorld *world, uint32_t body);
 
 /* jaws.c: from what the last step did to where the jaws are to be. */
 const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription *from);
@@ -413,6 +419,7 @@ void spore_world_release(SporeWorld *world, uint32_t body);
 void spore_world_apply_commands(SporeWorld *world); /* command.c */
 void spore_world_sense(SporeWorld *world);          /* sense.c */
 void spore_world_feed_back(SporeWorld *world);
+void spore_world_tear(SporeWorld *world);        /* parting.c */
 void spore_world_map_spheres(SporeWorld *world); /* contacts.c */
 void spore_world_detect(SporeWorld *world);
 void spore_world_wake_up(SporeWorld *world);   /* sleep.c */

@@ -437,6 +437,18 @@ def jaws_lift_and_links_break():
 
 
 @check
+def a_net_tears():
+    """Strained more than it bears, a net tears: planned, counted and said; without a strain the stage is left out."""
+    scene = SCENES / "plate2-tissue.spore"
+    assert not {s["name"]: s for s in report("plan", scene)["stages"]}["tear"]["included"]
+    torn = "bodies/tissue/mechanical/mass_spring_net/tear_strain=0.02"
+    assert {s["name"]: s for s in report("plan", scene, "--set", torn)["stages"]}["tear"]["included"]
+    done = report("run", scene, "--set", torn, "--steps", 450)
+    assert done["monitor"]["torn_springs"] > 0, done["monitor"]
+    assert any("begins to tear" in text for text in done["monitor"]["messages"]), done["monitor"]
+
+
+@check
 def blood_comes_and_is_sucked_away():
     """An emitter lets particles out of a wound, a suction tube takes them away: planned, run, the same each time."""
     file("flow/drop.off", shapes.off(*shapes.sphere(radius=0.005)))

@@ -1,0 +1,116 @@
+/* Bodies that lose what ties their nodes, to scissors or by tearing, and how the spheres there follow: one that hangs
+ * on nodes that nothing ties any more stays with those that it hangs on more. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+#define ROW_MAXIMUM 8 /* nodes that a sphere of such a body hangs on; one on more is left as it is */
+
+static bool prepare_body(SporeWorld *world, SporeBody *body) {
+  if (!body->model->type->prepare_cut(body->model, &world->cuts.capacity)) return false;
+  if (body->spheres.kind != SPORE_MAPPING_LINEAR) return true;
+  size_t count = body->spheres.row_start[body->spheres.point_count];
+  body->whole_weight = SPORE_NEW_ARRAY(double, count);
+  if (body->whole_weight) memcpy(body->whole_weight, body->spheres.weight, count * sizeof(double));
+  return body->whole_weight != NULL;
+}
+
+bool spore_world_compile_parting(SporeWorld *world) {
+  bool cuts = false, made = true;
+  for (size_t i = 0; i < world->tool_count; i++) cuts |= world->tools[i].kind == SPORE_TOOL_SCISSORS;
+  for (size_t b = 0; made && b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!spore_body_can_part(body) || !(cuts || body->model->tears)) continue;
+    world->tearing_count += body->model->tears;
+    made = prepare_body(world, body);
+  }
+  world->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->cuts.capacity);
+  return made && world->cuts.edges;
+}
+
+void spore_world_mend_bodies(SporeWorld *world) {
+  world->cuts.count = 0;
+  world->cut_run++;
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    body->told_torn = false;
+    if (body->model && body->model->type->mend) body->model->type->mend(body->model);
+    if (!body->whole_weight) continue;
+    memcpy(body->spheres.weight, body->whole_weight,
+           body->spheres.row_start[body->spheres.point_count] * sizeof(double));
+  }
+}
+
+/* Numbers the nodes of a row by what still hangs together, from 1; 0: nothing ever tied it to another of them. */
+static void find_groups(const SporeModel *model, const uint32_t *block, size_t count, size_t group[ROW_MAXIMUM]) {
+  for (size_t i = 0; i < count; i++) group[i] = 0;
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = 0; j < count; j++)
+      if (i != j && group[i] == 0 && model->type->tie(model, block[i], block[j]) != SPORE_TIE_NONE) group[i] = i + 1;
+  for (size_t i = 0; i < count; i++)
+    for (size_t j = 0; j < i; j++) {
+      if (group[i] == group[j] || model->type->tie(model, block[i], block[j]) != SPORE_TIE_HOLDS) continue;
+      size_t from = group[i], to = group[j];
+      for (size_t k = 0; k < count; k++)
+        if (group[k] == from) group[k] = to;
+    }
+}
+
+/* Leaves the sphere to the nodes of one group; those of none stay with it. */
+static void part_row(const SporeModel *model, const SporeMapping *spheres, size_t point) {
+  uint32_t start = spheres->row_start[point];
+  size_t count = spheres->row_start[point + 1] - start, group[ROW_MAXIMUM], most = 0;
+  double *weight = spheres->weight + start, sum[ROW_MAXIMUM + 1] = {0}, tied = 0;
+  if (count > ROW_MAXIMUM) return;
+  find_groups(model, spheres->block + start, count, group);
+  for (size_t i = 0; i < count; i++) sum[group[i]] += weight[i];
+  for (size_t i = 0; i < count; i++) tied += group[i] > 0 ? weight[i] : 0;
+  for (size_t i = 1; i <= count; i++)
+    if (sum[i] / tied > sum[most] / tied || most == 0) most = i;
+  if (count == 0 || fabs(sum[most] - tied) < 1e-12) return;
+  for (size_t i = 0; i < count; i++)
+    if (group[i] > 0) weight[i] = group[i] == most ? weight[i] * tied / sum[most] : 0;
+}
+
+/* What the body remembers of steps before is of one that was whole. */
+void spore_body_changed_model(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  spore_world_wake(world, index);
+  body->matrix_c = 0;
+  body->history_s = 0;
+  body->watch.started = false;
+  body->pause = body->pauses = 0;
+  spore_body_reset_choice(world, body);
+}
+
+void spore_body_parted(SporeWorld *world, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
+  spore_body_changed_model(world, index);
+  for (size_t i = 0; body->whole_weight && i < body->spheres.point_count; i++) part_row(body->model, &body->spheres, i);
+}
+
+static void report_tear(SporeWorld *world, SporeBody *body, size_t edge) {
+  if (body->told_torn || edge == world->cuts.count) return;
+  const double *q = world->q + body->q_offset;
+  const SporeCutEdge *cut = &world->cuts.edges[edge];
+  body->told_torn = true;
+  SporeVec3 at = spore_vec3_scale(
+      0.5, spore_vec3_add(spore_vec3_load(q + 3 * (size_t)cut->a), spore_vec3_load(q + 3 * (size_t)cut->b)));
+  spore_world_report(world, _("%s: begins to tear at %.4g, %.4g, %.4g m"), body->name, at.x, at.y, at.z);
+}
+
+void spore_world_tear(SporeWorld *world) {
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!body->model || !body->model->tears || !spore_body_moves(body)) continue;
+    size_t edge = world->cuts.count;
+    size_t count = body->model->type->tear(body->model, world->q + body->q_offset, b, &world->cuts);
+    if (count == 0) continue;
+    world->monitor.torn_springs += count;
+    report_tear(world, body, edge);
+    spore_body_parted(world, b);
+  }
+}
