@@ -164,6 +164,8 @@ static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *er
   return spore_spline_line_spheres(&((const Intestine *)model)->line, set, error);
 }
 
+static size_t path(const SporeModel *model) { return ((const Intestine *)model)->line.spline.span_count; }
+
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   tune((Intestine *)model, fields);
   return true;
@@ -191,4 +193,5 @@ const SporeModelType spore_intestine = {
     .drift = drift,
     .retune = retune,
     .spheres = spheres,
+    .path = path,
 };

@@ -4,19 +4,12 @@
 
 #include "core/linalg/block_matrix.h"
 #include "core/math/simd.h"
+#include "core/math/spline.h"
 #include "core/mesh/mesh.h"
 #include "core/sim/mapping.h"
 
 #define SPORE_SPLINE_POINTS 2  /* Gauss points a span */
 #define SPORE_SPLINE_SAMPLES 8 /* a span, of what a spline is fitted to */
-
-/* The four functions of a span, and what they become by derivation. */
-typedef struct SporeSplineBasis {
-  double value[4], first[4], second[4];
-} SporeSplineBasis;
-
-/* At `parameter` from 0 to span_count; *span: control points span .. span + 3 have the weights. */
-SporeSplineBasis spore_spline_basis(size_t span_count, double parameter, size_t *span);
 
 /* Solves B x = x in place by Cholesky's L L^T within the band: B is symmetric positive definite of half-width 3, its
  * entry (i, i + k) in band[4 i + k], which is overwritten; x: count x 3. */

@@ -160,6 +160,8 @@ static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *er
   return spore_spline_line_spheres(&((const Spline1d *)model)->line, set, error);
 }
 
+static size_t path(const SporeModel *model) { return ((const Spline1d *)model)->line.spline.span_count; }
+
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   tune((Spline1d *)model, fields);
   return true;
@@ -190,4 +192,5 @@ const SporeModelType spore_spline_1d = {
     .retune = retune,
     .spheres = spheres,
     .notice = notice,
+    .path = path,
 };

@@ -4,45 +4,18 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/constraint/path.h"
 #include "models/carry.h"
 #include "models/spline.h"
 
 #define WIDTH 16       /* control points of a row, at most */
 #define ROUNDING 1e-14 /* of the line's size: an offset that is none */
-#define SAMPLES 8      /* a span, to begin the search for the nearest */
 
 typedef struct Spline {
   size_t span_count;
   const double *control, *arms;
   double size;
 } Spline;
-
-static SporeVec3 at(const Spline *spline, const double weight[4], size_t span) {
-  SporeVec3 sum = {0, 0, 0};
-  for (size_t k = 0; k < 4; k++)
-    sum = spore_vec3_add_scaled(sum, weight[k], spore_vec3_load(spline->control + 3 * (span + k)));
-  return sum;
-}
-
-/* Parameter of the point of the line that is nearest to p: the best of some, then Newton's method. */
-static double nearest(const Spline *spline, SporeVec3 p) {
-  double best = 0, least = HUGE_VAL;
-  size_t span;
-  for (size_t i = 0; i <= SAMPLES * spline->span_count; i++) {
-    SporeSplineBasis basis = spore_spline_basis(spline->span_count, (double)i / SAMPLES, &span);
-    double distance = spore_vec3_distance(p, at(spline, basis.value, span));
-    if (distance < least) least = distance, best = (double)i / SAMPLES;
-  }
-  for (int round = 0; round < 20; round++) {
-    SporeSplineBasis basis = spore_spline_basis(spline->span_count, best, &span);
-    SporeVec3 off = spore_vec3_sub(at(spline, basis.value, span), p), slope = at(spline, basis.first, span);
-    double square = spore_vec3_dot(slope, slope);
-    double change =
-        -spore_vec3_dot(off, slope) / fmax(square + spore_vec3_dot(off, at(spline, basis.second, span)), 0.5 * square);
-    best = fmin(fmax(best + fmin(fmax(change, -0.5), 0.5), 0), (double)spline->span_count);
-  }
-  return best;
-}
 
 typedef struct Row {
   size_t used;
@@ -87,13 +60,13 @@ static size_t take_arms(const Spline *spline, size_t span, size_t more, Row *row
 }
 
 /* A row that carries the offset; false: those points do not. `last`: there are none to take in their place. */
-static bool fill_row(const Spline *spline, SporeVec3 p, const SporeSplineBasis *basis, size_t span, size_t first,
-                     bool last, Row *row) {
-  SporeVec3 offset = spore_vec3_sub(p, at(spline, basis->value, span));
+static bool fill_row(const Spline *spline, SporeVec3 p, const SporePathPlace *place, size_t first, bool last,
+                     Row *row) {
+  SporeVec3 offset = spore_vec3_sub(p, place->position);
   bool on = spore_vec3_length(offset) <= ROUNDING * spline->size;
   double sum = on ? 0 : carry(spline, offset, row, row->weight);
   if (sum > (last ? SPORE_CARRY_AT_MOST : SPORE_CARRY_LIGHT)) return false;
-  for (size_t k = 0; k < 4; k++) row->weight[first + k] += basis->value[k];
+  for (size_t k = 0; k < 4; k++) row->weight[first + k] += place->weight[k];
   if (!on) carry(spline, missing(spline, row, p), row, row->weight); /* what rounding took */
   for (size_t i = row->used; i < WIDTH; i++) row->block[i] = row->block[0];
   return true;
@@ -101,22 +74,22 @@ static bool fill_row(const Spline *spline, SporeVec3 p, const SporeSplineBasis *
 
 static bool map_point(const Spline *spline, const double *point, size_t index, Row *row, SporeError *error) {
   SporeVec3 p = spore_vec3_load(point);
-  size_t span, count = spline->span_count + 3;
-  SporeSplineBasis basis = spore_spline_basis(spline->span_count, nearest(spline, p), &span);
+  size_t count = spline->span_count + 3;
+  SporePathPlace place = spore_path_seek(spline->span_count, spline->control, p);
   bool last = false;
   for (size_t more = 0; spline->arms && more < 2; more++)
-    if (fill_row(spline, p, &basis, span, take_arms(spline, span, more, row), more > 0, row)) return true;
+    if (fill_row(spline, p, &place, take_arms(spline, place.first, more, row), more > 0, row)) return true;
   for (size_t width = 4; !last; width += 4) {
     last = width + 4 > WIDTH || width >= count;
-    if (fill_row(spline, p, &basis, span, take_points(spline, span, width, row), last, row)) return true;
+    if (fill_row(spline, p, &place, take_points(spline, place.first, width, row), last, row)) return true;
   }
-  char place[64];
-  snprintf(place, sizeof place, "point %zu", index);
+  char where[64];
+  snprintf(where, sizeof where, "point %zu", index);
   return spore_error_set(
-      error, SPORE_ERROR_INPUT, place,
+      error, SPORE_ERROR_INPUT, where,
       _("the point lies %g m off a line that is too straight there to carry it; points of a straight "
         "thread must lie on it; move spheres and visual vertices onto the line"),
-      spore_vec3_distance(p, at(spline, basis.value, span)));
+      spore_vec3_distance(p, place.position));
 }
 
 bool spore_spline_map(size_t span_count, const double *control, const double *arms, const double *points, size_t count,

@@ -25,6 +25,19 @@ SporeVec3 spore_spring_force(const SporeSpring *spring, SporeVec3 a, SporeVec3 b
   return spore_vec3_scale(-tension, n);
 }
 
+static double uncut_friction(const SporeSpring *spring, double stretch, double speed) {
+  return spring->stiffness * stretch + spring->damping * speed;
+}
+
+double spore_spring_friction(const SporeSpring *spring, double stretch, double speed, double held) {
+  double most = spring->friction * held;
+  return fmin(fmax(uncut_friction(spring, stretch, speed), -most), most);
+}
+
+bool spore_spring_slips(const SporeSpring *spring, double stretch, double speed, double held) {
+  return fabs(uncut_friction(spring, stretch, speed)) > spring->friction * held;
+}
+
 void spore_spring_jacobian(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, SporeMat3 *stiffness,
                            SporeMat3 *damping) {
   if (spring->rest_length == 0) {

@@ -2,6 +2,8 @@
 #ifndef SPORE_CONSTRAINT_SPRING_H
 #define SPORE_CONSTRAINT_SPRING_H
 
+#include <stdbool.h>
+
 #include "core/math/mat3.h"
 
 typedef struct SporeSpring {
@@ -10,7 +12,14 @@ typedef struct SporeSpring {
   double rest_length; /* m */
   SporeVec3 fallback; /* unit: the direction to use where the ends meet and rest_length is not 0 */
   SporeVec3 free;     /* unit: the direction in which nothing holds, where rest_length is 0; zero: none */
+  double friction;    /* along `free`: Coulomb coefficient */
 } SporeSpring;
+
+/* Friction along the free direction is a spring that slips (see core/collide/response.h), as stiff as the rest:
+ *   T = k stretch + c speed,  cut to mu N, where N holds; on end a it is -T along `free`. */
+double spore_spring_friction(const SporeSpring *spring, double stretch, double speed, double held);
+/* Whether it slips, and gives way to motion. */
+bool spore_spring_slips(const SporeSpring *spring, double stretch, double speed, double held);
 
 /* What it holds of a vector: all that is not free. */
 SporeVec3 spore_spring_held(const SporeSpring *spring, SporeVec3 a);

@@ -266,6 +266,8 @@ static gboolean add_joint(Compiler *compiler, const SporeObject *object) {
                                .point_a = spore_vec3_load(fields.point),
                                .direction = spore_vec3_load(fields.direction),
                                .length = fields.length,
+                               .friction = fields.friction,
+                               .ends = fields.ends,
                                .stiffness = fields.joint.stiffness,
                                .damping = fields.joint.damping,
                                .strength = fields.joint.strength};

@@ -82,7 +82,8 @@ typedef struct SporeSpringFields {
 /* Of a ball, hinge, weld, slide or port; each has a part of the parameters. */
 typedef struct SporeLinkFields {
   const char *name, *body_a, *body_b;
-  double point[3], direction[3], length;
+  double point[3], direction[3], length, friction;
+  int ends; /* SporeEnds */
   SporeJointFields joint;
 } SporeLinkFields;
 

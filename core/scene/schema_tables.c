@@ -427,6 +427,8 @@ static const SporeParameter spring_parameters[] = {
      .doc = N_("Force above which the spring breaks for good; 0: never.")},
 };
 
+static const char *const line_ends[] = {"stop", "slip_off", NULL};
+
 #define LINK_BODY(field, text)                                                                                         \
   {                                                                                                                    \
     .name = #field, .type = SPORE_REFERENCE, .unit = "", .references = "body", FIELD(SporeLinkFields, field),          \
@@ -441,6 +443,19 @@ static const SporeParameter spring_parameters[] = {
   {                                                                                                                    \
     .name = "direction", .type = SPORE_VECTOR, .unit = "", -POSITION_M, POSITION_M, .initial = {0, 1, 0},              \
     FIELD(SporeLinkFields, direction), .change = SPORE_CHANGE_REBUILD, .doc = text                                     \
+  }
+#define LINK_FRICTION                                                                                                  \
+  {                                                                                                                    \
+    .name = "friction", .type = SPORE_REAL, .unit = "", .maximum = 10, FIELD(SporeLinkFields, friction),               \
+    .change = SPORE_CHANGE_REBUILD,                                                                                    \
+    .doc = N_("Coulomb coefficient against running along the line: force for each newton that it holds across.")       \
+  }
+#define LINK_ENDS                                                                                                      \
+  {                                                                                                                    \
+    .name = "ends", .type = SPORE_CHOICE, .unit = "", .maximum = 1, .choices = line_ends,                              \
+    FIELD(SporeLinkFields, ends), .change = SPORE_CHANGE_REBUILD,                                                      \
+    .doc = N_("What happens at the ends of a thread's or tube's own line: stop, it is held there; slip_off, it is "    \
+              "let go for good.")                                                                                      \
   }
 #define LINK_LENGTH(text)                                                                                              \
   {                                                                                                                    \
@@ -475,17 +490,22 @@ static const SporeParameter weld_parameters[] = {
 static const SporeParameter slide_parameters[] = {
     NAME(SporeLinkFields, N_("Name of the slide.")),
     LINK_BODY(body_a, N_("Body whose point slides.")),
-    LINK_BODY(body_b, N_("Rigid body that the line belongs to; none: the scene.")),
+    LINK_BODY(body_b, N_("Body that the line belongs to: a thread or a tube, along which the point runs however it "
+                         "bends, or a rigid one; none: the scene.")),
     LINK_POINT(N_("Point that slides, where it is at the start, in the scene.")),
-    LINK_DIRECTION(N_("Direction of the line at the start, in the scene.")),
+    LINK_DIRECTION(N_("Direction of the line at the start, in the scene; a thread or a tube has its own.")),
+    LINK_FRICTION,
+    LINK_ENDS,
 };
 
 static const SporeParameter port_parameters[] = {
     NAME(SporeLinkFields, N_("Name of the port.")),
-    LINK_BODY(body_a, N_("Instrument whose shaft goes through the port.")),
+    LINK_BODY(body_a, N_("What goes through the port: an instrument with its shaft, or a thread or a tube.")),
     LINK_BODY(body_b, N_("Body that the port is in; none: the scene.")),
     LINK_POINT(N_("Where the port is at the start, in the scene.")),
-    LINK_DIRECTION(N_("Direction of the shaft at the start, in the scene.")),
+    LINK_DIRECTION(N_("Direction of the shaft at the start, in the scene; a thread or a tube has its own.")),
+    LINK_FRICTION,
+    LINK_ENDS,
 };
 
 static const SporeParameter camera_parameters[] = {
@@ -661,10 +681,12 @@ const SporeElement spore_scene_elements[] = {
      TABLE(hinge_parameters, SporeLinkFields), JOINT},
     {"weld", N_("Weld"), N_("Joins two bodies, or a body and the scene, as if they were one."),
      TABLE(weld_parameters, SporeLinkFields), JOINT},
-    {"slide", N_("Slide"), N_("Leaves a point of a body free to run along a line, and holds it there."),
+    {"slide", N_("Slide"),
+     N_("Leaves a point of a body free to run along a line, straight or that of a thread, and holds it there."),
      TABLE(slide_parameters, SporeLinkFields), JOINT},
     {"port", N_("Port"),
-     N_("Lets an instrument through at one point of its shaft, as a trocar does: it turns and slides there."),
+     N_("Lets an instrument or a thread through at one point, as a trocar or a stitch does: it turns and slides "
+        "there."),
      TABLE(port_parameters, SporeLinkFields), JOINT},
     {"effects", N_("Effects"), N_("What goes on besides what bodies do."), .children = CHILDREN("emitter")},
     {"emitter", N_("Emitter"), N_("A mouth that particles of a fluid come out of: a wound that bleeds."),

@@ -286,12 +286,23 @@ static bool is_held(const SporeGroup *group) {
   return false;
 }
 
+/* Whether some force sets in or ends as things move: those of contacts, of what holds by friction, and of what stops.
+ */
+static bool switches(const SporeGroup *group) {
+  if (group->island->contact_count > 0) return true;
+  for (size_t i = 0; i < group->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_group_spring(group, i);
+    if (term->law.friction > 0 || (term->rail && spore_rail_may_stop(term->rail))) return true;
+  }
+  return false;
+}
+
 SporeDynamics spore_group_dynamics(SporeGroup *group) {
   spore_group_lay_contacts(group);
   return (SporeDynamics){.data = group,
                          .q_count = group->island->q_count,
                          .block_count = group->island->v_count / 3,
-                         .switches = group->island->contact_count > 0,
+                         .switches = switches(group),
                          .set_shape = set_shape,
                          .force = force,
                          .body_force = body_force,

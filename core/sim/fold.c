@@ -59,6 +59,15 @@ void spore_body_fold(SporeBody *body, const SporeEnd *a, const SporeEnd *b, cons
     }
 }
 
+void spore_body_fold_bend(SporeBody *body, const SporeRailBend *bend) {
+  for (size_t i = 0; i < SPORE_PATH_WIDTH; i++)
+    for (size_t j = 0; j < SPORE_PATH_WIDTH; j++) {
+      SporeMat3 k = spore_rail_bend_block(bend, i, j);
+      size_t at = find_block(&body->matrix, (uint32_t)(bend->first + i), (uint32_t)(bend->first + j));
+      for (int e = 0; e < 9; e++) body->matrix.values[9 * at + (size_t)e] += k.m[e];
+    }
+}
+
 bool spore_group_couples(const SporeGroup *group) {
   for (size_t i = 0; i < group->island->contact_count; i++) {
     const SporeContactTerm *term = spore_group_contact(group, i);

@@ -13,4 +13,7 @@ void spore_body_fold(SporeBody *body, const SporeEnd *a, const SporeEnd *b, cons
 /* Whether some contact or link of the island is not folded. */
 bool spore_group_couples(const SporeGroup *group);
 
+/* What the bending of a rail on this body adds, of a term whose other end physics does not move. */
+void spore_body_fold_bend(SporeBody *body, const SporeRailBend *bend);
+
 #endif

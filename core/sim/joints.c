@@ -52,8 +52,6 @@ size_t spore_link_term_count(const SporeLinkDescription *link) {
   }
 }
 
-static bool runs_along(SporeLinkKind kind) { return kind == SPORE_LINK_SLIDE || kind == SPORE_LINK_PORT; }
-
 static bool known(const SporeWorld *world, uint32_t body) { return body < world->body_count; }
 
 static bool passive(const SporeWorld *world, uint32_t body) {
@@ -63,7 +61,8 @@ static bool passive(const SporeWorld *world, uint32_t body) {
 static bool is_finite(const SporeLinkDescription *link) {
   return spore_vec3_is_finite(link->point_a) && spore_vec3_is_finite(link->point_b) &&
          spore_vec3_is_finite(link->direction) &&
-         isfinite(link->radius + link->length + link->stiffness + link->damping + link->rest_length + link->strength);
+         isfinite(link->radius + link->length + link->stiffness + link->damping + link->rest_length + link->strength +
+                  link->friction);
 }
 
 static const char *ends_fault(const SporeWorld *world, const SporeLinkDescription *link) {
@@ -85,9 +84,10 @@ const char *spore_link_fault(const SporeWorld *world, const SporeLinkDescription
   if (link->kind == SPORE_LINK_PIN) return NULL;
   const char *fault = ends_fault(world, link);
   if (fault) return fault;
-  if (!(link->stiffness >= 0) || !(link->strength >= 0))
-    return _("stiffness and strength must not be negative; correct them");
-  if ((runs_along(link->kind) || link->kind == SPORE_LINK_HINGE) && !(spore_vec3_length(link->direction) > 0))
+  if (!(link->stiffness >= 0) || !(link->strength >= 0) || !(link->friction >= 0))
+    return _("stiffness, strength and friction must not be negative; correct them");
+  bool along = spore_link_runs_along(link->kind) && !spore_link_is_railed(world, link);
+  if ((along || link->kind == SPORE_LINK_HINGE) && !(spore_vec3_length(link->direction) > 0))
     return _("the link has no direction; expected a vector of any length but 0; set it");
   if ((link->kind == SPORE_LINK_HINGE || link->kind == SPORE_LINK_WELD) && !(link->length > 0))
     return _("the link has no length, so that it cannot keep bodies from turning; expected more than 0 m; set it");
@@ -102,11 +102,11 @@ static double critical_damping(const SporeWorld *world, const SporeLinkDescripti
   return 2 * sqrt(link->stiffness * mass);
 }
 
-static SporeSpring link_law(const SporeWorld *world, const SporeLinkDescription *link) {
+SporeSpring spore_link_law(const SporeWorld *world, const SporeLinkDescription *link) {
   SporeVec3 along = spore_vec3_sub(link->point_a, link->point_b);
   double damping = link->damping < 0 ? critical_damping(world, link) : link->damping;
   double share = 1 / (double)spore_link_term_count(link);
-  SporeSpring law = {.stiffness = share * link->stiffness, .damping = share * damping};
+  SporeSpring law = {.stiffness = share * link->stiffness, .damping = share * damping, .friction = link->friction};
   if (link->kind != SPORE_LINK_SPRING) return law;
   law.rest_length = link->rest_length < 0 ? spore_vec3_length(along) : link->rest_length;
   law.fallback = spore_vec3_normalise(along, (SporeVec3){0, 1, 0});
@@ -126,35 +126,18 @@ static void find_points(const SporeLinkDescription *link, size_t term, SporeVec3
   *b = link->kind == SPORE_LINK_SPRING ? link->point_b : *a;
 }
 
-/* A world point at time 0 in the frame of a body; of what stands still, as it is. */
-static SporeVec3 to_frame(const SporeWorld *world, uint32_t body, SporeVec3 at) {
+SporeVec3 spore_link_to_frame(const SporeWorld *world, uint32_t body, SporeVec3 at) {
   const SporePose *pose = &world->bodies[body].rest_pose;
   return spore_quat_rotate(spore_quat_conjugate(pose->orientation), spore_vec3_sub(at, pose->position));
 }
 
-/* The material point of `body` that lies at `at` at time 0. */
-static bool attach(SporeWorld *world, uint32_t body, SporeVec3 at, SporeMapping *mapping, SporeEnd *end,
-                   SporeError *error) {
+bool spore_link_attach(SporeWorld *world, uint32_t body, SporeVec3 at, SporeMapping *mapping, SporeEnd *end,
+                       SporeError *error) {
   double point[3];
   *end = (SporeEnd){.mapping = mapping, .body = body};
-  spore_vec3_store(point, body == SPORE_NO_BODY ? at : to_frame(world, body, at));
+  spore_vec3_store(point, body == SPORE_NO_BODY ? at : spore_link_to_frame(world, body, at));
   if (body == SPORE_NO_BODY) return spore_mapping_init_points(mapping, SPORE_MAPPING_FIXED, point, 1, error);
   return spore_world_map(world, body, point, 1, mapping, error);
-}
-
-static bool make_line(const SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error) {
-  const SporeEnd *end = &world->springs[link->term_start].b;
-  if (end->mapping->kind != SPORE_MAPPING_FIXED && end->mapping->kind != SPORE_MAPPING_RIGID)
-    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                           _("the line belongs to a body that deforms; expected a rigid one, or the scene; exchange "
-                             "the bodies, or choose another link"));
-  link->base = from->point_a;
-  link->along = spore_vec3_normalise(from->direction, (SporeVec3){0, 0, 0});
-  if (end->mapping->kind == SPORE_MAPPING_FIXED) return true;
-  const SporePose *pose = &world->bodies[end->body].rest_pose;
-  link->base = to_frame(world, end->body, link->base);
-  link->along = spore_quat_rotate(spore_quat_conjugate(pose->orientation), link->along);
-  return true;
 }
 
 bool spore_link_make(SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error) {
@@ -163,6 +146,7 @@ bool spore_link_make(SporeWorld *world, SporeLink *link, const SporeLinkDescript
   link->strength = from->strength > 0 ? from->strength : INFINITY;
   link->name = spore_copy_text(from->name ? from->name : "");
   if (!link->name) return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the links"));
+  if (spore_link_is_railed(world, from)) return spore_link_make_rail(world, link, from, error);
   bool swapped = from->kind == SPORE_LINK_PORT; /* the line is at end b */
   for (size_t t = 0; t < link->term_count; t++) {
     size_t index = link->term_start + t;
@@ -170,32 +154,27 @@ bool spore_link_make(SporeWorld *world, SporeLink *link, const SporeLinkDescript
     SporeMapping *mapping = &world->spring_mappings[2 * index];
     SporeVec3 a, b;
     find_points(from, t, &a, &b);
-    term->law = link_law(world, from);
+    term->law = spore_link_law(world, from);
     world->spring_active[index] = true;
-    if (!attach(world, swapped ? from->body_b : from->body_a, a, mapping, &term->a, error) ||
-        !attach(world, swapped ? from->body_a : from->body_b, b, mapping + 1, &term->b, error))
+    if (!spore_link_attach(world, swapped ? from->body_b : from->body_a, a, mapping, &term->a, error) ||
+        !spore_link_attach(world, swapped ? from->body_a : from->body_b, b, mapping + 1, &term->b, error))
       return false;
   }
-  return !runs_along(link->kind) || make_line(world, link, from, error);
+  return !spore_link_runs_along(link->kind) || spore_link_make_line(world, link, from, error);
 }
 
-static SporeVec3 end_position(const SporeWorld *world, const SporeEnd *end) {
-  const double *q = end->body == SPORE_NO_BODY ? NULL : world->q + world->bodies[end->body].q_offset;
-  return spore_mapping_position(end->mapping, end->point, q);
+static void wake_end(SporeWorld *world, const SporeEnd *end) {
+  if (end->body != SPORE_NO_BODY) spore_world_wake(world, end->body);
 }
 
-void spore_link_follow(SporeWorld *world, const SporeLink *link) {
-  if (!runs_along(link->kind)) return;
-  SporeSpringTerm *term = &world->springs[link->term_start];
-  SporePose frame = spore_pose_identity();
-  if (term->b.mapping->kind == SPORE_MAPPING_RIGID) {
-    const double *q = world->q + world->bodies[term->b.body].q_offset;
-    frame = (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+void spore_link_release(SporeWorld *world, SporeLink *link) {
+  link->broken = true;
+  for (size_t t = link->term_start; t < link->term_start + link->term_count; t++) {
+    world->spring_active[t] = false;
+    wake_end(world, &world->springs[t].a);
+    wake_end(world, &world->springs[t].b);
   }
-  term->law.free = spore_quat_rotate(frame.orientation, link->along);
-  SporeVec3 from_base = spore_vec3_sub(end_position(world, &term->a), spore_pose_apply(frame, link->base));
-  SporeVec3 point = spore_vec3_add_scaled(link->base, spore_vec3_dot(term->law.free, from_base), link->along);
-  spore_vec3_store(world->spring_mappings[2 * link->term_start + 1].points, point);
+  world->monitor.broken_links++;
 }
 
 size_t spore_world_link_count(const SporeWorld *world) { return world->link_count; }
@@ -204,6 +183,7 @@ SporeLinkState spore_world_link_state(const SporeWorld *world, size_t index) {
   const SporeLink *link = &world->links[index];
   SporeLinkState state = {.name = link->name, .broken = link->broken};
   double sign = link->kind == SPORE_LINK_PORT ? -1 : 1;
+  if (link->rail.span_count > 0) state.along = link->rail.start / (double)link->rail.span_count;
   for (size_t t = 0; !link->broken && t < link->term_count; t++) {
     const SporeSpringTerm *term = &world->springs[link->term_start + t];
     SporeVec3 apart = spore_spring_held(&term->law, spore_vec3_sub(term->a.position, term->b.position));
@@ -214,18 +194,8 @@ SporeLinkState spore_world_link_state(const SporeWorld *world, size_t index) {
   return state;
 }
 
-static void wake_end(SporeWorld *world, const SporeEnd *end) {
-  if (end->body != SPORE_NO_BODY) spore_world_wake(world, end->body);
-}
-
 static void break_link(SporeWorld *world, SporeLink *link, double load) {
-  link->broken = true;
-  for (size_t t = link->term_start; t < link->term_start + link->term_count; t++) {
-    world->spring_active[t] = false;
-    wake_end(world, &world->springs[t].a);
-    wake_end(world, &world->springs[t].b);
-  }
-  world->monitor.broken_links++;
+  spore_link_release(world, link);
   spore_world_report(world, _("%s: broke, it held %.3g N and can hold %.3g N"), link->name, load, link->strength);
 }
 
@@ -239,6 +209,7 @@ void spore_world_break_links(SporeWorld *world) {
 }
 
 void spore_world_mend_links(SporeWorld *world) {
+  spore_world_lose_rails(world);
   for (size_t i = 0; i < world->link_count; i++) {
     SporeLink *link = &world->links[i];
     link->broken = false;

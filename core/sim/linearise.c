@@ -19,6 +19,20 @@ static SporeCoupling *spring_couplings(const SporeGroup *group) {
   return group->world->spring_couplings + group->island->spring_start;
 }
 
+/* Folded into the matrix of `body`, if any, with the rest of the term. */
+static void bend_rail(const SporeGroup *group, SporeSpringTerm *term, const double *q, double c2, uint32_t body) {
+  spore_rail_bend(term, group->world->local_sites, q, c2);
+  term->rail->bend.folded = body != SPORE_NO_BODY;
+  if (term->rail->bend.folded) spore_body_fold_bend(&group->world->bodies[body], &term->rail->bend);
+}
+
+static void multiply_bends(const SporeGroup *group, const double *x, double *y) {
+  for (size_t i = 0; group->world->rail_count > 0 && i < group->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_group_spring(group, i);
+    if (term->rail && !term->rail->bend.folded) spore_rail_bend_multiply(term, group->world->local_sites, x, y);
+  }
+}
+
 /* Couplings are those terms that no body's matrix takes in; the others are added there, unless the matrices are kept
  * as they are. */
 static void linearise_terms(SporeGroup *group, const double *q, const double *v, double c, double c2, bool kept) {
@@ -37,6 +51,7 @@ static void linearise_terms(SporeGroup *group, const double *q, const double *v,
     uint32_t body = spore_group_folds(group, &term->a, &term->b);
     if (body != SPORE_NO_BODY && kept) continue;
     SporeMat3 k = spore_spring_term_jacobian(term, sites, q, v, c, c2);
+    if (term->rail) bend_rail(group, term, q, c2, body);
     if (body != SPORE_NO_BODY) spore_body_fold(&group->world->bodies[body], &term->a, &term->b, &k);
     else spring_couplings(group)[group->spring_couplings++] = spore_coupling(&term->a, &term->b, &k, sites);
   }
@@ -218,6 +233,7 @@ void spore_group_multiply(void *data, const double *x, double *y) {
   }
   spore_couplings_multiply(contact_couplings(group), group->contact_couplings, x, y);
   spore_couplings_multiply(spring_couplings(group), group->spring_couplings, x, y);
+  multiply_bends(group, x, y);
   spore_group_filter(group, y);
 }
 

@@ -135,8 +135,7 @@ bool spore_world_compile_links(SporeWorld *world, const SporeWorldDescription *d
 }
 
 void spore_world_link(SporeWorld *world) {
-  for (size_t i = 0; i < world->link_count; i++)
-    if (!world->links[i].broken) spore_link_follow(world, &world->links[i]);
+  for (size_t i = 0; i < world->link_count; i++) spore_link_follow(world, &world->links[i]);
   size_t count = spore_world_spring_count(world);
   for (size_t i = 0; i < count; i++) {
     if (!world->spring_active[i]) continue;

@@ -1,89 +1,12 @@
-#include "core/sim/term.h"
-
-/* Terms are evaluated by the thousand: what follows is small, and compiled into each place. */
-#define INLINE static inline __attribute__((always_inline))
-
-INLINE SporeVec3 position_of(const SporeEnd *end, const SporeSite *sites, const double *q) {
-  if (end->prescribed) return spore_vec3_add(end->position, end->offset);
-  const double *local = q + sites[end->body].q;
-  if (end->mapping->kind == SPORE_MAPPING_IDENTITY) return spore_vec3_load(local + 3 * (size_t)end->point);
-  return spore_mapping_position(end->mapping, end->point, local);
-}
+#include "core/sim/term_ends.h"
 
 SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q) {
   return position_of(end, sites, q);
 }
 
-/* With its body, by physics. */
-INLINE bool turns(const SporeEnd *end) { return !end->prescribed && end->mapping->kind == SPORE_MAPPING_RIGID; }
-
-/* Position of the end; keeps the lever of a force that acts `arm` away from it. */
-INLINE SporeVec3 locate(SporeEnd *end, SporeVec3 arm, const SporeSite *sites, const double *q) {
-  SporeVec3 position = position_of(end, sites, q);
-  if (turns(end)) end->offset = spore_vec3_add(spore_vec3_sub(position, spore_vec3_load(q + sites[end->body].q)), arm);
-  return position;
-}
-
-/* What the velocity-like vector x gives the point where the force acts; nothing to a prescribed end. */
-INLINE SporeVec3 gather(const SporeEnd *end, const SporeSite *sites, const double *x) {
-  if (end->prescribed) return (SporeVec3){0, 0, 0};
-  const double *local = x + sites[end->body].v;
-  switch (end->mapping->kind) {
-  case SPORE_MAPPING_IDENTITY:
-    return spore_vec3_load(local + 3 * (size_t)end->point);
-  case SPORE_MAPPING_RIGID:
-    return spore_vec3_add(spore_vec3_load(local), spore_vec3_cross(spore_vec3_load(local + 3), end->offset));
-  case SPORE_MAPPING_LINEAR:
-  case SPORE_MAPPING_FIXED:
-    break;
-  }
-  return spore_mapping_velocity(end->mapping, end->point, NULL, local);
-}
-
-/* The transpose of gather. */
-INLINE void scatter(const SporeEnd *end, const SporeSite *sites, SporeVec3 force, double *f) {
-  if (end->prescribed) return;
-  double *local = f + sites[end->body].v;
-  switch (end->mapping->kind) {
-  case SPORE_MAPPING_IDENTITY:
-    spore_vec3_accumulate(local + 3 * (size_t)end->point, force);
-    return;
-  case SPORE_MAPPING_RIGID:
-    spore_vec3_accumulate(local, force);
-    spore_vec3_accumulate(local + 3, spore_vec3_cross(end->offset, force));
-    return;
-  case SPORE_MAPPING_LINEAR:
-  case SPORE_MAPPING_FIXED:
-    break;
-  }
-  spore_mapping_add_force(end->mapping, end->point, NULL, force, local);
-}
-
-INLINE SporeVec3 velocity(const SporeEnd *end, const SporeSite *sites, const double *v) {
-  return end->prescribed ? end->velocity : gather(end, sites, v);
-}
-
-INLINE void scatter_pair(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, SporeVec3 force, double *f) {
-  scatter(a, sites, force, f);
-  scatter(b, sites, spore_vec3_scale(-1, force), f);
-}
-
 SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) {
   double stiff = 2 * h * h * stiffness * inverse_mass;
   return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};
-}
-
-/* (I + w jacobian)^-1 force, jacobian = h D + h t K: symmetric and at least I, so the adjugate does. */
-static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, SporeVec3 force) {
-  double w = softening->inverse_mass;
-  double xx = 1 + w * jacobian.m[0], yy = 1 + w * jacobian.m[4], zz = 1 + w * jacobian.m[8];
-  double xy = w * jacobian.m[1], xz = w * jacobian.m[2], yz = w * jacobian.m[5];
-  SporeVec3 row_x = {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy};
-  SporeVec3 row_y = {row_x.y, xx * zz - xz * xz, xy * xz - xx * yz};
-  SporeVec3 row_z = {row_x.z, row_y.z, xx * yy - xy * xy};
-  double scale = 1 / (xx * row_x.x + xy * row_x.y + xz * row_x.z);
-  return (SporeVec3){scale * spore_vec3_dot(row_x, force), scale * spore_vec3_dot(row_y, force),
-                     scale * spore_vec3_dot(row_z, force)};
 }
 
 /* Relative velocity of the ends without what is prescribed: that is where it will be already. */
@@ -245,54 +168,9 @@ SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *s
   return spore_contact_jacobian(&term->law, &state, c2, c);
 }
 
-/* Where the ends are, or will be after `ahead`. */
-static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v, SporeVec3 *a,
-                        SporeVec3 *b) {
-  const SporeVec3 none = {0, 0, 0};
-  *a = locate(&term->a, none, sites, q);
-  *b = locate(&term->b, none, sites, q);
-  /* What holds two points together pulls in any direction: both bodies feel it where the first is, so that together
-   * they are not turned by it. */
-  if (term->law.rest_length == 0 && !term->b.prescribed && term->b.mapping->kind == SPORE_MAPPING_RIGID)
-    term->b.offset = spore_vec3_add(term->b.offset, spore_vec3_sub(*a, *b));
-  *a = spore_vec3_add_scaled(*a, term->softening.ahead, gather(&term->a, sites, v));
-  *b = spore_vec3_add_scaled(*b, term->softening.ahead, gather(&term->b, sites, v));
-}
-
-static SporeMat3 spring_jacobian(const SporeSpring *law, SporeVec3 a, SporeVec3 b, double c, double c2) {
-  SporeMat3 stiffness, damping;
-  spore_spring_jacobian(law, a, b, &stiffness, &damping);
-  return spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
-}
-
-void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
-                             double *f) {
-  SporeVec3 a, b;
-  spring_ends(term, sites, q, v, &a, &b);
-  term->force = spore_spring_force(&term->law, a, b, velocity(&term->a, sites, v), velocity(&term->b, sites, v));
-  const SporeSoftening *softening = &term->softening;
-  if (softening->inverse_mass > 0) {
-    SporeMat3 jacobian = spring_jacobian(&term->law, a, b, softening->h, softening->h * softening->ahead);
-    term->force = soften(softening, jacobian, term->force);
-  }
-  scatter_pair(&term->a, &term->b, sites, term->force, f);
-}
-
-SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
-                                     double c, double c2) {
-  SporeVec3 a, b;
-  spring_ends(term, sites, q, v, &a, &b);
-  return spring_jacobian(&term->law, a, b, c, c2);
-}
-
 double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
   Motion motion = motion_at(term, sites, q);
   return spore_contact_potential(&term->law, depth_after(term, &motion), spore_contact_term_stretch(term, sites, q));
-}
-
-double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q) {
-  return spore_spring_energy(&term->law, spore_end_position(&term->a, sites, q),
-                             spore_end_position(&term->b, sites, q));
 }
 
 SporeVec3 spore_contact_term_point(const SporeContactTerm *term) {

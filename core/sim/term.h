@@ -4,6 +4,7 @@
 #define SPORE_SIM_TERM_H
 
 #include "core/collide/response.h"
+#include "core/constraint/path.h"
 #include "core/constraint/spring.h"
 #include "core/sim/mapping.h"
 
@@ -59,11 +60,42 @@ typedef struct SporeContactTerm {
   double yield; /* the longest stretch that this holds belongs to k stretch = mu yield; pressing, but where softened */
 } SporeContactTerm;
 
+/* What end b of a spring runs along, instead of staying where it is on its body: the place nearest to end a, found anew
+ * at each evaluation from where it was when the step began. So the spring's energy is that of how far a is off the
+ * path, and what it does to the points that lead the path follows from it. */
+/* What its turning under load adds to the stiffness of a spring that runs along a path, beside that of the spring
+ * across it: with d from the path to end a, t along it, p = J^T t the speed of a past the path, and e = (N_i' / |b'|) k
+ * d what turns the load as the points i turn the path, -df/dx = k J^T (I - tt^T) J + along pp^T - turn (pe^T + ep^T) -
+ * load ee^T g = 1 - d.b'' / |b'|^2,  along = k (1 - 1/g),  turn = 1/g,  load = 1/(k g) from the Hessian of min over s
+ * of k/2 |a - b(s)|^2. Symmetric, and indefinite. */
+typedef struct SporeRailBend {
+  size_t first; /* of the four points */
+  SporeVec3 tangent;
+  double weight[SPORE_PATH_WIDTH];
+  SporeVec3 turned[SPORE_PATH_WIDTH]; /* e */
+  double along, turn, load;           /* times c2; all 0: nothing is added */
+  bool folded;                        /* it is in the body's matrix */
+} SporeRailBend;
+
+typedef struct SporeRail {
+  size_t span_count;     /* core/constraint/path.h */
+  const double *points;  /* of a rigid body: what leads the path, in its frame; NULL: the first nodes of the body do */
+  SporeMapping *mapping; /* of end b, one point: linear, or of the frame */
+  bool stops;            /* at its ends, as a contact would (core/collide/response.h) */
+  double end, soft;      /* 1, -1: it stops here, and end b is at the end, at the start; over how much of depth, m */
+  double start;          /* parameter when the step began */
+  SporeRailBend bend;    /* at the last linearisation */
+} SporeRail;
+
 typedef struct SporeSpringTerm {
   SporeEnd a, b;
   SporeSpring law;
+  SporeRail *rail; /* NULL: none */
   SporeSoftening softening;
   SporeVec3 force; /* on a, at the last evaluation, N */
+  double stretch;  /* of friction's spring, when the step began, m */
+  double slid;     /* since then, at the last evaluation, m */
+  double held;     /* force across the free direction, at the last evaluation, N */
 } SporeSpringTerm;
 
 /* Below, q and v are the vectors that `sites` (by body) belongs to. */
@@ -89,12 +121,27 @@ SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *s
                                       double elapsed_s, double c, double c2);
 SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                                      double c, double c2);
+/* After that, of a term with a rail: what the path's bending adds, kept with the rail; and that times x, added to y. */
+void spore_rail_bend(SporeSpringTerm *term, const SporeSite *sites, const double *q, double c2);
+void spore_rail_bend_multiply(const SporeSpringTerm *term, const SporeSite *sites, const double *x, double *y);
+/* Its block between two of the path's four points. */
+SporeMat3 spore_rail_bend_block(const SporeRailBend *bend, size_t i, size_t j);
 /* Potential energy, J. */
 double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q);
 double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q);
 
 /* Stretch of friction's spring at q, as the next step finds it, m. */
 SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSite *sites, const double *q);
+double spore_spring_term_stretch(const SporeSpringTerm *term, const SporeSite *sites, const double *q);
+
+/* The rail's place nearest to p, both in the world; local: the configuration of the body that it belongs to. */
+SporePathPlace spore_rail_place(const SporeRail *rail, const double *local, SporeVec3 p);
+/* Puts end b there, and leaves the term free along the rail. */
+void spore_rail_set(SporeSpringTerm *term, const SporePathPlace *place);
+/* Whether what slides may come to a stop in this step. */
+bool spore_rail_may_stop(const SporeRail *rail);
+/* How far p is beyond an end of the path, m; 0: it is not. */
+double spore_rail_overshoot(const SporeRail *rail, const SporePathPlace *place, SporeVec3 p);
 
 /* Where an end is, m. */
 SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q);

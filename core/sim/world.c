@@ -195,6 +195,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   if (body->model && body->model->type->forget) body->model->type->forget(body->model);
   spore_body_reset_choice(world, body);
   world->contact_count = world->grip_count = 0; /* they belong to the state before */
+  spore_world_lose_rails(world);
   if (body->model) spore_body_set_mass(world, body);
   spore_world_map_spheres(world);
   spore_world_link(world);

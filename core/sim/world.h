@@ -54,7 +54,9 @@ typedef struct SporeBodyDescription {
  *   weld    the same without a way to turn: held at four points of a tetrahedron whose edges are `length` long
  *   slide   the point of body_a at point_a stays on the line through it along `direction`, which belongs to body_b
  *   port    the line through point_a along `direction`, which belongs to body_a, goes through the point of body_b there
- * The line of a slide or port belongs to a rigid body, or to what physics does not move. An active body in a port of
+ * The line of a slide or port belongs to a rigid body, or to what physics does not move; or it is that of a body along
+ * a curve, which deforms, and whose nearest point is taken: what slides passes through that wherever it goes, without
+ * energy, but for friction. An active body in a port of
  * the scene is turned about its origin, which stays where the device says, until the line goes through the port. */
 typedef enum SporeLinkKind {
   SPORE_LINK_PIN,
@@ -65,6 +67,12 @@ typedef enum SporeLinkKind {
   SPORE_LINK_SLIDE,
   SPORE_LINK_PORT
 } SporeLinkKind;
+
+/* What a body's own line does at its ends with what slides along it. */
+typedef enum SporeEnds {
+  SPORE_ENDS_STOP,    /* holds it there */
+  SPORE_ENDS_SLIP_OFF /* lets it go, for good */
+} SporeEnds;
 
 /* How a joint (all kinds below spring) holds. The table is spore_joint_parameters. */
 typedef struct SporeJointFields {
@@ -81,12 +89,14 @@ typedef struct SporeLinkDescription {
   SporeLinkKind kind;
   uint32_t body_a, body_b;
   SporeVec3 point_a, point_b;
-  SporeVec3 direction;       /* hinge, slide, port: any length but 0 */
+  SporeVec3 direction;       /* hinge, slide, port: any length but 0; not used of a body's own line */
   double radius;             /* pin, m */
   double length;             /* hinge, weld, m */
   double stiffness, damping; /* N/m and N s/m; damping negative: critical for the lighter of its bodies */
   double rest_length;        /* spring, m; negative: the distance at time 0 */
   double strength;           /* N: what its points feel together, above which it breaks; 0: never */
+  double friction;           /* slide, port: Coulomb coefficient along the line */
+  int ends;                  /* slide, port: SporeEnds, of a body's own line */
 } SporeLinkDescription;
 
 /* What an instrument does besides being there. Its parts are active bodies: the device moves `body`, the tool the rest.
@@ -233,7 +243,8 @@ typedef struct SporeLinkState {
   double load;     /* what its points feel together, N: what strength is compared with */
   double drift;    /* how far the points that are to be together were apart at most when the step began, m; 0 for a
                       spring */
-  bool broken;     /* for good, until reset */
+  double along;    /* of a body's own line: where on it the point is, 0 at its start to 1 at its end, by its spans */
+  bool broken;     /* or slipped off; for good, until reset */
 } SporeLinkState;
 size_t spore_world_link_count(const SporeWorld *world);
 SporeLinkState spore_world_link_state(const SporeWorld *world, size_t link);
@@ -323,7 +334,7 @@ typedef struct SporeMonitor {
   uint64_t over_budget;      /* steps that took longer than the budget: said, and let be */
   uint64_t held_inputs;      /* device states refused (not finite, or a jump) */
   uint64_t shortened_forces; /* that would have given a hand more energy than it gave */
-  uint64_t broken_links;     /* that held too much */
+  uint64_t broken_links;     /* that held too much, or slipped off their line */
   uint64_t lost_holds;       /* of jaws, the same */
   uint64_t torn_springs;     /* of nets, strained more than they bear, and what went with those */
   uint64_t message_count;    /* ever */

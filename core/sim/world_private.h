@@ -168,6 +168,8 @@ typedef struct SporeLink {
   double strength;               /* N; infinite: it never breaks */
   bool broken;
   SporeVec3 base, along; /* slide, port: the line in the frame of the body at end b of its term */
+  SporeRail rail;        /* the same, where that body deforms; without spans: none */
+  bool lost;             /* the state was set from outside: where its point is on the line is not known */
 } SporeLink;
 
 /* A port of the scene that an active body goes through. */
@@ -269,7 +271,7 @@ struct SporeWorld {
   double *frames;                   /* SPORE_FRAME_DOUBLES a body: of rigid ones, at the last evaluation */
   size_t grip_count;                /* what friction held at the end of the last step, in the order of the pairs */
   SporeGrip *grips, *kept_grips;    /* kept_grips: scratch */
-  size_t link_count, port_count;
+  size_t link_count, port_count, rail_count; /* rail_count: of links */
   SporeLink *links;
   SporePort *ports;
   SporeCuts cuts;
@@ -349,11 +351,32 @@ size_t spore_link_term_count(const SporeLinkDescription *link);
 const char *spore_link_fault(const SporeWorld *world, const SporeLinkDescription *link);
 /* Fills the link, whose term_start is set, and its terms. */
 bool spore_link_make(SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error);
-/* The line of a slide follows its body, and the point on it the other end. */
-void spore_link_follow(SporeWorld *world, const SporeLink *link);
 /* After a step: breaks what holds more than it can. */
 void spore_world_break_links(SporeWorld *world);
 void spore_world_mend_links(SporeWorld *world);
+/* A world point at time 0 in the frame of a body; of what stands still, as it is. */
+SporeVec3 spore_link_to_frame(const SporeWorld *world, uint32_t body, SporeVec3 at);
+/* The material point of `body` that lies at `at` at time 0. */
+bool spore_link_attach(SporeWorld *world, uint32_t body, SporeVec3 at, SporeMapping *mapping, SporeEnd *end,
+                       SporeError *error);
+SporeSpring spore_link_law(const SporeWorld *world, const SporeLinkDescription *link);
+/* It holds no longer. */
+void spore_link_release(SporeWorld *world, SporeLink *link);
+
+/* slides.c: lines that links run along. */
+static inline bool spore_link_runs_along(SporeLinkKind kind) {
+  return kind == SPORE_LINK_SLIDE || kind == SPORE_LINK_PORT;
+}
+/* The line is that of a body that deforms. */
+bool spore_link_is_railed(const SporeWorld *world, const SporeLinkDescription *link);
+/* The straight line of a link that has its term; or a link along a body's own line, with its term. */
+bool spore_link_make_line(const SporeWorld *world, SporeLink *link, const SporeLinkDescription *from,
+                          SporeError *error);
+bool spore_link_make_rail(SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error);
+/* The line follows its body, and the point on it the other end; or slips off. */
+void spore_link_follow(SporeWorld *world, SporeLink *link);
+/* The state was set from outside: what slides is sought again, and friction holds nothing of before. */
+void spore_world_lose_rails(SporeWorld *world);
 
 /* ports.c */
 bool spore_port_make(const SporeWorld *world, SporePort *port, const SporeLinkDescription *from);

@@ -1,0 +1,111 @@
+/* Lines that links run along: those of rigid bodies, which are straight, and those of threads and tubes, which bend. */
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+#define OFF_LINE 0.01 /* of a line's length: what is farther from it would be pulled there with a jerk */
+#define SLIPPED 1e-3  /* of a span, that the end of a line may lie behind what slips off it */
+
+/* The body that the line of a slide or port belongs to. */
+static uint32_t line_body(const SporeLinkDescription *link) {
+  return link->kind == SPORE_LINK_PORT ? link->body_a : link->body_b;
+}
+
+/* The line is that of a body that deforms. */
+bool spore_link_is_railed(const SporeWorld *world, const SporeLinkDescription *link) {
+  uint32_t body = line_body(link);
+  const SporeModel *model = body < world->body_count ? world->bodies[body].model : NULL;
+  return spore_link_runs_along(link->kind) && model && model->type->path;
+}
+
+bool spore_link_make_line(const SporeWorld *world, SporeLink *link, const SporeLinkDescription *from,
+                          SporeError *error) {
+  const SporeEnd *end = &world->springs[link->term_start].b;
+  if (end->mapping->kind != SPORE_MAPPING_FIXED && end->mapping->kind != SPORE_MAPPING_RIGID)
+    return spore_error_set(
+        error, SPORE_ERROR_INPUT, NULL,
+        _("the line belongs to a body that deforms and has none of its own; expected one along a curve, "
+          "a rigid one, or the scene; exchange the bodies, or choose another link"));
+  link->base = from->point_a;
+  link->along = spore_vec3_normalise(from->direction, (SporeVec3){0, 0, 0});
+  if (end->mapping->kind == SPORE_MAPPING_FIXED) return true;
+  const SporePose *pose = &world->bodies[end->body].rest_pose;
+  link->base = spore_link_to_frame(world, end->body, link->base);
+  link->along = spore_quat_rotate(spore_quat_conjugate(pose->orientation), link->along);
+  return true;
+}
+
+static bool refuse_far(const SporePathPlace *place, double off, double most, SporeError *error) {
+  SporeVec3 at = place->position;
+  return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                         _("the point lies %.3g m off the line of the body; expected at most %.3g m; move it there, to "
+                           "(%.6g, %.6g, %.6g)"),
+                         off, most, at.x, at.y, at.z);
+}
+
+bool spore_link_make_rail(SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error) {
+  static const uint32_t blocks[SPORE_PATH_WIDTH] = {0, 1, 2, 3};
+  static const double weights[SPORE_PATH_WIDTH] = {0.25, 0.25, 0.25, 0.25}; /* none is 0: each keeps its place */
+  const SporeBody *body = &world->bodies[line_body(from)];
+  const double *rest = world->rest_q + body->q_offset;
+  size_t spans = body->model->type->path(body->model);
+  SporePathPlace place = spore_path_seek(spans, rest, from->point_a);
+  double off = spore_vec3_distance(place.position, from->point_a);
+  double most = OFF_LINE * spore_path_length(spans, rest, 0, (double)spans);
+  if (off > most) return refuse_far(&place, off, most, error);
+  SporeSpringTerm *term = &world->springs[link->term_start];
+  SporeMapping *mapping = &world->spring_mappings[2 * link->term_start];
+  link->rail = (SporeRail){
+      .span_count = spans, .mapping = mapping + 1, .stops = from->ends == SPORE_ENDS_STOP, .start = place.parameter};
+  term->rail = &link->rail;
+  world->rail_count++;
+  term->law = spore_link_law(world, from);
+  term->b = (SporeEnd){.mapping = mapping + 1, .body = line_body(from)};
+  world->spring_active[link->term_start] = true;
+  uint32_t other = from->kind == SPORE_LINK_PORT ? from->body_b : from->body_a;
+  return spore_link_attach(world, other, place.position, mapping, &term->a, error) &&
+         spore_mapping_init_linear(mapping + 1, 1, SPORE_PATH_WIDTH, blocks, weights, error);
+}
+
+static SporeVec3 end_position(const SporeWorld *world, const SporeEnd *end) {
+  const double *q = end->body == SPORE_NO_BODY ? NULL : world->q + world->bodies[end->body].q_offset;
+  return spore_mapping_position(end->mapping, end->point, q);
+}
+
+/* The line of a rigid body, and the point on it that is nearest to the other end. */
+static void follow_line(SporeWorld *world, const SporeLink *link, SporeSpringTerm *term) {
+  SporePose frame = spore_pose_identity();
+  if (term->b.mapping->kind == SPORE_MAPPING_RIGID) {
+    const double *q = world->q + world->bodies[term->b.body].q_offset;
+    frame = (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+  }
+  term->law.free = spore_quat_rotate(frame.orientation, link->along);
+  SporeVec3 from_base = spore_vec3_sub(end_position(world, &term->a), spore_pose_apply(frame, link->base));
+  SporeVec3 point = spore_vec3_add_scaled(link->base, spore_vec3_dot(term->law.free, from_base), link->along);
+  spore_vec3_store(world->spring_mappings[2 * link->term_start + 1].points, point);
+}
+
+static void follow_rail(SporeWorld *world, SporeLink *link, SporeSpringTerm *term) {
+  SporeRail *rail = &link->rail;
+  const double *q = world->q + world->bodies[term->b.body].q_offset;
+  SporeVec3 at = end_position(world, &term->a);
+  if (link->lost) rail->start = spore_path_seek(rail->span_count, q, at).parameter;
+  SporePathPlace place = spore_rail_place(rail, q, at);
+  rail->start = place.parameter;
+  spore_rail_set(term, &place);
+  if (rail->stops || spore_rail_overshoot(rail, &place, at) <= SLIPPED * spore_vec3_length(place.slope)) return;
+  spore_link_release(world, link);
+  spore_world_report(world, _("%s: slipped off the end of its line"), link->name);
+}
+
+void spore_link_follow(SporeWorld *world, SporeLink *link) {
+  SporeSpringTerm *term = &world->springs[link->term_start];
+  if (!spore_link_runs_along(link->kind) || link->broken) return;
+  term->stretch = link->lost ? 0 : spore_spring_term_stretch(term, world->world_sites, world->q);
+  if (term->rail) follow_rail(world, link, term);
+  else follow_line(world, link, term);
+  link->lost = false;
+}
+
+void spore_world_lose_rails(SporeWorld *world) {
+  for (size_t i = 0; i < world->link_count; i++) world->links[i].lost = true;
+}
