@@ -60,8 +60,10 @@ SPORE_INLINE void set_columns(const SporeVd33 *stress, SporeVd3 mode[8]) {
   SPORE_UNROLL for (int k = 0; k < 3; k++) mode[single[k]] = spore_vd33_column(stress, k);
 }
 
-static double young_of(SporeElasticity elasticity) {
-  return elasticity.mu * (3 * elasticity.lambda + 2 * elasticity.mu) / (elasticity.lambda + elasticity.mu);
+/* Stiffness of W. */
+static double variation_modulus(SporeElasticity elasticity) {
+  double nu = elasticity.lambda / (2 * (elasticity.lambda + elasticity.mu));
+  return 2 * elasticity.mu * (1 + nu) / (1 + nu * nu);
 }
 
 /* F^T a */
@@ -74,12 +76,12 @@ SPORE_INLINE SporeVd3 pulled_back(const SporeVd33 *f, SporeVd3 a) {
 SPORE_INLINE void add_viscous(SporeElasticity elasticity, const SporeVd3 shape[8], const SporeVd3 rate[8],
                               SporeVd33 *stress, SporeVd3 pull[8]) {
   SporeVd33 f = gradient_of(shape), df = gradient_of(rate);
-  SporeVd young = spore_vd_all(elasticity.viscosity * young_of(elasticity));
+  SporeVd modulus = spore_vd_all(elasticity.viscosity * variation_modulus(elasticity));
   spore_add_viscous(elasticity, &f, &df, spore_vd33_product(&f, &df), stress);
   SPORE_UNROLL for (int n = 0; n < 4; n++) {
     unsigned m = several[n];
     SporeVd3 change = spore_vd3_add(pulled_back(&df, shape[m]), pulled_back(&f, rate[m]));
-    change = spore_vd3_scale(young, change);
+    change = spore_vd3_scale(modulus, change);
     spore_vd33_add_outer(stress, shape[m], change);
     pull[m] = spore_vd3_add(pull[m], spore_vd33_apply(&f, change));
   }
@@ -87,7 +89,7 @@ SPORE_INLINE void add_viscous(SporeElasticity elasticity, const SporeVd3 shape[8
 
 SPORE_INLINE void add_run_forces(const SporeLattice *lattice, const SporeLatticeRun *run, SporeElasticity elasticity,
                                  Law law, const double *q, const double *shape, const double *v, double *f) {
-  double pulls[8][3 * SPORE_LANES], young = young_of(elasticity);
+  double pulls[8][3 * SPORE_LANES], modulus = variation_modulus(elasticity);
   Rows at, at_shape, speed;
   rows_of(run, q, &at);
   if (elasticity.viscosity > 0) rows_of(run, v, &speed);
@@ -98,7 +100,8 @@ SPORE_INLINE void add_run_forces(const SporeLattice *lattice, const SporeLattice
     SporeVd33 gradient = gradient_of(mode);
     SporePoint point = spore_point_of(&gradient);
     SporeVd33 stress = law_stress(law, &point, spore_bulk_pressure(law.bulk, law_volume(law, &point)));
-    SPORE_UNROLL for (int n = 0; n < 4; n++) pull[several[n]] = spore_vd3_scale(spore_vd_all(young), mode[several[n]]);
+    SPORE_UNROLL for (int n = 0; n < 4; n++) pull[several[n]] =
+        spore_vd3_scale(spore_vd_all(modulus), mode[several[n]]);
     if (elasticity.viscosity > 0) {
       modes_of(lattice, &speed, lane, rate);
       if (shape != q) modes_of(lattice, &at_shape, lane, other);
@@ -126,7 +129,7 @@ void SPORE_LEVEL_NAME(spore_lattice_force)(const SporeLattice *lattice, size_t s
 double SPORE_LEVEL_NAME(spore_lattice_potential)(const SporeLattice *lattice, SporeElasticity elasticity,
                                                  const double *q) {
   Law law = law_of(elasticity);
-  double lanes[SPORE_LANES] = {0}, young = young_of(elasticity);
+  double lanes[SPORE_LANES] = {0}, modulus = variation_modulus(elasticity);
   for (size_t r = 0; r < lattice->run_count; r++) {
     Rows rows;
     rows_of(lattice->runs + r, q, &rows);
@@ -137,7 +140,7 @@ double SPORE_LEVEL_NAME(spore_lattice_potential)(const SporeLattice *lattice, Sp
       SporePoint point = spore_point_of(&gradient);
       SporeVd density = law_density(law, &point) + spore_bulk_density(law.bulk, law_volume(law, &point));
       SPORE_UNROLL for (int n = 0; n < 4; n++) density +=
-          0.5 * young * spore_vd3_dot(mode[several[n]], mode[several[n]]);
+          0.5 * modulus * spore_vd3_dot(mode[several[n]], mode[several[n]]);
       SporeVd volume = spore_vd_load(lattice->runs[r].volume + lane);
       spore_vd_store(lanes + lane, spore_vd_load(lanes + lane) + volume * density);
     }
@@ -165,18 +168,18 @@ SPORE_INLINE void add_mode_viscosity(const SporeLattice *lattice, SporeElasticit
                                      const SporeVd3 shape[8], SporeElementBlocks *between, ModeBlocks blocks) {
   const SporeVd33 identity = {.m = {spore_vd_all(1), {0}, {0}, {0}, spore_vd_all(1), {0}, {0}, {0}, spore_vd_all(1)}};
   SporeVd33 f = gradient_of(shape), across = spore_vd33_transpose(&f), square = spore_vd33_multiply(&f, &across);
-  SporeVd young = weight * young_of(elasticity);
+  SporeVd modulus = weight * variation_modulus(elasticity);
   spore_add_viscosity(weight, elasticity.mu, elasticity.lambda, &identity, &f, between);
   for (int n = 0; n < 4; n++) {
     unsigned m = several[n];
-    SporeVd33 self = outer(spore_vd3_scale(young, shape[m]), shape[m]);
+    SporeVd33 self = outer(spore_vd3_scale(modulus, shape[m]), shape[m]);
     SPORE_UNROLL for (int i = 0; i < 9; i++) {
       between->m[0].m[i] += self.m[i], between->m[3].m[i] += self.m[i], between->m[5].m[i] += self.m[i];
-      blocks[m][m].m[i] += young * (lattice->mode_scale[m] * lattice->mode_scale[m]) * square.m[i];
+      blocks[m][m].m[i] += modulus * (lattice->mode_scale[m] * lattice->mode_scale[m]) * square.m[i];
     }
     for (int k = 0; k < 3; k++) {
       SporeVd33 coupled = outer(shape[m], spore_vd33_column(&f, k));
-      set_pair(blocks, single[k], m, &coupled, young * (lattice->mode_scale[m] * lattice->mode_scale[single[k]]));
+      set_pair(blocks, single[k], m, &coupled, modulus * (lattice->mode_scale[m] * lattice->mode_scale[single[k]]));
     }
   }
 }
@@ -192,8 +195,8 @@ SPORE_INLINE void add_mode_stiffness(const SporeLattice *lattice, SporeElasticit
                     between);
   for (int n = 0; n < 4; n++) {
     unsigned m = several[n];
-    SporeVd young = weight * (young_of(elasticity) * lattice->mode_scale[m] * lattice->mode_scale[m]);
-    SPORE_UNROLL for (int i = 0; i < 9; i += 4) blocks[m][m].m[i] += young;
+    SporeVd modulus = weight * (variation_modulus(elasticity) * lattice->mode_scale[m] * lattice->mode_scale[m]);
+    SPORE_UNROLL for (int i = 0; i < 9; i += 4) blocks[m][m].m[i] += modulus;
   }
 }
 

@@ -10,7 +10,7 @@
 #define LEAST 0.05 /* share of a cell below which it is empty */
 #define LOOSE 0.01 /* of the volume: what may be left out of it, where it does not hang together with the rest */
 #define PARTS 4    /* of a cell along an edge, where the surface cuts it */
-#define MOST 1e7   /* cells of the box */
+#define MOST 2e6   /* cells of the box */
 
 static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a grid"));

@@ -154,6 +154,27 @@ static void beam(const char *name, const SporeModelType *type, int element, doub
   spore_tetrahedral_mesh_clear(&mesh);
 }
 
+/* The same beam as a grid of as many nodes. */
+static void grid(const char *name, double damping) {
+  SporeTriangleMesh mesh = {0};
+  if (!spore_triangle_mesh_allocate(&mesh, 8, 12, NULL)) return;
+  static const uint32_t corners[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                       2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  memcpy(mesh.triangles, corners, sizeof corners);
+  for (size_t i = 0; i < 8; i++)
+    spore_vec3_store(mesh.vertices + 3 * i, (SporeVec3){0.25 * (i & 1), 0.05 * (i >> 1 & 1), 0.05 * (double)(i >> 2)});
+  void *fields = new_fields(&spore_finite_differences);
+  set(&spore_finite_differences, fields, "stiffness_damping", damping);
+  set(&spore_finite_differences, fields, "cells", 20);
+  SporeError error = SPORE_ERROR_INIT;
+  Case run = {.name = name,
+              .model = spore_finite_differences.create(&(SporeGeometry){.surface = &mesh}, fields, &error)};
+  if (!run.model) fprintf(stderr, "%s: %s\n", error.place, error.message);
+  measure_model(&run);
+  spore_free(fields);
+  spore_triangle_mesh_clear(&mesh);
+}
+
 int main(void) {
   net("net 20x20, 1121 springs,", 0, 0);
   net("net 20x20, 1121 damped springs,", 0.01, 0);
@@ -164,5 +185,7 @@ int main(void) {
   beam("1920 St Venant-Kirchhoff tetrahedra", &spore_saint_venant_kirchhoff_tetrahedra, 0, 0);
   beam("1920 linear tetrahedra", &spore_linear_tetrahedra, 0, 0);
   beam("1920 quadratic neo-Hookean tetrahedra", &spore_neo_hookean_tetrahedra, 1, 0);
+  grid("grid of 320 cells", 0);
+  grid("damped grid of 320 cells", 0.01);
   return 0;
 }
