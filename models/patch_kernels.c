@@ -25,22 +25,22 @@ SPORE_INLINE void gather(const SporePatch *patch, size_t group, size_t lane, con
     nodes[k] = spore_vd3_gather(x, patch->node + (group * FUNCTIONS + k) * SPORE_LANES + lane);
 }
 
-SPORE_INLINE SporeVd3 combine(const double weight[FUNCTIONS][SPORE_LANES], size_t lane, const SporeVd3 *nodes) {
-  SporeVd3 sum = spore_vd3_scale(spore_vd_load(weight[0] + lane), nodes[0]);
-  for (int k = 1; k < FUNCTIONS; k++)
-    sum = spore_vd3_add(sum, spore_vd3_scale(spore_vd_load(weight[k] + lane), nodes[k]));
-  return sum;
-}
-
 /* Derivatives at a Gauss point, and forces on them. */
 typedef struct Five {
   SporeVd3 a[2], b[3];
 } Five;
 
+/* Node by node, so that each is loaded once for all five. */
 SPORE_INLINE Five five_of(const SporePatchGauss *gauss, size_t lane, const SporeVd3 *nodes) {
   Five five;
-  for (int k = 0; k < 2; k++) five.a[k] = combine(gauss->first[k], lane, nodes);
-  for (int k = 0; k < 3; k++) five.b[k] = combine(gauss->second[k], lane, nodes);
+  for (int e = 0; e < 2; e++) five.a[e] = spore_vd3_scale(spore_vd_load(gauss->first[e][0] + lane), nodes[0]);
+  for (int e = 0; e < 3; e++) five.b[e] = spore_vd3_scale(spore_vd_load(gauss->second[e][0] + lane), nodes[0]);
+  for (int k = 1; k < FUNCTIONS; k++) {
+    for (int e = 0; e < 2; e++)
+      five.a[e] = spore_vd3_add(five.a[e], spore_vd3_scale(spore_vd_load(gauss->first[e][k] + lane), nodes[k]));
+    for (int e = 0; e < 3; e++)
+      five.b[e] = spore_vd3_add(five.b[e], spore_vd3_scale(spore_vd_load(gauss->second[e][k] + lane), nodes[k]));
+  }
   return five;
 }
 

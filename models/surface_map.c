@@ -64,15 +64,41 @@ static double lift_by(const SporeTriangleMesh *mesh, uint32_t i, SporeVec3 d, do
   return sum;
 }
 
+/* Puts the foot of p on triangle t into the row. Returns p's distance from its plane. */
+static double stand_on(const SporeTriangleMesh *mesh, size_t t, SporeVec3 p, Row *row) {
+  SporeVec3 normal;
+  double offset;
+  memcpy(row->block, mesh->triangles + 3 * t, 3 * sizeof *row->block);
+  row->block[3] = row->block[0];
+  row->weight[3] = 0;
+  in_plane(vertex_at(mesh, row->block[0]), vertex_at(mesh, row->block[1]), vertex_at(mesh, row->block[2]), p,
+           row->weight, &normal, &offset);
+  return offset;
+}
+
+/* The core with the row's triangle, the nearest; else with that of all triangles that makes the best tetrahedron, such
+ * as the one that the point lies below as the core sees it. False: the weights pass CORE_WEIGHTS_AT_MOST. */
+static bool lift_by_core(const SporeTriangleMesh *mesh, SporeVec3 core, SporeVec3 p, double offset, Row *row) {
+  Row result = *row;
+  uint32_t node = (uint32_t)mesh->vertex_count;
+  double best = lift_by(mesh, node, core, offset, &result);
+  bool near = best <= CORE_WEIGHTS_AT_MOST;
+  for (size_t t = 0; !near && t < mesh->triangle_count; t++) {
+    Row candidate;
+    double away = stand_on(mesh, t, p, &candidate), sum = lift_by(mesh, node, core, away, &candidate);
+    if (sum < best) best = sum, result = candidate;
+  }
+  if (!(best <= CORE_WEIGHTS_AT_MOST)) return false;
+  *row = result;
+  return true;
+}
+
 /* Finds what makes the best tetrahedron with the row's triangle: the core where it does, else a vertex. False: nothing
  * is good enough. */
 static bool lift(const SporeTriangleMesh *mesh, const SporeVec3 *core, SporeVec3 p, double offset, double size,
                  Row *row) {
+  if (core && lift_by_core(mesh, *core, p, offset, row)) return true;
   Row result = *row;
-  if (core && lift_by(mesh, (uint32_t)mesh->vertex_count, *core, offset, &result) <= CORE_WEIGHTS_AT_MOST) {
-    *row = result;
-    return true;
-  }
   double best = HUGE_VAL;
   for (uint32_t i = 0; i < mesh->vertex_count; i++) {
     Row candidate = *row;
@@ -88,20 +114,15 @@ static bool lift(const SporeTriangleMesh *mesh, const SporeVec3 *core, SporeVec3
 
 static bool map_point(const SporeTriangleMesh *mesh, const SporeVec3 *core, const SporeBvh *bvh, double size,
                       const double *point, size_t index, Row *row, SporeError *error) {
-  SporeVec3 p = spore_vec3_load(point), normal;
+  SporeVec3 p = spore_vec3_load(point);
   uint32_t triangle = 0;
-  double offset;
   spore_bvh_distance(bvh, p, NULL, &triangle);
-  memcpy(row->block, mesh->triangles + 3 * (size_t)triangle, 3 * sizeof *row->block);
-  row->block[3] = row->block[0];
+  double offset = stand_on(mesh, triangle, p, row);
   for (int k = 0; k < 3; k++) {
     if (spore_vec3_distance(p, vertex_at(mesh, row->block[k])) > ROUNDING * size) continue;
     for (int j = 0; j < WIDTH; j++) row->weight[j] = j == k;
     return true;
   }
-  in_plane(vertex_at(mesh, row->block[0]), vertex_at(mesh, row->block[1]), vertex_at(mesh, row->block[2]), p,
-           row->weight, &normal, &offset);
-  row->weight[3] = 0;
   if (fabs(offset) <= ROUNDING * size || lift(mesh, core, p, offset, size, row) || fabs(offset) <= FLAT * size)
     return true;
   char place[64];

@@ -12,8 +12,9 @@
  * cannot carry the point: an offset up to 1e-6 of the surface's size is dropped, a greater one refused.
  *
  * core: place of a node within the body that comes after those of the surface, which carries points off the surface
- * instead of one more vertex wherever the sum is at most 4; NULL: there is none. A matrix that couples the core with
- * every vertex has room for what hangs on such a point. */
+ * instead of one more vertex wherever the sum is at most 4 with it and the nearest triangle, or else with it and the
+ * triangle that makes the sum least; NULL: there is none. A matrix that couples the core with every vertex has room for
+ * what hangs on such a point. */
 bool spore_surface_map(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
                        SporeMapping *mapping, SporeError *error);
 
