@@ -40,6 +40,17 @@ static const SporeParameter parameters[] = {
      .offset = offsetof(SporeContactFields, self),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("The body's own spheres collide with each other, those that touch at rest excepted.")},
+    {.name = "margin",
+     .type = SPORE_REAL,
+     .unit = "m",
+     .minimum = 0,
+     .maximum = 1e3,
+     .initial = {0},
+     .offset = offsetof(SporeContactFields, margin),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("How far apart spheres may be when a step begins and yet stop each other in it, where both move "
+               "implicitly: for what is so light and pulled so hard that it crosses a gap within a step, as a thread "
+               "that is tied. A quarter of the radius serves there; each near pair costs as much as a contact.")},
     {.name = "group",
      .type = SPORE_INTEGER,
      .unit = "",

@@ -37,7 +37,8 @@ bool spore_world_compile_fields(SporeWorld *world, SporeError *error) {
   const SporeSpheres *spheres = &world->spheres;
   world->reach = SPORE_NEW_ARRAY(double, spheres->count);
   bool made = world->reach;
-  for (size_t i = 0; made && i < spheres->count; i++) world->reach[i] = spheres->radius[i];
+  for (size_t i = 0; made && i < spheres->count; i++)
+    world->reach[i] = spheres->radius[i] + world->bodies[spheres->body[i]].contact.margin;
   for (size_t b = 0; made && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     size_t count = body->spheres.point_count;
@@ -181,12 +182,20 @@ static bool grip_before(const SporeFelt *a, const SporeFelt *b) {
   return a->contact.a < b->contact.a || (a->contact.a == b->contact.a && a->contact.b < b->contact.b);
 }
 
+/* Of a sphere of a body without a field. */
+static double margin_of(const SporeWorld *world, uint32_t sphere) {
+  return world->reach[sphere] - world->spheres.radius[sphere];
+}
+
 /* What comes of pairs of one sphere a with one body, in place. */
 static size_t feel_sphere(const SporeWorld *world, SporeFelt *felt, size_t count) {
   const uint32_t *body = world->spheres.body;
   const SporeBody *a = &world->bodies[body[felt->contact.a]], *b = &world->bodies[body[felt->contact.b]];
   if (felt_as_one(b, a, false)) return merge(world, felt, count, false, felt);
-  for (size_t i = 0; i < count; i++) felt[i] = one_by_one(felt[i].contact);
+  for (size_t i = 0; i < count; i++) {
+    felt[i] = one_by_one(felt[i].contact);
+    felt[i].contact.depth -= margin_of(world, felt[i].contact.a) + margin_of(world, felt[i].contact.b);
+  }
   return count;
 }
 

@@ -29,6 +29,7 @@ typedef struct SporeContactFields {
   double damping;   /* N s/m */
   double friction;  /* Coulomb coefficient */
   bool self;        /* spheres of this body collide with each other, those that touch at rest excepted */
+  double margin;    /* m: pairs are looked after in a step from so far apart, for each body that has it */
   int64_t group;    /* bodies of one group never collide with each other; 0: of none */
   int surface;      /* SporeSurface, of an unmovable or active body: what passive ones feel */
 } SporeContactFields;
