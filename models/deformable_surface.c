@@ -13,9 +13,11 @@
 #include "models/spring_pairs.h"
 #include "models/springs.h"
 #include "models/surface_map.h"
+#include "models/volume.h"
 
 typedef struct SurfaceFields {
-  double density, mass, core_share, structural_stiffness, shear_stiffness, damping, shape_stiffness, shape_damping;
+  double density, mass, core_share, structural_stiffness, shear_stiffness, damping, shape_stiffness, shape_damping,
+      volume_stiffness;
 } SurfaceFields;
 
 enum { STRUCTURAL, SHEAR, KINDS };
@@ -25,6 +27,7 @@ typedef struct Surface {
   SporeTriangleMesh mesh; /* at rest, body's frame */
   size_t count;           /* of vertices; the core's centre is the node behind them */
   SporeSprings springs[KINDS];
+  SporeVolume volume;
   SporeCore core; /* ties weighted by area: a third of the triangles of each vertex, m^2 */
 } Surface;
 
@@ -45,6 +48,10 @@ static const SporeParameter parameters[] = {
                      N_("How strongly the surface is drawn to its shape at rest: force per area and distance.")),
     SPORE_REAL_FIELD(SurfaceFields, shape_damping, "s", 0, 1e3, 0.02, SPORE_CHANGE_LIVE,
                      N_("Damping of motion against the shape at rest: this time, times the stiffness of the shape.")),
+    SPORE_REAL_FIELD(SurfaceFields, volume_stiffness, "Pa", 0, 1e12, 0, SPORE_CHANGE_LIVE,
+                     N_("Bulk modulus: the volume inside is kept by a pressure of this times the part of it that is "
+                        "missing. A ball squeezed by a quarter of its height, which loses 13 % without, loses 0.1 % "
+                        "with 1e6. 0: not at all.")),
 };
 
 static bool no_memory(SporeError *error) {
@@ -56,6 +63,7 @@ static void destroy(SporeModel *model) {
   spore_triangle_mesh_clear(&body->mesh);
   for (int kind = 0; kind < KINDS; kind++) spore_springs_clear(&body->springs[kind]);
   spore_core_clear(&body->core);
+  spore_volume_clear(&body->volume);
   spore_model_clear(&body->base);
   spore_free(body);
 }
@@ -80,6 +88,7 @@ static void tune(Surface *body, const SurfaceFields *fields) {
   body->springs[SHEAR].stiffness = fields->shear_stiffness;
   for (int kind = 0; kind < KINDS; kind++) body->springs[kind].damping = fields->damping;
   body->core.stiffness = fields->shape_stiffness;
+  body->volume.stiffness = fields->volume_stiffness;
   body->core.damping = fields->shape_stiffness * fields->shape_damping;
 }
 
@@ -99,7 +108,7 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   const Surface *body = (const Surface *)model;
   for (int kind = 0; kind < KINDS; kind++)
     if (!spore_springs_pattern(&body->springs[kind], blocks)) return false;
-  return spore_core_pattern(&body->core, blocks);
+  return spore_volume_pattern(&body->volume, blocks) && spore_core_pattern(&body->core, blocks);
 }
 
 /* Looks up blocks once, in a matrix of the pattern that the world will make too. */
@@ -108,6 +117,7 @@ static bool find_blocks(Surface *body) {
   if (!spore_model_matrix_create(&body->base, &matrix)) return false;
   for (int kind = 0; kind < KINDS; kind++) spore_springs_find_blocks(&body->springs[kind], &matrix);
   spore_core_find_blocks(&body->core, &matrix);
+  spore_volume_find_blocks(&body->volume, &matrix);
   spore_block_matrix_clear(&matrix);
   return true;
 }
@@ -118,7 +128,8 @@ static bool build(Surface *body, const SporeTriangleMesh *mesh, const SurfaceFie
   if (!spore_model_init(&body->base, &spore_deformable_surface, body->count + 1, true, error) ||
       !spore_triangle_mesh_copy(&body->mesh, mesh, error))
     return false;
-  if (!spore_core_allocate(&body->core, body->count)) return no_memory(error);
+  if (!spore_core_allocate(&body->core, body->count) || !spore_volume_create(&body->volume, &body->mesh))
+    return no_memory(error);
   if (!set_masses(body, fields, volume, error)) return false;
   if (!make_springs(body) || !find_blocks(body)) return no_memory(error);
   tune(body, fields);
@@ -155,11 +166,12 @@ static void force(const SporeModel *model, const double *q, const double *shape,
   const Surface *body = (const Surface *)model;
   spore_springs_force(body->springs, KINDS, model->pool, q, shape, v, f);
   spore_core_force(&body->core, q, shape, v, f);
+  spore_volume_force(&body->volume, q, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
   const Surface *body = (const Surface *)model;
-  double sum = spore_core_potential(&body->core, q);
+  double sum = spore_core_potential(&body->core, q) + spore_volume_potential(&body->volume, q);
   for (int kind = 0; kind < KINDS; kind++) sum += spore_springs_potential(&body->springs[kind], q);
   return sum;
 }
@@ -168,6 +180,7 @@ static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockM
   const Surface *body = (const Surface *)model;
   spore_springs_jacobian(body->springs, KINDS, model->pool, at, matrix);
   spore_core_jacobian(&body->core, at, matrix);
+  spore_volume_jacobian(&body->volume, at, matrix);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
@@ -192,8 +205,9 @@ const SporeModelType spore_deformable_surface = {
     .label = N_("Deformable surface body"),
     .doc =
         N_("A closed surface of springs around a virtual rigid core that gives it back its shape: ovaries, cysts and "
-           "other plump organs, at the cost of their surface alone. Both momenta are kept. It knows no volume: how "
-           "it gives way is tuned by its stiffness of shape, not by a material."),
+           "other plump organs, at the cost of their surface alone. Both momenta are kept. How it gives "
+           "way is tuned by its stiffness of shape, not by a material; its volume is kept where volume_stiffness "
+           "says so."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(SurfaceFields)},
     .geometry = SPORE_GEOMETRY_SOLID,
     .create = create,

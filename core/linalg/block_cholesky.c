@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/linalg/cholesky_kernels.h"
+#include "core/math/vector.h"
 
 static size_t columns_of(const SporeSupernode *node) { return 3 * (size_t)node->column_count; }
 static size_t rows_of(const SporeSupernode *node) { return 3 * (size_t)node->row_count; }
@@ -90,8 +91,8 @@ static bool eliminate(SporeBlockCholesky *factor, const SporeSupernode *node, do
   return true;
 }
 
-bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
-                                    const uint8_t *held, bool may_round) {
+static bool factorise_blocks(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
+                             const uint8_t *held, bool may_round) {
   if (factor->band.block_count > 0) return spore_block_band_factorise(&factor->band, matrix, diagonal, held);
   for (size_t s = 0; s < factor->supernode_count; s++) {
     SporeSupernode *node = &factor->supernodes[s];
@@ -112,7 +113,7 @@ static const void *below_of(const SporeSupernode *node, const double *values) {
   return node->rounded ? (const void *)((const float *)(const void *)values + before) : values + before;
 }
 
-void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x) {
+static void solve_blocks(SporeBlockCholesky *factor, const double *b, double *x) {
   if (factor->band.block_count > 0) {
     spore_block_band_solve(&factor->band, b, x);
     return;
@@ -143,4 +144,28 @@ void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, dou
              spare);
   }
   for (size_t i = 0; i < n; i++) memcpy(x + 3 * (size_t)factor->order[i], y + 3 * i, 3 * sizeof *x);
+}
+
+static bool factorise_direction(SporeBlockCholesky *factor, const double *direction, const uint8_t *held) {
+  size_t n = factor->block_count;
+  memcpy(factor->direction, direction, 3 * n * sizeof *direction);
+  for (size_t i = 0; held && i < n; i++)
+    if (held[i]) memset(factor->direction + 3 * i, 0, 3 * sizeof *direction);
+  solve_blocks(factor, factor->direction, factor->response);
+  factor->inverse = 1 / (1 + spore_vector_dot(3 * n, factor->direction, factor->response));
+  return factor->inverse > 0;
+}
+
+bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
+                                    const uint8_t *held, bool may_round) {
+  factor->directed = matrix->directed;
+  return factorise_blocks(factor, matrix, diagonal, held, may_round) &&
+         (!factor->directed || factorise_direction(factor, matrix->direction, held));
+}
+
+void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x) {
+  solve_blocks(factor, b, x);
+  if (!factor->directed) return;
+  size_t n = 3 * factor->block_count;
+  spore_vector_add_scaled(n, x, -factor->inverse * spore_vector_dot(n, factor->direction, x), factor->response);
 }

@@ -37,6 +37,11 @@ typedef enum SporeFactorLayout {
 typedef struct SporeBlockCholesky {
   size_t block_count; /* 0: there is no factor */
   double factor_flops, solve_flops;
+  /* Of a matrix of blocks B with a direction: the factor is that of B, and by Sherman and Morrison's formula
+   * (B + d d^T)^-1 b = z - w (d . z) / (1 + d . w), z = B^-1 b, w = B^-1 d. */
+  double *direction, *response; /* d and w, 3 block_count each; NULL: the pattern has none */
+  double inverse;               /* 1 / (1 + d . w) */
+  bool directed;
   SporeBlockBand band; /* block_count 0: it is not banded; else nothing below is used */
   size_t supernode_count;
   SporeSupernode *supernodes; /* children before parents */

@@ -321,8 +321,8 @@ static bool create_sparse(SporeBlockCholesky *factor, const SporeBlockMatrix *pa
 /* A flop takes so much less in a band, where no supernode is begun and none is added to another. */
 #define BAND_FLOP 0.4
 
-bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
-                                 double most_flops) {
+static bool create_blocks(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
+                          double most_flops) {
   SporeBlockBand band = {0};
   *factor = (SporeBlockCholesky){0};
   if (pattern->block_count == 0) return true;
@@ -347,9 +347,21 @@ bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMat
   return true;
 }
 
+bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
+                                 double most_flops) {
+  if (!create_blocks(factor, pattern, layout, most_flops)) return false;
+  if (!pattern->direction || factor->block_count == 0) return true;
+  factor->direction = SPORE_NEW_ARRAY(double, 3 * factor->block_count);
+  factor->response = SPORE_NEW_ARRAY(double, 3 * factor->block_count);
+  if (factor->direction && factor->response) return true;
+  spore_block_cholesky_clear(factor);
+  return false;
+}
+
 void spore_block_cholesky_clear(SporeBlockCholesky *factor) {
-  void *arrays[] = {factor->supernodes, factor->order,  factor->rows,    factor->targets, factor->runs,
-                    factor->entries,    factor->values, factor->updates, factor->work,    factor->front};
+  void *arrays[] = {factor->direction, factor->response, factor->supernodes, factor->order,
+                    factor->rows,      factor->targets,  factor->runs,       factor->entries,
+                    factor->values,    factor->updates,  factor->work,       factor->front};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
   spore_block_band_clear(&factor->band);
   *factor = (SporeBlockCholesky){0};

@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/linalg/block_matrix_kernels.h"
+#include "core/math/vector.h"
 
 void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count) {
   *pattern = (SporeBlockPattern){.block_count = block_count};
@@ -84,7 +85,8 @@ bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern
     sort_rows(n, row_start, column, sorted, fill);
     unique_rows(matrix, row_start, sorted);
     matrix->values = spore_allocate(matrix->row_start[n], 9 * sizeof *matrix->values);
-    made = matrix->values != NULL;
+    if (pattern->direction) matrix->direction = spore_allocate(n, 3 * sizeof *matrix->direction);
+    made = matrix->values && (matrix->direction || !pattern->direction);
   }
   spore_free(row_start);
   spore_free(column);
@@ -99,10 +101,12 @@ void spore_block_matrix_clear(SporeBlockMatrix *matrix) {
   spore_free(matrix->column);
   spore_free(matrix->diagonal);
   spore_free(matrix->values);
+  spore_free(matrix->direction);
   *matrix = (SporeBlockMatrix){0};
 }
 
 void spore_block_matrix_zero(SporeBlockMatrix *matrix) {
+  matrix->directed = false;
   if (matrix->block_count) memset(matrix->values, 0, 9 * sizeof(double) * matrix->row_start[matrix->block_count]);
 }
 
@@ -124,4 +128,6 @@ void spore_block_matrix_add(SporeBlockMatrix *matrix, uint32_t i, uint32_t j, co
 
 void spore_block_matrix_multiply_add(const SporeBlockMatrix *matrix, const double *x, double *y) {
   SPORE_KERNEL(spore_block_matrix_multiply)(matrix, x, y);
+  size_t n = 3 * matrix->block_count;
+  if (matrix->directed) spore_vector_add_scaled(n, y, spore_vector_dot(n, matrix->direction, x), matrix->direction);
 }

@@ -12,6 +12,7 @@
 typedef struct SporeBlockPattern {
   size_t block_count, pair_count, pair_capacity;
   uint32_t *pairs; /* pair_count x 2 */
+  bool direction;  /* the matrix has one, see there */
 } SporeBlockPattern;
 
 void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count);
@@ -25,6 +26,10 @@ typedef struct SporeBlockMatrix {
   uint32_t *column;    /* row_start[block_count] */
   uint32_t *diagonal;  /* index of each row's diagonal block */
   double *values;      /* 9 a block, row-major */
+  /* What is stiff against one motion of all blocks together, as a volume is, has no place among them: the matrix is
+   * that of its blocks plus d d^T. */
+  double *direction; /* d, 3 a block; NULL: its pattern has none */
+  bool directed;     /* d is not 0 */
 } SporeBlockMatrix;
 
 bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern);
