@@ -22,8 +22,21 @@ static double *block_positions(const SporeWorld *world, const SporeBody *body) {
   return points;
 }
 
-static bool hangs_on_smoke(const SporeWorld *world, uint32_t index) {
-  return index < world->body_count && world->bodies[index].model && world->bodies[index].model->life_s > 0;
+/* What is wrong with a link that hangs on a body whose particles come and go, or NULL. */
+static const char *particles_fault(const SporeWorld *world, const SporeWorldDescription *description, uint32_t index) {
+  const SporeModel *model = index < world->body_count ? world->bodies[index].model : NULL;
+  if (!model || !model->type->particles) return NULL;
+  if (model->life_s > 0)
+    return _("the link hangs on particles that dissolve; expected a body that stays; choose another");
+  for (size_t i = 0; i < description->tool_count; i++)
+    if (description->tools[i].kind == SPORE_TOOL_SUCTION)
+      return _("the link hangs on particles that a suction may take; expected a body that stays; choose another, or "
+               "remove the suction");
+  for (size_t i = 0; i < description->emitter_count; i++)
+    if (description->emitters[i].body == index && description->emitters[i].fields.reserve > 0)
+      return _("the link hangs on particles of which an emitter keeps some back; expected a body that stays; choose "
+               "another, or an emitter without a reserve");
+  return NULL;
 }
 
 /* What is wrong with a pin, or NULL; *memory: there was none. */
@@ -101,14 +114,14 @@ static bool make_link(SporeWorld *world, const SporeLinkDescription *from, size_
   return true;
 }
 
-static bool compile_link(SporeWorld *world, const SporeLinkDescription *link, uint8_t *marks, size_t *term_count,
-                         SporeError *error) {
+static bool compile_link(SporeWorld *world, const SporeWorldDescription *description, const SporeLinkDescription *link,
+                         uint8_t *marks, size_t *term_count, SporeError *error) {
   char place[200];
   snprintf(place, sizeof place, "links/%s", link->name ? link->name : "");
   bool memory = true, pin = link->kind == SPORE_LINK_PIN;
   const char *fault = spore_link_fault(world, link);
-  if (!fault && (hangs_on_smoke(world, link->body_a) || hangs_on_smoke(world, link->body_b)))
-    fault = _("the link hangs on particles that dissolve; expected a body that stays; choose another");
+  if (!fault) fault = particles_fault(world, description, link->body_a);
+  if (!fault) fault = particles_fault(world, description, link->body_b);
   if (!fault && pin) fault = select_pin(world, link, marks, &memory);
   if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
   if (!memory) return no_memory(error);
@@ -125,7 +138,7 @@ bool spore_world_compile_links(SporeWorld *world, const SporeWorldDescription *d
   size_t term_count = 0;
   bool good = true;
   for (size_t i = 0; good && i < description->link_count; i++)
-    good = compile_link(world, &description->links[i], marks, &term_count, error);
+    good = compile_link(world, description, &description->links[i], marks, &term_count, error);
   if (good && !collect_held(world, marks)) good = no_memory(error);
   spore_free(marks);
   for (size_t b = 0; good && b < world->body_count; b++)

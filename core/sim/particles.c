@@ -265,13 +265,24 @@ static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDesc
   if (!spore_vec3_is_finite(from->point) || !spore_vec3_is_finite(from->direction) ||
       !(spore_vec3_length(from->direction) > 0))
     return _("the mouth has no direction; expected a vector of any length but 0; set it");
-  size_t parked = world->bodies[from->body].held_count - world->bodies[from->body].pin_count;
   if (from->fields.trigger == SPORE_FLOW_BUTTON && (to_world || world->bodies[from->source].role != SPORE_ACTIVE))
     return _("the mouth is in nothing that a device moves, so that no button lets anything out; expected an active "
              "body; choose one, or let it flow always");
-  if ((size_t)from->fields.reserve + parked > world->bodies[from->body].block_count)
-    return _("the reserve is more than the fluid's particles; expected fewer; make it smaller, or the fluid larger");
   return NULL;
+}
+
+/* How many particles a fluid has is known only once its surface is filled. */
+static bool check_emitter(const SporeWorld *world, const SporeEmitterDescription *from, SporeError *error) {
+  char place[200];
+  snprintf(place, sizeof place, "effects/%s", from->name ? from->name : "");
+  const char *fault = emitter_fault(world, from);
+  if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
+  size_t left = spore_world_particle_count(world, from->body), reserve = (size_t)from->fields.reserve;
+  return reserve <= left ||
+         spore_error_set(error, SPORE_ERROR_INPUT, place,
+                         _("the reserve is %zu, but only %zu particles of the fluid are not kept back yet; expected at "
+                           "most %zu; set it to that, or give the fluid more particles"),
+                         reserve, left, left);
 }
 
 /* The last particles that are still in the world are kept back. */
@@ -315,10 +326,7 @@ bool spore_world_compile_particles(SporeWorld *world, const SporeWorldDescriptio
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the particles"));
   for (size_t i = 0; i < description->emitter_count; i++) {
     const SporeEmitterDescription *from = &description->emitters[i];
-    char place[200];
-    snprintf(place, sizeof place, "effects/%s", from->name ? from->name : "");
-    const char *fault = emitter_fault(world, from);
-    if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
+    if (!check_emitter(world, from, error)) return false;
     make_emitter(world, &world->emitters[world->emitter_count++], from);
   }
   return true;

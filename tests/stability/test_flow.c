@@ -114,13 +114,49 @@ static void test_circle(void) {
   rig_free(rig);
 }
 
-static void test_refused(void) {
+/* The message tells how many there are, and so many are taken. */
+static void test_reserve(void) {
   Rig *rig = drop(0, 1, 10000, 100);
   SporeError error = SPORE_ERROR_INIT;
   g_assert_null(rig_try_build(rig, &error));
   g_assert_cmpstr(error.place, ==, "effects/wound");
+  const char *most = strstr(error.message, "expected at most ");
+  g_assert_nonnull(most);
+  gint64 count = g_ascii_strtoll(most + strlen("expected at most "), NULL, 10);
   rig_free(rig);
-  rig = drop(0, 1, 10, 100);
+  rig = drop(0, 1, count, 100);
+  SporeWorld *world = rig_build(rig);
+  g_assert_cmpuint(particles(world), ==, 0);
+  run_to(world, 0.3);
+  g_assert_cmpuint(particles(world), >, 5);
+  rig_free(rig);
+}
+
+/* A spring to a drop whose particles may go is refused, to one whose particles stay it is not. */
+static void test_links(void) {
+  for (size_t goes = 0; goes < 3; goes++) {
+    Rig *rig = drop(goes == 1, goes == 2, 10, 100);
+    SporeLinkDescription spring = {.name = "cord",
+                                   .kind = SPORE_LINK_SPRING,
+                                   .body_b = SPORE_NO_BODY,
+                                   .point_b = {0, -0.01, 0},
+                                   .stiffness = 0.1,
+                                   .rest_length = -1};
+    g_array_append_val(rig->links, spring);
+    SporeError error = SPORE_ERROR_INIT;
+    g_assert_true((rig_try_build(rig, &error) != NULL) == (goes == 0));
+    if (goes > 0) {
+      g_test_message("%s: %s", error.place, error.message);
+      g_assert_cmpstr(error.place, ==, "links/cord");
+      g_assert_nonnull(strstr(error.message, goes == 1 ? "suction" : "emitter"));
+    }
+    rig_free(rig);
+  }
+}
+
+static void test_refused(void) {
+  Rig *rig = drop(0, 1, 10, 100);
+  SporeError error = SPORE_ERROR_INIT;
   SporeEmitterDescription wound = rig->description.emitters[0];
   wound.body = 1;
   rig->description.emitters = &wound;
@@ -133,6 +169,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/flow/suction", test_suction);
   g_test_add_func("/flow/emitter", test_emitter);
   g_test_add_func("/flow/circle", test_circle);
+  g_test_add_func("/flow/reserve", test_reserve);
+  g_test_add_func("/flow/links", test_links);
   g_test_add_func("/flow/refused", test_refused);
   return g_test_run();
 }
