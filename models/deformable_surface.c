@@ -12,6 +12,7 @@
 #include "models/registry.h"
 #include "models/spring_pairs.h"
 #include "models/springs.h"
+#include "models/skin.h"
 #include "models/surface_map.h"
 #include "models/volume.h"
 
@@ -190,6 +191,10 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   tangent(model, &at, matrix);
 }
 
+static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
+  return spore_surface_skin(&((const Surface *)model)->mesh, triangles, count);
+}
+
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   const Surface *body = (const Surface *)model;
   return spore_surface_map(&body->mesh, &body->core.centre, points, count, mapping, error);
@@ -217,6 +222,7 @@ const SporeModelType spore_deformable_surface = {
     .force = force,
     .potential = potential,
     .map = map,
+    .skin = skin,
     .pattern = pattern,
     .jacobian = jacobian,
     .tangent = tangent,

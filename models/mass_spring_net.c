@@ -9,6 +9,7 @@
 #include "models/nodal.h"
 #include "models/registry.h"
 #include "models/spring_pairs.h"
+#include "models/skin.h"
 #include "models/surface_map.h"
 
 typedef struct NetFields {
@@ -171,6 +172,10 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   tangent(model, &at, matrix);
 }
 
+static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
+  return spore_surface_skin(&((const Net *)model)->mesh, triangles, count);
+}
+
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   return spore_surface_map(&((const Net *)model)->mesh, NULL, points, count, mapping, error);
 }
@@ -240,6 +245,7 @@ const SporeModelType spore_mass_spring_net = {
     .force = force,
     .potential = potential,
     .map = map,
+    .skin = skin,
     .pattern = pattern,
     .jacobian = jacobian,
     .tangent = tangent,

@@ -191,6 +191,10 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
           damping_scale * body->mass_damping * body->base.block_mass[i];
 }
 
+static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
+  return spore_tetrahedral_mesh_boundary(&((const Body *)model)->nodes.mesh, triangles, count);
+}
+
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   return spore_tetrahedra_map(&((const Body *)model)->nodes, points, count, mapping, error);
 }
@@ -227,8 +231,8 @@ static void mend(SporeModel *model) {
 #define SLOTS                                                                                                          \
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
   .geometry = SPORE_GEOMETRY_TETRAHEDRA, .presets = spore_tissues, .destroy = destroy, .place = place, .force = force, \
-  .potential = potential, .map = map, .pattern = pattern, .jacobian = jacobian, .retune = retune, .doubt = doubt,      \
-  .prepare_heat = prepare_heat, .coagulate = coagulate, .mend = mend
+  .potential = potential, .map = map, .skin = skin, .pattern = pattern, .jacobian = jacobian, .retune = retune,        \
+  .doubt = doubt, .prepare_heat = prepare_heat, .coagulate = coagulate, .mend = mend
 
 static SporeModel *create_corotational(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_corotation_force_by_level, spore_corotation_potential_by_level,

@@ -116,7 +116,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"links", N_("where there are any but pins: each one's name, load_N (what it held at the end), drift_m (how far "
                    "what it holds together is apart), broken (1: for good)")},
       {"tools", N_("where instruments do more than touch: each one's name, opening_rad, squeeze_Nm (torque against "
-                   "closing), held and lost (spheres), taken (particles), cut and coagulated (springs, elements)")},
+                   "closing), held and lost (spheres), taken (particles), cut and coagulated (springs, elements), "
+                   "pierced (surfaces) and stitches (that hold now)")},
       {"monitor",
        N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
           "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "

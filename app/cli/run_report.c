@@ -129,6 +129,8 @@ static void report_tools(SporeCli *cli, const SporeWorld *world) {
     spore_cli_count(cli, "taken", (gint64)state.taken);
     spore_cli_count(cli, "cut", (gint64)state.cut);
     spore_cli_count(cli, "coagulated", (gint64)state.coagulated);
+    spore_cli_count(cli, "pierced", (gint64)state.pierced);
+    spore_cli_count(cli, "stitches", (gint64)state.stitches);
     spore_cli_close(cli);
   }
   spore_cli_close_array(cli);

@@ -97,7 +97,7 @@ gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object,
 }
 
 /* Elements of the tools that move a body. */
-#define TOOLS "probe|grasper|clamp|scissors|suction|bipolar"
+#define TOOLS "probe|grasper|clamp|scissors|suction|bipolar|needle"
 
 /* Bodies. */
 
@@ -181,6 +181,8 @@ typedef gboolean (*CanBeChanged)(const SporeModelType *type);
 static gboolean can_be_cut(const SporeModelType *type) { return type->cut != NULL; }
 static gboolean can_be_coagulated(const SporeModelType *type) { return type->coagulate != NULL; }
 
+static gboolean can_be_pierced(const SporeModelType *type) { return type->skin != NULL; }
+
 static gboolean some_body(const SporeCheck *check, CanBeChanged can) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
@@ -205,6 +207,24 @@ static void check_bipolar(SporeCheck *check, SporeObject *bipolar) {
                   _("make what is to be coagulated a mass_spring_net or neo_hookean_tetrahedra, or the tool a grasper"),
                   _("\"%s\" has nothing to work on: no body has a model that can be coagulated"),
                   spore_object_name(bipolar));
+}
+
+/* A needle with nothing to pierce or to draw, or whose spheres would stop it. */
+static void check_needle(SporeCheck *check, SporeObject *needle) {
+  const char *name = spore_object_name(needle);
+  const SporeObject *body = spore_object_reference(needle, "body");
+  const SporeObject *collision = body ? spore_object_child_of(body, "collision") : NULL;
+  if (!some_body(check, can_be_pierced))
+    spore_check_say(check, SPORE_NOTE, needle,
+                    _("make what is to be sewn a mass_spring_net, a deformable_surface or tetrahedra"),
+                    _("\"%s\" has nothing to work on: no body has a model that can be pierced"), name);
+  if (!spore_object_text(needle, "thread"))
+    spore_check_say(check, SPORE_NOTE, needle, _("name a body along a curve that begins at its swage"),
+                    _("\"%s\" draws no thread: what it has pierced comes off behind it"), name);
+  if (collision && spore_object_text(collision, "spheres"))
+    spore_check_say(check, SPORE_WARNING, needle, _("take the spheres away, or put both bodies in one group"),
+                    _("the spheres of \"%s\" keep \"%s\" from what it is to pierce: its tip needs none to feel it"),
+                    spore_object_name(body), name);
 }
 
 /* Suction without a fluid. */
@@ -240,6 +260,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
   spore_check_each(&check, "tools", NULL, check_tool);
   spore_check_each(&check, "tools", "scissors", check_scissors);
   spore_check_each(&check, "tools", "bipolar", check_bipolar);
+  spore_check_each(&check, "tools", "needle", check_needle);
   spore_check_each(&check, "tools", "suction", check_suction);
   spore_check_each(&check, "effects", "emitter", check_emitter);
   spore_check_links(&check);

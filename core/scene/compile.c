@@ -330,6 +330,21 @@ static gboolean add_bipolar(Compiler *compiler, const SporeObject *object) {
   return TRUE;
 }
 
+static gboolean add_needle(Compiler *compiler, const SporeObject *object) {
+  SporeNeedleToolFields fields = {0};
+  spore_object_fields(object, &fields);
+  SporeToolDescription tool = {.name = fields.name,
+                               .kind = SPORE_TOOL_NEEDLE,
+                               .point = spore_vec3_load(fields.tip),
+                               .middle = spore_vec3_load(fields.middle),
+                               .swage = spore_vec3_load(fields.swage),
+                               .needle = fields.needle};
+  if (!body_index(compiler, object, "body", &tool.body) || !body_index(compiler, object, "thread", &tool.thread))
+    return FALSE;
+  g_array_append_val(compiler->tools, tool);
+  return TRUE;
+}
+
 static gboolean add_emitter(Compiler *compiler, const SporeObject *object) {
   SporeWoundFields fields = {0};
   spore_object_fields(object, &fields);
@@ -350,6 +365,7 @@ static gboolean add_tool(Compiler *compiler, const SporeObject *object) {
   if (strcmp(element, "scissors") == 0) return add_jaws(compiler, object, SPORE_TOOL_SCISSORS);
   if (strcmp(element, "bipolar") == 0) return add_bipolar(compiler, object);
   if (strcmp(element, "suction") == 0) return add_suction(compiler, object);
+  if (strcmp(element, "needle") == 0) return add_needle(compiler, object);
   return TRUE;
 }
 

@@ -115,6 +115,12 @@ typedef struct SporeBipolarToolFields {
   SporeBipolarFields bipolar;
 } SporeBipolarToolFields;
 
+typedef struct SporeNeedleToolFields {
+  const char *name, *body, *device, *thread;
+  double tip[3], middle[3], swage[3];
+  SporeNeedleFields needle;
+} SporeNeedleToolFields;
+
 typedef struct SporeWoundFields {
   const char *name, *body, *source;
   double point[3], direction[3];

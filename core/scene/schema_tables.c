@@ -604,6 +604,16 @@ static const SporeParameter bipolar_parameters[] = {
     TOOL_PLACE(SporeBipolarToolFields, point, N_("Where it heats, between its tips, at the start, in the scene.")),
 };
 
+static const SporeParameter needle_parameters[] = {
+    NAME(SporeNeedleToolFields, N_("Name of the tool.")),
+    TOOL_BODY(SporeNeedleToolFields, body, N_("Active body that the tool moves: the needle. It needs no spheres.")),
+    TOOL_DEVICE(SporeNeedleToolFields),
+    TOOL_BODY(SporeNeedleToolFields, thread, N_("Thread, a body along a curve that begins or ends at the swage.")),
+    TOOL_PLACE(SporeNeedleToolFields, tip, N_("Its tip at the start, in the scene.")),
+    TOOL_PLACE(SporeNeedleToolFields, middle, N_("A point between on its arc at the start, in the scene.")),
+    TOOL_PLACE(SporeNeedleToolFields, swage, N_("Where it ends and the thread begins, at the start, in the scene.")),
+};
+
 static const SporeParameter emitter_parameters[] = {
     NAME(SporeWoundFields, N_("Name of the emitter.")),
     TOOL_BODY(SporeWoundFields, body, N_("Fluid that comes out.")),
@@ -693,7 +703,7 @@ const SporeElement spore_scene_elements[] = {
      TABLE(emitter_parameters, SporeWoundFields), .extra = &spore_emitter_parameters,
      .extra_offset = offsetof(SporeWoundFields, emitter)},
     {"tools", N_("Tools"), N_("What the user holds, and looks through."),
-     .children = CHILDREN("probe", "grasper", "clamp", "scissors", "suction", "bipolar", "camera")},
+     .children = CHILDREN("probe", "grasper", "clamp", "scissors", "suction", "bipolar", "needle", "camera")},
     {"probe", N_("Probe"), N_("An active body moved by a device."), TABLE(probe_parameters, SporeProbeFields)},
     {"grasper", N_("Grasper"), N_("Two jaws that close on tissue and hold it."),
      TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
@@ -711,6 +721,10 @@ const SporeElement spore_scene_elements[] = {
         "for good."),
      TABLE(bipolar_parameters, SporeBipolarToolFields), .extra = &spore_bipolar_parameters,
      .extra_offset = offsetof(SporeBipolarToolFields, bipolar)},
+    {"needle", N_("Needle"),
+     N_("A curved needle that pierces nets, surfaces and tetrahedra, and draws a thread through them."),
+     TABLE(needle_parameters, SporeNeedleToolFields), .extra = &spore_needle_parameters,
+     .extra_offset = offsetof(SporeNeedleToolFields, needle)},
     {"camera", N_("Camera"), N_("A view of the scene."), TABLE(camera_parameters, SporeCameraFields)},
     {"devices", N_("Devices"), N_("Where input comes from."), .children = CHILDREN("mouse", "track")},
     {"mouse", N_("Mouse"), N_("The pointer on the screen."), TABLE(mouse_parameters, SporeMouseFields)},

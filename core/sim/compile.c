@@ -48,6 +48,7 @@ static bool check_body(const SporeBodyDescription *body, SporeError *error) {
 static bool check_tool_fields(const SporeToolDescription *tool, SporeError *error) {
   if (tool->kind == SPORE_TOOL_SUCTION) return spore_parameters_check(&spore_suction_parameters, &tool->suction, error);
   if (tool->kind == SPORE_TOOL_BIPOLAR) return spore_parameters_check(&spore_bipolar_parameters, &tool->bipolar, error);
+  if (tool->kind == SPORE_TOOL_NEEDLE) return spore_parameters_check(&spore_needle_parameters, &tool->needle, error);
   return spore_parameters_check(&spore_jaw_parameters, &tool->jaws, error);
 }
 

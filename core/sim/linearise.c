@@ -22,14 +22,15 @@ static SporeCoupling *spring_couplings(const SporeGroup *group) {
 /* Folded into the matrix of `body`, if any, with the rest of the term. */
 static void bend_rail(const SporeGroup *group, SporeSpringTerm *term, const double *q, double c2, uint32_t body) {
   spore_rail_bend(term, group->world->local_sites, q, c2);
-  term->rail->bend.folded = body != SPORE_NO_BODY;
+  term->rail->bend.folded = body != SPORE_NO_BODY && term->rail->bend.turn > 0;
   if (term->rail->bend.folded) spore_body_fold_bend(&group->world->bodies[body], &term->rail->bend);
 }
 
 static void multiply_bends(const SporeGroup *group, const double *x, double *y) {
   for (size_t i = 0; group->world->rail_count > 0 && i < group->island->spring_count; i++) {
     const SporeSpringTerm *term = spore_group_spring(group, i);
-    if (term->rail && !term->rail->bend.folded) spore_rail_bend_multiply(term, group->world->local_sites, x, y);
+    if (term->rail && term->rail->bend.turn > 0 && !term->rail->bend.folded)
+      spore_rail_bend_multiply(term, group->world->local_sites, x, y);
   }
 }
 

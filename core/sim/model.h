@@ -146,6 +146,9 @@ struct SporeModelType {
   /* The model's own collision spheres, in the body's frame at rest, for bodies whose scene gives them none, where map
    * takes them; of particles one at each node, in their order. *set: spore_sphere_set_clear. */
   bool (*spheres)(const SporeModel *model, SporeSphereSet *set, SporeError *error);
+  /* Corners of the triangles of its surface, nodes, three each, from spore_allocate: what a needle pierces. False: no
+   * memory. NULL: it cannot be pierced. */
+  bool (*skin)(const SporeModel *model, uint32_t **triangles, size_t *count);
   /* Spans of the line that runs through the body, led by its first nodes (core/constraint/path.h): what slides along
    * it may be linked to it. NULL: it has none. */
   size_t (*path)(const SporeModel *model);

@@ -7,10 +7,14 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
+static size_t hold_count(const SporeToolDescription *from) {
+  if (from->kind == SPORE_TOOL_NEEDLE) return spore_needle_term_count(from);
+  return spore_tool_kind_holds(from->kind) ? (size_t)from->jaws.holds : 0;
+}
+
 size_t spore_tools_hold_count(const SporeWorldDescription *description) {
   size_t count = 0;
-  for (size_t i = 0; i < description->tool_count; i++)
-    if (spore_tool_kind_holds(description->tools[i].kind)) count += (size_t)description->tools[i].jaws.holds;
+  for (size_t i = 0; i < description->tool_count; i++) count += hold_count(&description->tools[i]);
   return count;
 }
 
@@ -18,6 +22,7 @@ static const char *tool_fault(const SporeWorld *world, const SporeToolDescriptio
   if (from->body >= world->body_count || world->bodies[from->body].role != SPORE_ACTIVE)
     return _("the tool's body is not active; expected a body that a device moves; choose one");
   if (!spore_vec3_is_finite(from->point)) return _("a point of the tool is not finite; expected it in m; correct it");
+  if (from->kind == SPORE_TOOL_NEEDLE) return spore_needle_fault(world, from);
   return from->kind >= SPORE_TOOL_SUCTION ? NULL : spore_jaws_fault(world, from);
 }
 
@@ -26,6 +31,7 @@ static bool make_tool(SporeWorld *world, SporeTool *tool, const SporeToolDescrip
   tool->kind = from->kind;
   tool->body = from->body;
   if (spore_tool_has_jaws(tool)) return tool->name && spore_jaws_make(world, tool, from);
+  if (from->kind == SPORE_TOOL_NEEDLE) return tool->name && spore_needle_make(world, tool, from);
   const SporePose *frame = &world->bodies[from->body].rest_pose;
   tool->suction = from->suction;
   tool->bipolar = from->bipolar;
@@ -46,7 +52,7 @@ bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *d
     if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
     SporeTool *tool = &world->tools[world->tool_count++];
     tool->hold_start = hold;
-    if (spore_tool_kind_holds(from->kind)) hold += (size_t)from->jaws.holds;
+    hold += hold_count(from);
     made = make_tool(world, tool, from);
   }
   made = made && spore_world_compile_parting(world) && spore_world_compile_coagulation(world);
@@ -60,6 +66,7 @@ void spore_world_reset_tools(SporeWorld *world) {
     tool->opening = tool->squeeze = 0;
     tool->latched = false;
     tool->due = 0;
+    if (tool->needle) spore_needle_reset(world, tool);
     tool->taken = tool->cut = tool->coagulated = 0;
   }
 }
@@ -68,6 +75,7 @@ void spore_world_clear_tools(SporeWorld *world) {
   for (size_t i = 0; i < world->tool_count; i++) {
     spore_free(world->tools[i].name);
     spore_free(world->tools[i].holds);
+    spore_needle_clear(world->tools[i].needle);
   }
   spore_free(world->tools);
 }
@@ -77,6 +85,7 @@ void spore_world_use_tools(SporeWorld *world) {
     SporeTool *tool = &world->tools[i];
     if (spore_tool_has_jaws(tool)) spore_jaws_use(world, tool);
     if (tool->kind == SPORE_TOOL_BIPOLAR) spore_bipolar_use(world, tool);
+    if (tool->needle) spore_needle_use(world, tool);
   }
 }
 
@@ -90,6 +99,10 @@ SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
                           .taken = tool->taken,
                           .cut = tool->cut,
                           .coagulated = tool->coagulated};
+  if (tool->needle) {
+    state.pierced = tool->needle->pierced;
+    state.stitches = spore_needle_stitch_count(tool->needle);
+  }
   for (size_t i = 0; i < (size_t)tool->fields.holds; i++) {
     state.held += tool->holds[i].state == SPORE_HOLD_TIED;
     state.lost += tool->holds[i].state == SPORE_HOLD_LOST;

@@ -106,13 +106,15 @@ typedef struct SporeLinkDescription {
  *   scissors blades on a hinge that cut what they close on: nets, along the way of the blades; they need no jaws
  *   suction  takes the particles of fluids away that come into its mouth
  *   bipolar  coagulates nets and tetrahedra near its point while the first button is down: they shrink and stiffen
- *            there, for good */
+ *            there, for good
+ *   needle   pierces the surfaces that its tip is pushed through, and draws its thread after it; it has no spheres */
 typedef enum SporeToolKind {
   SPORE_TOOL_GRASPER,
   SPORE_TOOL_CLAMP,
   SPORE_TOOL_SCISSORS,
   SPORE_TOOL_SUCTION,
-  SPORE_TOOL_BIPOLAR
+  SPORE_TOOL_BIPOLAR,
+  SPORE_TOOL_NEEDLE
 } SporeToolKind;
 
 typedef enum SporeTrigger {
@@ -151,6 +153,18 @@ typedef struct SporeBipolarFields {
 } SporeBipolarFields;
 extern const SporeParameterTable spore_bipolar_parameters;
 
+/* The table is spore_needle_parameters. */
+typedef struct SporeNeedleFields {
+  double force;     /* N of the tip, that pierces */
+  double depth;     /* m that the tip pushes a surface before it, at most */
+  double stiffness; /* N/m, of each place that needle or thread goes through, and of the thread's end at the needle */
+  double friction;  /* Coulomb coefficient there */
+  double strength;  /* N: a stitch tears out above; 0: never */
+  int64_t stitches; /* places at a time */
+  bool knot;        /* the thread's other end does not go through */
+} SporeNeedleFields;
+extern const SporeParameterTable spore_needle_parameters;
+
 typedef struct SporeToolDescription {
   const char *name;
   SporeToolKind kind;
@@ -159,9 +173,12 @@ typedef struct SporeToolDescription {
   SporeVec3 hinge, axis; /* world, at time 0: jaw_a opens by turning about the axis, jaw_b against it */
   SporeJawFields jaws;   /* of what has jaws */
   SporeVec3 point; /* of suction: middle of its mouth; of bipolar: between its tips; of scissors: end of the closed
-                      blades; world, at time 0 */
+                      blades; of a needle: its tip; world, at time 0 */
   SporeBipolarFields bipolar;
   SporeSuctionFields suction;
+  SporeNeedleFields needle;
+  SporeVec3 middle, swage; /* of a needle: on its arc, and where it ends and the thread begins; world, at time 0 */
+  uint32_t thread;         /* of a needle: a body along a curve; SPORE_NO_BODY: none */
 } SporeToolDescription;
 
 /* Where particles of a fluid come from while it runs: a wound that bleeds. The fluid keeps `reserve` of its particles
@@ -258,6 +275,8 @@ typedef struct SporeToolState {
   size_t held, lost; /* spheres that it holds; that tore away since it last opened */
   size_t taken;      /* particles that suction took away so far */
   size_t cut;        /* ties that scissors cut so far */
+  size_t pierced;    /* surfaces that a needle pierced so far */
+  size_t stitches;   /* places that it or its thread goes through now */
   size_t coagulated; /* ties and elements that bipolar coagulated in the last step */
 } SporeToolState;
 size_t spore_world_tool_count(const SporeWorld *world);

@@ -17,6 +17,7 @@
 #include "core/linalg/block_cholesky.h"
 #include "core/sim/contact_lanes.h"
 #include "core/sim/coupling.h"
+#include "core/sim/needle.h"
 #include "core/sim/world.h"
 
 #define SPORE_COMMAND_CAPACITY 1024
@@ -202,7 +203,8 @@ typedef struct SporeTool {
   SporeVec3 point; /* of suction and scissors, in its frame */
   size_t cut;      /* by scissors */
   SporeBipolarFields bipolar;
-  size_t coagulated; /* by bipolar, in the last step */
+  SporeNeedle *needle; /* NULL: it is none */
+  size_t coagulated;   /* by bipolar, in the last step */
   SporeSuctionFields suction;
   double due;        /* particles that suction may take away by now */
   size_t taken;      /* by suction */
@@ -416,6 +418,15 @@ void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double 
 /* Room for it in models, where the world has something that heats. False: no memory. */
 bool spore_world_compile_coagulation(SporeWorld *world);
 void spore_bipolar_use(SporeWorld *world, SporeTool *tool);
+
+/* needle.c */
+size_t spore_needle_term_count(const SporeToolDescription *from);
+const char *spore_needle_fault(const SporeWorld *world, const SporeToolDescription *from);
+bool spore_needle_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from);
+void spore_needle_clear(SporeNeedle *needle);
+void spore_needle_reset(SporeWorld *world, SporeTool *tool);
+void spore_needle_use(SporeWorld *world, SporeTool *tool);
+size_t spore_needle_stitch_count(const SporeNeedle *needle);
 
 /* jaws.c: from what the last step did to where the jaws are to be. */
 const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription *from);
