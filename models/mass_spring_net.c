@@ -127,12 +127,7 @@ static bool build(Net *net, const SporeTriangleMesh *mesh, const NetFields *fiel
 
 static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   const SporeTriangleMesh *mesh = geometry->surface;
-  if (!mesh || mesh->triangle_count == 0) {
-    spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                    _("there is no surface; a mass-spring net needs one with edges; give the body a mesh"));
-    return NULL;
-  }
-  if (!spore_triangle_mesh_validate(mesh, error)) return NULL;
+  if (!spore_nodal_check_surface(mesh, error)) return NULL;
   Net *net = SPORE_NEW(Net);
   if (!net) {
     no_memory(error);

@@ -26,3 +26,9 @@ bool spore_nodal_check_mass(const SporeModel *model, const char *element, SporeE
   }
   return true;
 }
+
+bool spore_nodal_check_surface(const SporeTriangleMesh *mesh, SporeError *error) {
+  if (mesh && mesh->triangle_count > 0) return spore_triangle_mesh_validate(mesh, error);
+  return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                         _("there is no surface; the model is made of one with triangles; give the body a mesh"));
+}

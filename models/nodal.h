@@ -10,4 +10,7 @@ void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVe
 /* Refuses a node without mass: no `element` ("triangle") holds it, or only ones without size. */
 bool spore_nodal_check_mass(const SporeModel *model, const char *element, SporeError *error);
 
+/* Whether there is a surface of triangles, and one without faults. */
+bool spore_nodal_check_surface(const SporeTriangleMesh *mesh, SporeError *error);
+
 #endif

@@ -99,12 +99,7 @@ static bool build(Spline2d *sheet, const SporeTriangleMesh *mesh, const SheetFie
 
 static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   const SporeTriangleMesh *mesh = geometry->surface;
-  if (!mesh || mesh->triangle_count == 0) {
-    spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                    _("there is no surface; a spline sheet follows one; give the body an open mesh"));
-    return NULL;
-  }
-  if (!spore_triangle_mesh_validate(mesh, error)) return NULL;
+  if (!spore_nodal_check_surface(mesh, error)) return NULL;
   Spline2d *sheet = SPORE_NEW(Spline2d);
   if (!sheet) {
     no_memory(error);

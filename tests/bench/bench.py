@@ -12,6 +12,7 @@ import collide
 import commands
 import editor
 import fluid
+import fold
 import kernel
 import sofa
 import kernels
@@ -22,7 +23,7 @@ import surface
 import table
 import table1
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **solvers.BENCHES, **solids.BENCHES, **peers.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **fold.BENCHES, **solvers.BENCHES, **solids.BENCHES, **peers.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **editor.BENCHES}
 
 
 def main():
