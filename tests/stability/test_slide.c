@@ -196,13 +196,11 @@ static Rig *thrown(SporeIntegratorKind integrator, double h, double stiffness, b
   rig->description.solver.tolerance = 1e-10;
   SporeBodyDescription *bead = rig_passive(rig, "bead", box(0.01, 0.002), NULL);
   bead->pose.position = moving ? spore_vec3_add(arc(0.4), spore_vec3(0.003, 0, 0.002)) : arc(0.4);
+  bead->velocity = moving ? spore_vec3(-0.3, 0.4, 0.1) : spore_vec3(0, 0, 0);
+  bead->spin = moving ? spore_vec3(1, 3, -2) : spore_vec3(0, 0, 0);
   SporeBodyDescription *line = rig_passive(rig, "thread", thread(arc, 12, 1e6, 1, 1000, 0.01), NULL);
-  if (moving) {
-    bead->velocity = spore_vec3(-0.3, 0.4, 0.1);
-    bead->spin = spore_vec3(1, 3, -2);
-    line->velocity = spore_vec3(0.1, 0.1, 0);
-    line->spin = spore_vec3(0, 1, 2);
-  }
+  line->velocity = moving ? spore_vec3(0.1, 0.1, 0) : spore_vec3(0, 0, 0);
+  line->spin = moving ? spore_vec3(0, 1, 2) : spore_vec3(0, 0, 0);
   add(rig, "slide", SPORE_LINK_SLIDE, 0, 1, arc(0.4))->stiffness = stiffness;
   return rig;
 }
