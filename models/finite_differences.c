@@ -1,15 +1,12 @@
 /* Elasticity by finite differences on a regular grid inside a closed surface: Meseure et al. 2003 name it as future
  * work. What a cell does is in models/lattice.h; here are the model's making and its parameters. */
-#include <math.h>
-
 #include "core/base/memory.h"
 #include "models/lattice.h"
 #include "models/nodal.h"
 #include "models/registry.h"
 #include "models/tissues.h"
 
-#define MOST 200000 /* cells inside */
-#define WHOLE 0.25  /* of the volume in cells that the surface does not cut: with less, it is thin */
+#define WHOLE 0.25 /* of the volume in cells that the surface does not cut: with less, it is thin */
 
 typedef struct GridFields {
   double young_modulus, poisson_ratio, density, mass_damping, stiffness_damping;
@@ -28,7 +25,7 @@ typedef struct Body {
 static const SporeParameter parameters[] = {
     SPORE_INTEGER_FIELD(GridFields, cells, 1, 1000, 10, SPORE_CHANGE_REBUILD,
                         N_("Cells along the longest side of the surface's box; they are about as long the other ways. "
-                           "The error goes with one over their square.")),
+                           "With twice as many the error is about a quarter.")),
     SPORE_TISSUE_YOUNG_MODULUS(GridFields),
     SPORE_REAL_FIELD(GridFields, poisson_ratio, "", 0, 0.49999, 0.4, SPORE_CHANGE_LIVE,
                      N_("Poisson's ratio; near 0.5 volume is kept.")),
@@ -69,36 +66,24 @@ static void tune(Body *body, const GridFields *fields) {
   body->mass_damping = fields->mass_damping;
 }
 
-/* How many cells are filled; *thin: few of them wholly. */
-static size_t count_filled(const SporeVoxels *voxels, bool *thin) {
+/* Whether few of the filled cells are filled wholly. */
+static bool is_thin(const SporeVoxels *voxels) {
   double whole = 0, all = 0;
-  size_t filled = 0;
   for (size_t cell = 0; cell < spore_voxels_count(voxels); cell++) {
     double share = voxels->share[cell];
-    filled += share > 0, all += share;
+    all += share;
     if (share == 1) whole += share;
   }
-  *thin = whole < WHOLE * all;
-  return filled;
+  return whole < WHOLE * all;
 }
 
 static bool build(Body *body, const SporeTriangleMesh *surface, const GridFields *fields, SporeError *error) {
-  SporeMeshReport report;
   SporeVoxels voxels;
-  if (!spore_triangle_mesh_report_solid(surface, &report, error) ||
-      !spore_voxels_create(&voxels, surface, (size_t)fields->cells, error))
-    return false;
-  size_t filled = count_filled(&voxels, &body->thin);
-  bool few = filled <= MOST;
-  if (!few)
-    spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                    _("%lld cells along the longest side make %zu in all; expected at most %d; ask for fewer"),
-                    (long long)fields->cells, filled, MOST);
-  bool made = spore_lattice_create(&body->lattice, &voxels);
-  if (!few) return false;
-  if (!made) return no_memory(error);
+  if (!spore_voxels_create(&voxels, surface, (size_t)fields->cells, error)) return false;
+  body->thin = is_thin(&voxels);
+  if (!spore_lattice_create(&body->lattice, &voxels)) return no_memory(error);
   if (!spore_model_init(&body->base, &spore_finite_differences, body->lattice.node_count, false, error)) return false;
-  spore_lattice_add_mass(&body->lattice, fields->density * fabs(report.volume), body->base.block_mass);
+  spore_lattice_add_mass(&body->lattice, fields->density * body->lattice.voxels.volume, body->base.block_mass);
   if (!find_blocks(body)) return no_memory(error);
   tune(body, fields);
   return true;

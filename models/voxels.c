@@ -10,7 +10,8 @@
 #define LEAST 0.05 /* share of a cell below which it is empty */
 #define LOOSE 0.01 /* of the volume: what may be left out of it, where it does not hang together with the rest */
 #define PARTS 4    /* of a cell along an edge, where the surface cuts it */
-#define MOST 2e6   /* cells of the box */
+#define MOST_FILLED 200000 /* cells that a model is made of, about */
+#define MOST 2e6           /* cells of the box */
 
 static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a grid"));
@@ -35,9 +36,16 @@ static bool fit(SporeVoxels *voxels, const SporeMeshReport *report, size_t cells
     voxels->lower[k] = report->lower[axis];
     count *= (double)voxels->size[k];
   }
-  return count <= MOST ||
-         spore_error_set(error, SPORE_ERROR_INPUT, NULL,
-                         _("a grid of %.3g cells; expected at most %.3g; ask for fewer cells"), count, MOST);
+  double volume = voxels->cell[0] * voxels->cell[1] * voxels->cell[2], filled = fabs(report->volume) / volume;
+  if (filled > MOST_FILLED)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("%zu cells along the longest side make about %.2g inside the surface; expected at most "
+                             "%d; ask for fewer cells"),
+                           cells, filled, MOST_FILLED);
+  return count <= MOST || spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                                          _("the surface's box has %.2g cells; expected at most %.2g; ask for fewer "
+                                            "cells"),
+                                          count, MOST);
 }
 
 /* The point at (x, y, z) cells from the first corner. */
@@ -113,24 +121,34 @@ static bool fill(SporeVoxels *voxels, const SporeTriangleMesh *surface, SporeErr
     for (size_t j = 0; j < voxels->size[1]; j++)
       for (size_t k = 0; k < voxels->size[2]; k++) voxels->share[cell++] = share_of(voxels, bvh, i, j, k);
   spore_bvh_free(bvh);
-  if (!find_parts(voxels)) return no_memory(error);
-  if (voxels->parts == 1) return true;
-  if (voxels->parts == 0)
+  return find_parts(voxels) || no_memory(error);
+}
+
+static bool check_parts(size_t parts, const SporeMeshReport *report, SporeError *error) {
+  if (parts == 1) return true;
+  if (parts == 0)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("the surface is so thin that it fills no cell of the grid; ask for more cells"));
+  if (report->components > 1)
+    return spore_error_set(
+        error, SPORE_ERROR_INPUT, NULL,
+        _("the surface has %zu parts, and its grid %zu that do not hang together; expected one; give "
+          "each part a body of its own, or join them"),
+        report->components, parts);
   return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                          _("the surface is thinner than a cell somewhere, so that the grid falls into %zu parts that "
                            "do not hang together; ask for more cells"),
-                         voxels->parts);
+                         parts);
 }
 
 bool spore_voxels_create(SporeVoxels *voxels, const SporeTriangleMesh *surface, size_t cells, SporeError *error) {
   SporeMeshReport report;
   *voxels = (SporeVoxels){0};
   if (!spore_triangle_mesh_report_solid(surface, &report, error) || !fit(voxels, &report, cells, error)) return false;
+  voxels->volume = fabs(report.volume);
   voxels->share = SPORE_NEW_ARRAY(double, spore_voxels_count(voxels));
   if (!voxels->share) return no_memory(error);
-  if (fill(voxels, surface, error)) return true;
+  if (fill(voxels, surface, error) && check_parts(voxels->parts, &report, error)) return true;
   spore_voxels_clear(voxels);
   return false;
 }

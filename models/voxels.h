@@ -12,6 +12,7 @@ typedef struct SporeVoxels {
   double lower[3], cell[3]; /* the first cell's corner and its edges, along the grid's axes, m */
   double *share;            /* of each cell: how much of it lies inside, 0..1 */
   size_t parts;             /* sets of filled cells that hang together by faces */
+  double volume;            /* of the surface, m^3 */
 } SporeVoxels;
 
 /* Fits `cells` of them to the longest side of the surface's box and as many to the others as make them nearly cubes.

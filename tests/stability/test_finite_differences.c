@@ -282,6 +282,19 @@ static void dumb_bell(SporeTriangleMesh *mesh) {
   }
 }
 
+/* Two boxes. */
+static void apart(SporeTriangleMesh *mesh) {
+  SporeTriangleMesh boxes[2];
+  for (int b = 0; b < 2; b++) shape_box(boxes + b, spore_vec3(2 * b, 0, 0), spore_vec3(1, 1, 1));
+  size_t n = boxes[0].vertex_count, t = boxes[0].triangle_count;
+  g_assert_true(spore_triangle_mesh_allocate(mesh, 2 * n, 2 * t, NULL));
+  for (size_t b = 0; b < 2; b++) {
+    memcpy(mesh->vertices + 3 * n * b, boxes[b].vertices, 3 * n * sizeof(double));
+    for (size_t c = 0; c < 3 * t; c++) mesh->triangles[3 * t * b + c] = boxes[b].triangles[c] + (uint32_t)(n * b);
+    spore_triangle_mesh_clear(boxes + b);
+  }
+}
+
 static void refused(void) {
   SporeTriangleMesh mesh;
   shape_sheet(&mesh, 5, 5, 0.01, FALSE);
@@ -291,7 +304,9 @@ static void refused(void) {
   shape_box(&mesh, spore_vec3(0, 0, 0), spore_vec3(1, 1, 1));
   refuse(&mesh, 300, "fewer cells");
   shape_box(&mesh, spore_vec3(0, 0, 0), spore_vec3(1, 1, 1));
-  refuse(&mesh, 60, "ask for fewer");
+  refuse(&mesh, 60, "2.2e+05 inside");
+  apart(&mesh);
+  refuse(&mesh, 12, "has 2 parts");
   dumb_bell(&mesh);
   refuse(&mesh, 10, "2 parts");
 }
