@@ -22,13 +22,13 @@ def loop(build, scene):
 
 
 def strayed(build, scene, finer):
-    """Of the worst body that is compared sphere by sphere, else by its centre: in words, and the largest error."""
+    """Of the worst body that is compared sphere by sphere, else by its middle: in words, and the largest error."""
     done = subprocess.run([build / "tests/bench/bench_scene_error", SCENES / (scene + ".spore"), str(TRACK_S), str(finer)],
                           capture_output=True, text=True, check=True)
     bodies = json.loads(done.stdout)
     resolved = [b for b in bodies if b["compared"] == "spheres"]
     worst = max(resolved or bodies, key=lambda b: b["max"])
-    about = f"error of {worst['body']}" + ("" if resolved else "'s centre")
+    about = f"error of {worst['body']}" + ("" if resolved else "'s middle")
     return f"{about} {worst['final']:.2g} at the end, reference's own {worst['reference']:.1g}", worst["max"]
 
 
