@@ -13,6 +13,12 @@ typedef struct Rig {
   SporeWorld *world;
 } Rig;
 
+/* Whether sanitizers look for wrong memory accesses, which takes ten times as long and more: then a part of a long test
+ * that comes by all the code is enough. The run without them judges the whole. */
+extern const bool rig_sanitized;
+/* Steps of a long run: the part under sanitizers, said. */
+unsigned rig_steps(unsigned whole, unsigned part);
+
 /* Default solver, no gravity. */
 Rig *rig_new(void);
 void rig_free(Rig *rig);

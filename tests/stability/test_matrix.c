@@ -132,7 +132,8 @@ static gboolean said_frozen(const SporeMonitor *monitor) {
   return FALSE;
 }
 
-static const char *check_cell(Rig *rig, SporeIntegratorKind kind, double h, double *rise) {
+/* again: whether it must come out the same a second time. */
+static const char *check_cell(Rig *rig, SporeIntegratorKind kind, double h, bool again, double *rise) {
   SporeWorld *world = rig->world;
   const SporeMonitor *monitor = spore_world_monitor(world);
   uint64_t first, second;
@@ -144,8 +145,8 @@ static const char *check_cell(Rig *rig, SporeIntegratorKind kind, double h, doub
   if (frozen) g_assert_true(said_frozen(monitor));
   if (!rig_finite(world) || isnan(*rise)) return "NOT FINITE";
   spore_world_reset(world);
-  run(world, kind, &second);
-  if (first != second) return "NOT THE SAME AGAIN";
+  if (again) run(world, kind, &second);
+  if (again && first != second) return "NOT THE SAME AGAIN";
   if (*rise > allowed_rise(kind, safer)) return "ENERGY";
   if (safer) return "made safer";
   return frozen ? "frozen" : mended ? "mended" : unsolved ? "unsolved" : "stable";
@@ -160,12 +161,13 @@ static void check_model(gconstpointer data) {
   for (Load load = 0; load < loads; load += of->variant ? HEAVY : 1) /* of a variant, every other load */
     for (SporeIntegratorKind kind = 0; kind < SPORE_INTEGRATOR_COUNT; kind++) {
       GString *line = g_string_new(NULL);
-      for (unsigned i = 0; i < G_N_ELEMENTS(steps); i++) {
+      bool again = !rig_sanitized || load == AS_IT_COMES;
+      for (unsigned i = rig_sanitized; i < G_N_ELEMENTS(steps); i += rig_sanitized ? 2 : 1) { /* or every other */
         Rig *rig = set_up(*of, kind, steps[i], load);
         SporeError error = SPORE_ERROR_INIT;
         double rise = 0;
         const char *verdict = "refused";
-        if (rig_try_build(rig, &error)) verdict = check_cell(rig, kind, steps[i], &rise);
+        if (rig_try_build(rig, &error)) verdict = check_cell(rig, kind, steps[i], again, &rise);
         else {
           g_assert_cmpint(error.code, ==, SPORE_ERROR_NUMERICAL);
           g_assert_true(g_str_has_prefix(error.place, "bodies/"));
