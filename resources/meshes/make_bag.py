@@ -106,6 +106,10 @@ def main():
     write_off(folder, "holder", joined_parts(tube(), ring()))
     string = draw_string(160)
     write_rows(folder / "draw-string.curve", np.column_stack([string, np.full(len(string), THREAD)]), "# x y z r, in metres")
+    stop = np.arange(0.0035, 0.070, 0.003)  # along the tube: the film is not drawn into it
+    wire = [CENTRE + [(MOUTH + 0.002) * np.sin(a), 0, (MOUTH + 0.002) * np.cos(a)] for a in 2 * np.pi * (np.arange(24) + 0.5) / 24]
+    spheres = [(0, 0, z, 0.0035) for z in stop] + [(*p, 0.0008) for p in wire]
+    write_rows(folder / "holder.spheres", spheres, "# x y z r, in metres")
     print(f"bag: {len(vertices)} points, {rim} of them along the rim")
 
 

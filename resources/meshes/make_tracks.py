@@ -12,11 +12,11 @@ RATE_HZ = 50
 
 # Where the instruments go through the wall of the belly, m.
 RIGHT, LEFT, NAVEL = (0.105, 0.045, 0.190), (-0.105, 0.045, 0.190), (0.020, 0.130, 0.180)
-UPPER_RIGHT = (0.085, 0.150, 0.150)
+UPPER_RIGHT, UPPER_LEFT = (0.085, 0.150, 0.150), (-0.085, 0.150, 0.150)
 UMBILICUS = (0.040, 0.180, 0.250)  # of an endoscope whose lens looks upward from its shaft
 
-# Scene: instrument: place of entry, then rows of time (s) and place of the tip (m) and, where it is used, the buttons
-# that are down from then on.
+# Scene: instrument: place of entry, then rows of time (s) and place of the tip (m) and, where they are used, the buttons
+# that are down from then on and how far the shaft is turned about itself (rad).
 TRACKS = {
     # The right probe presses the ovary, the fold behind it and the tube, then stirs the blood and turns to the bowel; the
     # left one does the same on its side and pulls at the thread; the endoscope looks on, comes nearer and rests on the bowel.
@@ -82,14 +82,17 @@ TRACKS = {
         (0.0, 0.0690, 0.0428, 0.0560, 0), (1.0, 0.0530, 0.0418, -0.0010, 0), (1.4, 0.0527, 0.0417, -0.0024, 1),
         (1.7, 0.0527, 0.0417, -0.0024, 0), (2.6, 0.0540, 0.0470, 0.0030, 0), (3.4, 0.0527, 0.0430, -0.0010, 0),
         (4.0, 0.0527, 0.0430, -0.0010, 0)])},
-    # Takes the ovary out of the pouch, lowers it into the bag, lets go and leaves.
+    # Takes the ovary, lowers it into the bag, lets go and leaves; the draw-string is pulled through the holder's tube, and the
+    # closed bag carried up.
     "bag": {
         "shaft": (UPPER_RIGHT, [
             (0.0, 0.036, 0.060, 0.060, 0), (0.8, 0.0580, 0.030, 0.027, 0), (1.2, 0.0568, 0.0220, 0.0190, 1),
             (2.0, 0.0568, 0.0220, 0.0190, 1), (2.8, 0.040, 0.075, 0.055, 1),
             (3.6, 0.002, 0.074, 0.072, 1), (4.2, 0.002, 0.030, 0.070, 1), (4.4, 0.002, 0.030, 0.070, 0),
-            (4.8, 0.002, 0.030, 0.070, 0), (5.6, 0.036, 0.090, 0.080, 0), (9.0, 0.036, 0.090, 0.080, 0)]),
-        "holder": (LEFT, [(0.0, -0.0300, 0.0329, 0.0851), (9.0, -0.0300, 0.0329, 0.0851)]),
+            (4.8, 0.002, 0.030, 0.070, 0), (5.6, 0.036, 0.090, 0.080, 0), (11.0, 0.036, 0.090, 0.080, 0)]),
+        "holder": (LEFT, [(0.0, -0.0300, 0.0329, 0.0851), (8.6, -0.0300, 0.0329, 0.0851), (10.0, -0.0280, 0.0700, 0.0860), (11.0, -0.0280, 0.0700, 0.0860)]),
+        "puller": (LEFT, [(0.0, -0.0300, 0.0329, 0.0851), (5.6, -0.0300, 0.0329, 0.0851), (8.2, -0.0671, 0.0389, 0.1369), (8.6, -0.0671, 0.0389, 0.1369),
+            (10.0, -0.0654, 0.0579, 0.1365), (11.0, -0.0654, 0.0579, 0.1365)]),
     },
     "plate5-string": {"probe": (RIGHT, [
         (0.0, 0.085, 0.040, 0.080), (0.8, 0.060, -0.026, 0.040), (1.2, 0.056, -0.026, 0.018), (2.2, 0.056, 0.006, 0.018),
@@ -115,20 +118,31 @@ def ease(x):
 
 
 def tip(points, t):
-    """Place and buttons."""
+    """Place, buttons and turn."""
     k = max(i for i, p in enumerate(points[:-1]) if i == 0 or t >= p[0])
     (start, *a), (end, *b) = points[k], points[k + 1]
     s = ease(min(1, (t - start) / (end - start)))
-    return [x + s * (y - x) for x, y in zip(a[:3], b)], a[3] if len(a) > 3 else 0
+    turn = a[4] + s * (b[4] - a[4]) if len(a) > 4 else 0
+    return [x + s * (y - x) for x, y in zip(a[:3], b)], a[3] if len(a) > 3 else 0, turn
 
 
-def row(t, place, buttons, entry):
-    """The shaft lies along the body's +z, from the tip to the place of entry: the least turn that brings z there."""
+def aim(place, entry):
+    """The shaft lies along the body's +z, from the tip to the place of entry: the least turn that brings z there, as
+    w, x and y of a quaternion; its z is 0."""
     d = [e - p for e, p in zip(entry, place)]
     length = math.hypot(*d)
     w, x, y = 1 + d[2] / length, -d[1] / length, d[0] / length
     norm = math.hypot(w, x, y)
-    return "%.2f %.6f %.6f %.6f %.7f %.7f %.7f 0 0 %d" % (t, *place, w / norm, x / norm, y / norm, buttons)
+    return w / norm, x / norm, y / norm
+
+
+def row(t, place, buttons, turn, entry):
+    w, x, y = aim(place, entry)
+    z = "0"
+    if turn:
+        c, s = math.cos(turn / 2), math.sin(turn / 2)
+        w, x, y, z = w * c, x * c + y * s, y * c - x * s, "%.7f" % (w * s)
+    return "%.2f %.6f %.6f %.6f %.7f %.7f %.7f %s 0 %d" % (t, *place, w, x, y, z, buttons)
 
 
 def track(instruments):
