@@ -191,7 +191,8 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_surface_map(&((const SporeLinearSolid *)model)->surface, NULL, points, count, mapping, error);
+  return spore_surface_map(&((const SporeLinearSolid *)model)->surface, NULL, points, count, model->map_slack, mapping,
+                           error);
 }
 
 const SporeModelType spore_condensed_tetrahedra = {

@@ -157,7 +157,12 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_spline_line_map(&((const Intestine *)model)->line, NULL, points, count, mapping, error);
+  return spore_spline_line_map(&((const Intestine *)model)->line, NULL, points, count, model->map_slack, mapping,
+                               error);
+}
+
+static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
+  return spore_spline_line_samples(&((const Intestine *)model)->line, NULL, 0, points, count, seen);
 }
 
 static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *error) {
@@ -188,6 +193,7 @@ const SporeModelType spore_intestine = {
     .force = force,
     .potential = potential,
     .map = map,
+    .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,
     .drift = drift,

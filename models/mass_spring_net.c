@@ -172,7 +172,7 @@ static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_surface_map(&((const Net *)model)->mesh, NULL, points, count, mapping, error);
+  return spore_surface_map(&((const Net *)model)->mesh, NULL, points, count, model->map_slack, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {

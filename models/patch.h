@@ -57,7 +57,9 @@ size_t spore_patch_set_rest(SporePatch *patch, const double *control, double *sh
 /* Rows of points by control points (in the body's frame): a point on the sheet by its cell's sixteen; one off it by as
  * few more around as carry its offset. Refused where the sheet is too flat to carry it. */
 bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const double *points, size_t count,
-                     SporeMapping *mapping, SporeError *error);
+                     double slack, SporeMapping *mapping, SporeError *error);
+/* Points of the sheet, 3 each, even by its parameters and four a span each way. False: no memory. */
+bool spore_patch_sample(size_t span_u, size_t span_v, const double *control, double **points, size_t *count);
 
 /* Forces, energy and stiffness as SporeModelType says. Viscous: the rates of E and of b_k.(a1 x a2), each times viscous
  * and its stiffness. */

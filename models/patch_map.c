@@ -17,7 +17,8 @@
 typedef struct Sheet {
   size_t span[2];
   const double *control;
-  double size, *sample; /* sample: (SAMPLES span + 1) each way, x 3 */
+  double size, drop; /* m: an offset that may be dropped */
+  double *sample;    /* (SAMPLES span + 1) each way, x 3 */
 } Sheet;
 
 /* The sixteen weights of a point, and those of its derivatives by u, v, uu, vv, uv. */
@@ -44,6 +45,10 @@ static SporeVec3 combine(const Sheet *sheet, const Place *place, int derivative)
     sum = spore_vec3_add_scaled(sum, place->weight[derivative][k], spore_vec3_load(sheet->control + 3 * node));
   }
   return sum;
+}
+
+static size_t sample_count(const Sheet *sheet) {
+  return (SAMPLES * sheet->span[0] + 1) * (SAMPLES * sheet->span[1] + 1);
 }
 
 static void take_samples(Sheet *sheet) {
@@ -129,14 +134,14 @@ static bool map_point(const Sheet *sheet, const double *point, size_t index, Row
     begin_row(sheet, &place, side, row);
     if (off <= nothing) return true;
     double sum = spore_carry_offset(row->point, row->used, missing(row, p), nothing, row->weight, work);
-    if (sum <= SPORE_CARRY_LIGHT || (last && sum <= SPORE_CARRY_AT_MOST && off > FLAT * sheet->size)) {
+    if (sum <= SPORE_CARRY_LIGHT || (last && sum <= SPORE_CARRY_AT_MOST && off > sheet->drop)) {
       spore_carry_offset(row->point, row->used, missing(row, p), nothing, row->weight, work); /* what rounding took */
       return true;
     }
     if (last) break;
   }
   begin_row(sheet, &place, 4, row);
-  if (off <= FLAT * sheet->size) return true;
+  if (off <= sheet->drop) return true;
   char text[64];
   snprintf(text, sizeof text, "point %zu", index);
   return spore_error_set(error, SPORE_ERROR_INPUT, text,
@@ -160,9 +165,10 @@ static bool map_points(Sheet *sheet, const double *points, size_t count, uint32_
 }
 
 bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const double *points, size_t count,
-                     SporeMapping *mapping, SporeError *error) {
-  Sheet sheet = {{span_u, span_v}, control, spore_carry_size(control, (span_u + 3) * (span_v + 3)), NULL};
-  sheet.sample = SPORE_NEW_ARRAY(double, 3 * (SAMPLES * span_u + 1) * (SAMPLES * span_v + 1));
+                     double slack, SporeMapping *mapping, SporeError *error) {
+  Sheet sheet = {{span_u, span_v}, control, spore_carry_size(control, (span_u + 3) * (span_v + 3)), 0, NULL};
+  sheet.drop = fmax(FLAT * sheet.size, slack);
+  sheet.sample = SPORE_NEW_ARRAY(double, 3 * sample_count(&sheet));
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   bool good = sheet.sample && blocks && weights;
@@ -173,4 +179,12 @@ bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const 
   spore_free(blocks);
   spore_free(weights);
   return good;
+}
+
+bool spore_patch_sample(size_t span_u, size_t span_v, const double *control, double **points, size_t *count) {
+  Sheet sheet = {.span = {span_u, span_v}, .control = control};
+  *count = sample_count(&sheet);
+  *points = sheet.sample = SPORE_NEW_ARRAY(double, 3 * *count);
+  if (sheet.sample) take_samples(&sheet);
+  return sheet.sample != NULL;
 }

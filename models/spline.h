@@ -48,9 +48,13 @@ void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matri
 
 /* Rows of points by control points (in the body's frame): a point on the line by its section's four; one off the line
  * by the arms of its twist (ends at each knot, the nodes behind the control points; NULL: it has none), or by as few
- * more points around it as span its offset. Refused where the line is too straight to carry the offset. */
+ * more points around it as span its offset. Where the line is too straight to carry that, a point no further off than
+ * slack (m) is put onto it, and any other refused. */
 bool spore_spline_map(size_t span_count, const double *control, const double *arms, const double *points, size_t count,
-                      SporeMapping *mapping, SporeError *error);
+                      double slack, SporeMapping *mapping, SporeError *error);
+/* SPORE_SPLINE_SAMPLES points of the line a span, and its end; 3 each; room for `more` behind them, which are not
+ * counted. NULL: no memory. */
+double *spore_spline_sample(size_t span_count, const double *control, size_t more, size_t *count);
 
 /* Forces, energy and stiffness as SporeModelType says. Viscous: the speed of |a| and that of |b| across the line, each
  * times viscous and its stiffness; the second fades out where the line is straight, and has no direction to bend in. */

@@ -153,7 +153,13 @@ static const char *notice(const SporeModel *model, const double *q) {
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_line_map(&body->line, body->twist.rest, points, count, mapping, error);
+  return spore_spline_line_map(&body->line, body->twist.rest, points, count, model->map_slack, mapping, error);
+}
+
+static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
+  const Spline1d *body = (const Spline1d *)model;
+  return spore_spline_line_samples(&body->line, body->twist.rest, model->node_count - body->line.control_count, points,
+                                   count, seen);
 }
 
 static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *error) {
@@ -187,6 +193,7 @@ const SporeModelType spore_spline_1d = {
     .force = force,
     .potential = potential,
     .map = map,
+    .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,
     .retune = retune,

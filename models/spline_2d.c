@@ -134,7 +134,15 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   const Spline2d *sheet = (const Spline2d *)model;
-  return spore_patch_map(sheet->patch.span_u, sheet->patch.span_v, sheet->rest, points, count, mapping, error);
+  return spore_patch_map(sheet->patch.span_u, sheet->patch.span_v, sheet->rest, points, count, model->map_slack,
+                         mapping, error);
+}
+
+static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
+  const Spline2d *sheet = (const Spline2d *)model;
+  bool taken = spore_patch_sample(sheet->patch.span_u, sheet->patch.span_v, sheet->rest, points, count);
+  *seen = *count;
+  return taken;
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
@@ -157,6 +165,7 @@ const SporeModelType spore_spline_2d = {
     .force = force,
     .potential = potential,
     .map = map,
+    .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,
     .retune = retune,

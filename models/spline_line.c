@@ -139,8 +139,18 @@ bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, size
 }
 
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
-                           SporeMapping *mapping, SporeError *error) {
-  return spore_spline_map(line->spline.span_count, line->rest, arms, points, count, mapping, error);
+                           double slack, SporeMapping *mapping, SporeError *error) {
+  return spore_spline_map(line->spline.span_count, line->rest, arms, points, count, slack, mapping, error);
+}
+
+bool spore_spline_line_samples(const SporeSplineLine *line, const double *arms, size_t arm_count, double **points,
+                               size_t *count, size_t *seen) {
+  *points = spore_spline_sample(line->spline.span_count, line->rest, arm_count, count);
+  *seen = *count;
+  if (!*points) return false;
+  if (arm_count > 0) memcpy(*points + 3 * *count, arms, 3 * arm_count * sizeof **points);
+  *count += arm_count;
+  return true;
 }
 
 bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error) {

@@ -28,9 +28,11 @@ typedef struct SporeSplineLine {
 bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, size_t control_points,
                             const SporeSplineSection *section, SporeError *error);
 void spore_spline_line_clear(SporeSplineLine *line);
-/* The slots map and spheres of SporeModelType; arms as for spore_spline_map. */
+/* The slots map, samples and spheres of SporeModelType; arms as for spore_spline_map. */
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
-                           SporeMapping *mapping, SporeError *error);
+                           double slack, SporeMapping *mapping, SporeError *error);
+bool spore_spline_line_samples(const SporeSplineLine *line, const double *arms, size_t arm_count, double **points,
+                               size_t *count, size_t *seen);
 bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error);
 
 #endif

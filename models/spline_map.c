@@ -14,7 +14,7 @@
 typedef struct Spline {
   size_t span_count;
   const double *control, *arms;
-  double size;
+  double size, slack;
 } Spline;
 
 typedef struct Row {
@@ -65,6 +65,11 @@ static bool fill_row(const Spline *spline, SporeVec3 p, const SporePathPlace *pl
   SporeVec3 offset = spore_vec3_sub(p, place->position);
   bool on = spore_vec3_length(offset) <= ROUNDING * spline->size;
   double sum = on ? 0 : carry(spline, offset, row, row->weight);
+  if (last && sum > SPORE_CARRY_LIGHT && spore_vec3_length(offset) <= spline->slack) {
+    memset(row->weight, 0, sizeof row->weight);
+    on = true;
+    sum = 0;
+  }
   if (sum > (last ? SPORE_CARRY_AT_MOST : SPORE_CARRY_LIGHT)) return false;
   for (size_t k = 0; k < 4; k++) row->weight[first + k] += place->weight[k];
   if (!on) carry(spline, missing(spline, row, p), row, row->weight); /* what rounding took */
@@ -93,8 +98,8 @@ static bool map_point(const Spline *spline, const double *point, size_t index, R
 }
 
 bool spore_spline_map(size_t span_count, const double *control, const double *arms, const double *points, size_t count,
-                      SporeMapping *mapping, SporeError *error) {
-  Spline spline = {span_count, control, arms, spore_carry_size(control, span_count + 3)};
+                      double slack, SporeMapping *mapping, SporeError *error) {
+  Spline spline = {span_count, control, arms, spore_carry_size(control, span_count + 3), slack};
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   bool good = blocks && weights;
@@ -109,4 +114,12 @@ bool spore_spline_map(size_t span_count, const double *control, const double *ar
   spore_free(blocks);
   spore_free(weights);
   return good;
+}
+
+double *spore_spline_sample(size_t span_count, const double *control, size_t more, size_t *count) {
+  *count = SPORE_SPLINE_SAMPLES * span_count + 1;
+  double *points = SPORE_NEW_ARRAY(double, 3 * (*count + more));
+  for (size_t i = 0; points && i < *count; i++)
+    spore_vec3_store(points + 3 * i, spore_path_at(span_count, control, (double)i / SPORE_SPLINE_SAMPLES).position);
+  return points;
 }

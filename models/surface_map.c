@@ -10,9 +10,9 @@
 
 #define WIDTH 4             /* weights a point */
 #define WEIGHTS_AT_MOST 100 /* sum of absolute weights */
-#define CORE_WEIGHTS_AT_MOST 4
-#define FLAT 1e-6      /* offset that a flat surface may drop, of its size */
-#define ROUNDING 1e-14 /* of the surface's size: a point this near a vertex is that vertex */
+#define LIGHT_WEIGHTS 4     /* as many that need no excuse */
+#define FLAT 1e-6           /* offset that a flat surface may drop, of its size */
+#define ROUNDING 1e-14      /* of the surface's size: a point this near a vertex is that vertex */
 
 static SporeVec3 vertex_at(const SporeTriangleMesh *mesh, uint32_t i) {
   return spore_vec3_load(mesh->vertices + 3 * (size_t)i);
@@ -77,18 +77,18 @@ static double stand_on(const SporeTriangleMesh *mesh, size_t t, SporeVec3 p, Row
 }
 
 /* The core with the row's triangle, the nearest; else with that of all triangles that makes the best tetrahedron, such
- * as the one that the point lies below as the core sees it. False: the weights pass CORE_WEIGHTS_AT_MOST. */
+ * as the one that the point lies below as the core sees it. False: the weights pass LIGHT_WEIGHTS. */
 static bool lift_by_core(const SporeTriangleMesh *mesh, SporeVec3 core, SporeVec3 p, double offset, Row *row) {
   Row result = *row;
   uint32_t node = (uint32_t)mesh->vertex_count;
   double best = lift_by(mesh, node, core, offset, &result);
-  bool near = best <= CORE_WEIGHTS_AT_MOST;
+  bool near = best <= LIGHT_WEIGHTS;
   for (size_t t = 0; !near && t < mesh->triangle_count; t++) {
     Row candidate;
     double away = stand_on(mesh, t, p, &candidate), sum = lift_by(mesh, node, core, away, &candidate);
     if (sum < best) best = sum, result = candidate;
   }
-  if (!(best <= CORE_WEIGHTS_AT_MOST)) return false;
+  if (!(best <= LIGHT_WEIGHTS)) return false;
   *row = result;
   return true;
 }
@@ -96,7 +96,7 @@ static bool lift_by_core(const SporeTriangleMesh *mesh, SporeVec3 core, SporeVec
 /* Finds what makes the best tetrahedron with the row's triangle: the core where it does, else a vertex. False: nothing
  * is good enough. */
 static bool lift(const SporeTriangleMesh *mesh, const SporeVec3 *core, SporeVec3 p, double offset, double size,
-                 Row *row) {
+                 double most, Row *row) {
   if (core && lift_by_core(mesh, *core, p, offset, row)) return true;
   Row result = *row;
   double best = HUGE_VAL;
@@ -104,7 +104,7 @@ static bool lift(const SporeTriangleMesh *mesh, const SporeVec3 *core, SporeVec3
     Row candidate = *row;
     SporeVec3 d = vertex_at(mesh, i);
     double sum = lift_by(mesh, i, d, offset, &candidate);
-    if (!(sum <= WEIGHTS_AT_MOST)) continue;
+    if (!(sum <= most)) continue;
     double cost = sum + 0.1 * spore_vec3_distance(p, d) / size;
     if (cost < best) best = cost, result = candidate;
   }
@@ -113,7 +113,7 @@ static bool lift(const SporeTriangleMesh *mesh, const SporeVec3 *core, SporeVec3
 }
 
 static bool map_point(const SporeTriangleMesh *mesh, const SporeVec3 *core, const SporeBvh *bvh, double size,
-                      const double *point, size_t index, Row *row, SporeError *error) {
+                      double slack, const double *point, size_t index, Row *row, SporeError *error) {
   SporeVec3 p = spore_vec3_load(point);
   uint32_t triangle = 0;
   spore_bvh_distance(bvh, p, NULL, &triangle);
@@ -123,7 +123,9 @@ static bool map_point(const SporeTriangleMesh *mesh, const SporeVec3 *core, cons
     for (int j = 0; j < WIDTH; j++) row->weight[j] = j == k;
     return true;
   }
-  if (fabs(offset) <= ROUNDING * size || lift(mesh, core, p, offset, size, row) || fabs(offset) <= FLAT * size)
+  double most = fabs(offset) <= slack ? LIGHT_WEIGHTS : WEIGHTS_AT_MOST;
+  if (fabs(offset) <= ROUNDING * size || lift(mesh, core, p, offset, size, most, row) ||
+      fabs(offset) <= fmax(FLAT * size, slack))
     return true;
   char place[64];
   snprintf(place, sizeof place, "point %zu", index);
@@ -152,14 +154,14 @@ static SporeTriangleMesh without_flat(const SporeTriangleMesh *mesh, uint32_t **
 }
 
 static bool map_points(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
-                       uint32_t *blocks, double *weights, SporeError *error) {
+                       double slack, uint32_t *blocks, double *weights, SporeError *error) {
   SporeBvh *bvh = spore_bvh_create(mesh, error);
   if (!bvh) return false;
   double size = size_of(mesh);
   bool good = true;
   for (size_t i = 0; good && i < count; i++) {
     Row row;
-    good = map_point(mesh, core, bvh, size, points + 3 * i, i, &row, error);
+    good = map_point(mesh, core, bvh, size, slack, points + 3 * i, i, &row, error);
     memcpy(blocks + WIDTH * i, row.block, sizeof row.block);
     memcpy(weights + WIDTH * i, row.weight, sizeof row.weight);
   }
@@ -168,14 +170,14 @@ static bool map_points(const SporeTriangleMesh *mesh, const SporeVec3 *core, con
 }
 
 bool spore_surface_map(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
-                       SporeMapping *mapping, SporeError *error) {
+                       double slack, SporeMapping *mapping, SporeError *error) {
   if (is_identity(mesh, points, count)) return spore_mapping_init_identity(mapping, count);
   uint32_t *triangles, *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   SporeTriangleMesh view = without_flat(mesh, &triangles);
   bool good = triangles && blocks && weights;
   if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  good = good && map_points(&view, core, points, count, blocks, weights, error) &&
+  good = good && map_points(&view, core, points, count, slack, blocks, weights, error) &&
          spore_mapping_init_linear(mapping, count, WIDTH, blocks, weights, error);
   spore_free(triangles);
   spore_free(blocks);

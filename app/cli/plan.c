@@ -3,6 +3,7 @@
 #include <link.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/plan_levels.h"
 #include "app/cli/scene.h"
 
 #define MEASURED_STEPS 200
@@ -114,6 +115,10 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
       {"bodies", N_("that physics moves, each with its name, integrator, substeps, nonlinear and linear solver: name "
                     "or count, and said_by (body, scene, automatic, monitor); null: nothing is solved")},
       {"libraries", N_("that the program uses")},
+      {"levels",
+       N_("where bodies have levels: each one's name, memory_bytes (of mappings, matrices and states that having "
+          "levels takes), levels: level, active, dof, spheres, and with --measure measured_us, the median of a "
+          "step of the scene with the body at it from the start")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "plan",
@@ -138,5 +143,6 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   for (int i = 0; measure && i < MEASURED_STEPS && !spore_cli_interrupted(); i++)
     spore_world_step(run->simulation->world);
   report(cli, run->simulation->world, measure);
+  if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);
   return spore_cli_finish(cli, spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : SPORE_EXIT_DONE);
 }

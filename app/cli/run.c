@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/level_changes.h"
 #include "app/cli/run_report.h"
 #include "app/cli/scene.h"
 #include "core/base/memory.h"
@@ -17,6 +18,7 @@ typedef struct RunOptions {
   gint64 steps;
   gboolean realtime;
   char *record;
+  char **level;
   int threads;
   SporeSceneOptions scene;
 } RunOptions;
@@ -34,14 +36,15 @@ static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
 }
 
 /* recording: NULL, or a track with a channel for each active body; pace: NULL, or what keeps the steps in time. */
-static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, SporePace *pace,
-                                    SporeTrack *recording) {
+static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, GArray *levels,
+                                    SporePace *pace, SporeTrack *recording) {
   SporeRunStatistics statistics;
   spore_run_statistics_start(&statistics, world);
   gint64 stride = MAX(1, steps / ENERGY_LOOKS);
   if (pace) spore_pace_start(pace, spore_world_time_s(world), 1);
   for (gint64 done = 1; done <= steps && !spore_cli_interrupted(); done++) {
     if (pace) spore_pace_begin(pace, spore_pace_due_ns(pace, spore_world_time_s(world)));
+    spore_level_changes_post(levels, world);
     spore_world_step(world);
     if (pace) spore_pace_end(pace, spore_world_time_s(world));
     spore_run_statistics_step(&statistics, world);
@@ -82,6 +85,8 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, options->threads, &error);
   if (!run) return spore_cli_fail(error);
   SporeWorld *world = run->simulation->world;
+  g_autoptr(GArray) levels = spore_level_changes_parse(world, options->level, &error);
+  if (!levels) return spore_cli_fail(error);
   SporeTrack recording = {0};
   if (options->record && !add_channels(world, &recording)) return spore_cli_usage(_("--record: not enough memory"));
   double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
@@ -89,7 +94,7 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   if (!isnan(options->time_s)) steps = (gint64)ceil(options->time_s / dt_s - 1e-9);
   g_autofree SporePace *pace = options->realtime ? g_new(SporePace, 1) : NULL;
   if (pace) spore_world_set_budget(world, 1e6 * dt_s);
-  SporeRunStatistics result = run_steps(cli, world, steps, pace, options->record ? &recording : NULL);
+  SporeRunStatistics result = run_steps(cli, world, steps, levels, pace, options->record ? &recording : NULL);
   int status = spore_cli_finish(cli, spore_run_report(cli, scene, world, &result, pace));
   int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
   status = MAX(status, saved);
@@ -118,6 +123,10 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"tools", N_("where instruments do more than touch: each one's name, opening_rad, squeeze_Nm (torque against "
                    "closing), held and lost (spheres), taken (particles), cut and coagulated (springs, elements), "
                    "pierced (surfaces) and stitches (that hold now)")},
+      {"levels",
+       N_("where bodies have levels: each one's name, level (at the end), changes and refused (how many), error_m "
+          "(how far they moved a point of it at most), energy_J (its own, that one added at most), "
+          "momentum_Ns (that one missed at most)")},
       {"monitor",
        N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
           "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "
@@ -150,6 +159,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       {"threads", 0, 0, G_OPTION_ARG_INT, &options.threads, N_("Threads (default 1); the result is the same"), "N"},
       {"realtime", 0, 0, G_OPTION_ARG_NONE, &options.realtime,
        N_("Keep pace with the clock, and say how well that went"), NULL},
+      {"level", 0, 0, G_OPTION_ARG_STRING_ARRAY, &options.level,
+       N_("Change the level of a body while it runs, at 0 s or later: thread=coarse@1.5"), "BODY=LEVEL[@S]"},
       {"record", 0, 0, G_OPTION_ARG_FILENAME, &options.record, N_("Write the devices' input as a track"), "FILE"},
       SPORE_SCENE_OPTION_ENTRIES(options.scene),
       G_OPTION_ENTRY_NULL};
@@ -167,5 +178,6 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
   }
   spore_scene_options_clear(&options.scene);
   g_free(options.record);
+  g_strfreev(options.level);
   return status;
 }

@@ -136,6 +136,34 @@ static void report_tools(SporeCli *cli, const SporeWorld *world) {
   spore_cli_close_array(cli);
 }
 
+static void report_level(SporeCli *cli, const char *body, const SporeLevelState *state) {
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", body);
+  spore_cli_text(cli, "level", spore_level_names[state->level]);
+  spore_cli_count(cli, "changes", (gint64)state->changes);
+  spore_cli_count(cli, "refused", (gint64)state->refused);
+  spore_cli_number(cli, "error_m", state->error);
+  spore_cli_number(cli, "energy_J", state->energy);
+  spore_cli_number(cli, "momentum_Ns", state->momentum);
+  spore_cli_close(cli);
+  spore_cli_say(cli, _("%s: level %s, %llu changes moved it by at most %.3g m, %llu refused\n"), body,
+                spore_level_names[state->level], (unsigned long long)state->changes, state->error,
+                (unsigned long long)state->refused);
+}
+
+/* Where bodies have them. */
+static void report_levels(SporeCli *cli, const SporeWorld *world) {
+  SporeLevelState state;
+  gboolean any = FALSE;
+  for (guint body = 0; body < spore_world_body_count(world); body++) {
+    if (!spore_world_level_state(world, body, &state)) continue;
+    if (!any) spore_cli_open_array(cli, "levels");
+    any = TRUE;
+    report_level(cli, spore_world_body_name(world, body), &state);
+  }
+  if (any) spore_cli_close_array(cli);
+}
+
 /* Whether it kept pace. */
 static gboolean report_pace(SporeCli *cli, const SporeWorld *world, const SporePace *pace) {
   if (!pace) return TRUE;
@@ -206,6 +234,7 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   report_solver(cli, result);
   report_links(cli, world);
   report_tools(cli, world);
+  report_levels(cli, world);
   gboolean held = report_monitor(cli, world);
   held &= report_pace(cli, world, pace);
   spore_cli_text(cli, "state_hash", hash);

@@ -40,5 +40,9 @@ static inline SporePose spore_pose_identity(void) { return (SporePose){{0, 0, 0}
 static inline SporeVec3 spore_pose_apply(SporePose p, SporeVec3 v) {
   return spore_vec3_add(p.position, spore_quat_rotate(p.orientation, v));
 }
+/* The point that apply takes to v. */
+static inline SporeVec3 spore_pose_apply_inverse(SporePose p, SporeVec3 v) {
+  return spore_quat_rotate(spore_quat_conjugate(p.orientation), spore_vec3_sub(v, p.position));
+}
 
 #endif

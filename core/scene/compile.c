@@ -5,6 +5,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/name.h"
+#include "core/scene/level_settings.h"
 #include "core/scene/schema_fields.h"
 
 /* What is being put together. */
@@ -101,7 +102,8 @@ static gboolean refuse_geometry(Compiler *compiler, const SporeObject *mechanica
 }
 #pragma GCC diagnostic pop
 
-/* What the model is to be built from. Fails with a message when the asset is missing or of the wrong kind. */
+/* What the model is to be built from, as `mechanical`, or a level of it, says. Fails with a message when the asset is
+ * missing or of the wrong kind. */
 static gboolean find_geometry(Compiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
                               SporeGeometry *geometry) {
   SporeObject *asset;
@@ -151,6 +153,56 @@ static gboolean make_model(Compiler *compiler, const SporeObject *body, SporeBod
   return refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
 }
 
+/* One level: the body's model with what differs. */
+static gboolean make_level(Compiler *compiler, const SporeObject *model, SporeObject *level, SporeModel **made) {
+  const SporeModelType *type = spore_object_type(model)->model;
+  SporeGeometry geometry = {0};
+  SporeLevelFields level_fields;
+  SporeError fault = SPORE_ERROR_INIT;
+  spore_object_fields(level, &level_fields);
+  const SporeObject *from = level_fields.geometry ? level : spore_object_parent(model);
+  if (!find_geometry(compiler, from, type, &geometry)) return FALSE;
+  g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
+  spore_object_fields(model, fields);
+  if (spore_level_settings_apply(&type->parameters, level_fields.settings, fields, &fault))
+    *made = type->create(&geometry, fields, &fault);
+  return *made || refuse(compiler, level, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
+}
+
+/* Points of the body that are seen. */
+static gboolean find_surface(Compiler *compiler, const SporeObject *body, SporeLevelsDescription *levels) {
+  const SporeObject *visual = spore_object_child_of(body, "visual");
+  SporeObject *asset = NULL;
+  if (!visual) return TRUE;
+  if (!resolve(compiler, visual, "mesh", &asset)) return FALSE;
+  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(compiler->document, asset, compiler->error) : NULL;
+  if (mesh) levels->surface = mesh->vertices, levels->surface_count = mesh->vertex_count;
+  return mesh || !asset;
+}
+
+static gboolean add_levels(Compiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *model = model_object(body);
+  SporeLevelsDescription *levels = &description->levels;
+  SporeFidelityFields fields;
+  if (!fidelity) return TRUE;
+  spore_object_fields(fidelity, &fields);
+  levels->first = (SporeLevelGrade)fields.level;
+  levels->tolerance = fields.level_tolerance;
+  for (int k = 0; k < SPORE_LEVEL_FINE; k++) {
+    SporeObject *level = spore_object_child_of(fidelity, spore_level_names[k]);
+    if (level && !model)
+      return refuse(compiler, level, _("the body does not move by physics, so that it has no levels; take them out"));
+    if (level && !make_level(compiler, model, level, &levels->model[k])) return FALSE;
+  }
+  if (levels->first != SPORE_LEVEL_FINE && !levels->model[levels->first])
+    return refuse(compiler, fidelity,
+                  _("level=\"%s\", and there is no such level; expected <%s> in it; add it, or take "
+                    "level fine"),
+                  spore_level_names[levels->first], spore_level_names[levels->first]);
+  gboolean any = levels->model[SPORE_LEVEL_COARSE] || levels->model[SPORE_LEVEL_MEDIUM];
+  return !any || find_surface(compiler, body, levels);
+}
+
 gboolean spore_body_has_own_spheres(const SporeObject *body) {
   const SporeObject *collision = spore_object_child_of(body, "collision"), *model = model_object(body);
   return (int)spore_object_number(body, "role") == SPORE_PASSIVE && collision && model &&
@@ -197,7 +249,7 @@ static gboolean add_body(Compiler *compiler, SporeObject *body) {
       .spin = spore_vec3_load(fields.spin)};
   if (!add_collision(compiler, body, &description)) return FALSE;
   if (description.role == SPORE_PASSIVE && !make_model(compiler, body, &description)) return FALSE;
-  gboolean added = add_own_spheres(compiler, body, &description);
+  gboolean added = add_own_spheres(compiler, body, &description) && add_levels(compiler, body, &description);
   g_ptr_array_add(compiler->objects, body);
   g_array_append_val(compiler->bodies, description);
   return added;
@@ -482,8 +534,11 @@ static gboolean describe(Compiler *compiler) {
 
 static void destroy_models(const Compiler *compiler) {
   for (guint i = 0; i < compiler->bodies->len; i++) {
-    SporeModel *model = g_array_index(compiler->bodies, SporeBodyDescription, i).model;
-    if (model) model->type->destroy(model);
+    const SporeBodyDescription *body = &g_array_index(compiler->bodies, SporeBodyDescription, i);
+    SporeModel *const models[] = {body->model, body->levels.model[SPORE_LEVEL_COARSE],
+                                  body->levels.model[SPORE_LEVEL_MEDIUM]};
+    for (gsize k = 0; k < G_N_ELEMENTS(models); k++)
+      if (models[k]) models[k]->type->destroy(models[k]);
   }
 }
 
@@ -579,12 +634,20 @@ static gboolean same_state(const SporeModel *a, const SporeModel *b) {
   return a->type == b->type && a->q_count == b->q_count && a->block_count == b->block_count;
 }
 
+/* The same level, where there still is one. */
+static void carry_level(SporeWorld *to, guint32 body, const SporeWorld *from, guint32 old) {
+  SporeLevelState state;
+  if (!spore_world_level_state(from, old, &state) || !spore_world_level_model(to, body, state.level)) return;
+  spore_world_set_level(to, body, state.level);
+}
+
 void spore_simulation_carry_over(SporeSimulation *to, const SporeSimulation *from) {
   size_t count = spore_world_body_count(to->world);
   for (guint32 i = 0; i < count; i++) {
     SporeRole role = spore_world_body_role(to->world, i);
     guint32 old = spore_world_find_body(from->world, spore_world_body_name(to->world, i));
     if (old == SPORE_NO_BODY || role == SPORE_UNMOVABLE || spore_world_body_role(from->world, old) != role) continue;
+    carry_level(to->world, i, from->world, old);
     if (same_state(spore_world_body_model(to->world, i), spore_world_body_model(from->world, old)))
       spore_world_set_state(to->world, i, spore_world_q(from->world, old), spore_world_v(from->world, old));
   }
@@ -635,6 +698,15 @@ static gboolean post_gravity(SporeSimulation *simulation, const SporeObject *env
   return spore_world_post(simulation->world, &command);
 }
 
+static gboolean post_level(SporeSimulation *simulation, const SporeObject *fidelity) {
+  SporeCommand command = {.kind = SPORE_COMMAND_LEVEL,
+                          .body = spore_simulation_body_of(simulation, (SporeObject *)fidelity)};
+  SporeFidelityFields fields;
+  spore_object_fields(fidelity, &fields);
+  command.level = (SporeLevelGrade)fields.level;
+  return command.body != SPORE_NO_BODY && spore_world_post(simulation->world, &command);
+}
+
 gboolean spore_simulation_apply(SporeSimulation *simulation, SporeDocument *document, SporeObject *object,
                                 guint property) {
   const SporeObjectType *type = spore_object_type(object);
@@ -642,6 +714,8 @@ gboolean spore_simulation_apply(SporeSimulation *simulation, SporeDocument *docu
   if (strcmp(type->element, "environment") == 0) return post_gravity(simulation, object);
   if (strcmp(type->element, "contact") == 0) return post_contacts(simulation, document);
   if (strcmp(type->element, "solver") == 0) return FALSE;
+  if (strcmp(type->element, "fidelity") == 0 && strcmp(type->table->parameters[property].name, "level") == 0)
+    return post_level(simulation, object);
   if (!type->model && strcmp(type->element, "collision") != 0) return TRUE; /* only shown, or used when generating */
   guint32 body = spore_simulation_body_of(simulation, object);
   if (body == SPORE_NO_BODY) return FALSE;

@@ -29,7 +29,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *                mechanical(geometry integrator substeps) > one model element (its own table)
  *                collision(spheres + spore_contact_parameters)
  *                visual(mesh colour wetness)
- *                fidelity(mode)
+ *                fidelity(mode level level_tolerance) > coarse(geometry settings) medium(geometry settings)
  *     links  > pin(name body point radius) | spring(name body_a body_b point_a point_b stiffness damping rest_length)
  *     effects
  *     tools  > probe(name body device) | camera(name position target field_of_view)

@@ -66,8 +66,15 @@ typedef struct SporeVisualFields {
 } SporeVisualFields;
 
 typedef struct SporeFidelityFields {
-  int mode; /* SporeFidelity */
+  int mode;               /* SporeFidelity */
+  int level;              /* SporeLevelGrade */
+  double level_tolerance; /* m */
 } SporeFidelityFields;
+
+typedef struct SporeLevelFields {
+  const char *geometry; /* NULL: the body's */
+  const char *settings; /* NULL: none */
+} SporeLevelFields;
 
 typedef struct SporePinFields {
   const char *name, *body;

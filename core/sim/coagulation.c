@@ -24,11 +24,16 @@ const SporeParameterTable spore_bipolar_parameters = {parameters, sizeof paramet
 
 static bool heats(const SporeBody *body) { return body->model && body->model->type->coagulate; }
 
+static void prepare(SporeModel *model, void *user) {
+  bool *made = user;
+  *made = *made && model->type->prepare_heat(model);
+}
+
 bool spore_world_compile_coagulation(SporeWorld *world) {
   bool any = false, made = true;
   for (size_t i = 0; i < world->tool_count; i++) any |= world->tools[i].kind == SPORE_TOOL_BIPOLAR;
   for (size_t b = 0; made && any && b < world->body_count; b++)
-    if (heats(&world->bodies[b])) made = world->bodies[b].model->type->prepare_heat(world->bodies[b].model);
+    if (heats(&world->bodies[b])) spore_body_each_model(&world->bodies[b], prepare, &made);
   return made;
 }
 

@@ -13,23 +13,31 @@ bool spore_world_post(SporeWorld *world, const SporeCommand *command) {
   return true;
 }
 
+typedef struct Retuning {
+  const void *fields;
+  SporeError error;
+} Retuning;
+
+static void retune_model(SporeModel *model, void *user) {
+  Retuning *retuning = user;
+  if (!*retuning->error.message) model->type->retune(model, retuning->fields, &retuning->error);
+}
+
 static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
-  SporeError error = SPORE_ERROR_INIT;
+  Retuning retuning = {fields, SPORE_ERROR_INIT};
   const SporeModelType *type = body->model ? body->model->type : NULL;
   if (!type || !type->retune) {
     spore_world_report(world, _("%s: has no parameters that can change while it runs; restart to apply them"),
                        body->name);
     return;
   }
-  if (!spore_parameters_check(&type->parameters, fields, &error) || !type->retune(body->model, fields, &error)) {
-    spore_world_report(world, "%s: %s", body->name, error.message);
+  if (spore_parameters_check(&type->parameters, fields, &retuning.error))
+    spore_body_each_model(body, retune_model, &retuning);
+  if (*retuning.error.message) {
+    spore_world_report(world, "%s: %s", body->name, retuning.error.message);
     return;
   }
-  body->matrix_c = 0;
-  body->history_s = 0;
-  body->watch.started = false;
-  body->pause = body->pauses = 0;
-  spore_body_reset_choice(world, body);
+  spore_body_forget_steps(world, body);
   body->total_mass = spore_model_total_mass(body->model);
   spore_body_set_mass(world, body);
 }
@@ -84,6 +92,9 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
     break;
   case SPORE_COMMAND_THAW:
     thaw(body);
+    break;
+  case SPORE_COMMAND_LEVEL:
+    spore_world_change_level(world, command->body, command->level);
     break;
   case SPORE_COMMAND_GRAVITY:
     break;

@@ -5,8 +5,8 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/sim/levels.h"
 #include "core/sim/step_limit.h"
-#include "core/sim/world_private.h"
 
 static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
@@ -102,6 +102,7 @@ static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBo
 /* Offsets and names; the models are borrowed until the world stands. */
 static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
   body->role = from->role;
+  body->level = SPORE_LEVEL_FINE;
   body->model = from->model;
   body->total_mass = from->model ? spore_model_total_mass(from->model) : 0;
   body->contact = from->contact;
@@ -116,13 +117,15 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->v_offset = world->v_count;
   body->q_count = from->model ? from->model->q_count : SPORE_POSE_Q;
   body->block_count = from->model ? from->model->block_count : SPORE_POSE_BLOCKS;
-  world->q_count += body->q_count;
-  world->v_count += 3 * body->block_count;
   body->name = spore_copy_text(from->name);
-  return body->name || no_memory(error);
+  if (!body->name) return no_memory(error);
+  if (!spore_levels_make(world, body, from, error)) return false;
+  world->q_count += body->levels ? body->levels->q_room : body->q_count;
+  world->v_count += body->levels ? body->levels->v_room : 3 * body->block_count;
+  return true;
 }
 
-static bool make_matrix(SporeBody *body, SporeError *error) {
+bool spore_body_make_matrix(SporeBody *body, SporeError *error) {
   if (!body->model || !body->model->type->jacobian) return true;
   return spore_model_matrix_create(body->model, &body->matrix) || no_memory(error);
 }
@@ -152,13 +155,28 @@ bool spore_world_compile_bodies(SporeWorld *world, const SporeWorldDescription *
   if (!world->rest_q || !world->rest_v) return no_memory(error);
   for (size_t i = 0; i < n; i++) {
     SporeBody *body = &world->bodies[i];
-    if (!make_matrix(body, error)) return false;
+    if (!spore_body_make_matrix(body, error)) return false;
     place_body(world, body, &description->bodies[i]);
     if (!finite_all(world->rest_q + body->q_offset, body->q_count) ||
         !finite_all(world->rest_v + body->v_offset, 3 * body->block_count))
       return fail(error, body->name, _("the body cannot be placed: its state is not finite; check its mesh and pose"));
   }
   return true;
+}
+
+bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphereSet *set, SporeError *error) {
+  SporeBody *body = &world->bodies[index];
+  size_t count = set ? set->count : 0;
+  double *points = SPORE_NEW_ARRAY(double, 3 * count);
+  if (!points) return no_memory(error);
+  for (size_t s = 0; s < count; s++) memcpy(points + 3 * s, set->spheres + 4 * s, 3 * sizeof *points);
+  bool mapped = spore_world_map(world, index, points, count, &body->spheres, error);
+  spore_free(points);
+  if (mapped) return true;
+  char place[200];
+  snprintf(place, sizeof place, "bodies/%s", body->name);
+  spore_error_at(error, place);
+  return false;
 }
 
 /* Spheres of the bodies with this role, behind those that are there. */
@@ -170,24 +188,13 @@ static bool add_spheres(SporeWorld *world, const SporeWorldDescription *descript
     const SporeSphereSet *set = description->bodies[i].spheres;
     if ((body->role == SPORE_UNMOVABLE) != unmovable) continue;
     body->sphere_start = all->count;
-    size_t count = set ? set->count : 0;
-    double *points = SPORE_NEW_ARRAY(double, 3 * count);
-    if (!points) return no_memory(error);
-    for (size_t s = 0; s < count; s++) {
-      memcpy(points + 3 * s, set->spheres + 4 * s, 3 * sizeof *points);
+    if (!spore_body_map_spheres(world, (uint32_t)i, set, error)) return false;
+    for (size_t s = 0; set && s < set->count; s++) {
       all->radius[all->count + s] = set->spheres[4 * s + 3];
       all->body[all->count + s] = (uint32_t)i;
     }
-    bool mapped = spore_world_map(world, (uint32_t)i, points, count, &body->spheres, error);
-    spore_free(points);
-    if (!mapped) {
-      char place[200];
-      snprintf(place, sizeof place, "bodies/%s", body->name);
-      spore_error_at(error, place);
-      return false;
-    }
     spore_mapping_positions(&body->spheres, world->rest_q + body->q_offset, all->centre + 3 * all->count);
-    all->count += count;
+    all->count += body->spheres.point_count;
   }
   return true;
 }

@@ -52,18 +52,21 @@ static SporeFactorLayout layout_of(int linear) {
   return linear == SPORE_LINEAR_CHOLESKY ? SPORE_FACTOR_SPARSE : SPORE_FACTOR_AUTOMATIC;
 }
 
+bool spore_body_compile_factor(const SporeWorld *world, SporeBody *body, SporeError *error) {
+  /* Of a matrix without couplings the diagonal blocks are all. */
+  if (body->matrix.block_count == 0 || body->matrix.row_start[body->matrix.block_count] == body->matrix.block_count)
+    return true;
+  body->held_flags = SPORE_NEW_ARRAY(uint8_t, body->block_count);
+  if (!body->held_flags || !spore_block_cholesky_create(&body->factor, &body->matrix, layout_of(world->solver.linear),
+                                                        WORTH_ITERATIONS * jacobi_work(body)))
+    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+  for (size_t i = 0; i < body->held_count; i++) body->held_flags[body->held[i]] = 1;
+  return true;
+}
+
 bool spore_world_compile_factors(SporeWorld *world, SporeError *error) {
-  for (size_t b = 0; b < world->body_count; b++) {
-    SporeBody *body = &world->bodies[b];
-    /* Of a matrix without couplings the diagonal blocks are all. */
-    if (body->matrix.block_count == 0 || body->matrix.row_start[body->matrix.block_count] == body->matrix.block_count)
-      continue;
-    body->held_flags = SPORE_NEW_ARRAY(uint8_t, body->block_count);
-    if (!body->held_flags || !spore_block_cholesky_create(&body->factor, &body->matrix, layout_of(world->solver.linear),
-                                                          WORTH_ITERATIONS * jacobi_work(body)))
-      return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
-    for (size_t i = 0; i < body->held_count; i++) body->held_flags[body->held[i]] = 1;
-  }
+  for (size_t b = 0; b < world->body_count; b++)
+    if (!spore_body_compile_factor(world, &world->bodies[b], error)) return false;
   return true;
 }
 
@@ -76,6 +79,14 @@ void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
   bool automatic = world->solver.linear == SPORE_LINEAR_AUTOMATIC;
   body->choice.factorised = (by_hand && body->factor.block_count > 0) || (automatic && is_banded(body));
   body->factor_ready = false;
+}
+
+void spore_body_forget_steps(const SporeWorld *world, SporeBody *body) {
+  body->matrix_c = 0;
+  body->history_s = 0;
+  body->watch.started = false;
+  body->pause = body->pauses = 0;
+  spore_body_reset_choice(world, body);
 }
 
 static void change(SporeBody *body, double iterations) {

@@ -92,16 +92,12 @@ const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription
   return NULL;
 }
 
-static SporeVec3 to_frame(const SporePose *pose, SporeVec3 at) {
-  return spore_quat_rotate(spore_quat_conjugate(pose->orientation), spore_vec3_sub(at, pose->position));
-}
-
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
   static const double origin[3] = {0, 0, 0};
   const SporePose *frame = &world->bodies[from->body].rest_pose;
   SporeQuat back = spore_quat_conjugate(frame->orientation);
   tool->fields = from->jaws;
-  tool->hinge = to_frame(frame, from->hinge);
+  tool->hinge = spore_pose_apply_inverse(*frame, from->hinge);
   tool->axis = spore_quat_rotate(back, spore_vec3_normalise(from->axis, (SporeVec3){0, 0, 0}));
   for (int j = 0; j < 2; j++) {
     SporeJaw *jaw = &tool->jaws[j];
@@ -109,10 +105,11 @@ bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescript
     jaw->side = j ? -1 : 1;
     if (jaw->body == SPORE_NO_BODY) continue;
     const SporePose *pose = &world->bodies[jaw->body].rest_pose;
-    jaw->closed = (SporePose){to_frame(frame, pose->position), spore_quat_multiply(back, pose->orientation)};
+    jaw->closed =
+        (SporePose){spore_pose_apply_inverse(*frame, pose->position), spore_quat_multiply(back, pose->orientation)};
   }
   tool->held_at = -1;
-  tool->point = to_frame(frame, from->point);
+  tool->point = spore_pose_apply_inverse(*frame, from->point);
   if (!spore_tool_kind_holds(from->kind)) tool->fields.holds = 0;
   tool->holds = SPORE_NEW_ARRAY(SporeHold, (size_t)tool->fields.holds);
   bool made = tool->holds != NULL;
@@ -161,7 +158,7 @@ static void hold_sphere(SporeWorld *world, SporeTool *tool, uint32_t jaw, uint32
   const double *frame = world->q + world->bodies[jaw].q_offset;
   const SporePose pose = {spore_vec3_load(frame), spore_quat_load(frame + 3)};
   SporeVec3 at = spore_mapping_position(&body->spheres, point, world->q + body->q_offset);
-  spore_vec3_store(term->b.mapping->points, to_frame(&pose, at));
+  spore_vec3_store(term->b.mapping->points, spore_pose_apply_inverse(pose, at));
   double mass = body->total_mass / (double)body->spheres.point_count;
   term->law = (SporeSpring){.stiffness = tool->fields.stiffness, .damping = 2 * sqrt(tool->fields.stiffness * mass)};
   term->force = (SporeVec3){0, 0, 0};

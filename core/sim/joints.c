@@ -127,8 +127,7 @@ static void find_points(const SporeLinkDescription *link, size_t term, SporeVec3
 }
 
 SporeVec3 spore_link_to_frame(const SporeWorld *world, uint32_t body, SporeVec3 at) {
-  const SporePose *pose = &world->bodies[body].rest_pose;
-  return spore_quat_rotate(spore_quat_conjugate(pose->orientation), spore_vec3_sub(at, pose->position));
+  return spore_pose_apply_inverse(world->bodies[body].rest_pose, at);
 }
 
 bool spore_link_attach(SporeWorld *world, uint32_t body, SporeVec3 at, SporeMapping *mapping, SporeEnd *end,

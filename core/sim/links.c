@@ -39,36 +39,59 @@ static const char *particles_fault(const SporeWorld *world, const SporeWorldDesc
   return NULL;
 }
 
-/* What is wrong with a pin, or NULL; *memory: there was none. */
-static const char *select_pin(const SporeWorld *world, const SporeLinkDescription *link, uint8_t *held, bool *memory) {
-  if (link->body_a >= world->body_count || world->bodies[link->body_a].role != SPORE_PASSIVE)
-    return _("a pin holds nothing here: its body does not move; choose a passive body");
-  const SporeBody *body = &world->bodies[link->body_a];
-  double *points = block_positions(world, body);
-  if (!points) {
-    *memory = false;
-    return NULL;
-  }
-  size_t found = spore_pin_select(points, body->block_count, link->point_a, link->radius, held + body->v_offset / 3);
-  spore_free(points);
-  return found ? NULL : _("the pin holds nothing: no node lies within its radius; move it or make the radius larger");
+/* What is wrong with a pin's body, or NULL. */
+static const char *pin_fault(const SporeWorld *world, const SporeLinkDescription *link) {
+  if (link->body_a < world->body_count && world->bodies[link->body_a].role == SPORE_PASSIVE) return NULL;
+  return _("a pin holds nothing here: its body does not move; choose a passive body");
 }
 
-/* The lists of held blocks from the marks, and velocity 0 for them. */
-static bool collect_held(SporeWorld *world, const uint8_t *marks) {
-  for (size_t b = 0; b < world->body_count; b++) {
-    SporeBody *body = &world->bodies[b];
-    const uint8_t *held = marks + body->v_offset / 3;
-    size_t count = 0;
-    for (size_t i = 0; i < body->block_count; i++) count += held[i];
-    body->held = SPORE_NEW_ARRAY(uint32_t, count);
-    if (!body->held) return false;
-    for (size_t i = 0; i < body->block_count; i++)
-      if (held[i]) body->held[body->held_count++] = (uint32_t)i;
-    body->pin_count = body->held_count;
-    spore_pin_filter(body->held, body->held_count, world->rest_v + body->v_offset);
+static bool place_error(const SporeLinkDescription *link, SporeError *error) {
+  char place[200];
+  snprintf(place, sizeof place, "links/%s", link->name ? link->name : "");
+  spore_error_at(error, place);
+  return false;
+}
+
+/* Marks the blocks of the body at `points` that pins hold. */
+static bool mark_held(const SporeBody *body, const SporeWorldDescription *description, uint32_t index,
+                      const double *points, uint8_t *marks, SporeError *error) {
+  for (size_t i = 0; i < description->link_count; i++) {
+    const SporeLinkDescription *link = &description->links[i];
+    if (link->kind != SPORE_LINK_PIN || link->body_a != index) continue;
+    if (spore_pin_select(points, body->block_count, link->point_a, link->radius, marks) > 0) continue;
+    spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                    _("the pin holds nothing: no node lies within its radius; move it or make the radius larger"));
+    return place_error(link, error);
   }
   return true;
+}
+
+/* The list of held blocks from the marks, and velocity 0 for them. */
+static bool collect_held(SporeWorld *world, SporeBody *body, const uint8_t *marks) {
+  size_t count = 0;
+  for (size_t i = 0; i < body->block_count; i++) count += marks[i];
+  body->held = SPORE_NEW_ARRAY(uint32_t, count);
+  if (!body->held) return false;
+  body->held_count = 0;
+  for (size_t i = 0; i < body->block_count; i++)
+    if (marks[i]) body->held[body->held_count++] = (uint32_t)i;
+  body->pin_count = body->held_count;
+  spore_pin_filter(body->held, body->held_count, world->rest_v + body->v_offset);
+  return true;
+}
+
+bool spore_body_compile_pins(SporeWorld *world, const SporeWorldDescription *description, uint32_t index,
+                             SporeError *error) {
+  SporeBody *body = &world->bodies[index];
+  uint8_t *marks = SPORE_NEW_ARRAY(uint8_t, body->block_count);
+  double *points = body->model ? block_positions(world, body) : NULL;
+  bool good = marks && (points || !body->model);
+  if (!good) no_memory(error);
+  good = good && (!points || mark_held(body, description, index, points, marks, error));
+  if (good && !collect_held(world, body, marks)) good = no_memory(error);
+  spore_free(points);
+  spore_free(marks);
+  return good;
 }
 
 /* Ports that active bodies go through are no terms. */
@@ -115,36 +138,29 @@ static bool make_link(SporeWorld *world, const SporeLinkDescription *from, size_
 }
 
 static bool compile_link(SporeWorld *world, const SporeWorldDescription *description, const SporeLinkDescription *link,
-                         uint8_t *marks, size_t *term_count, SporeError *error) {
-  char place[200];
-  snprintf(place, sizeof place, "links/%s", link->name ? link->name : "");
-  bool memory = true, pin = link->kind == SPORE_LINK_PIN;
+                         size_t *term_count, SporeError *error) {
+  bool pin = link->kind == SPORE_LINK_PIN;
   const char *fault = spore_link_fault(world, link);
   if (!fault) fault = particles_fault(world, description, link->body_a);
   if (!fault) fault = particles_fault(world, description, link->body_b);
-  if (!fault && pin) fault = select_pin(world, link, marks, &memory);
-  if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
-  if (!memory) return no_memory(error);
-  if (pin || make_link(world, link, term_count, error)) return true;
-  spore_error_at(error, place);
-  return false;
+  if (!fault && pin) fault = pin_fault(world, link);
+  if (fault) spore_error_set(error, SPORE_ERROR_INPUT, NULL, "%s", fault);
+  else if (pin || make_link(world, link, term_count, error)) return true;
+  return place_error(link, error);
 }
 
 bool spore_world_compile_links(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
   world->hold_count = spore_tools_hold_count(description);
   if (!allocate_links(world, description) || !allocate_springs(world)) return no_memory(error);
-  uint8_t *marks = SPORE_NEW_ARRAY(uint8_t, world->v_count / 3);
-  if (!marks) return no_memory(error);
   size_t term_count = 0;
-  bool good = true;
-  for (size_t i = 0; good && i < description->link_count; i++)
-    good = compile_link(world, description, &description->links[i], marks, &term_count, error);
-  if (good && !collect_held(world, marks)) good = no_memory(error);
-  spore_free(marks);
-  for (size_t b = 0; good && b < world->body_count; b++)
-    if (world->bodies[b].role == SPORE_PASSIVE)
-      world->dof += 3 * (world->bodies[b].block_count - world->bodies[b].held_count);
-  return good;
+  for (size_t i = 0; i < description->link_count; i++)
+    if (!compile_link(world, description, &description->links[i], &term_count, error)) return false;
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (!spore_body_compile_pins(world, description, b, error)) return false;
+    if (body->role == SPORE_PASSIVE) world->dof += 3 * (body->block_count - body->held_count);
+  }
+  return true;
 }
 
 void spore_world_link(SporeWorld *world) {

@@ -88,6 +88,7 @@ typedef struct SporeModel {
   double life_s;      /* of particles, after which they are taken out of the world, with the age of each, s, behind the
                          nodes in q; 0: they last */
   bool tears;         /* tear has to be called at each step */
+  double map_slack;   /* m: how far off the body a point may lie that map cannot carry, and be put onto it */
   SporePool *pool;    /* for long loops of force and jacobian, given by the world; whatever it is, the same bits */
 } SporeModel;
 
@@ -152,6 +153,9 @@ struct SporeModelType {
   /* Spans of the line that runs through the body, led by its first nodes (core/constraint/path.h): what slides along
    * it may be linked to it. NULL: it has none. */
   size_t (*path)(const SporeModel *model);
+  /* Material points in the body's frame at rest that tell its configuration, 3 each, from spore_allocate; of a model
+   * whose nodes are no material points. The first *seen of them lie in the body. NULL: the nodes do. */
+  bool (*samples)(const SporeModel *model, double **points, size_t *count, size_t *seen);
   /* Room for what mend needs, when the world has scissors, or the model tears; *edges += how many can be
    * cut. False: no memory. */
   bool (*prepare_cut)(SporeModel *model, size_t *edges);

@@ -9,8 +9,20 @@
 
 #define ROW_MAXIMUM 8 /* nodes that a sphere of such a body hangs on; one on more is left as it is */
 
+typedef struct Preparation {
+  size_t *edges;
+  bool made;
+} Preparation;
+
+static void prepare_model(SporeModel *model, void *user) {
+  Preparation *preparation = user;
+  preparation->made = preparation->made && model->type->prepare_cut(model, preparation->edges);
+}
+
 static bool prepare_body(SporeWorld *world, SporeBody *body) {
-  if (!body->model->type->prepare_cut(body->model, &world->cuts.capacity)) return false;
+  Preparation preparation = {&world->cuts.capacity, true};
+  spore_body_each_model(body, prepare_model, &preparation);
+  if (!preparation.made) return false;
   if (body->spheres.kind != SPORE_MAPPING_LINEAR) return true;
   size_t count = body->spheres.row_start[body->spheres.point_count];
   body->whole_weight = SPORE_NEW_ARRAY(double, count);
@@ -31,13 +43,17 @@ bool spore_world_compile_parting(SporeWorld *world) {
   return made && world->cuts.edges;
 }
 
+static void mend(SporeModel *model, void *user) {
+  if (model->type->mend) model->type->mend(model);
+}
+
 void spore_world_mend_bodies(SporeWorld *world) {
   world->cuts.count = 0;
   world->cut_run++;
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     body->told_torn = false;
-    if (body->model && body->model->type->mend) body->model->type->mend(body->model);
+    spore_body_each_model(body, mend, NULL);
     if (!body->whole_weight) continue;
     memcpy(body->spheres.weight, body->whole_weight,
            body->spheres.row_start[body->spheres.point_count] * sizeof(double));
@@ -79,11 +95,8 @@ static void part_row(const SporeModel *model, const SporeMapping *spheres, size_
 void spore_body_changed_model(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
   spore_world_wake(world, index);
-  body->matrix_c = 0;
-  body->history_s = 0;
-  body->watch.started = false;
-  body->pause = body->pauses = 0;
-  spore_body_reset_choice(world, body);
+  body->altered = true;
+  spore_body_forget_steps(world, body);
 }
 
 void spore_body_parted(SporeWorld *world, uint32_t index) {
@@ -105,7 +118,7 @@ static void report_tear(SporeWorld *world, SporeBody *body, size_t edge) {
 void spore_world_tear(SporeWorld *world) {
   for (uint32_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
-    if (!body->model || !body->model->tears || !spore_body_moves(body)) continue;
+    if (!spore_body_can_part(body) || !body->model->tears || !spore_body_moves(body)) continue;
     size_t edge = world->cuts.count;
     size_t count = body->model->type->tear(body->model, world->q + body->q_offset, b, &world->cuts);
     if (count == 0) continue;

@@ -3,13 +3,15 @@
 
 #include "core/sim/world_private.h"
 
-static size_t first_pull(const SporeWorld *world) { return world->link_term_count + world->hold_count; }
+size_t spore_world_pull_index(const SporeWorld *world, uint32_t body) {
+  return world->link_term_count + world->hold_count + body;
+}
 
 /* A pull needs a place to hold one point of a frame; nodes need none. */
 bool spore_world_make_pulls(SporeWorld *world) {
   const double origin[3] = {0, 0, 0};
   for (size_t b = 0; b < world->body_count; b++) {
-    size_t index = first_pull(world) + b;
+    size_t index = spore_world_pull_index(world, (uint32_t)b);
     const SporeModel *model = world->bodies[b].model;
     SporeMapping *end_a = &world->spring_mappings[2 * index], *end_b = end_a + 1;
     if (!model) continue;
@@ -63,7 +65,7 @@ void spore_world_pull(SporeWorld *world, const SporeCommand *command) {
   bool good = spore_vec3_is_finite(command->point) && spore_vec3_is_finite(command->vector) && command->number >= 0 &&
               isfinite(command->number);
   if (!good || body->role != SPORE_PASSIVE) return;
-  size_t index = first_pull(world) + command->body;
+  size_t index = spore_world_pull_index(world, command->body);
   SporeSpringTerm *term = &world->springs[index];
   if (!world->spring_active[index]) grasp(world, index, body, command->point, command->number);
   term->law.stiffness = command->number;
@@ -71,4 +73,18 @@ void spore_world_pull(SporeWorld *world, const SporeCommand *command) {
   set_pulled(world, index, true);
 }
 
-void spore_world_release(SporeWorld *world, uint32_t body) { set_pulled(world, first_pull(world) + body, false); }
+void spore_world_release(SporeWorld *world, uint32_t body) {
+  set_pulled(world, spore_world_pull_index(world, body), false);
+}
+
+bool spore_world_pulled_point(const SporeWorld *world, uint32_t index, SporeVec3 *point) {
+  const SporeSpringTerm *term = &world->springs[spore_world_pull_index(world, index)];
+  if (!world->spring_active[spore_world_pull_index(world, index)]) return false;
+  *point = spore_mapping_position(term->a.mapping, term->a.point, world->q + world->bodies[index].q_offset);
+  return true;
+}
+
+void spore_world_pull_by(SporeWorld *world, uint32_t index, SporeVec3 point) {
+  size_t pull = spore_world_pull_index(world, index);
+  grasp(world, pull, &world->bodies[index], point, world->springs[pull].law.stiffness);
+}

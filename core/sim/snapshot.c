@@ -7,7 +7,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/memory.h"
-#include "core/sim/world_private.h"
+#include "core/sim/levels.h"
 
 #define CONTACTS_MAXIMUM 4096
 
@@ -21,6 +21,8 @@ static bool init_buffer(SporeWorld *world, int index) {
   snapshot->q_count = world->q_count;
   snapshot->v_count = world->v_count;
   snapshot->reaction = SPORE_NEW_ARRAY(double, 6 * world->body_count);
+  if (world->has_levels) snapshot->level = SPORE_NEW_ARRAY(uint8_t, world->body_count);
+  if (world->has_levels && !snapshot->level) return false;
   snapshot->contacts = SPORE_NEW_ARRAY(SporeSnapshotContact, snapshot->contact_capacity);
   snapshot->cuts.capacity = world->cuts.capacity;
   snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->cuts.capacity);
@@ -48,6 +50,7 @@ void spore_snapshots_clear(SporeSnapshots *snapshots) {
   for (int i = 0; i < 3; i++) {
     spore_free(snapshots->q[i]);
     spore_free(snapshots->v[i]);
+    spore_free(snapshots->buffers[i].level);
     spore_free(snapshots->buffers[i].reaction);
     spore_free(snapshots->buffers[i].contacts);
     spore_free(snapshots->buffers[i].cuts.edges);
@@ -84,11 +87,19 @@ static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
 
 void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) { body->changed = world->snapshots.newest + 1; }
 
+/* What a level leaves of a body's room. */
+static void clear_rest(SporeWorld *world, const SporeBody *body) {
+  size_t q = body->q_count, v = 3 * body->block_count;
+  memset(world->next_q + body->q_offset + q, 0, (body->levels->q_room - q) * sizeof(double));
+  memset(world->next_v + body->v_offset + v, 0, (body->levels->v_room - v) * sizeof(double));
+}
+
 void spore_world_advance_state(SporeWorld *world) {
   SporeSnapshots *snapshots = &world->snapshots;
   uint64_t *there = &snapshots->number[snapshots->triple.writing];
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
+    if (body->levels) clear_rest(world, body);
     if (body->changed > snapshots->newest || body->changed <= *there) continue;
     memcpy(world->next_q + body->q_offset, world->q + body->q_offset, body->q_count * sizeof(double));
     memcpy(world->next_v + body->v_offset, world->v + body->v_offset, 3 * body->block_count * sizeof(double));
@@ -111,6 +122,8 @@ void spore_snapshot_publish(SporeWorld *world) {
   snapshot->step = world->step;
   snapshot->time_s = spore_world_time_s(world);
   memcpy(snapshot->reaction, world->reaction, 6 * world->body_count * sizeof *world->reaction);
+  for (size_t b = 0; snapshot->level && b < world->body_count; b++)
+    snapshot->level[b] = (uint8_t)world->bodies[b].level;
   copy_contacts(world, snapshot);
   snapshot->counts = world->counts;
   snapshot->energy = recent_energy(world);

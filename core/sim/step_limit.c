@@ -211,21 +211,28 @@ static bool check_static(const SporeWorld *world, size_t index, SporeError *erro
                            "spheres; pin it, or take integrator implicit_euler"));
 }
 
-bool spore_world_check_step(SporeWorld *world, SporeError *error) {
-  for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    if (body->role != SPORE_PASSIVE) continue;
-    if (spore_body_is_static(body) && !check_static(world, b, error)) return false;
-    SporeIntegratorKind kind = body->integrator;
-    if (spore_integrator(kind)->implicit) {
-      if (!body->model->type->rates) continue;
-      kind = SPORE_INTEGRATOR_VERLET; /* it has no Jacobian to go by, and needs as small steps */
-    }
-    SporeStepLimit limit;
-    if (!spore_step_limit(body->model, kind, world->rest_q + body->q_offset, world->rest_v + body->v_offset, body->held,
-                          body->held_count, &limit, error))
-      return false;
-    if (world->solver.time_step > limit.dt_s * (double)body->substeps) return refuse(world, body, limit.dt_s, error);
+static bool check_body(const SporeWorld *world, size_t index, SporeError *error) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->role != SPORE_PASSIVE) return true;
+  if (spore_body_is_static(body) && !check_static(world, index, error)) return false;
+  SporeIntegratorKind kind = body->integrator;
+  if (spore_integrator(kind)->implicit) {
+    if (!body->model->type->rates) return true;
+    kind = SPORE_INTEGRATOR_VERLET; /* it has no Jacobian to go by, and needs as small steps */
   }
+  SporeStepLimit limit;
+  if (!spore_step_limit(body->model, kind, world->rest_q + body->q_offset, world->rest_v + body->v_offset, body->held,
+                        body->held_count, &limit, error))
+    return false;
+  return world->solver.time_step <= limit.dt_s * (double)body->substeps || refuse(world, body, limit.dt_s, error);
+}
+
+bool spore_world_check_step(SporeWorld *world, SporeError *error) {
+  for (uint32_t b = 0; b < world->body_count; b++)
+    for (int level = 0; level < SPORE_LEVEL_COUNT; level++) {
+      if (!spore_world_level_model(world, b, (SporeLevelGrade)level)) continue;
+      spore_world_select_level(world, b, (SporeLevelGrade)level);
+      if (!check_body(world, b, error)) return false;
+    }
   return true;
 }

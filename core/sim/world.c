@@ -5,7 +5,7 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/constraint/pin.h"
-#include "core/sim/world_private.h"
+#include "core/sim/levels.h"
 
 static void clear_body(SporeBody *body) {
   spore_free(body->name);
@@ -16,7 +16,8 @@ static void clear_body(SporeBody *body) {
   spore_block_matrix_clear(&body->matrix);
   spore_block_cholesky_clear(&body->factor);
   spore_free(body->held_flags);
-  if (body->model) body->model->type->destroy(body->model);
+  if (body->levels) spore_levels_free(body);
+  else if (body->model) body->model->type->destroy(body->model);
 }
 
 static void clear_commands(SporeCommands *commands) {
@@ -95,10 +96,15 @@ void spore_world_free(SporeWorld *world) {
 
 /* The models go back to the caller. */
 static SporeWorld *give_up(SporeWorld *world) {
-  for (size_t i = 0; world->bodies && i < world->body_count; i++) world->bodies[i].model = NULL;
+  for (size_t i = 0; world->bodies && i < world->body_count; i++) {
+    spore_levels_give_up(&world->bodies[i]);
+    world->bodies[i].model = NULL;
+  }
   spore_world_free(world);
   return NULL;
 }
+
+static void set_pool(SporeModel *model, void *pool) { model->pool = pool; }
 
 SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error) {
   SporeWorld *world = SPORE_NEW(SporeWorld);
@@ -114,14 +120,14 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
       spore_world_compile_bodies(world, description, error) && spore_world_compile_spheres(world, description, error) &&
       spore_world_compile_links(world, description, error) && spore_world_compile_tools(world, description, error) &&
       spore_world_compile_particles(world, description, error) && spore_world_compile_factors(world, error) &&
-      spore_world_allocate_vectors(world, error) && spore_world_check_step(world, error);
+      spore_world_compile_levels(world, description, error) && spore_world_allocate_vectors(world, error) &&
+      spore_world_check_step(world, error);
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));
     return give_up(world);
   }
-  for (size_t b = 0; b < world->body_count; b++)
-    if (world->bodies[b].model) world->bodies[b].model->pool = pool;
+  for (size_t b = 0; b < world->body_count; b++) spore_body_each_model(&world->bodies[b], set_pool, pool);
   spore_world_compile_sleep(world);
   spore_world_make_plan(world);
   spore_world_reset(world);
@@ -132,16 +138,13 @@ void spore_world_step(SporeWorld *world) { spore_world_run_plan(world); }
 
 static void reset_body(SporeWorld *world, SporeBody *body) {
   body->integrator = body->chosen;
-  body->watch.started = body->told_deep = body->told_soft = false;
+  body->told_deep = body->told_soft = body->altered = false;
   body->soft_since = body->soft_last = 0;
   body->frozen = false;
   body->rest_steps = 0;
   body->told = SPORE_TROUBLE_NONE;
-  body->pause = body->pauses = 0;
   body->noticed = false;
-  body->matrix_c = 0;
-  body->history_s = 0;
-  spore_body_reset_choice(world, body);
+  spore_body_forget_steps(world, body);
   body->has_input = false;
   body->command = (SporeDeviceCommand){0};
   spore_guard_start(&body->guard, 0, body->rest_pose);
@@ -152,6 +155,8 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
 
 void spore_world_reset(SporeWorld *world) {
   spore_world_wake_all(world);
+  spore_world_mend_bodies(world);
+  spore_world_reset_levels(world);
   memcpy(world->next_q, world->rest_q, world->q_count * sizeof *world->q);
   memcpy(world->next_v, world->rest_v, world->v_count * sizeof *world->v);
   for (size_t b = 0; b < world->body_count; b++) spore_body_mark_changed(world, &world->bodies[b]);
@@ -161,7 +166,6 @@ void spore_world_reset(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
   spore_world_mend_links(world);
   spore_world_reset_tools(world);
-  spore_world_mend_bodies(world);
   spore_world_reset_particles(world);
   world->step = 0;
   world->contact_count = world->grip_count = 0;
@@ -188,12 +192,8 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   spore_pin_filter(body->held, body->held_count, world->next_v + body->v_offset);
   spore_body_mark_changed(world, body);
   spore_world_advance_state(world);
-  body->matrix_c = 0;
-  body->history_s = 0;
-  body->watch.started = false;
-  body->pause = body->pauses = 0;
+  spore_body_forget_steps(world, body);
   if (body->model && body->model->type->forget) body->model->type->forget(body->model);
-  spore_body_reset_choice(world, body);
   world->contact_count = world->grip_count = 0; /* they belong to the state before */
   spore_world_lose_rails(world);
   if (body->model) spore_body_set_mass(world, body);
@@ -241,6 +241,9 @@ bool spore_world_body_asleep(const SporeWorld *world, uint32_t body) { return wo
 uint64_t spore_world_step_count(const SporeWorld *world) { return world->step; }
 double spore_world_time_s(const SporeWorld *world) { return (double)world->step * world->solver.time_step; }
 const SporeSpheres *spore_world_spheres(const SporeWorld *world) { return &world->spheres; }
+size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body) {
+  return world->bodies[body].spheres.point_count;
+}
 size_t spore_world_dof(const SporeWorld *world) { return world->dof; }
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body) { return world->bodies[body].q_offset; }
 size_t spore_world_v_offset(const SporeWorld *world, uint32_t body) { return world->bodies[body].v_offset; }
@@ -259,10 +262,16 @@ static bool map_fixed(const SporeBody *body, const double *points, size_t count,
   return true;
 }
 
-bool spore_world_map(const SporeWorld *world, uint32_t index, const double *points, size_t count, SporeMapping *mapping,
-                     SporeError *error) {
+bool spore_world_map_level(const SporeWorld *world, uint32_t index, SporeLevelGrade level, const double *points,
+                           size_t count, SporeMapping *mapping, SporeError *error) {
   const SporeBody *body = &world->bodies[index];
+  const SporeModel *model = spore_world_level_model(world, index, level);
   if (body->role == SPORE_UNMOVABLE) return map_fixed(body, points, count, mapping, error);
   if (body->role == SPORE_ACTIVE) return spore_mapping_init_points(mapping, SPORE_MAPPING_RIGID, points, count, error);
-  return body->model->type->map(body->model, points, count, mapping, error);
+  return model->type->map(model, points, count, mapping, error);
+}
+
+bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,
+                     SporeError *error) {
+  return spore_world_map_level(world, body, world->bodies[body].level, points, count, mapping, error);
 }

@@ -35,10 +35,25 @@ typedef struct SporeContactFields {
 } SporeContactFields;
 extern const SporeParameterTable spore_contact_parameters;
 
+/* How finely a body is made. */
+typedef enum SporeLevelGrade { SPORE_LEVEL_COARSE, SPORE_LEVEL_MEDIUM, SPORE_LEVEL_FINE } SporeLevelGrade;
+#define SPORE_LEVEL_COUNT 3
+extern const char *const spore_level_names[]; /* as in the file, NULL at the end */
+
+/* The same body less finely made, to change to while it runs. */
+typedef struct SporeLevelsDescription {
+  SporeModel *model[SPORE_LEVEL_FINE]; /* of the body's own type, owned like that; NULL: there is no such level */
+  SporeLevelGrade first;               /* at time 0 */
+  double tolerance;                    /* m: a change that moves a point of the body further is refused */
+  size_t surface_count;
+  const double *surface; /* points besides spheres and nodes that the error is measured on, 3 each; borrowed */
+} SporeLevelsDescription;
+
 typedef struct SporeBodyDescription {
   const char *name;
   SporeRole role;
   SporeModel *model;              /* passive: owned by the world once spore_world_create succeeded; else NULL */
+  SporeLevelsDescription levels;  /* besides that model, which is the level `fine` */
   SporeIntegratorKind integrator; /* passive; SPORE_INTEGRATOR_DEFAULT: the world's */
   size_t substeps;                /* of its integrator in a step; 0: the world's */
   SporePose pose;                 /* of the body's frame at time 0 */
@@ -239,13 +254,16 @@ const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body)
 uint64_t spore_world_step_count(const SporeWorld *world);
 double spore_world_time_s(const SporeWorld *world);
 const SporeSpheres *spore_world_spheres(const SporeWorld *world); /* as of the last step's map phase */
-size_t spore_world_dof(const SporeWorld *world);                  /* velocity components that physics moves */
+size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body);
+size_t spore_world_dof(const SporeWorld *world); /* velocity components that physics moves */
 /* Body's state, for measuring and carrying over; valid until the next step. A body without a model has the 7 + 6 of a
  * pose. */
 const double *spore_world_q(const SporeWorld *world, uint32_t body);
 const double *spore_world_v(const SporeWorld *world, uint32_t body);
 /* Overwrites a body's state (carry-over, tests). Counts must match its model. */
 void spore_world_set_state(SporeWorld *world, uint32_t body, const double *q, const double *v);
+/* Puts a body at a level that it has, with its state at time 0; set its state next. */
+void spore_world_set_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
 
 /* Mapping of points given in the body's frame at rest, whatever its role; for viewers and measuring.
  * Feed it with the body's part of a snapshot: snapshot->q + spore_world_q_offset(world, body). */
@@ -253,6 +271,25 @@ bool spore_world_map(const SporeWorld *world, uint32_t body, const double *point
                      SporeError *error);
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body);
 size_t spore_world_v_offset(const SporeWorld *world, uint32_t body);
+
+/* Levels of a body. Those that there are, their models and that of time 0 never change; any thread may ask for them. */
+SporeLevelGrade spore_world_first_level(const SporeWorld *world, uint32_t body);
+const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t body, SporeLevelGrade level); /* or NULL */
+/* spore_world_map at a level. */
+bool spore_world_map_level(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const double *points,
+                           size_t count, SporeMapping *mapping, SporeError *error);
+typedef struct SporeLevelState {
+  SporeLevelGrade level;     /* now */
+  uint64_t changes, refused; /* since time 0 */
+  double error;              /* m: how far the changes moved a sphere, a node or a point of the surface at most */
+  double energy;             /* J: own energy (kinetic and internal) that a change added at most; negative: all lost */
+  double momentum;           /* N s: by which a change missed the momentum of a free body at most, and the angular one
+                                about its centre over its extent */
+} SporeLevelState;
+/* False: the body has but one level. */
+bool spore_world_level_state(const SporeWorld *world, uint32_t body, SporeLevelState *state);
+/* Bytes of the mappings, matrices and states that having levels takes, without models and factors. */
+size_t spore_world_level_memory(const SporeWorld *world, uint32_t body);
 
 /* Links, without the pins, in the order of the description: what they did in the last step. */
 typedef struct SporeLinkState {
@@ -398,6 +435,7 @@ typedef struct SporeSnapshot {
   double time_s;
   size_t q_count, v_count;
   const double *q, *v;  /* all bodies, by spore_world_q_offset and _v_offset */
+  uint8_t *level;       /* body_count, of SporeLevelGrade: q and v are of; NULL: each body has but one */
   double *reaction;     /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
   size_t contact_count; /* total of bodies that are awake; at most contact_capacity are listed */
   size_t contact_capacity;
@@ -423,7 +461,8 @@ typedef enum SporeCommandKind {
   SPORE_COMMAND_RELEASE, /* ends a pull on `body` */
   SPORE_COMMAND_RETUNE, /* model of `body` takes `fields` (parameters.size bytes; freed by the world with spore_free) */
   SPORE_COMMAND_CONTACT, /* contact law of `body`: contact */
-  SPORE_COMMAND_THAW     /* a frozen body moves again */
+  SPORE_COMMAND_THAW,    /* a frozen body moves again */
+  SPORE_COMMAND_LEVEL    /* `body` changes to `level`, or the monitor says why not */
 } SporeCommandKind;
 typedef struct SporeCommand {
   SporeCommandKind kind;
@@ -432,6 +471,7 @@ typedef struct SporeCommand {
   double number;
   void *fields;
   SporeContactFields contact;
+  SporeLevelGrade level;
 } SporeCommand;
 bool spore_world_post(SporeWorld *world, const SporeCommand *command);
 

@@ -62,10 +62,15 @@ typedef struct SporeEnergyWatch {
   double given;       /* by contacts and links since */
 } SporeEnergyWatch;
 
+typedef struct SporeLevels SporeLevels; /* levels.h */
+
 typedef struct SporeBody {
   char *name;
   SporeRole role;
   SporeModel *model;
+  SporeLevels *levels;            /* NULL: it has but one */
+  SporeLevelGrade level;          /* that all that depends on the model is of */
+  bool altered;                   /* cut, torn or coagulated since time 0: it keeps its level */
   SporeIntegratorKind integrator; /* now */
   SporeIntegratorKind chosen;     /* by the scene; the monitor may have taken a safer one */
   size_t substeps;
@@ -250,6 +255,7 @@ struct SporeWorld {
   size_t q_count, v_count, dof; /* doubles */
   double *rest_q, *rest_v;      /* at time 0 */
   SporeSite *world_sites;       /* of the bodies in q and v */
+  bool has_levels;              /* some body has */
 
   /* State. */
   uint64_t step;
@@ -343,8 +349,33 @@ char *spore_copy_text(const char *text); /* NULL: no memory */
 bool spore_world_compile_bodies(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
 bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
 bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error);
+/* An empty matrix of the body's model, where that has a Jacobian. */
+bool spore_body_make_matrix(SporeBody *body, SporeError *error);
+
+/* Where the model's present level puts the centres of the set, which may be NULL, into body->spheres. */
+bool spore_body_map_spheres(SporeWorld *world, uint32_t body, const SporeSphereSet *set, SporeError *error);
+
+/* levels.c */
+bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error);
+/* All that the levels that are not active need; after everything else of the world is compiled. */
+bool spore_world_compile_levels(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
+void spore_levels_free(SporeBody *body);
+/* The models go back to the caller. */
+void spore_levels_give_up(SporeBody *body);
+/* Makes the level active, with its state at time 0 for that of the body. */
+void spore_world_select_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
+/* Back to the levels of time 0. */
+void spore_world_reset_levels(SporeWorld *world);
+/* Calls it for each of the body's models. */
+void spore_body_each_model(const SporeBody *body, void (*call)(SporeModel *model, void *user), void *user);
+
+/* level_change.c: while it runs, at the start of a step. */
+void spore_world_change_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
 
 /* links.c */
+/* The blocks of the body at its present level that pins hold still. */
+bool spore_body_compile_pins(SporeWorld *world, const SporeWorldDescription *description, uint32_t body,
+                             SporeError *error);
 bool spore_world_compile_links(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
 
 /* joints.c: links that hold points together. */
@@ -404,7 +435,10 @@ void spore_body_find_parked(SporeBody *body, const double *q);
 void spore_world_reset_particles(SporeWorld *world);
 
 /* parting.c: bodies that lose ties between their nodes. */
-static inline bool spore_body_can_part(const SporeBody *body) { return body->model && body->model->type->cut; }
+static inline bool spore_body_can_part(const SporeBody *body) {
+  /* What is seen follows what the finest level loses, and no other. */
+  return body->model && body->model->type->cut && body->level == SPORE_LEVEL_FINE;
+}
 bool spore_world_compile_parting(SporeWorld *world);
 void spore_world_mend_bodies(SporeWorld *world);
 /* After it lost some: the spheres follow, and it is another model. */
@@ -448,6 +482,11 @@ static inline bool spore_tool_kind_holds(SporeToolKind kind) { return kind <= SP
 bool spore_world_make_pulls(SporeWorld *world);
 void spore_world_pull(SporeWorld *world, const SporeCommand *command);
 void spore_world_release(SporeWorld *world, uint32_t body);
+/* Where the pull of a body holds it; false: nobody pulls. And holds it by the node next to there. */
+bool spore_world_pulled_point(const SporeWorld *world, uint32_t body, SporeVec3 *point);
+void spore_world_pull_by(SporeWorld *world, uint32_t body, SporeVec3 point);
+/* Where the pull of a body lies in springs. */
+size_t spore_world_pull_index(const SporeWorld *world, uint32_t body);
 
 /* Stages, one file a kind. */
 void spore_world_apply_commands(SporeWorld *world); /* command.c */
@@ -522,6 +561,9 @@ void spore_world_wake_all(SporeWorld *world);
 
 /* factor.c */
 bool spore_world_compile_factors(SporeWorld *world, SporeError *error);
+bool spore_body_compile_factor(const SporeWorld *world, SporeBody *body, SporeError *error);
+/* After it was changed from outside: nothing is left of the steps before. */
+void spore_body_forget_steps(const SporeWorld *world, SporeBody *body);
 void spore_body_reset_choice(const SporeWorld *world, SporeBody *body);
 /* What the parts of a stage cost this body, in floating-point operations of the kind that a product with its matrix is
  * made of. */

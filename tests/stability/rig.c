@@ -34,8 +34,10 @@ Rig *rig_new(void) {
 void rig_free(Rig *rig) {
   spore_world_free(rig->world);
   for (guint i = 0; !rig->world && i < rig->bodies->len; i++) {
-    SporeModel *model = g_array_index(rig->bodies, SporeBodyDescription, i).model;
-    if (model) model->type->destroy(model);
+    const SporeBodyDescription *body = &g_array_index(rig->bodies, SporeBodyDescription, i);
+    SporeModel *const models[] = {body->model, body->levels.model[0], body->levels.model[1]};
+    for (size_t k = 0; k < G_N_ELEMENTS(models); k++)
+      if (models[k]) models[k]->type->destroy(models[k]);
   }
   g_array_unref(rig->bodies);
   g_array_unref(rig->links);

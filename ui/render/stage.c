@@ -38,10 +38,11 @@ void spore_stage_free(SporeStage *stage) {
 void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   static const float contact_colour[3] = {0.95f, 0.62f, 0.05f};
   clear(stage);
+  stage->simulation = simulation;
   stage->cut_count = 0;
   const SporeObject *bodies = spore_document_section(stage->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
-    g_ptr_array_add(stage->bodies, spore_stage_body_new(stage, spore_object_child(bodies, i), simulation));
+    g_ptr_array_add(stage->bodies, spore_stage_body_new(stage, spore_object_child(bodies, i), simulation, NULL));
   stage->contact_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, contact_colour, 2.5f);
   spore_renderer_set_visible(stage->renderer, stage->contact_handle, stage->options.contacts);
 }
@@ -72,9 +73,20 @@ static void show_cuts(SporeStage *stage, const SporeSnapshot *snapshot) {
   for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_cut(stage, stage->bodies->pdata[i], &snapshot->cuts);
 }
 
+/* The body as it is drawn, at the level that the snapshot has of it. */
+static SporeStageBody *body_of_level(SporeStage *stage, guint index, const SporeSnapshot *snapshot) {
+  SporeStageBody *body = stage->bodies->pdata[index];
+  if (!snapshot->level || body->world_body == SPORE_NO_BODY) return body;
+  SporeLevelGrade level = (SporeLevelGrade)snapshot->level[body->world_body];
+  SporeObject *object = level == body->level ? NULL : spore_document_by_id(stage->document, body->object);
+  if (!object) return body;
+  spore_stage_body_free(stage, body);
+  return stage->bodies->pdata[index] = spore_stage_body_new(stage, object, stage->simulation, &level);
+}
+
 void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
   for (guint i = 0; i < stage->bodies->len; i++) {
-    SporeStageBody *body = stage->bodies->pdata[i];
+    SporeStageBody *body = body_of_level(stage, i, snapshot);
     if (!body->moves) continue;
     const double *q = snapshot->q + body->q_offset;
     if (memcmp(body->q, q, body->q_count * sizeof *q) == 0) continue;

@@ -25,7 +25,8 @@ static SporePose document_pose(const SporeObject *object) {
 
 /* The configuration at time 0. Taken from the model, which never changes, and not from the world, which another thread
  * may be stepping. */
-static void init_configuration(SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation) {
+static void init_configuration(SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation,
+                               const SporeLevelGrade *level) {
   SporePose pose = document_pose(object);
   const SporeModel *model = NULL;
   if (simulation) {
@@ -33,7 +34,8 @@ static void init_configuration(SporeStageBody *body, const SporeObject *object, 
     for (gsize i = 0; i < spore_world_body_count(world); i++)
       if (simulation->body_object[i] == body->object) body->world_body = (guint32)i;
     if (body->world_body != SPORE_NO_BODY) {
-      model = spore_world_body_model(world, body->world_body);
+      body->level = level ? *level : spore_world_first_level(world, body->world_body);
+      model = spore_world_level_model(world, body->world_body, body->level);
       body->moves = spore_world_body_role(world, body->world_body) != SPORE_UNMOVABLE;
       body->q_offset = spore_world_q_offset(world, body->world_body);
     }
@@ -53,7 +55,8 @@ static void init_configuration(SporeStageBody *body, const SporeObject *object, 
 static gboolean map_points(const SporeStageBody *body, const SporeSimulation *simulation, const double *points,
                            gsize count, SporeStagePoints *mapped) {
   gboolean done = body->world_body != SPORE_NO_BODY
-                      ? spore_world_map(simulation->world, body->world_body, points, count, &mapped->mapping, NULL)
+                      ? spore_world_map_level(simulation->world, body->world_body, body->level, points, count,
+                                              &mapped->mapping, NULL)
                       : spore_mapping_init_points(&mapped->mapping, SPORE_MAPPING_RIGID, points, count, NULL);
   if (!done) return FALSE;
   mapped->count = count;
@@ -135,7 +138,7 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
 /* Puffs instead of a surface and spheres. */
 static void build_smoke(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation) {
   if (body->world_body == SPORE_NO_BODY) return;
-  const SporeModel *model = spore_world_body_model(simulation->world, body->world_body);
+  const SporeModel *model = spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE);
   if (!model || !model->type->puff) return;
   body->smoke = model;
   body->puffs = g_new(SporePuff, model->node_count);
@@ -144,7 +147,7 @@ static void build_smoke(SporeStage *stage, SporeStageBody *body, const SporeSimu
 
 static gboolean is_liquid(const SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation) {
   return body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object) &&
-         spore_world_body_model(simulation->world, body->world_body)->type->particles;
+         spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE)->type->particles;
 }
 
 /* The visual unit's mesh; without one the mechanical unit's, the boundary of its tetrahedra, or a tube around its
@@ -197,7 +200,7 @@ static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeOb
   if (set) {
     show_spheres(stage, body, simulation, set, asset);
   } else if (body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object)) {
-    const SporeModel *model = spore_world_body_model(simulation->world, body->world_body);
+    const SporeModel *model = spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE);
     body->particles = model->type->particles;
     if (model->type->spheres(model, &own, NULL)) show_spheres(stage, body, simulation, &own, NULL);
     spore_sphere_set_clear(&own);
@@ -213,7 +216,8 @@ static void build_wire(SporeStage *stage, SporeStageBody *body, const SporeObjec
   body->wire_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, wire_colour, 1.0f);
 }
 
-SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation) {
+SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
+                                     const SporeLevelGrade *level) {
   SporeStageBody *body = g_new0(SporeStageBody, 1);
   SporeVisualFields visual = {.colour = {0.75, 0.35, 0.32}, .wetness = 0.5};
   const SporeObject *unit = spore_object_child_of(object, "visual");
@@ -226,7 +230,7 @@ SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, con
   spore_object_fields(object, &fields);
   body->style.material = fields.role == SPORE_ACTIVE ? SPORE_MATERIAL_METAL : SPORE_MATERIAL_TISSUE;
   body->style.selected = stage->selection == body->object;
-  init_configuration(body, object, simulation);
+  init_configuration(body, object, simulation, level);
   build_smoke(stage, body, simulation);
   build_surface(stage, body, object, simulation);
   build_spheres(stage, body, object, simulation);

@@ -15,6 +15,7 @@ typedef struct SporeStageBody {
   guint32 object;     /* id */
   guint32 world_body; /* SPORE_NO_BODY: not simulated */
   gboolean moves;
+  SporeLevelGrade level; /* that q and all mappings are of */
   gsize q_offset, q_count;
   double *q; /* configuration that is shown */
 
@@ -52,6 +53,7 @@ typedef struct SporeStageBody {
 struct SporeStage {
   SporeRenderer *renderer;
   SporeDocument *document;
+  const SporeSimulation *simulation; /* that the bodies were built for; NULL: none */
   SporeStageOptions options;
   guint32 selection; /* id of a body */
   GPtrArray *bodies; /* SporeStageBody * */
@@ -62,8 +64,10 @@ struct SporeStage {
   GArray *contacts; /* double: segments of the contacts shown */
 };
 
-/* Builds what is drawn of a body object; nothing of it where its assets cannot be read. */
-SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation);
+/* Builds what is drawn of a body object, at time 0; nothing of it where its assets cannot be read. level: NULL for the
+ * one of time 0. */
+SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
+                                     const SporeLevelGrade *level);
 void spore_stage_body_free(SporeStage *stage, SporeStageBody *body);
 /* Moves what the options show to configuration body->q. */
 void spore_stage_body_place(SporeStage *stage, SporeStageBody *body);

@@ -1,0 +1,232 @@
+/* Levels of a body: what a change keeps, how far it moves anything, and what it refuses. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/sim/levels.h"
+#include "tests/stability/rig.h"
+
+/* Specimens: the same body in a number of `parts`, which halves from level to level. */
+
+static SporeModel *thread(unsigned parts) {
+  SporeCurve curve;
+  shape_helix(&curve, 200, 0.05, 0.03, 0.002);
+  return rig_curve_model(&spore_spline_1d, &curve, "control_points", (double)parts + 3, "young_modulus", 1e6, NULL);
+}
+
+static SporeModel *voxels(unsigned parts) {
+  SporeTriangleMesh mesh;
+  shape_box(&mesh, spore_vec3(0.1, 0, 0), spore_vec3(0.2, 0.05, 0.05));
+  return rig_surface_model(&spore_finite_differences, &mesh, "cells", (double)parts, "young_modulus", 2e4, NULL);
+}
+
+static SporeModel *rod(unsigned parts) {
+  SporeCurve curve;
+  shape_line(&curve, 2, 0.2, 0.003);
+  return rig_curve_model(&spore_spline_1d, &curve, "control_points", (double)parts + 3, "young_modulus", 1e6, NULL);
+}
+
+static SporeModel *tube(unsigned parts) {
+  SporeCurve curve;
+  shape_helix(&curve, 200, 0.05, 0.04, 0.008);
+  return rig_curve_model(&spore_intestine, &curve, "control_points", (double)parts + 3, NULL);
+}
+
+static SporeModel *sheet(unsigned parts) {
+  SporeTriangleMesh mesh;
+  shape_level_sheet(&mesh, 25, 25, 0.004);
+  return rig_surface_model(&spore_spline_2d, &mesh, "control_points_u", (double)parts + 3, "control_points_v",
+                           (double)parts + 3, "young_modulus", 2e4, NULL);
+}
+
+static SporeModel *net(unsigned parts) {
+  SporeTriangleMesh mesh;
+  shape_sheet(&mesh, parts + 1, parts + 1, 0.1 / parts, TRUE);
+  return rig_surface_model(&spore_mass_spring_net, &mesh, "structural_stiffness", 50., NULL);
+}
+
+static SporeModel *shell(unsigned parts) {
+  SporeTriangleMesh mesh;
+  shape_block_surface(&mesh, parts, parts, 1, spore_vec3(0.1, 0.1, 0.03));
+  return rig_surface_model(&spore_deformable_surface, &mesh, NULL);
+}
+
+static SporeModel *block_of(const SporeModelType *type, unsigned parts) {
+  SporeTetrahedralMesh mesh;
+  shape_block(&mesh, parts, parts / 4, parts / 4, spore_vec3(0.2, 0.05, 0.05));
+  return rig_solid_model(type, &mesh, "young_modulus", 2e4, NULL);
+}
+
+static SporeModel *neo_hookean(unsigned parts) { return block_of(&spore_neo_hookean_tetrahedra, parts); }
+static SporeModel *corotational(unsigned parts) { return block_of(&spore_corotational_tetrahedra, parts); }
+
+typedef struct Specimen {
+  const char *name;
+  SporeModel *(*create)(unsigned parts);
+  unsigned fine;
+  double tolerance; /* m */
+  double bend;      /* 1/s: how fast it bends at first */
+} Specimen;
+
+static const Specimen specimens[] = {
+    {"rod", rod, 32, 1e-3, 4},
+    {"thread", thread, 64, 1e-3, 4},
+    {"intestine", tube, 48, 3e-3, 2},
+    {"sheet", sheet, 12, 1e-3, 4},
+    {"net", net, 20, 2e-3, 2},
+    {"deformable surface", shell, 12, 2e-3, 2},
+    {"neo-Hookean", neo_hookean, 16, 2e-3, 3},
+    {"corotational", corotational, 16, 2e-3, 3},
+    {"finite differences", voxels, 16, 2e-3, 3},
+};
+
+#define CENTRE spore_vec3(0.3, 0.2, -0.1)
+
+/* A body with its levels, turned, turning and flying, with spheres on some of its nodes. */
+static Rig *rig_of(const Specimen *specimen, SporeLevelGrade first) {
+  Rig *rig = rig_new();
+  SporeModel *model = specimen->create(specimen->fine);
+  SporeBodyDescription *body = rig_passive(rig, "body", model, NULL);
+  body->levels =
+      (SporeLevelsDescription){.model = {specimen->create(specimen->fine / 4), specimen->create(specimen->fine / 2)},
+                               .first = first,
+                               .tolerance = specimen->tolerance};
+  body->pose = (SporePose){CENTRE, spore_quat_from_rotation_vector(spore_vec3(0.4, -0.3, 0.8))};
+  body->velocity = spore_vec3(0.3, 0.1, -0.2);
+  body->spin = spore_vec3(1, -2, 3);
+  rig->description.solver.sleep_speed = 0;
+  return rig;
+}
+
+/* Bends it: velocities along one axis by the square of the place along another. */
+static void bend(SporeWorld *world, double rate) {
+  const SporeModel *model = spore_world_body_model(world, 0);
+  g_autofree double *q = g_memdup2(spore_world_q(world, 0), model->q_count * sizeof(double));
+  g_autofree double *v = g_memdup2(spore_world_v(world, 0), 3 * model->block_count * sizeof(double));
+  for (size_t i = 0; i < model->node_count; i++) {
+    double x = q[3 * i] - CENTRE.x, y = q[3 * i + 1] - CENTRE.y;
+    v[3 * i + 2] += rate * (x * x - 0.5 * y * y) / 0.05;
+  }
+  spore_world_set_state(world, 0, q, v);
+}
+
+static SporeLevelState state_of(const SporeWorld *world) {
+  SporeLevelState state;
+  g_assert_true(spore_world_level_state(world, 0, &state));
+  return state;
+}
+
+/* Changes it at once, without a step. */
+static SporeLevelState change(SporeWorld *world, SporeLevelGrade level) {
+  SporeCommand command = {.kind = SPORE_COMMAND_LEVEL, .body = 0, .level = level};
+  g_assert_true(spore_world_post(world, &command));
+  spore_world_apply_commands(world);
+  return state_of(world);
+}
+
+/* About `centre`, or the body's own. */
+static SporeMotion motion_of(const SporeWorld *world, const SporeVec3 *centre) {
+  return spore_level_motion(spore_world_body_model(world, 0), spore_world_q(world, 0), spore_world_v(world, 0), centre);
+}
+
+/* Of the rigid motion that has the body's momentum: it is less where lumped masses lie further out. */
+static double rigid_energy(const SporeMotion *motion) {
+  SporeMat3 inverse;
+  g_assert_true(spore_mat3_invert(motion->inertia, &inverse));
+  SporeVec3 spin = spore_mat3_apply(inverse, motion->angular);
+  return 0.5 *
+         (spore_vec3_dot(motion->momentum, motion->momentum) / motion->mass + spore_vec3_dot(motion->angular, spin));
+}
+
+static double own_energy(const SporeWorld *world) {
+  SporeEnergy energy = spore_world_energy(world);
+  return energy.kinetic + energy.internal;
+}
+
+static void assert_vectors_equal(SporeVec3 a, SporeVec3 b, double scale, double share) {
+  g_assert_cmpfloat(spore_vec3_distance(a, b), <=, share * scale);
+}
+
+/* Down and up again while it moves and bends: momentum to rounding, error below the bound, no energy from nowhere. */
+static void test_moving(gconstpointer data) {
+  const Specimen *specimen = data;
+  static const SporeLevelGrade way[] = {SPORE_LEVEL_MEDIUM, SPORE_LEVEL_COARSE, SPORE_LEVEL_FINE, SPORE_LEVEL_COARSE,
+                                        SPORE_LEVEL_FINE};
+  Rig *rig = rig_of(specimen, SPORE_LEVEL_FINE);
+  SporeWorld *world = rig_build(rig);
+  bend(world, specimen->bend);
+  rig_run(world, 10);
+  double before_all = own_energy(world);
+  for (size_t k = 0; k < G_N_ELEMENTS(way); k++) {
+    SporeMotion before = motion_of(world, NULL);
+    double energy = own_energy(world);
+    SporeLevelState state = change(world, way[k]);
+    g_test_message("%s to %s: error %.2e m, energy %+.2e of %.2e J, momentum %.1e of %.1e N s", specimen->name,
+                   spore_level_names[way[k]], state.error, own_energy(world) - energy, energy, state.momentum,
+                   spore_vec3_length(before.momentum));
+    if (state.level != way[k]) g_test_message("%s", rig_last_message(world));
+    g_assert_cmpint((int)state.level, ==, (int)way[k]);
+    g_assert_cmpuint(state.changes, ==, k + 1);
+    g_assert_cmpfloat(state.error, <=, specimen->tolerance);
+    SporeMotion after = motion_of(world, &before.centre), own = motion_of(world, NULL);
+    assert_vectors_equal(after.momentum, before.momentum, spore_vec3_length(before.momentum), 1e-12);
+    assert_vectors_equal(after.angular, before.angular, spore_vec3_length(before.angular), 1e-12);
+    double lent = fmax(rigid_energy(&own) - rigid_energy(&before), 0);
+    g_assert_cmpfloat(own_energy(world), <=, energy + lent + 0.02 * before_all);
+    rig_run(world, 10);
+    g_assert_true(rig_finite(world));
+    g_assert_false(rig_any_frozen(world));
+  }
+  g_assert_cmpfloat(own_energy(world), <=, 1.02 * before_all);
+  rig_free(rig);
+}
+
+/* What the coarse one can do the fine one can do: the way through the fine level changes nothing. */
+static void test_round_trip(gconstpointer data) {
+  const Specimen *specimen = data;
+  Rig *rig = rig_of(specimen, SPORE_LEVEL_COARSE);
+  SporeWorld *world = rig_build(rig);
+  bend(world, specimen->bend);
+  rig_run(world, 10);
+  size_t count = spore_world_body_model(world, 0)->node_count;
+  g_autofree double *before = g_memdup2(spore_world_q(world, 0), 3 * count * sizeof(double));
+  SporeLevelState up = change(world, SPORE_LEVEL_FINE), down = change(world, SPORE_LEVEL_COARSE);
+  double apart = 0;
+  for (size_t i = 0; i < count; i++)
+    apart = fmax(
+        apart, spore_vec3_distance(spore_vec3_load(before + 3 * i), spore_vec3_load(spore_world_q(world, 0) + 3 * i)));
+  g_test_message("%s: %.2e m up, %.2e m in all, nodes %.2e m from where they were", specimen->name, up.error,
+                 down.error, apart);
+  g_assert_cmpint((int)down.level, ==, SPORE_LEVEL_COARSE);
+  g_assert_cmpfloat(apart, <=, 0.1 * specimen->tolerance);
+  rig_free(rig);
+}
+
+/* At rest a change moves nothing beyond what one level lies beside the other, and gives it no energy. */
+static void test_rest(gconstpointer data) {
+  const Specimen *specimen = data;
+  Rig *rig = rig_of(specimen, SPORE_LEVEL_FINE);
+  SporeBodyDescription *body = &g_array_index(rig->bodies, SporeBodyDescription, 0);
+  body->velocity = body->spin = spore_vec3(0, 0, 0);
+  SporeWorld *world = rig_build(rig);
+  for (int level = SPORE_LEVEL_MEDIUM; level >= 0; level--) change(world, (SporeLevelGrade)level);
+  SporeLevelState state = change(world, SPORE_LEVEL_FINE);
+  g_test_message("%s: %.2e m, %.2e J", specimen->name, state.error, state.energy);
+  g_assert_cmpuint(state.changes, ==, 3);
+  g_assert_cmpfloat(state.energy, <=, 1e-9);
+  rig_free(rig);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  for (size_t i = 0; i < G_N_ELEMENTS(specimens); i++) {
+    const Specimen *specimen = &specimens[i];
+    g_autofree char *moving = g_strdup_printf("/resolution/moving/%s", specimen->name);
+    g_autofree char *round = g_strdup_printf("/resolution/round-trip/%s", specimen->name);
+    g_autofree char *rest = g_strdup_printf("/resolution/rest/%s", specimen->name);
+    g_test_add_data_func(moving, specimen, test_moving);
+    g_test_add_data_func(round, specimen, test_round_trip);
+    g_test_add_data_func(rest, specimen, test_rest);
+  }
+  return g_test_run();
+}
