@@ -24,7 +24,6 @@
 #define SHIFT 1e-8
 #define GROWN 1e-3
 #define REFERENCE_TOLERANCE "1e-7"
-#define EXPLICIT_FINER 4 /* times as fine as the scene: explicit methods are of second order as they are */
 
 typedef struct Runs {
   const char *scene;
@@ -62,23 +61,20 @@ static void set_step(SporeDocument *document, double step_s) {
   set(document, spore_document_section(document, "solver"), "time_step", g_ascii_dtostr(text, sizeof text, step_s));
 }
 
-/* The world tells which bodies are explicit. finer: of the reference. */
-static void refine(SporeDocument *document, const SporeWorld *world, size_t finer) {
+/* The world tells which bodies are explicit: they keep their substeps. */
+static void refine(SporeDocument *document, const SporeWorld *world) {
   SporeObject *solver = spore_document_section(document, "solver");
   set(document, solver, "integrator", "tr_bdf2");
   set(document, solver, "tolerance", REFERENCE_TOLERANCE);
-  set(document, solver, "substeps", "1");
   set(document, solver, "sleep_speed", "0");
   for (guint32 b = 0; b < spore_world_body_count(world); b++) {
     SporeMethod method;
     if (!spore_world_body_method(world, b, &method)) continue;
     bool implicit = method.nonlinear.name != NULL;
     g_autofree char *path = g_strdup_printf("bodies/%s/mechanical", spore_world_body_name(world, b));
-    g_autofree char *substeps =
-        g_strdup_printf("%zu", implicit ? 1 : (EXPLICIT_FINER * method.substeps + finer - 1) / finer);
     SporeObject *mechanical = spore_document_by_path(document, path);
     set(document, mechanical, "integrator", implicit ? "tr_bdf2" : "verlet");
-    set(document, mechanical, "substeps", substeps);
+    if (implicit) set(document, mechanical, "substeps", "1");
   }
 }
 
@@ -151,7 +147,7 @@ static Trace run(const Runs *runs, size_t finer, bool shifted) {
   set_step(document, runs->step_s);
   SporeSimulation *simulation = compile(document, pool);
   if (finer) {
-    refine(document, simulation->world, finer);
+    refine(document, simulation->world);
     set_step(document, runs->step_s / (double)finer);
     spore_simulation_free(simulation);
     simulation = compile(document, pool);
