@@ -4,16 +4,20 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/math/vector.h"
 
 bool spore_volume_create(SporeVolume *volume, const SporeTriangleMesh *mesh) {
   *volume = (SporeVolume){.mesh = mesh};
-  volume->rest = spore_volume_at(volume, mesh->vertices);
   volume->blocks = SPORE_NEW_ARRAY(uint32_t, 6 * mesh->triangle_count);
-  return volume->blocks != NULL;
+  volume->gradient = SPORE_NEW_ARRAY(double, 3 * mesh->vertex_count);
+  if (!volume->blocks || !volume->gradient) return false;
+  volume->rest = spore_volume_at(volume, mesh->vertices);
+  return true;
 }
 
 void spore_volume_clear(SporeVolume *volume) {
   spore_free(volume->blocks);
+  spore_free(volume->gradient);
   *volume = (SporeVolume){0};
 }
 
@@ -51,23 +55,29 @@ double spore_volume_at(const SporeVolume *volume, const double *q) {
   return sum / 6;
 }
 
-static double pressure_at(const SporeVolume *volume, const double *q) {
-  return -volume->stiffness * (spore_volume_at(volume, q) - volume->rest) / fabs(volume->rest);
+static double pressure(const SporeVolume *volume, double at) {
+  return -volume->stiffness * (at - volume->rest) / fabs(volume->rest);
 }
 
-/* to += scale dV/dq: a third of each triangle's area along its normal, to each of its corners. */
-static void add_gradient(const SporeVolume *volume, const double *q, double scale, double *to) {
+/* The volume, and 6 dV/dq into the scratch: twice each triangle's area along its normal, to each of its corners. */
+static double find_gradient(const SporeVolume *volume, const double *q) {
+  double sum = 0;
+  memset(volume->gradient, 0, 3 * volume->mesh->vertex_count * sizeof(double));
   for (size_t t = 0; t < volume->mesh->triangle_count; t++) {
     SporeVec3 corner[3];
     corners_at(volume, q, t, corner);
     SporeVec3 area = spore_vec3_cross(spore_vec3_sub(corner[1], corner[0]), spore_vec3_sub(corner[2], corner[0]));
+    sum += spore_vec3_dot(corner[0], area);
     for (size_t k = 0; k < 3; k++)
-      spore_vec3_accumulate(to + 3 * (size_t)volume->mesh->triangles[3 * t + k], spore_vec3_scale(scale / 6, area));
+      spore_vec3_accumulate(volume->gradient + 3 * (size_t)volume->mesh->triangles[3 * t + k], area);
   }
+  return sum / 6;
 }
 
 void spore_volume_force(const SporeVolume *volume, const double *q, double *f) {
-  if (volume->stiffness > 0) add_gradient(volume, q, pressure_at(volume, q), f);
+  if (!(volume->stiffness > 0)) return;
+  double push = pressure(volume, find_gradient(volume, q)) / 6;
+  spore_vector_add_scaled(3 * volume->mesh->vertex_count, f, push, volume->gradient);
 }
 
 double spore_volume_potential(const SporeVolume *volume, const double *q) {
@@ -92,8 +102,11 @@ static void add_curvature(const SporeVolume *volume, const double *q, double sca
 
 void spore_volume_jacobian(const SporeVolume *volume, const SporeTangent *at, SporeBlockMatrix *matrix) {
   if (!(volume->stiffness > 0) || !(at->stiffness_scale > 0)) return;
+  size_t count = 3 * volume->mesh->vertex_count;
+  double at_q = find_gradient(volume, at->q);
+  double scale = sqrt(at->stiffness_scale * volume->stiffness / fabs(volume->rest)) / 6;
   memset(matrix->direction, 0, 3 * matrix->block_count * sizeof *matrix->direction);
-  add_gradient(volume, at->q, sqrt(at->stiffness_scale * volume->stiffness / fabs(volume->rest)), matrix->direction);
+  spore_vector_add_scaled(count, matrix->direction, scale, volume->gradient);
   matrix->directed = true;
-  if (at->whole) add_curvature(volume, at->q, -at->stiffness_scale * pressure_at(volume, at->q), matrix);
+  if (at->whole) add_curvature(volume, at->q, -at->stiffness_scale * pressure(volume, at_q), matrix);
 }

@@ -10,6 +10,7 @@ typedef struct SporeVolume {
   const SporeTriangleMesh *mesh; /* borrowed; closed; its vertices are the model's first nodes */
   double rest;                   /* V0, m^3; negative where the normals point inwards */
   double stiffness;              /* K, Pa; 0: it costs nothing */
+  double *gradient;              /* scratch: 3 a vertex */
   uint32_t *blocks;              /* triangle x 6: where (corner k, k + 1) and (k + 1, k) lie in the model's matrix */
 } SporeVolume;
 
