@@ -184,7 +184,7 @@ const SporeModelType spore_finite_differences = {
     .label = N_("Finite differences"),
     .doc =
         N_("A solid on a regular grid of points inside a closed surface: no tetrahedra are needed. With two cells "
-           "across it bends within 3 % of what it should, where linear tetrahedra bend half as far, and that up to a "
+           "across it bends as it should to 3 %, where linear tetrahedra bend half as far, and that up to a "
            "Poisson's ratio of 0.49999; with one cell it bends a tenth to a quarter too far. Forces cost half of those "
            "of tetrahedra with as many points, a matrix somewhat more. For large strains it is as neo-Hookean "
            "tetrahedra. Cells that the surface cuts count by the share that lies inside."),

@@ -78,8 +78,8 @@ const char *spore_needle_fault(const SporeWorld *world, const SporeToolDescripti
     return _("the needle's thread is no thread; expected a body along a curve, such as spline_1d; choose one");
   thread_end(world, from, &off);
   if (off > 0.01)
-    return _("no end of the thread lies at the needle's swage; expected one within 1 % of its length; move the thread "
-             "or the swage");
+    return _("no end of the thread lies at the needle's swage; expected one within a hundredth of its length; move the "
+             "thread or the swage");
   return NULL;
 }
 
