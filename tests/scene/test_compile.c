@@ -87,7 +87,22 @@ typedef struct Bad {
 #define MODEL(geometry, model) BODIES("<body name=\"b\"><mechanical" geometry "><" model "/></mechanical></body>")
 #define PROBE "<body name=\"p\" role=\"active\"/>"
 
+#define LEVEL(fidelity)                                                                                                \
+  BODIES("<body name=\"b\"><mechanical geometry=\"cube\"><finite_differences/></mechanical>\n" fidelity "</body>")
+
 static const Bad bad[] = {
+    {"level-no-setting", LEVEL("<fidelity><coarse settings=\"cells 3\"/></fidelity>"), "6:11",
+     "\"cells\" is no setting"},
+    {"level-no-parameter", LEVEL("<fidelity><coarse settings=\"cels=3\"/></fidelity>"), "6:11",
+     "did you mean \"cells\"?"},
+    {"level-out-of-range", LEVEL("<fidelity><coarse settings=\"cells=0\"/></fidelity>"), "6:11", "out of range"},
+    {"level-other-body", LEVEL("<fidelity><medium settings=\"young_modulus=3\"/></fidelity>"), "6:11",
+     "young_modulus says what the body is, and not how finely it is made"},
+    {"level-missing", LEVEL("<fidelity level=\"medium\"><coarse settings=\"cells=3\"/></fidelity>"), "6:1",
+     "there is no such level; expected <medium>"},
+    {"level-geometry", LEVEL("<fidelity><coarse geometry=\"cells\"/></fidelity>"), "6:11", "needs a mesh"},
+    {"level-unmoved", BODIES("<body name=\"b\" role=\"unmovable\">\n<fidelity><coarse/></fidelity></body>"), "6:11",
+     "does not move by physics, so that it has no levels"},
     {"no-mechanical", BODIES("<body name=\"b\"/>"), "5:1", "no mechanical model"},
     {"no-model", BODIES("<body name=\"b\"><mechanical/></body>"), "5:1", "no mechanical model"},
     {"no-geometry", MODEL("", "corotational_tetrahedra"), "5:16", "generate them and name them here"},

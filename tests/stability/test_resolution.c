@@ -217,6 +217,117 @@ static void test_rest(gconstpointer data) {
   rig_free(rig);
 }
 
+/* Held at one edge, with a spring at the other; falls, and changes level on the way. */
+static Rig *hanging(const Specimen *specimen) {
+  Rig *rig = rig_of(specimen, SPORE_LEVEL_FINE);
+  SporeBodyDescription *body = &g_array_index(rig->bodies, SporeBodyDescription, 0);
+  body->pose = spore_pose_identity();
+  body->velocity = body->spin = spore_vec3(0, 0, 0);
+  rig->description.gravity = spore_vec3(0, 0, -9.81);
+  rig_pin(rig, 0, spore_vec3(0, 0, 0), 1e-6);
+  SporeLinkDescription spring = {.name = "spring",
+                                 .kind = SPORE_LINK_SPRING,
+                                 .body_a = 0,
+                                 .body_b = SPORE_NO_BODY,
+                                 .point_a = spore_vec3(0.1, 0.1, 0),
+                                 .point_b = spore_vec3(0.1, 0.1, 0.02),
+                                 .stiffness = 5,
+                                 .damping = 0.05,
+                                 .rest_length = -1};
+  g_array_append_val(rig->links, spring);
+  return rig;
+}
+
+/* Pins and links are of each level: what is pinned stays to the bit, and a spring holds the same point. */
+static void test_held(void) {
+  const Specimen specimen = {"net", net, 20, 6e-3, 0};
+  Rig *rig = hanging(&specimen);
+  SporeWorld *world = rig_build(rig);
+  size_t dof = spore_world_dof(world);
+  g_assert_cmpuint(dof, ==, 3 * (21 * 21 - 1));
+  for (int k = 0; k < 6; k++) {
+    rig_run(world, 10);
+    SporeVec3 force = spore_world_link_state(world, 0).force;
+    SporeLevelState state = change(world, k % 2 ? SPORE_LEVEL_FINE : SPORE_LEVEL_COARSE);
+    g_assert_cmpuint(state.changes, ==, (guint)k + 1);
+    g_assert_cmpuint(spore_world_dof(world), ==, k % 2 ? dof : 3 * (6 * 6 - 1));
+    assert_vectors_equal(spore_vec3_load(spore_world_q(world, 0)), spore_vec3(0, 0, 0), 1, 0);
+    rig_run(world, 1);
+    SporeVec3 after = spore_world_link_state(world, 0).force;
+    g_assert_cmpfloat(spore_vec3_distance(force, after), <=,
+                      5 * 2 * specimen.tolerance + 0.05 * spore_vec3_length(force));
+  }
+  g_assert_false(rig_any_frozen(world));
+  rig_free(rig);
+}
+
+/* Twice from time 0, and on several threads: the same bits. */
+static void test_deterministic(void) {
+  const Specimen specimen = {"net", net, 40, 2e-3, 0};
+  uint64_t expected = 0;
+  for (int threads = 1; threads <= 4; threads *= 4) {
+    Rig *rig = hanging(&specimen);
+    SporePool *pool = spore_pool_create(threads);
+    rig->description.bodies = (const SporeBodyDescription *)(const void *)rig->bodies->data;
+    rig->description.body_count = rig->bodies->len;
+    rig->description.links = (const SporeLinkDescription *)(const void *)rig->links->data;
+    rig->description.link_count = rig->links->len;
+    SporeWorld *world = rig->world = spore_world_create(&rig->description, pool, NULL);
+    g_assert_nonnull(world);
+    for (int run = 0; run < 2; run++) {
+      for (int k = 0; k < 3; k++) {
+        rig_run(world, 10);
+        g_assert_cmpuint(change(world, (SporeLevelGrade)k).changes, ==, (guint)k + 1);
+      }
+      rig_run(world, 10);
+      if (expected == 0) expected = spore_world_hash(world);
+      g_assert_cmphex(spore_world_hash(world), ==, expected);
+      spore_world_reset(world);
+      g_assert_cmpint((int)state_of(world).level, ==, SPORE_LEVEL_FINE);
+    }
+    rig_free(rig);
+    spore_pool_free(pool);
+  }
+}
+
+/* What cannot be is said, and changes nothing. */
+static void test_refused(void) {
+  const Specimen specimen = {"rod", rod, 32, 1e-12, 40};
+  Rig *rig = rig_of(&specimen, SPORE_LEVEL_FINE);
+  SporeWorld *world = rig_build(rig);
+  bend(world, specimen.bend);
+  rig_run(world, 20);
+  uint64_t hash = spore_world_hash(world);
+  SporeLevelState state = change(world, SPORE_LEVEL_COARSE);
+  g_assert_cmpuint(state.refused, ==, 1);
+  g_assert_cmpuint(state.changes, ==, 0);
+  g_assert_cmphex(spore_world_hash(world), ==, hash);
+  g_assert_true(rig_said(world, "body: does not change to level coarse: a point of it would move "));
+  rig_free(rig);
+}
+
+static void assert_no_world(SporeModel *fine, SporeModel *coarse, const char *said) {
+  Rig *rig = rig_new();
+  SporeBodyDescription *body = rig_passive(rig, "body", fine, NULL);
+  body->levels = (SporeLevelsDescription){.model = {coarse}, .first = SPORE_LEVEL_FINE, .tolerance = 1e-3};
+  SporeError error = SPORE_ERROR_INIT;
+  g_assert_null(rig_try_build(rig, &error));
+  g_assert_cmpstr(error.place, ==, "bodies/body");
+  g_assert_nonnull(strstr(error.message, said));
+  rig_free(rig);
+}
+
+static void test_no_level(void) {
+  SporeTriangleMesh large;
+  shape_sheet(&large, 11, 11, 0.02, TRUE);
+  assert_no_world(net(20), rig_surface_model(&spore_mass_spring_net, &large, NULL), "level coarse: it weighs ");
+  SporeTriangleMesh away;
+  shape_level_sheet(&away, 11, 11, 0.01);
+  assert_no_world(net(20), rig_surface_model(&spore_mass_spring_net, &away, NULL),
+                  "level coarse does not lie where the others do: ");
+  assert_no_world(net(20), rod(8), "level coarse: it is of another model than the body");
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(specimens); i++) {
@@ -228,5 +339,9 @@ int main(int argc, char **argv) {
     g_test_add_data_func(round, specimen, test_round_trip);
     g_test_add_data_func(rest, specimen, test_rest);
   }
+  g_test_add_func("/resolution/held", test_held);
+  g_test_add_func("/resolution/deterministic", test_deterministic);
+  g_test_add_func("/resolution/refused", test_refused);
+  g_test_add_func("/resolution/no-level", test_no_level);
   return g_test_run();
 }
