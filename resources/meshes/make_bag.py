@@ -103,6 +103,9 @@ def main():
     vertices, triangles, rim = film()
     write_off(folder, "bag", (vertices, triangles))
     write_rows(folder / "bag.spheres", np.column_stack([vertices, np.full(len(vertices), 0.0010)]), "# x y z r, in metres")
+    # For what is thin enough to go between the points: also in the middle of each triangle.
+    dense = np.concatenate([vertices, vertices[triangles].mean(1)])
+    write_rows(folder / "bag-dense.spheres", np.column_stack([dense, np.full(len(dense), 0.0010)]), "# x y z r, in metres")
     write_off(folder, "holder", joined_parts(tube(), ring()))
     string = draw_string(160)
     write_rows(folder / "draw-string.curve", np.column_stack([string, np.full(len(string), THREAD)]), "# x y z r, in metres")
