@@ -23,6 +23,7 @@ shaft_spheres() {
 /usr/bin/python3 ../meshes/make_adnexa.py exercise-salpingectomy
 /usr/bin/python3 ../meshes/make_laparoscopy.py laparoscopy
 /usr/bin/python3 ../meshes/make_knot.py knot
+/usr/bin/python3 ../meshes/make_suture.py suture instruments
 /usr/bin/python3 ../meshes/make_tracks.py .
 lattice >minimal/floor.spheres
 echo "0 0 0 0.02" >minimal/ball.spheres
