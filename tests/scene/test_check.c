@@ -85,6 +85,12 @@ static const Mistake mistakes[] = {
     {"tool-without-anything",
      SCENE(ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n<tools><probe name=\"t\"/></tools>\n"),
      {"warning 7:8: the tool \"t\" has no body", "warning 7:8: the tool \"t\" has no device"}},
+    {"needle-of-spheres",
+     SCENE(ASSETS "<bodies>\n" FLOOR STAND "<body name=\"needle\" role=\"active\" position=\"1 0 0\">" BALL
+                  "</body>\n</bodies>\n<tools><needle name=\"n\" body=\"needle\" device=\"m\" tip=\"1 0 0\" "
+                  "middle=\"1.01 0 0\" swage=\"1.02 0 0\"/></tools><devices><mouse name=\"m\"/></devices>\n"),
+     {"note 8:8: \"n\" has nothing to work on", "note 8:8: \"n\" draws no thread",
+      "warning 8:8: the spheres of \"needle\" keep \"n\" from"}},
     {"tool-on-passive",
      SCENE(ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n<tools><probe name=\"t\" body=\"stone\" device=\"m\"/></tools>"
                   "<devices><mouse name=\"m\"/></devices>\n"),
