@@ -187,7 +187,8 @@ const SporeModelType spore_finite_differences = {
            "across it bends as it should to 3 %, where linear tetrahedra bend half as far, and that up to a "
            "Poisson's ratio of 0.49999; with one cell it bends a tenth to a quarter too far. Forces cost half of those "
            "of tetrahedra with as many points, a matrix somewhat more. For large strains it is as neo-Hookean "
-           "tetrahedra. Cells that the surface cuts count by the share that lies inside."),
+           "tetrahedra, and comes back when it was crushed flat; corners of cells that went through each other can "
+           "stay so. Cells that the surface cuts count by the share that lies inside."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(GridFields)},
     .geometry = SPORE_GEOMETRY_SOLID,
     .presets = spore_tissues,
