@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/level_changes.h"
 #include "app/cli/scene.h"
 #include "ui/render/stage.h"
 
@@ -11,6 +12,7 @@
 
 typedef struct RenderOptions {
   char *size, *output, *camera;
+  char **level;
   double time_s;
   gboolean spheres, tetrahedra;
   SporeSceneOptions scene;
@@ -59,7 +61,10 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
   g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, 1, &error);
   if (!run) return spore_cli_fail(error);
   SporeWorld *world = run->simulation->world;
+  g_autoptr(GArray) levels = spore_level_changes_parse(world, options->level, &error);
+  if (!levels) return spore_cli_fail(error);
   while (spore_world_time_s(world) < options->time_s * (1 - 1e-12) && !spore_cli_interrupted()) {
+    spore_level_changes_post(levels, world);
     spore_world_step(world);
     spore_progress(spore_cli_progress(cli), spore_world_time_s(world) / options->time_s, _("running"));
   }
@@ -85,6 +90,8 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, N_("Picture to write"), "F.png"},
       {"time", 't', 0, G_OPTION_ARG_DOUBLE, &options.time_s, N_("Simulated time of the picture (default 0)"), "S"},
+      {"level", 0, 0, G_OPTION_ARG_STRING_ARRAY, &options.level,
+       N_("Change the level of a body while it runs, at 0 s or later: thread=coarse@1.5"), "BODY=LEVEL[@S]"},
       {"size", 's', 0, G_OPTION_ARG_STRING, &options.size, N_("Size in pixels (default 1280x720)"), "WxH"},
       {"camera", 0, 0, G_OPTION_ARG_STRING, &options.camera,
        N_("Camera of the scene (default: the first, or one that sees all)"), "NAME"},
@@ -103,5 +110,6 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
   g_free(options.output);
   g_free(options.size);
   g_free(options.camera);
+  g_strfreev(options.level);
   return status;
 }
