@@ -2,11 +2,13 @@
  * quadratic elements the middles of its edges too. What an element does is in models/tetrahedra.h; here are the models'
  * making, assembly and parameters. */
 #include <math.h>
+#include <string.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "models/nodal.h"
 #include "models/registry.h"
+#include "models/tetrahedra_cut.h"
 #include "models/tetrahedra_elements.h"
 #include "models/tetrahedra_heat.h"
 #include "models/tetrahedra_map.h"
@@ -16,6 +18,7 @@
 
 typedef struct TetrahedraFields {
   double young_modulus, poisson_ratio, density, mass_damping, stiffness_damping;
+  double cut_reserve;
   int element;
 } TetrahedraFields;
 
@@ -41,6 +44,8 @@ typedef struct Body {
   double mass_damping; /* 1/s */
   bool locks;
   SporeTetrahedraHeat heated;
+  SporeTetrahedraCut cut;
+  double density, cut_reserve, spare_mass;
 } Body;
 
 static const SporeParameter parameters[] = {
@@ -48,6 +53,9 @@ static const SporeParameter parameters[] = {
     SPORE_REAL_FIELD(TetrahedraFields, poisson_ratio, "", 0, 0.49999, 0.4, SPORE_CHANGE_LIVE,
                      N_("Poisson's ratio; near 0.5 volume is kept, and linear elements become too stiff in bending.")),
     SPORE_TISSUE_DENSITY_AND_DAMPING(TetrahedraFields),
+    SPORE_REAL_FIELD(TetrahedraFields, cut_reserve, "", 0, 8, 0.5, SPORE_CHANGE_REBUILD,
+                     N_("Nodes that scissors can make where they part it, against those of the mesh; 0: they pass "
+                        "through it. Only where the scene has scissors is room made for them.")),
     {.name = "element",
      .type = SPORE_CHOICE,
      .unit = "",
@@ -71,21 +79,29 @@ static void destroy(SporeModel *model) {
   spore_tetrahedron_nodes_clear(&body->nodes);
   spore_tetrahedra_clear(&body->tetrahedra);
   spore_tetrahedra_heat_clear(&body->heated);
+  spore_tetrahedra_cut_clear(&body->cut);
   spore_free(body->diagonal);
   spore_model_clear(&body->base);
   spore_free(body);
 }
 
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
-  return spore_tetrahedron_nodes_pattern(&((const Body *)model)->nodes, blocks);
+  const Body *body = (const Body *)model;
+  if (body->cut.count) return spore_tetrahedra_cut_pattern(&body->cut, blocks);
+  return spore_tetrahedron_nodes_pattern(&body->nodes, blocks);
+}
+
+static void settle(SporeModel *model, const SporeBlockMatrix *matrix) {
+  Body *body = (Body *)model;
+  spore_tetrahedra_find_blocks(&body->tetrahedra, matrix);
+  for (size_t i = 0; i < model->block_count; i++) body->diagonal[i] = matrix->diagonal[i];
 }
 
 /* In a matrix of the pattern that the world will make too. */
 static bool find_blocks(Body *body) {
   SporeBlockMatrix matrix;
   if (!spore_model_matrix_create(&body->base, &matrix)) return false;
-  spore_tetrahedra_find_blocks(&body->tetrahedra, &matrix);
-  for (size_t i = 0; i < body->base.block_count; i++) body->diagonal[i] = matrix.diagonal[i];
+  settle(&body->base, &matrix);
   spore_block_matrix_clear(&matrix);
   return true;
 }
@@ -108,6 +124,8 @@ static bool build(Body *body, const SporeModelType *type, const SporeTetrahedral
   body->diagonal = SPORE_NEW_ARRAY(uint32_t, body->nodes.count);
   if (!body->diagonal || !spore_tetrahedra_create(&body->tetrahedra, &body->nodes) || !find_blocks(body))
     return no_memory(error);
+  body->density = fields->density;
+  body->cut_reserve = fields->cut_reserve;
   tune(body, fields);
   return true;
 }
@@ -222,9 +240,74 @@ static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *hea
   return spore_tetrahedra_coagulate(&body->tetrahedra, &body->heated, q, heat);
 }
 
+/* Their mass is so little that rounding hides it. */
+#define SPARE_MASS 1e-18
+
+static bool add_spares(Body *body, size_t count) {
+  SporeModel *base = &body->base;
+  size_t n = body->nodes.count;
+  double *masses = spore_reallocate(base->block_mass, n, n + count, sizeof *masses);
+  if (masses) base->block_mass = masses;
+  double *rest = spore_reallocate(body->nodes.rest, 3 * n, 3 * (n + count), sizeof *rest);
+  if (rest) body->nodes.rest = rest;
+  uint32_t *diagonal = spore_reallocate(body->diagonal, n, n + count, sizeof *diagonal);
+  if (diagonal) body->diagonal = diagonal;
+  if (!masses || !rest || !diagonal) return false;
+  body->spare_mass = SPARE_MASS * spore_model_total_mass(base);
+  for (size_t i = n; i < n + count; i++) {
+    masses[i] = body->spare_mass;
+    memcpy(rest + 3 * i, rest, 3 * sizeof *rest);
+  }
+  base->node_count = base->block_count = n + count;
+  base->q_count = 3 * (n + count);
+  base->spare_count = count;
+  return true;
+}
+
+static bool reserve(SporeModel *model, SporeError *error) {
+  Body *body = (Body *)model;
+  if (body->cut.count || body->cut_reserve == 0) return true;
+  if (body->nodes.per_element > 4)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("scissors cannot cut quadratic elements; choose element=\"linear\", or cut_reserve=\"0\" "
+                             "where they are not to cut it"));
+  size_t spares = (size_t)ceil(body->cut_reserve * (double)body->nodes.count);
+  bool made = spore_tetrahedra_cut_create(&body->cut, &body->nodes, &body->tetrahedra, body->density, spares) &&
+              add_spares(body, spares) && find_blocks(body);
+  return made || no_memory(error);
+}
+
+static size_t cut(SporeModel *model, const double *q, const double *triangle, uint32_t index, SporeCuts *cuts) {
+  return spore_tetrahedra_cut_open(&((Body *)model)->cut, q, triangle);
+}
+
+static size_t divide(SporeModel *model, double *q, double *v, const uint32_t **from) {
+  Body *body = (Body *)model;
+  size_t made = spore_tetrahedra_cut_part(&body->cut, &body->tetrahedra, model->block_mass, q, v);
+  model->spare_count -= made;
+  *from = body->cut.from + (body->cut.made - made);
+  return made;
+}
+
+static const uint32_t *corners(const SporeModel *model, size_t *count) {
+  const SporeTetrahedraCut *cut = &((const Body *)model)->cut;
+  *count = cut->count;
+  return cut->count ? cut->corner : NULL;
+}
+
+/* Spares have next to no mass again. */
 static void mend(SporeModel *model) {
   Body *body = (Body *)model;
   spore_tetrahedra_cool(&body->tetrahedra, &body->heated);
+  for (size_t i = 0; i < body->cut.made; i++) model->block_mass[body->nodes.count + i] = body->spare_mass;
+  model->spare_count += body->cut.made;
+  spore_tetrahedra_cut_mend(&body->cut, &body->tetrahedra, model->block_mass);
+}
+
+static const char *notice(const SporeModel *model, const double *q) {
+  if (!((const Body *)model)->cut.full) return NULL;
+  return _("scissors opened more of it than it has nodes in reserve for, so that some of the cut still holds; raise "
+           "cut_reserve");
 }
 
 /* What the types have in common. */
@@ -232,7 +315,8 @@ static void mend(SporeModel *model) {
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
   .geometry = SPORE_GEOMETRY_TETRAHEDRA, .presets = spore_tissues, .destroy = destroy, .place = place, .force = force, \
   .potential = potential, .map = map, .skin = skin, .pattern = pattern, .jacobian = jacobian, .retune = retune,        \
-  .doubt = doubt, .prepare_heat = prepare_heat, .coagulate = coagulate, .mend = mend
+  .doubt = doubt, .prepare_heat = prepare_heat, .coagulate = coagulate, .mend = mend, .reserve = reserve, .cut = cut,  \
+  .divide = divide, .settle = settle, .corners = corners, .notice = notice
 
 static SporeModel *create_corotational(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_corotation_force_by_level, spore_corotation_potential_by_level,

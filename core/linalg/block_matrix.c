@@ -70,30 +70,62 @@ static void unique_rows(SporeBlockMatrix *matrix, const uint32_t *row_start, con
   matrix->row_start[matrix->block_count] = count;
 }
 
-bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern) {
-  size_t n = pattern->block_count, entries = n + 2 * pattern->pair_count;
-  *matrix = (SporeBlockMatrix){.block_count = n};
+static bool make_room(SporeBlockRoom *room, size_t n, size_t pairs) {
+  size_t entries = n + 2 * pairs;
+  *room = (SporeBlockRoom){.pair_capacity = pairs};
   if (entries > UINT32_MAX) return false;
-  uint32_t *row_start = SPORE_NEW_ARRAY(uint32_t, n + 1), *column = SPORE_NEW_ARRAY(uint32_t, entries);
-  uint32_t *sorted = SPORE_NEW_ARRAY(uint32_t, entries), *fill = SPORE_NEW_ARRAY(uint32_t, n);
+  room->row_start = SPORE_NEW_ARRAY(uint32_t, n + 1);
+  room->column = SPORE_NEW_ARRAY(uint32_t, entries);
+  room->sorted = SPORE_NEW_ARRAY(uint32_t, entries);
+  room->fill = SPORE_NEW_ARRAY(uint32_t, n);
+  return room->row_start && room->column && room->sorted && room->fill;
+}
+
+void spore_block_room_clear(SporeBlockRoom *room) {
+  spore_free(room->row_start);
+  spore_free(room->column);
+  spore_free(room->sorted);
+  spore_free(room->fill);
+  *room = (SporeBlockRoom){0};
+}
+
+/* All but the values. */
+static bool make_rows(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room) {
+  size_t n = pattern->block_count;
+  *matrix = (SporeBlockMatrix){.block_count = n};
+  if (!make_room(room, n, pattern->pair_count)) return false;
   matrix->row_start = SPORE_NEW_ARRAY(uint32_t, n + 1);
-  matrix->column = SPORE_NEW_ARRAY(uint32_t, entries);
+  matrix->column = SPORE_NEW_ARRAY(uint32_t, n + 2 * pattern->pair_count);
   matrix->diagonal = SPORE_NEW_ARRAY(uint32_t, n);
-  bool made = row_start && column && sorted && fill && matrix->row_start && matrix->column && matrix->diagonal;
-  if (made) {
-    scatter_pairs(pattern, row_start, column, fill);
-    sort_rows(n, row_start, column, sorted, fill);
-    unique_rows(matrix, row_start, sorted);
-    matrix->values = spore_allocate(matrix->row_start[n], 9 * sizeof *matrix->values);
-    if (pattern->direction) matrix->direction = spore_allocate(n, 3 * sizeof *matrix->direction);
-    made = matrix->values && (matrix->direction || !pattern->direction);
-  }
-  spore_free(row_start);
-  spore_free(column);
-  spore_free(sorted);
-  spore_free(fill);
-  if (!made) spore_block_matrix_clear(matrix);
-  return made;
+  if (pattern->direction) matrix->direction = spore_allocate(n, 3 * sizeof *matrix->direction);
+  return matrix->row_start && matrix->column && matrix->diagonal && (matrix->direction || !pattern->direction) &&
+         spore_block_matrix_lay_out(matrix, pattern, room);
+}
+
+bool spore_block_matrix_lay_out(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room) {
+  if (pattern->block_count != matrix->block_count || pattern->pair_count > room->pair_capacity) return false;
+  scatter_pairs(pattern, room->row_start, room->column, room->fill);
+  sort_rows(pattern->block_count, room->row_start, room->column, room->sorted, room->fill);
+  unique_rows(matrix, room->row_start, room->sorted);
+  return true;
+}
+
+bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern) {
+  SporeBlockRoom room;
+  bool made = make_rows(matrix, pattern, &room);
+  if (made) matrix->values = spore_allocate(matrix->row_start[matrix->block_count], 9 * sizeof *matrix->values);
+  spore_block_room_clear(&room);
+  if (!matrix->values) spore_block_matrix_clear(matrix);
+  return made && matrix->values;
+}
+
+bool spore_block_matrix_create_roomy(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room) {
+  bool made = make_rows(matrix, pattern, room);
+  if (made) matrix->values = spore_allocate(pattern->block_count + 2 * pattern->pair_count, 9 * sizeof *matrix->values);
+  if (made && matrix->values) return true;
+  spore_block_matrix_clear(matrix);
+  spore_block_room_clear(room);
+  return false;
 }
 
 void spore_block_matrix_clear(SporeBlockMatrix *matrix) {

@@ -18,6 +18,8 @@ typedef struct SporeBlockPattern {
 void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count);
 /* Both (i, j) and (j, i) will exist; repeats are harmless. False: no memory or an index out of range. */
 bool spore_block_pattern_add(SporeBlockPattern *pattern, uint32_t i, uint32_t j);
+/* Without pairs; keeps its memory. */
+static inline void spore_block_pattern_empty(SporeBlockPattern *pattern) { pattern->pair_count = 0; }
 void spore_block_pattern_clear(SporeBlockPattern *pattern);
 
 typedef struct SporeBlockMatrix {
@@ -34,6 +36,20 @@ typedef struct SporeBlockMatrix {
 
 bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern);
 void spore_block_matrix_clear(SporeBlockMatrix *matrix);
+
+/* What laying out a pattern needs meanwhile, for patterns that change while they run. */
+typedef struct SporeBlockRoom {
+  size_t pair_capacity;
+  uint32_t *row_start, *column, *sorted, *fill;
+} SporeBlockRoom;
+/* A matrix with room for any pattern of as many blocks and no more pairs, repeats and all. False: no memory; both are
+ * then empty. */
+bool spore_block_matrix_create_roomy(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room);
+void spore_block_room_clear(SporeBlockRoom *room);
+/* Gives such a matrix another pattern; its values are left open. Allocates nothing. False, and nothing changed: the
+ * pattern has more pairs. */
+bool spore_block_matrix_lay_out(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room);
+
 void spore_block_matrix_zero(SporeBlockMatrix *matrix);
 /* Position of block (i, j) in values, in blocks; SIZE_MAX where the pattern has none. Models look their blocks up
  * once, at create: the pattern of a model is its own, rows 0..block_count-1. */

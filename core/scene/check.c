@@ -196,7 +196,8 @@ static gboolean some_body(const SporeCheck *check, CanBeChanged can) {
 /* Scissors where nothing can be changed by them. */
 static void check_scissors(SporeCheck *check, SporeObject *scissors) {
   if (some_body(check, can_be_cut)) return;
-  spore_check_say(check, SPORE_NOTE, scissors, _("make what is to be cut a mass_spring_net, or the tool a grasper"),
+  spore_check_say(check, SPORE_NOTE, scissors,
+                  _("make what is to be cut a mass_spring_net or neo_hookean_tetrahedra, or the tool a grasper"),
                   _("\"%s\" has nothing to work on: no body has a model that can be cut"), spore_object_name(scissors));
 }
 

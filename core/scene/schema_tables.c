@@ -749,8 +749,8 @@ const SporeElement spore_scene_elements[] = {
     {"clamp", N_("Clamp"), N_("Two jaws that stay closed on what they took hold of, until the second button."),
      TABLE(jaw_tool_parameters, SporeJawToolFields), JAWS},
     {"scissors", N_("Scissors"),
-     N_("Blades that cut nets where they close; jaws are the bodies that are seen and felt of them, and may be left "
-        "out."),
+     N_("Blades that cut nets and tetrahedra where they close; jaws are the bodies that are seen and felt of them, and "
+        "may be left out."),
      TABLE(scissors_parameters, SporeJawToolFields), JAWS},
     {"suction", N_("Suction"), N_("A tube that takes the particles of fluids away."),
      TABLE(suction_parameters, SporeSuctionToolFields), .extra = &spore_suction_parameters,

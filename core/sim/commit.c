@@ -46,6 +46,7 @@ void spore_world_commit(SporeWorld *world) {
     memcpy(world->next_q + body->q_offset, world->target_q + body->q_offset, body->q_count * sizeof(double));
   }
   if (spore_world_exchanges_particles(world)) spore_world_exchange_particles(world);
+  spore_world_divide_bodies(world);
   spore_world_advance_state(world);
   for (size_t i = 0; i < world->island_count; i++) settle_island(world, &world->islands[i]);
   spore_world_keep_grips(world);

@@ -141,7 +141,7 @@ static void place_body(SporeWorld *world, const SporeBody *body, const SporeBody
 }
 
 bool spore_world_compile_bodies(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
-  if (!check_description(description, error)) return false;
+  if (!check_description(description, error) || !spore_world_reserve_division(description, error)) return false;
   size_t n = world->body_count = description->body_count;
   world->bodies = SPORE_NEW_ARRAY(SporeBody, n);
   world->world_sites = SPORE_NEW_ARRAY(SporeSite, n);

@@ -30,7 +30,12 @@ static void cut_all(SporeWorld *world, SporeTool *tool, const double *triangle) 
   }
 }
 
+/* What is cut moves between steps: the blades cut a little behind them too, where they have been in this stroke, so
+ * that nothing slips past. */
+#define OVERLAP_RAD 0.1
+
 void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double to) {
+  from = fmin(tool->stroke, from + OVERLAP_RAD);
   size_t at = world->bodies[tool->body].q_offset;
   const double *before = world->q + at, *after = world->target_q + at;
   SporeVec3 root = blade_root(tool, before), next_root = blade_root(tool, after);

@@ -277,7 +277,7 @@ static double distance(void *data, const double *x) {
 static bool is_held(const SporeGroup *group) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
-    if (spore_group_body(group, b, &site)->held_count > 0) return true;
+    if (spore_group_body(group, b, &site)->pin_count > 0) return true;
   }
   for (size_t i = 0; i < group->island->spring_count; i++) {
     const SporeSpringTerm *term = spore_group_spring(group, i);

@@ -38,7 +38,7 @@ static inline bool spore_group_assembles(const SporeGroup *group, const SporeBod
 
 /* What is left of the inertia of a body in steps: static ones that pins hold have next to none beside others. */
 static inline double spore_group_inertia(const SporeGroup *group, const SporeBody *body) {
-  return group->apart && spore_body_is_static(body) && body->held_count > 0 ? 1e-6 : 1;
+  return group->apart && spore_body_is_static(body) && body->pin_count > 0 ? 1e-6 : 1;
 }
 
 static inline double *spore_group_precondition_blocks(const SporeGroup *group) {

@@ -258,6 +258,7 @@ void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
   tool->opening = next_opening(tool, wanted, world->solver.time_step);
   for (int j = 0; j < 2; j++)
     if (tool->jaws[j].body != SPORE_NO_BODY) place_jaw(world, tool, &tool->jaws[j]);
+  if (tool->opening > before) tool->stroke = tool->opening;
   if (tool->kind == SPORE_TOOL_SCISSORS && tool->opening < before)
     spore_scissors_cut(world, tool, before, tool->opening);
 }

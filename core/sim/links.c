@@ -58,7 +58,8 @@ static bool mark_held(const SporeBody *body, const SporeWorldDescription *descri
   for (size_t i = 0; i < description->link_count; i++) {
     const SporeLinkDescription *link = &description->links[i];
     if (link->kind != SPORE_LINK_PIN || link->body_a != index) continue;
-    if (spore_pin_select(points, body->block_count, link->point_a, link->radius, marks) > 0) continue;
+    if (spore_pin_select(points, body->block_count - body->model->spare_count, link->point_a, link->radius, marks) > 0)
+      continue;
     spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                     _("the pin holds nothing: no node lies within its radius; move it or make the radius larger"));
     return place_error(link, error);

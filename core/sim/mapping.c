@@ -68,6 +68,58 @@ void spore_mapping_clear(SporeMapping *mapping) {
   *mapping = (SporeMapping){0};
 }
 
+/* The corners of node i: list[start[i] .. start[i + 1]). */
+static bool list_corners(const uint32_t *corners, size_t count, size_t node_count, uint32_t **start, uint32_t **list) {
+  *start = SPORE_NEW_ARRAY(uint32_t, node_count + 2);
+  *list = SPORE_NEW_ARRAY(uint32_t, count);
+  if (!*start || !*list) return false;
+  for (size_t i = 0; i < count; i++) (*start)[corners[i] + 2]++;
+  for (size_t i = 0; i < node_count; i++) (*start)[i + 2] += (*start)[i + 1];
+  for (size_t i = 0; i < count; i++) (*list)[(*start)[corners[i] + 1]++] = (uint32_t)i;
+  return true;
+}
+
+/* Whether all blocks are nodes of the tetrahedron; their corners. */
+static bool place_row(const uint32_t *block, size_t count, const uint32_t *corners, uint32_t tetrahedron,
+                      uint32_t *places) {
+  for (size_t k = 0; k < count; k++) {
+    uint32_t at = 4 * tetrahedron, end = at + 4;
+    while (at < end && corners[at] != block[k]) at++;
+    if (at == end) return false;
+    places[k] = at;
+  }
+  return true;
+}
+
+static void find_row(const SporeMapping *mapping, size_t point, const uint32_t *corners, const uint32_t *start,
+                     const uint32_t *list, uint32_t *places) {
+  uint32_t first = mapping->row_start[point], count = mapping->row_start[point + 1] - first;
+  if (count == 0) return;
+  const uint32_t *block = mapping->block + first;
+  for (uint32_t i = start[block[0]]; i < start[block[0] + 1]; i++)
+    if (place_row(block, count, corners, list[i] / 4, places + first)) return;
+  for (uint32_t k = 0; k < count; k++) places[first + k] = UINT32_MAX;
+}
+
+bool spore_mapping_find_places(const SporeMapping *mapping, const uint32_t *corners, size_t tetrahedron_count,
+                               size_t node_count, uint32_t **places) {
+  uint32_t *start = NULL, *list = NULL;
+  *places = NULL;
+  if (mapping->kind != SPORE_MAPPING_LINEAR) return true;
+  *places = SPORE_NEW_ARRAY(uint32_t, mapping->row_start[mapping->point_count]);
+  bool made = *places && list_corners(corners, 4 * tetrahedron_count, node_count, &start, &list);
+  for (size_t i = 0; made && i < mapping->point_count; i++) find_row(mapping, i, corners, start, list, *places);
+  spore_free(start);
+  spore_free(list);
+  return made;
+}
+
+void spore_mapping_follow(SporeMapping *mapping, const uint32_t *places, const uint32_t *corners) {
+  if (mapping->kind != SPORE_MAPPING_LINEAR || !places) return;
+  for (uint32_t k = 0; k < mapping->row_start[mapping->point_count]; k++)
+    if (places[k] != UINT32_MAX) mapping->block[k] = corners[places[k]];
+}
+
 static SporeVec3 linear_combination(const SporeMapping *mapping, size_t point, const double *values) {
   SporeVec3 sum = {0, 0, 0};
   for (uint32_t k = mapping->row_start[point]; k < mapping->row_start[point + 1]; k++)

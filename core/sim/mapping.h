@@ -37,6 +37,14 @@ bool spore_mapping_init_linear(SporeMapping *mapping, size_t count, size_t width
                                const double *weights, SporeError *error);
 void spore_mapping_clear(SporeMapping *mapping);
 
+/* Points that hang on tetrahedra whose nodes change. Finds for each entry of a linear mapping a corner, of 4
+ * tetrahedron_count, that is its block, of one and the same tetrahedron in each row; UINT32_MAX: there is none. Others
+ * have no places. False: no memory. */
+bool spore_mapping_find_places(const SporeMapping *mapping, const uint32_t *corners, size_t tetrahedron_count,
+                               size_t node_count, uint32_t **places);
+/* Each entry takes the block that its corner has now. */
+void spore_mapping_follow(SporeMapping *mapping, const uint32_t *places, const uint32_t *corners);
+
 /* All points at once; out is point_count x 3. */
 void spore_mapping_positions(const SporeMapping *mapping, const double *q, double *positions);
 void spore_mapping_velocities(const SporeMapping *mapping, const double *q, const double *v, double *velocities);

@@ -52,7 +52,7 @@ static const char *missing_slot(const SporeModelType *type) {
   if (!type->potential) return "potential";
   if (!type->map) return "map";
   if (type->jacobian && !type->pattern) return "pattern";
-  if (type->cut && !type->tie) return "tie";
+  if (type->cut && !type->tie && !type->divide) return "tie";
   return NULL;
 }
 

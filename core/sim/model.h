@@ -42,13 +42,17 @@ typedef struct SporePreset {
   const char *settings[9];  /* a parameter, its value as in the file, the next parameter, ... NULL */
 } SporePreset;
 
-/* Edges of a body's surface that were cut, between nodes a < b, so that what is drawn can follow. */
+/* Edges of a body's surface that were cut, between nodes a < b, and on which nodes tetrahedra hang that can be parted,
+ * so that what is drawn can follow. */
 typedef struct SporeCutEdge {
   uint32_t body, a, b;
 } SporeCutEdge;
 typedef struct SporeCuts {
   size_t count, capacity;
   SporeCutEdge *edges;
+  uint64_t parted;     /* another number: corners differ */
+  size_t corner_count; /* of all such bodies, see spore_world_corner_start */
+  uint32_t *corners;   /* their nodes now, four a tetrahedron, in the order of the mesh */
 } SporeCuts;
 
 /* What a step's heat does to tissue nearer than radius to the point: it coagulates by `dose` more, of the 1 that is all
@@ -83,6 +87,8 @@ typedef struct SporeTangent {
 typedef struct SporeModel {
   const SporeModelType *type;
   size_t q_count, block_count, node_count;
+  size_t spare_count; /* of the nodes, the last: of next to no mass and still, until a cut makes them one after the
+                         other */
   double *block_mass; /* kg, block_count; above 0 for nodes, 0 for the turning of a frame */
   double buoyancy;    /* share of its weight that the air around bears: above 1 it rises */
   double life_s;      /* of particles, after which they are taken out of the world, with the age of each, s, behind the
@@ -156,6 +162,9 @@ struct SporeModelType {
   /* Material points in the body's frame at rest that tell its configuration, 3 each, from spore_allocate; of a model
    * whose nodes are no material points. The first *seen of them lie in the body. NULL: the nodes do. */
   bool (*samples)(const SporeModel *model, double **points, size_t *count, size_t *seen);
+  /* Makes spare nodes, when the world has scissors, before anything else is made of the model. Refuses what it cannot
+   * part, with the remedy. NULL: none are needed. */
+  bool (*reserve)(SporeModel *model, SporeError *error);
   /* Room for what mend needs, when the world has scissors, or the model tears; *edges += how many can be
    * cut. False: no memory. */
   bool (*prepare_cut)(SporeModel *model, size_t *edges);
@@ -164,8 +173,16 @@ struct SporeModelType {
   size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
   /* The same for what is strained, at q, more than it bears. Required where the model says that it tears. */
   size_t (*tear)(SporeModel *model, const double *q, uint32_t body, SporeCuts *cuts);
-  /* After prepare_cut. Required where something can be cut. */
+  /* After prepare_cut. Required where something can be cut that has no divide. */
   SporeTie (*tie)(const SporeModel *model, uint32_t a, uint32_t b);
+  /* Of a model whose cuts divide nodes; `cut` only says where. Makes nodes, at this state, which it sets for them; they
+   * follow those made before. *from: the node that each of them was made from. How many; allocates nothing. The pattern
+   * is another then: until settle nothing is asked of the model. */
+  size_t (*divide)(SporeModel *model, double *q, double *v, const uint32_t **from);
+  /* Looks up its blocks in a matrix of its pattern of now. */
+  void (*settle)(SporeModel *model, const SporeBlockMatrix *matrix);
+  /* The nodes of its tetrahedra now, 4 *count; NULL where it was made so that it cannot be parted. */
+  const uint32_t *(*corners)(const SporeModel *model, size_t *count);
   /* Room for coagulate, and what mend needs after it, when the world has something that heats. False: no memory. */
   bool (*prepare_heat)(SporeModel *model);
   /* Coagulates, at q, until mend. How many ties or elements took some of the dose; allocates nothing, and the pattern

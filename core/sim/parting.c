@@ -35,7 +35,7 @@ bool spore_world_compile_parting(SporeWorld *world) {
   for (size_t i = 0; i < world->tool_count; i++) cuts |= world->tools[i].kind == SPORE_TOOL_SCISSORS;
   for (size_t b = 0; made && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
-    if (!spore_body_can_part(body) || !(cuts || body->model->tears)) continue;
+    if (!spore_body_can_part(body) || !body->model->type->prepare_cut || !(cuts || body->model->tears)) continue;
     world->tearing_count += body->model->tears;
     made = prepare_body(world, body);
   }
@@ -100,7 +100,12 @@ void spore_body_changed_model(SporeWorld *world, uint32_t index) {
 }
 
 void spore_body_parted(SporeWorld *world, uint32_t index) {
-  const SporeBody *body = &world->bodies[index];
+  SporeBody *body = &world->bodies[index];
+  if (body->division.possible) { /* not yet: see division.c */
+    body->division.wanted = true;
+    spore_world_wake(world, index);
+    return;
+  }
   spore_body_changed_model(world, index);
   for (size_t i = 0; body->whole_weight && i < body->spheres.point_count; i++) part_row(body->model, &body->spheres, i);
 }

@@ -40,7 +40,7 @@ static void grasp(SporeWorld *world, size_t index, const SporeBody *body, SporeV
   const double *q = world->q + body->q_offset;
   double mass;
   if (!spore_model_is_rigid(body->model)) {
-    term->a.point = (uint32_t)nearest_block(q, body->model->node_count, point);
+    term->a.point = (uint32_t)nearest_block(q, body->model->node_count - body->model->spare_count, point);
     mass = body->model->block_mass[term->a.point];
   } else {
     SporeVec3 arm = spore_vec3_sub(point, spore_vec3_load(q));

@@ -26,7 +26,10 @@ static bool init_buffer(SporeWorld *world, int index) {
   snapshot->contacts = SPORE_NEW_ARRAY(SporeSnapshotContact, snapshot->contact_capacity);
   snapshot->cuts.capacity = world->cuts.capacity;
   snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->cuts.capacity);
-  return snapshot->q && snapshot->v && snapshot->reaction && snapshot->contacts && snapshot->cuts.edges;
+  snapshot->cuts.corner_count = world->cuts.corner_count;
+  snapshot->cuts.corners = SPORE_NEW_ARRAY(uint32_t, 4 * world->cuts.corner_count);
+  return snapshot->q && snapshot->v && snapshot->reaction && snapshot->contacts && snapshot->cuts.edges &&
+         snapshot->cuts.corners;
 }
 
 static void set_next(SporeWorld *world) {
@@ -54,6 +57,7 @@ void spore_snapshots_clear(SporeSnapshots *snapshots) {
     spore_free(snapshots->buffers[i].reaction);
     spore_free(snapshots->buffers[i].contacts);
     spore_free(snapshots->buffers[i].cuts.edges);
+    spore_free(snapshots->buffers[i].cuts.corners);
   }
 }
 
@@ -83,6 +87,9 @@ static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
   if (snapshot->cut_run != world->cut_run) cuts->count = 0;
   snapshot->cut_run = world->cut_run;
   for (; cuts->count < world->cuts.count; cuts->count++) cuts->edges[cuts->count] = world->cuts.edges[cuts->count];
+  if (cuts->parted == world->cuts.parted) return;
+  cuts->parted = world->cuts.parted;
+  memcpy(cuts->corners, world->cuts.corners, 4 * cuts->corner_count * sizeof *cuts->corners);
 }
 
 void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) { body->changed = world->snapshots.newest + 1; }

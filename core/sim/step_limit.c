@@ -192,7 +192,7 @@ static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_
 /* Whether a pin or a link may hold the body, or contacts. */
 static bool may_be_held(const SporeWorld *world, size_t index) {
   const SporeBody *body = &world->bodies[index];
-  if (body->held_count > 0 || body->spheres.point_count > 0) return true;
+  if (body->pin_count > 0 || body->spheres.point_count > 0) return true;
   for (size_t i = 0; i < world->link_term_count; i++)
     if (world->springs[i].a.body == index || world->springs[i].b.body == index) return true;
   return false;

@@ -55,7 +55,8 @@ bool spore_world_compile_tools(SporeWorld *world, const SporeWorldDescription *d
     hold += hold_count(from);
     made = make_tool(world, tool, from);
   }
-  made = made && spore_world_compile_parting(world) && spore_world_compile_coagulation(world);
+  made = made && spore_world_compile_parting(world) && spore_world_compile_division(world) &&
+         spore_world_compile_coagulation(world);
   return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the tools"));
 }
 
@@ -63,7 +64,7 @@ void spore_world_reset_tools(SporeWorld *world) {
   for (size_t i = 0; i < world->tool_count; i++) {
     SporeTool *tool = &world->tools[i];
     spore_jaws_let_go(world, tool);
-    tool->opening = tool->squeeze = 0;
+    tool->opening = tool->squeeze = tool->stroke = 0;
     tool->latched = false;
     tool->due = 0;
     if (tool->needle) spore_needle_reset(world, tool);

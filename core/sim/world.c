@@ -42,6 +42,8 @@ static void free_arrays(SporeWorld *world) {
                     world->contacts,
                     world->links,
                     world->cuts.edges,
+                    world->cuts.corners,
+                    world->hangs,
                     world->emitters,
                     world->ports,
                     world->springs,
@@ -84,6 +86,7 @@ void spore_world_free(SporeWorld *world) {
     spore_mapping_clear(&world->spring_mappings[i]);
   spore_free(world->spring_mappings);
   spore_world_clear_tools(world);
+  spore_world_clear_division(world);
   for (size_t i = 0; world->links && i < world->link_count; i++) spore_free(world->links[i].name);
   for (size_t i = 0; world->bodies && i < world->body_count; i++) clear_body(&world->bodies[i]);
   spore_free(world->bodies);
@@ -166,6 +169,7 @@ void spore_world_reset(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) spore_world_release(world, (uint32_t)b);
   spore_world_mend_links(world);
   spore_world_reset_tools(world);
+  spore_world_mend_division(world);
   spore_world_reset_particles(world);
   world->step = 0;
   world->contact_count = world->grip_count = 0;
@@ -246,6 +250,10 @@ size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body) {
 }
 size_t spore_world_dof(const SporeWorld *world) { return world->dof; }
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body) { return world->bodies[body].q_offset; }
+size_t spore_world_corner_start(const SporeWorld *world, uint32_t body) {
+  const SporeDivision *division = &world->bodies[body].division;
+  return division->possible ? division->corner_start : SIZE_MAX;
+}
 size_t spore_world_v_offset(const SporeWorld *world, uint32_t body) { return world->bodies[body].v_offset; }
 const double *spore_world_q(const SporeWorld *world, uint32_t body) { return world->q + world->bodies[body].q_offset; }
 const double *spore_world_v(const SporeWorld *world, uint32_t body) { return world->v + world->bodies[body].v_offset; }

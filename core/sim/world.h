@@ -118,7 +118,8 @@ typedef struct SporeLinkDescription {
 /* What an instrument does besides being there. Its parts are active bodies: the device moves `body`, the tool the rest.
  *   grasper  two jaws on a hinge close while the device says so, and hold what they press
  *   clamp    the same, and stays closed once it has pressed something, until the second button opens it
- *   scissors blades on a hinge that cut what they close on: nets, along the way of the blades; they need no jaws
+ *   scissors blades on a hinge that cut what they close on along the way of the blades: nets, and tetrahedra along
+ *            faces near it; they need no jaws
  *   suction  takes the particles of fluids away that come into its mouth
  *   bipolar  coagulates nets and tetrahedra near its point while the first button is down: they shrink and stiffen
  *            there, for good
@@ -270,6 +271,8 @@ void spore_world_set_level(SporeWorld *world, uint32_t body, SporeLevelGrade lev
 bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,
                      SporeError *error);
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body);
+/* Its first tetrahedron in a snapshot's cuts; SIZE_MAX: it is of none that can be parted. */
+size_t spore_world_corner_start(const SporeWorld *world, uint32_t body);
 size_t spore_world_v_offset(const SporeWorld *world, uint32_t body);
 
 /* Levels of a body. Those that there are, their models and that of time 0 never change; any thread may ask for them. */

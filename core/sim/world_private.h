@@ -63,6 +63,21 @@ typedef struct SporeEnergyWatch {
 } SporeEnergyWatch;
 
 typedef struct SporeLevels SporeLevels; /* levels.h */
+/* Of a body whose nodes a cut may divide: see division.c. */
+typedef struct SporeDivision {
+  bool possible, wanted, parted; /* wanted: something was opened in this step; parted: it is not whole */
+  size_t corner_start;           /* in the cuts' corners, of a tetrahedron's four */
+  SporeBlockPattern pattern;
+  SporeBlockRoom room;
+  uint8_t *pinned; /* block_count */
+} SporeDivision;
+
+/* A mapping onto such a body, and where its blocks are found anew. */
+typedef struct SporeHang {
+  uint32_t body;
+  SporeMapping *mapping;
+  uint32_t *places;
+} SporeHang;
 
 typedef struct SporeBody {
   char *name;
@@ -85,7 +100,8 @@ typedef struct SporeBody {
   uint32_t *held;        /* blocks that pins hold still; behind them particles that are out of the world */
   size_t held_count, pin_count;
   double *whole_weight; /* of its spheres' mapping, before anything cut it; NULL: nothing does */
-  double parking_gap;   /* m, between particles out of the world; 0: none ever are */
+  SporeDivision division;
+  double parking_gap; /* m, between particles out of the world; 0: none ever are */
 
   bool frozen;
   /* Rest: see sleep.c. */
@@ -216,6 +232,7 @@ typedef struct SporeTool {
   size_t hold_start; /* its terms in springs, fields.holds of them */
   SporeHold *holds;
   double opening, squeeze, held_at; /* rad, N m; opening at which it began to hold; negative: holds nothing */
+  double stroke;                    /* rad, opening at which it began to close */
   bool latched;                     /* of a clamp */
 } SporeTool;
 
@@ -285,6 +302,8 @@ struct SporeWorld {
   SporeCuts cuts;
   uint64_t cut_run;
   size_t tearing_count; /* bodies that may tear */
+  size_t hang_count;    /* on bodies that may be parted */
+  SporeHang *hangs;
   size_t tool_count, emitter_count;
   SporeTool *tools;
   SporeEmitter *emitters;
@@ -446,6 +465,14 @@ void spore_body_parted(SporeWorld *world, uint32_t body);
 /* After its model was changed: forgets what it remembers of steps before, and wakes it. */
 void spore_body_changed_model(SporeWorld *world, uint32_t body);
 
+/* division.c: tetrahedra whose nodes cuts divide. Nodes in reserve, before the world is laid out; what dividing needs,
+ * behind links and tools; at the end of a step, of the state to come; as it was, at a reset. */
+bool spore_world_reserve_division(const SporeWorldDescription *description, SporeError *error);
+bool spore_world_compile_division(SporeWorld *world);
+void spore_world_divide_bodies(SporeWorld *world);
+void spore_world_mend_division(SporeWorld *world);
+void spore_world_clear_division(SporeWorld *world);
+
 /* cutting.c: the blades, half of the angle each, went with their body from the last state to its target, and closed
  * from one opening to another. */
 void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double to);
@@ -561,6 +588,7 @@ void spore_world_wake_all(SporeWorld *world);
 
 /* factor.c */
 bool spore_world_compile_factors(SporeWorld *world, SporeError *error);
+/* Anew. False: no memory, and no factor. */
 bool spore_body_compile_factor(const SporeWorld *world, SporeBody *body, SporeError *error);
 /* After it was changed from outside: nothing is left of the steps before. */
 void spore_body_forget_steps(const SporeWorld *world, SporeBody *body);
