@@ -40,5 +40,6 @@ for side in left right; do
   "$spore" spheres --quiet "organs/tube_$side.off" --count 50 -o "organs/tube_$side.spheres"
   "$spore" tetrahedra --quiet "organs/tube_$side.off" --cells 900 -o "organs/tube_$side.mesh"
 done
+"$spore" tetrahedra --quiet organs/ovary_right.off --cells 1600 -o cut-ovary/ovary.mesh
 /usr/bin/python3 ../meshes/make_intestine.py organs plate6-intestine 0.70 5 4
 /usr/bin/python3 ../meshes/make_intestine.py organs laparoscopy 0.815 3 2

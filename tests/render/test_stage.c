@@ -6,7 +6,7 @@
 #include "core/scene/schema_fields.h"
 #include "models/registry.h"
 #include "tests/render/scenery.h"
-#include "ui/render/stage.h"
+#include "ui/render/stage_body.h"
 
 #define MINIMAL SPORE_SCENES "/minimal.spore"
 
@@ -306,6 +306,37 @@ static void test_cut_is_seen(void) {
   setting_close(&setting);
 }
 
+static const SporeStageBody *body_named(const Setting *setting, const char *name) {
+  for (guint i = 0; i < setting->stage->bodies->len; i++) {
+    const SporeStageBody *body = setting->stage->bodies->pdata[i];
+    if (body->object == id_of(setting, name)) return body;
+  }
+  g_assert_not_reached();
+}
+
+/* Where scissors divide tetrahedra, the surface parts with them and the inside is seen; whole again after a reset. */
+static void test_divided_is_seen(void) {
+  Setting setting = setting_open(SPORE_SCENES "/cut-ovary.spore");
+  setting_run(&setting, 0);
+  SporeWorld *world = setting.simulation->world;
+  const SporeStageBody *body = body_named(&setting, "ovary_right");
+  gsize whole = body->surface.count, triangles = body->triangle_count;
+  g_assert_cmpuint(body->inside_handle, ==, 0);
+  while (spore_world_tool_state(world, 0).cut < 10) spore_world_step(world);
+  for (int i = 0; i < 20; i++) spore_world_step(world);
+  spore_stage_update(setting.stage, spore_world_snapshot_acquire(world));
+  g_test_message("%zu vertices became %zu", whole, body->surface.count);
+  g_assert_cmpuint(body->inside_handle, !=, 0);
+  g_assert_cmpuint(body->surface.count, >, whole);
+  g_assert_cmpuint(body->triangle_count, ==, triangles);
+  for (gsize i = 0; i < 3 * body->surface.count; i++) g_assert_cmpfloat(fabs(body->surface.positions[i]), <, 0.2);
+  spore_world_reset(world);
+  spore_stage_update(setting.stage, spore_world_snapshot_acquire(world));
+  g_assert_cmpuint(body->inside_handle, ==, 0);
+  g_assert_cmpuint(body->surface.count, ==, whole);
+  setting_close(&setting);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/stage/standing", test_standing);
@@ -321,5 +352,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/empty-scene", test_empty_scene);
   g_test_add_func("/render/stage/liquid", test_liquid);
   g_test_add_func("/render/stage/cut-is-seen", test_cut_is_seen);
+  g_test_add_func("/render/stage/divided-is-seen", test_divided_is_seen);
   return g_test_run();
 }

@@ -89,8 +89,10 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
     SporeStageBody *body = body_of_level(stage, i, snapshot);
     if (!body->moves) continue;
     const double *q = snapshot->q + body->q_offset;
-    if (memcmp(body->q, q, body->q_count * sizeof *q) == 0) continue;
+    gboolean divided = body->cells && body->divided != snapshot->cuts.parted;
+    if (!divided && memcmp(body->q, q, body->q_count * sizeof *q) == 0) continue;
     memcpy(body->q, q, body->q_count * sizeof *q);
+    spore_stage_body_divide(stage, body, &snapshot->cuts);
     spore_stage_body_place(stage, body);
   }
   show_cuts(stage, snapshot);

@@ -81,8 +81,7 @@ static const SporeTetrahedralMesh *tetrahedra_of(SporeStage *stage, const SporeO
   return asset ? spore_document_tetrahedra(stage->document, asset, NULL) : NULL;
 }
 
-/* Shows a surface made for this moment, where it is, instead of the last one; takes its triangles. */
-static void show_own_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh) {
+void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh) {
   if (body->surface_handle) spore_renderer_remove(stage->renderer, body->surface_handle);
   g_free(body->surface.positions);
   spore_free(body->own_triangles);
@@ -109,7 +108,7 @@ static void place_tube(SporeStage *stage, SporeStageBody *body) {
     spore_free(tube.triangles);
     spore_renderer_move_surface(stage->renderer, body->surface_handle, tube.vertices);
   } else {
-    show_own_surface(stage, body, &tube);
+    spore_stage_body_show_surface(stage, body, &tube);
   }
   spore_free(tube.vertices);
 }
@@ -216,6 +215,17 @@ static void build_wire(SporeStage *stage, SporeStageBody *body, const SporeObjec
   body->wire_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, wire_colour, 1.0f);
 }
 
+static void prepare_divide(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
+                           const SporeSimulation *simulation) {
+  if (body->world_body == SPORE_NO_BODY) return;
+  body->corner_start = spore_world_corner_start(simulation->world, body->world_body);
+  const SporeTetrahedralMesh *cells = body->corner_start == SIZE_MAX ? NULL : tetrahedra_of(stage, object);
+  if (!cells) return;
+  SporeObject *asset = asset_of(stage, spore_object_child_of(object, "visual"), "mesh", "mesh");
+  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(stage->document, asset, NULL) : NULL;
+  spore_stage_body_prepare_divide(body, cells, mesh ? mesh->vertices : NULL);
+}
+
 SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
                                      const SporeLevelGrade *level) {
   SporeStageBody *body = g_new0(SporeStageBody, 1);
@@ -235,15 +245,18 @@ SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, con
   build_surface(stage, body, object, simulation);
   build_spheres(stage, body, object, simulation);
   build_wire(stage, body, object, simulation);
+  prepare_divide(stage, body, object, simulation);
   spore_stage_body_show(stage, body);
   spore_stage_body_place(stage, body);
   return body;
 }
 
 void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
-  const guint handles[] = {body->surface_handle, body->spheres_handle, body->puffs_handle, body->wire_handle};
+  const guint handles[] = {body->surface_handle, body->spheres_handle, body->puffs_handle, body->wire_handle,
+                           body->inside_handle};
   for (guint i = 0; i < G_N_ELEMENTS(handles); i++)
     if (handles[i]) spore_renderer_remove(stage->renderer, handles[i]);
+  spore_stage_body_clear_divide(body);
   clear_points(&body->surface);
   clear_points(&body->centres);
   clear_points(&body->nodes);
@@ -302,7 +315,7 @@ static void place_liquid(SporeStage *stage, SporeStageBody *body) {
   if (!spore_particle_skin(body->centres.positions, body->shown, 2 * LIQUID_SPACING * body->spheres[3], &skin, NULL))
     return;
   body->style.material = SPORE_MATERIAL_LIQUID;
-  show_own_surface(stage, body, &skin);
+  spore_stage_body_show_surface(stage, body, &skin);
   spore_free(skin.vertices);
 }
 
@@ -322,6 +335,7 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
     spore_mapping_positions(&body->surface.mapping, body->q, body->surface.positions);
     spore_renderer_move_surface(stage->renderer, body->surface_handle, body->surface.positions);
   }
+  if (body->inside_handle) spore_renderer_move_surface(stage->renderer, body->inside_handle, body->q);
   if (body->smoke) place_smoke(stage, body);
   if (body->spheres_handle && (stage->options.spheres || body->solid)) place_spheres(stage, body);
   if (body->wire_handle && stage->options.tetrahedra) place_wire(stage, body);
@@ -330,6 +344,7 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {
   SporeRenderer *renderer = stage->renderer;
   if (body->surface_handle) spore_renderer_set_visible(renderer, body->surface_handle, stage->options.surfaces);
+  if (body->inside_handle) spore_renderer_set_visible(renderer, body->inside_handle, stage->options.surfaces);
   if (body->spheres_handle)
     spore_renderer_set_visible(renderer, body->spheres_handle,
                                body->solid ? stage->options.surfaces || stage->options.spheres

@@ -26,6 +26,14 @@ typedef struct SporeStageBody {
   const guint32 *whole_triangles; /* before anything cut them; NULL: nothing did */
   gsize whole_count;
   SporeSurfaceStyle style;
+  /* Of tetrahedra that may be divided: see stage_divide.c. */
+  const SporeTetrahedralMesh *cells; /* borrowed from the document; NULL: they cannot be */
+  gsize corner_start;                /* in the cuts of snapshots */
+  guint64 divided;                   /* their `parted` that is shown */
+  const double *rest;                /* of the visual mesh, borrowed; NULL: the surface is the tetrahedra's own */
+  SporeMapping whole_surface;        /* before anything was divided */
+  uint32_t *surface_places, *centre_places;
+  guint inside_handle;  /* of the faces that were inside */
   guint surface_handle; /* handles: 0 is none */
 
   SporeStagePoints axis; /* of the tube that is the surface */
@@ -76,6 +84,13 @@ void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
  * diagonal. NULL: no such mesh. Kept by the stage. */
 const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
 
+/* Shows a surface made for this moment, where it is, instead of the last one; takes its triangles. */
+void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh);
+/* Tetrahedra that may be divided, and the visual mesh's vertices at rest, or NULL; both borrowed. */
+void spore_stage_body_prepare_divide(SporeStageBody *body, const SporeTetrahedralMesh *cells, const double *rest);
+void spore_stage_body_clear_divide(SporeStageBody *body);
+/* Lets what is drawn go with its tetrahedra, and draws the faces that were inside; positions are left to place. */
+void spore_stage_body_divide(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
 /* Takes away the triangles that cuts of the snapshot go through. */
 void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
 

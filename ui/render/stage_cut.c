@@ -49,7 +49,7 @@ static gboolean is_cut(const SporeMapping *mapping, const guint32 *triangle, con
 void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts) {
   const SporeMapping *mapping = &body->surface.mapping;
   gboolean follows = mapping->kind == SPORE_MAPPING_IDENTITY || mapping->kind == SPORE_MAPPING_LINEAR;
-  if (!body->surface_handle || !follows || (body->own_triangles && !body->whole_triangles)) return;
+  if (body->cells || !body->surface_handle || !follows || (body->own_triangles && !body->whole_triangles)) return;
   g_autoptr(GArray) edges = edges_of(cuts, body->world_body);
   if (edges->len == 0 && !body->whole_triangles) return;
   if (!body->whole_triangles) body->whole_triangles = body->triangles, body->whole_count = body->triangle_count;
