@@ -66,6 +66,7 @@ static int render(SporeCli *cli, const char *scene, const RenderOptions *options
   while (spore_world_time_s(world) < options->time_s * (1 - 1e-12) && !spore_cli_interrupted()) {
     spore_level_changes_post(levels, world);
     spore_world_step(world);
+    spore_world_tidy(world);
     spore_progress(spore_cli_progress(cli), spore_world_time_s(world) / options->time_s, _("running"));
   }
   if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;

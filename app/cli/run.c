@@ -47,6 +47,7 @@ static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint
     spore_level_changes_post(levels, world);
     spore_world_step(world);
     if (pace) spore_pace_end(pace, spore_world_time_s(world));
+    spore_world_tidy(world);
     spore_run_statistics_step(&statistics, world);
     if (recording && !record_inputs(world, recording)) break;
     if (done % stride == 0 || done == steps) {

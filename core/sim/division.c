@@ -3,7 +3,7 @@
  * matrix gets the pattern that the model has now, and spheres and links go with the tetrahedra that they hang on.
  *
  * All of that lies in room made before, so that a step allocates nothing. A factor is another matter: its fill differs.
- * A parted body does without until the world is reset, by conjugate gradients. */
+ * A parted body does without, by conjugate gradients, until that is analysed between two steps. */
 #include <stdio.h>
 #include <string.h>
 
@@ -176,7 +176,8 @@ static void divide(SporeWorld *world, uint32_t index) {
   list_held(body);
   follow(world, index);
   drop_factor(body);
-  body->division.parted = true;
+  body->division.parted = body->division.untidy = true;
+  body->division.step = world->step;
   spore_body_set_mass(world, body);
   spore_body_changed_model(world, index);
 }
@@ -191,6 +192,21 @@ void spore_world_divide_bodies(SporeWorld *world) {
   }
 }
 
+#define CALM_STEPS 16 /* before a factor is made: as long as the blades go on, it would not last */
+
+bool spore_world_tidy(SporeWorld *world) {
+  bool done = false;
+  for (uint32_t b = 0; world->cuts.corner_count > 0 && b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!body->division.untidy || world->step < body->division.step + CALM_STEPS) continue;
+    body->division.untidy = false;
+    if (!spore_body_compile_factor(world, body, NULL)) continue; /* by conjugate gradients, then */
+    spore_body_reset_choice(world, body);
+    done = true;
+  }
+  return done;
+}
+
 void spore_world_mend_division(SporeWorld *world) {
   for (uint32_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
@@ -201,6 +217,6 @@ void spore_world_mend_division(SporeWorld *world) {
     list_held(body);
     follow(world, b);
     spore_body_compile_factor(world, body, NULL); /* without memory for it, by conjugate gradients */
-    body->division.parted = false;
+    body->division.parted = body->division.untidy = false;
   }
 }

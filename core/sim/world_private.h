@@ -66,6 +66,8 @@ typedef struct SporeLevels SporeLevels; /* levels.h */
 /* Of a body whose nodes a cut may divide: see division.c. */
 typedef struct SporeDivision {
   bool possible, wanted, parted; /* wanted: something was opened in this step; parted: it is not whole */
+  bool untidy;                   /* it was parted since its factor was made */
+  uint64_t step;                 /* when it was parted */
   size_t corner_start;           /* in the cuts' corners, of a tetrahedron's four */
   SporeBlockPattern pattern;
   SporeBlockRoom room;

@@ -325,6 +325,32 @@ static void test_random(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(types); i++) check_random(types[i]);
 }
 
+/* Between the steps a body that was parted gets a factor of its new pattern, and takes fewer iterations then. */
+static void test_tidy(void) {
+  double iterations[2] = {0, 0};
+  for (int tidy = 0; tidy < 2; tidy++) {
+    Bar *bar = bar_new(&spore_neo_hookean_tetrahedra, 0.5);
+    bar->rig->description.gravity = spore_vec3(0, 0, -9.81);
+    bar->rig->description.solver.linear = SPORE_LINEAR_CHOLESKY;
+    rig_pin(bar->rig, 0, spore_vec3(0, 0.5 * SIDE, 0.5 * SIDE), 0.6 * SIDE);
+    rig_pin(bar->rig, 0, spore_vec3(LENGTH, 0.5 * SIDE, 0.5 * SIDE), 0.6 * SIDE);
+    SporeWorld *world = bar_build(bar);
+    unsigned done = 0;
+    while (spore_world_time_s(world) < 0.5) {
+      uint64_t before = spore_allocation_count();
+      spore_world_step(world);
+      g_assert_cmpuint(spore_allocation_count(), ==, before);
+      if (tidy) done += spore_world_tidy(world);
+      if (spore_world_time_s(world) > 0.35) iterations[tidy] += (double)spore_world_counts(world).linear_iterations;
+    }
+    g_assert_cmpuint(done, ==, tidy);
+    g_assert_cmpstr(rig_last_message(world), ==, "");
+    bar_free(bar);
+  }
+  g_test_message("linear iterations: %.0f without, %.0f with", iterations[0], iterations[1]);
+  g_assert_cmpfloat(iterations[1], <, 0.5 * iterations[0]);
+}
+
 /* The same bits on one thread and on three, and at each level of the processor. */
 static uint64_t hash_with(int threads, SporeCpuLevel level) {
   SporePool *pool = spore_pool_create(threads);
@@ -382,6 +408,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/division/bar", test_bar);
   g_test_add_func("/division/random", test_random);
   g_test_add_func("/division/same", test_same);
+  g_test_add_func("/division/tidy", test_tidy);
   g_test_add_func("/division/reserve", test_reserve);
   return g_test_run();
 }

@@ -165,6 +165,7 @@ static void update_factor(SporeSession *session) {
 static void take_step(SporeSession *session) {
   g_mutex_unlock(&session->mutex);
   spore_world_step(session->simulation->world);
+  spore_world_tidy(session->simulation->world);
   g_mutex_lock(&session->mutex);
   drain_recorders(session);
 }
