@@ -193,8 +193,24 @@ static gboolean some_body(const SporeCheck *check, CanBeChanged can) {
   return FALSE;
 }
 
+/* Tetrahedra that scissors pass through. */
+static void check_uncut(SporeCheck *check, SporeObject *scissors) {
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    const SporeObject *mechanical = spore_object_child_of(spore_object_child(bodies, i), "mechanical");
+    if (!mechanical || spore_object_child_count(mechanical) == 0) continue;
+    const SporeModelType *type = spore_object_type(spore_object_child(mechanical, 0))->model;
+    if (type->cut || type->geometry != SPORE_GEOMETRY_TETRAHEDRA) continue;
+    spore_check_say(check, SPORE_NOTE, scissors,
+                    _("make it neo_hookean_tetrahedra, if it should be cut; nothing is to be done if not"),
+                    _("\"%s\" passes through \"%s\", whose stiffness is that of the whole"),
+                    spore_object_name(scissors), spore_object_name(spore_object_child(bodies, i)));
+  }
+}
+
 /* Scissors where nothing can be changed by them. */
 static void check_scissors(SporeCheck *check, SporeObject *scissors) {
+  check_uncut(check, scissors);
   if (some_body(check, can_be_cut)) return;
   spore_check_say(check, SPORE_NOTE, scissors,
                   _("make what is to be cut a mass_spring_net or neo_hookean_tetrahedra, or the tool a grasper"),
