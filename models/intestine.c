@@ -94,9 +94,10 @@ static bool build(Intestine *body, const SporeCurve *curve, const IntestineField
   size_t count = (size_t)fields->control_points;
   SporeSplineSection section = {
       .density = fields->density, .content_density = fields->content_density, .wall_thickness = fields->wall_thickness};
+  SporeSplineDensity density = {.count = count, .most = count};
   SporeBlockMatrix matrix;
   if (!spore_model_init(&body->base, &spore_intestine, count + 1, true, error) ||
-      !spore_spline_line_init(&body->line, curve, count, &section, error) ||
+      !spore_spline_line_init(&body->line, curve, &density, &section, error) ||
       !make_root(body, curve, fields->mesentery_mass, error))
     return false;
   if (!spore_model_matrix_create(&body->base, &matrix)) return no_memory(error);
@@ -169,7 +170,7 @@ static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *er
   return spore_spline_line_spheres(&((const Intestine *)model)->line, set, error);
 }
 
-static size_t path(const SporeModel *model) { return ((const Intestine *)model)->line.spline.span_count; }
+static SporeSplineKnots path(const SporeModel *model) { return ((const Intestine *)model)->line.knots; }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   tune((Intestine *)model, fields);

@@ -62,7 +62,7 @@ static void fit_line(size_t span_count, const double *samples, size_t stride, do
   memset(band, 0, 4 * count * sizeof *band);
   memset(work, 0, 3 * count * sizeof *work);
   for (size_t n = 0; n < SAMPLES * span_count; n++) {
-    SporeSplineBasis basis = spore_spline_basis(span_count, ((double)n + 0.5) / SAMPLES, &span);
+    SporeSplineBasis basis = spore_spline_basis(spore_spline_uniform(span_count), ((double)n + 0.5) / SAMPLES, &span);
     for (size_t i = 0; i < 4; i++) {
       for (size_t j = i; j < 4; j++) band[4 * (span + i) + j - i] += basis.value[i] * basis.value[j];
       for (size_t c = 0; c < 3; c++) work[3 * (span + i) + c] += basis.value[i] * samples[stride * n + c];
@@ -160,7 +160,8 @@ typedef struct Derivatives {
 static Derivatives derive(const SporePatch *patch, const double *control, size_t cell, double u, double v) {
   Derivatives all = {0};
   size_t span;
-  SporeSplineBasis x = spore_spline_basis(patch->span_u, u, &span), y = spore_spline_basis(patch->span_v, v, &span);
+  SporeSplineBasis x = spore_spline_basis(spore_spline_uniform(patch->span_u), u, &span),
+                   y = spore_spline_basis(spore_spline_uniform(patch->span_v), v, &span);
   for (size_t k = 0; k < FUNCTIONS; k++) {
     size_t i = k % 4, j = k / 4;
     all.value[k] = x.value[i] * y.value[j];

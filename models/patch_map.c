@@ -29,8 +29,8 @@ typedef struct Place {
 
 static Place place_at(const Sheet *sheet, const double at[2]) {
   Place place;
-  SporeSplineBasis x = spore_spline_basis(sheet->span[0], at[0], &place.first[0]);
-  SporeSplineBasis y = spore_spline_basis(sheet->span[1], at[1], &place.first[1]);
+  SporeSplineBasis x = spore_spline_basis(spore_spline_uniform(sheet->span[0]), at[0], &place.first[0]);
+  SporeSplineBasis y = spore_spline_basis(spore_spline_uniform(sheet->span[1]), at[1], &place.first[1]);
   const double *factor[6][2] = {{x.value, y.value},  {x.first, y.value},  {x.value, y.first},
                                 {x.second, y.value}, {x.value, y.second}, {x.first, y.first}};
   for (int d = 0; d < 6; d++)

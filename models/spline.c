@@ -57,17 +57,18 @@ static bool line_create(Line *line, const SporeCurve *curve) {
 }
 
 /* Products of the functions (band: i x 4, with i + k) and of them with the line (in control). */
-static void add_products(const Line *line, size_t span_count, double *band, double *control) {
+static void add_products(const Line *line, SporeSplineKnots knots, double *band, double *control) {
   double whole = line->length[line->curve->count - 1];
-  for (size_t n = 0; n < SPORE_SPLINE_SAMPLES * span_count; n++) {
-    double u = ((double)n + 0.5) / SPORE_SPLINE_SAMPLES;
-    size_t span;
-    SporeSplineBasis basis = spore_spline_basis(span_count, u, &span);
-    SporeVec3 p = line_at(line, u / (double)span_count * whole);
+  for (size_t n = 0; n < SPORE_SPLINE_SAMPLES * knots.span_count; n++) {
+    size_t span = n / SPORE_SPLINE_SAMPLES;
+    double width = spore_spline_width(knots, span), part = (double)(n % SPORE_SPLINE_SAMPLES) + 0.5;
+    double u = spore_spline_break(knots, span) + part / SPORE_SPLINE_SAMPLES * width;
+    SporeSplineBasis basis = spore_spline_basis(knots, u, &span);
+    SporeVec3 p = line_at(line, u / spore_spline_end(knots) * whole);
     for (size_t i = 0; i < 4; i++) {
-      for (size_t j = i; j < 4; j++) band[4 * (span + i) + j - i] += basis.value[i] * basis.value[j];
+      for (size_t j = i; j < 4; j++) band[4 * (span + i) + j - i] += width * basis.value[i] * basis.value[j];
       double *sum = control + 3 * (span + i);
-      spore_vec3_store(sum, spore_vec3_add_scaled(spore_vec3_load(sum), basis.value[i], p));
+      spore_vec3_store(sum, spore_vec3_add_scaled(spore_vec3_load(sum), width * basis.value[i], p));
     }
   }
 }
@@ -108,14 +109,14 @@ void spore_spline_solve_band(size_t count, double *band, double *x) {
     }
 }
 
-bool spore_spline_fit(const SporeCurve *curve, size_t span_count, double *control) {
-  size_t count = span_count + 3;
+bool spore_spline_fit(const SporeCurve *curve, SporeSplineKnots knots, double *control) {
+  size_t count = knots.span_count + 3;
   Line line;
   double *band = SPORE_NEW_ARRAY(double, 4 * count);
   bool made = line_create(&line, curve) && band;
   if (made) {
     memset(control, 0, 3 * count * sizeof *control);
-    add_products(&line, span_count, band, control);
+    add_products(&line, knots, band, control);
     hold(count, 0, point(curve, 0), band, control);
     hold(count, count - 1, point(curve, curve->count - 1), band, control);
     spore_spline_solve_band(count, band, control);
@@ -125,8 +126,8 @@ bool spore_spline_fit(const SporeCurve *curve, size_t span_count, double *contro
   return made;
 }
 
-double spore_spline_radius(const SporeCurve *curve, size_t span_count, double parameter) {
-  double left = parameter / (double)span_count * spore_curve_length(curve);
+double spore_spline_radius(const SporeCurve *curve, SporeSplineKnots knots, double parameter) {
+  double left = parameter / spore_spline_end(knots) * spore_curve_length(curve);
   for (size_t i = 0; i + 1 < curve->count; i++) {
     double length = spore_vec3_distance(point(curve, i), point(curve, i + 1));
     double share = left / length;

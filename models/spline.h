@@ -1,4 +1,4 @@
-/* Cubic B-splines with clamped, uniform knots: the line that a thread or a tube follows. */
+/* Cubic B-splines with clamped knots: the line that a thread or a tube follows. */
 #ifndef SPORE_MODELS_SPLINE_H
 #define SPORE_MODELS_SPLINE_H
 
@@ -15,11 +15,11 @@
  * entry (i, i + k) in band[4 i + k], which is overwritten; x: count x 3. */
 void spore_spline_solve_band(size_t count, double *band, double *x);
 
-/* Control points (span_count + 3, three entries each) of the spline nearest to the curve in the mean square: through
- * its ends, and along a smooth line through its points. False: no memory. */
-bool spore_spline_fit(const SporeCurve *curve, size_t span_count, double *control);
+/* Control points (knots.span_count + 3, three entries each) of the spline nearest to the curve in the mean square:
+ * through its ends, and along a smooth line through its points. False: no memory. */
+bool spore_spline_fit(const SporeCurve *curve, SporeSplineKnots knots, double *control);
 /* Radius of the curve where the spline has this parameter. */
-double spore_spline_radius(const SporeCurve *curve, size_t span_count, double parameter);
+double spore_spline_radius(const SporeCurve *curve, SporeSplineKnots knots, double parameter);
 
 /* One Gauss point of each of SPORE_LANES spans; behind the last span all is 0. With a = dr/dS and b = d2r/dS2 by the
  * length S at rest, where |a| = 1:
@@ -50,11 +50,11 @@ void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matri
  * by the arms of its twist (ends at each knot, the nodes behind the control points; NULL: it has none), or by as few
  * more points around it as span its offset. Where the line is too straight to carry that, a point no further off than
  * slack (m) is put onto it, and any other refused. */
-bool spore_spline_map(size_t span_count, const double *control, const double *arms, const double *points, size_t count,
-                      double slack, SporeMapping *mapping, SporeError *error);
+bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
+                      size_t count, double slack, SporeMapping *mapping, SporeError *error);
 /* SPORE_SPLINE_SAMPLES points of the line a span, and its end; 3 each; room for `more` behind them, which are not
  * counted. NULL: no memory. */
-double *spore_spline_sample(size_t span_count, const double *control, size_t more, size_t *count);
+double *spore_spline_sample(SporeSplineKnots knots, const double *control, size_t more, size_t *count);
 
 /* Forces, energy and stiffness as SporeModelType says. Viscous: the speed of |a| and that of |b| across the line, each
  * times viscous and its stiffness; the second fades out where the line is straight, and has no direction to bend in. */

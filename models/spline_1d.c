@@ -12,8 +12,8 @@
 #include "models/spline_twist.h"
 
 typedef struct SplineFields {
-  int64_t control_points;
-  double young_modulus, density, wall_thickness, bending_scale, twist_modulus, turns, damping;
+  int64_t control_points, maximum_control_points;
+  double most_bend, young_modulus, density, wall_thickness, bending_scale, twist_modulus, turns, damping;
   bool straight_at_rest;
 } SplineFields;
 
@@ -26,6 +26,11 @@ typedef struct Spline1d {
 static const SporeParameter parameters[] = {
     SPORE_INTEGER_FIELD(SplineFields, control_points, 4, 100000, 30, SPORE_CHANGE_REBUILD,
                         N_("How many points the line is led by, evenly along it; more of them bend more sharply.")),
+    SPORE_REAL_FIELD(SplineFields, most_bend, "rad", 0, 3, 0, SPORE_CHANGE_REBUILD,
+                     N_("Where the curve turns by more than this from one knot to the next, control points are added "
+                        "between, again and again, until it does not; 0: they are even.")),
+    SPORE_INTEGER_FIELD(SplineFields, maximum_control_points, 4, 100000, 1000, SPORE_CHANGE_REBUILD,
+                        N_("How many control points there are at most, with those that most_bend adds.")),
     SPORE_REAL_FIELD(SplineFields, young_modulus, "Pa", 1e-3, 1e13, 1e6, SPORE_CHANGE_LIVE,
                      N_("Stiffness of the material: stretch takes it times the area of the section, bending times the "
                         "section's second moment.")),
@@ -84,13 +89,16 @@ static bool make_twist(Spline1d *body, const SporeCurve *curve, const SporeSplin
 }
 
 static bool build(Spline1d *body, const SporeCurve *curve, const SplineFields *fields, SporeError *error) {
-  size_t count = (size_t)fields->control_points;
+  SporeSplineDensity density = {.count = (size_t)fields->control_points, .most_bend = fields->most_bend};
   SporeSplineSection section = {.density = fields->density,
                                 .wall_thickness = fields->wall_thickness,
                                 .straight_at_rest = fields->straight_at_rest};
-  if (!spore_spline_line_init(&body->line, curve, count, &section, error) ||
+  size_t most = (size_t)fields->maximum_control_points;
+  density.most = density.most_bend > 0 && most > density.count ? most : density.count;
+  if (!spore_spline_line_init(&body->line, curve, &density, &section, error) ||
       !make_twist(body, curve, &section, fields, error))
     return false;
+  size_t count = body->line.control_count;
   size_t arms = body->twist.span_count > 0 ? body->twist.span_count + 1 : 0;
   if (!spore_model_init(&body->base, &spore_spline_1d, count + arms, false, error)) return false;
   SporeBlockMatrix matrix;
@@ -166,11 +174,16 @@ static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *er
   return spore_spline_line_spheres(&((const Spline1d *)model)->line, set, error);
 }
 
-static size_t path(const SporeModel *model) { return ((const Spline1d *)model)->line.spline.span_count; }
+static SporeSplineKnots path(const SporeModel *model) { return ((const Spline1d *)model)->line.knots; }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   tune((Spline1d *)model, fields);
   return true;
+}
+
+static const char *doubt(const SporeModel *model) {
+  if (!((const Spline1d *)model)->line.bends) return NULL;
+  return _("its curve still turns by more than most_bend between knots; raise maximum_control_points or most_bend");
 }
 
 const SporeModelType spore_spline_1d = {
@@ -199,5 +212,6 @@ const SporeModelType spore_spline_1d = {
     .retune = retune,
     .spheres = spheres,
     .notice = notice,
+    .doubt = doubt,
     .path = path,
 };

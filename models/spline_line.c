@@ -7,7 +7,8 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 
-#define SAMPLES 16 /* a span, of the walk along the line that spaces spheres */
+#define SAMPLES 16          /* a span, of the walk along the line that spaces spheres */
+#define NARROWEST (1. / 64) /* of an even span, that is still halved where the line bends */
 
 static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a spline"));
@@ -16,6 +17,7 @@ static bool no_memory(SporeError *error) {
 void spore_spline_line_clear(SporeSplineLine *line) {
   spore_spline_clear(&line->spline);
   spore_sphere_set_clear(&line->spheres);
+  spore_free(line->breaks);
   spore_free(line->rest);
   spore_free(line->mass);
   spore_free(line->length);
@@ -28,9 +30,9 @@ static SporeVec3 combine(const double *control, size_t span, const double weight
   return sum;
 }
 
-double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSection *section, size_t span_count,
+double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSection *section, SporeSplineKnots knots,
                                    double parameter, double *inner) {
-  double outer = spore_spline_radius(curve, span_count, parameter);
+  double outer = spore_spline_radius(curve, knots, parameter);
   *inner = section->wall_thickness > 0 ? fmax(outer - section->wall_thickness, 0) : 0;
   return outer;
 }
@@ -40,16 +42,16 @@ double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSec
 static double set_point(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section, size_t span,
                         int point) {
   SporeSpline *spline = &line->spline;
-  double u = (double)span + 0.5 + (point ? 0.5 : -0.5) / sqrt(3);
-  SporeSplineBasis basis = spore_spline_basis(spline->span_count, u, &span);
+  double u = spore_spline_gauss_parameter(line->knots, span, point), width = spore_spline_width(line->knots, span);
+  SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
   SporeVec3 slope = combine(line->rest, span, basis.first), bend = combine(line->rest, span, basis.second);
   double speed = spore_vec3_length(slope), inverse = 1 / speed;
   double change = spore_vec3_dot(slope, bend) * inverse * inverse;
   if (!(speed > 0)) return 0;
   SporeSplineGauss *gauss = &spline->gauss[span / SPORE_LANES * SPORE_SPLINE_POINTS + (size_t)point];
   size_t lane = span % SPORE_LANES;
-  double inner, outer = spore_spline_section_radius(curve, section, spline->span_count, u, &inner);
-  double length = speed / SPORE_SPLINE_POINTS;
+  double inner, outer = spore_spline_section_radius(curve, section, line->knots, u, &inner);
+  double length = width * speed / SPORE_SPLINE_POINTS;
   double second[4], area = M_PI * (outer * outer - inner * inner), lumen = M_PI * inner * inner;
   for (size_t k = 0; k < 4; k++) {
     gauss->first[k][lane] = inverse * basis.first[k];
@@ -72,7 +74,8 @@ static bool set_points(SporeSplineLine *line, const SporeCurve *curve, const Spo
     for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
       double length = set_point(line, curve, section, span, point);
       whole += length;
-      if (length > 1e-6 * spore_curve_length(curve) / (double)spline->span_count) continue;
+      double even = spore_spline_width(line->knots, span) / spore_spline_end(line->knots) * spore_curve_length(curve);
+      if (length > 1e-6 * even) continue;
       char place[64];
       snprintf(place, sizeof place, "control point %zu", span);
       return spore_error_set(error, SPORE_ERROR_INPUT, place,
@@ -90,21 +93,22 @@ static bool set_points(SporeSplineLine *line, const SporeCurve *curve, const Spo
 static double radii_of_sample(const SporeSplineLine *line, const SporeCurve *curve, size_t sample) {
   size_t span;
   double u = ((double)sample + 0.5) / SAMPLES;
-  SporeSplineBasis basis = spore_spline_basis(line->spline.span_count, u, &span);
+  SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
   return spore_vec3_length(combine(line->rest, span, basis.first)) / SAMPLES /
-         spore_spline_radius(curve, line->spline.span_count, u);
+         spore_spline_radius(curve, line->knots, u);
 }
 
 static void set_sphere(SporeSplineLine *line, const SporeCurve *curve, double u, double *sphere) {
   size_t span;
-  SporeSplineBasis basis = spore_spline_basis(line->spline.span_count, u, &span);
+  SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
   spore_vec3_store(sphere, combine(line->rest, span, basis.value));
-  sphere[3] = spore_spline_radius(curve, line->spline.span_count, u);
+  sphere[3] = spore_spline_radius(curve, line->knots, u);
 }
 
 /* From end to end, as far apart as each is thick: smooth to what slides over them. */
 static bool set_spheres(SporeSplineLine *line, const SporeCurve *curve, SporeError *error) {
-  size_t samples = SAMPLES * line->spline.span_count;
+  double end = spore_spline_end(line->knots);
+  size_t samples = SAMPLES * (size_t)end;
   double whole = 0, walked = 0;
   for (size_t i = 0; i < samples; i++) whole += radii_of_sample(line, curve, i);
   size_t gaps = (size_t)fmin(fmax(ceil(whole), 1), 1e6), next = 0;
@@ -117,35 +121,83 @@ static bool set_spheres(SporeSplineLine *line, const SporeCurve *curve, SporeErr
     }
     walked += step;
   }
-  for (; next <= gaps; next++)
-    set_sphere(line, curve, (double)line->spline.span_count, line->spheres.spheres + 4 * next);
+  for (; next <= gaps; next++) set_sphere(line, curve, end, line->spheres.spheres + 4 * next);
   return true;
 }
 
-bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, size_t control_points,
+/* By how much a span turns, rad. */
+static double turn_of(const SporeSplineLine *line, size_t span) {
+  double turn = 0, width = spore_spline_width(line->knots, span);
+  for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
+    SporeSplineBasis basis =
+        spore_spline_basis(line->knots, spore_spline_gauss_parameter(line->knots, span, point), &span);
+    SporeVec3 slope = combine(line->rest, span, basis.first), bend = combine(line->rest, span, basis.second);
+    double square = fmax(spore_vec3_dot(slope, slope), 1e-300);
+    turn += width / SPORE_SPLINE_POINTS * spore_vec3_length(spore_vec3_cross(slope, bend)) / square;
+  }
+  return turn;
+}
+
+/* Halves the spans that turn by too much, into `breaks`; false: none does, or no more may be. */
+static bool halve(SporeSplineLine *line, const SporeSplineDensity *density, double *breaks) {
+  size_t spans = line->knots.span_count, most = density->most - 3, made = 0, added = 0;
+  line->bends = false;
+  for (size_t span = 0; span < spans; span++) {
+    double from = spore_spline_break(line->knots, span), width = spore_spline_width(line->knots, span);
+    breaks[made++] = from;
+    if (turn_of(line, span) <= density->most_bend) continue;
+    bool full = spans + added >= most || width <= NARROWEST;
+    line->bends = line->bends || full;
+    if (full) continue;
+    breaks[made++] = from + 0.5 * width;
+    added++;
+  }
+  breaks[made] = spore_spline_end(line->knots);
+  return added > 0;
+}
+
+static bool fit(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineDensity *density) {
+  line->knots = spore_spline_uniform(density->count - 3);
+  if (!spore_spline_fit(curve, line->knots, line->rest)) return false;
+  if (!(density->most_bend > 0)) return true;
+  double *next = SPORE_NEW_ARRAY(double, density->most);
+  bool made = next && (line->breaks = SPORE_NEW_ARRAY(double, density->most));
+  while (made && halve(line, density, next)) {
+    size_t spans = line->knots.span_count;
+    for (spans = 0; next[spans] < spore_spline_end(line->knots);) spans++;
+    memcpy(line->breaks, next, (spans + 1) * sizeof *next);
+    line->knots = (SporeSplineKnots){spans, line->breaks};
+    made = spore_spline_fit(curve, line->knots, line->rest);
+  }
+  spore_free(next);
+  line->control_count = line->knots.span_count + 3;
+  return made;
+}
+
+bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineDensity *density,
                             const SporeSplineSection *section, SporeError *error) {
-  *line = (SporeSplineLine){.control_count = control_points};
+  *line = (SporeSplineLine){.control_count = density->count};
   if (!curve || curve->count == 0)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("there is no curve; a spline follows one; give the body a curve as its geometry"));
   if (!spore_curve_validate(curve, error)) return false;
-  line->rest = SPORE_NEW_ARRAY(double, 3 * control_points);
-  line->mass = SPORE_NEW_ARRAY(double, control_points);
-  line->length = SPORE_NEW_ARRAY(double, control_points);
-  if (!line->rest || !line->mass || !line->length || !spore_spline_allocate(&line->spline, control_points - 3) ||
-      !spore_spline_fit(curve, control_points - 3, line->rest))
+  line->rest = SPORE_NEW_ARRAY(double, 3 * density->most);
+  if (!line->rest || !fit(line, curve, density)) return no_memory(error);
+  line->mass = SPORE_NEW_ARRAY(double, line->control_count);
+  line->length = SPORE_NEW_ARRAY(double, line->control_count);
+  if (!line->mass || !line->length || !spore_spline_allocate(&line->spline, line->knots.span_count))
     return no_memory(error);
   return set_points(line, curve, section, error) && set_spheres(line, curve, error);
 }
 
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
                            double slack, SporeMapping *mapping, SporeError *error) {
-  return spore_spline_map(line->spline.span_count, line->rest, arms, points, count, slack, mapping, error);
+  return spore_spline_map(line->knots, line->rest, arms, points, count, slack, mapping, error);
 }
 
 bool spore_spline_line_samples(const SporeSplineLine *line, const double *arms, size_t arm_count, double **points,
                                size_t *count, size_t *seen) {
-  *points = spore_spline_sample(line->spline.span_count, line->rest, arm_count, count);
+  *points = spore_spline_sample(line->knots, line->rest, arm_count, count);
   *seen = *count;
   if (!*points) return false;
   if (arm_count > 0) memcpy(*points + 3 * *count, arms, 3 * arm_count * sizeof **points);

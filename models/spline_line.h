@@ -12,12 +12,22 @@ typedef struct SporeSplineSection {
   bool straight_at_rest;           /* would be straight if nothing bent it */
 } SporeSplineSection;
 
+/* How many control points a line gets: `count` evenly along it, and then, while a span turns by more than most_bend
+ * (rad; 0: none does), a knot in its middle, up to `most` in all. */
+typedef struct SporeSplineDensity {
+  size_t count, most;
+  double most_bend;
+} SporeSplineDensity;
+
 /* Radius of the section at a parameter of the spline, m; *inner: of what is hollow, 0 where it is solid. */
-double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSection *section, size_t span_count,
+double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSection *section, SporeSplineKnots knots,
                                    double parameter, double *inner);
 
 typedef struct SporeSplineLine {
   size_t control_count;
+  SporeSplineKnots knots;
+  double *breaks;         /* of the knots; NULL: evenly */
+  bool bends;             /* a span turns by more than the density asks for: there were to be no more points */
   double *rest;           /* control points, 3 each, body's frame, m */
   double *mass, *length;  /* of each control point: integrals of its function, kg and m */
   SporeSphereSet spheres; /* along the line, each a radius from the next */
@@ -25,7 +35,7 @@ typedef struct SporeSplineLine {
 } SporeSplineLine;
 
 /* Refuses no curve, one of no use and one that turns back on itself. Clear it in either case. */
-bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, size_t control_points,
+bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineDensity *density,
                             const SporeSplineSection *section, SporeError *error);
 void spore_spline_line_clear(SporeSplineLine *line);
 /* The slots map, samples and spheres of SporeModelType; arms as for spore_spline_map. */

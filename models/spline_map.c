@@ -12,7 +12,7 @@
 #define ROUNDING 1e-14 /* of the line's size: an offset that is none */
 
 typedef struct Spline {
-  size_t span_count;
+  SporeSplineKnots knots;
   const double *control, *arms;
   double size, slack;
 } Spline;
@@ -24,7 +24,7 @@ typedef struct Row {
 } Row;
 
 static SporeVec3 node(const Spline *spline, uint32_t index) {
-  size_t count = spline->span_count + 3;
+  size_t count = spline->knots.span_count + 3;
   return spore_vec3_load(index < count ? spline->control + 3 * (size_t)index : spline->arms + 3 * (index - count));
 }
 
@@ -43,7 +43,7 @@ static SporeVec3 missing(const Spline *spline, const Row *row, SporeVec3 p) {
 
 /* Control points about the span, `width` of them or all. Returns where the span's begin among them. */
 static size_t take_points(const Spline *spline, size_t span, size_t width, Row *row) {
-  size_t count = spline->span_count + 3, used = width < count ? width : count, before = (used - 4) / 2;
+  size_t count = spline->knots.span_count + 3, used = width < count ? width : count, before = (used - 4) / 2;
   size_t first = span < before ? 0 : span - before;
   if (first + used > count) first = count - used;
   *row = (Row){.used = used};
@@ -54,8 +54,8 @@ static size_t take_points(const Spline *spline, size_t span, size_t width, Row *
 /* The span's, and the arms at its knots and at so many before and behind. */
 static size_t take_arms(const Spline *spline, size_t span, size_t more, Row *row) {
   size_t first = take_points(spline, span, 4, row), from = span > more ? span - more : 0;
-  for (size_t knot = from; knot <= span + 1 + more && knot <= spline->span_count; knot++)
-    row->block[row->used++] = (uint32_t)(spline->span_count + 3 + knot);
+  for (size_t knot = from; knot <= span + 1 + more && knot <= spline->knots.span_count; knot++)
+    row->block[row->used++] = (uint32_t)(spline->knots.span_count + 3 + knot);
   return first;
 }
 
@@ -79,8 +79,8 @@ static bool fill_row(const Spline *spline, SporeVec3 p, const SporePathPlace *pl
 
 static bool map_point(const Spline *spline, const double *point, size_t index, Row *row, SporeError *error) {
   SporeVec3 p = spore_vec3_load(point);
-  size_t count = spline->span_count + 3;
-  SporePathPlace place = spore_path_seek(spline->span_count, spline->control, p);
+  size_t count = spline->knots.span_count + 3;
+  SporePathPlace place = spore_path_seek(spline->knots, spline->control, p);
   bool last = false;
   for (size_t more = 0; spline->arms && more < 2; more++)
     if (fill_row(spline, p, &place, take_arms(spline, place.first, more, row), more > 0, row)) return true;
@@ -97,9 +97,9 @@ static bool map_point(const Spline *spline, const double *point, size_t index, R
       spore_vec3_distance(p, place.position));
 }
 
-bool spore_spline_map(size_t span_count, const double *control, const double *arms, const double *points, size_t count,
-                      double slack, SporeMapping *mapping, SporeError *error) {
-  Spline spline = {span_count, control, arms, spore_carry_size(control, span_count + 3), slack};
+bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
+                      size_t count, double slack, SporeMapping *mapping, SporeError *error) {
+  Spline spline = {knots, control, arms, spore_carry_size(control, knots.span_count + 3), slack};
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   bool good = blocks && weights;
@@ -116,10 +116,11 @@ bool spore_spline_map(size_t span_count, const double *control, const double *ar
   return good;
 }
 
-double *spore_spline_sample(size_t span_count, const double *control, size_t more, size_t *count) {
-  *count = SPORE_SPLINE_SAMPLES * span_count + 1;
+double *spore_spline_sample(SporeSplineKnots knots, const double *control, size_t more, size_t *count) {
+  *count = SPORE_SPLINE_SAMPLES * knots.span_count + 1;
   double *points = SPORE_NEW_ARRAY(double, 3 * (*count + more));
   for (size_t i = 0; points && i < *count; i++)
-    spore_vec3_store(points + 3 * i, spore_path_at(span_count, control, (double)i / SPORE_SPLINE_SAMPLES).position);
+    spore_vec3_store(points + 3 * i,
+                     spore_path_at(knots, control, spore_spline_part(knots, SPORE_SPLINE_SAMPLES, i)).position);
   return points;
 }

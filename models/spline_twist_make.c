@@ -26,10 +26,10 @@ static SporeVec3 combine(const double *control, size_t span, const double weight
 }
 
 /* The functions of a span at one of its knots: those of the span behind it hold for the one before, one further. */
-static void set_knot(const SporeSplineTwist *twist, size_t index, int end) {
+static void set_knot(const SporeSplineTwist *twist, SporeSplineKnots knots, size_t index, int end) {
   size_t at;
   SporeTwistSpan *span = &twist->spans[index];
-  SporeSplineBasis basis = spore_spline_basis(twist->span_count, (double)(index + (size_t)end), &at);
+  SporeSplineBasis basis = spore_spline_basis(knots, spore_spline_break(knots, index + (size_t)end), &at);
   for (size_t k = 0; k < 4; k++) {
     size_t from = index + k - at;
     bool known = index + k >= at;
@@ -44,10 +44,11 @@ static void add_sections(SporeSplineTwist *twist, const SporeSplineLine *line, c
   double soft = 0;
   for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
     size_t span;
-    double u = (double)index + 0.5 + (point ? 0.5 : -0.5) / sqrt(3), inner;
-    double outer = spore_spline_section_radius(curve, section, twist->span_count, u, &inner);
-    SporeSplineBasis basis = spore_spline_basis(twist->span_count, u, &span);
-    double part = spore_vec3_length(combine(line->rest, span, basis.first)) / SPORE_SPLINE_POINTS;
+    double u = spore_spline_gauss_parameter(line->knots, index, point), inner;
+    double outer = spore_spline_section_radius(curve, section, line->knots, u, &inner);
+    SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
+    double part = spore_spline_width(line->knots, index) * spore_vec3_length(combine(line->rest, span, basis.first)) /
+                  SPORE_SPLINE_POINTS;
     double polar = 0.5 * M_PI * (pow(outer, 4) - pow(inner, 4));
     soft += part / polar;
     for (size_t end = 0; end < 2; end++) twist->mass[index + end] += 0.5 * section->density * polar * part;
@@ -62,7 +63,7 @@ static void set_spans(SporeSplineTwist *twist, SporeSplineLine *line, const Spor
   double length = 0, radius = 0;
   for (size_t index = 0; index < twist->span_count; index++) {
     SporeTwistSpan *span = &twist->spans[index];
-    for (int end = 0; end < 2; end++) set_knot(twist, index, end);
+    for (int end = 0; end < 2; end++) set_knot(twist, line->knots, index, end);
     for (size_t k = 0; k < 4; k++) span->node[k] = (uint32_t)(index + k);
     for (size_t end = 0; end < 2; end++) span->node[4 + end] = (uint32_t)(twist->span_count + 3 + index + end);
     span->rest = 0.5 * M_PI;

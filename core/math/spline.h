@@ -1,7 +1,8 @@
-/* Cubic B-splines with clamped, uniform knots: the functions that weigh control points along a line. */
+/* Cubic B-splines with clamped knots: the functions that weigh control points along a line. */
 #ifndef SPORE_MATH_SPLINE_H
 #define SPORE_MATH_SPLINE_H
 
+#include <math.h>
 #include <stddef.h>
 
 /* The four functions of a span, and what they become by derivation. */
@@ -9,7 +10,35 @@ typedef struct SporeSplineBasis {
   double value[4], first[4], second[4];
 } SporeSplineBasis;
 
-/* At `parameter` from 0 to span_count; *span: control points span .. span + 3 have the weights. */
-SporeSplineBasis spore_spline_basis(size_t span_count, double parameter, size_t *span);
+/* Where the spans of a spline meet: span i lies between breaks[i] and breaks[i + 1] of its parameter, which begins with
+ * 0. NULL: at whole numbers. */
+typedef struct SporeSplineKnots {
+  size_t span_count;
+  const double *breaks; /* span_count + 1, borrowed */
+} SporeSplineKnots;
+
+static inline SporeSplineKnots spore_spline_uniform(size_t span_count) { return (SporeSplineKnots){span_count, NULL}; }
+static inline double spore_spline_break(SporeSplineKnots knots, size_t i) {
+  return knots.breaks ? knots.breaks[i] : (double)i;
+}
+static inline double spore_spline_end(SporeSplineKnots knots) { return spore_spline_break(knots, knots.span_count); }
+static inline double spore_spline_width(SporeSplineKnots knots, size_t span) {
+  return spore_spline_break(knots, span + 1) - spore_spline_break(knots, span);
+}
+/* Parameter of Gauss' points of a span, 0 and 1. */
+static inline double spore_spline_gauss_parameter(SporeSplineKnots knots, size_t span, int point) {
+  double half = 0.5 * spore_spline_width(knots, span);
+  return spore_spline_break(knots, span) + half + (point ? half : -half) / sqrt(3);
+}
+/* Parameter of number `i` of so many places a span, evenly: 0 .. parts span_count. */
+static inline double spore_spline_part(SporeSplineKnots knots, size_t parts, size_t i) {
+  size_t span = i < parts * knots.span_count ? i / parts : knots.span_count - 1;
+  return spore_spline_break(knots, span) + (double)(i - parts * span) / (double)parts * spore_spline_width(knots, span);
+}
+/* The last span that begins at `parameter` or before. */
+size_t spore_spline_span(SporeSplineKnots knots, double parameter);
+
+/* At `parameter` from 0 to the end; *span: control points span .. span + 3 have the weights. */
+SporeSplineBasis spore_spline_basis(SporeSplineKnots knots, double parameter, size_t *span);
 
 #endif

@@ -182,7 +182,7 @@ SporeLinkState spore_world_link_state(const SporeWorld *world, size_t index) {
   const SporeLink *link = &world->links[index];
   SporeLinkState state = {.name = link->name, .broken = link->broken};
   double sign = link->kind == SPORE_LINK_PORT ? -1 : 1;
-  if (link->rail.span_count > 0) state.along = link->rail.start / (double)link->rail.span_count;
+  if (link->rail.knots.span_count > 0) state.along = link->rail.start / spore_spline_end(link->rail.knots);
   for (size_t t = 0; !link->broken && t < link->term_count; t++) {
     const SporeSpringTerm *term = &world->springs[link->term_start + t];
     SporeVec3 apart = spore_spring_held(&term->law, spore_vec3_sub(term->a.position, term->b.position));

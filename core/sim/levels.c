@@ -130,7 +130,7 @@ static void seek_rails(SporeWorld *world, uint32_t index) {
     SporeLink *link = &world->links[i];
     const SporeSpringTerm *term = &world->springs[link->term_start];
     if (!term->rail || term->b.body != index || term->rail->points) continue;
-    link->rail.span_count = model->type->path(model);
+    link->rail.knots = model->type->path(model);
     link->lost = true;
   }
 }

@@ -15,6 +15,7 @@
 #include "core/base/parameter.h"
 #include "core/base/threads.h"
 #include "core/linalg/block_matrix.h"
+#include "core/math/spline.h"
 #include "core/mesh/mesh.h"
 #include "core/sim/mapping.h"
 
@@ -156,9 +157,9 @@ struct SporeModelType {
   /* Corners of the triangles of its surface, nodes, three each, from spore_allocate: what a needle pierces. False: no
    * memory. NULL: it cannot be pierced. */
   bool (*skin)(const SporeModel *model, uint32_t **triangles, size_t *count);
-  /* Spans of the line that runs through the body, led by its first nodes (core/constraint/path.h): what slides along
+  /* Knots of the line that runs through the body, led by its first nodes (core/constraint/path.h): what slides along
    * it may be linked to it. NULL: it has none. */
-  size_t (*path)(const SporeModel *model);
+  SporeSplineKnots (*path)(const SporeModel *model);
   /* Material points in the body's frame at rest that tell its configuration, 3 each, from spore_allocate; of a model
    * whose nodes are no material points. The first *seen of them lie in the body. NULL: the nodes do. */
   bool (*samples)(const SporeModel *model, double **points, size_t *count, size_t *seen);

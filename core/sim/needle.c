@@ -58,10 +58,11 @@ static const SporeModel *thread_model(const SporeWorld *world, uint32_t thread) 
 static size_t thread_end(const SporeWorld *world, const SporeToolDescription *from, double *off) {
   const SporeModel *model = thread_model(world, from->thread);
   const double *q = world->rest_q + world->bodies[from->thread].q_offset;
-  size_t spans = model->type->path(model), last = spans + 2;
+  SporeSplineKnots knots = model->type->path(model);
+  size_t last = knots.span_count + 2;
   double first_off = spore_vec3_distance(spore_vec3_load(q), from->swage);
   double last_off = spore_vec3_distance(spore_vec3_load(q + 3 * last), from->swage);
-  *off = fmin(first_off, last_off) / spore_path_length(spans, q, 0, (double)spans);
+  *off = fmin(first_off, last_off) / spore_path_length(knots, q, 0, spore_spline_end(knots));
   return last_off < first_off ? last : 0;
 }
 
@@ -109,7 +110,7 @@ static void make_path(const SporeWorld *world, SporeNeedle *needle, const SporeT
     for (int k = 1; k <= 3; k++) mean += fmin(fmax(i + k - 3, 0), SPORE_NEEDLE_SPANS) / (3.0 * SPORE_NEEDLE_SPANS);
     spore_vec3_store(needle->path + 3 * i, arc_at(tip, middle, swage, mean));
   }
-  needle->length = spore_path_length(SPORE_NEEDLE_SPANS, needle->path, 0, SPORE_NEEDLE_SPANS);
+  needle->length = spore_path_length(spore_spline_uniform(SPORE_NEEDLE_SPANS), needle->path, 0, SPORE_NEEDLE_SPANS);
 }
 
 /* The end of the thread at the swage. */
@@ -121,7 +122,7 @@ static bool tie_thread(SporeWorld *world, const SporeTool *tool, const SporeTool
   double off, swage[3];
   size_t end = thread_end(world, from, &off);
   needle->from_end = end > 0;
-  needle->thread_spans = body->model->type->path(body->model);
+  needle->thread_knots = body->model->type->path(body->model);
   spore_vec3_store(swage, spore_link_to_frame(world, from->body, from->swage));
   term->a = (SporeEnd){.mapping = mapping, .body = from->thread, .point = (uint32_t)end};
   term->b = (SporeEnd){.mapping = mapping + 1, .body = from->body};
@@ -139,9 +140,9 @@ static bool make_stitch(SporeWorld *world, const SporeTool *tool, size_t index) 
   SporeStitch *stitch = &needle->stitches[index];
   size_t on_needle = tool->hold_start + 1 + 2 * index, on_thread = on_needle + 1;
   SporeMapping *mappings = &world->spring_mappings[2 * on_needle];
-  stitch->needle = (SporeRail){.span_count = SPORE_NEEDLE_SPANS, .points = needle->path, .mapping = mappings + 1};
-  stitch->thread =
-      (SporeRail){.span_count = needle->thread_spans, .mapping = mappings + 3, .stops = needle->fields.knot};
+  stitch->needle =
+      (SporeRail){.knots = spore_spline_uniform(SPORE_NEEDLE_SPANS), .points = needle->path, .mapping = mappings + 1};
+  stitch->thread = (SporeRail){.knots = needle->thread_knots, .mapping = mappings + 3, .stops = needle->fields.knot};
   world->springs[on_needle].a.mapping = world->springs[on_thread].a.mapping = mappings;
   world->springs[on_needle].b = (SporeEnd){.mapping = mappings + 1, .body = tool->body};
   world->springs[on_thread].b = (SporeEnd){.mapping = mappings + 3, .body = needle->thread};
@@ -216,12 +217,13 @@ void spore_needle_reset(SporeWorld *world, SporeTool *tool) {
 static SporePose pose_at(const double *q) { return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}; }
 
 static SporeVec3 path_at(const SporeNeedle *needle, const double *q, double parameter) {
-  return spore_pose_apply(pose_at(q), spore_path_at(SPORE_NEEDLE_SPANS, needle->path, parameter).position);
+  return spore_pose_apply(pose_at(q),
+                          spore_path_at(spore_spline_uniform(SPORE_NEEDLE_SPANS), needle->path, parameter).position);
 }
 
 /* Unit, ahead of the tip. */
 static SporeVec3 ahead_of_tip(const SporeNeedle *needle, const double *q) {
-  SporeVec3 back = spore_path_at(SPORE_NEEDLE_SPANS, needle->path, 0).slope;
+  SporeVec3 back = spore_path_at(spore_spline_uniform(SPORE_NEEDLE_SPANS), needle->path, 0).slope;
   return spore_vec3_normalise(spore_quat_rotate(spore_quat_load(q + 3), spore_vec3_scale(-1, back)),
                               (SporeVec3){0, 0, 0});
 }
@@ -273,7 +275,7 @@ static void slide_on_needle(SporeWorld *world, SporeTool *tool, SporeStitch *sti
   go_to(world, tool, stitch, threaded ? SPORE_STITCH_ON_THREAD : SPORE_STITCH_FREE);
   if (!threaded) return;
   SporeSpringTerm *next = &world->springs[term_of(tool, stitch, SPORE_STITCH_ON_THREAD)];
-  stitch->thread.start = needle->from_end ? (double)needle->thread_spans : 0;
+  stitch->thread.start = needle->from_end ? spore_spline_end(needle->thread_knots) : 0;
   follow(world, next, world->q + world->bodies[needle->thread].q_offset);
   next->stretch = 0;
 }

@@ -36,7 +36,7 @@ typedef struct SporeNeedle {
   double path[3 * (SPORE_NEEDLE_SPANS + 3)]; /* in the body's frame, from the tip to the swage, m */
   double length;                             /* m */
   uint32_t thread;                           /* SPORE_NO_BODY: none */
-  size_t thread_spans;
+  SporeSplineKnots thread_knots;
   bool from_end; /* the swage has the thread's last point, not its first */
   size_t skin_count;
   SporeSkin *skins;

@@ -5,20 +5,21 @@
 #define LEAST_BEND 0.1 /* nearer to its centre of curvature a path has no nearest place that moves smoothly */
 
 bool spore_rail_may_stop(const SporeRail *rail) {
-  return rail->stops && (rail->start <= SPORE_PATH_REACH || rail->start >= (double)rail->span_count - SPORE_PATH_REACH);
+  return rail->stops &&
+         (rail->start <= SPORE_PATH_REACH || rail->start >= spore_spline_end(rail->knots) - SPORE_PATH_REACH);
 }
 
 double spore_rail_overshoot(const SporeRail *rail, const SporePathPlace *place, SporeVec3 p) {
-  SporeVec3 outward = spore_vec3_scale(spore_path_end(rail->span_count, place->parameter),
+  SporeVec3 outward = spore_vec3_scale(spore_path_end(rail->knots, place->parameter),
                                        spore_vec3_normalise(place->slope, (SporeVec3){0, 0, 0}));
   return fmax(0, spore_vec3_dot(outward, spore_vec3_sub(p, place->position)));
 }
 
 SporePathPlace spore_rail_place(const SporeRail *rail, const double *local, SporeVec3 p) {
-  if (!rail->points) return spore_path_follow(rail->span_count, local, rail->start, p);
+  if (!rail->points) return spore_path_follow(rail->knots, local, rail->start, p);
   SporePose frame = {spore_vec3_load(local), spore_quat_load(local + 3)};
   SporeVec3 in_frame = spore_quat_rotate(spore_quat_conjugate(frame.orientation), spore_vec3_sub(p, frame.position));
-  SporePathPlace place = spore_path_follow(rail->span_count, rail->points, rail->start, in_frame);
+  SporePathPlace place = spore_path_follow(rail->knots, rail->points, rail->start, in_frame);
   place.position = spore_pose_apply(frame, place.position);
   place.slope = spore_quat_rotate(frame.orientation, place.slope);
   return place;
@@ -27,10 +28,10 @@ SporePathPlace spore_rail_place(const SporeRail *rail, const double *local, Spor
 void spore_rail_set(SporeSpringTerm *term, const SporePathPlace *place) {
   SporeRail *rail = term->rail;
   term->law.free = spore_vec3_normalise(place->slope, (SporeVec3){0, 0, 0});
-  rail->end = rail->stops ? spore_path_end(rail->span_count, place->parameter) : 0;
+  rail->end = rail->stops ? spore_path_end(rail->knots, place->parameter) : 0;
   rail->soft = SOFT_STOP * spore_vec3_length(place->slope);
   if (rail->points) {
-    SporePathPlace in_frame = spore_path_at(rail->span_count, rail->points, place->parameter);
+    SporePathPlace in_frame = spore_path_at(rail->knots, rail->points, place->parameter);
     spore_vec3_store(rail->mapping->points, in_frame.position);
     return;
   }

@@ -47,15 +47,15 @@ bool spore_link_make_rail(SporeWorld *world, SporeLink *link, const SporeLinkDes
   static const double weights[SPORE_PATH_WIDTH] = {0.25, 0.25, 0.25, 0.25}; /* none is 0: each keeps its place */
   const SporeBody *body = &world->bodies[line_body(from)];
   const double *rest = world->rest_q + body->q_offset;
-  size_t spans = body->model->type->path(body->model);
-  SporePathPlace place = spore_path_seek(spans, rest, from->point_a);
+  SporeSplineKnots knots = body->model->type->path(body->model);
+  SporePathPlace place = spore_path_seek(knots, rest, from->point_a);
   double off = spore_vec3_distance(place.position, from->point_a);
-  double most = OFF_LINE * spore_path_length(spans, rest, 0, (double)spans);
+  double most = OFF_LINE * spore_path_length(knots, rest, 0, spore_spline_end(knots));
   if (off > most) return refuse_far(&place, off, most, error);
   SporeSpringTerm *term = &world->springs[link->term_start];
   SporeMapping *mapping = &world->spring_mappings[2 * link->term_start];
   link->rail = (SporeRail){
-      .span_count = spans, .mapping = mapping + 1, .stops = from->ends == SPORE_ENDS_STOP, .start = place.parameter};
+      .knots = knots, .mapping = mapping + 1, .stops = from->ends == SPORE_ENDS_STOP, .start = place.parameter};
   term->rail = &link->rail;
   world->rail_count++;
   term->law = spore_link_law(world, from);
@@ -88,7 +88,7 @@ static void follow_rail(SporeWorld *world, SporeLink *link, SporeSpringTerm *ter
   SporeRail *rail = &link->rail;
   const double *q = world->q + world->bodies[term->b.body].q_offset;
   SporeVec3 at = end_position(world, &term->a);
-  if (link->lost) rail->start = spore_path_seek(rail->span_count, q, at).parameter;
+  if (link->lost) rail->start = spore_path_seek(rail->knots, q, at).parameter;
   SporePathPlace place = spore_rail_place(rail, q, at);
   rail->start = place.parameter;
   spore_rail_set(term, &place);

@@ -18,7 +18,7 @@ static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, Spo
 INLINE bool runs(const SporeSpringTerm *term) { return term->rail && !term->b.prescribed; }
 
 static double rail_length(const SporeRail *rail, const double *local, double to) {
-  return spore_path_length(rail->span_count, rail->points ? rail->points : local, rail->start, to);
+  return spore_path_length(rail->knots, rail->points ? rail->points : local, rail->start, to);
 }
 
 static double slid_along_rail(const SporeSpringTerm *term, const double *local, SporeVec3 a) {

@@ -78,13 +78,13 @@ typedef struct SporeRailBend {
 } SporeRailBend;
 
 typedef struct SporeRail {
-  size_t span_count;     /* core/constraint/path.h */
-  const double *points;  /* of a rigid body: what leads the path, in its frame; NULL: the first nodes of the body do */
-  SporeMapping *mapping; /* of end b, one point: linear, or of the frame */
-  bool stops;            /* at its ends, as a contact would (core/collide/response.h) */
-  double end, soft;      /* 1, -1: it stops here, and end b is at the end, at the start; over how much of depth, m */
-  double start;          /* parameter when the step began */
-  SporeRailBend bend;    /* at the last linearisation */
+  SporeSplineKnots knots; /* core/constraint/path.h */
+  const double *points;   /* of a rigid body: what leads the path, in its frame; NULL: the first nodes of the body do */
+  SporeMapping *mapping;  /* of end b, one point: linear, or of the frame */
+  bool stops;             /* at its ends, as a contact would (core/collide/response.h) */
+  double end, soft;       /* 1, -1: it stops here, and end b is at the end, at the start; over how much of depth, m */
+  double start;           /* parameter when the step began */
+  SporeRailBend bend;     /* at the last linearisation */
 } SporeRail;
 
 typedef struct SporeSpringTerm {

@@ -53,7 +53,8 @@ static void overhand(SporeCurve *curve, double scale, double tail) {
 static void sample(const double *q, double *x) {
   for (size_t i = 0; i < SAMPLES; i++) {
     size_t span;
-    SporeSplineBasis basis = spore_spline_basis(POINTS - 3, (double)i / (SAMPLES - 1) * (POINTS - 3), &span);
+    SporeSplineBasis basis =
+        spore_spline_basis(spore_spline_uniform(POINTS - 3), (double)i / (SAMPLES - 1) * (POINTS - 3), &span);
     SporeVec3 at = {0, 0, 0};
     for (size_t k = 0; k < 4; k++) at = spore_vec3_add_scaled(at, basis.value[k], spore_vec3_load(q + 3 * (span + k)));
     spore_vec3_store(x + 3 * i, at);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/constraint/path.h"
 #include "tests/stability/rig.h"
 #include "tests/stability/statics.h"
 
@@ -237,6 +238,112 @@ static void bowel_pulled_aside(void) {
   g_assert_cmpfloat(error, <, 1e-3);
 }
 
+/* Along x, then a quarter of a circle of radius `bend`, then along y: what is to be followed closely in one place. */
+static SporeCurve hook(double straight, double bend) {
+  enum { ON = 30, ROUND = 60 };
+  SporeCurve curve;
+  g_assert_true(spore_curve_allocate(&curve, 2 * ON + ROUND + 1, NULL));
+  for (int i = 0; i <= 2 * ON + ROUND; i++) {
+    double before = fmin((double)i / ON, 1) * straight, behind = fmax((double)(i - ON - ROUND) / ON, 0) * straight;
+    double angle = 0.5 * G_PI * fmin(fmax((double)(i - ON) / ROUND, 0), 1);
+    double row[4] = {before + bend * sin(angle), bend * (1 - cos(angle)) + behind, 0, 5e-4};
+    memcpy(curve.points + 4 * i, row, sizeof row);
+  }
+  return curve;
+}
+
+/* Farthest that the line lies from the hook, m. */
+static double farthest(const SporeModel *model, double straight, double bend) {
+  SporeSplineKnots knots = model->type->path(model);
+  double most = 0, *q = g_new0(double, model->q_count), *v = g_new0(double, 3 * model->block_count);
+  model->type->place(model, spore_pose_identity(), spore_vec3(0, 0, 0), spore_vec3(0, 0, 0), q, v);
+  for (int i = 0; i <= 1000; i++) {
+    SporeVec3 p = spore_path_at(knots, q, i / 1000. * spore_spline_end(knots)).position;
+    double x = p.x - straight, y = p.y - bend,
+           off = x > 0 && y < 0 ? fabs(hypot(x, y) - bend)
+                 : y >= 0       ? fabs(x - bend)
+                                : fabs(p.y);
+    most = fmax(most, off);
+  }
+  g_free(q);
+  g_free(v);
+  return most;
+}
+
+static SporeModel *hook_model(double points, double most_bend, double maximum) {
+  SporeCurve curve = hook(0.1, 0.005);
+  return rig_curve_model(&spore_spline_1d, &curve, "control_points", points, "most_bend", most_bend,
+                         "maximum_control_points", maximum, "young_modulus", YOUNG, NULL);
+}
+
+/* Points that are added where the curve bends follow it as closely as many more that are even; the line weighs the
+ * same; it is told where there were not to be enough. */
+static void points_where_it_bends(void) {
+  static const struct {
+    double points, most_bend, maximum;
+  } cases[] = {{20, 0, 1000}, {40, 0, 1000}, {20, 0.5, 1000}, {20, 0.5, 22}};
+  double off[4], mass[4];
+  size_t count[4];
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SporeModel *model = hook_model(cases[i].points, cases[i].most_bend, cases[i].maximum);
+    const char *doubt = model->type->doubt(model);
+    off[i] = farthest(model, 0.1, 0.005), mass[i] = spore_model_total_mass(model), count[i] = model->node_count;
+    g_test_message("%g control points, most_bend %g: %zu, off the curve by %.1e m at most, %.9g kg; %s",
+                   cases[i].points, cases[i].most_bend, count[i], off[i], mass[i], doubt ? doubt : "");
+    g_assert_true((doubt != NULL) == (i == 3));
+    g_assert_cmpfloat(fabs(mass[i] / mass[0] - 1), <, 0.01);
+    model->type->destroy(model);
+  }
+  g_assert_cmpuint(count[2], <, 40);
+  g_assert_cmpfloat(off[2], <, 0.1 * off[0]);
+  g_assert_cmpfloat(off[2], <, off[1]);
+  g_assert_cmpuint(count[3], ==, 22);
+}
+
+#define SPIRAL 2000 /* points of the spiral, with which theory is integrated */
+
+/* 0.1 m that bend more and more sharply, from 5 to 100 1/m. */
+static void spiral(double x[SPIRAL + 1][2]) {
+  double h = 0.1 / SPIRAL;
+  x[0][0] = x[0][1] = 0;
+  for (int i = 0; i < SPIRAL; i++) {
+    double part = (i + 0.5) / SPIRAL, angle = 0.1 * (5 * part + 95 * part * part * part / 3);
+    x[i + 1][0] = x[i][0] + h * cos(angle), x[i + 1][1] = x[i][1] + h * sin(angle);
+  }
+}
+
+/* A spiral is clamped at its flat end and pulled aside at the other, in its plane: P over E I times the integral of the
+ * lever squared. Uneven knots keep to it, though on a curve as smooth as this even ones gain more; and it rests as the
+ * curve is. */
+static void uneven(void) {
+  double x[SPIRAL + 1][2], levers = 0, error[2];
+  spiral(x);
+  for (int i = 0; i < SPIRAL; i++) levers += 0.1 / SPIRAL * pow(x[SPIRAL][1] - 0.5 * (x[i][1] + x[i + 1][1]), 2);
+  double load = 1e-5 * YOUNG * inertia(5e-4) / levers;
+  for (int added = 0; added < 2; added++) {
+    SporeCurve curve;
+    g_assert_true(spore_curve_allocate(&curve, SPIRAL + 1, NULL));
+    for (int i = 0; i <= SPIRAL; i++) memcpy(curve.points + 4 * i, (double[4]){x[i][0], x[i][1], 0, 5e-4}, 32);
+    Statics statics = statics_new(rig_curve_model(&spore_spline_1d, &curve, "control_points", added ? 10.0 : 24.0,
+                                                  "most_bend", added ? 0.25 : 0, "young_modulus", YOUNG, NULL));
+    size_t last = statics.n / 3 - 1;
+    statics.held[0] = statics.held[1] = TRUE;
+    double *f = g_new0(double, statics.n), most = 0, from = statics.q[3 * last];
+    statics.model->type->force(statics.model, statics.q, statics.q, statics.still, f);
+    for (size_t i = 0; i < statics.n; i++) most = fmax(most, fabs(f[i]));
+    statics.load[3 * last] = load;
+    double left = statics_balance(&statics), aside = statics.q[3 * last] - from;
+    error[added] = fabs(aside / 1e-5 - 1);
+    g_test_message("%zu control points: aside by %.4e m of %.4e m: %+.1e; at rest %.1e N; force left %.0e", last + 1,
+                   aside, 1e-5, aside / 1e-5 - 1, most, left);
+    g_assert_cmpfloat(left, <, 1e-6);
+    g_assert_cmpfloat(most, <, 1e-11 * YOUNG * G_PI * 5e-4 * 5e-4);
+    g_free(f);
+    statics_free(&statics);
+  }
+  g_assert_cmpfloat(error[1], <, 0.01);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/spline/cantilever", cantilever);
@@ -244,6 +351,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/spline/catenary", catenary);
   g_test_add_func("/spline/first-mode", first_mode);
   g_test_add_func("/spline/curved-at-rest", curved_at_rest);
+  g_test_add_func("/spline/points-where-it-bends", points_where_it_bends);
+  g_test_add_func("/spline/uneven", uneven);
   g_test_add_func("/intestine/sag", bowel_on_its_mesentery);
   g_test_add_func("/intestine/pulled-aside", bowel_pulled_aside);
   return g_test_run();

@@ -172,7 +172,7 @@ static void twist(Statics *statics, double angle) {
   size_t count = statics->model->node_count / 2 + 1, spans = count - 3;
   for (size_t knot = 1; knot <= spans; knot++) {
     size_t span;
-    SporeSplineBasis basis = spore_spline_basis(spans, (double)knot, &span);
+    SporeSplineBasis basis = spore_spline_basis(spore_spline_uniform(spans), (double)knot, &span);
     SporeVec3 at = {0, 0, 0}, along = {0, 0, 0};
     for (size_t k = 0; k < 4; k++) {
       SporeVec3 control = spore_vec3_load(statics->q + 3 * (span + k));
