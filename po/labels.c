@@ -1,5 +1,5 @@
-/* How the names in the parameter tables, and of their choices, read to people: for translators alone, never compiled. A test
- * says when one is missing. */
+/* How the names in the parameter tables, and of their choices, read to people: for translators alone, never compiled. A
+ * test says when one is missing. */
 N_("Active")
 N_("Always")
 N_("Author")

@@ -419,9 +419,9 @@ bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body);
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);
 bool spore_world_body_asleep(const SporeWorld *world, uint32_t body);
 
-/* What a step leaves for between the steps, where memory may be taken: a body that scissors parted is solved by conjugate
- * gradients alone until its new pattern is analysed here, when nothing was cut for 16 steps. To be called after each
- * step, or never. True: something was done. */
+/* What a step leaves for between the steps, where memory may be taken: a body that scissors parted is solved by
+ * conjugate gradients alone until its new pattern is analysed here, when nothing was cut for 16 steps. To be called
+ * after each step, or never. True: something was done. */
 bool spore_world_tidy(SporeWorld *world);
 
 /* Counts of the last step. */
