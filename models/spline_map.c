@@ -10,6 +10,7 @@
 
 #define WIDTH 16       /* control points of a row, at most */
 #define ROUNDING 1e-14 /* of the line's size: an offset that is none */
+#define WRITTEN 1e-5   /* of the line's size: an offset that comes of few digits in a file */
 
 typedef struct Spline {
   SporeSplineKnots knots;
@@ -100,6 +101,7 @@ static bool map_point(const Spline *spline, const double *point, size_t index, R
 bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
                       size_t count, double slack, SporeMapping *mapping, SporeError *error) {
   Spline spline = {knots, control, arms, spore_carry_size(control, knots.span_count + 3), slack};
+  spline.slack = fmax(slack, WRITTEN * spline.size);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
   bool good = blocks && weights;

@@ -231,6 +231,22 @@ static void check_loose(const Start *start) {
   }
 }
 
+/* What is nearer than its margin to begin with may never be seen to come nearer, and is looked at in each step. */
+static void check_margin(const Start *start, guint body) {
+  const SporeObject *collision = spore_object_child_of(start->bodies->pdata[body], "collision");
+  double margin = collision ? spore_object_number(collision, "margin") : 0, least = HUGE_VAL;
+  for (guint i = 0; i < start->balls->len; i++) {
+    const Ball *ball = &g_array_index(start->balls, Ball, i);
+    if (ball->body == body) least = fmin(least, ball->radius);
+  }
+  if (!(margin > least)) return;
+  spore_check_say(
+      start->check, SPORE_WARNING, collision, _("take about a quarter of that radius"),
+      _("the margin of \"%s\" is %.3g m, more than the radius of its smallest sphere, %.3g m: pairs that far "
+        "apart cost as much as contacts, and neighbours that near never meet"),
+      spore_object_name(start->bodies->pdata[body]), margin, least);
+}
+
 /* Steps that leave too little of the stiffness of contacts for what may lie in a pile. */
 static void check_piles(SporeCheck *check, const SporeSimulation *simulation) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
@@ -290,6 +306,7 @@ void spore_check_motion(SporeCheck *check) {
   spore_simulation_free(simulation);
   g_array_sort(start.balls, by_left_end);
   check_overlaps(&start);
+  for (guint i = 0; i < start.bodies->len; i++) check_margin(&start, i);
   check_loose(&start);
   g_ptr_array_unref(start.bodies);
   g_array_unref(start.roles);

@@ -210,6 +210,9 @@ static const Mistake mistakes[] = {
     {"alone-in-group",
      BODIES(FLOOR "<body name=\"stone\">" STONE "<collision spheres=\"ball\" group=\"3\"/></body>\n"),
      {"note 5:74: \"stone\" is alone in group 3"}},
+    {"wide-margin",
+     BODIES(FLOOR "<body name=\"stone\">" STONE "<collision spheres=\"ball\" margin=\"0.2\"/></body>\n"),
+     {"warning 5:74: the margin of \"stone\" is 0.2 m, more than the radius"}},
     {"self-of-unmovable",
      BODIES("<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\"><collision spheres=\"ball\" "
             "self=\"true\"/></body>\n" STAND),

@@ -238,6 +238,27 @@ static void bowel_pulled_aside(void) {
   g_assert_cmpfloat(error, <, 1e-3);
 }
 
+/* A straight line carries no point beside it; but one that few digits in a file put there is on it. */
+static void points_as_written(void) {
+  SporeCurve curve;
+  g_assert_true(spore_curve_allocate(&curve, 2, NULL));
+  const double ends[8] = {0, 0, 0, 1e-3, 0.1, 0, 0, 1e-3};
+  memcpy(curve.points, ends, sizeof ends);
+  SporeModel *model = rig_curve_model(&spore_spline_1d, &curve, "control_points", 12.0, NULL);
+  const double rounded[3] = {0.0321, 4.4e-8, 0}, beside[3] = {0.0321, 1e-4, 0};
+  SporeMapping mapping;
+  SporeError error = SPORE_ERROR_INIT;
+  g_assert_true(model->type->map(model, rounded, 1, &mapping, &error));
+  double heaviest = 0;
+  for (uint32_t i = mapping.row_start[0]; i < mapping.row_start[1]; i++)
+    heaviest = fmax(heaviest, fabs(mapping.weight[i]));
+  g_assert_cmpfloat(heaviest, <, 1);
+  spore_mapping_clear(&mapping);
+  g_assert_false(model->type->map(model, beside, 1, &mapping, &error));
+  g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
+  model->type->destroy(model);
+}
+
 /* Along x, then a quarter of a circle of radius `bend`, then along y: what is to be followed closely in one place. */
 static SporeCurve hook(double straight, double bend) {
   enum { ON = 30, ROUND = 60 };
@@ -352,6 +373,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/spline/first-mode", first_mode);
   g_test_add_func("/spline/curved-at-rest", curved_at_rest);
   g_test_add_func("/spline/points-where-it-bends", points_where_it_bends);
+  g_test_add_func("/spline/points-as-written", points_as_written);
   g_test_add_func("/spline/uneven", uneven);
   g_test_add_func("/intestine/sag", bowel_on_its_mesentery);
   g_test_add_func("/intestine/pulled-aside", bowel_pulled_aside);
