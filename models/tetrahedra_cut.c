@@ -328,6 +328,7 @@ size_t spore_tetrahedra_cut_part(SporeTetrahedraCut *cut, SporeTetrahedra *tetra
 }
 
 void spore_tetrahedra_cut_mend(SporeTetrahedraCut *cut, SporeTetrahedra *tetrahedra, double *masses) {
+  if (cut->count == 0) return; /* nothing can cut it */
   for (uint32_t t = 0; t < cut->count; t++)
     for (uint32_t k = 0; k < 4; k++) set_corner(cut, tetrahedra, t, k, cut->whole[4 * (size_t)t + k]);
   for (uint32_t node = 0; node < cut->node_count; node++) {
