@@ -16,7 +16,6 @@ typedef struct GridFields {
 typedef struct Body {
   SporeModel base;
   SporeLattice lattice;
-  uint32_t *diagonal; /* block_count: where the diagonal blocks lie */
   SporeElasticity elasticity;
   double mass_damping; /* 1/s */
   bool thin;
@@ -39,7 +38,6 @@ static bool no_memory(SporeError *error) {
 static void destroy(SporeModel *model) {
   Body *body = (Body *)model;
   spore_lattice_clear(&body->lattice);
-  spore_free(body->diagonal);
   spore_model_clear(&body->base);
   spore_free(body);
 }
@@ -51,18 +49,14 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 /* In a matrix of the pattern that the world will make too. */
 static bool find_blocks(Body *body) {
   SporeBlockMatrix matrix;
-  body->diagonal = SPORE_NEW_ARRAY(uint32_t, body->base.block_count);
-  if (!body->diagonal || !spore_model_matrix_create(&body->base, &matrix)) return false;
+  if (!spore_model_matrix_create(&body->base, &matrix)) return false;
   spore_lattice_find_blocks(&body->lattice, &matrix);
-  for (size_t i = 0; i < body->base.block_count; i++) body->diagonal[i] = matrix.diagonal[i];
   spore_block_matrix_clear(&matrix);
   return true;
 }
 
 static void tune(Body *body, const GridFields *fields) {
-  double e = fields->young_modulus, nu = fields->poisson_ratio;
-  body->elasticity = (SporeElasticity){
-      .mu = e / (2 * (1 + nu)), .lambda = e * nu / ((1 + nu) * (1 - 2 * nu)), .viscosity = fields->stiffness_damping};
+  body->elasticity = spore_elasticity(fields->young_modulus, fields->poisson_ratio, fields->stiffness_damping);
   body->mass_damping = fields->mass_damping;
 }
 
@@ -131,8 +125,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
   const Body *body = (const Body *)model;
   Loop loop = {.body = body, .q = q, .shape = shape, .v = v, .f = f};
   run(&loop, 10, add_slab_forces);
-  if (body->mass_damping == 0) return;
-  for (size_t i = 0; i < model->q_count; i++) f[i] -= body->mass_damping * model->block_mass[i / 3] * v[i];
+  spore_nodal_damp(model, body->mass_damping, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -157,10 +150,7 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
                .damping_scale = damping_scale,
                .matrix = matrix};
   run(&loop, 150, add_slab_jacobian);
-  for (size_t i = 0; i < model->block_count; i++)
-    for (int k = 0; k < 3; k++)
-      matrix->values[9 * (size_t)body->diagonal[i] + 4 * k] +=
-          damping_scale * body->mass_damping * model->block_mass[i];
+  spore_nodal_damp_jacobian(model, damping_scale * body->mass_damping, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {

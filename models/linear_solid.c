@@ -191,8 +191,7 @@ void spore_linear_solid_force(const SporeModel *model, const double *q, const do
     add_rates(body, &held, shape, v, body->viscosity, body->carried);
     add_pull(body, &held, shape, body->carried, f);
   }
-  for (size_t i = 0; body->mass_damping > 0 && i < n; i++)
-    f[i] -= body->mass_damping * body->base.block_mass[i / 3] * v[i];
+  spore_nodal_damp(model, body->mass_damping, v, f);
 }
 
 double spore_linear_solid_potential(const SporeModel *model, const double *q) {
@@ -235,10 +234,7 @@ void spore_linear_solid_jacobian(const SporeModel *model, const double *q, const
     frame = frame_of(body, shape);
     add_turned(body, &frame, viscous, matrix);
   }
-  for (size_t i = 0; i < body->base.block_count; i++)
-    for (int k = 0; k < 3; k++)
-      matrix->values[9 * (size_t)matrix->diagonal[i] + (size_t)(4 * k)] +=
-          damping_scale * body->mass_damping * body->base.block_mass[i];
+  spore_nodal_damp_jacobian(model, damping_scale * body->mass_damping, matrix);
 }
 
 bool spore_linear_solid_retune(SporeModel *model, const void *fields, SporeError *error) {

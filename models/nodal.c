@@ -14,6 +14,18 @@ void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVe
   }
 }
 
+void spore_nodal_damp(const SporeModel *model, double coefficient, const double *v, double *f) {
+  if (coefficient == 0) return;
+  for (size_t i = 0; i < 3 * model->block_count; i++) f[i] -= coefficient * model->block_mass[i / 3] * v[i];
+}
+
+void spore_nodal_damp_jacobian(const SporeModel *model, double coefficient, SporeBlockMatrix *matrix) {
+  if (coefficient == 0) return;
+  for (size_t i = 0; i < model->block_count; i++)
+    for (size_t k = 0; k < 3; k++)
+      matrix->values[9 * (size_t)matrix->diagonal[i] + 4 * k] += coefficient * model->block_mass[i];
+}
+
 bool spore_nodal_check_mass(const SporeModel *model, const char *element, SporeError *error) {
   for (size_t i = 0; i < model->block_count; i++) {
     if (model->block_mass[i] > 0) continue;

@@ -39,7 +39,6 @@ typedef struct Body {
   const Material *material;
   SporeTetrahedronNodes nodes; /* at rest, body's frame */
   SporeTetrahedra tetrahedra;
-  uint32_t *diagonal; /* block_count: where the diagonal blocks lie */
   SporeElasticity elasticity;
   double mass_damping; /* 1/s */
   bool locks;
@@ -80,7 +79,6 @@ static void destroy(SporeModel *model) {
   spore_tetrahedra_clear(&body->tetrahedra);
   spore_tetrahedra_heat_clear(&body->heated);
   spore_tetrahedra_cut_clear(&body->cut);
-  spore_free(body->diagonal);
   spore_model_clear(&body->base);
   spore_free(body);
 }
@@ -94,7 +92,6 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 static void settle(SporeModel *model, const SporeBlockMatrix *matrix) {
   Body *body = (Body *)model;
   spore_tetrahedra_find_blocks(&body->tetrahedra, matrix);
-  for (size_t i = 0; i < model->block_count; i++) body->diagonal[i] = matrix->diagonal[i];
 }
 
 /* In a matrix of the pattern that the world will make too. */
@@ -106,13 +103,10 @@ static bool find_blocks(Body *body) {
   return true;
 }
 
-/* Lame's parameters from Young's modulus and Poisson's ratio. */
 static void tune(Body *body, const TetrahedraFields *fields) {
-  double e = fields->young_modulus, nu = fields->poisson_ratio;
-  body->elasticity = (SporeElasticity){
-      .mu = e / (2 * (1 + nu)), .lambda = e * nu / ((1 + nu) * (1 - 2 * nu)), .viscosity = fields->stiffness_damping};
+  body->elasticity = spore_elasticity(fields->young_modulus, fields->poisson_ratio, fields->stiffness_damping);
   body->mass_damping = fields->mass_damping;
-  body->locks = nu > LOCKS && fields->element == LINEAR;
+  body->locks = fields->poisson_ratio > LOCKS && fields->element == LINEAR;
 }
 
 static bool build(Body *body, const SporeModelType *type, const SporeTetrahedralMesh *mesh,
@@ -121,9 +115,7 @@ static bool build(Body *body, const SporeModelType *type, const SporeTetrahedral
   if (!spore_model_init(&body->base, type, body->nodes.count, false, error)) return false;
   spore_tetrahedron_nodes_add_mass(&body->nodes, fields->density, body->base.block_mass);
   if (!spore_nodal_check_mass(&body->base, "tetrahedron", error)) return false;
-  body->diagonal = SPORE_NEW_ARRAY(uint32_t, body->nodes.count);
-  if (!body->diagonal || !spore_tetrahedra_create(&body->tetrahedra, &body->nodes) || !find_blocks(body))
-    return no_memory(error);
+  if (!spore_tetrahedra_create(&body->tetrahedra, &body->nodes) || !find_blocks(body)) return no_memory(error);
   body->density = fields->density;
   body->cut_reserve = fields->cut_reserve;
   tune(body, fields);
@@ -177,8 +169,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
   const Body *body = (const Body *)model;
   Loop loop = {.body = body, .q = q, .shape = shape, .v = v, .f = f};
   run(&loop, 10, add_slab_forces);
-  if (body->mass_damping == 0) return;
-  for (size_t i = 0; i < body->base.q_count; i++) f[i] -= body->mass_damping * body->base.block_mass[i / 3] * v[i];
+  spore_nodal_damp(model, body->mass_damping, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -203,10 +194,7 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
                .damping_scale = damping_scale,
                .matrix = matrix};
   run(&loop, 70, add_slab_jacobian);
-  for (size_t i = 0; i < body->base.block_count; i++)
-    for (int k = 0; k < 3; k++)
-      matrix->values[9 * (size_t)body->diagonal[i] + 4 * k] +=
-          damping_scale * body->mass_damping * body->base.block_mass[i];
+  spore_nodal_damp_jacobian(model, damping_scale * body->mass_damping, matrix);
 }
 
 static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
@@ -250,9 +238,7 @@ static bool add_spares(Body *body, size_t count) {
   if (masses) base->block_mass = masses;
   double *rest = spore_reallocate(body->nodes.rest, 3 * n, 3 * (n + count), sizeof *rest);
   if (rest) body->nodes.rest = rest;
-  uint32_t *diagonal = spore_reallocate(body->diagonal, n, n + count, sizeof *diagonal);
-  if (diagonal) body->diagonal = diagonal;
-  if (!masses || !rest || !diagonal) return false;
+  if (!masses || !rest) return false;
   body->spare_mass = SPARE_MASS * spore_model_total_mass(base);
   for (size_t i = n; i < n + count; i++) {
     masses[i] = body->spare_mass;

@@ -61,6 +61,12 @@ typedef struct SporeElasticity {
   double viscosity;  /* eta, s */
 } SporeElasticity;
 
+/* Lame's parameters from Young's modulus (Pa) and Poisson's ratio. */
+static inline SporeElasticity spore_elasticity(double e, double nu, double viscosity) {
+  return (SporeElasticity){
+      .mu = e / (2 * (1 + nu)), .lambda = e * nu / ((1 + nu) * (1 - 2 * nu)), .viscosity = viscosity};
+}
+
 /* Kernels of a material:
  *
  * _force: f += forces of a slab, the viscous ones with F as it is in shape.
