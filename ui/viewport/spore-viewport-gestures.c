@@ -53,7 +53,7 @@ gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *pos
 /* Goes on from where the body's device, the mouse or a track, has brought it. */
 static gboolean take_hand(SporeViewport *self) {
   SporeVec3 position;
-  if (!spore_viewport_probe(self, &self->body, &position)) return FALSE;
+  if (self->drag == DRAG_PULL || !spore_viewport_probe(self, &self->body, &position)) return FALSE;
   SporeSession *session = session_of(self);
   const SporeWorld *world = spore_session_simulation(session)->world;
   const double *q = spore_session_snapshot(session)->q + spore_world_q_offset(world, self->body);

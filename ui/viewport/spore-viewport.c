@@ -54,6 +54,12 @@ static double aspect_of(SporeViewport *self) {
   return (double)gtk_widget_get_allocated_width(self->area) / MAX(gtk_widget_get_allocated_height(self->area), 1);
 }
 
+/* Goes where the scene's camera goes, as long as there is one. */
+static void follow_camera(SporeViewport *self) {
+  self->through = self->through && self->stage && spore_stage_has_camera(self->stage);
+  if (self->through) spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
+}
+
 static void update_stage(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
   if (self->stage && session) {
@@ -61,7 +67,7 @@ static void update_stage(SporeViewport *self) {
     spore_stage_update(self->stage, snapshot);
     self->shown_step = snapshot->step;
   }
-  if (self->through) spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
+  follow_camera(self);
   spore_viewport_redraw(self);
 }
 
@@ -188,7 +194,10 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   return FALSE;
 }
 
-static void size_changed(GtkWidget *area, GdkRectangle *allocation, SporeViewport *self) { update_stage(self); }
+static void size_changed(GtkWidget *area, GdkRectangle *allocation, SporeViewport *self) {
+  follow_camera(self);
+  self->stale = TRUE;
+}
 
 /* Following the simulation. */
 
