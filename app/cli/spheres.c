@@ -84,13 +84,15 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "spheres", "MESH", N_("Fits collision spheres to a mesh, or to the tetrahedra of a .mesh file."), 1, 1, members};
-  char *unit = NULL, *frame = NULL, *output = NULL;
+  char *unit = NULL, *frame = NULL, *output = NULL, *mode = NULL;
   gint64 count = 0, seed = 1;
   double tolerance = 0;
   const GOptionEntry entries[] = {
       {"count", 'n', 0, G_OPTION_ARG_INT64, &count, N_("Number of spheres"), "N"},
       {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &tolerance,
        N_("Mean distance allowed, of the diagonal: as many spheres as that takes"), "D"},
+      {"mode", 'm', 0, G_OPTION_ARG_STRING, &mode,
+       N_("What the spheres are to be good at: balanced (default) fits the depth inside"), "MODE"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"seed", 0, 0, G_OPTION_ARG_INT64, &seed, N_("Seed: the same one gives the same spheres (default 1)"), "N"},
@@ -99,7 +101,11 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) {
     SporeSpheresOptions options = {.count = (size_t)MAX(count, 0), .tolerance = tolerance, .seed = (uint64_t)seed};
-    if (count < 0 || count > SPORE_SPHERES_MAXIMUM || (count == 0) == !(tolerance >= 1e-4 && tolerance < 1))
+    GError *error = NULL;
+    int chosen = mode ? spore_cli_choice("--mode", mode, spore_spheres_mode_names, &error) : SPORE_SPHERES_BALANCED;
+    if (chosen >= 0) options.mode = (SporeSpheresMode)chosen;
+    if (chosen < 0) status = spore_cli_fail(error);
+    else if (count < 0 || count > SPORE_SPHERES_MAXIMUM || (count == 0) == !(tolerance >= 1e-4 && tolerance < 1))
       status = spore_cli_usage(_("spore spheres: neither number of spheres nor tolerance is one; expected either "
                                  "--count 1 to %d or --tolerance "
                                  "0.0001 to 1; give one of them"),
@@ -109,5 +115,6 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
   g_free(unit);
   g_free(frame);
   g_free(output);
+  g_free(mode);
   return status;
 }

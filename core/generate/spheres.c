@@ -11,6 +11,8 @@
 #define CANDIDATES_LEAST 1500
 #define CANDIDATES_PER_SPHERE 12
 
+const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1] = {[SPORE_SPHERES_BALANCED] = "balanced"};
+
 static bool check_options(const SporeSpheresOptions *options, SporeError *error) {
   if (options->count > SPORE_SPHERES_MAXIMUM)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
@@ -38,10 +40,10 @@ static SporeProgressPart part_of(const SporeProgressPart *whole, double first, d
   return (SporeProgressPart){whole->whole, whole->first + whole->share * first, whole->share * share};
 }
 
-/* Exactly `count` spheres in the solid, measured. */
-static bool generate(const SporeSolid *solid, size_t count, uint64_t seed, SporeSphereSet *set,
+/* Exactly `count` spheres in the solid, whatever the options say of their number, measured. */
+static bool generate(const SporeSolid *solid, size_t count, const SporeSpheresOptions *options, SporeSphereSet *set,
                      SporeSpheresReport *report, const SporeProgressPart *progress, SporeError *error) {
-  SporeRandom random = {seed ^ UINT64_C(0x9e3779b97f4a7c15)};
+  SporeRandom random = {options->seed ^ UINT64_C(0x9e3779b97f4a7c15)};
   SporeProgressPart sampling = part_of(progress, 0, 0.1), finding = part_of(progress, 0.1, 0.2),
                     fitting = part_of(progress, 0.3, 0.6), measuring = part_of(progress, 0.9, 0.1);
   SporeSamples samples = {0};
@@ -53,7 +55,7 @@ static bool generate(const SporeSolid *solid, size_t count, uint64_t seed, Spore
               spore_candidates_create(&candidates, solid, candidate_count, &random, &finding, error);
   if (done && !spore_balls_create(&balls, count)) done = spore_spheres_no_memory(error);
   done = done && spore_candidates_cover(&candidates, &samples, &balls, &finding, error) &&
-         spore_spheres_fit(solid, &samples, &candidates, &balls, seed, &fitting, error) &&
+         spore_spheres_fit(solid, &samples, &candidates, &balls, options->seed, &fitting, error) &&
          store_balls(&balls, set, error) && spore_solid_measure(solid, set, report, &measuring, error);
   spore_balls_clear(&balls);
   spore_balls_clear(&candidates);
@@ -72,7 +74,7 @@ static bool search(const SporeSolid *solid, const SporeSpheresOptions *options, 
     SporeProgressPart part = {progress, 1 - pow(0.8, trial), 0.2 * pow(0.8, trial)};
     SporeSphereSet tried;
     SporeSpheresReport measured;
-    if (!generate(solid, count, options->seed, &tried, &measured, &part, error)) return false;
+    if (!generate(solid, count, options, &tried, &measured, &part, error)) return false;
     if (measured.distance_mean <= options->tolerance) {
       spore_sphere_set_clear(set);
       *set = tried, *report = measured;
@@ -107,7 +109,7 @@ bool spore_spheres_from_mesh(const SporeTriangleMesh *mesh, const SporeSpheresOp
   *report = (SporeSpheresReport){0};
   if (!check_options(options, error) || !spore_solid_create(&solid, mesh, error)) return false;
   SporeProgressPart whole = {progress, 0, 1};
-  bool done = options->count ? generate(&solid, options->count, options->seed, set, report, &whole, error)
+  bool done = options->count ? generate(&solid, options->count, options, set, report, &whole, error)
                              : search(&solid, options, set, report, progress, error);
   spore_solid_clear(&solid);
   if (!done) spore_sphere_set_clear(set);

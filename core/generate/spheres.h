@@ -5,14 +5,17 @@
 #include "core/base/progress.h"
 #include "core/mesh/mesh.h"
 
-typedef enum SporeSpheresMethod {
-  SPORE_SPHERES_BALANCED,  /* fits max(r_i - |x - c_i|) to the depth, inside and just outside */
-  SPORE_SPHERES_TETRAHEDRA /* from the cells of a tetrahedral mesh */
-} SporeSpheresMethod;
+/* What a set is to be good at; the names below are those of files and of the command line. */
+typedef enum SporeSpheresMode {
+  SPORE_SPHERES_BALANCED, /* fits max(r_i - |x - c_i|) to the depth, inside and just outside */
+  SPORE_SPHERES_MODE_COUNT
+} SporeSpheresMode;
+extern const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1]; /* NULL-terminated */
 
 #define SPORE_SPHERES_MAXIMUM 5000u /* of one set */
 
 typedef struct SporeSpheresOptions {
+  SporeSpheresMode mode;
   size_t count;     /* wanted; > 0, or 0 to go by tolerance */
   double tolerance; /* largest mean two-sided distance, as a fraction of the diagonal, when count is 0 */
   uint64_t seed;

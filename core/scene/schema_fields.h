@@ -30,7 +30,7 @@ typedef struct SporeMeshFields {
 
 typedef struct SporeSpheresFields {
   const char *name, *file, *source, *source_hash;
-  int method; /* SporeSpheresMethod */
+  int method; /* index in the table's choices */
   int64_t count, seed;
 } SporeSpheresFields;
 
