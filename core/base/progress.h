@@ -3,11 +3,15 @@
 #define SPORE_BASE_PROGRESS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct SporeProgress {
   /* fraction 0..1; stage: translated, may be NULL. Returns false to cancel. Called often from the working thread. */
   bool (*report)(void *data, double fraction, const char *stage);
   void *data;
+  /* May be NULL. What the work has come to so far, to be looked at: count x 4 numbers (x y z r, m), borrowed for the
+   * call. From the working thread. */
+  void (*show)(void *data, const double *spheres, size_t count);
 } SporeProgress;
 
 /* True to go on. */

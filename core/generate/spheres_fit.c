@@ -187,6 +187,7 @@ static bool fill(SporeFit *fit, const SporeProgressPart *progress, double from, 
     if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
     double before = fit->loss;
     take_round(fit);
+    spore_progress_show_balls(progress, &fit->best);
     if (round % FILL_EVERY != FILL_EVERY - 1) continue;
     if (!spore_fit_fill(fit, (size_t)round)) {
       if (settled(fit, before)) break;
@@ -224,6 +225,7 @@ static bool relocate_all(SporeFit *fit, const SporeProgressPart *progress, doubl
     double fraction = from + (to - from) * (double)trial / (double)trials;
     if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
     failures = try_relocation(fit, &wanted, &shake) ? 0 : failures + 1;
+    spore_progress_show_balls(progress, &fit->best);
   }
   return true;
 }

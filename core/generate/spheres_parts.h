@@ -72,6 +72,8 @@ typedef struct SporeBalls {
 bool spore_balls_create(SporeBalls *balls, size_t count);
 void spore_balls_clear(SporeBalls *balls);
 void spore_balls_copy(SporeBalls *to, const SporeBalls *from);
+/* Lets whom it concerns see the balls so far; the picture of a long fit. Costs nothing where nobody looks. */
+void spore_progress_show_balls(const SporeProgressPart *part, const SporeBalls *balls);
 
 /* max_i (r_i - |p - c_i|) at each point: the largest, whose it is, and the second largest (-HUGE_VAL where there is one
  * sphere). Arrays are padded to whole blocks. */

@@ -20,6 +20,18 @@ bool spore_progress_part(const SporeProgressPart *part, double fraction, const c
   return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("generating spheres was cancelled"));
 }
 
+void spore_progress_show_balls(const SporeProgressPart *part, const SporeBalls *balls) {
+  if (!part->whole || !part->whole->show) return;
+  double *spheres = SPORE_NEW_ARRAY(double, 4 * balls->count);
+  if (!spheres) return; /* a look that is missed */
+  for (size_t i = 0; i < balls->count; i++) {
+    const double sphere[4] = {balls->x[i], balls->y[i], balls->z[i], balls->r[i]};
+    memcpy(spheres + 4 * i, sphere, sizeof sphere);
+  }
+  part->whole->show(part->whole->data, spheres, balls->count);
+  spore_free(spheres);
+}
+
 SporeVec3 spore_random_direction(SporeRandom *random) {
   double z = 2 * spore_random_unit(random) - 1, angle = 2 * M_PI * spore_random_unit(random);
   double s = sqrt(fmax(0, 1 - z * z));

@@ -333,6 +333,35 @@ static void test_cancel(void) {
   spore_triangle_mesh_clear(&torus);
 }
 
+/* Who looks on sees whole sets on the way, and the set that comes out is the same. */
+typedef struct {
+  size_t looks, wanted;
+} Look;
+
+static void look_at(void *data, const double *spheres, size_t count) {
+  Look *look = data;
+  g_assert_cmpuint(count, ==, look->wanted);
+  for (size_t i = 0; i < count; i++) g_assert_true(spheres[4 * i + 3] > 0 && isfinite(spheres[4 * i]));
+  look->looks++;
+}
+
+static void test_look(void) {
+  SporeTriangleMesh torus;
+  SporeSpheresReport report;
+  SporeSphereSet seen;
+  SporeSpheresOptions options = {.count = 12, .seed = 1};
+  shape_torus(&torus, 0.06, 0.02, 32, 16);
+  SporeSphereSet alone = make(&torus, 12, 1, &report);
+  Look look = {.wanted = 12};
+  SporeProgress progress = {.data = &look, .show = look_at};
+  g_assert_true(spore_spheres_from_mesh(&torus, &options, &seen, &report, &progress, NULL));
+  g_assert_cmpuint(look.looks, >, 5);
+  g_assert_cmpmem(seen.spheres, 12 * 4 * sizeof(double), alone.spheres, 12 * 4 * sizeof(double));
+  spore_sphere_set_clear(&seen);
+  spore_sphere_set_clear(&alone);
+  spore_triangle_mesh_clear(&torus);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/generate/spheres/ball", test_ball);
@@ -351,5 +380,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres/measure-overlap", test_measure_overlap);
   g_test_add_func("/generate/spheres/tetrahedra", test_tetrahedra);
   g_test_add_func("/generate/spheres/cancel", test_cancel);
+  g_test_add_func("/generate/spheres/look", test_look);
   return g_test_run();
 }
