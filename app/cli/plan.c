@@ -3,6 +3,7 @@
 #include <link.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/plan_carried.h"
 #include "app/cli/plan_levels.h"
 #include "app/cli/scene.h"
 
@@ -115,6 +116,13 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
       {"bodies", N_("that physics moves, each with its name, integrator, substeps, nonlinear and linear solver: name "
                     "or count, and said_by (body, scene, automatic, monitor); null: nothing is solved")},
       {"libraries", N_("that the program uses")},
+      {"mappings",
+       N_("what is drawn and felt of each body that physics moves, with points of its own: name, unit (visual or "
+          "collision), points, off_share (lying off the geometry that carries them), farthest_m (how far), leverage "
+          "(how "
+          "much farther than its carriers one moves at most; 1: among them), and the largest error at rest, "
+          "after a rigid motion, an affine one (null: it follows a frame), and a bend of a tenth of its length: "
+          "rest_error_m, rigid_error_m, affine_error_m, bend_error_m")},
       {"levels",
        N_("where bodies have levels: each one's name, memory_bytes (of mappings, matrices and states that having "
           "levels takes), levels: level, active, dof, spheres, and with --measure measured_us, the median of a "
@@ -143,6 +151,7 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   for (int i = 0; measure && i < MEASURED_STEPS && !spore_cli_interrupted(); i++)
     spore_world_step(run->simulation->world);
   report(cli, run->simulation->world, measure);
+  spore_plan_report_carried(cli, run);
   if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);
   return spore_cli_finish(cli, spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : SPORE_EXIT_DONE);
 }

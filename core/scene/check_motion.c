@@ -9,8 +9,6 @@
 
 #define NOTED_OVERLAP 0.1 /* of the smaller radius: less is how things touch */
 #define WARNED_OVERLAP 0.5
-/* Tetrahedra of 5 and of 443 cells resting on such spheres: every step solved to 20.6, not all from 25.7 on. */
-#define WARNED_LEVERAGE 20.
 
 /* A sphere where it stands at the start. */
 typedef struct Ball {
@@ -116,74 +114,6 @@ static void check_overlaps(const Start *start) {
                     _("\"%s\" and \"%s\" overlap by %.3g mm at the start: the contact pushes them apart"),
                     spore_object_name(body), spore_object_name(other), overlap->depth * 1e3);
   }
-}
-
-/* Spheres far from what they are to follow. */
-
-static const double *vertices_of(SporeDocument *document, const SporeObject *body, size_t *count) {
-  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  SporeObject *asset = mechanical ? spore_object_reference(mechanical, "geometry") : NULL;
-  if (!asset) return NULL;
-  gboolean is_mesh = strcmp(spore_object_type(asset)->element, "mesh") == 0;
-  const SporeTriangleMesh *surface = is_mesh ? spore_document_mesh(document, asset, NULL) : NULL;
-  const SporeTetrahedralMesh *volume = is_mesh ? NULL : spore_document_tetrahedra(document, asset, NULL);
-  *count = surface ? surface->vertex_count : volume ? volume->vertex_count : 0;
-  return surface ? surface->vertices : volume ? volume->vertices : NULL;
-}
-
-/* How far point p lies from the box around the points, m. */
-static double distance_to_box(const double *points, size_t count, const double *p) {
-  double square = 0;
-  for (size_t k = 0; k < 3; k++) {
-    double lower = INFINITY, upper = -INFINITY;
-    for (size_t i = 0; i < count; i++) {
-      lower = fmin(lower, points[3 * i + k]);
-      upper = fmax(upper, points[3 * i + k]);
-    }
-    double apart = fmax(0, fmax(lower - p[k], p[k] - upper));
-    square += apart * apart;
-  }
-  return sqrt(square);
-}
-
-/* By how much the point is carried farther than the nodes that it follows: 1 within their mesh, and as on a lever
- * outside of it. */
-static double leverage(const SporeMapping *mapping, size_t point) {
-  double sum = 0;
-  for (uint32_t k = mapping->row_start[point]; k < mapping->row_start[point + 1]; k++) sum += fabs(mapping->weight[k]);
-  return sum;
-}
-
-/* Of the spheres; 1 for bodies that do not deform. */
-static double most_leverage(const SporeSimulation *simulation, const SporeObject *body, const SporeSphereSet *set) {
-  guint32 index = simulation ? spore_simulation_body_of(simulation, (SporeObject *)body) : SPORE_NO_BODY;
-  g_autofree double *points = g_new(double, 3 * MAX(set->count, 1));
-  SporeMapping mapping = {0};
-  double most = 1;
-  for (size_t i = 0; i < set->count; i++) memcpy(points + 3 * i, set->spheres + 4 * i, 3 * sizeof *points);
-  if (index == SPORE_NO_BODY || !spore_world_map(simulation->world, index, points, set->count, &mapping, NULL))
-    return most;
-  for (size_t i = 0; mapping.kind == SPORE_MAPPING_LINEAR && i < mapping.point_count; i++)
-    most = fmax(most, leverage(&mapping, i));
-  spore_mapping_clear(&mapping);
-  return most;
-}
-
-static void check_reach(SporeCheck *check, const SporeSimulation *simulation, const SporeObject *body) {
-  size_t count = 0, away = 0;
-  const SporeObject *collision = spore_object_child_of(body, "collision");
-  SporeObject *asset = collision ? spore_object_reference(collision, "spheres") : NULL;
-  const SporeSphereSet *set = asset ? spore_document_spheres(check->document, asset, NULL) : NULL;
-  const double *points = set ? vertices_of(check->document, body, &count) : NULL;
-  for (size_t i = 0; points && i < set->count; i++)
-    away += distance_to_box(points, count, &set->spheres[4 * i]) > set->spheres[4 * i + 3];
-  if (away == 0) return;
-  double lever = most_leverage(simulation, body, set);
-  spore_check_say(check, lever > WARNED_LEVERAGE ? SPORE_WARNING : SPORE_NOTE, collision,
-                  _("generate spheres from the same mesh as the geometry"),
-                  _("%zu of the %zu spheres of \"%s\" lie away from its geometry, and follow it as on a lever: up to "
-                    "%.3g times as far as what carries them"),
-                  away, set->count, spore_object_name(body), lever);
 }
 
 /* Loose bodies. */
@@ -298,8 +228,7 @@ void spore_check_motion(SporeCheck *check) {
   SporeSimulation *simulation = check->faults == 0 ? check_compiled(check) : NULL;
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     place_body(&start, spore_object_child(bodies, i), simulation);
-  for (guint i = 0; i < spore_object_child_count(bodies); i++)
-    check_reach(check, simulation, spore_object_child(bodies, i));
+  if (simulation) spore_check_carried(check, simulation);
   if (simulation) check_piles(check, simulation);
   if (simulation) check_doubts(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);

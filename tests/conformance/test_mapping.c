@@ -1,7 +1,7 @@
 /* Every registered model: points follow it, and forces on them come back without loss. */
 #include "tests/conformance/specimen.h"
 
-#include "core/sim/mapping.h"
+#include "core/sim/mapping_error.h"
 
 #define POINTS 40
 
@@ -116,6 +116,38 @@ static void check_virtual_work(gconstpointer data) {
   model->type->destroy(model);
 }
 
+/* What is measured of a mapping: nothing at rest, after a rigid motion and, of nodes, an affine one; and a point
+ * carried wrongly is seen. */
+static void check_measure(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  GRand *random = g_rand_new_with_seed(5);
+  SporeError error = SPORE_ERROR_INIT;
+  SporeMapping mapping;
+  SporeMappingError measured;
+  size_t count;
+  double *points = points_of(specimen, random, 1, &count);
+  map(model, points, count, &mapping);
+  g_assert_true(spore_mapping_measure(model, &mapping, points, &measured, &error));
+  g_test_message("%s: rest %.1e, rigid %.1e, affine %.1e, bend %.1e m, leverage %.3g", specimen->name, measured.rest,
+                 measured.rigid, measured.affine, measured.bend, measured.leverage);
+  double rounding = 1e-15 * measured.leverage; /* places of about 1 m, up to 64 weights */
+  g_assert_cmpfloat(measured.rest, <=, rounding);
+  g_assert_cmpfloat(measured.rigid, <=, 4 * rounding);
+  bool deforms = mapping.kind != SPORE_MAPPING_RIGID;
+  g_assert_cmpint(deforms, ==, isfinite(measured.affine));
+  g_assert_cmpint(deforms, ==, isfinite(measured.bend));
+  if (deforms) g_assert_cmpfloat(measured.affine, <=, 4 * rounding);
+  points[3] += 1e-3;
+  g_assert_true(spore_mapping_measure(model, &mapping, points, &measured, &error));
+  g_assert_cmpfloat(fabs(measured.rest - 1e-3), <=, rounding);
+  g_assert_cmpfloat(fabs(measured.rigid - 1e-3), <=, 4 * rounding);
+  spore_mapping_clear(&mapping);
+  g_free(points);
+  g_rand_free(random);
+  model->type->destroy(model);
+}
+
 static void check_without_memory(gconstpointer data) {
   const Specimen *specimen = data;
   SporeModel *model = specimen_model(specimen);
@@ -126,12 +158,12 @@ static void check_without_memory(gconstpointer data) {
     SporeError error = SPORE_ERROR_INIT;
     SporeMapping mapping;
     spore_allocation_fail_at(n);
+    SporeMappingError measured;
     bool mapped = model->type->map(model, points, count, &mapping, &error);
+    bool done = mapped && spore_mapping_measure(model, &mapping, points, &measured, &error);
     spore_allocation_fail_at(0);
-    if (mapped) {
-      spore_mapping_clear(&mapping);
-      break;
-    }
+    if (mapped) spore_mapping_clear(&mapping);
+    if (done) break;
     g_assert_cmpint(error.code, ==, SPORE_ERROR_MEMORY);
   }
   g_free(points);
@@ -248,6 +280,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   specimen_add_tests("/conformance/rest", check_rest, NULL);
   specimen_add_tests("/conformance/virtual_work", check_virtual_work, NULL);
+  specimen_add_tests("/conformance/measure", check_measure, NULL);
   specimen_add_tests("/conformance/map_without_memory", check_without_memory, NULL);
   specimen_add_tests("/conformance/drift", check_drift, turns);
   specimen_add_tests("/conformance/spheres", check_spheres, has_spheres);

@@ -352,6 +352,17 @@ def plan_names_methods():
     assert "symplectic_euler (body)" in printed and "100 (body)" in printed, printed
 
 
+@check
+def plan_measures_mappings():
+    """plan says how well what is drawn and felt follows each body: exactly at rest and when all moves as one."""
+    carried = {(m["name"], m["unit"]): m for m in report("plan", SCENES / "laparoscopy.spore")["mappings"]}
+    assert all(max(m["rest_error_m"], m["rigid_error_m"]) < 1e-14 for m in carried.values())
+    assert carried["ovary_left", "visual"]["affine_error_m"] is None  # a rigid body
+    tube = carried["tube_left", "visual"]  # the smooth surface around tetrahedra
+    assert 0.5 < tube["off_share"] <= 1 and 0 < tube["farthest_m"] < 0.01 and 1 < tube["leverage"] < 20
+    assert tube["affine_error_m"] < 1e-14 < tube["bend_error_m"] < 1e-3
+
+
 def tool_at_a_wall():
     """A scene of a tool that a track lowers 5 mm into an unmovable sphere; nothing in it is passive."""
     scene = WORK / "wall" / "wall.spore"

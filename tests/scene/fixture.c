@@ -68,6 +68,9 @@ static const char inside_off[] =
     "3 0 2 3\n3 0 1 2\n3 4 6 5\n3 4 7 6\n3 0 5 1\n3 0 4 5\n3 2 7 3\n3 2 6 7\n3 1 6 2\n3 1 5 6\n3 0 7 4\n3 0 3 7\n";
 static const char large_off[] =
     "OFF\n4 4 0\n0 0 0\n100 0 0\n0 100 0\n100 100 100\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+static const char wide_off[] =
+    "OFF\n4 4 0\n-.1 -.1 -.1\n.1 .1 -.1\n.1 -.1 .1\n-.1 .1 .1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n";
+static const char sheet_off[] = "OFF\n4 2 0\n0 0 0\n.1 0 0\n.1 .1 0\n0 .1 0\n3 0 1 2\n3 0 2 3\n";
 static const char cube_mesh[] =
     "MeshVersionFormatted 2\nDimension 3\nVertices 8\n-.05 -.05 -.05 0\n.05 -.05 -.05 0\n.05 .05 -.05 0\n-.05 .05 -.05 "
     "0\n-.05 -.05 .05 0\n.05 -.05 .05 0\n.05 .05 .05 0\n-.05 .05 .05 0\nTetrahedra 5\n1 2 3 6 0\n1 3 4 8 0\n1 6 8 5 "
@@ -79,6 +82,8 @@ char *fixture_scene_folder_new(const char *scene) {
   g_free(fixture_write(folder, "open.off", open_off));
   g_free(fixture_write(folder, "inside.off", inside_off));
   g_free(fixture_write(folder, "large.off", large_off));
+  g_free(fixture_write(folder, "wide.off", wide_off));
+  g_free(fixture_write(folder, "sheet.off", sheet_off));
   g_free(fixture_write(folder, "cube.mesh", cube_mesh));
   g_free(fixture_write(folder, "ball.spheres", "# one\n0 0 0 0.05\n"));
   g_free(fixture_write(folder, "away.spheres", "0 0 0 0.05\n0.3 0 0 0.05\n"));

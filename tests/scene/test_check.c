@@ -229,6 +229,21 @@ static const Mistake mistakes[] = {
            "<body name=\"organ\"><mechanical geometry=\"cells\"><corotational_tetrahedra/></mechanical>" BALL
            "</body></bodies>\n"),
      {"warning 5:88: 1 of the 2 spheres of \"organ\" lie away from its geometry, and follow it as on a lever: up to "}},
+    {"drawn-off",
+     SCENE("<assets><spheres name=\"ball\" file=\"ball.spheres\"/><mesh name=\"wide\" file=\"wide.off\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra/></mechanical>" BALL
+           "\n<visual mesh=\"wide\"/></body></bodies>\n"),
+     {"warning 6:1: 100% of the vertices drawn for \"organ\" lie off its geometry, by up to 86.6 mm at (-0.1 -0.1 "
+      "-0.1) "
+      "m, and swing up to "}},
+    {"not-drawn",
+     SCENE("<assets><spheres name=\"ball\" file=\"ball.spheres\"/><mesh name=\"wide\" file=\"wide.off\"/>"
+           "<mesh name=\"sheet\" file=\"sheet.off\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"net\"><mechanical geometry=\"sheet\"><mass_spring_net/></mechanical>" BALL
+           "\n<visual mesh=\"wide\"/></body></bodies>\n"),
+     {"note 2:86: \"sheet\" is not a closed surface",
+      "warning 6:1: \"net\" is not drawn: of its mesh, point 0: the point lies 0.1 m off a flat net"}},
     {"locking",
      SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
            "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR

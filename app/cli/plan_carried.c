@@ -1,0 +1,48 @@
+#include "app/cli/plan_carried.h"
+
+#include <glib/gi18n.h>
+
+#include "core/scene/carried.h"
+
+static void say(const SporeCli *cli, const char *body, const char *unit, const SporeCarried *carried) {
+  spore_cli_say(cli, "%-15s %-9s %7zu %7.1f %12.3g %9.3g %9.1e %9.1e %9.1e %9.1e\n", body, unit, carried->count,
+                100 * (double)carried->off / (double)carried->count, carried->farthest, carried->error.leverage,
+                carried->error.rest, carried->error.rigid, carried->error.affine, carried->error.bend);
+}
+
+static void report(SporeCli *cli, const SporeObject *body, const char *unit, const SporeCarried *carried) {
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", spore_object_name(body));
+  spore_cli_text(cli, "unit", unit);
+  spore_cli_count(cli, "points", (gint64)carried->count);
+  spore_cli_number(cli, "off_share", (double)carried->off / (double)carried->count);
+  spore_cli_number(cli, "farthest_m", carried->farthest);
+  spore_cli_number(cli, "leverage", carried->error.leverage);
+  spore_cli_number(cli, "rest_error_m", carried->error.rest);
+  spore_cli_number(cli, "rigid_error_m", carried->error.rigid);
+  spore_cli_number(cli, "affine_error_m", carried->error.affine);
+  spore_cli_number(cli, "bend_error_m", carried->error.bend);
+  spore_cli_close(cli);
+  say(cli, spore_object_name(body), unit, carried);
+}
+
+void spore_plan_report_carried(SporeCli *cli, const SporeRun *run) {
+  const SporeObject *bodies = spore_document_section(run->document, "bodies");
+  gboolean said = FALSE;
+  spore_cli_open_array(cli, "mappings");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    for (int unit = 0; unit < SPORE_CARRIED_COUNT; unit++) {
+      SporeCarried carried;
+      if (!spore_carried_measure(run->simulation, run->document, body, (SporeCarriedUnit)unit, &carried, NULL))
+        continue;
+      if (!said)
+        spore_cli_say(cli, "%-15s %-9s %7s %7s %12s %9s %9s %9s %9s %9s\n", _("body"), _("carries"), _("points"),
+                      _("off, %"), _("farthest, m"), _("leverage"), _("rest, m"), _("rigid, m"), _("affine, m"),
+                      _("bend, m"));
+      said = TRUE;
+      report(cli, body, spore_carried_units[unit], &carried);
+    }
+  }
+  spore_cli_close_array(cli);
+}

@@ -1,0 +1,142 @@
+#include "core/scene/carried.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/mesh/bvh.h"
+#include "core/scene/schema_fields.h"
+
+#define ON 1e-6 /* of the size: rounding of what a file holds */
+
+const char *const spore_carried_units[] = {"visual", "collision", NULL};
+
+/* Points of a unit; radius 0 of vertices. */
+typedef struct Points {
+  const double *first;
+  gsize count, stride;
+} Points;
+
+static SporeVec3 point(const Points *points, gsize i) { return spore_vec3_load(points->first + points->stride * i); }
+
+static gboolean find_points(SporeDocument *document, const SporeObject *body, SporeCarriedUnit unit, Points *points) {
+  static const char *const properties[] = {"mesh", "spheres"};
+  const SporeObject *object = spore_object_child_of(body, spore_carried_units[unit]);
+  SporeObject *asset = object ? spore_object_reference(object, properties[unit]) : NULL;
+  if (asset && unit == SPORE_CARRIED_VISUAL) {
+    const SporeTriangleMesh *mesh = spore_document_mesh(document, asset, NULL);
+    if (mesh) *points = (Points){mesh->vertices, mesh->vertex_count, 3};
+  } else if (asset) {
+    const SporeSphereSet *set = spore_document_spheres(document, asset, NULL);
+    if (set) *points = (Points){set->spheres, set->count, 4};
+  }
+  return points->count > 0;
+}
+
+/* The shape that a model was made of. */
+typedef struct Shape {
+  SporeGeometryKind kind;
+  SporeBvh *surface; /* or boundary */
+  const SporeCurve *curve;
+  double size;
+} Shape;
+
+static double box_diagonal(const double *points, gsize count, gsize stride) {
+  SporeVec3 lower = {INFINITY, INFINITY, INFINITY}, upper = {-INFINITY, -INFINITY, -INFINITY};
+  for (gsize i = 0; i < count; i++) {
+    SporeVec3 p = spore_vec3_load(points + stride * i);
+    lower = spore_vec3(fmin(lower.x, p.x), fmin(lower.y, p.y), fmin(lower.z, p.z));
+    upper = spore_vec3(fmax(upper.x, p.x), fmax(upper.y, p.y), fmax(upper.z, p.z));
+  }
+  return spore_vec3_distance(lower, upper);
+}
+
+static gboolean take_boundary(Shape *shape, const SporeTetrahedralMesh *cells, SporeError *fault) {
+  SporeTriangleMesh boundary = {cells->vertex_count, 0, cells->vertices, NULL};
+  if (spore_tetrahedral_mesh_boundary(cells, &boundary.triangles, &boundary.triangle_count))
+    shape->surface = spore_bvh_create(&boundary, fault);
+  spore_free(boundary.triangles);
+  shape->size = box_diagonal(cells->vertices, cells->vertex_count, 3);
+  return shape->surface != NULL;
+}
+
+static gboolean take_shape(SporeDocument *document, const SporeObject *body, SporeGeometryKind kind, Shape *shape) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  SporeObject *asset = spore_object_reference(mechanical, "geometry");
+  SporeError fault = SPORE_ERROR_INIT;
+  shape->kind = kind;
+  if (!asset || kind == SPORE_GEOMETRY_NONE) return FALSE;
+  if (kind == SPORE_GEOMETRY_TETRAHEDRA) {
+    const SporeTetrahedralMesh *cells = spore_document_tetrahedra(document, asset, NULL);
+    return cells && take_boundary(shape, cells, &fault);
+  }
+  if (kind == SPORE_GEOMETRY_CURVE) {
+    shape->curve = spore_document_curve(document, asset, NULL);
+    if (shape->curve) shape->size = box_diagonal(shape->curve->points, shape->curve->count, 4);
+    return shape->curve != NULL;
+  }
+  const SporeTriangleMesh *mesh = spore_document_mesh(document, asset, NULL);
+  if (mesh) shape->surface = spore_bvh_create(mesh, &fault);
+  if (mesh) shape->size = box_diagonal(mesh->vertices, mesh->vertex_count, 3);
+  return shape->surface != NULL;
+}
+
+/* How far p lies outside the tube around a curve. */
+static double off_curve(const SporeCurve *curve, SporeVec3 p) {
+  double least = INFINITY;
+  for (gsize i = 1; i < curve->count; i++) {
+    const double *from = curve->points + 4 * (i - 1), *to = from + 4;
+    SporeVec3 a = spore_vec3_load(from), side = spore_vec3_sub(spore_vec3_load(to), a);
+    double along = spore_vec3_dot(spore_vec3_sub(p, a), side) / spore_vec3_dot(side, side);
+    along = fmin(fmax(along, 0), 1);
+    double radius = from[3] + along * (to[3] - from[3]);
+    least = fmin(least, spore_vec3_distance(p, spore_vec3_add_scaled(a, along, side)) - radius);
+  }
+  return fmax(least, 0);
+}
+
+static double off_shape(const Shape *shape, SporeVec3 p) {
+  if (shape->curve) return off_curve(shape->curve, p);
+  if (shape->kind == SPORE_GEOMETRY_SURFACE) return spore_bvh_distance(shape->surface, p, NULL, NULL);
+  return fmax(-spore_bvh_depth(shape->surface, p), 0);
+}
+
+static void measure_places(const Shape *shape, const Points *points, SporeCarried *carried) {
+  carried->size = shape->size;
+  for (gsize i = 0; i < points->count; i++) {
+    double off = off_shape(shape, point(points, i)), radius = points->stride > 3 ? points->first[4 * i + 3] : 0;
+    carried->off += off > ON * shape->size;
+    carried->apart += radius > 0 && off > radius;
+    if (off <= carried->farthest) continue;
+    carried->farthest = off;
+    carried->place = point(points, i);
+  }
+}
+
+static gboolean measure_motion(const SporeModel *model, const Points *points, SporeMappingError *measured,
+                               GError **error) {
+  g_autofree double *places = g_new(double, 3 * points->count);
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeMapping mapping = {0};
+  for (gsize i = 0; i < points->count; i++) spore_vec3_store(places + 3 * i, point(points, i));
+  gboolean done = model->type->map(model, places, points->count, &mapping, &fault) &&
+                  spore_mapping_measure(model, &mapping, places, measured, &fault);
+  spore_mapping_clear(&mapping);
+  return done || spore_error_propagate(&fault, error);
+}
+
+gboolean spore_carried_measure(const SporeSimulation *simulation, SporeDocument *document, SporeObject *body,
+                               SporeCarriedUnit unit, SporeCarried *carried, GError **error) {
+  Points points = {0};
+  Shape shape = {0};
+  guint32 index = spore_simulation_body_of(simulation, body);
+  *carried = (SporeCarried){0};
+  if (index == SPORE_NO_BODY || spore_world_body_role(simulation->world, index) != SPORE_PASSIVE) return FALSE;
+  const SporeModel *model = spore_world_body_model(simulation->world, index);
+  if (model->type->particles || !find_points(document, body, unit, &points)) return FALSE;
+  carried->count = points.count;
+  if (!measure_motion(model, &points, &carried->error, error)) return FALSE;
+  if (take_shape(document, body, model->type->geometry, &shape)) measure_places(&shape, &points, carried);
+  spore_bvh_free(shape.surface);
+  return TRUE;
+}

@@ -1,0 +1,25 @@
+/* How well points follow a body: motions whose outcome is known, against where the mapping puts the points. */
+#ifndef SPORE_SIM_MAPPING_ERROR_H
+#define SPORE_SIM_MAPPING_ERROR_H
+
+#include "core/sim/model.h"
+
+/* Largest errors over the points, m. */
+typedef struct SporeMappingError {
+  double rest;     /* as placed at rest */
+  double rigid;    /* turned by 1 rad about an oblique axis and moved away */
+  double affine;   /* nodes stretched by half, squeezed and sheared: 0 to rounding for weights of sum 1. NAN: the
+                      points follow a frame, which does not deform */
+  double bend;     /* nodes bent to a parabola by a tenth of the body's length, the points too: falls with the square
+                      of the distance between nodes. NAN as affine */
+  double leverage; /* largest sum of absolute weights of a point: 1 where it lies among what carries it */
+} SporeMappingError;
+
+/* points: as mapped, 3 each, body's frame. False: no memory. */
+bool spore_mapping_measure(const SporeModel *model, const SporeMapping *mapping, const double *points,
+                           SporeMappingError *measured, SporeError *error);
+
+/* Sum of the absolute weights of a point of a linear mapping; 1 of others. */
+double spore_mapping_leverage(const SporeMapping *mapping, size_t point);
+
+#endif
