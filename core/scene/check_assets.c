@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/scene/check_private.h"
+#include "core/scene/generated.h"
 
 #define LARGEST_ORGAN_M 5.0
 #define SMALLEST_ORGAN_M 0.001
@@ -79,14 +80,18 @@ static gboolean check_curve(SporeCheck *check, SporeObject *asset, GError **erro
 }
 
 static void check_fresh(SporeCheck *check, SporeObject *asset) {
+  SporeGenerated generated = spore_generated_state(check->document, asset);
   SporeObject *source = spore_object_reference(asset, "source");
-  const char *then = spore_object_text(asset, "source_hash");
-  if (!source || !then) return;
-  g_autofree char *now = spore_document_asset_hash(check->document, source);
-  if (now && strcmp(now, then) != 0)
-    spore_check_say(check, SPORE_WARNING, asset, _("generate it again"),
-                    _("\"%s\" is stale: \"%s\", which it was made from, has changed"), spore_object_name(asset),
-                    spore_object_name(source));
+  if (generated == SPORE_GENERATED_FRESH || generated == SPORE_GENERATED_NOT) return;
+  gboolean frozen = spore_generated_is(asset, "frozen");
+  SporeSeverity severity = frozen ? SPORE_NOTE : SPORE_WARNING;
+  const char *remedy = frozen ? _("nothing, or take \"frozen\" away and generate it again") : _("generate it again");
+  if (generated == SPORE_GENERATED_SOURCE_CHANGED)
+    spore_check_say(check, severity, asset, remedy, _("\"%s\" is stale: \"%s\", which it was made from, has changed"),
+                    spore_object_name(asset), spore_object_name(source));
+  else
+    spore_check_say(check, severity, asset, remedy, _("\"%s\" is stale: its options have changed since it was made"),
+                    spore_object_name(asset));
 }
 
 static void check_asset(SporeCheck *check, SporeObject *asset) {

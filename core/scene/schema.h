@@ -23,8 +23,8 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *     solver(spore_solver_parameters)
  *     defaults > contact(spore_contact_parameters)   what bodies' collision units start from
  *     assets > mesh(name file unit frame)
- *              spheres(name file source method count seed source_hash)
- *              tetrahedra(name file source cells source_hash)
+ *              spheres(name file source method count seed) and what generated data remember (generated.h)
+ *              tetrahedra(name file source cells), the same
  *     bodies > body(name role position rotation velocity spin)
  *                mechanical(geometry integrator substeps) > one model element (its own table)
  *                collision(spheres + spore_contact_parameters)

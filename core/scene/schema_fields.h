@@ -29,18 +29,21 @@ typedef struct SporeMeshFields {
 } SporeMeshFields;
 
 typedef struct SporeSpheresFields {
-  const char *name, *file, *source, *source_hash;
+  const char *name, *file, *source, *source_hash, *options_hash;
+  bool frozen, edited;
   int method; /* index in the table's choices */
   int64_t count, seed;
 } SporeSpheresFields;
 
 typedef struct SporeTetrahedraFields {
-  const char *name, *file, *source, *source_hash;
+  const char *name, *file, *source, *source_hash, *options_hash;
+  bool frozen, edited;
   int64_t cells;
 } SporeTetrahedraFields;
 
 typedef struct SporeCurveFields {
-  const char *name, *file, *source, *source_hash;
+  const char *name, *file, *source, *source_hash, *options_hash;
+  bool frozen, edited;
 } SporeCurveFields;
 
 typedef struct SporeBodyFields {

@@ -11,7 +11,7 @@
 
 static const char *const length_units[] = {"m", "cm", "mm", "um", "in", NULL};
 static const char *const frames[] = {"Y_UP", "RAS", "LPS", NULL};
-static const char *const sphere_methods[] = {"balanced", "tetrahedra", NULL};
+static const char *const sphere_methods[] = {"balanced", "tetrahedra", "bounding", "weighted", NULL};
 static const char *const roles[] = {"unmovable", "active", "passive", NULL};
 static const char *const fidelities[] = {"physical", "effect", NULL};
 
@@ -106,10 +106,30 @@ static const SporeParameter mesh_parameters[] = {
      .doc = N_("Axes of the mesh file: Y_UP as in the scene, RAS or LPS for medical images.")},
 };
 
-#define SOURCE_HASH(Type)                                                                                              \
+/* What generated data remember (core/scene/generated.h); the other parameters of their element are the options. */
+#define GENERATED(Type)                                                                                                \
+  {.name = "source_hash",                                                                                              \
+   .type = SPORE_TEXT,                                                                                                 \
+   .unit = "",                                                                                                         \
+   FIELD(Type, source_hash),                                                                                           \
+   .change = SPORE_CHANGE_LIVE,                                                                                        \
+   .doc = N_("Hash of the source's content at the time of generation; when it differs, the data are stale.")},         \
+      {.name = "options_hash",                                                                                         \
+       .type = SPORE_TEXT,                                                                                             \
+       .unit = "",                                                                                                     \
+       FIELD(Type, options_hash),                                                                                      \
+       .change = SPORE_CHANGE_LIVE,                                                                                    \
+       .doc = N_("Hash of the options at the time of generation; when it differs, the data are stale.")},              \
+      {.name = "frozen",                                                                                               \
+       .type = SPORE_BOOLEAN,                                                                                          \
+       .unit = "",                                                                                                     \
+       FIELD(Type, frozen),                                                                                            \
+       .change = SPORE_CHANGE_LIVE,                                                                                    \
+       .doc =                                                                                                          \
+           N_("Whether the data stay as they are, whatever becomes of their source: nothing generates them anew.")},   \
   {                                                                                                                    \
-    .name = "source_hash", .type = SPORE_TEXT, .unit = "", FIELD(Type, source_hash), .change = SPORE_CHANGE_LIVE,      \
-    .doc = N_("Hash of the source's content at the time of generation; when it differs, the data are stale.")          \
+    .name = "edited", .type = SPORE_BOOLEAN, .unit = "", FIELD(Type, edited), .change = SPORE_CHANGE_LIVE,             \
+    .doc = N_("Whether the data were edited by hand since they were generated.")                                       \
   }
 
 static const SporeParameter spheres_parameters[] = {
@@ -156,7 +176,7 @@ static const SporeParameter spheres_parameters[] = {
      FIELD(SporeSpheresFields, seed),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Start of the random numbers of generation; the same seed gives the same spheres.")},
-    SOURCE_HASH(SporeSpheresFields),
+    GENERATED(SporeSpheresFields),
 };
 
 static const SporeParameter tetrahedra_parameters[] = {
@@ -184,7 +204,7 @@ static const SporeParameter tetrahedra_parameters[] = {
      FIELD(SporeTetrahedraFields, cells),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Number of tetrahedra to generate, about.")},
-    SOURCE_HASH(SporeTetrahedraFields),
+    GENERATED(SporeTetrahedraFields),
 };
 
 static const SporeParameter curve_parameters[] = {
@@ -204,7 +224,7 @@ static const SporeParameter curve_parameters[] = {
      FIELD(SporeCurveFields, source),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Mesh that the curve is the middle line of; none: made elsewhere.")},
-    SOURCE_HASH(SporeCurveFields),
+    GENERATED(SporeCurveFields),
 };
 
 static const SporeParameter body_parameters[] = {

@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/generate/spheres.h"
+#include "core/generate/spheres_quality.h"
 #include "tests/mesh/shapes.h"
 
 #define CLOSE(a, b, tolerance) g_assert_cmpfloat_with_epsilon(a, b, tolerance)
@@ -362,6 +363,29 @@ static void test_look(void) {
   spore_triangle_mesh_clear(&torus);
 }
 
+/* A ball in a cube's middle and one on its face: half of that is outside, and it is as deep as wrong by its radius. The
+ * cube's corners are as far from the first as its diagonal says. */
+static void test_quality(void) {
+  SporeTriangleMesh cube;
+  double numbers[8] = {0, 0, 0, 0.5, 0.5, 0, 0, 0.1};
+  SporeSphereSet set = {.count = 2, .spheres = numbers};
+  SporeSpheresQuality quality;
+  shape_box(&cube, (double[3]){-0.5, -0.5, -0.5}, (double[3]){0.5, 0.5, 0.5}, 1);
+  g_assert_true(spore_spheres_quality(&cube, &set, &quality, NULL, NULL));
+  CLOSE(quality.outside[0], 0, 0.02);
+  CLOSE(quality.outside[1], 0.5, 0.04);
+  CLOSE(quality.depth_error[0], 0, 1e-12);
+  CLOSE(quality.depth_error[1], 0.1, 1e-12);
+  double area = 0;
+  for (size_t i = 0; i < quality.vertex_count; i++) {
+    CLOSE(quality.distance[i], sqrt(0.75) - 0.5, 1e-12);
+    area += quality.area[i];
+  }
+  CLOSE(area, 1, 1e-12);
+  spore_spheres_quality_clear(&quality);
+  spore_triangle_mesh_clear(&cube);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/generate/spheres/ball", test_ball);
@@ -381,5 +405,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres/tetrahedra", test_tetrahedra);
   g_test_add_func("/generate/spheres/cancel", test_cancel);
   g_test_add_func("/generate/spheres/look", test_look);
+  g_test_add_func("/generate/spheres/quality", test_quality);
   return g_test_run();
 }

@@ -144,7 +144,12 @@ static const Mistake mistakes[] = {
      SCENE(
          "<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\" source=\"cube\" "
          "source_hash=\"0000000000000000\"/></assets>\n<bodies>\n" FLOOR STAND "</bodies>\n"),
-     {"warning 2:44: \"ball\" is stale"}},
+     {"warning 2:44: \"ball\" is stale: \"cube\""}},
+    {"stale-frozen",
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\" "
+           "source=\"cube\" source_hash=\"0000000000000000\" frozen=\"true\"/></assets>\n<bodies>\n" FLOOR STAND
+           "</bodies>\n"),
+     {"note 2:44: \"ball\" is stale: \"cube\""}},
     {"overlap",
      BODIES(FLOOR "<body name=\"stone\" position=\"0.02 -0.1 0\">" STONE BALL "</body>\n"),
      {"warning 5:1: \"stone\" and \"floor\" overlap by 80 mm"}},
