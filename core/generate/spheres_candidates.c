@@ -25,10 +25,6 @@ static bool shrink_ball(const SporeSolid *solid, SporeVec3 p, SporeVec3 inward, 
   return reach > 1e-6 * solid->diagonal && spore_bvh_winding(solid->bvh, *centre) > 0.5;
 }
 
-static void set_ball(SporeBalls *balls, size_t i, SporeVec3 centre, double radius) {
-  balls->x[i] = centre.x, balls->y[i] = centre.y, balls->z[i] = centre.z, balls->r[i] = radius;
-}
-
 /* One in four candidates is a plain interior point with its depth, for solids whose surface tells too little. */
 bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, size_t count, SporeRandom *random,
                              const SporeProgressPart *progress, SporeError *error) {
@@ -46,9 +42,10 @@ bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, si
     double radius;
     if (i % 256 == 0 && !spore_progress_part(progress, (double)i / (double)count, _("Finding candidates"), error))
       done = false;
-    else if (i >= medial) set_ball(candidates, found++, centre, spore_bvh_distance(solid->bvh, centre, NULL, NULL));
+    else if (i >= medial)
+      spore_balls_set(candidates, found++, centre, spore_bvh_distance(solid->bvh, centre, NULL, NULL));
     else if (shrink_ball(solid, centre, spore_vec3_scale(-1, normals[i]), &centre, &radius))
-      set_ball(candidates, found++, centre, radius);
+      spore_balls_set(candidates, found++, centre, radius);
   }
   spore_free(points);
   spore_free(normals);
@@ -150,8 +147,8 @@ static size_t take_best(Heap *heap, Cover *cover, const SporeBalls *candidates, 
       continue;
     }
     cover_ball(cover, candidates, top, true);
-    set_ball(balls, taken++, spore_vec3(candidates->x[top], candidates->y[top], candidates->z[top]),
-             candidates->r[top] + 0.5 * cover->tolerance);
+    spore_balls_set(balls, taken++, spore_vec3(candidates->x[top], candidates->y[top], candidates->z[top]),
+                    candidates->r[top] + 0.5 * cover->tolerance);
     heap->item[0] = heap->item[--heap->count];
     heap_sink(heap, 0);
   }
@@ -169,7 +166,8 @@ bool spore_candidates_cover(const SporeBalls *candidates, const SporeSamples *sa
     /* more were asked than are needed: the rest starts on the remaining candidates, and the fit finds them work */
     for (size_t i = 0; taken < balls->count; i++) {
       size_t c = heap.count ? heap.item[i % heap.count] : i % candidates->count;
-      set_ball(balls, taken++, spore_vec3(candidates->x[c], candidates->y[c], candidates->z[c]), candidates->r[c]);
+      spore_balls_set(balls, taken++, spore_vec3(candidates->x[c], candidates->y[c], candidates->z[c]),
+                      candidates->r[c]);
     }
     done = spore_progress_part(progress, 1, _("Finding candidates"), error);
   }

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/generate/spheres_kernels.h"
 #include "core/generate/spheres_parts.h"
 #include "core/mesh/sort.h"
 
@@ -108,9 +109,11 @@ bool spore_field_create(SporeField *field, const SporePoints *points, size_t bal
                         .second = SPORE_NEW_ARRAY(double, padded),
                         .owner = SPORE_NEW_ARRAY(uint32_t, padded),
                         .value = SPORE_NEW_ARRAY(double, ball_count),
-                        .number = SPORE_NEW_ARRAY(uint32_t, ball_count)};
+                        .number = SPORE_NEW_ARRAY(uint32_t, ball_count),
+                        .local = SPORE_NEW_ARRAY(float, 5 * ball_count),
+                        .capacity = ball_count};
   if (spore_balls_create(&field->near, ball_count) && field->best && field->second && field->owner && field->value &&
-      field->number)
+      field->number && field->local)
     return true;
   spore_field_clear(field);
   return false;
@@ -122,6 +125,7 @@ void spore_field_clear(SporeField *field) {
   spore_free(field->owner);
   spore_free(field->value);
   spore_free(field->number);
+  spore_free(field->local);
   spore_balls_clear(&field->near);
   *field = (SporeField){0};
 }
@@ -154,26 +158,26 @@ static void gather_near(SporeField *field, const SporeBalls *balls, double least
   field->near.count = near;
 }
 
+/* The near balls and the points relative to the block's middle, in single precision. */
 static void evaluate_block(SporeField *field, const SporePoints *points, size_t b, double least) {
-  const double *x = points->x + b * SPORE_BLOCK, *y = points->y + b * SPORE_BLOCK, *z = points->z + b * SPORE_BLOCK;
+  const double *middle = points->block + 4 * b, *columns[3] = {points->x, points->y, points->z};
   const SporeBalls *balls = &field->near;
-  double best[SPORE_BLOCK], second[SPORE_BLOCK], owner[SPORE_BLOCK];
-  for (int k = 0; k < SPORE_BLOCK; k++) best[k] = second[k] = -HUGE_VAL, owner[k] = 0;
+  float local[3][SPORE_BLOCK], best[SPORE_BLOCK], second[SPORE_BLOCK], owner[SPORE_BLOCK];
+  float *x = field->local, *y = x + field->capacity, *z = y + field->capacity, *r = z + field->capacity;
+  SporeNearBalls near = {0, x, y, z, r, r + field->capacity};
+  for (int k = 0; k < 3; k++)
+    for (int i = 0; i < SPORE_BLOCK; i++) local[k][i] = (float)(columns[k][b * SPORE_BLOCK + i] - middle[k]);
   for (size_t i = 0; i < balls->count; i++) {
     if (field->value[i] < least) continue;
-    double cx = balls->x[i], cy = balls->y[i], cz = balls->z[i], r = balls->r[i], number = (double)field->number[i];
-    for (int k = 0; k < SPORE_BLOCK; k++) {
-      double dx = cx - x[k], dy = cy - y[k], dz = cz - z[k];
-      double v = r - sqrt(dx * dx + dy * dy + dz * dz), b1 = best[k], b2 = second[k];
-      double lower = v > b2 ? v : b2;
-      second[k] = v > b1 ? b1 : lower;
-      owner[k] = v > b1 ? number : owner[k];
-      best[k] = v > b1 ? v : b1;
-    }
+    x[near.count] = (float)(balls->x[i] - middle[0]), y[near.count] = (float)(balls->y[i] - middle[1]);
+    z[near.count] = (float)(balls->z[i] - middle[2]), r[near.count] = (float)balls->r[i];
+    r[field->capacity + near.count++] = (float)field->number[i];
   }
-  memcpy(field->best + b * SPORE_BLOCK, best, sizeof best);
-  memcpy(field->second + b * SPORE_BLOCK, second, sizeof second);
-  for (int k = 0; k < SPORE_BLOCK; k++) field->owner[b * SPORE_BLOCK + k] = (uint32_t)owner[k];
+  SPORE_KERNEL(spore_field_block)(&near, local[0], local[1], local[2], best, second, owner);
+  for (size_t k = 0, at = b * SPORE_BLOCK; k < SPORE_BLOCK; k++, at++) {
+    field->best[at] = (double)best[k], field->second[at] = (double)second[k];
+    field->owner[at] = (uint32_t)owner[k];
+  }
 }
 
 /* Within R of a middle no value moves by more than R, so what is 2 R below the second largest there is third at best.
@@ -185,16 +189,20 @@ static size_t group_end(const SporePoints *points, size_t g) {
   return end < points->block_count ? end : points->block_count;
 }
 
-void spore_field_evaluate(SporeField *field, const SporePoints *points, const SporeBalls *balls) {
-  for (size_t g = 0; g < points->group_count; g++) {
-    const double *group = points->group + 4 * g;
-    gather_near(field, balls, least_value(ball_values(balls, group, field->value), group[3]));
-    for (size_t b = g * SPORE_GROUP; b < group_end(points, g); b++) {
-      const double *block = points->block + 4 * b;
-      double second = ball_values(&field->near, block, field->value);
-      evaluate_block(field, points, b, least_value(second, block[3]));
-    }
+double spore_field_evaluate_group(SporeField *field, const SporePoints *points, const SporeBalls *balls, size_t g) {
+  const double *group = points->group + 4 * g;
+  double least = least_value(ball_values(balls, group, field->value), group[3]);
+  gather_near(field, balls, least);
+  for (size_t b = g * SPORE_GROUP; b < group_end(points, g); b++) {
+    const double *block = points->block + 4 * b;
+    double second = ball_values(&field->near, block, field->value);
+    evaluate_block(field, points, b, least_value(second, block[3]));
   }
+  return least;
+}
+
+void spore_field_evaluate(SporeField *field, const SporePoints *points, const SporeBalls *balls) {
+  for (size_t g = 0; g < points->group_count; g++) spore_field_evaluate_group(field, points, balls, g);
 }
 
 static void count_held(const SporePoints *points, size_t b, const SporeBalls *balls, const double *value,

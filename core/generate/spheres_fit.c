@@ -12,10 +12,6 @@
 #define SCORED_CANDIDATES 1500
 #define FIRST_ROUNDS 60
 #define FILL_EVERY 6
-#define TRIALS 60       /* relocations tried, at most */
-#define TRIAL_WORK 6000 /* and at most this over the number of balls */
-#define TRIAL_ROUNDS 10
-#define PATIENCE 12 /* trials in vain, after which no more are made */
 #define LAST_ROUNDS 24
 #define SETTLED 1e-5 /* relative change of the loss in a round below which the last rounds end */
 
@@ -27,24 +23,19 @@ static double loss_of(const SporeFit *fit, const SporeField *field) {
   return sum;
 }
 
-/* Normal equations of each ball over the samples it owns, weighted so that a least-squares step follows the
- * nearly linear loss. */
-static void accumulate(SporeFit *fit) {
+/* Weighted so that a least-squares step follows the nearly linear loss. */
+void spore_fit_add_normal(const SporeFit *fit, size_t sample, double *m) {
   const SporeSamples *s = fit->samples;
-  double eps2 = fit->smoothing * fit->smoothing;
-  memset(fit->normal, 0, 14 * fit->balls.count * sizeof *fit->normal);
-  for (size_t i = 0; i < s->points.count; i++) {
-    size_t ball = fit->field.owner[i];
-    double *m = fit->normal + 14 * ball;
-    double e = fit->field.best[i] - s->depth[i], w = s->weight[i] / sqrt(e * e + eps2);
-    double u[4] = {s->points.x[i] - fit->balls.x[ball], s->points.y[i] - fit->balls.y[ball],
-                   s->points.z[i] - fit->balls.z[ball], 1};
-    double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]), inverse = length > 1e-300 ? 1 / length : 0;
-    for (int k = 0; k < 3; k++) u[k] *= inverse;
-    for (int r = 0, at = 0; r < 4; r++) {
-      for (int c = 0; c <= r; c++) m[at++] += w * u[r] * u[c];
-      m[10 + r] -= w * u[r] * e;
-    }
+  size_t ball = fit->field.owner[sample];
+  double e = fit->field.best[sample] - s->depth[sample];
+  double w = s->weight[sample] / spore_fit_sample_loss(fit, e);
+  double u[4] = {s->points.x[sample] - fit->balls.x[ball], s->points.y[sample] - fit->balls.y[ball],
+                 s->points.z[sample] - fit->balls.z[ball], 1};
+  double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]), inverse = length > 1e-300 ? 1 / length : 0;
+  for (int k = 0; k < 3; k++) u[k] *= inverse;
+  for (int r = 0, at = 0; r < 4; r++) {
+    for (int c = 0; c <= r; c++) m[at++] += w * u[r] * u[c];
+    m[10 + r] -= w * u[r] * e;
   }
 }
 
@@ -69,24 +60,39 @@ static void solve_damped(const double *m, double shift, double x[4]) {
   }
 }
 
-/* The balls after a damped step, kept from ballooning: no deeper out than the band. */
+/* The depth at a ball's new centre if its radius may be over it and the band, else what it is at least: it changes no
+ * faster than the centre moves. */
+static double depth_for(SporeFit *fit, size_t ball, SporeVec3 centre, double radius) {
+  double *known = fit->known + 4 * ball, band = fit->samples->band;
+  double least = fmax(known[3] - spore_vec3_distance(centre, spore_vec3_load(known)), 0);
+  if (radius <= least + band) return least;
+  spore_vec3_store(known, centre);
+  return known[3] = fmax(spore_bvh_depth(fit->solid->bvh, centre), 0);
+}
+
+void spore_fit_step_ball(SporeFit *fit, size_t ball, const double *normal, double damping, double sphere[4]) {
+  double typical = fit->samples->typical, x[4];
+  solve_damped(normal, damping * (normal[0] + normal[2] + normal[5] + normal[9]), x);
+  double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]);
+  double scale = fmin(1, LONGEST_STEP * typical / fmax(length, 1e-300));
+  const SporeBalls *b = &fit->balls;
+  SporeVec3 c = spore_vec3(b->x[ball] + scale * x[0], b->y[ball] + scale * x[1], b->z[ball] + scale * x[2]);
+  double radius = fmax(b->r[ball] + scale * x[3], LEAST_RADIUS * typical);
+  spore_vec3_store(sphere, c);
+  sphere[3] = fmin(radius, depth_for(fit, ball, c, radius) + fit->samples->band);
+}
+
+static void accumulate(SporeFit *fit) {
+  memset(fit->normal, 0, 14 * fit->balls.count * sizeof *fit->normal);
+  for (size_t i = 0; i < fit->samples->points.count; i++)
+    spore_fit_add_normal(fit, i, fit->normal + 14 * (size_t)fit->field.owner[i]);
+}
+
 static void step_balls(SporeFit *fit) {
-  double typical = fit->samples->typical, largest = 0;
   for (size_t i = 0; i < fit->balls.count; i++) {
-    const double *m = fit->normal + 14 * i;
-    largest = fmax(largest, m[0] + m[2] + m[5] + m[9]);
-  }
-  for (size_t i = 0; i < fit->balls.count; i++) {
-    const double *m = fit->normal + 14 * i;
-    double x[4];
-    solve_damped(m, fit->damping * (m[0] + m[2] + m[5] + m[9] + 1e-12 * largest), x);
-    double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]);
-    double scale = fmin(1, LONGEST_STEP * typical / fmax(length, 1e-300));
-    SporeVec3 c =
-        spore_vec3(fit->balls.x[i] + scale * x[0], fit->balls.y[i] + scale * x[1], fit->balls.z[i] + scale * x[2]);
-    double most = fmax(spore_bvh_depth(fit->solid->bvh, c), 0) + fit->samples->band;
-    fit->trial.x[i] = c.x, fit->trial.y[i] = c.y, fit->trial.z[i] = c.z;
-    fit->trial.r[i] = fmin(fmax(fit->balls.r[i] + scale * x[3], LEAST_RADIUS * typical), most);
+    double sphere[4];
+    spore_fit_step_ball(fit, i, fit->normal + 14 * i, fit->damping, sphere);
+    spore_balls_set(&fit->trial, i, spore_vec3_load(sphere), sphere[3]);
   }
 }
 
@@ -119,39 +125,22 @@ static void take_round(SporeFit *fit) {
   keep_best(fit);
 }
 
-/* Relocates, refits for a few rounds, and goes back to the best when that did not help. Fewer are moved each time it
- * fails, and the choice is blurred so that it differs. */
-static bool try_relocation(SporeFit *fit, size_t *wanted, double *shake) {
-  spore_balls_copy(&fit->balls, &fit->best);
-  evaluate(fit);
-  double before = fit->best_loss;
-  size_t moved = spore_fit_relocate(fit, *wanted, *shake);
-  if (moved) {
-    evaluate(fit);
-    fit->damping = DAMPING_INITIAL;
-    for (int round = 0; round < TRIAL_ROUNDS; round++) take_round(fit);
-  }
-  if (moved && fit->best_loss < before) return true;
-  *wanted = *wanted > 1 ? *wanted * 2 / 3 : 1;
-  *shake = fmin(*shake + 0.1, 0.6);
-  return false;
-}
-
 static bool open_fit(SporeFit *fit, const SporeBalls *balls) {
   size_t n = balls->count;
   fit->normal = SPORE_NEW_ARRAY(double, 14 * n);
   fit->worth = SPORE_NEW_ARRAY(double, n);
   fit->burden = SPORE_NEW_ARRAY(double, n);
   fit->spread = SPORE_NEW_ARRAY(double, 10 * n);
+  fit->known = SPORE_NEW_ARRAY(double, 4 * n);
   fit->order = SPORE_NEW_ARRAY(uint32_t, n);
   fit->heaviest = SPORE_NEW_ARRAY(uint32_t, n);
-  fit->marked = SPORE_NEW_ARRAY(bool, n);
+  fit->marked = SPORE_NEW_ARRAY(bool, 2 * n);
   fit->scored_count = fit->candidates->count < SCORED_CANDIDATES ? fit->candidates->count : SCORED_CANDIDATES;
   fit->missing = SPORE_NEW_ARRAY(double, fit->scored_count);
   fit->scored = SPORE_NEW_ARRAY(uint32_t, fit->scored_count);
   fit->by_missing = SPORE_NEW_ARRAY(uint32_t, fit->scored_count);
-  return fit->normal && fit->worth && fit->burden && fit->spread && fit->order && fit->heaviest && fit->marked &&
-         fit->missing && fit->scored && fit->by_missing && spore_balls_create(&fit->balls, n) &&
+  return fit->normal && fit->worth && fit->burden && fit->spread && fit->known && fit->order && fit->heaviest &&
+         fit->marked && fit->missing && fit->scored && fit->by_missing && spore_balls_create(&fit->balls, n) &&
          spore_balls_create(&fit->trial, n) && spore_balls_create(&fit->best, n) &&
          spore_field_create(&fit->field, &fit->samples->points, n) &&
          spore_field_create(&fit->trial_field, &fit->samples->points, n);
@@ -162,6 +151,7 @@ static void close_fit(SporeFit *fit) {
   spore_free(fit->worth);
   spore_free(fit->burden);
   spore_free(fit->spread);
+  spore_free(fit->known);
   spore_free(fit->order);
   spore_free(fit->heaviest);
   spore_free(fit->marked);
@@ -215,18 +205,15 @@ static bool settle(SporeFit *fit, int rounds, const SporeProgressPart *progress,
   return true;
 }
 
-static bool relocate_all(SporeFit *fit, const SporeProgressPart *progress, double from, double to, SporeError *error) {
-  size_t wanted = fit->balls.count / 10 + 1;
-  int failures = 0;
-  double shake = 0;
+/* Trials of single relocations from the best so far. */
+static bool relocate(SporeFit *fit, const SporeProgressPart *progress, double from, double to, SporeError *error) {
+  SporeProgressPart part = {progress->whole, progress->first + progress->share * from, progress->share * (to - from)};
   if (fit->balls.count < 2) return true;
-  size_t trials = TRIAL_WORK / fit->balls.count < TRIALS ? TRIAL_WORK / fit->balls.count : TRIALS;
-  for (size_t trial = 0; trial < trials && failures < PATIENCE; trial++) {
-    double fraction = from + (to - from) * (double)trial / (double)trials;
-    if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
-    failures = try_relocation(fit, &wanted, &shake) ? 0 : failures + 1;
-    spore_progress_show_balls(progress, &fit->best);
-  }
+  spore_balls_copy(&fit->balls, &fit->best);
+  evaluate(fit);
+  if (!spore_fit_relocate(fit, &part, error)) return false;
+  fit->loss = loss_of(fit, &fit->field);
+  keep_best(fit);
   return true;
 }
 
@@ -246,7 +233,7 @@ bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, con
     evaluate(&fit);
     keep_best(&fit);
   }
-  done = done && fill(&fit, progress, 0, 0.2, error) && relocate_all(&fit, progress, 0.2, 0.9, error) &&
+  done = done && fill(&fit, progress, 0, 0.2, error) && relocate(&fit, progress, 0.2, 0.9, error) &&
          settle(&fit, LAST_ROUNDS, progress, 0.9, 1, error);
   if (done) spore_balls_copy(balls, &fit.best);
   close_fit(&fit);

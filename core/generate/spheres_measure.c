@@ -6,6 +6,7 @@
 #include "core/generate/spheres_parts.h"
 
 #define MEASURE_SAMPLES 30000
+#define ON_BALL 2e-6 /* of the largest radius: a point that is no deeper lies on the union's surface */
 #define MEASURE_SEED UINT64_C(0x5350484552455321) /* other than any fit's */
 
 typedef struct Measure {
@@ -16,6 +17,7 @@ typedef struct Measure {
   double *value;  /* capacity, scratch */
   size_t capacity;
   double ball_volume; /* of all balls, overlaps counted each time */
+  double on_ball;     /* m: see ON_BALL */
 } Measure;
 
 /* max_i (r_i - d_i), whose it is, and how many hold it; back in the order of `points`. Each output may be NULL. */
@@ -84,12 +86,9 @@ static bool measure_outside(Measure *m, SporeSpheresReport *report) {
 /* Points on the balls, keeping those that no other ball holds: the surface of the union. Returns how many; 0 with
  * *failed: no memory. */
 static size_t union_surface(Measure *m, bool *failed) {
-  double area = 0, largest = 0;
+  double area = 0;
   size_t count = 0, kept = 0;
-  for (size_t i = 0; i < m->balls.count; i++) {
-    area += m->balls.r[i] * m->balls.r[i];
-    largest = fmax(largest, m->balls.r[i]);
-  }
+  for (size_t i = 0; i < m->balls.count; i++) area += m->balls.r[i] * m->balls.r[i];
   double sum = 0;
   size_t ball = 0;
   for (; count < 2 * MEASURE_SAMPLES; count++) {
@@ -103,7 +102,7 @@ static size_t union_surface(Measure *m, bool *failed) {
   *failed = !field_at(m, m->points, count, m->value, NULL, NULL);
   if (*failed) return 0;
   for (size_t i = 0; i < count; i++)
-    if (m->value[i] <= 1e-9 * largest) memmove(m->points + 3 * kept++, m->points + 3 * i, 3 * sizeof(double));
+    if (m->value[i] <= m->on_ball) memmove(m->points + 3 * kept++, m->points + 3 * i, 3 * sizeof(double));
   return kept;
 }
 
@@ -162,14 +161,13 @@ static void clear_projection(Projection *p) {
 /* Surface of the solid to the union's. Outside the union the field is the distance; inside, the way out of the deepest
  * ball is, where no other ball covers it; else the nearest known point of the union's surface (`known` so far). */
 static bool from_solid(Measure *m, const Projection *p, size_t known, Distances *distances, SporeError *error) {
-  double free_of_balls = 1e-9 * m->solid->diagonal;
   for (size_t i = 0; i < MEASURE_SAMPLES; i++)
-    if (p->way_value[i] <= free_of_balls) memcpy(m->points + 3 * known++, p->way_out + 3 * i, 3 * sizeof(double));
+    if (p->way_value[i] <= m->on_ball) memcpy(m->points + 3 * known++, p->way_out + 3 * i, 3 * sizeof(double));
   SporeBvh *tree = known ? tree_of_points(m->points, known, error) : NULL;
   if (known && !tree) return false;
   for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
     double distance = fabs(p->value[i]);
-    if (p->value[i] > 0 && p->way_value[i] > free_of_balls && tree)
+    if (p->value[i] > 0 && p->way_value[i] > m->on_ball && tree)
       distance = fmax(distance, spore_bvh_distance(tree, spore_vec3_load(p->surface + 3 * i), NULL, NULL));
     add_distance(distances, distance);
   }
@@ -206,6 +204,7 @@ bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, Spo
     m.balls.x[i] = set->spheres[4 * i], m.balls.y[i] = set->spheres[4 * i + 1], m.balls.z[i] = set->spheres[4 * i + 2];
     m.balls.r[i] = set->spheres[4 * i + 3];
     m.ball_volume += pow(m.balls.r[i], 3);
+    m.on_ball = fmax(m.on_ball, ON_BALL * m.balls.r[i]);
   }
   bool going = true;
   done = done && (going = spore_progress_part(progress, 0, stage, error)) && measure_inside(&m, report);

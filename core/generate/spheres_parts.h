@@ -72,6 +72,12 @@ typedef struct SporeBalls {
 bool spore_balls_create(SporeBalls *balls, size_t count);
 void spore_balls_clear(SporeBalls *balls);
 void spore_balls_copy(SporeBalls *to, const SporeBalls *from);
+static inline void spore_balls_set(SporeBalls *balls, size_t i, SporeVec3 centre, double radius) {
+  balls->x[i] = centre.x, balls->y[i] = centre.y, balls->z[i] = centre.z, balls->r[i] = radius;
+}
+static inline SporeVec3 spore_balls_centre(const SporeBalls *balls, size_t i) {
+  return spore_vec3(balls->x[i], balls->y[i], balls->z[i]);
+}
 /* Lets whom it concerns see the balls so far; the picture of a long fit. Costs nothing where nobody looks. */
 void spore_progress_show_balls(const SporeProgressPart *part, const SporeBalls *balls);
 
@@ -83,10 +89,15 @@ typedef struct SporeField {
   double *value;    /* scratch, balls */
   SporeBalls near;  /* scratch: the balls that may own a point of a group */
   uint32_t *number; /* balls: theirs */
+  float *local;     /* scratch: 5 columns of `capacity` */
+  size_t capacity;  /* balls */
 } SporeField;
 bool spore_field_create(SporeField *field, const SporePoints *points, size_t ball_count);
 void spore_field_clear(SporeField *field);
 void spore_field_evaluate(SporeField *field, const SporePoints *points, const SporeBalls *balls);
+/* The same of one group. Returns what a ball's value at the middle of the group has to be, at least, for it to be best
+ * or second best anywhere in the group. */
+double spore_field_evaluate_group(SporeField *field, const SporePoints *points, const SporeBalls *balls, size_t group);
 /* Number of balls that hold each point, padded. */
 void spore_field_multiplicity(SporeField *field, const SporePoints *points, const SporeBalls *balls, uint32_t *held);
 

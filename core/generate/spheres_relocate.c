@@ -6,11 +6,9 @@
 
 #define MOST_FILLED 256
 #define CROWDED 0.7       /* of the larger radius */
-#define SPLIT_SHARE 0.5   /* of a ball's burden: what a split is taken to save */
 #define SPLIT_SPACING 0.8 /* standard deviations of the owned samples, each way */
 
-/* What each ball is worth and bears, and how the interior samples that it owns lie. */
-static void weigh_balls(SporeFit *fit) {
+void spore_fit_weigh(SporeFit *fit) {
   const SporeSamples *s = fit->samples;
   size_t n = fit->balls.count;
   memset(fit->worth, 0, n * sizeof *fit->worth);
@@ -90,7 +88,7 @@ static void score_candidates(SporeFit *fit, size_t turn) {
 size_t spore_fit_fill(SporeFit *fit, size_t turn) {
   size_t used[MOST_FILLED], filled = 0, wanted = fit->balls.count / 25 + 1;
   if (wanted > MOST_FILLED) wanted = MOST_FILLED;
-  weigh_balls(fit);
+  spore_fit_weigh(fit);
   order_by(fit->worth, 1, fit->order, fit->balls.count);
   score_candidates(fit, turn);
   for (size_t i = 0; i < fit->scored_count && filled < wanted && filled < fit->balls.count; i++) {
@@ -111,8 +109,8 @@ static void place(SporeFit *fit, size_t ball, SporeVec3 centre, double radius) {
   fit->balls.r[ball] = fmin(radius, most);
 }
 
-/* Puts `target` and `spare` on both sides of the middle of what `target` owns, along the longest spread. */
-static void split(SporeFit *fit, size_t target, size_t spare) {
+/* Along the longest spread. */
+void spore_fit_split(SporeFit *fit, size_t target, size_t spare) {
   const double *m = fit->spread + 10 * target;
   double w = fmax(m[0], 1e-300), x = m[1] / w, y = m[2] / w, z = m[3] / w, values[3];
   double xy = m[7] / w - x * y, xz = m[8] / w - x * z, yz = m[9] / w - y * z;
@@ -126,25 +124,12 @@ static void split(SporeFit *fit, size_t target, size_t spare) {
   place(fit, target, spore_vec3_sub(centre, offset), radius);
 }
 
-size_t spore_fit_relocate(SporeFit *fit, size_t wanted, double shake) {
-  size_t n = fit->balls.count, moved = 0, next = 0;
-  weigh_balls(fit);
+void spore_fit_rank(SporeFit *fit, double shake) {
+  size_t n = fit->balls.count;
   for (size_t i = 0; i < n; i++) {
     fit->worth[i] *= 1 + shake * (2 * spore_random_unit(&fit->random) - 1);
     fit->burden[i] *= 1 + shake * (2 * spore_random_unit(&fit->random) - 1);
   }
   order_by(fit->worth, 1, fit->order, n);
   order_by(fit->burden, -1, fit->heaviest, n);
-  memset(fit->marked, 0, n * sizeof *fit->marked);
-  for (size_t i = 0; i < n && moved < wanted; i++) {
-    uint32_t target = fit->heaviest[i];
-    if (fit->marked[target]) continue;
-    while (next < n && (fit->marked[fit->order[next]] || fit->order[next] == target)) next++;
-    if (next == n || fit->worth[fit->order[next]] >= SPLIT_SHARE * fit->burden[target]) break;
-    uint32_t spare = fit->order[next];
-    fit->marked[target] = fit->marked[spare] = true;
-    split(fit, target, spare);
-    moved++;
-  }
-  return moved;
 }
