@@ -30,6 +30,11 @@ static char *describe_report(const SporeReportMember *members) {
 }
 
 int spore_cli_parse(SporeCli *cli, const SporeCommandInfo *info, const GOptionEntry *entries, int *argc, char ***argv) {
+  return spore_cli_parse_with(cli, info, entries, NULL, argc, argv);
+}
+
+int spore_cli_parse_with(SporeCli *cli, const SporeCommandInfo *info, const GOptionEntry *entries, gpointer data,
+                         int *argc, char ***argv) {
   const GOptionEntry shared[] = {
       {"json", 0, 0, G_OPTION_ARG_NONE, &cli->json, N_("Print one JSON object and nothing else"), NULL},
       {"quiet", 'q', 0, G_OPTION_ARG_NONE, &cli->quiet, N_("Print errors only"), NULL},
@@ -38,8 +43,11 @@ int spore_cli_parse(SporeCli *cli, const SporeCommandInfo *info, const GOptionEn
   g_autofree char *description = describe_report(info->report);
   g_option_context_set_summary(context, _(info->summary));
   g_option_context_set_description(context, description);
-  g_option_context_add_main_entries(context, entries, GETTEXT_PACKAGE);
-  g_option_context_add_main_entries(context, shared, GETTEXT_PACKAGE);
+  GOptionGroup *group = g_option_group_new(NULL, NULL, NULL, data, NULL);
+  g_option_group_set_translation_domain(group, GETTEXT_PACKAGE);
+  g_option_group_add_entries(group, entries);
+  g_option_group_add_entries(group, shared);
+  g_option_context_set_main_group(context, group); /* which takes it over */
   g_autoptr(GError) error = NULL;
   if (!g_option_context_parse(context, argc, argv, &error))
     return spore_cli_usage(_("spore %s: %s; see `spore %s --help`"), info->name, error->message, info->name);

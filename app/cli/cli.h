@@ -39,6 +39,9 @@ typedef struct SporeCommandInfo {
 /* Reads options (entries end with G_OPTION_ENTRY_NULL; --json, --quiet and --help are added) and leaves the plain
  * arguments in *argv[1..*argc-1]. Returns SPORE_EXIT_DONE to go on. Prints its own message when it fails. */
 int spore_cli_parse(SporeCli *cli, const SporeCommandInfo *info, const GOptionEntry *entries, int *argc, char ***argv);
+/* The same; `data` is handed to callbacks among the entries. */
+int spore_cli_parse_with(SporeCli *cli, const SporeCommandInfo *info, const GOptionEntry *entries, gpointer data,
+                         int *argc, char ***argv);
 
 /* Prints a message for people on stdout, unless --json or --quiet. */
 void spore_cli_say(const SporeCli *cli, const char *format, ...) G_GNUC_PRINTF(2, 3);

@@ -82,8 +82,20 @@ void keep_one_importer(Assimp::Importer &importer, const std::string &extension)
 struct Mesh {
   std::vector<double> vertices;
   std::vector<uint32_t> triangles;
+  std::vector<SporeImportPart> parts; /* of at least one triangle each */
+  uint64_t in_parts = 0;              /* triangles */
   uint64_t passed_over = 0;
 };
+
+/* What came since the last part is one: the meshes of a node differ in material alone. */
+void end_part(const aiNode &node, Mesh &mesh) {
+  SporeImportPart part = {};
+  part.triangle_count = mesh.triangles.size() / 3 - mesh.in_parts;
+  if (!part.triangle_count) return;
+  mesh.in_parts += part.triangle_count;
+  std::string(node.mName.C_Str()).copy(part.name, sizeof part.name - 1);
+  mesh.parts.push_back(part);
+}
 
 void append_faces(const aiMesh &from, uint64_t first, bool mirrored, Mesh &mesh) {
   for (unsigned f = 0; f < from.mNumFaces; f++) {
@@ -122,6 +134,7 @@ void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, 
     }
     append_faces(from, first, mirrored, mesh);
   }
+  end_part(node, mesh);
   for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], transform, mesh);
 }
 
@@ -161,15 +174,19 @@ Mesh import(const char *extension, const void *content, size_t size) {
 }
 
 void *make_answer(const Mesh &mesh, size_t *size) {
-  const SporeImportAnswer head = {mesh.vertices.size() / 3, mesh.triangles.size() / 3, mesh.passed_over};
+  const SporeImportAnswer head = {mesh.parts.size(), mesh.vertices.size() / 3, mesh.triangles.size() / 3,
+                                  mesh.passed_over};
+  const size_t part_bytes = mesh.parts.size() * sizeof(SporeImportPart);
   const size_t vertex_bytes = mesh.vertices.size() * sizeof(double);
   const size_t triangle_bytes = mesh.triangles.size() * sizeof(uint32_t);
-  *size = sizeof head + vertex_bytes + triangle_bytes;
+  *size = sizeof head + part_bytes + vertex_bytes + triangle_bytes;
   char *answer = static_cast<char *>(std::malloc(*size));
   if (!answer) throw std::bad_alloc();
   std::memcpy(answer, &head, sizeof head);
-  std::memcpy(answer + sizeof head, mesh.vertices.data(), vertex_bytes);
-  std::memcpy(answer + sizeof head + vertex_bytes, mesh.triangles.data(), triangle_bytes);
+  char *at = answer + sizeof head;
+  std::memcpy(at, mesh.parts.data(), part_bytes);
+  std::memcpy(at + part_bytes, mesh.vertices.data(), vertex_bytes);
+  std::memcpy(at + part_bytes + vertex_bytes, mesh.triangles.data(), triangle_bytes);
   return answer;
 }
 

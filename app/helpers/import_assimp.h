@@ -12,7 +12,8 @@ extern "C" {
 #endif
 
 /* Decodes `content` by the importer of that extension ("stl", "obj", "ply", "gltf", "glb"): node transforms applied,
- * meshes joined, polygons cut into triangles. *answer: SporeImportAnswer with its arrays, malloc'ed. */
+ * meshes joined, each node with a mesh a part, polygons cut into triangles. *answer: SporeImportAnswer with its arrays,
+ * malloc'ed. */
 bool spore_import_assimp(const char *extension, const void *content, size_t size, void **answer, size_t *answer_size,
                          SporeHelperFailure *failure);
 

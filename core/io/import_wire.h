@@ -9,9 +9,15 @@ typedef struct SporeImportRequest {
   uint64_t format; /* SporeMeshFormat, never OFF */
 } SporeImportRequest;
 
-/* vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. */
+/* A sub-mesh: so many of the triangles, behind those of the parts before it. */
+typedef struct SporeImportPart {
+  uint64_t triangle_count; /* > 0 */
+  char name[64];           /* of its node, cut; empty: it has none */
+} SporeImportPart;
+
+/* part_count SporeImportPart, vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. */
 typedef struct SporeImportAnswer {
-  uint64_t vertex_count, triangle_count;
+  uint64_t part_count, vertex_count, triangle_count;
   uint64_t passed_over; /* points and lines */
 } SporeImportAnswer;
 

@@ -7,9 +7,8 @@
 #include "core/io/import_wire.h"
 #include "core/io/mesh_format.h"
 #include "core/io/off.h"
+#include "core/mesh/edit.h"
 
-const char *const spore_length_units[] = {"m", "cm", "mm", "um", "in", NULL};
-const double spore_length_unit_m[] = {1, 1e-2, 1e-3, 1e-6, 0.0254};
 const char *const spore_mesh_frames[] = {"Y_UP", "RAS", "LPS", NULL};
 
 #define WELD 1e-6 /* of the diagonal */
@@ -33,8 +32,43 @@ static void apply_unit_and_frame(SporeTriangleMesh *mesh, int unit, int frame) {
   }
 }
 
+/* As in the file: its triangles, and which of its parts each is of. */
+typedef struct Raw {
+  SporeTriangleMesh mesh;
+  guint32 *part;    /* triangle_count; NULL: one part without a name */
+  GPtrArray *names; /* char *, of the parts */
+} Raw;
+
+static void clear_raw(Raw *raw) {
+  spore_triangle_mesh_clear(&raw->mesh);
+  g_clear_pointer(&raw->part, g_free);
+  g_clear_pointer(&raw->names, g_ptr_array_unref);
+}
+
+static gboolean fail_answer(const char *place, GError **error) {
+  return spore_error_raise(
+      error, SPORE_ERROR_INTERNAL, place,
+      _("the import helper gave a wrong answer; expected a mesh; give another format, and report this"));
+}
+
+/* The parts' triangles must add up to those that were sent. */
+static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw *raw) {
+  gsize triangle = 0;
+  raw->part = g_try_new(guint32, head->triangle_count);
+  raw->names = g_ptr_array_new_with_free_func(g_free);
+  for (guint64 p = 0; raw->part && p < head->part_count; p++) {
+    SporeImportPart part;
+    memcpy(&part, bytes + p * sizeof part, sizeof part);
+    if (part.triangle_count > head->triangle_count - triangle) return FALSE;
+    part.name[sizeof part.name - 1] = '\0';
+    g_ptr_array_add(raw->names, g_utf8_make_valid(part.name, -1));
+    for (guint64 t = 0; t < part.triangle_count; t++) raw->part[triangle++] = (guint32)p;
+  }
+  return raw->part && triangle == head->triangle_count;
+}
+
 /* The helper is not believed: its counts must agree with what it sent, to the byte. */
-static gboolean read_answer(const char *place, GBytes *answer, SporeTriangleMesh *mesh, GError **error) {
+static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError **error) {
   gsize size;
   const char *bytes = g_bytes_get_data(answer, &size);
   SporeImportAnswer head = {0};
@@ -44,26 +78,26 @@ static gboolean read_answer(const char *place, GBytes *answer, SporeTriangleMesh
                              _("the mesh has more than %u vertices or triangles; expected fewer; decimate it first"),
                              SPORE_MESH_MAXIMUM);
   gsize vertex_bytes = head.vertex_count * 3 * sizeof(double),
-        triangle_bytes = head.triangle_count * 3 * sizeof(guint32);
-  if (size != sizeof head + vertex_bytes + triangle_bytes)
-    return spore_error_raise(
-        error, SPORE_ERROR_INTERNAL, place,
-        _("the import helper gave a wrong answer; expected a mesh; give another format, and report this"));
+        triangle_bytes = head.triangle_count * 3 * sizeof(guint32),
+        part_bytes = MIN(head.part_count, head.triangle_count) * sizeof(SporeImportPart);
+  if (head.part_count > head.triangle_count || size != sizeof head + part_bytes + vertex_bytes + triangle_bytes ||
+      !read_parts(bytes + sizeof head, &head, raw))
+    return fail_answer(place, error);
   SporeError failure = SPORE_ERROR_INIT;
-  if (!spore_triangle_mesh_allocate(mesh, head.vertex_count, head.triangle_count, &failure)) {
+  if (!spore_triangle_mesh_allocate(&raw->mesh, head.vertex_count, head.triangle_count, &failure)) {
     spore_error_at(&failure, place);
     return spore_error_propagate(&failure, error);
   }
-  memcpy(mesh->vertices, bytes + sizeof head, vertex_bytes);
-  memcpy(mesh->triangles, bytes + sizeof head + vertex_bytes, triangle_bytes);
+  memcpy(raw->mesh.vertices, bytes + sizeof head + part_bytes, vertex_bytes);
+  memcpy(raw->mesh.triangles, bytes + sizeof head + part_bytes + vertex_bytes, triangle_bytes);
   if (head.passed_over)
     g_message(_("%s: %llu points and lines were passed over; only triangles are read"), place,
               (unsigned long long)head.passed_over);
   return TRUE;
 }
 
-static gboolean decode_in_helper(const char *place, SporeMeshFormat format, const void *content, gsize size,
-                                 SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error) {
+static gboolean decode_in_helper(const char *place, SporeMeshFormat format, const void *content, gsize size, Raw *raw,
+                                 const SporeProgress *progress, GError **error) {
   if (!SPORE_HAVE_ASSIMP)
     return spore_error_raise(
         error, SPORE_ERROR_UNSUPPORTED, place,
@@ -81,7 +115,7 @@ static gboolean decode_in_helper(const char *place, SporeMeshFormat format, cons
   GBytes *answer = spore_helper_run("spore-import", place, bytes, &import_limits, progress, error);
   g_bytes_unref(bytes);
   if (!answer) return FALSE;
-  gboolean done = read_answer(place, answer, mesh, error);
+  gboolean done = read_answer(place, answer, raw, error);
   g_bytes_unref(answer);
   return done;
 }
@@ -99,31 +133,83 @@ static bool turn_outward(SporeTriangleMesh *mesh, SporeError *error) {
   return true;
 }
 
-/* Checks what came, brings it to metres and SPORE's axes, welds it and turns it outward. */
-static gboolean finish(const char *place, int unit, int frame, SporeTriangleMesh *mesh, GError **error) {
-  apply_unit_and_frame(mesh, unit, frame);
+gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  if (!spore_triangle_mesh_validate(mesh, &failure) || !spore_triangle_mesh_weld(mesh, WELD, &failure) ||
-      !turn_outward(mesh, &failure)) {
-    spore_error_at(&failure, place);
-    return spore_error_propagate(&failure, error);
-  }
-  return TRUE;
+  if (spore_triangle_mesh_validate(mesh, &failure) && spore_triangle_mesh_weld(mesh, WELD, &failure) &&
+      turn_outward(mesh, &failure))
+    return TRUE;
+  spore_error_at(&failure, place);
+  return spore_error_propagate(&failure, error);
+}
+
+/* In metres and SPORE's axes. */
+static gboolean decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
+                       Raw *raw, const SporeProgress *progress, GError **error) {
+  g_assert(unit >= 0 && spore_length_units[unit] && frame >= 0 && frame < 3);
+  SporeMeshFormat format;
+  if (!spore_mesh_format_find(place, file, content, size, &format, error)) return FALSE;
+  size = spore_mesh_format_extent(format, content, size);
+  gboolean done = format == SPORE_MESH_OFF ? spore_off_parse(place, content, size, &raw->mesh, error)
+                                           : decode_in_helper(place, format, content, size, raw, progress, error);
+  if (done) apply_unit_and_frame(&raw->mesh, unit, frame);
+  return done;
 }
 
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error) {
   if (!place) place = file ? file : "";
-  g_assert(unit >= 0 && unit < (int)G_N_ELEMENTS(spore_length_unit_m) && frame >= 0 && frame < 3);
-  SporeMeshFormat format;
-  *mesh = (SporeTriangleMesh){0};
-  if (!spore_mesh_format_find(place, file, content, size, &format, error)) return FALSE;
-  size = spore_mesh_format_extent(format, content, size);
-  gboolean done = format == SPORE_MESH_OFF ? spore_off_parse(place, content, size, mesh, error)
-                                           : decode_in_helper(place, format, content, size, mesh, progress, error);
-  if (done && finish(place, unit, frame, mesh, error)) return TRUE;
-  spore_triangle_mesh_clear(mesh);
-  return FALSE;
+  Raw raw = {0};
+  gboolean done = decode(place, file, content, size, unit, frame, &raw, progress, error) &&
+                  spore_mesh_tidy(place, &raw.mesh, error);
+  *mesh = done ? raw.mesh : (SporeTriangleMesh){0};
+  if (done) raw.mesh = (SporeTriangleMesh){0};
+  clear_raw(&raw);
+  return done;
+}
+
+void spore_mesh_part_free(SporeMeshPart *part) {
+  g_free(part->name);
+  spore_triangle_mesh_clear(&part->mesh);
+  g_free(part);
+}
+
+/* The part of that number, or with a NULL `pieces` all; NULL with an error. */
+static SporeMeshPart *take_part(const char *place, Raw *raw, const guint32 *pieces, guint32 number, GError **error) {
+  SporeMeshPart *part = g_new0(SporeMeshPart, 1);
+  SporeError failure = SPORE_ERROR_INIT;
+  const char *name = raw->names && number < raw->names->len ? g_ptr_array_index(raw->names, number) : "";
+  part->name = g_strdup(pieces ? name : "");
+  g_autofree char *where = *part->name ? g_strdup_printf("%s: %s", place, part->name) : g_strdup(place);
+  gboolean done = spore_triangle_mesh_validate(&raw->mesh, &failure); /* before its indices are followed */
+  if (done && pieces) done = spore_triangle_mesh_extract(&raw->mesh, pieces, number, &part->mesh, &failure);
+  else if (done) part->mesh = raw->mesh, raw->mesh = (SporeTriangleMesh){0};
+  if (!done) {
+    spore_error_at(&failure, where);
+    spore_error_propagate(&failure, error);
+  }
+  if (done && spore_mesh_tidy(where, &part->mesh, error)) return part;
+  spore_mesh_part_free(part);
+  return NULL;
+}
+
+GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize size, int unit, int frame,
+                                   gboolean apart, guint *count, const SporeProgress *progress, GError **error) {
+  Raw raw = {0};
+  g_autoptr(GPtrArray) parts = g_ptr_array_new_with_free_func((GDestroyNotify)spore_mesh_part_free);
+  gboolean done = decode(file, file, content, size, unit, frame, &raw, progress, error);
+  *count = raw.names ? raw.names->len : 1;
+  gboolean several = apart && *count > 1;
+  if (done && *count > SPORE_MESH_PARTS_MAXIMUM && several)
+    done = spore_error_raise(error, SPORE_ERROR_INPUT, file,
+                             _("the file has %u parts; expected at most %u bodies; import it as one"), *count,
+                             SPORE_MESH_PARTS_MAXIMUM);
+  for (guint p = 0; done && p < (several ? *count : 1); p++) {
+    SporeMeshPart *part = take_part(file, &raw, several ? raw.part : NULL, p, error);
+    if (part) g_ptr_array_add(parts, part);
+    done = part != NULL;
+  }
+  clear_raw(&raw);
+  return done ? g_steal_pointer(&parts) : NULL;
 }
 
 int spore_mesh_frame_hint(const void *content, gsize size) {

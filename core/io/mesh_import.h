@@ -7,12 +7,12 @@
 #include "core/base/progress.h"
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
+#include "core/scene/length_unit.h"
 
-/* Units and frames by index, as in the file; NULL-terminated. Frame says what the file's axes are: RAS and LPS are the
- * patient frames of medical images, Y_UP that of most modelling programs. SPORE's axes are x right, y up, z toward
- * the user: Y_UP is the identity; RAS (x, y, z) -> (x, z, -y); LPS (x, y, z) -> (-x, z, y). */
-extern const char *const spore_length_units[]; /* m cm mm um in */
-extern const double spore_length_unit_m[];
+/* Units (core/scene/length_unit.h) and frames by index, as in the file; NULL-terminated. Frame says what the file's
+ * axes are: RAS and LPS are the patient frames of medical images, Y_UP that of most modelling programs. SPORE's axes
+ * are x right, y up, z toward the user: Y_UP is the identity; RAS (x, y, z) -> (x, z, -y); LPS (x, y, z) -> (-x, z, y).
+ */
 extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
 
 /* Decodes STL, OBJ, PLY, OFF, glTF (embedded) or GLB; by content, the extension of `file` only breaks ties. OFF is read
@@ -22,6 +22,22 @@ extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
  * place (usually the path) begins every message. Cancelled by progress. */
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error);
+
+/* A sub-mesh of a file: what hangs on one node of glTF or one object of OBJ. */
+typedef struct SporeMeshPart {
+  char *name; /* "": it has none */
+  SporeTriangleMesh mesh;
+} SporeMeshPart;
+void spore_mesh_part_free(SporeMeshPart *part);
+#define SPORE_MESH_PARTS_MAXIMUM 500u
+
+/* The same, with the parts that the file names `apart` or joined as above into one. *count: those it has, 1 where its
+ * format has none. GPtrArray of SporeMeshPart *, one at least; NULL with an error. */
+GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize size, int unit, int frame,
+                                   gboolean apart, guint *count, const SporeProgress *progress, GError **error);
+
+/* Validates, welds (1e-6) and turns outward, as each decoded mesh is; for one that was put together since. */
+gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **error);
 
 /* Frame said by the file itself (Slicer writes SPACE=LPS or RAS into headers and comments): index, or -1. */
 int spore_mesh_frame_hint(const void *content, gsize size);

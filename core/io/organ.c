@@ -5,8 +5,7 @@
 #include "core/base/hash.h"
 #include "core/io/mesh_import.h"
 
-/* A name of the form that the file format allows, from any text. g_free. */
-static char *name_from(const char *text) {
+char *spore_organ_name(const char *text) {
   GString *name = g_string_new(NULL);
   for (const char *c = text; *c; c++)
     g_string_append_c(name, g_ascii_isalnum(*c) || *c == '_' || *c == '-' || *c == '.' ? *c : '_');
@@ -18,7 +17,7 @@ static char *stem_of(const char *file) {
   g_autofree char *base = g_path_get_basename(file);
   char *dot = strrchr(base, '.');
   if (dot && dot != base) *dot = '\0';
-  return name_from(base);
+  return spore_organ_name(base);
 }
 
 char *spore_content_file_name(const char *name, const char *extension, gconstpointer content, gsize size) {
@@ -57,19 +56,19 @@ static char *asset_file(SporeDocument *document, const char *file, GBytes *conte
   return spore_content_file_name(stem, extension, bytes, size);
 }
 
-SporeObject *spore_organ_insert(SporeDocument *document, const char *file, GBytes *content, int unit, int frame,
-                                GError **error) {
-  g_autofree char *name = stem_of(file);
+SporeObject *spore_organ_insert(SporeDocument *document, const char *name, const char *file, GBytes *content, int unit,
+                                int frame, GError **error) {
+  g_autofree char *stem = name ? spore_organ_name(name) : stem_of(file);
   g_autofree char *kept = asset_file(document, file, content);
   SporeObject *assets = spore_document_section(document, "assets"),
               *bodies = spore_document_section(document, "bodies");
   spore_document_put_blob(document, kept, content);
-  SporeObject *mesh = spore_document_insert(document, assets, "mesh", name, G_MAXUINT, error);
+  SporeObject *mesh = spore_document_insert(document, assets, "mesh", stem, G_MAXUINT, error);
   if (!mesh || !spore_document_set_text(document, mesh, "file", kept, error) ||
       !spore_document_set_text(document, mesh, "unit", spore_length_units[unit], error) ||
       !spore_document_set_text(document, mesh, "frame", spore_mesh_frames[frame], error))
     return NULL;
-  SporeObject *body = spore_document_insert(document, bodies, "body", name, G_MAXUINT, error);
+  SporeObject *body = spore_document_insert(document, bodies, "body", stem, G_MAXUINT, error);
   if (!body) return NULL;
   SporeObject *visual = spore_document_insert(document, body, "visual", NULL, G_MAXUINT, error);
   gboolean done = visual && spore_document_set_text(document, visual, "mesh", spore_object_name(mesh), error) &&

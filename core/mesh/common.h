@@ -6,6 +6,7 @@
 #include "core/mesh/mesh.h"
 
 #define SPORE_MESH_COORDINATE_MAXIMUM 1e9 /* m */
+#define SPORE_MESH_FLAT 1e-12             /* of the squared longest side: a triangle of no more area is degenerate */
 
 /* Both fill *error and return false. */
 bool spore_mesh_no_memory(SporeError *error);

@@ -24,3 +24,14 @@ void spore_half_edges_clear(SporeHalfEdges *halves) {
   spore_free(halves->half);
   *halves = (SporeHalfEdges){0};
 }
+
+bool spore_half_edges_have(const SporeHalfEdges *halves, uint32_t a, uint32_t b) {
+  uint64_t key = a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
+  size_t low = 0, high = halves->count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (halves->edge[middle] < key) low = middle + 1;
+    else high = middle;
+  }
+  return low < halves->count && halves->edge[low] == key;
+}

@@ -4,12 +4,11 @@
 #include "core/mesh/common.h"
 #include "core/mesh/half_edges.h"
 
-#define HOLLOW_VOLUME 1e-12   /* of the cubed diagonal */
-#define DEGENERATE_AREA 1e-12 /* of the squared longest side */
+#define HOLLOW_VOLUME 1e-12 /* of the cubed diagonal */
 
 static bool degenerate(SporeVec3 a, SporeVec3 b, SporeVec3 c, double area) {
   double longest = fmax(spore_vec3_distance(a, b), fmax(spore_vec3_distance(b, c), spore_vec3_distance(c, a)));
-  return area <= DEGENERATE_AREA * longest * longest;
+  return area <= SPORE_MESH_FLAT * longest * longest;
 }
 
 /* Volumes are summed about the middle of the box, so that a mesh far from the origin loses no digits. */

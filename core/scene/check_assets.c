@@ -5,23 +5,16 @@
 #include "core/scene/check_private.h"
 #include "core/scene/generated.h"
 
-#define LARGEST_ORGAN_M 5.0
-#define SMALLEST_ORGAN_M 0.001
+#define METRES 0 /* of spore_length_units: generated assets */
 #define SLIVER_DEG 5.0
 
-char *spore_check_length(double length_m) {
-  if (length_m >= 1) return g_strdup_printf("%.3g m", length_m);
-  if (length_m >= 1e-3) return g_strdup_printf("%.3g mm", length_m * 1e3);
-  return g_strdup_printf("%.3g um", length_m * 1e6);
-}
-
-static void check_size(SporeCheck *check, SporeObject *asset, double diagonal_m) {
-  if (diagonal_m <= LARGEST_ORGAN_M && diagonal_m >= SMALLEST_ORGAN_M) return;
-  g_autofree char *length = spore_check_length(diagonal_m);
-  spore_check_say(check, SPORE_WARNING, asset,
-                  diagonal_m > LARGEST_ORGAN_M ? _("if it is an organ or a tool, its unit is wrong: try mm or cm")
-                                               : _("if it is an organ or a tool, its unit is wrong: try m or cm"),
-                  _("\"%s\" is %s across"), spore_object_name(asset), length);
+/* unit: of the asset's file. */
+static void check_size(SporeCheck *check, SporeObject *asset, double diagonal_m, int unit) {
+  g_autofree char *doubt = spore_length_doubt(diagonal_m, unit);
+  if (!doubt) return;
+  g_autofree char *length = spore_length_text(diagonal_m);
+  g_autofree char *remedy = g_strdup_printf(_("if it is an organ or a tool, its unit is wrong: %s"), doubt);
+  spore_check_say(check, SPORE_WARNING, asset, remedy, _("\"%s\" is %s across"), spore_object_name(asset), length);
 }
 
 static double diagonal(const double *points, size_t count, size_t stride) {
@@ -41,7 +34,7 @@ static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error
   SporeMeshReport report;
   SporeError fault = SPORE_ERROR_INIT;
   if (!spore_triangle_mesh_report(mesh, &report, &fault)) return spore_error_propagate(&fault, error);
-  check_size(check, asset, report.diagonal);
+  check_size(check, asset, report.diagonal, (int)spore_object_number(asset, "unit"));
   if (mesh->reoriented)
     spore_check_say(check, SPORE_NOTE, asset, _("nothing, or export it again, facing outward"),
                     _("\"%s\" faces inward in its file, wholly or in part: its triangles are turned outward"),
@@ -59,7 +52,7 @@ static gboolean check_tetrahedra(SporeCheck *check, SporeObject *asset, GError *
   if (!mesh) return FALSE;
   SporeTetrahedraQuality quality;
   spore_tetrahedral_mesh_quality(mesh, &quality);
-  check_size(check, asset, diagonal(mesh->vertices, mesh->vertex_count, 3));
+  check_size(check, asset, diagonal(mesh->vertices, mesh->vertex_count, 3), METRES);
   if (quality.min_dihedral_deg < SLIVER_DEG)
     spore_check_say(check, SPORE_WARNING, asset, _("generate them again with another number of cells"),
                     _("\"%s\" has slivers: the flattest tetrahedron has an angle of %.2g degrees; expected over %g"),
@@ -69,13 +62,13 @@ static gboolean check_tetrahedra(SporeCheck *check, SporeObject *asset, GError *
 
 static gboolean check_spheres(SporeCheck *check, SporeObject *asset, GError **error) {
   const SporeSphereSet *set = spore_document_spheres(check->document, asset, error);
-  if (set && set->count > 1) check_size(check, asset, diagonal(set->spheres, set->count, 4));
+  if (set && set->count > 1) check_size(check, asset, diagonal(set->spheres, set->count, 4), METRES);
   return set != NULL;
 }
 
 static gboolean check_curve(SporeCheck *check, SporeObject *asset, GError **error) {
   const SporeCurve *curve = spore_document_curve(check->document, asset, error);
-  if (curve) check_size(check, asset, diagonal(curve->points, curve->count, 4));
+  if (curve) check_size(check, asset, diagonal(curve->points, curve->count, 4), METRES);
   return curve != NULL;
 }
 

@@ -18,7 +18,7 @@ static void check_spheres(SporeCheck *check, const SporeObject *body, const Spor
 
 static void check_vertices(SporeCheck *check, const SporeObject *body, const SporeCarried *carried) {
   if (carried->farthest <= WARNED_DISTANCE * carried->size && carried->error.leverage <= WARNED_LEVERAGE) return;
-  g_autofree char *length = spore_check_length(carried->farthest);
+  g_autofree char *length = spore_length_text(carried->farthest);
   spore_check_say(check, SPORE_WARNING, spore_object_child_of(body, "visual"),
                   _("draw the mesh that the geometry was made from, or make the geometry again from the one that is "
                     "drawn, and finer"),

@@ -116,7 +116,7 @@ static void check_point(const Points *points, SporeObject *link, const char *pro
   }
   away = sqrt(away), size = sqrt(size);
   if (away <= FAR_AWAY * size) return;
-  g_autofree char *far = spore_check_length(away), *across = spore_check_length(size);
+  g_autofree char *far = spore_length_text(away), *across = spore_length_text(size);
   spore_check_say(points->check, SPORE_WARNING, link, _("move its point to the body, or choose another body"),
                   _("\"%s\" ties \"%s\" at a point that is %s outside it, while it is %s across: what is between "
                     "them counts as stiff"),

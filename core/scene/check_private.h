@@ -4,6 +4,7 @@
 
 #include "core/scene/check.h"
 #include "core/scene/compile.h"
+#include "core/scene/length_unit.h"
 
 /* Elements of the links that can hold a body where it is. */
 #define SPORE_HOLDING_LINKS "pin|spring|ball|hinge|weld|slide"
@@ -27,9 +28,6 @@ void spore_check_each(SporeCheck *check, const char *section, const char *elemen
 
 /* Whether an object of one of the elements (joined by |; NULL: any) refers to this one. */
 gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object, const char *elements);
-
-/* A length in the unit that people would use for it, g_free. */
-char *spore_check_length(double length_m);
 
 void spore_check_links(SporeCheck *check);  /* that tie nothing, and bodies that are tied too often */
 void spore_check_assets(SporeCheck *check); /* readable, used, of a likely size, fresh */

@@ -1,6 +1,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "core/scene/length_unit.h"
 #include "core/scene/schema_fields.h"
 
 #define ANY -HUGE_VAL, HUGE_VAL
@@ -9,7 +10,6 @@
   { .name = "name", .type = SPORE_NAME, .unit = "", FIELD(Type, name), .required = true, .doc = text }
 #define POSITION_M 1e6 /* beyond it a double no longer resolves a nanometre */
 
-static const char *const length_units[] = {"m", "cm", "mm", "um", "in", NULL};
 static const char *const frames[] = {"Y_UP", "RAS", "LPS", NULL};
 static const char *const sphere_methods[] = {"balanced", "tetrahedra", "bounding", "weighted", NULL};
 static const char *const roles[] = {"unmovable", "active", "passive", NULL};
@@ -59,7 +59,7 @@ static const SporeParameter units_parameters[] = {
      .unit = "",
      ANY,
      .initial = {2},
-     .choices = length_units,
+     .choices = spore_length_units,
      FIELD(SporeUnitsFields, length),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Unit in which lengths are shown to people; the file itself is always in metres.")},
@@ -91,7 +91,7 @@ static const SporeParameter mesh_parameters[] = {
      .unit = "",
      ANY,
      .initial = {0},
-     .choices = length_units,
+     .choices = spore_length_units,
      FIELD(SporeMeshFields, unit),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Unit of the numbers in the mesh file.")},

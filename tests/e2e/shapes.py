@@ -1,4 +1,5 @@
 """Small meshes for the end-to-end tests, made here so that they need no file."""
+import json
 import math
 import struct
 
@@ -22,6 +23,36 @@ def sphere(radius=0.03, rings=12, sectors=24, centre=(0.0, 0.0, 0.0)):
     last = len(vertices) - 1
     triangles += [(last, at(rings - 1, s), at(rings - 1, s + 1)) for s in range(sectors)]
     return vertices, triangles
+
+
+def joined(*meshes):
+    """Several meshes in one."""
+    vertices, triangles = [], []
+    for points, corners in meshes:
+        triangles += [tuple(i + len(vertices) for i in t) for t in corners]
+        vertices += points
+    return vertices, triangles
+
+
+def glb(**parts):
+    """Binary glTF with a node of that name for each mesh, the last one mirrored in x by its node."""
+    nodes, meshes, accessors, views, blob = [], [], [], [], b""
+    for number, (name, (vertices, triangles)) in enumerate(parts.items()):
+        points = b"".join(struct.pack("<3f", *v) for v in vertices)
+        corners = b"".join(struct.pack("<3I", *t) for t in triangles)
+        views += [{"buffer": 0, "byteOffset": len(blob), "byteLength": len(points)},
+                  {"buffer": 0, "byteOffset": len(blob) + len(points), "byteLength": len(corners)}]
+        accessors += [{"bufferView": 2 * number, "componentType": 5126, "count": len(vertices), "type": "VEC3",
+                       "min": [min(v[k] for v in vertices) for k in range(3)], "max": [max(v[k] for v in vertices) for k in range(3)]},
+                      {"bufferView": 2 * number + 1, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"}]
+        meshes.append({"primitives": [{"attributes": {"POSITION": 2 * number}, "indices": 2 * number + 1}]})
+        nodes.append({"name": name, "mesh": number, **({"scale": [-1, 1, 1]} if number == len(parts) - 1 else {})})
+        blob += points + corners
+    text = json.dumps({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes,
+                       "meshes": meshes, "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(blob)}]}).encode()
+    text += b" " * (-len(text) % 4)
+    return (struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(blob)) + struct.pack("<I4s", len(text), b"JSON") + text +
+            struct.pack("<I4s", len(blob), b"BIN\0") + blob)
 
 
 def off(vertices, triangles):

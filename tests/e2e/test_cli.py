@@ -4,6 +4,7 @@ list of what the build holds (assimp, cgal, render)."""
 import json
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -146,6 +147,81 @@ def import_makes_a_scene():
     assert isinstance(report("check", scene)["diagnostics"], list)
     assert report("plan", scene)["stages"]
     assert report("run", scene, "--steps", 1000)["steps"] == 1000
+
+
+@check
+def import_of_several_meshes():
+    """A body a file, one of all, one a piece: named, closed, of the volume they had."""
+    one, two = shapes.sphere(centre=(-0.1, 0, 0)), shapes.sphere(radius=0.02, centre=(0.1, 0, 0))
+    file("one.off", shapes.off(*one))
+    file("two.off", shapes.off(*two))
+    file("both.off", shapes.off(*shapes.joined(one, two)))
+    volume = lambda mesh: mesh["as_read"]["volume_m3"]
+    apart = report("import", "one.off", "two.off", "-o", "several/apart.spore")
+    assert apart["bodies"] == ["one", "two"] and [m["file"] for m in apart["meshes"]] == ["one.off", "two.off"]
+    total = sum(map(volume, apart["meshes"]))
+    merged = report("import", "one.off", "two.off", "--merge", "-o", "several/merged.spore")
+    assert merged["bodies"] == ["one"] and abs(volume(merged["meshes"][0]) / total - 1) < 1e-9
+    assert merged["meshes"][0]["as_read"]["components"] == 2
+    for option in ("--split", "--split=pieces"):
+        split = report("import", "both.off", option, "-o", "several/split.spore")
+        assert split["bodies"] == ["both", "both-2"]
+        assert [abs(volume(m) / volume(n) - 1) < 1e-9 for m, n in zip(split["meshes"], apart["meshes"])] == [True, True]
+    assert report("check", "several/split.spore")["diagnostics"] == report("check", "several/apart.spore")["diagnostics"]
+    assert report("import", "both.off", "-o", "several/whole.spore")["meshes"][0]["as_read"]["components"] == 2
+    refuses("import", "one.off", "--merge", "--split", "-o", "several/no.spore", says=["--merge", "--split"])
+    refuses("import", "one.off", "--split=halves", "-o", "several/no.spore", says=["halves", "pieces"])
+
+
+@check
+def import_names_the_parts_of_a_file():
+    """The sub-meshes of a GLB become bodies of their names when it is split, a mirrored one facing outward."""
+    if "assimp" not in FEATURES:
+        raise Skip("built without assimp")
+    file("parts.glb", shapes.glb(womb=shapes.sphere(), ovary=shapes.sphere(radius=0.01, centre=(0.05, 0, 0))))
+    split = report("import", "parts.glb", "--split", "-o", "parts/split.spore")
+    assert split["bodies"] == ["womb", "ovary"]
+    assert all(m["as_read"]["volume_m3"] > 0 and m["as_read"]["boundary_edges"] == 0 for m in split["meshes"])
+    whole = report("import", "parts.glb", "-o", "parts/whole.spore")
+    assert whole["bodies"] == ["parts"] and any("2 parts" in d["message"] for d in whole["diagnostics"])
+
+
+@check
+def import_mends_meshes():
+    """Operations with figures before and after: a hole is filled, smoothing keeps the volume, each says how far it moved."""
+    vertices, triangles = shapes.sphere()
+    file("holed.off", shapes.off(vertices, triangles[6:] + triangles[-1:]))
+    answer = report("import", "holed.off", "--smooth", 5, "--fill-holes", "--clean", "-o", "mended/holed.spore")
+    steps = {step["name"]: step for step in answer["meshes"][0]["operations"]}
+    assert list(steps) == ["clean", "fill-holes", "smooth"]
+    assert steps["fill-holes"]["before"]["boundary_edges"] > 0 == steps["fill-holes"]["after"]["boundary_edges"]
+    assert steps["fill-holes"]["moved_m"] > 0
+    smooth = steps["smooth"]
+    assert abs(smooth["after"]["volume_m3"] / smooth["before"]["volume_m3"] - 1) < 1e-9 and 0 < smooth["moved_m"] < 0.003
+    assert report("import", "holed.off", "--fill-holes=3", "-o", "mended/few.spore")["meshes"][0]["operations"][0]["after"]["boundary_edges"] > 0
+    mended = WORK / "mended" / re.search('file="(holed-.*off)"', (WORK / "mended/holed.spore").read_text())[1]
+    saved = report("import", mended, "-o", "mended/again.spore")["meshes"][0]["as_read"]
+    assert saved["boundary_edges"] == 0 and abs(saved["volume_m3"] / smooth["after"]["volume_m3"] - 1) < 1e-9
+    for arguments, says in ((("--smooth", 0), "1000"), (("--smooth", "much"), "much"), (("--weld", 2), "0.1"), (("--fill-holes=-1",), "-1")):
+        refuses("import", "holed.off", *arguments, "-o", "mended/no.spore", says=[says, arguments[0].split("=")[0]])
+    assert not (WORK / "mended/no.spore").exists()
+
+
+@check
+def import_doubts_unit_and_axes():
+    """A size that no organ has is said with the unit that would make it one; axes said by the file are taken, or their loss said."""
+    file("mm.off", shapes.off(*shapes.sphere(radius=30)))
+    found = report("import", "mm.off", "-o", "doubt/mm.spore")
+    assert any("104 m across" in d["message"] and "in mm it would be 104 mm" in d["remedy"] for d in found["diagnostics"]), found
+    assert found["meshes"][0]["unit"] == "m"
+    assert not report("import", "mm.off", "--unit", "mm", "-o", "doubt/right.spore")["diagnostics"]
+    file("tiny.off", shapes.off(*shapes.sphere(radius=5e-5)))
+    assert any("in m" not in d["remedy"] and "across" in d["message"] for d in report("import", "tiny.off", "-o", "doubt/tiny.spore")["diagnostics"])
+    file("slicer.off", b"OFF # SPACE=LPS\n" + shapes.off(*shapes.sphere(centre=(0.1, 0.2, 0.3)))[4:])
+    said = report("import", "slicer.off", "-o", "doubt/said.spore")
+    assert said["meshes"][0]["frame"] == "LPS" and 'frame="LPS"' in (WORK / "doubt/said.spore").read_text()
+    other = report("import", "slicer.off", "--frame", "RAS", "-o", "doubt/other.spore")
+    assert other["meshes"][0]["frame"] == "RAS" and any("LPS" in d["message"] for d in other["diagnostics"])
 
 
 @check

@@ -53,7 +53,7 @@ SporeObject *spore_edit_add_organ(SporeDocument *document, const char *file, GBy
   g_autofree char *base = g_path_get_basename(file);
   g_autofree char *label = g_strdup_printf(_("Import %s"), base);
   spore_document_begin(document, label);
-  SporeObject *body = spore_organ_insert(document, file, content, unit, frame, error);
+  SporeObject *body = spore_organ_insert(document, NULL, file, content, unit, frame, error);
   finish(document, body != NULL);
   return body;
 }

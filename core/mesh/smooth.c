@@ -1,0 +1,159 @@
+#include <math.h>
+#include <string.h>
+
+#include "core/base/text.h"
+#include "core/mesh/common.h"
+#include "core/mesh/edit.h"
+#include "core/mesh/half_edges.h"
+
+#define LAMBDA 0.5
+#define MU (-0.53)
+#define VOLUME_ROUNDS 8
+#define VOLUME_TOLERANCE 1e-10 /* of the volume */
+
+/* Who is pulled by whom: pairs of vertices on an edge. A vertex on an open edge is pulled along open edges alone, so
+ * that a rim stays a rim and does not shrink into the surface. */
+typedef struct Smoothing {
+  SporeTriangleMesh *mesh;
+  uint32_t *edges; /* edge_count x 2 */
+  bool *open_edge; /* edge_count */
+  size_t edge_count;
+  bool *open;       /* vertex_count: on an open edge */
+  uint32_t *degree; /* vertex_count: neighbours that pull */
+  double *pull;     /* vertex_count x 3 */
+  double *before;   /* vertex_count x 3: to go back to when cancelled */
+} Smoothing;
+
+static bool collect_edges(Smoothing *s) {
+  SporeHalfEdges halves;
+  if (!spore_half_edges_create(&halves, s->mesh->triangles, s->mesh->triangle_count)) return false;
+  s->edges = SPORE_NEW_ARRAY(uint32_t, 2 * halves.count);
+  s->open_edge = SPORE_NEW_ARRAY(bool, halves.count);
+  bool done = s->edges && s->open_edge;
+  for (size_t i = 0, end; done && i < halves.count; i = end) {
+    end = spore_half_edges_end(&halves, i);
+    uint32_t a = (uint32_t)(halves.edge[i] >> 32), b = (uint32_t)halves.edge[i];
+    s->edges[2 * s->edge_count] = a, s->edges[2 * s->edge_count + 1] = b;
+    s->open_edge[s->edge_count++] = end - i == 1;
+    if (end - i == 1) s->open[a] = s->open[b] = true;
+  }
+  spore_half_edges_clear(&halves);
+  return done;
+}
+
+static bool pulls(const Smoothing *s, size_t edge, uint32_t vertex) { return !s->open[vertex] || s->open_edge[edge]; }
+
+static void count_neighbours(Smoothing *s) {
+  for (size_t e = 0; e < s->edge_count; e++)
+    for (int k = 0; k < 2; k++) s->degree[s->edges[2 * e + k]] += pulls(s, e, s->edges[2 * e + k]);
+}
+
+/* x += factor (mean of the neighbours - x) */
+static void diffuse(Smoothing *s, double factor) {
+  double *x = s->mesh->vertices;
+  memset(s->pull, 0, 3 * s->mesh->vertex_count * sizeof(double));
+  for (size_t e = 0; e < s->edge_count; e++) {
+    uint32_t a = s->edges[2 * e], b = s->edges[2 * e + 1];
+    SporeVec3 ab = spore_vec3_sub(spore_mesh_vertex(x, b), spore_mesh_vertex(x, a));
+    if (pulls(s, e, a)) spore_vec3_accumulate(s->pull + 3 * (size_t)a, ab);
+    if (pulls(s, e, b)) spore_vec3_accumulate(s->pull + 3 * (size_t)b, spore_vec3_scale(-1, ab));
+  }
+  for (size_t i = 0; i < s->mesh->vertex_count; i++)
+    if (s->degree[i])
+      spore_vec3_accumulate(x + 3 * i,
+                            spore_vec3_scale(factor / (double)s->degree[i], spore_vec3_load(s->pull + 3 * i)));
+}
+
+/* Volume and area of a piece; about its first corner, so that one far from the origin loses no digits. */
+typedef struct Piece {
+  SporeVec3 origin;
+  double wanted, volume, area;
+  bool open, started;
+} Piece;
+
+static void measure(const Smoothing *s, const uint32_t *pieces, Piece *piece, size_t count) {
+  for (size_t p = 0; p < count; p++) piece[p].volume = piece[p].area = 0, piece[p].started = false;
+  for (size_t t = 0; t < s->mesh->triangle_count; t++) {
+    const uint32_t *v = s->mesh->triangles + 3 * t;
+    Piece *to = piece + pieces[t];
+    SporeVec3 a = spore_mesh_vertex(s->mesh->vertices, v[0]), b = spore_mesh_vertex(s->mesh->vertices, v[1]),
+              c = spore_mesh_vertex(s->mesh->vertices, v[2]);
+    if (!to->started) to->origin = a, to->started = true;
+    to->area += spore_vec3_length(spore_mesh_area_vector(a, b, c));
+    to->volume += spore_vec3_dot(spore_vec3_sub(a, to->origin),
+                                 spore_vec3_cross(spore_vec3_sub(b, to->origin), spore_vec3_sub(c, to->origin))) /
+                  6;
+    for (int k = 0; k < 3; k++) to->open |= s->open[v[k]];
+  }
+}
+
+/* Moves the vertices of each closed piece along their normals by (volume wanting) / area, a few times. A vertex that
+ * pieces share takes the step of the last of them. */
+static bool restore_volumes(Smoothing *s, const uint32_t *pieces, Piece *piece, size_t count) {
+  size_t n = s->mesh->vertex_count;
+  double *normals = SPORE_NEW_ARRAY(double, 3 * n), *step = SPORE_NEW_ARRAY(double, n);
+  bool off = normals && step;
+  for (int round = 0; off && round < VOLUME_ROUNDS; round++) {
+    measure(s, pieces, piece, count);
+    spore_triangle_mesh_normals(s->mesh->vertices, n, s->mesh->triangles, s->mesh->triangle_count, normals);
+    off = false;
+    for (size_t t = 0; t < s->mesh->triangle_count; t++) {
+      const Piece *of = piece + pieces[t];
+      double wanting = of->wanted - of->volume;
+      bool moves = !of->open && of->area > 0 && fabs(wanting) > VOLUME_TOLERANCE * fabs(of->wanted);
+      off |= moves;
+      for (int k = 0; k < 3; k++) step[s->mesh->triangles[3 * t + (size_t)k]] = moves ? wanting / of->area : 0;
+    }
+    for (size_t i = 0; i < n; i++)
+      spore_vec3_accumulate(s->mesh->vertices + 3 * i, spore_vec3_scale(step[i], spore_vec3_load(normals + 3 * i)));
+  }
+  bool done = normals && step;
+  spore_free(normals);
+  spore_free(step);
+  return done;
+}
+
+static bool run(Smoothing *s, size_t rounds, const SporeProgress *progress, SporeError *error) {
+  uint32_t *pieces;
+  size_t count;
+  if (!spore_triangle_mesh_pieces(s->mesh, &pieces, &count, error)) return false;
+  Piece *piece = SPORE_NEW_ARRAY(Piece, count);
+  bool done = piece != NULL || spore_mesh_no_memory(error);
+  if (done) measure(s, pieces, piece, count);
+  for (size_t p = 0; done && p < count; p++) piece[p].wanted = piece[p].volume;
+  for (size_t i = 0; done && i < rounds; i++) {
+    if (!spore_progress(progress, (double)i / (double)rounds, _("smoothing")))
+      done = spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    diffuse(s, LAMBDA);
+    diffuse(s, MU);
+  }
+  done = done && (restore_volumes(s, pieces, piece, count) || spore_mesh_no_memory(error));
+  spore_free(piece);
+  spore_free(pieces);
+  return done;
+}
+
+bool spore_triangle_mesh_smooth(SporeTriangleMesh *mesh, size_t rounds, const SporeProgress *progress,
+                                SporeError *error) {
+  size_t n = mesh->vertex_count;
+  if (!n || !mesh->triangle_count) return true;
+  Smoothing s = {.mesh = mesh,
+                 .open = SPORE_NEW_ARRAY(bool, n),
+                 .degree = SPORE_NEW_ARRAY(uint32_t, n),
+                 .pull = SPORE_NEW_ARRAY(double, 3 * n),
+                 .before = SPORE_NEW_ARRAY(double, 3 * n)};
+  bool ready = s.open && s.degree && s.pull && s.before && collect_edges(&s), done = false;
+  if (ready) {
+    memcpy(s.before, mesh->vertices, 3 * n * sizeof(double));
+    count_neighbours(&s);
+    done = run(&s, rounds, progress, error);
+    if (!done) memcpy(mesh->vertices, s.before, 3 * n * sizeof(double));
+  } else spore_mesh_no_memory(error);
+  spore_free(s.edges);
+  spore_free(s.open_edge);
+  spore_free(s.open);
+  spore_free(s.degree);
+  spore_free(s.pull);
+  spore_free(s.before);
+  return done;
+}
