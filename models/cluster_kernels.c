@@ -2,9 +2,33 @@
 
 #include "models/cluster_list.h"
 
+/* Squared ways of all particles from where they were. */
+typedef struct Ways {
+  SporeVd most;
+  SporeVl strange; /* not a number */
+} Ways;
+
+SPORE_INLINE void add_ways(Ways *ways, const double *x, const double *from) {
+  for (int k = 0; k < SPORE_LANES; k += SPORE_WIDTH) {
+    SporeVd square = {0};
+    for (int axis = 0; axis < 3; axis++) {
+      SporeVd way = spore_vd_load(x + axis * SPORE_LANES + k) - spore_vd_load(from + axis * SPORE_LANES + k);
+      square += way * way;
+    }
+    ways->strange |= ~(square >= 0);
+    ways->most = spore_vd_max(square, ways->most);
+  }
+}
+
+SPORE_INLINE double greatest_way(const Ways *ways) {
+  if (spore_vl_any(ways->strange)) return __builtin_nan("");
+  double greatest = 0;
+  for (int k = 0; k < SPORE_WIDTH; k++) greatest = ways->most[k] > greatest ? ways->most[k] : greatest;
+  return greatest;
+}
+
 double SPORE_LEVEL_NAME(spore_cluster_move)(SporeClusterList *list, const double *q) {
-  SporeVd most = {0};
-  SporeVl strange = {0}; /* not a number */
+  Ways ways = {0};
   for (size_t c = 0; c < list->cluster_count; c++) {
     const uint32_t *particle = list->particle + c * SPORE_LANES;
     size_t at = c * SPORE_CLUSTER_DOUBLES;
@@ -16,21 +40,16 @@ double SPORE_LEVEL_NAME(spore_cluster_move)(SporeClusterList *list, const double
     }
     for (int k = 0; list->offset && k < SPORE_CLUSTER_DOUBLES; k += SPORE_WIDTH)
       spore_vd_store(x + k, spore_vd_load(x + k) + spore_vd_load(list->offset + at + k));
-    for (int k = 0; k < SPORE_LANES; k += SPORE_WIDTH) {
-      SporeVd square = {0};
-      for (int axis = 0; axis < 3; axis++) {
-        int i = axis * SPORE_LANES + k;
-        SporeVd way = spore_vd_load(x + i) - spore_vd_load(list->reference + at + i);
-        square += way * way;
-      }
-      strange |= ~(square >= 0);
-      most = spore_vd_max(square, most);
-    }
+    add_ways(&ways, x, list->near_at + at);
   }
-  if (spore_vl_any(strange)) return __builtin_nan("");
-  double greatest = 0;
-  for (int k = 0; k < SPORE_WIDTH; k++) greatest = most[k] > greatest ? most[k] : greatest;
-  return greatest;
+  return greatest_way(&ways);
+}
+
+double SPORE_LEVEL_NAME(spore_cluster_way)(const SporeClusterList *list) {
+  Ways ways = {0};
+  for (size_t at = 0; at < list->cluster_count * SPORE_CLUSTER_DOUBLES; at += SPORE_CLUSTER_DOUBLES)
+    add_ways(&ways, list->x + at, list->wide_at + at);
+  return greatest_way(&ways);
 }
 
 /* How far [lower, upper] is from an interval, 0 where they meet. */
@@ -41,7 +60,7 @@ SPORE_INLINE SporeVd gap_to(double lower, double upper, SporeVd other_lower, Spo
 size_t SPORE_LEVEL_NAME(spore_cluster_search)(const SporeClusterList *list, size_t cluster, const double image[3],
                                               size_t from, size_t to, uint32_t *found) {
   size_t n = list->particle_count, count = 0;
-  double far = list->reach + list->skin, lower[3], upper[3];
+  double far = list->wide.reach, lower[3], upper[3];
   for (size_t k = 0; k < 3; k++) {
     lower[k] = list->bounds[k * n + cluster] - image[k];
     upper[k] = list->bounds[(3 + k) * n + cluster] - image[k];
@@ -61,9 +80,9 @@ size_t SPORE_LEVEL_NAME(spore_cluster_search)(const SporeClusterList *list, size
   return count;
 }
 
-size_t SPORE_LEVEL_NAME(spore_cluster_refine)(const SporeClusterList *list, size_t group, const double image[3],
-                                              const uint32_t *clusters, size_t count, uint32_t *found) {
-  double far = list->reach + list->skin;
+size_t SPORE_LEVEL_NAME(spore_cluster_refine)(const SporeClusterList *list, double far, size_t group,
+                                              const double image[3], const uint32_t *clusters, size_t count,
+                                              uint32_t *found) {
   const double *xi = list->x + group / SPORE_CLUSTER_GROUPS * SPORE_CLUSTER_DOUBLES +
                      group % SPORE_CLUSTER_GROUPS * SPORE_CLUSTER_ROWS;
   SporeVd row[SPORE_CLUSTER_ROWS][3], far2 = spore_vd_all(far * far);

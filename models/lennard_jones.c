@@ -20,7 +20,6 @@
 #define LIQUID_DENSITY 0.8442
 #define LIQUID_TENSION 0.585
 #define CUTOFF 2.5 /* sigma */
-#define SKIN 0.3   /* sigma */
 #define CORE 0.7   /* sigma: nearer the force does not grow; at 255 epsilon nothing comes there by itself */
 
 typedef struct FluidFields {
@@ -117,7 +116,7 @@ static double extent(const Fluid *fluid, int k) {
 }
 
 static bool check_period(const Fluid *fluid, const double period[3], SporeError *error) {
-  double least = 2 * (CUTOFF + SKIN) * fluid->sigma;
+  double least = 2 * spore_cluster_reach(CUTOFF * fluid->sigma);
   for (int k = 0; k < 3; k++) {
     if (!(period[k] > 0)) continue;
     double room = extent(fluid, k) + CORE * fluid->sigma;
@@ -147,7 +146,7 @@ static bool set_particles(Fluid *fluid, double volume, const FluidFields *fields
   fluid->heat = SPORE_NEW_ARRAY(double, 3 * n);
   fluid->memory = SPORE_NEW(FluidMemory);
   if (!fluid->heat || !fluid->memory ||
-      !spore_cluster_list_init(&fluid->memory->list, n, fields->period, CUTOFF * fluid->sigma, SKIN * fluid->sigma) ||
+      !spore_cluster_list_init(&fluid->memory->list, n, fields->period, CUTOFF * fluid->sigma) ||
       !spore_cluster_list_update(&fluid->memory->list, fluid->rest) || !spore_cluster_list_spare(&fluid->memory->list))
     return no_memory(error);
   fluid->memory->list.made = false;

@@ -77,8 +77,8 @@ SPORE_INLINE void meet_all(const SporeClusterList *list, const SporeLennardJones
   double *f = list->f + part * SPORE_WIDTH;
   size_t cluster = group / SPORE_CLUSTER_GROUPS;
   int first = (int)(group % SPORE_CLUSTER_GROUPS) * ROWS;
-  for (uint32_t r = list->group_runs[group]; r < list->group_runs[group + 1]; r++) {
-    const SporeClusterRun *run = &list->runs[r];
+  for (uint32_t r = list->near.group_runs[group]; r < list->near.group_runs[group + 1]; r++) {
+    const SporeClusterRun *run = &list->near.runs[r];
     load_rows(rows, list->x + cluster * SPORE_CLUSTER_DOUBLES + first, run->image);
     uint32_t e = run->start;
     if (run->own) {
@@ -87,7 +87,7 @@ SPORE_INLINE void meet_all(const SporeClusterList *list, const SporeLennardJones
       e++;
     }
     for (; e < run->end; e++) {
-      size_t at = (size_t)list->entries[e] * SPORE_CLUSTER_DOUBLES;
+      size_t at = (size_t)list->near.entries[e] * SPORE_CLUSTER_DOUBLES;
       meet(rows, law, x + at, f + at, variant, -1, part);
     }
   }
@@ -104,7 +104,7 @@ SPORE_INLINE double all_groups(const SporeClusterList *list, const SporeLennardJ
   double lanes[3 * ROWS][SPORE_LANES], least = law->cutoff2;
   __builtin_memset(list->f, 0, list->cluster_count * SPORE_CLUSTER_DOUBLES * sizeof *list->f);
   for (size_t group = 0; group < list->cluster_count * SPORE_CLUSTER_GROUPS; group++) {
-    if (list->group_runs[group] == list->group_runs[group + 1]) continue;
+    if (list->near.group_runs[group] == list->near.group_runs[group + 1]) continue;
     for (int part = 0; part < PARTS; part++) {
       Rows rows = {.least = spore_vd_all(law->cutoff2)};
       meet_all(list, law, group, part, variant, &rows);
@@ -144,12 +144,12 @@ double SPORE_LEVEL_NAME(spore_lennard_jones_energy)(const SporeClusterList *list
     for (size_t group = 0; group < list->cluster_count * SPORE_CLUSTER_GROUPS; group++) {
       size_t cluster = group / SPORE_CLUSTER_GROUPS;
       int first = (int)(group % SPORE_CLUSTER_GROUPS) * ROWS;
-      for (uint32_t r = list->group_runs[group]; r < list->group_runs[group + 1]; r++) {
-        const SporeClusterRun *run = &list->runs[r];
+      for (uint32_t r = list->near.group_runs[group]; r < list->near.group_runs[group + 1]; r++) {
+        const SporeClusterRun *run = &list->near.runs[r];
         Rows rows;
         load_rows(&rows, list->x + cluster * SPORE_CLUSTER_DOUBLES + first, run->image);
         for (uint32_t e = run->start; e < run->end; e++) {
-          const double *x = list->x + (size_t)list->entries[e] * SPORE_CLUSTER_DOUBLES + part * SPORE_WIDTH;
+          const double *x = list->x + (size_t)list->near.entries[e] * SPORE_CLUSTER_DOUBLES + part * SPORE_WIDTH;
           bool own = run->own && e == run->start;
           for (int a = 0; a < ROWS; a++) {
             SporeVd dx = rows.x[a] - spore_vd_load(x), dy = rows.y[a] - spore_vd_load(x + SPORE_LANES);
