@@ -122,38 +122,74 @@ bool SPORE_LEVEL_NAME(spore_cholesky_eliminate)(size_t columns, size_t rows, dou
   return true;
 }
 
-typedef float Narrow __attribute__((vector_size(4 * SPORE_WIDTH)));
-typedef float NarrowUnaligned __attribute__((vector_size(4 * SPORE_WIDTH), aligned(4), may_alias));
+/* Floats of a vector: a group of lanes, or half of one. */
+#define FLOATS (SPORE_WIDTH == 2 ? 4 : SPORE_LANES)
+#define WIDE (FLOATS / SPORE_WIDTH)
 
-void SPORE_LEVEL_NAME(spore_cholesky_round)(size_t count, const double *from, float *to) {
-  for (size_t i = 0; i < count; i += SPORE_WIDTH)
-    *(NarrowUnaligned *)(to + i) = __builtin_convertvector(spore_vd_load(from + i), Narrow);
-}
+typedef float Floats __attribute__((vector_size(4 * FLOATS)));
+typedef float FloatsUnaligned __attribute__((vector_size(4 * FLOATS), aligned(4), may_alias));
 
-/* In one instruction: a conversion of vectors in general is several. */
-SPORE_INLINE SporeVd widen(const float *a) {
+SPORE_INLINE Floats load_floats(const void *a, size_t i) { return *(const FloatsUnaligned *)((const float *)a + i); }
+SPORE_INLINE Floats all_floats(double a) { return (float)a - (Floats){0}; }
+
+/* In an instruction or two: a conversion of vectors in general is several. */
+SPORE_INLINE void widen(Floats a, SporeVd wide[WIDE]) {
 #if SPORE_WIDTH == 8
-  return (SporeVd)_mm512_cvtps_pd(_mm256_loadu_ps(a));
+  wide[0] = (SporeVd)_mm512_cvtps_pd((__m256)a);
 #elif SPORE_WIDTH == 4
-  return (SporeVd)_mm256_cvtps_pd(_mm_loadu_ps(a));
+  wide[0] = (SporeVd)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)a));
+  wide[1] = (SporeVd)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)a, 1));
 #else
-  return __builtin_convertvector((Narrow) * (const NarrowUnaligned *)a, SporeVd);
+  wide[0] = (SporeVd){a[0], a[1]};
+  wide[1] = (SporeVd){a[2], a[3]};
+#endif
+}
+SPORE_INLINE Floats narrow(const double *a) {
+#if SPORE_WIDTH == 8
+  return (Floats)_mm512_cvtpd_ps(_mm512_loadu_pd(a));
+#elif SPORE_WIDTH == 4
+  return (Floats)_mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(a + 4)), _mm256_cvtpd_ps(_mm256_loadu_pd(a)));
+#else
+  return (Floats){(float)a[0], (float)a[1], (float)a[2], (float)a[3]};
 #endif
 }
 
-/* Numbers from the i-th of a factor on. */
-SPORE_INLINE SporeVd load_entries(const void *a, size_t i, bool rounded) {
-  return rounded ? widen((const float *)a + i) : spore_vd_load((const double *)a + i);
+void SPORE_LEVEL_NAME(spore_cholesky_round)(size_t count, const double *from, float *to) {
+  for (size_t i = 0; i < count; i += FLOATS) *(FloatsUnaligned *)(to + i) = narrow(from + i);
 }
 
-/* y = a x, or y += a x, for the rows from `first` to `ld` and some columns: down the columns, as they lie in memory. */
-SPORE_INLINE void multiply_columns(int columns, size_t first, size_t ld, const void *a, size_t column, bool rounded,
-                                   bool add, const double *x, double *y) {
+/* What both ways of storing a factor share: y = a x, or y += a x, for the rows from `first` to `ld` and some columns,
+ * down the columns, as they lie in memory. */
+SPORE_INLINE void multiply_doubles(int columns, size_t first, size_t ld, const double *a, bool add, const double *x,
+                                   double *y) {
   for (size_t i = first; i < ld; i += SPORE_WIDTH) {
-    SporeVd sum = load_entries(a, column * ld + i, rounded) * x[0];
-    for (size_t j = 1; j < (size_t)columns; j++) sum += load_entries(a, (column + j) * ld + i, rounded) * x[j];
+    SporeVd sum = spore_vd_load(a + i) * x[0];
+    for (size_t j = 1; j < (size_t)columns; j++) sum += spore_vd_load(a + j * ld + i) * x[j];
     spore_vd_store(y + i, add ? spore_vd_load(y + i) + sum : sum);
   }
+}
+
+/* Products are as exact as the factor; their sums over more columns are doubles. */
+SPORE_INLINE void multiply_floats(int columns, size_t first, size_t ld, const float *a, bool add, const double *x,
+                                  double *y) {
+  Floats weight[6];
+  for (size_t j = 0; j < (size_t)columns; j++) weight[j] = all_floats(x[j]);
+  for (size_t i = first; i < ld; i += FLOATS) {
+    Floats sum = load_floats(a, i) * weight[0];
+    for (size_t j = 1; j < (size_t)columns; j++) sum += load_floats(a, j * ld + i) * weight[j];
+    SporeVd wide[WIDE];
+    widen(sum, wide);
+    for (size_t p = 0; p < WIDE; p++) {
+      double *place = y + i + p * SPORE_WIDTH;
+      spore_vd_store(place, add ? spore_vd_load(place) + wide[p] : wide[p]);
+    }
+  }
+}
+
+SPORE_INLINE void multiply_columns(int columns, size_t first, size_t ld, const void *a, size_t column, bool rounded,
+                                   bool add, const double *x, double *y) {
+  if (rounded) multiply_floats(columns, first, ld, (const float *)a + column * ld, add, x, y);
+  else multiply_doubles(columns, first, ld, (const double *)a + column * ld, add, x, y);
 }
 
 /* y = a x; lower: a is a lower triangle. */
@@ -179,16 +215,34 @@ void SPORE_LEVEL_NAME(spore_cholesky_forward)(size_t columns, size_t rows, const
 }
 
 /* y_j = the sum over rows of a(i, j) x(i), for three or six columns. */
-SPORE_INLINE void dot_tile(int columns, size_t first, size_t ld, const void *a, size_t column, bool rounded,
-                           const double *x, double *y) {
+SPORE_INLINE void dot_doubles(int columns, size_t first, size_t ld, const double *a, const double *x, double *y) {
   SporeVd sum[6][PARTS] = {0};
   for (size_t i = first; i < ld; i += SPORE_LANES)
     for (size_t p = 0; p < PARTS; p++) {
       SporeVd part = spore_vd_load(x + i + p * SPORE_WIDTH);
-      for (size_t j = 0; j < (size_t)columns; j++)
-        sum[j][p] += load_entries(a, (column + j) * ld + i + p * SPORE_WIDTH, rounded) * part;
+      for (size_t j = 0; j < (size_t)columns; j++) sum[j][p] += spore_vd_load(a + j * ld + i + p * SPORE_WIDTH) * part;
     }
   for (int j = 0; j < columns; j++) y[j] = spore_parts_sum(sum[j]);
+}
+
+SPORE_INLINE void dot_floats(int columns, size_t first, size_t ld, const float *a, const double *x, double *y) {
+  Floats sum[6][SPORE_LANES / FLOATS] = {0};
+  for (size_t i = first; i < ld; i += SPORE_LANES)
+    for (size_t p = 0; p < SPORE_LANES / FLOATS; p++) {
+      Floats part = narrow(x + i + p * FLOATS);
+      for (size_t j = 0; j < (size_t)columns; j++) sum[j][p] += load_floats(a, j * ld + i + p * FLOATS) * part;
+    }
+  for (int j = 0; j < columns; j++) {
+    SporeVd parts[PARTS];
+    for (size_t p = 0; p < SPORE_LANES / FLOATS; p++) widen(sum[j][p], parts + p * WIDE);
+    y[j] = spore_parts_sum(parts);
+  }
+}
+
+SPORE_INLINE void dot_tile(int columns, size_t first, size_t ld, const void *a, size_t column, bool rounded,
+                           const double *x, double *y) {
+  if (rounded) dot_floats(columns, first, ld, (const float *)a + column * ld, x, y);
+  else dot_doubles(columns, first, ld, (const double *)a + column * ld, x, y);
 }
 
 SPORE_INLINE void multiply_transposed(size_t columns, size_t ld, const void *a, bool rounded, const double *x,

@@ -5,7 +5,7 @@
 
 #include "core/sim/fold.h"
 
-#define FLOPS_TO_ROUND 6e6 /* of a solution: its factor, 2 bytes a flop, is read faster where it is smaller */
+#define FLOPS_TO_ROUND 1e5 /* of a solution: below, its factor is quick to read as it is */
 
 static double *block_stiffness(const SporeGroup *group) {
   return group->world->block_stiffness + group->island->v_start / 3;
