@@ -6,8 +6,7 @@
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
 
-/* The selected body, else the only one that shows a mesh; complains where there is none. */
-static SporeObject *body_to_work_on(SporeWindow *self) {
+SporeObject *spore_window_body_to_work_on(SporeWindow *self) {
   SporeObject *selected = spore_editor_document_selected_body(self->document);
   if (selected) return selected;
   SporeObject *bodies = spore_document_section(document_of(self), "bodies"), *only = NULL;
@@ -77,7 +76,7 @@ static void act_unset_property(GSimpleAction *action, GVariant *parameter, gpoin
 
 static void act_set_model(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
-  SporeObject *body = body_to_work_on(self);
+  SporeObject *body = spore_window_body_to_work_on(self);
   g_autoptr(GError) error = NULL;
   if (body && !spore_edit_set_model(document_of(self), body, g_variant_get_string(parameter, NULL), &error))
     spore_window_failed(self, error);
@@ -85,7 +84,7 @@ static void act_set_model(GSimpleAction *action, GVariant *parameter, gpointer d
 
 static void act_use_preset(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
-  SporeObject *body = body_to_work_on(self);
+  SporeObject *body = spore_window_body_to_work_on(self);
   g_autoptr(GError) error = NULL;
   if (body && !spore_edit_use_preset(document_of(self), body, g_variant_get_string(parameter, NULL), &error))
     spore_window_failed(self, error);
@@ -106,7 +105,7 @@ static void act_add_probe(GSimpleAction *action, GVariant *parameter, gpointer d
 
 static void act_add_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
-  SporeObject *body = body_to_work_on(self);
+  SporeObject *body = spore_window_body_to_work_on(self);
   g_autoptr(GError) error = NULL;
   if (body && !spore_edit_add_pin(document_of(self), body, &error)) spore_window_failed(self, error);
 }
@@ -157,7 +156,7 @@ static void tetrahedra_generated(SporeJob *job, gpointer data, const GError *err
 
 static SporeGenerateWork *work_on_body(SporeWindow *self) {
   g_autoptr(GError) error = NULL;
-  SporeObject *body = body_to_work_on(self);
+  SporeObject *body = spore_window_body_to_work_on(self);
   SporeGenerateWork *work = body ? spore_generate_work_new(document_of(self), body, &error) : NULL;
   if (error) spore_window_failed(self, error);
   return work;

@@ -1,11 +1,8 @@
 #include <glib/gi18n.h>
 
 #include "core/base/memory.h"
-#include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
-#include "ui/dialogs/spore-import-dialog.h"
 #include "ui/document/asset-readers.h"
-#include "ui/document/edits.h"
 #include "ui/jobs/works.h"
 #include "ui/spore-window-private.h"
 
@@ -118,51 +115,7 @@ void spore_window_recover(SporeWindow *self) {
   start_open(self, work);
 }
 
-/* Importing. */
-
-static void imported(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
-  SporeWindow *self = owner;
-  SporeImportWork *work = data;
-  g_autoptr(GError) failure = NULL;
-  if (spore_window_failed(self, error) || !self->document) return;
-  SporeDocument *document = spore_editor_document_get(self->document);
-  SporeObject *body = spore_edit_add_organ(document, work->file, work->content, work->unit, work->frame, &failure);
-  if (!body) {
-    spore_window_failed(self, failure);
-    return;
-  }
-  spore_editor_document_select(self->document, spore_object_id(body));
-  spore_window_log(self, _("Imported %s: %zu triangles"), work->file, work->mesh.triangle_count);
-}
-
-void spore_window_start_import(SporeWindow *self, const char *file, int unit, int frame) {
-  g_autofree char *base = g_path_get_basename(file);
-  g_autofree char *title = g_strdup_printf(_("Importing %s"), base);
-  spore_window_start_job(self, title, spore_import_work_run, spore_import_work_new(file, unit, frame),
-                         spore_import_work_free, imported);
-}
-
-static void import_answered(GtkDialog *dialog, int response, SporeWindow *self) {
-  SporeImportDialog *import = SPORE_IMPORT_DIALOG(dialog);
-  g_autofree char *file = spore_import_dialog_get_file(import);
-  if (response == GTK_RESPONSE_ACCEPT && file)
-    spore_window_start_import(self, file, spore_import_dialog_get_unit(import), spore_import_dialog_get_frame(import));
-  gtk_widget_destroy(GTK_WIDGET(dialog));
-}
-
-void spore_window_show_import_dialog(SporeWindow *self, const char *file) {
-  GtkWidget *dialog = spore_import_dialog_new(GTK_WINDOW(self), file);
-  g_signal_connect_object(dialog, "response", G_CALLBACK(import_answered), self, 0);
-  gtk_window_present(GTK_WINDOW(dialog));
-}
-
 /* Actions. */
-
-static int index_of(const char *const *names, const char *name) {
-  for (int i = 0; names[i]; i++)
-    if (g_str_equal(names[i], name)) return i;
-  return -1;
-}
 
 static void act_new(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
@@ -186,19 +139,6 @@ static void act_open_demo(GSimpleAction *action, GVariant *parameter, gpointer d
   g_autofree char *file = spore_application_get_demo(application_of(data));
   if (file) spore_window_open(data, file);
   else spore_window_complain(data, _("The demo scene is not installed"));
-}
-
-static void act_import(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  const char *file, *unit, *frame;
-  g_variant_get(parameter, "(&s&s&s)", &file, &unit, &frame);
-  int unit_index = index_of(spore_length_units, unit), frame_index = index_of(spore_mesh_frames, frame);
-  if (unit_index < 0 || frame_index < 0)
-    spore_window_complain(data, _("The unit is one of m, cm, mm, um, in and the frame one of Y_UP, RAS, LPS"));
-  else spore_window_start_import(data, file, unit_index, frame_index);
-}
-
-static void act_import_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  spore_window_show_import_dialog(data, NULL);
 }
 
 static void act_save(GSimpleAction *action, GVariant *parameter, gpointer data) { spore_window_save(data); }
@@ -241,8 +181,6 @@ void spore_window_add_file_actions(SporeWindow *self) {
       {"open", act_open, "s"},
       {"open-dialog", act_open_dialog},
       {"open-demo", act_open_demo},
-      {"import", act_import, "(sss)"},
-      {"import-dialog", act_import_dialog},
       {"save", act_save},
       {"save-as", act_save_as, "s"},
       {"save-as-dialog", act_save_as_dialog},

@@ -25,7 +25,8 @@ struct _SporeWindow {
   SporeLeftover *leftover;
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
-  gboolean fresh, sure; /* sure: the user has answered about unsaved changes */
+  GMenu *mesh_operations; /* in the menu */
+  gboolean fresh, sure;   /* sure: the user has answered about unsaved changes */
 };
 
 /* Frame. */
@@ -42,15 +43,20 @@ void spore_window_set_enabled(SporeWindow *self, const char *action, gboolean en
 
 /* Files. */
 void spore_window_add_file_actions(SporeWindow *self);
-void spore_window_start_import(SporeWindow *self, const char *file, int unit, int frame);
-void spore_window_show_import_dialog(SporeWindow *self, const char *file);
 /* Asks about unsaved changes; TRUE: go on. */
 gboolean spore_window_may_leave(SporeWindow *self);
 /* Saves, asking for a name where there is none; FALSE: not saved. */
 gboolean spore_window_save(SporeWindow *self);
 void spore_window_recover(SporeWindow *self);
 
+/* Meshes. */
+void spore_window_add_mesh_actions(SporeWindow *self);
+/* files: NULL-terminated, or NULL: none yet. */
+void spore_window_show_import_dialog(SporeWindow *self, const char *const *files);
+
 /* Scene. */
 void spore_window_add_scene_actions(SporeWindow *self);
+/* The selected body, else the only one that shows a mesh; NULL: said to the user. */
+SporeObject *spore_window_body_to_work_on(SporeWindow *self);
 
 #endif

@@ -163,6 +163,9 @@ void spore_window_update_actions(SporeWindow *self) {
   spore_window_set_enabled(self, "add-pin", bodies);
   spore_window_set_enabled(self, "import", idle);
   spore_window_set_enabled(self, "import-dialog", idle);
+  spore_window_set_enabled(self, "import-dialog-with", idle);
+  spore_window_set_enabled(self, "change-mesh", idle && bodies);
+  spore_window_set_enabled(self, "change-mesh-dialog", idle && bodies);
   spore_window_set_enabled(self, "cancel-job", !idle);
   spore_window_set_enabled(self, "play", bodies && !playing);
   spore_window_set_enabled(self, "pause", playing);
@@ -249,12 +252,17 @@ static gboolean close_asked(GtkWidget *widget, GdkEvent *event, SporeWindow *sel
 static void files_dropped(GtkWidget *widget, GdkDragContext *context, int x, int y, GtkSelectionData *data, guint info,
                           guint time, SporeWindow *self) {
   g_auto(GStrv) uris = gtk_selection_data_get_uris(data);
-  g_autofree char *file = uris && uris[0] ? g_filename_from_uri(uris[0], NULL, NULL) : NULL;
-  gtk_drag_finish(context, file != NULL, FALSE, time);
-  if (!file) return;
-  if (g_str_has_suffix(file, ".spore"))
-    g_action_group_activate_action(G_ACTION_GROUP(self), "open", g_variant_new_string(file));
-  else spore_window_show_import_dialog(self, file);
+  g_autoptr(GPtrArray) files = g_ptr_array_new_with_free_func(g_free);
+  for (char **uri = uris; uri && *uri; uri++) {
+    char *file = g_filename_from_uri(*uri, NULL, NULL);
+    if (file) g_ptr_array_add(files, file);
+  }
+  gtk_drag_finish(context, files->len > 0, FALSE, time);
+  if (files->len == 0) return;
+  g_ptr_array_add(files, NULL);
+  if (g_str_has_suffix(files->pdata[0], ".spore"))
+    g_action_group_activate_action(G_ACTION_GROUP(self), "open", g_variant_new_string(files->pdata[0]));
+  else spore_window_show_import_dialog(self, (const char *const *)files->pdata);
 }
 
 static void spore_window_dispose(GObject *object) {
@@ -289,6 +297,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_label);
   gtk_widget_class_bind_template_child(widget, SporeWindow, job_bar);
   gtk_widget_class_bind_template_child(widget, SporeWindow, renderer);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, mesh_operations);
 }
 
 static void spore_window_class_init(SporeWindowClass *class) {
@@ -312,6 +321,7 @@ static void spore_window_init(SporeWindow *self) {
   self->recovery = spore_recovery_new();
   gtk_widget_init_template(GTK_WIDGET(self));
   spore_window_add_file_actions(self);
+  spore_window_add_mesh_actions(self);
   spore_window_add_scene_actions(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
   gtk_drag_dest_add_uri_targets(GTK_WIDGET(self));

@@ -3,11 +3,13 @@
  * Its actions are the whole of what menus, keys and buttons do, and may be driven over D-Bus (org.gtk.Actions on
  * /org/spore/Editor/window/N). Parameters in brackets, s: text, u: number.
  *
- *   files       new, open [s path], open-dialog, open-demo, import [s path, s unit, s frame], import-dialog, save,
+ *   files       new, open [s path], open-dialog, open-demo, import [s path, s unit, s frame], import-dialog,
+ *               import-dialog-with [as paths], save,
  *               save-as [s path], save-as-dialog, save-recording [s path], save-recording-dialog, close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
  *               set-property [s path, s name, s value], unset-property [s path, s name], set-model [s element],
  * use-preset [s name], generate-spheres [u count], generate-tetrahedra [u cells], add-probe, add-pin, cancel-job
+ *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state]
  *   view        tool [s "select" or "probe"; state], show-surfaces, show-spheres, show-tetrahedra, show-contacts
  * (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector, show-problems (state), filter

@@ -8,7 +8,7 @@
 
 #define LAMBDA 0.5
 #define MU (-0.53)
-#define VOLUME_ROUNDS 8
+#define VOLUME_ROUNDS 12
 #define VOLUME_TOLERANCE 1e-10 /* of the volume */
 
 /* Who is pulled by whom: pairs of vertices on an edge. A vertex on an open edge is pulled along open edges alone, so
@@ -21,6 +21,7 @@ typedef struct Smoothing {
   bool *open;       /* vertex_count: on an open edge */
   uint32_t *degree; /* vertex_count: neighbours that pull */
   double *pull;     /* vertex_count x 3 */
+  double *normals;  /* vertex_count x 3 */
   double *before;   /* vertex_count x 3: to go back to when cancelled */
 } Smoothing;
 
@@ -64,22 +65,24 @@ static void diffuse(Smoothing *s, double factor) {
                             spore_vec3_scale(factor / (double)s->degree[i], spore_vec3_load(s->pull + 3 * i)));
 }
 
-/* Volume and area of a piece; about its first corner, so that one far from the origin loses no digits. */
+/* Volume of a piece, about its first corner, so that one far from the origin loses no digits; and how it grows, m^2,
+ * with a step of all its vertices along their normals. */
 typedef struct Piece {
   SporeVec3 origin;
-  double wanted, volume, area;
+  double wanted, volume, growth;
   bool open, started;
 } Piece;
 
-static void measure(const Smoothing *s, const uint32_t *pieces, Piece *piece, size_t count) {
-  for (size_t p = 0; p < count; p++) piece[p].volume = piece[p].area = 0, piece[p].started = false;
+static void measure(const Smoothing *s, const uint32_t *pieces, const double *normals, Piece *piece, size_t count) {
+  for (size_t p = 0; p < count; p++) piece[p].volume = piece[p].growth = 0, piece[p].started = false;
   for (size_t t = 0; t < s->mesh->triangle_count; t++) {
     const uint32_t *v = s->mesh->triangles + 3 * t;
     Piece *to = piece + pieces[t];
     SporeVec3 a = spore_mesh_vertex(s->mesh->vertices, v[0]), b = spore_mesh_vertex(s->mesh->vertices, v[1]),
               c = spore_mesh_vertex(s->mesh->vertices, v[2]);
     if (!to->started) to->origin = a, to->started = true;
-    to->area += spore_vec3_length(spore_mesh_area_vector(a, b, c));
+    SporeVec3 area = spore_mesh_area_vector(a, b, c);
+    for (int k = 0; k < 3; k++) to->growth += spore_vec3_dot(area, spore_mesh_vertex(normals, v[k])) / 3;
     to->volume += spore_vec3_dot(spore_vec3_sub(a, to->origin),
                                  spore_vec3_cross(spore_vec3_sub(b, to->origin), spore_vec3_sub(c, to->origin))) /
                   6;
@@ -87,28 +90,32 @@ static void measure(const Smoothing *s, const uint32_t *pieces, Piece *piece, si
   }
 }
 
-/* Moves the vertices of each closed piece along their normals by (volume wanting) / area, a few times. A vertex that
+static void measure_anew(Smoothing *s, const uint32_t *pieces, Piece *piece, size_t count) {
+  spore_triangle_mesh_normals(s->mesh->vertices, s->mesh->vertex_count, s->mesh->triangles, s->mesh->triangle_count,
+                              s->normals);
+  measure(s, pieces, s->normals, piece, count);
+}
+
+/* Moves the vertices of each closed piece along their normals until it has its volume back (Newton). A vertex that
  * pieces share takes the step of the last of them. */
 static bool restore_volumes(Smoothing *s, const uint32_t *pieces, Piece *piece, size_t count) {
   size_t n = s->mesh->vertex_count;
-  double *normals = SPORE_NEW_ARRAY(double, 3 * n), *step = SPORE_NEW_ARRAY(double, n);
-  bool off = normals && step;
+  double *step = SPORE_NEW_ARRAY(double, n);
+  bool off = step != NULL;
   for (int round = 0; off && round < VOLUME_ROUNDS; round++) {
-    measure(s, pieces, piece, count);
-    spore_triangle_mesh_normals(s->mesh->vertices, n, s->mesh->triangles, s->mesh->triangle_count, normals);
+    measure_anew(s, pieces, piece, count);
     off = false;
     for (size_t t = 0; t < s->mesh->triangle_count; t++) {
       const Piece *of = piece + pieces[t];
       double wanting = of->wanted - of->volume;
-      bool moves = !of->open && of->area > 0 && fabs(wanting) > VOLUME_TOLERANCE * fabs(of->wanted);
+      bool moves = !of->open && of->growth > 0 && fabs(wanting) > VOLUME_TOLERANCE * fabs(of->wanted);
       off |= moves;
-      for (int k = 0; k < 3; k++) step[s->mesh->triangles[3 * t + (size_t)k]] = moves ? wanting / of->area : 0;
+      for (int k = 0; k < 3; k++) step[s->mesh->triangles[3 * t + (size_t)k]] = moves ? wanting / of->growth : 0;
     }
     for (size_t i = 0; i < n; i++)
-      spore_vec3_accumulate(s->mesh->vertices + 3 * i, spore_vec3_scale(step[i], spore_vec3_load(normals + 3 * i)));
+      spore_vec3_accumulate(s->mesh->vertices + 3 * i, spore_vec3_scale(step[i], spore_vec3_load(s->normals + 3 * i)));
   }
-  bool done = normals && step;
-  spore_free(normals);
+  bool done = step != NULL;
   spore_free(step);
   return done;
 }
@@ -119,7 +126,7 @@ static bool run(Smoothing *s, size_t rounds, const SporeProgress *progress, Spor
   if (!spore_triangle_mesh_pieces(s->mesh, &pieces, &count, error)) return false;
   Piece *piece = SPORE_NEW_ARRAY(Piece, count);
   bool done = piece != NULL || spore_mesh_no_memory(error);
-  if (done) measure(s, pieces, piece, count);
+  if (done) measure_anew(s, pieces, piece, count);
   for (size_t p = 0; done && p < count; p++) piece[p].wanted = piece[p].volume;
   for (size_t i = 0; done && i < rounds; i++) {
     if (!spore_progress(progress, (double)i / (double)rounds, _("smoothing")))
@@ -141,8 +148,9 @@ bool spore_triangle_mesh_smooth(SporeTriangleMesh *mesh, size_t rounds, const Sp
                  .open = SPORE_NEW_ARRAY(bool, n),
                  .degree = SPORE_NEW_ARRAY(uint32_t, n),
                  .pull = SPORE_NEW_ARRAY(double, 3 * n),
+                 .normals = SPORE_NEW_ARRAY(double, 3 * n),
                  .before = SPORE_NEW_ARRAY(double, 3 * n)};
-  bool ready = s.open && s.degree && s.pull && s.before && collect_edges(&s), done = false;
+  bool ready = s.open && s.degree && s.pull && s.normals && s.before && collect_edges(&s), done = false;
   if (ready) {
     memcpy(s.before, mesh->vertices, 3 * n * sizeof(double));
     count_neighbours(&s);
@@ -154,6 +162,7 @@ bool spore_triangle_mesh_smooth(SporeTriangleMesh *mesh, size_t rounds, const Sp
   spore_free(s.open);
   spore_free(s.degree);
   spore_free(s.pull);
+  spore_free(s.normals);
   spore_free(s.before);
   return done;
 }

@@ -10,7 +10,9 @@
 #include "ui/document/asset-readers.h"
 #include "ui/document/edits.h"
 #include "ui/document/labels.h"
+#include "ui/document/mesh-edits.h"
 #include "ui/document/recovery.h"
+#include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/jobs/works.h"
 #include "ui/sim/spore-player.h"
@@ -36,13 +38,26 @@ static void tear_down(Fixture *fixture, gconstpointer data) {
   spore_schema_free(fixture->schema);
 }
 
-static SporeObject *add_organ(Fixture *fixture) {
+/* Imports a file of that content, which is gone afterwards. */
+static SporeObject *add_content(Fixture *fixture, const char *content) {
   GError *error = NULL;
-  g_autoptr(GBytes) content = g_bytes_new_static(tetrahedron_off, strlen(tetrahedron_off));
-  SporeObject *body = spore_edit_add_organ(fixture->document, "/some/where/my organ.off", content, 0, 0, &error);
+  g_autofree char *folder = g_dir_make_tmp("spore-author-XXXXXX", NULL);
+  g_autofree char *file = g_build_filename(folder, "my organ.off", NULL);
+  char *files[] = {file, NULL};
+  SporeImportOptions options = {.frame = -1};
+  g_file_set_contents(file, content, -1, &error);
+  SporeImportWork *work = spore_import_work_new(files, &options);
+  spore_import_work_run(work, NULL, &error);
   g_assert_no_error(error);
+  SporeObject *body = spore_edit_import(fixture->document, work->import, options.unit, &error);
+  g_assert_no_error(error);
+  spore_import_work_free(work);
+  g_remove(file);
+  g_rmdir(folder);
   return body;
 }
+
+static SporeObject *add_organ(Fixture *fixture) { return add_content(fixture, tetrahedron_off); }
 
 static char *text_of(Fixture *fixture) {
   gsize size;
@@ -74,16 +89,33 @@ static void test_add_organ(Fixture *fixture, gconstpointer data) {
 
 /* Another file of the same name gets a name of its own; the same file is kept once. */
 static void test_add_twice(Fixture *fixture, gconstpointer data) {
-  GError *error = NULL;
   SporeObject *first = add_organ(fixture), *second = add_organ(fixture);
   g_assert_cmpstr(spore_object_name(second), !=, spore_object_name(first));
   const char *file = spore_object_text(spore_edit_visual_mesh(fixture->document, first, NULL), "file");
   g_assert_cmpstr(spore_object_text(spore_edit_visual_mesh(fixture->document, second, NULL), "file"), ==, file);
   g_autofree char *other = g_strconcat(tetrahedron_off, "# another\n", NULL);
-  g_autoptr(GBytes) content = g_bytes_new(other, strlen(other));
-  SporeObject *third = spore_edit_add_organ(fixture->document, "my organ.off", content, 0, 0, &error);
-  g_assert_no_error(error);
+  SporeObject *third = add_content(fixture, other);
   g_assert_cmpstr(spore_object_text(spore_edit_visual_mesh(fixture->document, third, NULL), "file"), !=, file);
+}
+
+/* A changed mesh takes the place of the old one as one step, and a result that is out of date has no place. */
+static void test_change_mesh(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeObject *mesh = spore_edit_visual_mesh(fixture->document, add_organ(fixture), NULL);
+  g_autofree char *before = text_of(fixture);
+  double volume = 0.001 / 6;
+  for (int i = 0; i < 2; i++) {
+    SporeMeshWork *work = spore_mesh_work_new(fixture->document, mesh, SPORE_MESH_SMOOTH, 3, &error);
+    g_assert_true(spore_mesh_work_run(work, NULL, &error));
+    g_assert_cmpfloat_with_epsilon(work->change.after.report.volume, volume, 1e-9 * volume);
+    g_assert_cmpfloat(work->change.moved, >, 0);
+    g_assert_true(spore_mesh_work_asset(work, fixture->document) == mesh);
+    g_assert_true(spore_edit_change_mesh(fixture->document, mesh, "Smooth", &work->mesh, &error));
+    g_assert_null(spore_mesh_work_asset(work, fixture->document));
+    spore_mesh_work_free(work);
+    if (i == 0) assert_one_step(fixture, before);
+  }
+  g_assert_cmpuint(spore_document_mesh(fixture->document, mesh, NULL)->triangle_count, ==, 4);
 }
 
 static void use_spheres(Fixture *fixture, SporeObject *body, double radius) {
@@ -281,10 +313,11 @@ static void test_import_refuses(Fixture *fixture, gconstpointer data) {
   g_autofree char *empty = g_build_filename(folder, "empty.off", NULL);
   g_autofree char *missing = g_build_filename(folder, "missing.off", NULL);
   g_assert_true(g_file_set_contents(empty, "", 0, NULL));
-  const char *files[] = {folder, empty, missing};
+  char *files[] = {folder, empty, missing};
   for (gsize i = 0; i < G_N_ELEMENTS(files); i++) {
     g_autoptr(GError) error = NULL;
-    SporeImportWork *work = spore_import_work_new(files[i], 0, 0);
+    char *const one[] = {files[i], NULL};
+    SporeImportWork *work = spore_import_work_new(one, &(SporeImportOptions){.frame = -1});
     g_assert_false(spore_import_work_run(work, NULL, &error));
     g_assert_true(g_str_has_prefix(error->message, files[i]));
     spore_import_work_free(work);
@@ -419,6 +452,7 @@ int main(int argc, char **argv) {
     void (*run)(Fixture *fixture, gconstpointer data);
   } tests[] = {
       {"add-organ", test_add_organ},
+      {"change-mesh", test_change_mesh},
       {"add-twice", test_add_twice},
       {"use-spheres", test_use_spheres},
       {"usual-model", test_usual_model},

@@ -96,6 +96,80 @@ def import_undo_redo():
         ui.wait(lambda: editor.row("ball"), "the organ to come back")
 
 
+def inside(editor, dialog, role, name):
+    """A widget of a dialog, where the window has one of that name too."""
+    box = editor.find("dialog", dialog)
+    return next(node for node in editor.walk(box) if node.get_role_name() == role and re.search(name, node.get_name() or ""))
+
+
+@check
+def import_of_several_meshes():
+    """the import dialog shows what files become before anything is done: unit guessed and said, holes filled, one undo step."""
+    vertices, triangles = shapes.sphere(radius=20)
+    holed = folder("meshes") / "holed.off"
+    holed.write_bytes(shapes.off(vertices, triangles[6:]))
+    both = folder("meshes") / "both.off"
+    both.write_bytes(shapes.off(*shapes.joined(shapes.sphere(radius=30), shapes.sphere(radius=10, centre=(60, 0, 0)))))
+    with start() as editor:
+        editor.act("import-dialog-with", "as", [str(holed), str(both)])
+        editor.find("dialog", "Import mesh")
+        editor.find("label", "2 bodies; the unit, mm, is guessed")
+        editor.find("table cell", r"^8$")  # open edges
+        editor.press(editor.find("check box", "Fill holes"))
+        editor.find("table cell", r"^8 → 0$")
+        editor.set_number(editor.find("spin button", "rounds", showing=False), 3)
+        combo = inside(editor, "Import mesh", "combo box", "^One of each file$")
+        editor.atspi.Selection.select_child(combo, 3)
+        editor.find("label", "^3 bodies")
+        editor.press(inside(editor, "Import mesh", "push button", "^Import$"))
+        ui.wait(lambda: editor.row("holed") and editor.row("both") and editor.row("both-2"), "three organs")
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("holed") and not editor.row("both"), "all of them to go")
+        assert not editor.enabled("undo")
+
+
+@check
+def a_wrong_unit_is_doubted():
+    """the import dialog says which unit would make an organ of a mesh, and takes back what it said when that is chosen."""
+    large = folder("meshes") / "large.off"
+    large.write_bytes(shapes.off(*shapes.sphere(radius=60)))
+    with start() as editor:
+        editor.act("import-dialog-with", "as", [str(large)])
+        editor.find("label", "the unit, mm, is guessed")
+        combo = inside(editor, "Import mesh", "combo box", "^mm$")
+        editor.atspi.Selection.select_child(combo, 0)
+        editor.find("label", "208 m across: is the unit right. in mm it would be 208 mm across")
+        editor.atspi.Selection.select_child(combo, 2)
+        ui.wait(lambda: not editor.look("label", "is the unit right"), "the doubt to go")
+        editor.press(editor.find("push button", "^Cancel$"))
+        ui.wait(lambda: not editor.look("dialog", "Import mesh"), "the dialog to close")
+        assert not editor.row("large")
+
+
+@check
+def a_mesh_of_the_scene_is_changed():
+    """an operation on a mesh is one step, says the figures before and after, and asks for its number first."""
+    vertices, triangles = shapes.sphere()
+    path = folder("meshes") / "open.off"
+    path.write_bytes(shapes.off(vertices, triangles[6:]))
+    with start() as editor:
+        editor.act("import", "(sss)", (str(path), "m", "Y_UP"))
+        ui.wait(lambda: editor.row("open") and editor.enabled("change-mesh"), "the organ")
+        editor.act("change-mesh-dialog", "s", "fill-holes")
+        dialog = editor.find("dialog", "Fill holes")
+        editor.find("label", "open: 522 triangles, pieces: 1, open edges: 8")
+        editor.press(editor.find("push button", "^Apply$"))
+        editor.find("label", "closed")
+        editor.act("change-mesh", "(sd)", ("smooth", 5.0))
+        ui.wait(lambda: editor.enabled("change-mesh"), "the smoothing to end")
+        editor.press(editor.find("radio button", "^Log$"))
+        text = editor.text_of(editor.find("text", "Log"))
+        assert re.search("Fill holes: before 522 triangles.*open edges: 8.*after 528 triangles.*open edges: 0", text), text
+        assert re.search("Smooth: before .*after .*moved by up to .* [um]m", text), text
+        assert undo_all(editor) == 3
+        assert not editor.row("open")
+
+
 @check
 def spheres_with_their_error():
     """spheres are generated with a count, say their error, and undo as one step."""

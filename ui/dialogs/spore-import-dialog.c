@@ -3,132 +3,189 @@
 #include <glib/gi18n.h>
 
 #include "core/io/mesh_import.h"
+#include "ui/dialogs/spore-mesh-dialog.h"
+#include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
-#include "ui/jobs/works.h"
 #include "ui/panels/report.h"
 
-/* Organs and instruments lie between; outside a warning is given. */
-#define SMALLEST_M 0.003
-#define LARGEST_M 1.0
-/* The unit is guessed so that the mesh becomes at least this large, and not larger than LARGEST_M. */
-#define USUAL_M 0.02
+#define SETTLE_MS 250 /* after a choice, before it is worked out */
+
+enum {
+  COLUMN_BODY,
+  COLUMN_SIZE,
+  COLUMN_TRIANGLES,
+  COLUMN_PIECES,
+  COLUMN_OPEN,
+  COLUMN_TANGLED,
+  COLUMN_VOLUME,
+  COLUMN_MOVED
+};
 
 struct _SporeImportDialog {
   GtkDialog parent;
-  GtkWidget *file, *unit, *frame, *spinner, *preview, *warning, *accept;
+  GtkWidget *bodies, *unit, *frame, *division, *operations, *spinner, *state, *warning, *accept;
+  GtkWidget *wanted[SPORE_MESH_OPERATIONS], *argument[SPORE_MESH_OPERATIONS]; /* argument: NULL where it takes none */
+  GtkListStore *rows;
+  GPtrArray *files; /* char *, NULL at the end */
   SporeJob *job;
-  gboolean known;   /* the mesh was read */
-  double extent[3]; /* in the file's own numbers and axes */
-  gsize triangles;
+  guint settling;
+  gboolean unit_chosen; /* by the user: it is guessed until then */
+  SporeImport *import;
+  int import_unit; /* what it was read in */
 };
 
 G_DEFINE_FINAL_TYPE(SporeImportDialog, spore_import_dialog, GTK_TYPE_DIALOG)
 
-/* Sizes along SPORE's axes: both patient frames turn z up. */
-static void size_m(SporeImportDialog *self, double size[3]) {
-  double scale = spore_length_unit_m[spore_import_dialog_get_unit(self)];
-  gboolean patient = spore_import_dialog_get_frame(self) != 0;
-  size[0] = scale * self->extent[0];
-  size[1] = scale * self->extent[patient ? 2 : 1];
-  size[2] = scale * self->extent[patient ? 1 : 2];
+/* What was read. */
+
+static char *change_text(gsize before, gsize after) {
+  return before == after ? g_strdup_printf("%zu", before) : g_strdup_printf("%zu → %zu", before, after);
 }
 
-static void show_size(SporeImportDialog *self) {
-  double size[3];
-  if (!self->known) return;
-  size_m(self, size);
-  double largest = MAX(size[0], MAX(size[1], size[2]));
-  g_autofree char *text = g_strdup_printf(_("%.4g × %.4g × %.4g mm (wide, high, deep), %zu triangles"), 1e3 * size[0],
-                                          1e3 * size[1], 1e3 * size[2], self->triangles);
-  gtk_label_set_text(GTK_LABEL(self->preview), text);
-  gboolean odd = largest < SMALLEST_M || largest > LARGEST_M;
-  gtk_label_set_text(GTK_LABEL(self->warning), largest > LARGEST_M
-                                                   ? _("This is larger than a person's trunk. Is the unit right?")
-                                                   : _("This is smaller than a fingernail. Is the unit right?"));
-  gtk_widget_set_visible(self->warning, odd);
-}
-
-/* cm is rare in mesh files: mm, then m, then cm. */
-static void guess_unit(SporeImportDialog *self) {
-  static const int order[] = {2, 0, 1};
-  double largest = MAX(self->extent[0], MAX(self->extent[1], self->extent[2]));
-  for (gsize i = 0; i < G_N_ELEMENTS(order); i++) {
-    double metres = largest * spore_length_unit_m[order[i]];
-    if (metres < USUAL_M || metres > LARGEST_M) continue;
-    gtk_combo_box_set_active(GTK_COMBO_BOX(self->unit), order[i]);
-    return;
+static void add_row(SporeImportDialog *self, const SporeImportBody *body) {
+  SporeMeshFigures after = body->as_read;
+  double moved = 0;
+  for (guint i = 0; i < body->changes->len; i++) {
+    const SporeMeshChange *change = &g_array_index(body->changes, SporeMeshChange, i);
+    after = change->after;
+    moved = MAX(moved, change->moved);
   }
+  const SporeMeshReport *was = &body->as_read.report, *is = &after.report;
+  g_autofree char *size = spore_length_text(was->diagonal);
+  g_autofree char *triangles = change_text(body->as_read.triangles, after.triangles);
+  g_autofree char *pieces = change_text(was->components, is->components);
+  g_autofree char *open = change_text(was->boundary_edges, is->boundary_edges);
+  g_autofree char *tangled = change_text(was->nonmanifold_edges, is->nonmanifold_edges);
+  g_autofree char *before_cm3 = g_strdup_printf("%.4g", 1e6 * was->volume);
+  g_autofree char *after_cm3 = g_strdup_printf("%.4g", 1e6 * is->volume);
+  g_autofree char *volume =
+      g_str_equal(before_cm3, after_cm3) ? g_strdup(before_cm3) : g_strdup_printf("%s → %s", before_cm3, after_cm3);
+  g_autofree char *far = body->changes->len ? spore_length_text(moved < 1e-9 ? 0 : moved) : g_strdup("");
+  gtk_list_store_insert_with_values(self->rows, NULL, -1, COLUMN_BODY, body->name, COLUMN_SIZE, size, COLUMN_TRIANGLES,
+                                    triangles, COLUMN_PIECES, pieces, COLUMN_OPEN, open, COLUMN_TANGLED, tangled,
+                                    COLUMN_VOLUME, volume, COLUMN_MOVED, far, -1);
 }
 
-static void decoded(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
-  SporeImportDialog *self = owner;
-  SporeImportWork *work = data;
-  if (self->job != job) return; /* another file was chosen since, or the dialog is gone */
-  g_clear_object(&self->job);
-  gtk_spinner_stop(GTK_SPINNER(self->spinner));
-  gtk_widget_hide(self->spinner);
-  SporeMeshReport report;
-  if (error || !spore_triangle_mesh_report(&work->mesh, &report, NULL)) {
-    gtk_label_set_text(GTK_LABEL(self->preview), error ? error->message : _("not enough memory"));
-    return;
+static double largest(const SporeImport *import) {
+  double across = 0;
+  for (guint i = 0; i < import->bodies->len; i++)
+    across = MAX(across, ((SporeImportBody *)g_ptr_array_index(import->bodies, i))->as_read.report.diagonal);
+  return across;
+}
+
+/* What the author should look at twice: the unit, then what the files say. */
+static void show_warnings(SporeImportDialog *self) {
+  GString *text = g_string_new(NULL);
+  double across = largest(self->import);
+  g_autofree char *doubt = spore_length_doubt(across, self->import_unit), *length = spore_length_text(across);
+  if (doubt) g_string_append_printf(text, _("%s across: is the unit right? %s"), length, doubt);
+  for (guint i = 0; i < self->import->files->len; i++) {
+    const SporeImportFile *file = g_ptr_array_index(self->import->files, i);
+    g_autofree char *remark = spore_import_remark(file), *base = g_path_get_basename(file->file);
+    if (remark) g_string_append_printf(text, "%s%s: %s", text->len ? "\n" : "", base, remark);
   }
-  self->known = TRUE;
-  self->triangles = work->mesh.triangle_count;
-  for (int i = 0; i < 3; i++) self->extent[i] = report.upper[i] - report.lower[i];
-  guess_unit(self);
-  if (work->frame_hint >= 0) gtk_combo_box_set_active(GTK_COMBO_BOX(self->frame), work->frame_hint);
+  gtk_label_set_text(GTK_LABEL(self->warning), text->str);
+  gtk_widget_set_visible(self->warning, text->len > 0);
+  g_string_free(text, TRUE);
+}
+
+/* TRUE: another unit was set, and everything is read anew in it. */
+static gboolean guess_unit(SporeImportDialog *self) {
+  int guess = spore_length_unit_guess(largest(self->import) / spore_length_unit_m[self->import_unit]);
+  if (self->unit_chosen || guess < 0 || guess == self->import_unit) return FALSE;
+  gtk_combo_box_set_active(GTK_COMBO_BOX(self->unit), guess);
+  self->unit_chosen = FALSE; /* setting it looked like a choice */
+  return TRUE;
+}
+
+static void show_import(SporeImportDialog *self) {
+  gtk_list_store_clear(self->rows);
+  for (guint i = 0; i < self->import->bodies->len; i++) add_row(self, g_ptr_array_index(self->import->bodies, i));
+  g_autofree char *count =
+      g_strdup_printf(ngettext("%u body", "%u bodies", self->import->bodies->len), self->import->bodies->len);
+  g_autofree char *text = self->unit_chosen ? g_strdup(count)
+                                            : g_strdup_printf(_("%s; the unit, %s, is guessed from the size"), count,
+                                                              spore_length_units[self->import_unit]);
+  gtk_label_set_text(GTK_LABEL(self->state), text);
+  show_warnings(self);
   gtk_widget_set_sensitive(self->accept, TRUE);
   gtk_widget_grab_default(self->accept);
-  show_size(self);
 }
 
-static void drop_job(SporeImportDialog *self) {
+/* Reading. */
+
+static void drop_work(SporeImportDialog *self) {
   if (self->job) spore_job_cancel(self->job);
   g_clear_object(&self->job);
-}
-
-static void load(SporeImportDialog *self, const char *file) {
-  drop_job(self);
-  self->known = FALSE;
+  g_clear_handle_id(&self->settling, g_source_remove);
+  g_clear_pointer(&self->import, spore_import_free);
   gtk_widget_set_sensitive(self->accept, FALSE);
   gtk_widget_hide(self->warning);
-  gtk_label_set_text(GTK_LABEL(self->preview), _("Reading…"));
-  gtk_widget_show(self->spinner);
+}
+
+static void read_through(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeImportDialog *self = owner;
+  SporeImportWork *work = data;
+  if (self->job != job) return; /* another choice was made since, or the dialog is gone */
+  g_clear_object(&self->job);
+  gtk_spinner_stop(GTK_SPINNER(self->spinner));
+  if (error) {
+    gtk_list_store_clear(self->rows);
+    gtk_label_set_text(GTK_LABEL(self->state), error->message);
+    return;
+  }
+  self->import = g_steal_pointer(&work->import);
+  self->import_unit = work->options.unit;
+  if (!guess_unit(self)) show_import(self);
+}
+
+static void read_options(SporeImportDialog *self, SporeImportOptions *options) {
+  options->unit = gtk_combo_box_get_active(GTK_COMBO_BOX(self->unit));
+  options->frame = gtk_combo_box_get_active(GTK_COMBO_BOX(self->frame)) - 1;
+  options->division = (SporeImportDivision)gtk_combo_box_get_active(GTK_COMBO_BOX(self->division));
+  for (int i = 0; i < SPORE_MESH_OPERATIONS; i++) {
+    options->operations[i].wanted = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(self->wanted[i]));
+    if (self->argument[i])
+      options->operations[i].argument = gtk_spin_button_get_value(GTK_SPIN_BUTTON(self->argument[i]));
+  }
+}
+
+static gboolean start_reading(gpointer data) {
+  SporeImportDialog *self = data;
+  SporeImportOptions options = {0};
+  self->settling = 0;
+  read_options(self, &options);
+  gtk_label_set_text(GTK_LABEL(self->state), _("Reading…"));
   gtk_spinner_start(GTK_SPINNER(self->spinner));
-  /* In the file's own numbers: metres and Y up change nothing. */
-  self->job = spore_job_start(_("Reading mesh"), spore_import_work_run, spore_import_work_new(file, 0, 0),
-                              spore_import_work_free, decoded, G_OBJECT(self));
+  self->job = spore_job_start(_("Reading meshes"), spore_import_work_run,
+                              spore_import_work_new((char *const *)self->files->pdata, &options),
+                              spore_import_work_free, read_through, G_OBJECT(self));
+  return G_SOURCE_REMOVE;
 }
 
-static void file_chosen(GtkFileChooser *chooser, SporeImportDialog *self) {
-  g_autofree char *file = gtk_file_chooser_get_filename(chooser);
-  if (file) load(self, file);
+static void read_soon(SporeImportDialog *self) {
+  drop_work(self);
+  if (self->files->len > 1) self->settling = g_timeout_add(SETTLE_MS, start_reading, self);
+  else gtk_list_store_clear(self->rows);
 }
 
-static void choice_changed(GtkComboBox *combo, SporeImportDialog *self) { show_size(self); }
+/* Choices. */
 
-static void spore_import_dialog_dispose(GObject *object) {
-  drop_job(SPORE_IMPORT_DIALOG(object));
-  G_OBJECT_CLASS(spore_import_dialog_parent_class)->dispose(object);
+static void choice_changed(GtkWidget *widget, SporeImportDialog *self) { read_soon(self); }
+
+static void unit_changed(GtkWidget *widget, SporeImportDialog *self) {
+  self->unit_chosen = TRUE;
+  read_soon(self);
 }
 
-static void spore_import_dialog_class_init(SporeImportDialogClass *class) {
-  GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
-  G_OBJECT_CLASS(class)->dispose = spore_import_dialog_dispose;
-  gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-import-dialog.ui");
-  gtk_widget_class_bind_template_child(widget, SporeImportDialog, file);
-  gtk_widget_class_bind_template_child(widget, SporeImportDialog, unit);
-  gtk_widget_class_bind_template_child(widget, SporeImportDialog, frame);
-  gtk_widget_class_bind_template_child(widget, SporeImportDialog, spinner);
-  gtk_widget_class_bind_template_child(widget, SporeImportDialog, preview);
-  gtk_widget_class_bind_template_child(widget, SporeImportDialog, warning);
-  gtk_widget_class_bind_template_child(widget, SporeImportDialog, accept);
-  gtk_widget_class_bind_template_callback(widget, file_chosen);
-  gtk_widget_class_bind_template_callback(widget, choice_changed);
+static void add_file(SporeImportDialog *self, const char *file) {
+  g_ptr_array_insert(self->files, (int)self->files->len - 1, g_strdup(file)); /* before the NULL */
 }
 
-static void add_filter(SporeImportDialog *self) {
+static void add_files(GtkButton *button, SporeImportDialog *self) {
   static const char *const patterns[] = {"*.stl", "*.obj", "*.ply", "*.off", "*.gltf", "*.glb", NULL};
+  g_autoptr(GtkFileChooserNative) native = gtk_file_chooser_native_new(
+      _("Choose meshes"), GTK_WINDOW(self), GTK_FILE_CHOOSER_ACTION_OPEN, _("_Add"), _("_Cancel"));
   GtkFileFilter *filter = gtk_file_filter_new(), *all = gtk_file_filter_new();
   gtk_file_filter_set_name(filter, _("Meshes"));
   for (int i = 0; patterns[i]; i++) {
@@ -138,40 +195,116 @@ static void add_filter(SporeImportDialog *self) {
   }
   gtk_file_filter_set_name(all, _("All files"));
   gtk_file_filter_add_pattern(all, "*");
-  gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(self->file), filter);
-  gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(self->file), all);
+  gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(native), filter);
+  gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(native), all);
+  gtk_file_chooser_set_select_multiple(GTK_FILE_CHOOSER(native), TRUE);
+  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(native)) != GTK_RESPONSE_ACCEPT) return;
+  GSList *chosen = gtk_file_chooser_get_filenames(GTK_FILE_CHOOSER(native));
+  for (GSList *file = chosen; file; file = file->next) add_file(self, file->data);
+  g_slist_free_full(chosen, g_free);
+  read_soon(self);
+}
+
+static void clear_files(GtkButton *button, SporeImportDialog *self) {
+  g_ptr_array_set_size(self->files, 0);
+  g_ptr_array_add(self->files, NULL);
+  self->unit_chosen = FALSE;
+  gtk_label_set_text(GTK_LABEL(self->state), _("STL, OBJ, PLY, OFF, glTF or GLB"));
+  read_soon(self);
+}
+
+/* Making. */
+
+static void spore_import_dialog_dispose(GObject *object) {
+  SporeImportDialog *self = SPORE_IMPORT_DIALOG(object);
+  if (self->job) spore_job_cancel(self->job);
+  g_clear_object(&self->job);
+  g_clear_handle_id(&self->settling, g_source_remove);
+  g_clear_pointer(&self->import, spore_import_free);
+  g_clear_pointer(&self->files, g_ptr_array_unref);
+  G_OBJECT_CLASS(spore_import_dialog_parent_class)->dispose(object);
+}
+
+static void spore_import_dialog_class_init(SporeImportDialogClass *class) {
+  GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+  G_OBJECT_CLASS(class)->dispose = spore_import_dialog_dispose;
+  gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-import-dialog.ui");
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, bodies);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, unit);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, frame);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, division);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, operations);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, spinner);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, state);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, warning);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, accept);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, rows);
+  gtk_widget_class_bind_template_callback(widget, add_files);
+  gtk_widget_class_bind_template_callback(widget, clear_files);
+  gtk_widget_class_bind_template_callback(widget, choice_changed);
+  gtk_widget_class_bind_template_callback(widget, unit_changed);
+}
+
+static void add_operation(SporeImportDialog *self, int kind) {
+  const SporeMeshOperation *operation = &spore_mesh_operations[kind];
+  GtkGrid *grid = GTK_GRID(self->operations);
+  self->wanted[kind] = gtk_check_button_new_with_label(_(operation->label));
+  gtk_widget_set_tooltip_text(self->wanted[kind], _(operation->doc));
+  g_signal_connect(self->wanted[kind], "toggled", G_CALLBACK(choice_changed), self);
+  gtk_grid_attach(grid, self->wanted[kind], 0, kind, 1, 1);
+  self->argument[kind] = spore_operation_spin_new(operation);
+  if (self->argument[kind]) {
+    GtkWidget *label = gtk_label_new(_(operation->argument_label));
+    gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
+    gtk_widget_set_halign(label, GTK_ALIGN_START);
+    g_signal_connect(self->argument[kind], "value-changed", G_CALLBACK(choice_changed), self);
+    g_object_bind_property(self->wanted[kind], "active", self->argument[kind], "sensitive", G_BINDING_SYNC_CREATE);
+    gtk_grid_attach(grid, self->argument[kind], 1, kind, 1, 1);
+    gtk_grid_attach(grid, label, 2, kind, 1, 1);
+  }
+}
+
+static void add_columns(SporeImportDialog *self) {
+  const char *const titles[] = {_("Body"),       _("Across"),       _("Triangles"),   _("Pieces"),
+                                _("Open edges"), _("Non-manifold"), _("Volume, cm³"), _("Moved")};
+  for (int i = 0; i < (int)G_N_ELEMENTS(titles); i++) {
+    GtkCellRenderer *cell = gtk_cell_renderer_text_new();
+    GtkTreeViewColumn *column = gtk_tree_view_column_new_with_attributes(titles[i], cell, "text", i, NULL);
+    gtk_tree_view_column_set_resizable(column, TRUE);
+    if (i == COLUMN_BODY) gtk_tree_view_column_set_expand(column, TRUE);
+    else g_object_set(cell, "xalign", 1.0, NULL);
+    gtk_tree_view_append_column(GTK_TREE_VIEW(self->bodies), column);
+  }
 }
 
 static void spore_import_dialog_init(SporeImportDialog *self) {
+  self->files = g_ptr_array_new_with_free_func(g_free);
+  g_ptr_array_add(self->files, NULL);
   gtk_widget_init_template(GTK_WIDGET(self));
   for (int i = 0; spore_length_units[i]; i++)
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(self->unit), spore_length_units[i]);
-  gtk_combo_box_set_active(GTK_COMBO_BOX(self->unit), 2);
+  for (int i = 0; i < SPORE_MESH_OPERATIONS; i++) add_operation(self, i);
+  add_columns(self);
+  gtk_widget_show_all(self->operations);
+  gtk_combo_box_set_active(GTK_COMBO_BOX(self->unit), 0);
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->frame), 0);
+  gtk_combo_box_set_active(GTK_COMBO_BOX(self->division), SPORE_IMPORT_FILES);
+  self->unit_chosen = FALSE; /* setting it looked like a choice */
   spore_ignore_wheel(self->unit);
   spore_ignore_wheel(self->frame);
-  add_filter(self);
-  gtk_label_set_text(GTK_LABEL(self->preview), _("STL, OBJ, PLY, OFF, glTF or GLB"));
+  spore_ignore_wheel(self->division);
+  gtk_label_set_text(GTK_LABEL(self->state), _("STL, OBJ, PLY, OFF, glTF or GLB"));
 }
 
-GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *file) {
+GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *const *files) {
   SporeImportDialog *self =
       g_object_new(SPORE_TYPE_IMPORT_DIALOG, "transient-for", parent, "use-header-bar", TRUE, NULL);
-  if (file) {
-    gtk_file_chooser_set_filename(GTK_FILE_CHOOSER(self->file), file);
-    load(self, file);
-  }
+  for (; files && *files; files++) add_file(self, *files);
+  read_soon(self);
   return GTK_WIDGET(self);
 }
 
-char *spore_import_dialog_get_file(SporeImportDialog *self) {
-  return gtk_file_chooser_get_filename(GTK_FILE_CHOOSER(self->file));
-}
-
-int spore_import_dialog_get_unit(SporeImportDialog *self) {
-  return gtk_combo_box_get_active(GTK_COMBO_BOX(self->unit));
-}
-
-int spore_import_dialog_get_frame(SporeImportDialog *self) {
-  return gtk_combo_box_get_active(GTK_COMBO_BOX(self->frame));
+SporeImport *spore_import_dialog_take(SporeImportDialog *self, int *unit) {
+  *unit = self->import_unit;
+  return g_steal_pointer(&self->import);
 }

@@ -1,19 +1,21 @@
-/* Asks for a mesh file, its unit and its axes, and shows how large the organ would be. */
+/* Asks for mesh files, their unit and axes, what bodies to make of them and how to mend them; shows what comes of it
+ * before anything is done. */
 #ifndef SPORE_UI_DIALOGS_SPORE_IMPORT_DIALOG_H
 #define SPORE_UI_DIALOGS_SPORE_IMPORT_DIALOG_H
 
 #include <gtk/gtk.h>
+
+#include "core/generate/organ_import.h"
 
 G_BEGIN_DECLS
 
 #define SPORE_TYPE_IMPORT_DIALOG spore_import_dialog_get_type()
 G_DECLARE_FINAL_TYPE(SporeImportDialog, spore_import_dialog, SPORE, IMPORT_DIALOG, GtkDialog)
 
-/* file may be NULL. Responds GTK_RESPONSE_ACCEPT when the mesh is to be imported. */
-GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *file);
-char *spore_import_dialog_get_file(SporeImportDialog *self); /* g_free */
-int spore_import_dialog_get_unit(SporeImportDialog *self);   /* index into spore_length_units */
-int spore_import_dialog_get_frame(SporeImportDialog *self);  /* index into spore_mesh_frames */
+/* files may be NULL. Responds GTK_RESPONSE_ACCEPT when what was read is to be imported. */
+GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *const *files);
+/* What was read last, with its unit; the caller's to free. NULL: nothing. */
+SporeImport *spore_import_dialog_take(SporeImportDialog *self, int *unit);
 
 G_END_DECLS
 #endif

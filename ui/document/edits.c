@@ -46,18 +46,6 @@ static gboolean set_vector(SporeDocument *document, SporeObject *object, const c
   return spore_document_set_text(document, object, property, joined, error);
 }
 
-/* Imported. */
-
-SporeObject *spore_edit_add_organ(SporeDocument *document, const char *file, GBytes *content, int unit, int frame,
-                                  GError **error) {
-  g_autofree char *base = g_path_get_basename(file);
-  g_autofree char *label = g_strdup_printf(_("Import %s"), base);
-  spore_document_begin(document, label);
-  SporeObject *body = spore_organ_insert(document, NULL, file, content, unit, frame, error);
-  finish(document, body != NULL);
-  return body;
-}
-
 /* What a body uses. */
 
 static SporeObject *used_asset(SporeDocument *document, SporeObject *body, const char *unit, const char *property,

@@ -6,11 +6,6 @@
 #include "core/generate/tetrahedra.h"
 #include "core/scene/document.h"
 
-/* A mesh asset named after `file` (content kept until the scene is saved) and a body that shows it. Returns the body.
- */
-SporeObject *spore_edit_add_organ(SporeDocument *document, const char *file, GBytes *content, int unit, int frame,
-                                  GError **error);
-
 /* Mesh asset that the body shows, NULL with an error where it has none. */
 SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, GError **error);
 /* Sphere or tetrahedra asset in use by the body, or NULL. */

@@ -1,63 +1,10 @@
 #include "ui/jobs/works.h"
 
 #include <glib/gi18n.h>
-#include <sys/stat.h>
 
-#include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 #include "ui/document/asset-readers.h"
 #include "ui/document/edits.h"
-
-#define IMPORT_MAXIMUM_BYTES ((goffset)1 << 30)
-
-/* Import. */
-
-SporeImportWork *spore_import_work_new(const char *file, int unit, int frame) {
-  SporeImportWork *work = g_new0(SporeImportWork, 1);
-  work->file = g_strdup(file);
-  work->unit = unit;
-  work->frame = frame;
-  return work;
-}
-
-void spore_import_work_free(gpointer data) {
-  SporeImportWork *work = data;
-  g_free(work->file);
-  g_clear_pointer(&work->content, g_bytes_unref);
-  spore_triangle_mesh_clear(&work->mesh);
-  g_free(work);
-}
-
-/* Regular files alone: a pipe or a device would never end. */
-static gboolean check_readable(const char *file, GError **error) {
-  struct stat info;
-  if (stat(file, &info) != 0)
-    return spore_error_raise(error, SPORE_ERROR_FILE, file, _("%s; choose a mesh file that exists"), g_strerror(errno));
-  if (!S_ISREG(info.st_mode))
-    return spore_error_raise(error, SPORE_ERROR_FILE, file, _("not a regular file; choose a mesh file"));
-  if (info.st_size == 0)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, file,
-                             _("the file is empty; a mesh was expected; export it again"));
-  if (info.st_size > IMPORT_MAXIMUM_BYTES)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, file, _("the file is over 1 GiB; decimate the mesh first"));
-  return TRUE;
-}
-
-gboolean spore_import_work_run(gpointer data, const SporeProgress *progress, GError **error) {
-  SporeImportWork *work = data;
-  char *bytes;
-  gsize size;
-  g_autoptr(GError) failure = NULL;
-  if (!check_readable(work->file, error)) return FALSE;
-  if (!g_file_get_contents(work->file, &bytes, &size, &failure))
-    return spore_error_raise(error, SPORE_ERROR_FILE, work->file, "%s", failure->message);
-  work->content = g_bytes_new_take(bytes, size);
-  work->frame_hint = spore_mesh_frame_hint(bytes, size);
-  if (!spore_mesh_decode(work->file, work->file, bytes, size, work->unit, work->frame, &work->mesh, progress, error))
-    return FALSE;
-  spore_editor_readers_remember(work->content, work->unit, work->frame, &work->mesh);
-  return TRUE;
-}
 
 /* Open. */
 

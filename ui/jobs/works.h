@@ -7,18 +7,6 @@
 #include "core/generate/tetrahedra.h"
 #include "core/scene/document.h"
 
-/* Reads and decodes a mesh file. */
-typedef struct SporeImportWork {
-  char *file;
-  int unit, frame;
-  GBytes *content;        /* out */
-  SporeTriangleMesh mesh; /* out, m */
-  int frame_hint;         /* out, -1: the file says none */
-} SporeImportWork;
-SporeImportWork *spore_import_work_new(const char *file, int unit, int frame);
-gboolean spore_import_work_run(gpointer work, const SporeProgress *progress, GError **error);
-void spore_import_work_free(gpointer work);
-
 /* Reads a scene and decodes its assets. */
 typedef struct SporeOpenWork {
   const SporeSchema *schema;

@@ -1,0 +1,37 @@
+#include "ui/document/mesh-edits.h"
+
+#include <glib/gi18n.h>
+
+#include "core/io/mesh_import.h"
+#include "core/io/organ.h"
+
+/* Ends the group, or takes back what it did. */
+static gboolean finish(SporeDocument *document, gboolean done) {
+  if (done) spore_document_end(document);
+  else spore_document_abort(document);
+  return done;
+}
+
+SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, int unit, GError **error) {
+  g_autoptr(GPtrArray) bodies = NULL;
+  const SporeImportFile *first = g_ptr_array_index(import->files, 0);
+  g_autofree char *base = g_path_get_basename(first->file);
+  g_autofree char *label = import->files->len > 1 ? g_strdup_printf(_("Import %u meshes"), import->files->len)
+                                                  : g_strdup_printf(_("Import %s"), base);
+  spore_document_begin(document, label);
+  return finish(document, spore_import_insert(document, import, unit, &bodies, error)) ? bodies->pdata[0] : NULL;
+}
+
+gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label,
+                                const SporeTriangleMesh *mesh, GError **error) {
+  gsize size;
+  char *text = spore_off_format(mesh, &size);
+  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
+  g_autofree char *file = spore_content_file_name(spore_object_name(asset), "off", text, size);
+  spore_document_put_blob(document, file, content);
+  spore_document_begin(document, label);
+  gboolean done = spore_document_set_text(document, asset, "file", file, error) &&
+                  spore_document_set_text(document, asset, "unit", spore_length_units[0], error) &&
+                  spore_document_set_text(document, asset, "frame", spore_mesh_frames[0], error);
+  return finish(document, done);
+}

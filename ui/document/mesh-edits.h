@@ -1,0 +1,14 @@
+/* What an author does to the meshes of a scene, each one undo step. No GTK. */
+#ifndef SPORE_UI_DOCUMENT_MESH_EDITS_H
+#define SPORE_UI_DOCUMENT_MESH_EDITS_H
+
+#include "core/generate/organ_import.h"
+
+/* Bodies for what was read in `unit`. Returns the first; NULL with an error: nothing was inserted. */
+SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, int unit, GError **error);
+
+/* The asset holds another mesh (m, SPORE's axes) from now on. label: of the step, translated. */
+gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label,
+                                const SporeTriangleMesh *mesh, GError **error);
+
+#endif

@@ -1,0 +1,200 @@
+/* Meshes: importing them, and the operations on those that are in the scene. */
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "core/io/mesh_import.h"
+#include "ui/dialogs/spore-import-dialog.h"
+#include "ui/dialogs/spore-mesh-dialog.h"
+#include "ui/document/edits.h"
+#include "ui/document/mesh-edits.h"
+#include "ui/jobs/mesh-works.h"
+#include "ui/spore-window-private.h"
+
+/* Importing. */
+
+static void take_import(SporeWindow *self, const SporeImport *import, int unit) {
+  g_autoptr(GError) failure = NULL;
+  SporeObject *body = spore_edit_import(spore_editor_document_get(self->document), import, unit, &failure);
+  if (!body) {
+    spore_window_failed(self, failure);
+    return;
+  }
+  spore_editor_document_select(self->document, spore_object_id(body));
+  for (guint i = 0; i < import->bodies->len; i++) {
+    const SporeImportBody *made = g_ptr_array_index(import->bodies, i);
+    spore_window_log(self, _("Imported %s: %zu triangles"), made->name, made->mesh.triangle_count);
+  }
+}
+
+static void imported(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  SporeImportWork *work = data;
+  if (spore_window_failed(self, error) || !self->document) return;
+  take_import(self, work->import, work->options.unit);
+}
+
+static void import_answered(GtkDialog *dialog, int response, SporeWindow *self) {
+  int unit = 0;
+  g_autoptr(SporeImport) import =
+      response == GTK_RESPONSE_ACCEPT ? spore_import_dialog_take(SPORE_IMPORT_DIALOG(dialog), &unit) : NULL;
+  gtk_widget_destroy(GTK_WIDGET(dialog));
+  if (import) take_import(self, import, unit);
+}
+
+void spore_window_show_import_dialog(SporeWindow *self, const char *const *files) {
+  GtkWidget *dialog = spore_import_dialog_new(GTK_WINDOW(self), files);
+  g_signal_connect_object(dialog, "response", G_CALLBACK(import_answered), self, 0);
+  gtk_window_present(GTK_WINDOW(dialog));
+}
+
+static int index_of(const char *const *names, const char *name) {
+  for (int i = 0; names[i]; i++)
+    if (g_str_equal(names[i], name)) return i;
+  return -1;
+}
+
+static void act_import(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *files[2] = {NULL, NULL}, *unit, *frame;
+  g_variant_get(parameter, "(&s&s&s)", &files[0], &unit, &frame);
+  SporeImportOptions options = {.unit = index_of(spore_length_units, unit),
+                                .frame = index_of(spore_mesh_frames, frame)};
+  if (options.unit < 0 || options.frame < 0) {
+    spore_window_complain(data, _("The unit is one of m, cm, mm, um, in and the frame one of Y_UP, RAS, LPS"));
+    return;
+  }
+  g_autofree char *base = g_path_get_basename(files[0]);
+  g_autofree char *title = g_strdup_printf(_("Importing %s"), base);
+  spore_window_start_job(data, title, spore_import_work_run, spore_import_work_new((char *const *)files, &options),
+                         spore_import_work_free, imported);
+}
+
+static void act_import_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_window_show_import_dialog(data, NULL);
+}
+
+static void act_import_dialog_with(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  g_autofree const char **files = g_variant_get_strv(parameter, NULL);
+  spore_window_show_import_dialog(data, files);
+}
+
+/* Operations. */
+
+/* The mesh asset that is selected, else the one that the body to work on shows; NULL: said to the user. */
+static SporeObject *asset_to_work_on(SporeWindow *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *selected = spore_editor_document_selected(self->document);
+  if (selected && g_str_equal(spore_object_type(selected)->element, "mesh")) return selected;
+  SporeObject *body = spore_window_body_to_work_on(self);
+  g_autoptr(GError) error = NULL;
+  SporeObject *asset = body ? spore_edit_visual_mesh(document, body, &error) : NULL;
+  if (error) spore_window_failed(self, error);
+  return asset;
+}
+
+static void changed(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  SporeMeshWork *work = data;
+  if (spore_window_failed(self, error) || !self->document) return;
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *asset = spore_mesh_work_asset(work, document);
+  g_autoptr(GError) failure = NULL;
+  if (!asset) {
+    spore_window_log(self, _("The mesh changed meanwhile; the result was dropped"));
+    return;
+  }
+  const char *label = _(spore_mesh_operations[work->operation].label);
+  if (!spore_edit_change_mesh(document, asset, label, &work->mesh, &failure)) {
+    spore_window_failed(self, failure);
+    return;
+  }
+  g_autofree char *before = spore_figures_text(&work->change.before), *after = spore_figures_text(&work->change.after);
+  g_autofree char *moved = spore_length_text(work->change.moved < 1e-9 ? 0 : work->change.moved);
+  spore_window_log(self, _("%s, %s: before %s; after %s; moved by up to %s"), spore_object_name(asset), label, before,
+                   after, moved);
+}
+
+static void start_change(SporeWindow *self, SporeObject *asset, int kind, double argument) {
+  g_autoptr(GError) error = NULL;
+  SporeMeshWork *work = spore_mesh_work_new(spore_editor_document_get(self->document), asset,
+                                            (SporeMeshOperationKind)kind, argument, &error);
+  if (!work) spore_window_failed(self, error);
+  else
+    spore_window_start_job(self, _(spore_mesh_operations[kind].label), spore_mesh_work_run, work, spore_mesh_work_free,
+                           changed);
+}
+
+/* Of the operation with that name; -1, said to the user: none has it. */
+static int find_operation(SporeWindow *self, const char *name) {
+  for (int kind = 0; kind < SPORE_MESH_OPERATIONS; kind++)
+    if (g_str_equal(spore_mesh_operations[kind].name, name)) return kind;
+  spore_window_complain(self, _("There is no such operation on a mesh; choose one of the menu"));
+  return -1;
+}
+
+static void act_change_mesh(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  const char *name;
+  double argument;
+  g_variant_get(parameter, "(&sd)", &name, &argument);
+  int kind = find_operation(data, name);
+  SporeObject *asset = kind >= 0 ? asset_to_work_on(data) : NULL;
+  if (asset) start_change(data, asset, kind, argument);
+}
+
+/* What a dialog asks for. */
+typedef struct {
+  SporeWindow *window; /* which outlives its dialogs */
+  guint32 asset;
+  int kind;
+} Question;
+
+static void mesh_answered(GtkWidget *dialog, int response, Question *question) {
+  SporeDocument *document = spore_editor_document_get(question->window->document);
+  SporeObject *asset = spore_document_by_id(document, question->asset); /* it may be gone meanwhile */
+  double argument = spore_mesh_dialog_get_argument(dialog);
+  SporeWindow *self = question->window;
+  int kind = question->kind;
+  gtk_widget_destroy(dialog); /* and the question with it */
+  if (response == GTK_RESPONSE_ACCEPT && asset) start_change(self, asset, kind, argument);
+}
+
+static void free_question(gpointer data, GClosure *closure) { g_free(data); }
+
+static void act_change_mesh_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  int kind = find_operation(self, g_variant_get_string(parameter, NULL));
+  SporeObject *asset = kind >= 0 ? asset_to_work_on(self) : NULL;
+  g_autoptr(GError) error = NULL;
+  const SporeTriangleMesh *mesh =
+      asset ? spore_document_mesh(spore_editor_document_get(self->document), asset, &error) : NULL;
+  if (error) spore_window_failed(self, error);
+  SporeMeshFigures figures;
+  if (!mesh || !spore_mesh_figures(mesh, &figures, NULL)) return;
+  Question *question = g_new(Question, 1);
+  *question = (Question){self, spore_object_id(asset), kind};
+  GtkWidget *dialog =
+      spore_mesh_dialog_new(GTK_WINDOW(self), &spore_mesh_operations[kind], spore_object_name(asset), &figures);
+  g_signal_connect_data(dialog, "response", G_CALLBACK(mesh_answered), question, free_question, 0);
+  gtk_window_present(GTK_WINDOW(dialog));
+}
+
+/* An entry for each operation. */
+static void fill_menu(GMenu *menu) {
+  for (int kind = 0; kind < SPORE_MESH_OPERATIONS; kind++) {
+    g_autofree char *label = g_strdup_printf("%s…", _(spore_mesh_operations[kind].label));
+    g_autoptr(GMenuItem) item = g_menu_item_new(label, NULL);
+    g_menu_item_set_action_and_target(item, "win.change-mesh-dialog", "s", spore_mesh_operations[kind].name);
+    g_menu_append_item(menu, item);
+  }
+}
+
+void spore_window_add_mesh_actions(SporeWindow *self) {
+  static const GActionEntry actions[] = {
+      {"import", act_import, "(sss)"},
+      {"import-dialog", act_import_dialog},
+      {"import-dialog-with", act_import_dialog_with, "as"},
+      {"change-mesh", act_change_mesh, "(sd)"},
+      {"change-mesh-dialog", act_change_mesh_dialog, "s"},
+  };
+  g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+  fill_menu(self->mesh_operations);
+}
