@@ -23,6 +23,7 @@ static const Command commands[] = {
 #endif
     {"import", spore_command_import, N_("Make a scene from organ meshes")},
     {"spheres", spore_command_spheres, N_("Fit collision spheres to a mesh")},
+    {"surface", spore_command_surface, N_("Make the surface of a net: fewer, well-shaped triangles")},
     {"tetrahedra", spore_command_tetrahedra, N_("Fill a mesh with tetrahedra")},
     {"models", spore_command_models, N_("List models and their parameters")},
     {"schema", spore_command_schema, N_("Print the RELAX NG schema of scenes")},

@@ -53,5 +53,6 @@ char *spore_medit_format(const SporeTetrahedralMesh *mesh, gsize *size); /* g_fr
 char *spore_gmsh_format(const SporeTetrahedralMesh *mesh, gsize *size);  /* .msh 2.2 ASCII */
 char *spore_vtu_format(const SporeTetrahedralMesh *mesh, gsize *size);   /* VTK unstructured grid, ASCII */
 char *spore_off_format(const SporeTriangleMesh *mesh, gsize *size);
+char *spore_obj_format(const SporeTriangleMesh *mesh, gsize *size);
 
 #endif

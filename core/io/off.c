@@ -107,3 +107,17 @@ char *spore_off_format(const SporeTriangleMesh *mesh, gsize *size) {
   if (size) *size = text->len;
   return g_string_free(text, FALSE);
 }
+
+char *spore_obj_format(const SporeTriangleMesh *mesh, gsize *size) {
+  GString *text = g_string_sized_new(64 * mesh->vertex_count + 24 * mesh->triangle_count + 64);
+  for (gsize i = 0; i < mesh->vertex_count; i++) {
+    g_string_append(text, "v ");
+    spore_append_reals(text, mesh->vertices + 3 * i, 1, 3, "");
+  }
+  for (gsize i = 0; i < mesh->triangle_count; i++) {
+    const guint32 *corner = mesh->triangles + 3 * i;
+    g_string_append_printf(text, "f %u %u %u\n", corner[0] + 1, corner[1] + 1, corner[2] + 1);
+  }
+  if (size) *size = text->len;
+  return g_string_free(text, FALSE);
+}

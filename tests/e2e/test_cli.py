@@ -100,7 +100,7 @@ def soft_ball():
 def help_lists_commands():
     """help lists every command; no command and unknown ones are usage errors."""
     text = spore("--help").stdout
-    for name in ("run", "check", "plan", "import", "spheres", "tetrahedra", "models", "schema"):
+    for name in ("run", "check", "plan", "import", "spheres", "surface", "tetrahedra", "models", "schema"):
         assert f"\n  {name} " in text
         assert "--json" in spore(name, "--help").stdout
     spore(status=2)
@@ -124,7 +124,8 @@ def help_explains_json():
     file("ball.off", shapes.off(*shapes.sphere()))
     commands = [("run", soft_ball(), "--steps", 20), ("run", grasper(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
                 ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("schema",),
-                ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5)]
+                ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
+                ("surface", "ball.off", "--nodes", 50)]
     commands += [("tetrahedra", "ball.off", "--cells", 100)] if "cgal" in FEATURES else []
     commands += [("render", soft_ball(), "-o", "told.png")] if "render" in FEATURES else []
     for command in commands:
@@ -135,6 +136,28 @@ def help_explains_json():
             row = next((rows[name] for n in range(len(path), 0, -1) if (name := ".".join(path[:n])) in rows), None)
             assert row, f"{command[0]} --help says nothing of {'.'.join(path)}"
             assert path[-1] in row, f"{command[0]} --help does not name {'.'.join(path)}"
+
+
+@check
+def surface_makes_nets():
+    """surface thins a mesh to as many nodes as asked for; what it writes runs as net, deformable surface and scene."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    answer = report("surface", "ball.off", "--nodes", 60, "-o", "net.off")
+    assert answer["nodes"] == 60 and answer["triangles"] == 116 and answer["open_edges"] == 0 and answer["pieces"] == 1
+    assert answer["hausdorff"] < 0.03 and answer["min_angle_deg"] > 20 and answer["reached"] and abs(answer["volume_change"]) < 0.06
+    assert (WORK / "net.off").read_text().startswith("OFF\n60 116 0\n")
+    again = report("surface", "ball.off", "--size", answer["edge_m"]["mean"])
+    assert abs(again["nodes"] - 60) < 15
+    written = spore("surface", "ball.off", "-n", 60, "-o", "net.obj").stdout
+    assert "60 nodes, 116 triangles" in written and (WORK / "net.obj").read_text().count("\nf ") == 116
+    for model in ("mass_spring_net", "deformable_surface"):
+        scene = file("net.spore", f"""<spore version="1.0"><assets><mesh name="m" file="net.off"/></assets><bodies>
+            <body name="b"><mechanical geometry="m"><{model}/></mechanical></body></bodies></spore>""")
+        assert report("run", scene, "--steps", 50)["dof"] >= 180
+    refuses("surface", "ball.off", says=["--nodes 1 to", "--size"])
+    refuses("surface", "ball.off", "-n", 60, "--keep-angle", -5, says=["--keep-angle -5"])
+    refuses("surface", "ball.off", "-n", 60, "-o", "ball.stl", says=["ball.stl", ".off or .obj"])
+    refuses("surface", "gone.off", "-n", 60, says=["gone.off"])
 
 
 @check

@@ -1,0 +1,150 @@
+/* spore surface: the surface that a net is made of, from any surface. */
+#include <glib/gi18n.h>
+#include <math.h>
+
+#include "app/cli/cli.h"
+#include "core/generate/surface.h"
+#include "core/io/mesh_import.h"
+#include "core/io/scene_xml.h"
+
+typedef char *(*Formatter)(const SporeTriangleMesh *mesh, gsize *size);
+
+static Formatter formatter_of(const char *file) {
+  if (g_str_has_suffix(file, ".off")) return spore_off_format;
+  return g_str_has_suffix(file, ".obj") ? spore_obj_format : NULL;
+}
+
+static void report_flag(SporeCli *cli, const char *member, gboolean value) {
+  json_builder_set_member_name(cli->report, member);
+  json_builder_add_boolean_value(cli->report, value);
+}
+
+static void report_edges(SporeCli *cli, const SporeSurfaceReport *report) {
+  spore_cli_open(cli, "edge_m");
+  spore_cli_number(cli, "min", report->edge_min);
+  spore_cli_number(cli, "mean", report->edge_mean);
+  spore_cli_number(cli, "max", report->edge_max);
+  spore_cli_close(cli);
+}
+
+static void report(SporeCli *cli, const SporeTriangleMesh *mesh, const SporeSurfaceReport *report) {
+  const SporeSimplifyReport *simplify = &report->simplify;
+  spore_cli_count(cli, "nodes", (gint64)mesh->vertex_count);
+  spore_cli_count(cli, "triangles", (gint64)mesh->triangle_count);
+  spore_cli_count(cli, "pieces", (gint64)report->pieces);
+  spore_cli_count(cli, "open_edges", (gint64)report->open_edges);
+  spore_cli_number(cli, "hausdorff", report->hausdorff);
+  spore_cli_number(cli, "outline", report->outline);
+  spore_cli_number(cli, "min_angle_deg", report->min_angle_deg);
+  spore_cli_number(cli, "mean_angle_deg", report->mean_angle_deg);
+  report_edges(cli, report);
+  spore_cli_number(cli, "area_change", report->area_change);
+  spore_cli_number(cli, "volume_change", report->volume_change);
+  spore_cli_count(cli, "creases", (gint64)simplify->creases);
+  report_flag(cli, "creases_kept", simplify->creases_kept);
+  report_flag(cli, "reached", simplify->reached);
+  spore_cli_number(cli, "seconds", report->seconds);
+  spore_cli_say(cli,
+                _("%zu nodes, %zu triangles: distance %.2f %% of the diagonal (outline %.2f %%), least angle %.1f "
+                  "degrees (mean of least %.1f), edges %.3g m (%.3g to %.3g), %.2f s\n"),
+                mesh->vertex_count, mesh->triangle_count, 100 * report->hausdorff, 100 * report->outline,
+                report->min_angle_deg, report->mean_angle_deg, report->edge_mean, report->edge_min, report->edge_max,
+                report->seconds);
+  if (!simplify->creases_kept)
+    spore_cli_say(
+        cli,
+        _("so few nodes come nearer to the surface without its %zu creases: open edges alone are kept; ask for "
+          "more nodes to have them\n"),
+        simplify->creases);
+  if (!simplify->reached)
+    spore_cli_say(cli, _("fewer nodes would tear the surface, or close a hole or handle of it; weld it or mend it, if "
+                         "it should hang together otherwise\n"));
+}
+
+static int generate(SporeCli *cli, const char *file, const SporeSimplifyOptions *options, const char *unit,
+                    const char *frame, const char *output) {
+  GError *error = NULL;
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeTriangleMesh surface = {0}, mesh = {0};
+  SporeSurfaceReport figures;
+  gboolean done = (!output || spore_cli_keeps(output, file, &error)) &&
+                  spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error);
+  if (done && !spore_surface_from_mesh(&surface, options, &mesh, &figures, spore_cli_progress(cli), &fault)) {
+    spore_error_at(&fault, file);
+    done = spore_error_propagate(&fault, &error);
+  }
+  if (done && output) {
+    gsize size = 0;
+    g_autofree char *text = formatter_of(output)(&mesh, &size);
+    done = spore_write_file(output, text, size, &error);
+  }
+  if (done) report(cli, &mesh, &figures);
+  spore_triangle_mesh_clear(&surface);
+  spore_triangle_mesh_clear(&mesh);
+  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
+/* SPORE_EXIT_DONE where the options can be meant. */
+static int check_options(gint64 nodes, double size, double keep_angle_deg, const char *output) {
+  if (nodes < 0 || nodes > SPORE_MESH_MAXIMUM || (nodes == 0) == !(size > 0 && isfinite(size)))
+    return spore_cli_usage(_("spore surface: neither number of nodes nor size is one; expected either --nodes 1 to %u "
+                             "or --size in metres above 0; give one of them"),
+                           SPORE_MESH_MAXIMUM);
+  if (!(keep_angle_deg > 0 && keep_angle_deg <= 360))
+    return spore_cli_usage(_("--keep-angle %g: not an angle to keep; expected above 0 to 360 degrees; 60 keeps the "
+                             "edges of a box, 360 none"),
+                           keep_angle_deg);
+  if (output && !formatter_of(output))
+    return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .off or .obj"), output);
+  return SPORE_EXIT_DONE;
+}
+
+int spore_command_surface(SporeCli *cli, int argc, char **argv) {
+  static const SporeReportMember members[] = {
+      {"nodes", N_("number of nodes")},
+      {"triangles", N_("number of triangles")},
+      {"pieces", N_("that do not hang together: as many as before")},
+      {"open_edges", N_("that only one triangle has")},
+      {"hausdorff", N_("largest distance to the surface, both ways, of the diagonal")},
+      {"outline", N_("largest distance between the open edges of both, of the diagonal")},
+      {"min_angle_deg", N_("least angle of any triangle, degrees")},
+      {"mean_angle_deg", N_("mean of the least angles, degrees")},
+      {"edge_m", N_("length of edges, m: min, mean, max")},
+      {"area_change", N_("share of the area that was gained")},
+      {"volume_change", N_("share of the volume that was gained; null where the surface is open")},
+      {"creases", N_("edges at which the surface turns more than --keep-angle")},
+      {"creases_kept", N_("false: so few nodes come nearer to the surface without")},
+      {"reached", N_("false: fewer nodes would change what the surface hangs together like")},
+      {"seconds", N_("that it took")},
+      {NULL, NULL}};
+  static const SporeCommandInfo info = {
+      "surface",
+      "MESH",
+      N_("Makes a surface of fewer, well-shaped triangles, for a net, a deformable surface or a spline. Open edges, "
+         "creases, thin parts, holes and handles are kept."),
+      1,
+      1,
+      members};
+  char *unit = NULL, *frame = NULL, *output = NULL;
+  gint64 nodes = 0;
+  double size = 0, keep_angle_deg = SPORE_SIMPLIFY_KEEP_ANGLE * 180 / G_PI;
+  const GOptionEntry entries[] = {
+      {"nodes", 'n', 0, G_OPTION_ARG_INT64, &nodes, N_("Number of nodes at most"), "N"},
+      {"size", 's', 0, G_OPTION_ARG_DOUBLE, &size, N_("Edge length, m, instead: as many nodes as that takes"), "D"},
+      {"keep-angle", 'k', 0, G_OPTION_ARG_DOUBLE, &keep_angle_deg,
+       N_("Keep edges at which the surface turns by more (degrees, default 60; 360: none)"), "DEG"},
+      {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
+      {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, in metres: .off or .obj"), "F"},
+      G_OPTION_ENTRY_NULL};
+  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  if (status == SPORE_EXIT_DONE) status = check_options(nodes, size, keep_angle_deg, output);
+  if (status == SPORE_EXIT_DONE) {
+    SporeSimplifyOptions options = {(size_t)nodes, size, keep_angle_deg * G_PI / 180};
+    status = generate(cli, argv[1], &options, unit, frame, output);
+  }
+  g_free(unit);
+  g_free(frame);
+  g_free(output);
+  return status;
+}

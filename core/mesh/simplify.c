@@ -1,0 +1,376 @@
+#include "core/mesh/simplify.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/base/text.h"
+#include "core/math/mat3.h"
+#include "core/mesh/bvh.h"
+#include "core/mesh/common.h"
+#include "core/mesh/simplify_parts.h"
+
+#define ATTRACTION 1e-4     /* share of the squared distance from the edge's middle in what places a point */
+#define LENGTH 1e-4         /* share of an edge's squared length in its cost: else plain parts give slivers */
+#define LINE_WEIGHT 10      /* of a plane along a feature edge, to those of triangles */
+#define LEAST_QUALITY 0.002 /* of a triangle that a collapse makes, unless it was worse before */
+#define GOOD_QUALITY 0.4    /* below it, a collapse costs more */
+#define LEAST_TURN 0.3      /* cosine by which a triangle may turn in a collapse */
+#define SMALL 0.05          /* of the length wanted of edges: what of features is smaller is none of them */
+#define SLIVER 0.1          /* quality of a triangle whose own normal says nothing */
+#define DEAR 1.2            /* how much farther off the surface creases may lead than doing without */
+#define STEPS_A_REPORT 1024 /* collapses */
+
+typedef struct Candidate {
+  double cost;
+  uint32_t a, b, stamp; /* stamp: sum of both vertices' when it was made; another: it is out of date */
+  bool put_off;
+} Candidate;
+
+typedef struct Collapser {
+  SporeShell *shell;
+  SporeQuadric *quadric;
+  uint32_t *stamp;
+  Candidate *heap;
+  size_t count, capacity;
+  double edge; /* length wanted */
+} Collapser;
+
+/* Quadrics. */
+
+static void add_plane(SporeQuadric *quadric, SporeVec3 normal, SporeVec3 on, double weight) {
+  double offset = -spore_vec3_dot(normal, on);
+  quadric->a = spore_mat3_add(quadric->a, spore_mat3_scale(weight, spore_mat3_outer(normal, normal)));
+  quadric->b = spore_vec3_add_scaled(quadric->b, weight * offset, normal);
+  quadric->c += weight * offset * offset;
+}
+
+static SporeQuadric sum_of(const SporeQuadric *one, const SporeQuadric *other) {
+  return (SporeQuadric){spore_mat3_add(one->a, other->a), spore_vec3_add(one->b, other->b), one->c + other->c,
+                        one->weight + other->weight};
+}
+
+/* The plane through a feature edge across its triangle. */
+static void add_line(Collapser *work, uint32_t corner, SporeVec3 normal) {
+  const SporeShell *shell = work->shell;
+  uint32_t ends[2] = {shell->corner[corner], shell->corner[spore_shell_after(corner)]};
+  SporeVec3 from = spore_shell_at(shell, ends[0]), side = spore_vec3_sub(spore_shell_at(shell, ends[1]), from);
+  SporeVec3 across = spore_vec3_normalise(spore_vec3_cross(side, normal), spore_vec3(0, 0, 0));
+  for (int e = 0; e < 2; e++)
+    add_plane(&work->quadric[ends[e]], across, from, LINE_WEIGHT * spore_vec3_dot(side, side));
+}
+
+/* The area of all triangles. */
+static double make_quadrics(Collapser *work) {
+  double all = 0;
+  const SporeShell *shell = work->shell;
+  memset(work->quadric, 0, shell->vertex_count * sizeof *work->quadric);
+  for (uint32_t t = 0; t < shell->triangle_count; t++) {
+    const uint32_t *n = shell->corner + 3 * (size_t)t;
+    if (n[0] == SPORE_SHELL_NONE) continue;
+    SporeVec3 twice = spore_shell_normal(shell, t), normal = spore_vec3_normalise(twice, spore_vec3(0, 0, 0));
+    double area = 0.5 * spore_vec3_length(twice);
+    all += area;
+    for (uint32_t k = 0; k < 3; k++) {
+      add_plane(&work->quadric[n[k]], normal, spore_shell_at(shell, n[0]), area);
+      work->quadric[n[k]].weight += area;
+      if (shell->feature[3 * t + k]) add_line(work, 3 * t + k, normal);
+    }
+  }
+  return all;
+}
+
+/* Adds the triangles at a vertex that lack `except`: 2 area n and 6 times the volume to the origin. */
+static void add_star(const SporeShell *shell, uint32_t vertex, uint32_t except, SporeVec3 *normal, double *volume) {
+  SporeVec3 at = spore_shell_at(shell, vertex);
+  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c]) {
+    uint32_t n[2] = {shell->corner[spore_shell_after(c)], shell->corner[spore_shell_before(c)]};
+    if (n[0] == except || n[1] == except) continue;
+    SporeVec3 p = spore_shell_at(shell, n[0]), q = spore_shell_at(shell, n[1]);
+    *normal = spore_vec3_add(*normal, spore_vec3_cross(spore_vec3_sub(p, at), spore_vec3_sub(q, at)));
+    *volume += spore_vec3_dot(at, spore_vec3_cross(p, q));
+  }
+}
+
+/* Moves the least of all places to the plane in which the volume below is as before (Lindstrom and Turk 1998). */
+static void keep_volume(const SporeShell *shell, uint32_t a, uint32_t b, const SporeMat3 *inverse, SporeVec3 *x) {
+  SporeVec3 normal = {0, 0, 0};
+  double volume = 0;
+  add_star(shell, a, SPORE_SHELL_NONE, &normal, &volume);
+  add_star(shell, b, a, &normal, &volume);
+  SporeVec3 along = spore_mat3_apply(*inverse, normal);
+  double stiff = spore_vec3_dot(normal, along);
+  if (stiff > 0) *x = spore_vec3_add_scaled(*x, (volume - spore_vec3_dot(normal, *x)) / stiff, along);
+}
+
+/* Where the two go, as one; false: they must stay apart. */
+static bool place(const Collapser *work, uint32_t a, uint32_t b, const SporeQuadric *both, SporeVec3 *x) {
+  const SporeShell *shell = work->shell;
+  SporeVec3 from = spore_shell_at(shell, a), to = spore_shell_at(shell, b);
+  bool lined = shell->kind[b] != SPORE_SHELL_CORNER && spore_shell_is_feature(shell, a, b);
+  bool small = spore_vec3_distance(from, to) < SMALL * work->edge;
+  if (shell->kind[b] != SPORE_SHELL_SMOOTH && !lined && !small) return false;
+  if (shell->kind[a] > shell->kind[b] ||
+      (shell->kind[b] != SPORE_SHELL_SMOOTH && !lined)) { /* what may move less stays */
+    *x = from;
+    return true;
+  }
+  SporeVec3 middle = spore_vec3_scale(0.5, spore_vec3_add(from, to));
+  double pull = ATTRACTION * both->weight;
+  SporeMat3 matrix = both->a, inverse;
+  for (int k = 0; k < 3; k++) matrix.m[4 * k] += pull;
+  SporeVec3 right = spore_vec3_sub(spore_vec3_scale(pull, middle), both->b);
+  *x = middle;
+  if (spore_mat3_invert(matrix, &inverse)) {
+    *x = spore_mat3_apply(inverse, right);
+    if (shell->kind[a] == SPORE_SHELL_SMOOTH) keep_volume(shell, a, b, &inverse, x);
+  }
+  if (spore_vec3_distance(*x, middle) > spore_vec3_distance(from, to)) *x = middle;
+  return true;
+}
+
+/* The heap: cheapest first. */
+
+static bool is_before(const Candidate *one, const Candidate *other) {
+  if (one->cost != other->cost) return one->cost < other->cost;
+  return one->a != other->a ? one->a < other->a : one->b < other->b;
+}
+
+static bool push(Collapser *work, Candidate candidate) {
+  if (work->count == work->capacity) {
+    size_t capacity = 2 * work->capacity + 64;
+    Candidate *heap = spore_reallocate(work->heap, work->capacity, capacity, sizeof *heap);
+    if (!heap) return false;
+    work->heap = heap;
+    work->capacity = capacity;
+  }
+  size_t at = work->count++;
+  for (; at > 0 && is_before(&candidate, &work->heap[(at - 1) / 2]); at = (at - 1) / 2)
+    work->heap[at] = work->heap[(at - 1) / 2];
+  work->heap[at] = candidate;
+  return true;
+}
+
+static Candidate pop(Collapser *work) {
+  Candidate first = work->heap[0], last = work->heap[--work->count];
+  size_t at = 0;
+  for (size_t child; (child = 2 * at + 1) < work->count; at = child) {
+    if (child + 1 < work->count && is_before(&work->heap[child + 1], &work->heap[child])) child++;
+    if (!is_before(&work->heap[child], &last)) break;
+    work->heap[at] = work->heap[child];
+  }
+  work->heap[at] = last;
+  return first;
+}
+
+/* The vertex that may move less is a: it stays in the lists. */
+static bool consider(Collapser *work, uint32_t a, uint32_t b) {
+  const SporeShell *shell = work->shell;
+  if (shell->kind[a] < shell->kind[b] || (shell->kind[a] == shell->kind[b] && a > b)) {
+    uint32_t swap = a;
+    a = b, b = swap;
+  }
+  SporeQuadric both = sum_of(&work->quadric[a], &work->quadric[b]);
+  SporeVec3 x, side = spore_vec3_sub(spore_shell_at(shell, a), spore_shell_at(shell, b));
+  if (!place(work, a, b, &both, &x)) return true;
+  double cost = spore_quadric_at(&both, x) + LENGTH * both.weight * spore_vec3_dot(side, side);
+  return push(work, (Candidate){cost, a, b, work->stamp[a] + work->stamp[b], false});
+}
+
+static bool consider_around(Collapser *work, uint32_t a, bool all) {
+  SporeShell *shell = work->shell;
+  uint32_t done = ++shell->marked;
+  for (uint32_t c = shell->head[a]; c != SPORE_SHELL_NONE; c = shell->next[c]) {
+    uint32_t ends[2] = {shell->corner[spore_shell_after(c)], shell->corner[spore_shell_before(c)]};
+    for (int e = 0; e < 2; e++) {
+      if (shell->mark[ends[e]] == done || (!all && ends[e] < a)) continue;
+      shell->mark[ends[e]] = done;
+      if (!consider(work, a, ends[e])) return false;
+    }
+  }
+  return true;
+}
+
+/* Whether the triangles at a vertex do not go all round it: then its first and last neighbour come once, not twice. */
+static bool is_open(const SporeShell *shell, uint32_t vertex) {
+  uint32_t unpaired = 0;
+  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c])
+    unpaired ^= shell->corner[spore_shell_after(c)] ^ shell->corner[spore_shell_before(c)];
+  return unpaired != 0;
+}
+
+/* Whether a collapse leaves a surface that hangs together as before: the neighbours that both have are the corners of
+ * the triangles at their edge, and none of those loses what it hangs on. */
+static bool keeps_shape(SporeShell *shell, uint32_t a, uint32_t b) {
+  uint32_t corners[2], near_a = spore_shell_mark(shell, a), common = 0;
+  size_t count = spore_shell_between(shell, a, b, corners);
+  if (count == 0 || count > 2) return false;
+  uint32_t seen = ++shell->marked;
+  for (uint32_t c = shell->head[b]; c != SPORE_SHELL_NONE; c = shell->next[c]) {
+    uint32_t ends[2] = {shell->corner[spore_shell_after(c)], shell->corner[spore_shell_before(c)]};
+    for (int e = 0; e < 2; e++) {
+      common += shell->mark[ends[e]] == near_a;
+      shell->mark[ends[e]] = seen;
+    }
+  }
+  if (common != count) return false;
+  for (size_t i = 0; i < count; i++) {
+    const uint32_t *n = shell->corner + 3 * (size_t)(corners[i] / 3);
+    uint32_t c = n[0] ^ n[1] ^ n[2] ^ a ^ b;
+    if (spore_shell_count(shell, c) <= (is_open(shell, c) ? 1 : 3)) return false;
+  }
+  return true;
+}
+
+/* The mean normal around, by area. */
+static SporeVec3 normal_around(const SporeShell *shell, uint32_t vertex) {
+  SporeVec3 sum = {0, 0, 0};
+  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c])
+    sum = spore_vec3_add(sum, spore_shell_normal(shell, c / 3));
+  return sum;
+}
+
+double spore_shell_moved_quality(const SporeShell *shell, uint32_t vertex, SporeVec3 x, uint32_t except) {
+  SporeVec3 at = spore_shell_at(shell, vertex);
+  double worst = 1;
+  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c]) {
+    uint32_t n[2] = {shell->corner[spore_shell_after(c)], shell->corner[spore_shell_before(c)]};
+    if (n[0] == except || n[1] == except) continue;
+    SporeVec3 b = spore_shell_at(shell, n[0]), d = spore_shell_at(shell, n[1]);
+    double was = spore_shell_quality(at, b, d), quality = spore_shell_quality(x, b, d);
+    SporeVec3 before = was < SLIVER ? normal_around(shell, vertex)
+                                    : spore_vec3_cross(spore_vec3_sub(b, at), spore_vec3_sub(d, at)),
+              after = spore_vec3_cross(spore_vec3_sub(b, x), spore_vec3_sub(d, x));
+    double both = spore_vec3_length(before) * spore_vec3_length(after);
+    if (!(spore_vec3_dot(before, after) >= LEAST_TURN * both)) return 0;
+    if (quality < was) worst = fmin(worst, quality);
+  }
+  return worst;
+}
+
+/* What would make narrow triangles is put off until all else costs as much. False: no memory. */
+static bool collapse(Collapser *work, const Candidate *candidate) {
+  SporeShell *shell = work->shell;
+  uint32_t a = candidate->a, b = candidate->b;
+  SporeQuadric both = sum_of(&work->quadric[a], &work->quadric[b]);
+  SporeVec3 x;
+  if (!place(work, a, b, &both, &x) || !keeps_shape(shell, a, b)) return true;
+  double quality = fmin(spore_shell_moved_quality(shell, a, x, b), spore_shell_moved_quality(shell, b, x, a));
+  if (quality < LEAST_QUALITY) return true;
+  if (quality < GOOD_QUALITY && !candidate->put_off) {
+    Candidate later = *candidate;
+    later.put_off = true;
+    later.cost *= pow(GOOD_QUALITY / quality, 3);
+    return push(work, later);
+  }
+  spore_shell_collapse(shell, a, b, x);
+  work->quadric[a] = both;
+  work->stamp[a]++;
+  work->stamp[b]++;
+  return consider_around(work, a, true);
+}
+
+static bool collapse_to(Collapser *work, size_t vertices, const SporeProgress *progress, SporeError *error) {
+  size_t from = work->shell->live, step = 0;
+  work->count = 0;
+  for (uint32_t i = 0; i < work->shell->vertex_count; i++)
+    if (!consider_around(work, i, false)) return spore_mesh_no_memory(error);
+  while (work->count > 0 && work->shell->live > vertices) {
+    Candidate next = pop(work);
+    if (next.stamp != work->stamp[next.a] + work->stamp[next.b]) continue;
+    if (!collapse(work, &next)) return spore_mesh_no_memory(error);
+    if (step++ % STEPS_A_REPORT == 0 &&
+        !spore_progress(progress, 0.5 * (double)(from - work->shell->live) / (double)(from - vertices),
+                        _("collapsing edges")))
+      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  }
+  return true;
+}
+
+static size_t wanted(const SporeTriangleMesh *mesh, const SporeSimplifyOptions *options) {
+  if (options->vertices > 0) return options->vertices < 4 ? 4 : options->vertices;
+  double area = 0, one = sqrt(3) / 2 * options->size * options->size; /* of a vertex among equilateral triangles */
+  for (size_t t = 0; t < mesh->triangle_count; t++) {
+    const uint32_t *n = mesh->triangles + 3 * t;
+    area += spore_vec3_length(spore_mesh_area_vector(spore_mesh_vertex(mesh->vertices, n[0]),
+                                                     spore_mesh_vertex(mesh->vertices, n[1]),
+                                                     spore_mesh_vertex(mesh->vertices, n[2])));
+  }
+  double count = area / one;
+  return count < 4 ? 4 : count > 1e9 ? 1000000000 : (size_t)count;
+}
+
+/* One simplified surface, from the original, keeping what turns more than `angle`. */
+typedef struct Attempt {
+  SporeTriangleMesh mesh;
+  SporeShellFeatures features;
+  double farthest; /* m: vertex of the original from it */
+  bool reached;
+} Attempt;
+
+static bool measure(const SporeTriangleMesh *original, Attempt *attempt, SporeError *error) {
+  SporeBvh *bvh = spore_bvh_create(&attempt->mesh, error);
+  for (size_t i = 0; bvh && i < original->vertex_count; i++)
+    attempt->farthest =
+        fmax(attempt->farthest, spore_bvh_distance(bvh, spore_vec3_load(original->vertices + 3 * i), NULL, NULL));
+  spore_bvh_free(bvh);
+  return bvh != NULL;
+}
+
+static bool attempt(Collapser *work, const SporeTriangleMesh *original, double angle, size_t vertices, Attempt *made,
+                    const SporeProgress *progress, SporeError *error) {
+  SporeShell *shell = work->shell;
+  *made = (Attempt){.farthest = 0};
+  if (!spore_shell_create(shell, original)) return spore_mesh_no_memory(error);
+  bool done = spore_shell_find_features(shell, angle, &made->features);
+  if (!done) spore_mesh_no_memory(error);
+  double area = done ? make_quadrics(work) : 0;
+  work->edge = sqrt(area / (sqrt(3) / 2 * (double)vertices));
+  done = done && (shell->live <= vertices || collapse_to(work, vertices, progress, error)) &&
+         spore_shell_improve(shell, work->quadric, progress, error) && spore_shell_mesh(shell, &made->mesh, error);
+  made->reached = shell->live <= vertices;
+  spore_shell_clear(shell);
+  return done && measure(original, made, error);
+}
+
+/* Whether creases cost too many of the vertices. */
+static bool is_worse(const Attempt *with, const Attempt *without) {
+  return with->reached != without->reached ? without->reached : with->farthest > DEAR * without->farthest;
+}
+
+static bool simplify(Collapser *work, const SporeTriangleMesh *original, const SporeSimplifyOptions *options,
+                     Attempt *best, SporeSimplifyReport *report, const SporeProgress *progress, SporeError *error) {
+  double angle = options->keep_angle > 0 ? options->keep_angle : SPORE_SIMPLIFY_KEEP_ANGLE;
+  size_t vertices = wanted(original, options);
+  Attempt other = {0};
+  if (!attempt(work, original, angle, vertices, best, progress, error)) return false;
+  *report = (SporeSimplifyReport){
+      .creases = best->features.creases, .locked_edges = best->features.locked, .creases_kept = true};
+  bool done = report->creases == 0 || attempt(work, original, 2 * M_PI, vertices, &other, progress, error);
+  if (done && report->creases > 0 && is_worse(best, &other)) {
+    Attempt swap = *best;
+    *best = other, other = swap;
+    report->creases_kept = false;
+  }
+  spore_triangle_mesh_clear(&other.mesh);
+  report->reached = best->reached;
+  return done;
+}
+
+bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimplifyOptions *options,
+                                  SporeTriangleMesh *result, SporeSimplifyReport *report, const SporeProgress *progress,
+                                  SporeError *error) {
+  SporeShell shell = {0};
+  Attempt best = {0};
+  Collapser work = {.shell = &shell,
+                    .quadric = SPORE_NEW_ARRAY(SporeQuadric, mesh->vertex_count),
+                    .stamp = SPORE_NEW_ARRAY(uint32_t, mesh->vertex_count)};
+  bool done = work.quadric && work.stamp;
+  if (done) done = simplify(&work, mesh, options, &best, report, progress, error);
+  else spore_mesh_no_memory(error);
+  if (!done) spore_triangle_mesh_clear(&best.mesh);
+  *result = best.mesh;
+  spore_free(work.quadric);
+  spore_free(work.stamp);
+  spore_free(work.heap);
+  return done;
+}

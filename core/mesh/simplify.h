@@ -1,0 +1,36 @@
+/* A surface made of fewer triangles, so well shaped that it can be the mesh of a net. */
+#ifndef SPORE_MESH_SIMPLIFY_H
+#define SPORE_MESH_SIMPLIFY_H
+
+#include "core/base/progress.h"
+#include "core/mesh/mesh.h"
+
+typedef struct SporeSimplifyOptions {
+  size_t vertices;   /* as many at most; 0: see size */
+  double size;       /* m: mean length of edges wanted; where vertices is 0 */
+  double keep_angle; /* rad: edges at which the surface turns more are creases, and corners of outlines that turn more
+                        stay; above pi: none; 0: SPORE_SIMPLIFY_KEEP_ANGLE */
+} SporeSimplifyOptions;
+#define SPORE_SIMPLIFY_KEEP_ANGLE 1.0471975511965976 /* 60 degrees */
+
+typedef struct SporeSimplifyReport {
+  size_t creases;      /* edges sharper than keep_angle */
+  bool creases_kept;   /* false: so few vertices come nearer to the surface without; kept are the open edges alone */
+  bool reached;        /* false: fewer vertices would change what the surface hangs together like */
+  size_t locked_edges; /* where more than two triangles meet: stay as they are */
+} SporeSimplifyReport;
+
+/* Collapses edges, the cheapest first, by the squared distance from the planes around (Garland and Heckbert 1997) at
+ * the volume below as it was (Lindstrom and Turk 1998), with a share for the length, so that triangles are alike where
+ * the surface is plain. Open edges and creases give up points along themselves only; each piece stays in one piece with
+ * its holes and handles; no triangle turns over. Then edges are turned and points moved along the surface where that
+ * makes the narrowest angle wider. Valid mesh; the result is a new one, oriented as it was. The same mesh gives the
+ * same result. False: no memory, or cancelled. */
+bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimplifyOptions *options,
+                                  SporeTriangleMesh *result, SporeSimplifyReport *report, const SporeProgress *progress,
+                                  SporeError *error);
+
+/* Of the angles of all triangles, degrees: the least, and the mean of each one's least. */
+void spore_triangle_mesh_angles(const SporeTriangleMesh *mesh, double *least, double *mean);
+
+#endif
