@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/generate/surface_distance.h"
 #include "core/mesh/edit.h"
+#include "core/mesh/simplify.h"
 
 #define WELD 1e-6     /* of the diagonal: what a clean takes for one place */
 #define SAMPLES 20000 /* a surface, for the Hausdorff distance */
@@ -42,6 +43,15 @@ const SporeMeshOperation spore_mesh_operations[SPORE_MESH_OPERATIONS] = {
                            .maximum = 1000,
                            .usual = 10,
                            .whole = true},
+    [SPORE_MESH_DECIMATE] = {.name = "triangles",
+                             .label = N_("Decimate"),
+                             .doc = N_("Leave about N triangles, where the shape loses least"),
+                             .argument = "N",
+                             .argument_label = N_("triangles"),
+                             .minimum = 4,
+                             .maximum = SPORE_MESH_MAXIMUM,
+                             .usual = 5000,
+                             .whole = true},
 };
 
 bool spore_mesh_figures(const SporeTriangleMesh *mesh, SporeMeshFigures *figures, SporeError *error) {
@@ -69,6 +79,19 @@ static bool fill_holes(SporeTriangleMesh *mesh, size_t most_edges, const SporePr
          spore_triangle_mesh_orient(mesh, error);
 }
 
+/* What vertices are more than half the triangles, pieces and handles make, which stay. */
+static bool decimate(SporeTriangleMesh *mesh, size_t triangles, const SporeProgress *progress, SporeError *error) {
+  if (mesh->triangle_count <= triangles) return true;
+  double more = (double)mesh->vertex_count - 0.5 * (double)mesh->triangle_count;
+  SporeSimplifyOptions options = {.vertices = (size_t)fmax(4, round(0.5 * (double)triangles + more))};
+  SporeSimplifyReport report;
+  SporeTriangleMesh result;
+  if (!spore_triangle_mesh_simplify(mesh, &options, &result, &report, progress, error)) return false;
+  spore_triangle_mesh_clear(mesh);
+  *mesh = result;
+  return true;
+}
+
 static bool apply(SporeTriangleMesh *mesh, SporeMeshOperationKind kind, double argument, const SporeProgress *progress,
                   SporeError *error) {
   switch (kind) {
@@ -82,6 +105,8 @@ static bool apply(SporeTriangleMesh *mesh, SporeMeshOperationKind kind, double a
     return fill_holes(mesh, (size_t)argument, progress, error);
   case SPORE_MESH_SMOOTH:
     return spore_triangle_mesh_smooth(mesh, (size_t)argument, progress, error);
+  case SPORE_MESH_DECIMATE:
+    return decimate(mesh, (size_t)argument, progress, error);
   case SPORE_MESH_OPERATIONS:
     break;
   }

@@ -13,6 +13,7 @@ typedef enum SporeMeshOperationKind {
   SPORE_MESH_ORIENT,
   SPORE_MESH_FILL_HOLES,
   SPORE_MESH_SMOOTH,
+  SPORE_MESH_DECIMATE,
   SPORE_MESH_OPERATIONS
 } SporeMeshOperationKind;
 

@@ -214,17 +214,19 @@ def import_mends_meshes():
     """Operations with figures before and after: a hole is filled, smoothing keeps the volume, each says how far it moved."""
     vertices, triangles = shapes.sphere()
     file("holed.off", shapes.off(vertices, triangles[6:] + triangles[-1:]))
-    answer = report("import", "holed.off", "--smooth", 5, "--fill-holes", "--clean", "-o", "mended/holed.spore")
+    answer = report("import", "holed.off", "--triangles", 200, "--smooth", 5, "--fill-holes", "--clean", "-o", "mended/holed.spore")
     steps = {step["name"]: step for step in answer["meshes"][0]["operations"]}
-    assert list(steps) == ["clean", "fill-holes", "smooth"]
+    assert list(steps) == ["clean", "fill-holes", "smooth", "triangles"]
     assert steps["fill-holes"]["before"]["boundary_edges"] > 0 == steps["fill-holes"]["after"]["boundary_edges"]
     assert steps["fill-holes"]["moved_m"] > 0
     smooth = steps["smooth"]
     assert abs(smooth["after"]["volume_m3"] / smooth["before"]["volume_m3"] - 1) < 1e-9 and 0 < smooth["moved_m"] < 0.003
+    fewer = steps["triangles"]["after"]
+    assert abs(fewer["triangles"] - 200) < 10 and abs(fewer["volume_m3"] / smooth["after"]["volume_m3"] - 1) < 0.02, fewer
     assert report("import", "holed.off", "--fill-holes=3", "-o", "mended/few.spore")["meshes"][0]["operations"][0]["after"]["boundary_edges"] > 0
     mended = WORK / "mended" / re.search('file="(holed-.*off)"', (WORK / "mended/holed.spore").read_text())[1]
     saved = report("import", mended, "-o", "mended/again.spore")["meshes"][0]["as_read"]
-    assert saved["boundary_edges"] == 0 and abs(saved["volume_m3"] / smooth["after"]["volume_m3"] - 1) < 1e-9
+    assert saved["boundary_edges"] == 0 and abs(saved["volume_m3"] / fewer["volume_m3"] - 1) < 1e-9
     for arguments, says in ((("--smooth", 0), "1000"), (("--smooth", "much"), "much"), (("--weld", 2), "0.1"), (("--fill-holes=-1",), "-1")):
         refuses("import", "holed.off", *arguments, "-o", "mended/no.spore", says=[says, arguments[0].split("=")[0]])
     assert not (WORK / "mended/no.spore").exists()
