@@ -1,120 +1,247 @@
-/* spore spheres: a sphere set from a mesh. */
+/* spore spheres: a sphere set from a mesh, tetrahedra or a curve. */
 #include <glib/gi18n.h>
+#include <math.h>
 
-#include "app/cli/cli.h"
-#include "core/generate/spheres.h"
+#include "app/cli/spheres_series.h"
+#include "core/base/number.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
-static void report(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report) {
-  spore_cli_count(cli, "count", (gint64)set->count);
-  spore_cli_number(cli, "coverage", report->coverage);
-  spore_cli_number(cli, "outside", report->outside);
-  spore_cli_open(cli, "distance");
-  spore_cli_number(cli, "mean", report->distance_mean);
-  spore_cli_number(cli, "max", report->distance_max);
-  spore_cli_close(cli);
-  spore_cli_number(cli, "depth_error", report->depth_error);
-  spore_cli_number(cli, "seconds", report->seconds);
+/* What the command line says. */
+typedef struct Request {
+  char *unit, *frame, *output, *mode, *counts, *svg, *csv;
+  char **regions;
+  gint64 count, seed;
+  double tolerance, worth, thickness; /* thickness: < 0 where not given */
+  gboolean asymmetric;
+} Request;
+
+static void clear_request(Request *request) {
+  char *const texts[] = {request->unit,   request->frame, request->output, request->mode,
+                         request->counts, request->svg,   request->csv};
+  for (guint i = 0; i < G_N_ELEMENTS(texts); i++) g_free(texts[i]);
+  g_strfreev(request->regions);
+}
+
+static void say_solid(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report) {
   spore_cli_say(cli,
                 _("%zu spheres: coverage %.1f %%, outside %.1f %%, distance %.3f %% (largest %.2f %%) of the diagonal, "
                   "depth error %.3f, %.2f s\n"),
                 set->count, 100 * report->coverage, 100 * report->outside, 100 * report->distance_mean,
                 100 * report->distance_max, report->depth_error, report->seconds);
+  if (report->mirrors)
+    spore_cli_say(cli,
+                  ngettext("The mesh is its own image in %zu plane; so is the set.\n",
+                           "The mesh is its own image in %zu planes; so is the set.\n", report->mirrors),
+                  report->mirrors);
 }
 
-/* A .mesh file holds tetrahedra, in metres; everything else is a surface. */
-static gboolean from_tetrahedra(SporeCli *cli, const char *file, const SporeSpheresOptions *options,
-                                SporeSphereSet *set, SporeSpheresReport *figures, GError **error) {
-  g_autoptr(GBytes) content = spore_cli_read_file(file, _("a mesh"), error);
+static void say_sheet(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report, gboolean thick) {
+  spore_cli_say(
+      cli,
+      thick ? _("%zu spheres: they hold %.1f %% of the area, gaps %.3f %% (largest %.2f %%) of the diagonal, "
+                "%.2f s\n")
+            : _("%zu spheres: they hold %.1f %% of the area, radii %.3f %% (largest %.2f %%) of the diagonal, "
+                "%.2f s\n"),
+      set->count, 100 * report->coverage, 100 * report->distance_mean, 100 * report->distance_max, report->seconds);
+}
+
+/* What is read from the file, and what of it is the source. */
+typedef struct Read {
+  SporeTriangleMesh surface;
+  SporeTetrahedralMesh tetrahedra;
+  SporeCurve curve;
+  SporeSpheresSource source;
+} Read;
+
+static void clear_read(Read *read) {
+  spore_triangle_mesh_clear(&read->surface);
+  spore_tetrahedral_mesh_clear(&read->tetrahedra);
+  spore_curve_clear(&read->curve);
+}
+
+/* A .mesh file holds tetrahedra and a .curve file a curve, in metres; everything else is a surface. */
+static gboolean read_source(SporeCli *cli, const char *file, const Request *request, Read *read, GError **error) {
+  gboolean cells = g_str_has_suffix(file, ".mesh"), curve = g_str_has_suffix(file, ".curve");
+  if (!cells && !curve) {
+    const SporeTriangleMesh *surface = &read->surface;
+    read->source =
+        request->thickness >= 0 ? (SporeSpheresSource){.sheet = surface} : (SporeSpheresSource){.solid = surface};
+    return spore_cli_read_mesh(cli, file, request->unit, request->frame, &read->surface, NULL, NULL, NULL, error);
+  }
+  if (request->unit || request->frame || request->thickness >= 0)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, file,
+                             _("has metres and SPORE's axes, and is no surface; expected none of --unit, --frame and "
+                               "--thickness with it; leave them out"));
+  g_autoptr(GBytes) content = spore_cli_read_file(file, cells ? _("a mesh") : _("a curve"), error);
   if (!content) return FALSE;
-  SporeError fault = SPORE_ERROR_INIT;
-  SporeTetrahedralMesh mesh = {0};
   gsize size = 0;
   const char *text = g_bytes_get_data(content, &size);
-  gboolean done = spore_medit_parse(file, text, size, &mesh, error);
-  if (done && !spore_spheres_from_tetrahedra(&mesh, options, set, figures, spore_cli_progress(cli), &fault)) {
-    spore_error_at(&fault, file);
-    done = spore_error_propagate(&fault, error);
-  }
-  spore_tetrahedral_mesh_clear(&mesh);
-  return done;
+  read->source =
+      cells ? (SporeSpheresSource){.tetrahedra = &read->tetrahedra} : (SporeSpheresSource){.curve = &read->curve};
+  return cells ? spore_medit_parse(file, text, size, &read->tetrahedra, error)
+               : spore_curve_parse(file, text, size, &read->curve, error);
 }
 
-static gboolean from_surface(SporeCli *cli, const char *file, const SporeSpheresOptions *options, const char *unit,
-                             const char *frame, SporeSphereSet *set, SporeSpheresReport *figures, GError **error) {
+static gboolean write_set(SporeCli *cli, const char *file, const Request *request, const SporeSpheresSource *source,
+                          const SporeSpheresOptions *options, GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
-  SporeTriangleMesh mesh = {0};
-  gboolean done = spore_cli_read_mesh(cli, file, unit, frame, &mesh, NULL, NULL, NULL, error);
-  if (done && !spore_spheres_from_mesh(&mesh, options, set, figures, spore_cli_progress(cli), &fault)) {
+  SporeSphereSet set = {0};
+  SporeSpheresReport report = {0};
+  gboolean done = TRUE;
+  if (!spore_spheres_from_source(source, options, &set, &report, spore_cli_progress(cli), &fault)) {
     spore_error_at(&fault, file);
     done = spore_error_propagate(&fault, error);
   }
-  spore_triangle_mesh_clear(&mesh);
-  return done;
-}
-
-static int generate(SporeCli *cli, const char *file, const SporeSpheresOptions *options, const char *unit,
-                    const char *frame, const char *output) {
-  GError *error = NULL;
-  SporeSphereSet set = {0};
-  SporeSpheresReport figures = {0};
-  gboolean done = !output || spore_cli_keeps(output, file, &error);
-  if (done)
-    done = g_str_has_suffix(file, ".mesh") ? from_tetrahedra(cli, file, options, &set, &figures, &error)
-                                           : from_surface(cli, file, options, unit, frame, &set, &figures, &error);
-  if (done && output) {
+  if (done && request->output) {
     gsize size = 0;
     g_autofree char *text = spore_spheres_format(&set, &size);
-    done = spore_write_file(output, text, size, &error);
+    done = spore_write_file(request->output, text, size, error);
   }
-  if (done) report(cli, &set, &figures);
+  if (done) {
+    spore_cli_spheres_members(cli, set.count, &report);
+    if (source->sheet) say_sheet(cli, &set, &report, options->thickness > 0);
+    else say_solid(cli, &set, &report);
+  }
   spore_sphere_set_clear(&set);
-  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+  return done;
+}
+
+/* X,Y,Z,R,FACTOR */
+static gboolean parse_region(const char *text, SporeSpheresRegion *region, GError **error) {
+  double numbers[5];
+  const char *at = text;
+  for (int i = 0; i < 5; i++) {
+    size_t length = spore_number_read(at, strlen(at), &numbers[i]);
+    if (!length || at[length] != (i < 4 ? ',' : '\0'))
+      return spore_error_raise(error, SPORE_ERROR_INPUT, "--region",
+                               _("\"%s\" is no region; expected X,Y,Z,RADIUS,FACTOR with lengths in metres, such as "
+                                 "0,0.02,0,0.01,4; correct it"),
+                               text);
+    at += length + 1;
+  }
+  *region = (SporeSpheresRegion){{numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4]};
+  return TRUE;
+}
+
+static GArray *parse_regions(char **texts, GError **error) {
+  g_autoptr(GArray) regions = g_array_new(FALSE, TRUE, sizeof(SporeSpheresRegion));
+  for (char **text = texts; text && *text; text++) {
+    SporeSpheresRegion region;
+    if (!parse_region(*text, &region, error)) return NULL;
+    g_array_append_val(regions, region);
+  }
+  return g_steal_pointer(&regions);
+}
+
+/* The outputs do not overwrite the input. */
+static gboolean keeps_input(const Request *request, const char *file, GError **error) {
+  const char *const outputs[] = {request->output, request->svg, request->csv};
+  for (guint i = 0; i < G_N_ELEMENTS(outputs); i++)
+    if (outputs[i] && !spore_cli_keeps(outputs[i], file, error)) return FALSE;
+  return TRUE;
+}
+
+static gboolean generate(SporeCli *cli, const char *file, const Request *request, GError **error) {
+  Read read = {0};
+  g_autoptr(GArray) regions = parse_regions(request->regions, error);
+  g_autoptr(GArray) counts = NULL;
+  int mode = request->mode ? spore_cli_choice("--mode", request->mode, spore_spheres_mode_names, error)
+                           : SPORE_SPHERES_BALANCED;
+  if (!regions || mode < 0 || !keeps_input(request, file, error)) return FALSE;
+  if (request->counts && !(counts = spore_cli_counts(request->counts, error))) return FALSE;
+  SporeSpheresOptions options = {.mode = (SporeSpheresMode)mode,
+                                 .count = (size_t)request->count,
+                                 .tolerance = request->tolerance,
+                                 .seed = (uint64_t)request->seed,
+                                 .regions = (const SporeSpheresRegion *)(gconstpointer)regions->data,
+                                 .region_count = regions->len,
+                                 .asymmetric = request->asymmetric,
+                                 .thickness = fmax(request->thickness, 0)};
+  gboolean done = read_source(cli, file, request, &read, error);
+  if (done && counts)
+    done = spore_cli_spheres_series(cli, file, &read.source, &options, counts, request->worth, request->svg,
+                                    request->csv, error);
+  else done = done && write_set(cli, file, request, &read.source, &options, error);
+  clear_read(&read);
+  return done;
+}
+
+/* SPORE_EXIT_DONE to go on. */
+static int check_request(const Request *request) {
+  int ways = (request->count != 0) + (request->tolerance != 0) + (request->counts != NULL);
+  if (request->count < 0 || request->count > SPORE_SPHERES_MAXIMUM || ways != 1 ||
+      (request->tolerance != 0 && !(request->tolerance >= 1e-4 && request->tolerance < 1)))
+    return spore_cli_usage(_("spore spheres: neither number of spheres nor tolerance is one; expected either "
+                             "--count 1 to %d, --counts with several of those, or --tolerance "
+                             "0.0001 to 1; give one of them"),
+                           SPORE_SPHERES_MAXIMUM);
+  if (!request->counts && (request->svg || request->csv))
+    return spore_cli_usage(_("spore spheres: --svg and --csv show several numbers of spheres; expected --counts with "
+                             "them; give it"));
+  if (request->counts && request->output)
+    return spore_cli_usage(
+        _("spore spheres: --output holds one set; expected --count or --tolerance with it; leave out "
+          "--counts"));
+  if (!(request->worth > 0 && request->worth < 1))
+    return spore_cli_usage(_("spore spheres: --worth is %g; expected a share of the largest depth between 0 and 1; "
+                             "correct it"),
+                           request->worth);
+  return SPORE_EXIT_DONE;
 }
 
 int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
       {"count", N_("of spheres")},
-      {"coverage", N_("share of the inside that lies in a sphere")},
-      {"outside", N_("volume of the spheres that lies outside, of the mesh's volume")},
-      {"distance", N_("between surface and spheres, of the diagonal: mean, max")},
-      {"depth_error", N_("of the depth that is felt, of the largest depth")},
+      {"coverage", N_("share of the inside that lies in a sphere; of a sheet, of its area")},
+      {"outside", N_("volume of the spheres that lies outside, of the mesh's volume; null for a sheet")},
+      {"distance", N_("between surface and spheres, of the diagonal: mean, max; of a sheet see --thickness")},
+      {"depth_error", N_("of the depth that is felt, of the largest depth; null for a sheet")},
       {"seconds", N_("that it took")},
+      {"mirrors", N_("planes that mesh and spheres are symmetric about")},
+      {"points", N_("with --counts, instead of all above: each number with the members above")},
+      {"enough", N_("with --counts: the number from which on more spheres do not pay; null: all pay")},
+      {"worth", N_("with --counts: as given")},
       {NULL, NULL}};
-  static const SporeCommandInfo info = {
-      "spheres", "MESH", N_("Fits collision spheres to a mesh, or to the tetrahedra of a .mesh file."), 1, 1, members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *mode = NULL;
-  gint64 count = 0, seed = 1;
-  double tolerance = 0;
+  static const SporeCommandInfo info = {"spheres",
+                                        "FILE",
+                                        N_("Fits collision spheres to a mesh, to the tetrahedra of a .mesh file, or "
+                                           "along a .curve file."),
+                                        1,
+                                        1,
+                                        members};
+  Request r = {.seed = 1, .thickness = -1, .worth = SPORE_SPHERES_WORTH};
   const GOptionEntry entries[] = {
-      {"count", 'n', 0, G_OPTION_ARG_INT64, &count, N_("Number of spheres"), "N"},
-      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &tolerance,
+      {"count", 'n', 0, G_OPTION_ARG_INT64, &r.count, N_("Number of spheres"), "N"},
+      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &r.tolerance,
        N_("Mean distance allowed, of the diagonal: as many spheres as that takes"), "D"},
-      {"mode", 'm', 0, G_OPTION_ARG_STRING, &mode,
+      {"counts", 0, 0, G_OPTION_ARG_STRING, &r.counts, N_("Measure sets of several numbers of spheres"), "N,N,..."},
+      {"svg", 0, 0, G_OPTION_ARG_FILENAME, &r.svg, N_("With --counts: plot of error against number and time"), "F.svg"},
+      {"csv", 0, 0, G_OPTION_ARG_FILENAME, &r.csv, N_("With --counts: table of the same"), "F.csv"},
+      {"worth", 0, 0, G_OPTION_ARG_DOUBLE, &r.worth,
+       N_("With --counts: what twice as many spheres have to take off the depth error to pay, of the largest depth "
+          "(default 0.01)"),
+       "D"},
+      {"mode", 'm', 0, G_OPTION_ARG_STRING, &r.mode,
        N_("What the spheres are to be good at: balanced (default) fits the depth inside"), "MODE"},
-      {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
-      {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
-      {"seed", 0, 0, G_OPTION_ARG_INT64, &seed, N_("Seed: the same one gives the same spheres (default 1)"), "N"},
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, x y z r a line"), "F.spheres"},
+      {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &r.regions,
+       N_("FACTOR times as many spheres within R metres of a place (several may be given)"), "X,Y,Z,R,FACTOR"},
+      {"asymmetric", 0, 0, G_OPTION_ARG_NONE, &r.asymmetric, N_("Leave out that a symmetric mesh gets a symmetric set"),
+       NULL},
+      {"thickness", 0, 0, G_OPTION_ARG_DOUBLE, &r.thickness,
+       N_("Take the mesh for a sheet, that many metres thick: spheres on it of that diameter, distance is the gaps "
+          "between them; 0: as wide as it takes to leave none, distance is their radii"),
+       "D"},
+      {"unit", 'u', 0, G_OPTION_ARG_STRING, &r.unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
+      {"frame", 'f', 0, G_OPTION_ARG_STRING, &r.frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
+      {"seed", 0, 0, G_OPTION_ARG_INT64, &r.seed, N_("Seed: the same one gives the same spheres (default 1)"), "N"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &r.output, N_("File to write, x y z r a line"), "F.spheres"},
       G_OPTION_ENTRY_NULL};
+  GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  if (status == SPORE_EXIT_DONE) {
-    SporeSpheresOptions options = {.count = (size_t)MAX(count, 0), .tolerance = tolerance, .seed = (uint64_t)seed};
-    GError *error = NULL;
-    int chosen = mode ? spore_cli_choice("--mode", mode, spore_spheres_mode_names, &error) : SPORE_SPHERES_BALANCED;
-    if (chosen >= 0) options.mode = (SporeSpheresMode)chosen;
-    if (chosen < 0) status = spore_cli_fail(error);
-    else if (count < 0 || count > SPORE_SPHERES_MAXIMUM || (count == 0) == !(tolerance >= 1e-4 && tolerance < 1))
-      status = spore_cli_usage(_("spore spheres: neither number of spheres nor tolerance is one; expected either "
-                                 "--count 1 to %d or --tolerance "
-                                 "0.0001 to 1; give one of them"),
-                               SPORE_SPHERES_MAXIMUM);
-    else status = generate(cli, argv[1], &options, unit, frame, output);
-  }
-  g_free(unit);
-  g_free(frame);
-  g_free(output);
-  g_free(mode);
+  if (status == SPORE_EXIT_DONE) status = check_request(&r);
+  if (status == SPORE_EXIT_DONE)
+    status = generate(cli, argv[1], &r, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+  clear_request(&r);
   return status;
 }

@@ -10,8 +10,35 @@
 
 #define CANDIDATES_LEAST 1500
 #define CANDIDATES_PER_SPHERE 12
+#define NEAR_PLANE 0.4 /* of its radius: a ball whose centre is nearer to a mirror plane starts on it */
 
 const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1] = {[SPORE_SPHERES_BALANCED] = "balanced"};
+
+/* What one way to make spheres works on. */
+typedef struct Work {
+  const SporeSpheresSource *source;
+  const SporeSpheresOptions *options;
+  SporeSolid *solid; /* NULL: the source is none */
+} Work;
+typedef bool Maker(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
+                   const SporeProgressPart *progress, SporeError *error);
+
+static bool check_regions(const SporeSpheresOptions *options, SporeError *error) {
+  for (size_t i = 0; i < options->region_count; i++) {
+    const SporeSpheresRegion *region = &options->regions[i];
+    bool placed = isfinite(region->centre[0]) && isfinite(region->centre[1]) && isfinite(region->centre[2]);
+    if (!placed || !(region->radius > 0 && isfinite(region->radius)))
+      return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                             _("region %zu has no place or the radius %g; finite numbers and a radius above 0 m were "
+                               "expected; correct it"),
+                             i + 1, region->radius);
+    if (!(region->factor >= SPORE_SPHERES_FACTOR_LEAST && region->factor <= SPORE_SPHERES_FACTOR_MOST))
+      return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                             _("region %zu has the factor %g; a number from %g to %g was expected; give one of those"),
+                             i + 1, region->factor, SPORE_SPHERES_FACTOR_LEAST, SPORE_SPHERES_FACTOR_MOST);
+  }
+  return true;
+}
 
 static bool check_options(const SporeSpheresOptions *options, SporeError *error) {
   if (options->count > SPORE_SPHERES_MAXIMUM)
@@ -24,58 +51,130 @@ static bool check_options(const SporeSpheresOptions *options, SporeError *error)
         _("neither a count nor a tolerance in (0, 1] is given (the tolerance is %g); a fraction of the "
           "diagonal such as 0.003 was expected; give one of them"),
         options->tolerance);
-  return true;
-}
-
-static bool store_balls(const SporeBalls *balls, SporeSphereSet *set, SporeError *error) {
-  if (!spore_sphere_set_allocate(set, balls->count, error)) return false;
-  for (size_t i = 0; i < balls->count; i++) {
-    double *sphere = set->spheres + 4 * i;
-    sphere[0] = balls->x[i], sphere[1] = balls->y[i], sphere[2] = balls->z[i], sphere[3] = balls->r[i];
-  }
-  return true;
+  if (!(options->thickness >= 0 && options->thickness <= 1e9))
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("the thickness is %g; a length of 0 m or more was expected; correct it"),
+                           options->thickness);
+  return check_regions(options, error);
 }
 
 static SporeProgressPart part_of(const SporeProgressPart *whole, double first, double share) {
   return (SporeProgressPart){whole->whole, whole->first + whole->share * first, whole->share * share};
 }
 
-/* Exactly `count` spheres in the solid, whatever the options say of their number, measured. */
-static bool generate(const SporeSolid *solid, size_t count, const SporeSpheresOptions *options, SporeSphereSet *set,
-                     SporeSpheresReport *report, const SporeProgressPart *progress, SporeError *error) {
+static unsigned count_bits(unsigned mask) { return (unsigned)__builtin_popcount(mask); }
+
+/* A ball stands for its images too, save in the planes that it is bound to. */
+static size_t images_of(const SporeSymmetry *symmetry, unsigned bound) {
+  return (size_t)1 << (symmetry->count - count_bits(bound));
+}
+
+static bool store_balls(const SporeSymmetry *symmetry, const SporeBalls *balls, const uint8_t *bound,
+                        SporeSphereSet *set, SporeError *error) {
+  size_t total = 0, stored = 0;
+  for (size_t i = 0; i < balls->count; i++) total += images_of(symmetry, bound[i]);
+  if (!spore_sphere_set_allocate(set, total, error)) return false;
+  for (size_t i = 0; i < balls->count; i++)
+    for (unsigned planes = 0; planes < 1u << symmetry->count; planes++) {
+      if (planes & bound[i]) continue;
+      double *sphere = set->spheres + 4 * stored++;
+      spore_vec3_store(sphere, spore_symmetry_mirror(symmetry, planes, spore_balls_centre(balls, i)));
+      sphere[3] = balls->r[i];
+    }
+  return true;
+}
+
+/* Planes that the ball is so near that it and its images had better be one. */
+static unsigned near_planes(const SporeSymmetry *symmetry, SporeVec3 centre, double radius) {
+  unsigned planes = 0;
+  for (unsigned k = 0; k < symmetry->count; k++) {
+    double height = spore_vec3_dot(spore_vec3_sub(centre, symmetry->point), symmetry->normal[k]);
+    if (height < NEAR_PLANE * radius) planes |= 1u << k;
+  }
+  return planes;
+}
+
+/* Of `ranked`, the best first, those that with their images come to `count`, each bound to the planes it is near; what
+ * is missing at the end is made up by balls that are bound to more. *balls is made. */
+static bool choose_bound(const SporeSymmetry *symmetry, size_t count, const SporeBalls *ranked, SporeBalls *balls,
+                         uint8_t *bound) {
+  size_t chosen = 0;
+  for (size_t left = count; left; chosen++) {
+    unsigned planes = near_planes(symmetry, spore_balls_centre(ranked, chosen), ranked->r[chosen]);
+    for (unsigned k = 0; images_of(symmetry, planes) > left; k++) planes |= 1u << k;
+    left -= images_of(symmetry, planes);
+    bound[chosen] = (uint8_t)planes;
+  }
+  if (!spore_balls_create(balls, chosen)) return false;
+  for (size_t i = 0; i < chosen; i++)
+    spore_balls_set(balls, i, spore_symmetry_bind(symmetry, bound[i], spore_balls_centre(ranked, i)), ranked->r[i]);
+  return true;
+}
+
+/* Balls in the solid that come to `count` with their images. *balls is made; bound holds `count`. */
+static bool place_balls(const SporeSolid *solid, size_t count, const SporeSpheresOptions *options, SporeBalls *balls,
+                        uint8_t *bound, const SporeProgressPart *progress, SporeError *error) {
   SporeRandom random = {options->seed ^ UINT64_C(0x9e3779b97f4a7c15)};
   SporeProgressPart sampling = part_of(progress, 0, 0.1), finding = part_of(progress, 0.1, 0.2),
-                    fitting = part_of(progress, 0.3, 0.6), measuring = part_of(progress, 0.9, 0.1);
+                    fitting = part_of(progress, 0.3, 0.7);
   SporeSamples samples = {0};
-  SporeBalls candidates = {0}, balls = {0};
+  SporeBalls candidates = {0}, ranked = {0};
   size_t candidate_count = CANDIDATES_PER_SPHERE * count;
   if (candidate_count < CANDIDATES_LEAST) candidate_count = CANDIDATES_LEAST;
-  *set = (SporeSphereSet){0};
   bool done = spore_samples_create(&samples, solid, count, &random, &sampling, error) &&
-              spore_candidates_create(&candidates, solid, candidate_count, &random, &finding, error);
-  if (done && !spore_balls_create(&balls, count)) done = spore_spheres_no_memory(error);
-  done = done && spore_candidates_cover(&candidates, &samples, &balls, &finding, error) &&
-         spore_spheres_fit(solid, &samples, &candidates, &balls, options->seed, &fitting, error) &&
-         store_balls(&balls, set, error) && spore_solid_measure(solid, set, report, &measuring, error);
-  spore_balls_clear(&balls);
+              spore_candidates_create(&candidates, solid, candidate_count, &random, &finding, error) &&
+              (spore_balls_create(&ranked, count) || spore_spheres_no_memory(error)) &&
+              spore_candidates_cover(&candidates, &samples, &ranked, &finding, error) &&
+              (choose_bound(&solid->symmetry, count, &ranked, balls, bound) || spore_spheres_no_memory(error)) &&
+              spore_spheres_fit(solid, &samples, &candidates, balls, bound, options->seed, &fitting, error);
+  spore_balls_clear(&ranked);
   spore_balls_clear(&candidates);
   spore_samples_clear(&samples);
+  return done;
+}
+
+/* Exactly `count` spheres in the solid, measured. */
+static bool fill_solid(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
+                       const SporeProgressPart *progress, SporeError *error) {
+  const SporeSolid *solid = work->solid;
+  SporeProgressPart placing = part_of(progress, 0, 0.9), measuring = part_of(progress, 0.9, 0.1);
+  SporeBalls balls = {0};
+  uint8_t *bound = SPORE_NEW_ARRAY(uint8_t, count);
+  *set = (SporeSphereSet){0};
+  bool done = bound || spore_spheres_no_memory(error);
+  done = done && place_balls(solid, count, work->options, &balls, bound, &placing, error) &&
+         store_balls(&solid->symmetry, &balls, bound, set, error) &&
+         spore_solid_measure(solid, set, report, &measuring, error);
+  report->mirrors = solid->symmetry.count;
+  spore_balls_clear(&balls);
+  spore_free(bound);
   if (!done) spore_sphere_set_clear(set);
   return done;
 }
 
+static bool string_curve(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
+                         const SporeProgressPart *progress, SporeError *error) {
+  return spore_spheres_along(work->source->curve, count, set, report, progress, error);
+}
+
+static bool cover_sheet(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
+                        const SporeProgressPart *progress, SporeError *error) {
+  return spore_spheres_over(work->source->sheet, count, work->options, set, report, progress, error);
+}
+
 /* The smallest set found that meets the tolerance: the error falls about as a power of the count, so each trial goes
  * where a line through the last two in logarithms says, between the counts known to be too few and enough. */
-static bool search(const SporeSolid *solid, const SporeSpheresOptions *options, SporeSphereSet *set,
-                   SporeSpheresReport *report, const SporeProgress *progress, SporeError *error) {
+static bool search(Maker *make, const Work *work, SporeSphereSet *set, SporeSpheresReport *report,
+                   const SporeProgress *progress, SporeError *error) {
+  double tolerance = work->options->tolerance;
   size_t few = 0, enough = 0, count = 16;
   double few_error = 0, enough_error = 0;
   for (int trial = 0;; trial++) {
     SporeProgressPart part = {progress, 1 - pow(0.8, trial), 0.2 * pow(0.8, trial)};
     SporeSphereSet tried;
     SporeSpheresReport measured;
-    if (!generate(solid, count, options, &tried, &measured, &part, error)) return false;
-    if (measured.distance_mean <= options->tolerance) {
+    if (!make(work, count, &tried, &measured, &part, error)) return false;
+    if (measured.distance_mean <= tolerance) {
       spore_sphere_set_clear(set);
       *set = tried, *report = measured;
       enough = count, enough_error = measured.distance_mean;
@@ -89,10 +188,10 @@ static bool search(const SporeSolid *solid, const SporeSpheresOptions *options, 
           error, SPORE_ERROR_NUMERICAL, NULL,
           _("%u spheres still are %g of the diagonal away on average, over the tolerance of %g; give a "
             "larger tolerance"),
-          SPORE_SPHERES_MAXIMUM, few_error, options->tolerance);
+          SPORE_SPHERES_MAXIMUM, few_error, tolerance);
     double slope = few && enough ? log(enough_error / few_error) / log((double)enough / (double)few) : -0.6;
     double known = few ? (double)few : (double)enough, known_error = few ? few_error : enough_error;
-    double guess = known * pow(options->tolerance / known_error, 1 / fmin(slope, -0.2));
+    double guess = known * pow(tolerance / known_error, 1 / fmin(slope, -0.2));
     size_t low = few + 1, high = enough ? enough - 1 : SPORE_SPHERES_MAXIMUM;
     if (!few && guess > (double)enough / 2) guess = (double)enough / 2;
     if (few && enough && trial > 6) guess = sqrt((double)few * (double)enough);
@@ -101,36 +200,69 @@ static bool search(const SporeSolid *solid, const SporeSpheresOptions *options, 
   }
 }
 
-bool spore_spheres_from_mesh(const SporeTriangleMesh *mesh, const SporeSpheresOptions *options, SporeSphereSet *set,
-                             SporeSpheresReport *report, const SporeProgress *progress, SporeError *error) {
-  uint64_t start = spore_clock_ns();
+static bool make_set(Maker *make, const Work *work, SporeSphereSet *set, SporeSpheresReport *report,
+                     const SporeProgress *progress, SporeError *error) {
+  SporeProgressPart whole = {progress, 0, 1};
+  return work->options->count ? make(work, work->options->count, set, report, &whole, error)
+                              : search(make, work, set, report, progress, error);
+}
+
+static bool from_solid(Work *work, const SporeTriangleMesh *mesh, SporeSphereSet *set, SporeSpheresReport *report,
+                       const SporeProgress *progress, SporeError *error) {
   SporeSolid solid;
+  const SporeSpheresOptions *options = work->options;
+  if (!spore_solid_create(&solid, mesh, error)) return false;
+  solid.regions = options->regions, solid.region_count = options->region_count;
+  if (!options->asymmetric && !options->region_count)
+    spore_symmetry_find(&solid.symmetry, &solid.mesh, solid.bvh, solid.diagonal);
+  work->solid = &solid;
+  bool done = make_set(fill_solid, work, set, report, progress, error);
+  spore_solid_clear(&solid);
+  return done;
+}
+
+static bool from_cells(Work *work, SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
+                       SporeError *error) {
+  const SporeTetrahedralMesh *mesh = work->source->tetrahedra;
+  if (!spore_tetrahedral_mesh_validate(mesh, error)) return false;
+  SporeTriangleMesh boundary = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
+  if (!spore_tetrahedral_mesh_boundary(mesh, &boundary.triangles, &boundary.triangle_count))
+    return spore_spheres_no_memory(error);
+  bool done = from_solid(work, &boundary, set, report, progress, error);
+  spore_free(boundary.triangles);
+  return done;
+}
+
+bool spore_spheres_from_source(const SporeSpheresSource *source, const SporeSpheresOptions *options,
+                               SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
+                               SporeError *error) {
+  uint64_t start = spore_clock_ns();
+  Work work = {source, options, NULL};
+  bool done = false;
   *set = (SporeSphereSet){0};
   *report = (SporeSpheresReport){0};
-  if (!check_options(options, error) || !spore_solid_create(&solid, mesh, error)) return false;
-  SporeProgressPart whole = {progress, 0, 1};
-  bool done = options->count ? generate(&solid, options->count, options, set, report, &whole, error)
-                             : search(&solid, options, set, report, progress, error);
-  spore_solid_clear(&solid);
+  if (!check_options(options, error)) return false;
+  if (source->solid) done = from_solid(&work, source->solid, set, report, progress, error);
+  else if (source->tetrahedra) done = from_cells(&work, set, report, progress, error);
+  else if (source->curve)
+    done = spore_curve_validate(source->curve, error) && make_set(string_curve, &work, set, report, progress, error);
+  else
+    done = spore_triangle_mesh_validate(source->sheet, error) &&
+           make_set(cover_sheet, &work, set, report, progress, error);
   if (!done) spore_sphere_set_clear(set);
   report->seconds = (double)(spore_clock_ns() - start) * 1e-9;
   return done;
 }
 
-/* The cells fill the solid inside their boundary, so the spheres are those of the boundary: fewer than one a cell, with
- * the error measured against the same solid. */
+bool spore_spheres_from_mesh(const SporeTriangleMesh *mesh, const SporeSpheresOptions *options, SporeSphereSet *set,
+                             SporeSpheresReport *report, const SporeProgress *progress, SporeError *error) {
+  return spore_spheres_from_source(&(SporeSpheresSource){.solid = mesh}, options, set, report, progress, error);
+}
+
 bool spore_spheres_from_tetrahedra(const SporeTetrahedralMesh *mesh, const SporeSpheresOptions *options,
                                    SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
                                    SporeError *error) {
-  SporeTriangleMesh boundary = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
-  *set = (SporeSphereSet){0};
-  *report = (SporeSpheresReport){0};
-  if (!spore_tetrahedral_mesh_validate(mesh, error)) return false;
-  if (!spore_tetrahedral_mesh_boundary(mesh, &boundary.triangles, &boundary.triangle_count))
-    return spore_spheres_no_memory(error);
-  bool done = spore_spheres_from_mesh(&boundary, options, set, report, progress, error);
-  spore_free(boundary.triangles);
-  return done;
+  return spore_spheres_from_source(&(SporeSpheresSource){.tetrahedra = mesh}, options, set, report, progress, error);
 }
 
 bool spore_spheres_measure(const SporeTriangleMesh *mesh, const SporeSphereSet *set, SporeSpheresReport *report,

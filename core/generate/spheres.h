@@ -14,11 +14,24 @@ extern const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1];
 
 #define SPORE_SPHERES_MAXIMUM 5000u /* of one set */
 
+/* More spheres, or fewer, in a ball: `factor` times as many in a volume as elsewhere. Where regions overlap, the
+ * largest factor holds. */
+typedef struct SporeSpheresRegion {
+  double centre[3], radius; /* m, > 0 */
+  double factor;            /* SPORE_SPHERES_FACTOR_LEAST to _MOST */
+} SporeSpheresRegion;
+#define SPORE_SPHERES_FACTOR_LEAST 0.0625
+#define SPORE_SPHERES_FACTOR_MOST 16.0
+
 typedef struct SporeSpheresOptions {
   SporeSpheresMode mode;
   size_t count;     /* wanted; > 0, or 0 to go by tolerance */
   double tolerance; /* largest mean two-sided distance, as a fraction of the diagonal, when count is 0 */
   uint64_t seed;
+  const SporeSpheresRegion *regions; /* region_count; of solids alone */
+  size_t region_count;
+  bool asymmetric;  /* do not look whether the solid is its own mirror image */
+  double thickness; /* m, of a sheet: all spheres are as wide; 0: each as wide as it takes to leave no gap */
 } SporeSpheresOptions;
 
 /* Measured on samples other than those of the fit. Distances in fractions of the bounding box diagonal. */
@@ -28,11 +41,30 @@ typedef struct SporeSpheresReport {
   double distance_mean, distance_max; /* two-sided, surface of the solid to surface of the union */
   double depth_error;                 /* mean |depth - max_i(r_i - d_i)+| inside / largest depth */
   double seconds;
+  size_t mirrors; /* planes that the solid and the set are symmetric about: 0 to 3 */
 } SporeSpheresReport;
 
-/* mesh: valid; need not be watertight (winding number > 0.5 is inside; one that is inside out is turned), but must
- * enclose volume. The same input and options give the same spheres, on any number of threads. By count: exactly that
- * many. By tolerance: the fewest found, to about 2 %. *set is empty on failure. */
+/* What spheres are made from; the first that is not NULL counts. */
+typedef struct SporeSpheresSource {
+  /* Valid; need not be watertight (winding number > 0.5 is inside; one that is inside out is turned), but must enclose
+   * volume. One that is its own image in up to three planes at right angles gives a set that is, too. */
+  const SporeTriangleMesh *solid;
+  /* Its cells fill the solid inside their boundary: the same as of that. */
+  const SporeTetrahedralMesh *tetrahedra;
+  /* All points within the curve's radius of it, with round ends. Spheres are strung along the curve, from its first end
+   * to its last, closer where it is thin or bends. */
+  const SporeCurve *curve;
+  /* A surface of no volume, open or closed. Spheres lie on it, closer where it bends; in the report coverage is the
+   * share of its area that lies in spheres, distance is that from its points to the nearest sphere where `thickness` is
+   * given, and the radii where not; outside and depth error are not numbers. */
+  const SporeTriangleMesh *sheet;
+} SporeSpheresSource;
+
+/* The same input and options give the same spheres, on any number of threads. By count: exactly that many. By
+ * tolerance: the fewest found, to about 2 %. *set is empty on failure. */
+bool spore_spheres_from_source(const SporeSpheresSource *source, const SporeSpheresOptions *options,
+                               SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
+                               SporeError *error);
 bool spore_spheres_from_mesh(const SporeTriangleMesh *mesh, const SporeSpheresOptions *options, SporeSphereSet *set,
                              SporeSpheresReport *report, const SporeProgress *progress, SporeError *error);
 bool spore_spheres_from_tetrahedra(const SporeTetrahedralMesh *mesh, const SporeSpheresOptions *options,

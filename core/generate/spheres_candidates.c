@@ -49,6 +49,9 @@ bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, si
   }
   spore_free(points);
   spore_free(normals);
+  for (size_t i = 0; i < found; i++)
+    spore_balls_set(candidates, i, spore_symmetry_fold(&solid->symmetry, spore_balls_centre(candidates, i)),
+                    candidates->r[i]);
   candidates->count = found;
   if (!done) spore_balls_clear(candidates);
   return done;

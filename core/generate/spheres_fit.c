@@ -78,6 +78,7 @@ void spore_fit_step_ball(SporeFit *fit, size_t ball, const double *normal, doubl
   const SporeBalls *b = &fit->balls;
   SporeVec3 c = spore_vec3(b->x[ball] + scale * x[0], b->y[ball] + scale * x[1], b->z[ball] + scale * x[2]);
   double radius = fmax(b->r[ball] + scale * x[3], LEAST_RADIUS * typical);
+  c = spore_fit_confine(fit, ball, c);
   spore_vec3_store(sphere, c);
   sphere[3] = fmin(radius, depth_for(fit, ball, c, radius) + fit->samples->band);
 }
@@ -218,10 +219,12 @@ static bool relocate(SporeFit *fit, const SporeProgressPart *progress, double fr
 }
 
 bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
-                       SporeBalls *balls, uint64_t seed, const SporeProgressPart *progress, SporeError *error) {
+                       SporeBalls *balls, const uint8_t *bound, uint64_t seed, const SporeProgressPart *progress,
+                       SporeError *error) {
   SporeFit fit = {.solid = solid,
                   .samples = samples,
                   .candidates = candidates,
+                  .bound = bound,
                   .smoothing = SMOOTHING * samples->typical,
                   .best_loss = HUGE_VAL,
                   .damping = DAMPING_INITIAL,

@@ -21,13 +21,21 @@ typedef struct SporeFit {
   double *missing;               /* candidates scored: depth that each would add */
   uint32_t *scored, *by_missing; /* candidates scored */
   size_t scored_count;
-  bool *marked; /* 2 x balls: done with in this pass; refitted in this trial */
+  const uint8_t *bound; /* balls: planes that they stay on; or NULL */
+  bool *marked;         /* 2 x balls: done with in this pass; refitted in this trial */
   double smoothing, loss, best_loss, damping;
   SporeRandom random;
 } SporeFit;
 
 static inline double spore_fit_sample_loss(const SporeFit *fit, double error) {
   return sqrt(error * error + fit->smoothing * fit->smoothing);
+}
+
+/* The centre or its image that the ball may have. */
+static inline SporeVec3 spore_fit_confine(const SporeFit *fit, size_t ball, SporeVec3 centre) {
+  const SporeSymmetry *symmetry = &fit->solid->symmetry;
+  if (!symmetry->count) return centre;
+  return spore_symmetry_bind(symmetry, fit->bound ? fit->bound[ball] : 0, spore_symmetry_fold(symmetry, centre));
 }
 
 /* Moves the balls that are worth least to those candidates that would add more. `turn` chooses which candidates are

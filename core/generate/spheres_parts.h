@@ -3,6 +3,7 @@
 #define SPORE_GENERATE_SPHERES_PARTS_H
 
 #include "core/generate/spheres.h"
+#include "core/generate/spheres_symmetry.h"
 #include "core/mesh/bvh.h"
 
 /* Random numbers: splitmix64, the same everywhere. */
@@ -39,9 +40,14 @@ typedef struct SporeSolid {
   double *cell_end;  /* cell_count: running sum of volumes */
   bool *cell_inside; /* cell_count: wholly inside */
   size_t cell_count;
-  double *triangle_end;             /* triangle_count: running sum of areas */
-  double volume, diagonal, deepest; /* m^3 and m, estimates by sampling; diagonal exact */
+  double *triangle_end;              /* triangle_count: running sum of areas */
+  double volume, diagonal, deepest;  /* m^3 and m, estimates by sampling; diagonal exact */
+  SporeSymmetry symmetry;            /* samples and candidates are folded by it; none unless somebody sets it */
+  const SporeSpheresRegion *regions; /* region_count: where samples lie closer and weigh more; none, too */
+  size_t region_count;
 } SporeSolid;
+/* `factor` of the regions that hold the point; 1 where none does. */
+double spore_solid_factor(const SporeSolid *solid, SporeVec3 p);
 
 bool spore_solid_create(SporeSolid *solid, const SporeTriangleMesh *mesh, SporeError *error);
 void spore_solid_clear(SporeSolid *solid);
@@ -119,10 +125,22 @@ bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, si
 bool spore_candidates_cover(const SporeBalls *candidates, const SporeSamples *samples, SporeBalls *balls,
                             const SporeProgressPart *progress, SporeError *error);
 
-/* Moves the balls so that their field meets the samples' depth. */
-/* `candidates`: where balls may be put anew. */
+/* Moves the balls so that their field meets the samples' depth. `candidates`: where balls may be put anew. `bound`: for
+ * each ball the bits of the mirror planes that its centre stays on, NULL: none. */
 bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
-                       SporeBalls *balls, uint64_t seed, const SporeProgressPart *progress, SporeError *error);
+                       SporeBalls *balls, const uint8_t *bound, uint64_t seed, const SporeProgressPart *progress,
+                       SporeError *error);
+
+/* Measures balls against a union of other balls, as spore_spheres_measure does against a solid. */
+bool spore_balls_compare(const SporeBalls *whole, const SporeBalls *balls, SporeSpheresReport *report,
+                         const SporeProgressPart *progress, SporeError *error);
+
+/* As spore_spheres_from_source, of a curve or a sheet, exactly `count`. */
+bool spore_spheres_along(const SporeCurve *curve, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
+                         const SporeProgressPart *progress, SporeError *error);
+bool spore_spheres_over(const SporeTriangleMesh *sheet, size_t count, const SporeSpheresOptions *options,
+                        SporeSphereSet *set, SporeSpheresReport *report, const SporeProgressPart *progress,
+                        SporeError *error);
 
 /* As spore_spheres_measure, on a solid that is there already. */
 bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, SporeSpheresReport *report,

@@ -96,17 +96,17 @@ size_t spore_fit_fill(SporeFit *fit, size_t turn) {
     size_t c = fit->scored[at];
     if (crowded(fit, used, filled, c)) continue;
     if (fit->worth[ball] >= fit->missing[at]) break;
-    fit->balls.x[ball] = fit->candidates->x[c], fit->balls.y[ball] = fit->candidates->y[c];
-    fit->balls.z[ball] = fit->candidates->z[c], fit->balls.r[ball] = fit->candidates->r[c];
+    SporeVec3 centre = spore_fit_confine(fit, ball, spore_balls_centre(fit->candidates, c));
+    spore_balls_set(&fit->balls, ball, centre, fit->candidates->r[c]);
     used[filled++] = c;
   }
   return filled;
 }
 
 static void place(SporeFit *fit, size_t ball, SporeVec3 centre, double radius) {
+  centre = spore_fit_confine(fit, ball, centre);
   double most = fmax(spore_bvh_depth(fit->solid->bvh, centre), 0) + fit->samples->band;
-  fit->balls.x[ball] = centre.x, fit->balls.y[ball] = centre.y, fit->balls.z[ball] = centre.z;
-  fit->balls.r[ball] = fmin(radius, most);
+  spore_balls_set(&fit->balls, ball, centre, fmin(radius, most));
 }
 
 /* Along the longest spread. */

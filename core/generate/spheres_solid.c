@@ -197,7 +197,8 @@ bool spore_solid_create(SporeSolid *solid, const SporeTriangleMesh *mesh, SporeE
     done =
         spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                         _("the surface encloses no volume (%zu open edges, %zu edges with neighbours turned apart); a "
-                          "closed surface was expected; close its holes or turn its triangles alike"),
+                          "closed surface was expected; close its holes or turn its triangles alike, or take it for a "
+                          "sheet (spore spheres --thickness)"),
                         report.boundary_edges, report.misoriented_edges);
   if (done && !sum_areas(solid)) done = spore_spheres_no_memory(error);
   if (!done) spore_solid_clear(solid);
@@ -238,4 +239,14 @@ void spore_solid_surface(const SporeSolid *solid, size_t count, SporeRandom *ran
     spore_vec3_store(points + 3 * i, spore_vec3_add_scaled(spore_vec3_add_scaled(p[0], u, ab), v, ac));
     if (normals) normals[i] = spore_vec3_normalise(spore_vec3_cross(ab, ac), spore_vec3(0, 0, 1));
   }
+}
+
+double spore_solid_factor(const SporeSolid *solid, SporeVec3 p) {
+  double factor = 0;
+  for (size_t i = 0; i < solid->region_count; i++) {
+    const SporeSpheresRegion *region = &solid->regions[i];
+    if (spore_vec3_distance(p, spore_vec3_load(region->centre)) <= region->radius)
+      factor = fmax(factor, region->factor);
+  }
+  return factor > 0 ? factor : 1;
 }

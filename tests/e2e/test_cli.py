@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import shapes
@@ -684,6 +685,45 @@ def spheres_command():
     refuses("spheres", "ball.off", "--count", 0, says=["--count"])
     refuses("spheres", "ball.off", "--count", 5, "--unit", "parsec", says=["parsec", "mm"])
     refuses("spheres", "ball.off", "--count", 5, "-o", "no/such/x.spheres", says=["no/such"])
+    refuses("spheres", "ball.off", "--count", 5, "--mode", "balancd", says=["balancd", "balanced"])
+    refuses("spheres", "ball.off", "--count", 5, "--region", "0,0,0,0.01", says=["--region", "X,Y,Z,RADIUS,FACTOR"])
+    refuses("spheres", "ball.off", "--count", 5, "--region", "0,0,0,0.01,99", says=["ball.off", "factor 99", "0.0625 to 16"])
+    report("spheres", "ball.off", "--count", 5, "--region", "0,0.02,0,0.01,4", "--region", "0,0,0.02,0.01,0.5")
+
+
+@check
+def spheres_of_curves_and_sheets():
+    """spheres are strung along a .curve and spread over a sheet; what does not go together is said."""
+    file("two.curve", "0 0 0 0.01\n0.1 0 0 0.01\n")
+    answer = report("spheres", "two.curve", "--count", 11, "-o", "two.spheres")
+    assert answer["count"] == 11 and answer["coverage"] > 0.95 and answer["outside"] < 0.05
+    rows = [list(map(float, line.split())) for line in (WORK / "two.spheres").read_text().splitlines() if line[0] != "#"]
+    assert [round(row[0], 9) for row in rows] == [round(0.01 * i, 9) for i in range(11)], rows
+    refuses("spheres", "two.curve", "--count", 11, "--unit", "mm", says=["two.curve", "--unit"])
+    refuses("spheres", file("bent.curve", "0 0 0 0.01\n0.1 0 0\n"), "--count", 11, says=["bent.curve:3", "radius"])
+    file("flat.off", shapes.off([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)]))
+    refuses("spheres", "flat.off", "--count", 9, says=["flat.off", "encloses no volume", "--thickness"])
+    answer = report("spheres", "flat.off", "--count", 9, "--thickness", 0)
+    assert answer["coverage"] == 1 and answer["depth_error"] is None and 0.1 < answer["distance"]["mean"] < 0.25, answer
+    assert report("spheres", "flat.off", "--count", 9, "--thickness", 0.1)["coverage"] < 0.1
+
+
+@check
+def spheres_series():
+    """--counts measures each number, and draws and tabulates the same points."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    answer = report("spheres", "ball.off", "--counts", "4,2,8,4", "--svg", "s.svg", "--csv", "s.csv")
+    assert [point["count"] for point in answer["points"]] == [2, 4, 8] and "enough" in answer and answer["worth"] == 0.01
+    rows = [line.split(",") for line in (WORK / "s.csv").read_text().splitlines()]
+    assert rows[0][0] == "count" and [float(row[5]) for row in rows[1:]] == [point["depth_error"] for point in answer["points"]]
+    picture = xml.etree.ElementTree.parse(WORK / "s.svg").getroot()
+    assert picture.tag.endswith("svg") and len([e for e in picture.iter() if e.tag.endswith("circle")]) == 2 * 4 * 3 + 4
+    assert report("spheres", "ball.off", "--count", 8)["depth_error"] == answer["points"][2]["depth_error"]
+    refuses("spheres", "ball.off", "--counts", "4,x", says=["--counts", "\"x\""])
+    refuses("spheres", "ball.off", "--counts", "4", "-o", "s.spheres", says=["--output"])
+    refuses("spheres", "ball.off", "--count", "4", "--svg", "s.svg", says=["--counts"])
+    refuses("spheres", "ball.off", "--counts", "4", "--count", 4, says=["give one of them"])
+    refuses("spheres", "ball.off", "--counts", "2", "--svg", "ball.off", says=["ball.off", "input"])
 
 
 @check

@@ -1,0 +1,33 @@
+/* Plots as SVG: panels side by side with lines through measured points. */
+#ifndef SPORE_MEASURE_PLOT_H
+#define SPORE_MEASURE_PLOT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "core/base/error.h"
+
+/* Points in the order in which they are joined. What is not finite, or not above 0 on a logarithmic axis, is left out.
+ */
+typedef struct SporePlotLine {
+  const char *label; /* translated; the same line of each panel has the same colour, and the legend stands once */
+  size_t count;
+  const double *x, *y;
+  bool scattered; /* points alone, not joined */
+} SporePlotLine;
+
+typedef struct SporePlotPanel {
+  const char *x_label, *y_label; /* translated, with units */
+  bool log_x, log_y;
+  const SporePlotLine *lines;
+  size_t line_count;
+  const char *mark_label; /* of a vertical line at mark_x; NULL: none */
+  double mark_x;
+} SporePlotPanel;
+
+/* An SVG document in UTF-8, to be freed with spore_free; numbers as in the C locale. note: below the panels, in
+ * lines, may be NULL. The legend is that of the first panel. NULL: no memory, or no panel has a point to show. */
+char *spore_plot_svg(const char *title, const char *note, const SporePlotPanel *panels, size_t panel_count,
+                     SporeError *error);
+
+#endif

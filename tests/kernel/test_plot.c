@@ -1,0 +1,83 @@
+/* Plots: points lie where their numbers say, labels are escaped, what cannot be shown is left out. */
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/measure/plot.h"
+
+/* The centres of all points, in the order of the document. */
+static GArray *centres(const char *svg) {
+  GArray *found = g_array_new(FALSE, FALSE, sizeof(double));
+  for (const char *at = strstr(svg, " cx=\""); at; at = strstr(at + 1, " cx=\"")) {
+    double x = g_ascii_strtod(at + 5, NULL), y = g_ascii_strtod(strstr(at, "cy=\"") + 4, NULL);
+    g_array_append_val(found, x);
+    g_array_append_val(found, y);
+  }
+  return found;
+}
+
+/* A power law is straight where both axes are logarithmic: equal ratios, equal steps. The last centre is the legend's.
+ */
+static void test_logarithmic(void) {
+  const double x[] = {10, 100, 1000}, y[] = {8, 4, 2};
+  SporePlotLine line = {"a < b & c", 3, x, y, false};
+  SporePlotPanel panel = {"x", "y", true, true, &line, 1, "here", 100};
+  char *svg = spore_plot_svg("title", "one\ntwo", &panel, 1, NULL);
+  g_assert_nonnull(svg);
+  g_autoptr(GArray) c = centres(svg);
+  g_assert_cmpuint(c->len, ==, 8);
+  const double *p = (const double *)(gconstpointer)c->data;
+  g_assert_cmpfloat_with_epsilon(p[2] - p[0], p[4] - p[2], 0.02);
+  g_assert_cmpfloat_with_epsilon(p[3] - p[1], p[5] - p[3], 0.02);
+  g_assert_cmpfloat(p[3], >, p[1]); /* less is lower, and y grows downward */
+  g_assert_nonnull(strstr(svg, "a &lt; b &amp; c"));
+  g_assert_nonnull(strstr(svg, ">two</text>"));
+  g_autofree char *mark = g_strdup_printf("<line x1=\"%g\"", p[2]);
+  g_assert_nonnull(strstr(strstr(svg, mark), "stroke-dasharray"));
+  spore_free(svg);
+}
+
+static void test_left_out(void) {
+  const double x[] = {0, 1, 2, 3}, y[] = {1, NAN, -1, 2};
+  SporePlotLine line = {"a", 4, x, y, true};
+  SporePlotPanel panel = {"x", "y", false, true, &line, 1, NULL, 0};
+  char *svg = spore_plot_svg("title", NULL, &panel, 1, NULL);
+  g_autoptr(GArray) c = centres(svg);
+  g_assert_cmpuint(c->len / 2, ==, 3); /* 2 points and the legend's */
+  spore_free(svg);
+}
+
+static void test_nothing(void) {
+  const double x[] = {1}, y[] = {NAN};
+  SporePlotLine line = {"a", 1, x, y, true};
+  SporePlotPanel panel = {"x", "y", false, false, &line, 1, NULL, 0};
+  SporeError error = SPORE_ERROR_INIT;
+  g_assert_null(spore_plot_svg("title", NULL, &panel, 1, &error));
+  g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
+}
+
+/* Each allocation fails in turn. */
+static void test_memory(void) {
+  const double x[] = {1, 2}, y[] = {1, 2};
+  SporePlotLine line = {"a", 2, x, y, false};
+  SporePlotPanel panel = {"x", "y", false, false, &line, 1, NULL, 0};
+  char *svg = NULL;
+  for (uint64_t n = 1; !svg; n++) {
+    SporeError error = SPORE_ERROR_INIT;
+    spore_allocation_fail_at(n);
+    svg = spore_plot_svg("title", NULL, &panel, 1, &error);
+    spore_allocation_fail_at(0);
+    g_assert_cmpint(error.code, ==, svg ? SPORE_ERROR_NONE : SPORE_ERROR_MEMORY);
+  }
+  spore_free(svg);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/measure/plot/logarithmic", test_logarithmic);
+  g_test_add_func("/measure/plot/left-out", test_left_out);
+  g_test_add_func("/measure/plot/nothing", test_nothing);
+  g_test_add_func("/measure/plot/memory", test_memory);
+  return g_test_run();
+}
