@@ -28,6 +28,7 @@ static const struct {
     {"win.play-pause", {"F5"}},
     {"win.step", {"F6"}},
     {"win.reset", {"<Shift>F5"}},
+    {"win.apply-generated", {"<Control>Return"}},
     {"win.filter", {"<Control>f"}},
     {"win.close", {"<Control>w"}},
     {"app.quit", {"<Control>q"}},

@@ -1,7 +1,6 @@
 #include <glib/gi18n.h>
 
 #include "ui/document/edits.h"
-#include "ui/jobs/works.h"
 #include "ui/spore-window-private.h"
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
@@ -110,81 +109,6 @@ static void act_add_pin(GSimpleAction *action, GVariant *parameter, gpointer dat
   if (body && !spore_edit_add_pin(document_of(self), body, &error)) spore_window_failed(self, error);
 }
 
-/* Generators. */
-
-/* Where the result goes; NULL, said in the log: the scene is another one by now. */
-static SporeObject *body_of_result(SporeWindow *self, const SporeGenerateWork *work, const GError *error) {
-  if (spore_window_failed(self, error) || !self->document) return NULL;
-  SporeObject *body = spore_generate_work_body(work, document_of(self));
-  if (!body) spore_window_log(self, _("The mesh changed meanwhile; the result was dropped"));
-  return body;
-}
-
-static void spheres_generated(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
-  SporeWindow *self = owner;
-  SporeGenerateWork *work = data;
-  SporeObject *body = body_of_result(self, work, error);
-  g_autoptr(GError) failure = NULL;
-  if (!body) return;
-  if (!spore_edit_use_spheres(document_of(self), body, work->source, work->source_hash, &work->spheres_options,
-                              &work->spheres, &failure)) {
-    spore_window_failed(self, failure);
-    return;
-  }
-  g_action_group_change_action_state(G_ACTION_GROUP(self), "show-spheres", g_variant_new_boolean(TRUE));
-  spore_window_log(self, _("%zu spheres in %.1f s: coverage %.1f %%, depth error %.1f %%"), work->spheres.count,
-                   work->spheres_report.seconds, 100 * work->spheres_report.coverage,
-                   100 * work->spheres_report.depth_error);
-}
-
-static void tetrahedra_generated(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
-  SporeWindow *self = owner;
-  SporeGenerateWork *work = data;
-  SporeObject *body = body_of_result(self, work, error);
-  g_autoptr(GError) failure = NULL;
-  if (!body) return;
-  if (!spore_edit_use_tetrahedra(document_of(self), body, work->source, work->source_hash,
-                                 work->tetrahedra_options.cells, &work->tetrahedra, &failure)) {
-    spore_window_failed(self, failure);
-    return;
-  }
-  spore_window_log(self, _("%zu tetrahedra in %.1f s (%s): least angle %.1f°, error %.2f %%"),
-                   work->tetrahedra.tetrahedron_count, work->tetrahedra_report.seconds,
-                   work->tetrahedra_report.method ? work->tetrahedra_report.method : "?",
-                   work->tetrahedra_report.quality.min_dihedral_deg, 100 * work->tetrahedra_report.hausdorff);
-}
-
-static SporeGenerateWork *work_on_body(SporeWindow *self) {
-  g_autoptr(GError) error = NULL;
-  SporeObject *body = spore_window_body_to_work_on(self);
-  SporeGenerateWork *work = body ? spore_generate_work_new(document_of(self), body, &error) : NULL;
-  if (error) spore_window_failed(self, error);
-  return work;
-}
-
-static void act_generate_spheres(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  SporeGenerateWork *work = work_on_body(self);
-  if (!work) return;
-  work->spheres_options = (SporeSpheresOptions){.count = MAX(1, g_variant_get_uint32(parameter)), .seed = 1};
-  spore_window_start_job(self, _("Generating spheres"), spore_spheres_work_run, work, spore_generate_work_free,
-                         spheres_generated);
-}
-
-static void act_generate_tetrahedra(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  SporeGenerateWork *work = work_on_body(self);
-  if (!work) return;
-  work->tetrahedra_options = (SporeTetrahedraOptions){.cells = MAX(1, g_variant_get_uint32(parameter))};
-  spore_window_start_job(self, _("Generating tetrahedra"), spore_tetrahedra_work_run, work, spore_generate_work_free,
-                         tetrahedra_generated);
-}
-
-static void act_cancel_job(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  if (self->job) spore_job_cancel(self->job);
-}
-
 /* Simulation. */
 
 static void act_play(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -281,9 +205,6 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"use-preset", act_use_preset, "s"},
       {"add-probe", act_add_probe},
       {"add-pin", act_add_pin},
-      {"generate-spheres", act_generate_spheres, "u"},
-      {"generate-tetrahedra", act_generate_tetrahedra, "u"},
-      {"cancel-job", act_cancel_job},
       {"play", act_play},
       {"pause", act_pause},
       {"play-pause", act_play_pause},

@@ -4,7 +4,9 @@
 #define SPORE_UI_SPORE_WINDOW_PRIVATE_H
 
 #include "ui/document/recovery.h"
+#include "ui/jobs/spore-generator.h"
 #include "ui/jobs/spore-job.h"
+#include "ui/panels/spore-generator-panel.h"
 #include "ui/panels/spore-inspector.h"
 #include "ui/panels/spore-outliner.h"
 #include "ui/panels/spore-problems.h"
@@ -15,11 +17,12 @@
 struct _SporeWindow {
   GtkApplicationWindow parent;
   GtkWidget *header, *play_button, *play_image, *speed_button, *message_bar, *message, *recovery_bar, *recovery_text;
-  GtkWidget *outliner, *viewport, *inspector, *problems, *bottom, *tabs, *log, *hint, *job_box, *job_label, *job_bar,
-      *renderer;
+  GtkWidget *outliner, *viewport, *inspector, *problems, *generator_panel, *bottom, *tabs, *log, *hint, *job_box,
+      *job_label, *job_bar, *renderer;
 
   SporeEditorDocument *document;
   SporePlayer *player;
+  SporeGenerator *generator;
   SporeJob *job;
   SporeRecovery *recovery;
   SporeLeftover *leftover;
@@ -36,10 +39,18 @@ void spore_window_log(SporeWindow *self, const char *format, ...) G_GNUC_PRINTF(
 /* One job at a time; FALSE (and data freed): another is running, said to the user. */
 gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
                                 GDestroyNotify free_data, SporeJobDone done);
+/* Progress of what is being worked on, if anything. */
+void spore_window_show_job(SporeWindow *self);
 /* Says an error, but not that the user cancelled. TRUE: there was one. */
 gboolean spore_window_failed(SporeWindow *self, const GError *error);
 void spore_window_update_actions(SporeWindow *self);
 void spore_window_set_enabled(SporeWindow *self, const char *action, gboolean enabled);
+
+/* Generators. */
+void spore_window_add_generator_actions(SporeWindow *self);
+/* A generator for the document of now, or none. */
+void spore_window_set_generator(SporeWindow *self);
+void spore_window_update_generator(SporeWindow *self, gboolean bodies);
 
 /* Files. */
 void spore_window_add_file_actions(SporeWindow *self);

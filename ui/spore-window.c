@@ -84,7 +84,10 @@ static gboolean poll_monitor(gpointer data) {
 
 /* Jobs. */
 
-static void job_progressed(SporeJob *job, SporeWindow *self) {
+void spore_window_show_job(SporeWindow *self) {
+  SporeJob *job = self->job || !self->generator ? self->job : spore_generator_get_job(self->generator);
+  gtk_widget_set_visible(self->job_box, job != NULL);
+  if (!job) return;
   g_autofree char *stage = spore_job_get_stage(job);
   g_autofree char *text =
       *stage ? g_strdup_printf("%s: %s", spore_job_get_title(job), stage) : g_strdup(spore_job_get_title(job));
@@ -95,23 +98,22 @@ static void job_progressed(SporeJob *job, SporeWindow *self) {
 static void job_finished(SporeJob *job, SporeWindow *self) {
   if (self->job != job) return;
   g_clear_object(&self->job);
-  gtk_widget_hide(self->job_box);
+  spore_window_show_job(self);
   spore_window_update_actions(self);
 }
 
 gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
                                 GDestroyNotify free_data, SporeJobDone done) {
-  if (self->job) {
+  if (self->job || spore_generator_is_working(self->generator)) {
     spore_window_complain(self, _("Something else is still being worked on; wait for it or cancel it"));
     free_data(data);
     return FALSE;
   }
   spore_recovery_keep(self->recovery, self->document, NULL);
   self->job = spore_job_start(title, work, data, free_data, done, G_OBJECT(self));
-  g_signal_connect_object(self->job, "progressed", G_CALLBACK(job_progressed), self, 0);
+  g_signal_connect_object(self->job, "progressed", G_CALLBACK(spore_window_show_job), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->job, "finished", G_CALLBACK(job_finished), self, 0);
-  job_progressed(self->job, self);
-  gtk_widget_show(self->job_box);
+  spore_window_show_job(self);
   spore_window_update_actions(self);
   return TRUE;
 }
@@ -146,7 +148,8 @@ static void update_title(SporeWindow *self) {
 void spore_window_update_actions(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *selected = spore_editor_document_selected(self->document);
-  gboolean named = selected && spore_object_name(selected), idle = self->job == NULL;
+  gboolean named = selected && spore_object_name(selected),
+           idle = !self->job && !spore_generator_is_working(self->generator);
   gboolean session = spore_player_get_session(self->player) != NULL;
   gboolean playing = spore_player_is_playing(self->player);
   gboolean bodies = spore_object_child_count(spore_document_section(document, "bodies")) > 0;
@@ -158,15 +161,13 @@ void spore_window_update_actions(SporeWindow *self) {
   spore_window_set_enabled(self, "delete", named);
   spore_window_set_enabled(self, "rename", named);
   spore_window_set_enabled(self, "rename-dialog", named);
-  spore_window_set_enabled(self, "generate-spheres", idle && bodies);
-  spore_window_set_enabled(self, "generate-tetrahedra", idle && bodies);
+  spore_window_update_generator(self, bodies);
   spore_window_set_enabled(self, "add-pin", bodies);
   spore_window_set_enabled(self, "import", idle);
   spore_window_set_enabled(self, "import-dialog", idle);
   spore_window_set_enabled(self, "import-dialog-with", idle);
   spore_window_set_enabled(self, "change-mesh", idle && bodies);
   spore_window_set_enabled(self, "change-mesh-dialog", idle && bodies);
-  spore_window_set_enabled(self, "cancel-job", !idle);
   spore_window_set_enabled(self, "play", bodies && !playing);
   spore_window_set_enabled(self, "pause", playing);
   spore_window_set_enabled(self, "play-pause", bodies);
@@ -211,6 +212,7 @@ static void release_document(SporeWindow *self) {
   if (self->player) g_signal_handlers_disconnect_by_data(self->player, self);
   g_clear_object(&self->player);
   g_clear_object(&self->document);
+  spore_window_set_generator(self);
 }
 
 void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
@@ -228,6 +230,7 @@ void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
   g_signal_connect_object(self->player, "replaced", G_CALLBACK(player_replaced), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->player, "failed", G_CALLBACK(player_failed), self, G_CONNECT_SWAPPED);
   spore_viewport_set_document(SPORE_VIEWPORT(self->viewport), self->document, self->player);
+  spore_window_set_generator(self);
   spore_outliner_set_document(SPORE_OUTLINER(self->outliner), self->document);
   spore_inspector_set_document(SPORE_INSPECTOR(self->inspector), self->document);
   spore_problems_set_document(SPORE_PROBLEMS(self->problems), self->document);
@@ -289,6 +292,7 @@ static void bind_children(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeWindow, viewport);
   gtk_widget_class_bind_template_child(widget, SporeWindow, inspector);
   gtk_widget_class_bind_template_child(widget, SporeWindow, problems);
+  gtk_widget_class_bind_template_child(widget, SporeWindow, generator_panel);
   gtk_widget_class_bind_template_child(widget, SporeWindow, bottom);
   gtk_widget_class_bind_template_child(widget, SporeWindow, tabs);
   gtk_widget_class_bind_template_child(widget, SporeWindow, log);
@@ -307,6 +311,7 @@ static void spore_window_class_init(SporeWindowClass *class) {
   g_type_ensure(SPORE_TYPE_VIEWPORT);
   g_type_ensure(SPORE_TYPE_INSPECTOR);
   g_type_ensure(SPORE_TYPE_PROBLEMS);
+  g_type_ensure(SPORE_TYPE_GENERATOR_PANEL);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-window.ui");
   bind_children(widget);
   gtk_widget_class_bind_template_callback(widget, close_asked);
@@ -323,6 +328,7 @@ static void spore_window_init(SporeWindow *self) {
   spore_window_add_file_actions(self);
   spore_window_add_mesh_actions(self);
   spore_window_add_scene_actions(self);
+  spore_window_add_generator_actions(self);
   gtk_drag_dest_set(GTK_WIDGET(self), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
   gtk_drag_dest_add_uri_targets(GTK_WIDGET(self));
   self->autosave = g_timeout_add_seconds(AUTOSAVE_S, autosave, self);

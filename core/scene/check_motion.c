@@ -65,8 +65,7 @@ static void place_body(Start *start, SporeObject *body, const SporeSimulation *s
   g_array_append_val(start->roles, role);
   g_array_append_val(start->groups, touch.contact.group);
   if (simulation && spore_body_has_own_spheres(body)) place_own_spheres(start, body, index, simulation);
-  SporePose pose = {spore_vec3_load(fields.position),
-                    spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))};
+  SporePose pose = spore_body_pose(body);
   for (size_t i = 0; set && i < set->count; i++) {
     Ball ball = {spore_pose_apply(pose, spore_vec3_load(&set->spheres[4 * i])), set->spheres[4 * i + 3], index};
     g_array_append_val(start->balls, ball);

@@ -209,6 +209,13 @@ gboolean spore_body_has_own_spheres(const SporeObject *body) {
          !spore_object_text(collision, "spheres") && spore_object_type(model)->model->spheres;
 }
 
+SporePose spore_body_pose(const SporeObject *body) {
+  SporeBodyFields fields;
+  spore_object_fields(body, &fields);
+  return (SporePose){spore_vec3_load(fields.position),
+                     spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))};
+}
+
 static void free_spheres(gpointer data) {
   spore_sphere_set_clear(data);
   g_free(data);

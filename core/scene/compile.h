@@ -21,6 +21,8 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
 void spore_simulation_free(SporeSimulation *simulation);
 /* Whether the body collides with its model's own spheres: it has a collision unit, and that names none. */
 gboolean spore_body_has_own_spheres(const SporeObject *body);
+/* Where the author puts a body at the start. */
+SporePose spore_body_pose(const SporeObject *body);
 /* World body of an object (itself or an ancestor is a body), or SPORE_NO_BODY. */
 guint32 spore_simulation_body_of(const SporeSimulation *simulation, SporeObject *object);
 /* Carries state over from an older world by body name where the degrees of freedom agree. */

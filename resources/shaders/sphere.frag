@@ -7,13 +7,6 @@ uniform float dim; // alpha of the hidden part of an overlay; 1 elsewhere
 
 #if !DEPTH_ONLY
 out vec4 result;
-
-// Small error dark violet, over green, to large error yellow.
-vec3 scale_colour(float x) {
-  vec3 low = mix(vec3(0.055, 0.010, 0.115), vec3(0.020, 0.150, 0.260), clamp(x * 2.5, 0.0, 1.0));
-  vec3 mid = mix(low, vec3(0.030, 0.390, 0.190), clamp(x * 2.5 - 0.8, 0.0, 1.0));
-  return mix(mid, vec3(0.930, 0.740, 0.020), clamp(x * 2.2 - 1.2, 0.0, 1.0));
-}
 #endif
 
 void main() {

@@ -3,7 +3,7 @@ in vec3 v_position;
 void main() {}
 #else
 in vec3 v_position, v_normal, v_rest;
-in float v_mottle;
+in float v_mottle, v_value;
 
 uniform vec3 colour;
 uniform float wetness;
@@ -30,7 +30,9 @@ void main() {
   vec3 normal = normalize(gl_FrontFacing ? v_normal : -v_normal);
   float open = ambient_open(), lit = light_reaches(v_position, normal);
   vec3 outcome;
-  if (material == 2) {
+  if (v_value >= 0.0) {
+    outcome = shade_plain(scale_colour(v_value), v_position, normal);
+  } else if (material == 2) {
     outcome = shade_tissue(colour, wetness, v_position, normal, normal, open, lit);
   } else if (material == 1) {
     vec3 across = v_rest - axis * dot(v_rest, axis);

@@ -1,13 +1,14 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 rest; // xyz: place at rest in pattern cells, so that the pattern sticks; w: slow mottling 0..1
+layout(location = 3) in float value; // of the scale of colours, 0..1; below 0: tissue
 
 uniform vec3 offset; // of the mesh's origin from the eye, world axes
 
 out vec3 v_position;
 #if !DEPTH_ONLY
 out vec3 v_normal, v_rest;
-out float v_mottle;
+out float v_mottle, v_value;
 #endif
 
 void main() {
@@ -21,5 +22,6 @@ void main() {
   v_normal = mat3(rotation) * normal;
   v_rest = rest.xyz;
   v_mottle = rest.w;
+  v_value = value;
 #endif
 }

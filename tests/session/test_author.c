@@ -295,7 +295,8 @@ static void test_jobs(Fixture *fixture, gconstpointer data) {
 static void test_result_of_another_scene(Fixture *fixture, gconstpointer data) {
   GError *error = NULL;
   SporeObject *body = add_organ(fixture);
-  SporeGenerateWork *work = spore_generate_work_new(fixture->document, body, &error);
+  SporeGenerateOptions options = spore_generate_options_of(fixture->document, body, SPORE_GENERATE_SPHERES);
+  SporeGenerateWork *work = spore_generate_work_new(fixture->document, body, &options, &error);
   g_assert_no_error(error);
   g_assert_true(spore_generate_work_body(work, fixture->document) == body);
   SporeObject *mesh = spore_edit_visual_mesh(fixture->document, body, NULL);
@@ -305,7 +306,7 @@ static void test_result_of_another_scene(Fixture *fixture, gconstpointer data) {
   g_assert_true(spore_generate_work_body(work, fixture->document) == body);
   spore_document_undo(fixture->document);
   g_assert_null(spore_generate_work_body(work, fixture->document));
-  spore_generate_work_free(work);
+  spore_generate_work_unref(work);
 }
 
 static void test_import_refuses(Fixture *fixture, gconstpointer data) {

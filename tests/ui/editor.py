@@ -200,6 +200,12 @@ class Editor:
     def set_number(self, node, value):
         self.atspi.Value.set_current_value(node, value)
 
+    def choose(self, combo, text):
+        """Takes the entry of a combo box's list."""
+        menu = combo.get_child_at_index(0)
+        names = [menu.get_child_at_index(i).get_name() for i in range(menu.get_child_count())]
+        self.atspi.Selection.select_child(combo, names.index(text))
+
     def row(self, name):
         """Outliner row of that name, or None."""
         return self.look("table cell", f"^{re.escape(name)}$")

@@ -172,18 +172,64 @@ def a_mesh_of_the_scene_is_changed():
 
 @check
 def spheres_with_their_error():
-    """spheres are generated with a count, say their error, and undo as one step."""
+    """spheres are shown with their error before they are applied, and undo as one step."""
     with start() as editor:
         import_ball(editor)
-        spin = editor.find("spin button", "Number of spheres")
-        editor.set_number(spin, 30)
-        buttons = [n for n in editor.walk() if n.get_role_name() == "push button" and n.get_name() == "Generate"]
-        editor.press(buttons[0])
+        editor.set_number(editor.find("spin button", "Number of spheres"), 30)
         editor.find("label", r"(?s)30 spheres.*Coverage \d+.*Depth error", 60)
+        editor.find("drawing area", r"Histogram of Surface distance: mean .* mm")
+        assert not editor.row("ball_spheres"), "nothing is applied yet"
+        editor.set_number(editor.find("spin button", "^Spheres$"), 20)
+        editor.find("label", r"(?s)20 spheres.*Coverage", 60)
+        editor.choose(editor.find("combo box", "^Show$"), "Outside share")
+        editor.find("drawing area", r"Histogram of Outside share: mean .* %")
+        editor.press(editor.find("push button", "^Apply$"))
+        ui.wait(lambda: editor.row("ball_spheres"), "the spheres")
+        editor.find("label", r"(?s)20 spheres.*Coverage \d+.*Depth error", 60)
         assert editor.state("show-spheres")
         editor.act("undo")
         ui.wait(lambda: not editor.row("ball_spheres"), "the spheres to go")
         assert editor.row("ball")
+
+
+@check
+def preview_is_dropped():
+    """a preview that is cancelled, while it works and when it is there, leaves the scene as it was within half a second."""
+    with start() as editor:
+        import_ball(editor)
+        before = saved(editor, "preview_before")
+        for count, ready in ((3000, False), (10, True)):
+            editor.act("preview-spheres", "u", count)
+            if ready:
+                editor.find("label", rf"(?s){count} spheres.*Coverage", 60)
+            began = time.monotonic()
+            editor.act("cancel-job")
+            ui.wait(lambda: not editor.enabled("cancel-job") and editor.enabled("generate-spheres"), "the preview to end", 2)
+            assert time.monotonic() - began < 0.5, time.monotonic() - began
+            assert not editor.enabled("apply-generated") and not editor.row("ball_spheres")
+        assert saved(editor, "preview_after") == before
+
+
+@check
+def stale_and_frozen():
+    """generated data say when they are stale, are made again, and stay as they are when frozen."""
+    with start() as editor:
+        make_soft_ball(editor, 12)
+        editor.act("select", "s", "bodies/ball")
+        editor.act("set-property", "(sss)", ("assets/ball_spheres", "count", "15"))
+        editor.find("label", "(?s)12 spheres.*Stale: the options have changed", showing=False)
+        editor.find("table cell", "is stale: its options have changed")
+        editor.press(editor.find("toggle button|check box", "^Freeze$", showing=False))
+        editor.find("label", "(?s)12 spheres.*Frozen", showing=False)
+        editor.act("generate-spheres", "u", 15)
+        ui.wait(lambda: "is frozen" in (editor.message() or ""), "the refusal")
+        editor.press(editor.find("toggle button|check box", "^Freeze$", showing=False))
+        ui.wait(lambda: not editor.look("label", "Frozen", showing=False), "the spheres to be free")
+        editor.press(editor.find("push button", "^Regenerate$", showing=False))
+        editor.find("label", r"(?s)15 spheres.*Coverage", 60)
+        editor.act("apply-generated")
+        ui.wait(lambda: not editor.look("label", "Stale", showing=False), "the spheres to be fresh")
+        assert 'frozen' not in saved(editor, "fresh")
 
 
 @check

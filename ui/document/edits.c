@@ -7,6 +7,8 @@
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/math/quat.h"
+#include "core/scene/compile.h"
+#include "core/scene/generated.h"
 #include "core/sim/world.h"
 
 /* A probe of 10 mm with a shaft behind it. */
@@ -34,6 +36,12 @@ static gboolean set_integer(SporeDocument *document, SporeObject *object, const 
                             GError **error) {
   g_autofree char *text = g_strdup_printf("%" G_GUINT64_FORMAT, value);
   return spore_document_set_text(document, object, property, text, error);
+}
+
+/* Back to the default, by name. */
+static gboolean unset(SporeDocument *document, SporeObject *object, const char *property, GError **error) {
+  int index = spore_parameter_find(spore_object_type(object)->table, property);
+  return spore_document_unset(document, object, (guint)index, error);
 }
 
 static gboolean set_vector(SporeDocument *document, SporeObject *object, const char *property, SporeVec3 v,
@@ -89,14 +97,27 @@ static SporeObject *generated_asset(SporeDocument *document, SporeObject *body, 
   return spore_document_insert(document, spore_document_section(document, "assets"), element, name, G_MAXUINT, error);
 }
 
+/* The content of a generated asset, and what it remembers of how it was made; its options are set before. */
 static gboolean fill_generated(SporeDocument *document, SporeObject *asset, char *text, gsize size,
                                const char *extension, const char *source, const char *source_hash, GError **error) {
   g_autofree char *file = spore_content_file_name(spore_object_name(asset), extension, text, size);
+  g_autofree char *options_hash = spore_generated_options_hash(asset);
   g_autoptr(GBytes) content = g_bytes_new_take(text, size);
   spore_document_put_blob(document, file, content);
   return spore_document_set_text(document, asset, "file", file, error) &&
          spore_document_set_text(document, asset, "source", source, error) &&
-         spore_document_set_text(document, asset, "source_hash", source_hash, error);
+         spore_document_set_text(document, asset, "source_hash", source_hash, error) &&
+         spore_document_set_text(document, asset, "options_hash", options_hash, error) &&
+         unset(document, asset, "edited", error);
+}
+
+static gboolean set_spheres_options(SporeDocument *document, SporeObject *asset, const SporeSpheresOptions *options,
+                                    gsize count, GError **error) {
+  const char *mode = spore_spheres_mode_names[options->mode];
+  return set_integer(document, asset, "count", options->count ? options->count : count, error) &&
+         set_integer(document, asset, "seed", options->seed, error) &&
+         (options->mode == SPORE_SPHERES_BALANCED ? unset(document, asset, "method", error)
+                                                  : spore_document_set_text(document, asset, "method", mode, error));
 }
 
 static gboolean use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
@@ -104,12 +125,12 @@ static gboolean use_spheres(SporeDocument *document, SporeObject *body, const ch
   SporeObject *collision = child_or_new(document, body, "collision", error);
   if (!collision) return FALSE;
   SporeObject *asset = generated_asset(document, body, spore_edit_body_spheres(document, body), "spheres", error);
-  if (!asset) return FALSE;
+  if (!asset || !spore_generated_may_change(asset, error) ||
+      !set_spheres_options(document, asset, options, set->count, error))
+    return FALSE;
   gsize size;
   char *text = spore_spheres_format(set, &size);
   return fill_generated(document, asset, text, size, "spheres", source, source_hash, error) &&
-         set_integer(document, asset, "count", options->count, error) &&
-         set_integer(document, asset, "seed", options->seed, error) &&
          spore_document_set_text(document, collision, "spheres", spore_object_name(asset), error);
 }
 
@@ -145,8 +166,7 @@ static const char *geometry_for(SporeDocument *document, SporeObject *body, Spor
 /* A model makes an unmovable body passive, and it is unmovable again without one; what a device moves stays active. */
 static gboolean set_role(SporeDocument *document, SporeObject *body, SporeRole role, GError **error) {
   if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE) return TRUE;
-  guint property = (guint)spore_parameter_find(spore_object_type(body)->table, "role");
-  return role == SPORE_PASSIVE ? spore_document_unset(document, body, property, error)
+  return role == SPORE_PASSIVE ? unset(document, body, "role", error)
                                : spore_document_set_text(document, body, "role", "unmovable", error);
 }
 
@@ -183,11 +203,11 @@ static gboolean use_tetrahedra(SporeDocument *document, SporeObject *body, const
   SporeObject *mechanical = child_or_new(document, body, "mechanical", error);
   if (!mechanical) return FALSE;
   SporeObject *asset = generated_asset(document, body, spore_edit_body_tetrahedra(document, body), "tetrahedra", error);
-  if (!asset) return FALSE;
+  if (!asset || !spore_generated_may_change(asset, error) || !set_integer(document, asset, "cells", cells, error))
+    return FALSE;
   gsize size;
   char *text = spore_medit_format(mesh, &size);
   return fill_generated(document, asset, text, size, "mesh", source, source_hash, error) &&
-         set_integer(document, asset, "cells", cells, error) &&
          spore_document_set_text(document, mechanical, "geometry", spore_object_name(asset), error) &&
          give_usual_model(document, body, SPORE_GEOMETRY_TETRAHEDRA, error);
 }
@@ -236,16 +256,6 @@ static void grow(double lower[3], double upper[3], SporeVec3 p, double r) {
   }
 }
 
-static SporePose body_pose(SporeObject *body) {
-  const SporeParameterTable *table = spore_object_type(body)->table;
-  SporePose pose = spore_pose_identity();
-  int position = spore_parameter_find(table, "position"), rotation = spore_parameter_find(table, "rotation");
-  pose.position = spore_vec3_load(spore_object_value(body, (guint)position)->number);
-  pose.orientation =
-      spore_quat_from_rotation_vector(spore_vec3_load(spore_object_value(body, (guint)rotation)->number));
-  return pose;
-}
-
 /* Highest point of what the bodies show. */
 static gboolean find_top(SporeDocument *document, SporeVec3 *top) {
   SporeObject *bodies = spore_document_section(document, "bodies");
@@ -255,7 +265,7 @@ static gboolean find_top(SporeDocument *document, SporeVec3 *top) {
     SporeObject *asset = used_asset(document, body, "visual", "mesh", "mesh");
     const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, NULL) : NULL;
     for (gsize v = 0; mesh && v < mesh->vertex_count; v++) {
-      SporeVec3 p = spore_pose_apply(body_pose(body), spore_vec3_load(mesh->vertices + 3 * v));
+      SporeVec3 p = spore_pose_apply(spore_body_pose(body), spore_vec3_load(mesh->vertices + 3 * v));
       if (!found || p.y > top->y) *top = p;
       found = TRUE;
     }
@@ -348,7 +358,7 @@ SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GErr
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, error) : NULL;
   if (!mesh) return NULL;
   double extent;
-  SporeVec3 point = hold_point(mesh, body_pose(body), &extent);
+  SporeVec3 point = hold_point(mesh, spore_body_pose(body), &extent);
   spore_document_begin(document, _("Hold organ"));
   SporeObject *pin = insert_pin(document, body, point, PIN_PART * extent, error);
   finish(document, pin != NULL);

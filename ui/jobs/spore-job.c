@@ -17,6 +17,8 @@ struct _SporeJob {
   GMutex mutex; /* over what the worker reports */
   double fraction;
   char stage[128];
+  double *look; /* look_count x 4, or NULL */
+  gsize look_count;
 };
 
 G_DEFINE_FINAL_TYPE(SporeJob, spore_job, G_TYPE_OBJECT)
@@ -27,6 +29,7 @@ static guint signals[SIGNAL_COUNT];
 static void spore_job_finalize(GObject *object) {
   SporeJob *self = SPORE_JOB(object);
   g_free(self->title);
+  g_free(self->look);
   g_clear_object(&self->cancellable);
   g_mutex_clear(&self->mutex);
   G_OBJECT_CLASS(spore_job_parent_class)->finalize(object);
@@ -53,9 +56,19 @@ static bool report(void *data, double fraction, const char *stage) {
   return !g_cancellable_is_cancelled(self->cancellable);
 }
 
+static void show(void *data, const double *spheres, size_t count) {
+  SporeJob *self = data;
+  double *look = g_memdup2(spheres, 4 * count * sizeof *spheres);
+  g_mutex_lock(&self->mutex);
+  g_free(self->look);
+  self->look = look;
+  self->look_count = count;
+  g_mutex_unlock(&self->mutex);
+}
+
 static void run(GTask *task, gpointer source, gpointer data, GCancellable *cancellable) {
   SporeJob *self = source;
-  SporeProgress progress = {report, self};
+  SporeProgress progress = {report, self, show};
   GError *error = NULL;
   if (self->work(data, &progress, &error)) g_task_return_boolean(task, TRUE);
   else g_task_return_error(task, error);
@@ -114,4 +127,12 @@ char *spore_job_get_stage(SporeJob *self) {
   char *stage = g_strdup(self->stage);
   g_mutex_unlock(&self->mutex);
   return stage;
+}
+
+double *spore_job_get_look(SporeJob *self, gsize *count) {
+  g_mutex_lock(&self->mutex);
+  *count = self->look_count;
+  double *look = g_memdup2(self->look, 4 * self->look_count * sizeof *self->look);
+  g_mutex_unlock(&self->mutex);
+  return look;
 }

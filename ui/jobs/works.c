@@ -48,37 +48,83 @@ gboolean spore_open_work_run(gpointer data, const SporeProgress *progress, GErro
 
 /* Generate. */
 
-SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body, GError **error) {
+#define USUAL_SPHERES 100
+#define USUAL_CELLS 1000
+
+SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
+  return kind == SPORE_GENERATE_SPHERES ? spore_edit_body_spheres(document, body)
+                                        : spore_edit_body_tetrahedra(document, body);
+}
+
+/* Spheres from tetrahedra are those of their surface, balanced. */
+static SporeSpheresMode mode_named(const char *name) {
+  for (int i = 0; i < SPORE_SPHERES_MODE_COUNT; i++)
+    if (g_strcmp0(name, spore_spheres_mode_names[i]) == 0) return (SporeSpheresMode)i;
+  return SPORE_SPHERES_BALANCED;
+}
+
+static void read_spheres_options(const SporeObject *asset, SporeSpheresOptions *options) {
+  const SporeParameter *method =
+      &spore_object_type(asset)->table->parameters[spore_parameter_find(spore_object_type(asset)->table, "method")];
+  options->mode = mode_named(method->choices[(int)spore_object_number(asset, "method")]);
+  options->count = (size_t)spore_object_number(asset, "count");
+  options->seed = (uint64_t)spore_object_number(asset, "seed");
+}
+
+SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
+  SporeGenerateOptions options = {
+      .kind = kind, .spheres = {.count = USUAL_SPHERES, .seed = 1}, .tetrahedra = {.cells = USUAL_CELLS}};
+  SporeObject *asset = spore_generate_target(document, body, kind);
+  if (asset && kind == SPORE_GENERATE_SPHERES) read_spheres_options(asset, &options.spheres);
+  if (asset && kind == SPORE_GENERATE_TETRAHEDRA)
+    options.tetrahedra.cells = (size_t)spore_object_number(asset, "cells");
+  return options;
+}
+
+SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
+                                           const SporeGenerateOptions *options, GError **error) {
   SporeObject *asset = spore_edit_visual_mesh(document, body, error);
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, error) : NULL;
   if (!mesh) return NULL;
-  SporeGenerateWork *work = g_new0(SporeGenerateWork, 1);
+  SporeGenerateWork *work = g_atomic_rc_box_new0(SporeGenerateWork);
   SporeError failure = SPORE_ERROR_INIT;
+  work->options = *options;
   work->body = spore_object_id(body);
   work->source = g_strdup(spore_object_name(asset));
   work->source_hash = spore_document_asset_hash(document, asset);
   if (spore_triangle_mesh_copy(&work->mesh, mesh, &failure)) return work;
   spore_error_propagate(&failure, error);
-  spore_generate_work_free(work);
+  spore_generate_work_unref(work);
   return NULL;
 }
 
-void spore_generate_work_free(gpointer data) {
+static void clear_work(gpointer data) {
   SporeGenerateWork *work = data;
   g_free(work->source);
   g_free(work->source_hash);
   spore_triangle_mesh_clear(&work->mesh);
   spore_sphere_set_clear(&work->spheres);
+  spore_spheres_quality_clear(&work->spheres_quality);
   spore_tetrahedral_mesh_clear(&work->tetrahedra);
-  g_free(work);
 }
 
-gboolean spore_spheres_work_run(gpointer data, const SporeProgress *progress, GError **error) {
-  SporeGenerateWork *work = data;
+SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work) { return g_atomic_rc_box_acquire(work); }
+
+void spore_generate_work_unref(gpointer data) { g_atomic_rc_box_release_full(data, clear_work); }
+
+static gboolean run_spheres(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  return spore_spheres_from_mesh(&work->mesh, &work->spheres_options, &work->spheres, &work->spheres_report, progress,
-                                 &failure) ||
+  return (spore_spheres_from_mesh(&work->mesh, &work->options.spheres, &work->spheres, &work->spheres_report, progress,
+                                  &failure) &&
+          spore_spheres_quality(&work->mesh, &work->spheres, &work->spheres_quality, progress, &failure)) ||
          spore_error_propagate(&failure, error);
+}
+
+gboolean spore_generate_work_run(gpointer data, const SporeProgress *progress, GError **error) {
+  SporeGenerateWork *work = data;
+  if (work->options.kind == SPORE_GENERATE_SPHERES) return run_spheres(work, progress, error);
+  return spore_tetrahedra_from_mesh(work->source, &work->mesh, &work->options.tetrahedra, &work->tetrahedra,
+                                    &work->tetrahedra_report, progress, error);
 }
 
 gboolean spore_measure_work_run(gpointer data, const SporeProgress *progress, GError **error) {
@@ -88,16 +134,22 @@ gboolean spore_measure_work_run(gpointer data, const SporeProgress *progress, GE
          spore_error_propagate(&failure, error);
 }
 
-gboolean spore_tetrahedra_work_run(gpointer data, const SporeProgress *progress, GError **error) {
-  SporeGenerateWork *work = data;
-  return spore_tetrahedra_from_mesh(work->source, &work->mesh, &work->tetrahedra_options, &work->tetrahedra,
-                                    &work->tetrahedra_report, progress, error);
-}
-
 SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document) {
   SporeObject *body = spore_document_by_id(document, work->body);
   SporeObject *asset = body ? spore_edit_visual_mesh(document, body, NULL) : NULL;
   if (!asset || g_strcmp0(spore_object_name(asset), work->source) != 0) return NULL;
   g_autofree char *hash = spore_document_asset_hash(document, asset);
   return g_strcmp0(hash, work->source_hash) == 0 ? body : NULL;
+}
+
+gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument *document, GError **error) {
+  SporeObject *body = spore_generate_work_body(work, document);
+  if (!body)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, work->source,
+                             _("the mesh changed meanwhile and the result was dropped; generate it again"));
+  if (work->options.kind == SPORE_GENERATE_SPHERES)
+    return spore_edit_use_spheres(document, body, work->source, work->source_hash, &work->options.spheres,
+                                  &work->spheres, error);
+  return spore_edit_use_tetrahedra(document, body, work->source, work->source_hash, work->options.tetrahedra.cells,
+                                   &work->tetrahedra, error);
 }

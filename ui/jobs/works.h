@@ -4,6 +4,7 @@
 
 #include "core/base/progress.h"
 #include "core/generate/spheres.h"
+#include "core/generate/spheres_quality.h"
 #include "core/generate/tetrahedra.h"
 #include "core/scene/document.h"
 
@@ -19,26 +20,45 @@ SporeOpenWork *spore_open_work_new(const SporeSchema *schema, const char *file);
 gboolean spore_open_work_run(gpointer work, const SporeProgress *progress, GError **error);
 void spore_open_work_free(gpointer work);
 
-/* What generators share: where they started from, to be compared when they are through. */
+typedef enum SporeGenerateKind {
+  SPORE_GENERATE_SPHERES,
+  SPORE_GENERATE_TETRAHEDRA,
+  SPORE_GENERATE_KIND_COUNT
+} SporeGenerateKind;
+
+typedef struct SporeGenerateOptions {
+  SporeGenerateKind kind;
+  SporeSpheresOptions spheres;
+  SporeTetrahedraOptions tetrahedra;
+} SporeGenerateOptions;
+/* The asset of the body that a generator of this kind makes, or NULL. */
+SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
+/* Those of the asset, else the usual ones. */
+SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
+
+/* What generators share: where they started from, to be compared when they are through. Counted references. */
 typedef struct SporeGenerateWork {
+  SporeGenerateOptions options;
   guint32 body; /* object id */
   char *source; /* name of the mesh asset */
   char *source_hash;
   SporeTriangleMesh mesh;
-  SporeSpheresOptions spheres_options;
-  SporeTetrahedraOptions tetrahedra_options;
   SporeSphereSet spheres;                  /* out, or in for measuring */
   SporeSpheresReport spheres_report;       /* out */
+  SporeSpheresQuality spheres_quality;     /* out */
   SporeTetrahedralMesh tetrahedra;         /* out */
   SporeTetrahedraReport tetrahedra_report; /* out */
 } SporeGenerateWork;
 /* Copies the mesh that the body shows. NULL with an error when there is none. */
-SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body, GError **error);
-gboolean spore_spheres_work_run(gpointer work, const SporeProgress *progress, GError **error);
-gboolean spore_tetrahedra_work_run(gpointer work, const SporeProgress *progress, GError **error);
+SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
+                                           const SporeGenerateOptions *options, GError **error);
+gboolean spore_generate_work_run(gpointer work, const SporeProgress *progress, GError **error);
 gboolean spore_measure_work_run(gpointer work, const SporeProgress *progress, GError **error);
-void spore_generate_work_free(gpointer work);
+SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work);
+void spore_generate_work_unref(gpointer work);
 /* The body, where it still shows the mesh that the work began with; NULL: the document moved on. */
 SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document);
+/* The result becomes the body's, as one undo step; the options are remembered. */
+gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument *document, GError **error);
 
 #endif

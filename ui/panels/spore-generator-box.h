@@ -9,10 +9,17 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_GENERATOR_BOX spore_generator_box_get_type()
 G_DECLARE_FINAL_TYPE(SporeGeneratorBox, spore_generator_box, SPORE, GENERATOR_BOX, GtkBox)
 
+/* Of what is there now. */
+typedef struct SporeGeneratorState {
+  const char *asset; /* path; NULL: nothing is there */
+  guint count;       /* that it was, or is to be, made with; 0: as the user chose last */
+  gboolean generated, stale, frozen;
+} SporeGeneratorState;
+
 /* action: of the window, takes the count (u). label: "Spheres", translated. */
 GtkWidget *spore_generator_box_new(const char *action, const char *label, guint count, guint maximum);
-/* What is there now, in words; stale: the source changed since. */
-void spore_generator_box_set_result(SporeGeneratorBox *self, const char *text, gboolean stale);
+/* text: what is there, in words. */
+void spore_generator_box_set_result(SporeGeneratorBox *self, const char *text, SporeGeneratorState state);
 
 G_END_DECLS
 #endif

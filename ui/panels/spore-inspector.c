@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/scene/compile.h"
+#include "core/scene/generated.h"
 #include "ui/document/edits.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/jobs/works.h"
@@ -12,7 +13,6 @@
 #include "ui/panels/spore-property-row.h"
 
 #define DEFAULT_SPHERES 100
-#define MOST_SPHERES 20000
 #define DEFAULT_CELLS 1000
 #define MOST_CELLS 1000000
 
@@ -107,12 +107,28 @@ static void show_mesh_facts(SporeInspector *self, SporeObject *body) {
   gtk_label_set_text(GTK_LABEL(self->mesh_facts), text);
 }
 
-static gboolean is_stale(SporeInspector *self, SporeObject *asset) {
-  const char *source = spore_object_text(asset, "source"), *hash = spore_object_text(asset, "source_hash");
-  SporeObject *mesh = source && *source ? spore_document_find(document_of(self), "mesh", source) : NULL;
-  if (!mesh || !hash) return FALSE;
-  g_autofree char *now = spore_document_asset_hash(document_of(self), mesh);
-  return now && !g_str_equal(now, hash);
+/* What became of the asset since it was generated, a line each. */
+static void append_state(SporeInspector *self, SporeObject *asset, GString *text) {
+  SporeGenerated generated = spore_generated_state(document_of(self), asset);
+  if (generated == SPORE_GENERATED_SOURCE_CHANGED) g_string_append(text, _("\nStale: the mesh has changed since"));
+  if (generated == SPORE_GENERATED_OPTIONS_CHANGED) g_string_append(text, _("\nStale: the options have changed since"));
+  if (spore_generated_is(asset, "edited")) g_string_append(text, _("\nEdited by hand"));
+  if (spore_generated_is(asset, "frozen")) g_string_append(text, _("\nFrozen: nothing generates it again"));
+}
+
+static guint last_count(SporeObject *asset, const char *property, guint otherwise) {
+  return asset ? (guint)spore_object_number(asset, property) : otherwise;
+}
+
+static void show_state(SporeInspector *self, GtkWidget *box, const char *text, SporeObject *asset, const char *count) {
+  SporeGenerated generated = asset ? spore_generated_state(document_of(self), asset) : SPORE_GENERATED_NOT;
+  g_autofree char *path = asset ? spore_object_path(asset) : NULL;
+  SporeGeneratorState state = {.asset = path,
+                               .generated = generated != SPORE_GENERATED_NOT,
+                               .stale = generated == SPORE_GENERATED_SOURCE_CHANGED ||
+                                        generated == SPORE_GENERATED_OPTIONS_CHANGED,
+                               .frozen = asset && spore_generated_is(asset, "frozen")};
+  spore_generator_box_set_result(SPORE_GENERATOR_BOX(box), text, state);
 }
 
 static gboolean refresh(gpointer data);
@@ -140,28 +156,28 @@ static const SporeSpheresReport *report_of(SporeInspector *self, SporeObject *bo
   g_autofree char *key = g_strconcat(mesh_hash ? mesh_hash : "", set_hash, NULL);
   const SporeSpheresReport *report = g_hash_table_lookup(self->reports, key);
   if (report || self->measured_key) return report;
-  SporeGenerateWork *work = spore_generate_work_new(document_of(self), body, NULL);
+  SporeGenerateOptions options = {.kind = SPORE_GENERATE_SPHERES};
+  SporeGenerateWork *work = spore_generate_work_new(document_of(self), body, &options, NULL);
   if (!work) return NULL;
   if (!spore_sphere_set_allocate(&work->spheres, set->count, NULL)) {
-    spore_generate_work_free(work);
+    spore_generate_work_unref(work);
     return NULL;
   }
   memcpy(work->spheres.spheres, set->spheres, set->count * 4 * sizeof(double));
   self->measured_key = g_steal_pointer(&key);
-  g_object_unref(spore_job_start(_("Measuring spheres"), spore_measure_work_run, work, spore_generate_work_free,
+  g_object_unref(spore_job_start(_("Measuring spheres"), spore_measure_work_run, work, spore_generate_work_unref,
                                  measured, G_OBJECT(self)));
   return NULL;
 }
 
 static void show_spheres(SporeInspector *self, SporeObject *body) {
-  SporeGeneratorBox *box = SPORE_GENERATOR_BOX(self->spheres_box);
   SporeObject *asset = spore_edit_body_spheres(document_of(self), body);
   g_autoptr(GError) error = NULL;
   const SporeSphereSet *set = asset ? spore_document_spheres(document_of(self), asset, &error) : NULL;
   if (!set) {
     const char *none =
         spore_body_has_own_spheres(body) ? _("The model's own spheres") : _("No spheres yet: the body touches nothing");
-    spore_generator_box_set_result(box, error ? error->message : none, FALSE);
+    show_state(self, self->spheres_box, error ? error->message : none, NULL, "count");
     return;
   }
   GString *text = g_string_new(NULL);
@@ -172,28 +188,27 @@ static void show_spheres(SporeInspector *self, SporeObject *body) {
                            100 * report->coverage, 100 * report->outside, 100 * report->depth_error,
                            100 * report->distance_mean);
   else if (self->measured_key) g_string_append(text, _(", measuring…"));
-  gboolean stale = is_stale(self, asset);
-  if (stale) g_string_append(text, _("\nThe mesh has changed since"));
-  spore_generator_box_set_result(box, text->str, stale);
+  append_state(self, asset, text);
+  show_state(self, self->spheres_box, text->str, asset, "count");
   g_string_free(text, TRUE);
 }
 
 static void show_tetrahedra(SporeInspector *self, SporeObject *body) {
-  SporeGeneratorBox *box = SPORE_GENERATOR_BOX(self->tetrahedra_box);
   SporeObject *asset = spore_edit_body_tetrahedra(document_of(self), body);
   g_autoptr(GError) error = NULL;
   const SporeTetrahedralMesh *mesh = asset ? spore_document_tetrahedra(document_of(self), asset, &error) : NULL;
   if (!mesh) {
-    spore_generator_box_set_result(box, error ? error->message : _("No tetrahedra yet"), FALSE);
+    show_state(self, self->tetrahedra_box, error ? error->message : _("No tetrahedra yet"), NULL, "cells");
     return;
   }
   SporeTetrahedraQuality quality;
   spore_tetrahedral_mesh_quality(mesh, &quality);
-  gboolean stale = is_stale(self, asset);
-  g_autofree char *text = g_strdup_printf(_("%zu tetrahedra, %.3g ml\nLeast angle %.1f°, mean %.1f°%s"),
-                                          mesh->tetrahedron_count, 1e6 * quality.volume, quality.min_dihedral_deg,
-                                          quality.mean_dihedral_deg, stale ? _("\nThe mesh has changed since") : "");
-  spore_generator_box_set_result(box, text, stale);
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("%zu tetrahedra, %.3g ml\nLeast angle %.1f°, mean %.1f°"), mesh->tetrahedron_count,
+                         1e6 * quality.volume, quality.min_dihedral_deg, quality.mean_dihedral_deg);
+  append_state(self, asset, text);
+  show_state(self, self->tetrahedra_box, text->str, asset, "cells");
+  g_string_free(text, TRUE);
 }
 
 static void show_model(SporeInspector *self, SporeObject *body) {
@@ -276,10 +291,6 @@ static void add_preset_choice(SporeInspector *self, GtkBox *box, SporeObject *mo
   g_signal_connect(combo, "changed", G_CALLBACK(preset_chosen), self);
 }
 
-static guint last_count(SporeObject *asset, const char *property, guint otherwise) {
-  return asset ? (guint)spore_object_number(asset, property) : otherwise;
-}
-
 static void add_body(SporeInspector *self, SporeObject *body) {
   SporeDocument *document = document_of(self);
   add_object(self, add_section(self, _("Body")), body);
@@ -290,14 +301,15 @@ static void add_body(SporeInspector *self, SporeObject *body) {
 
   GtkBox *collision = add_section(self, _("Collision spheres"));
   guint spheres = last_count(spore_edit_body_spheres(document, body), "count", DEFAULT_SPHERES);
-  self->spheres_box = spore_generator_box_new("generate-spheres", _("Number of spheres"), spheres, MOST_SPHERES);
+  self->spheres_box =
+      spore_generator_box_new("preview-spheres", _("Number of spheres"), spheres, SPORE_SPHERES_MAXIMUM);
   gtk_container_add(GTK_CONTAINER(collision), self->spheres_box);
   add_unit(self, collision, body, "collision");
 
   GtkBox *mechanical = add_section(self, _("Mechanical unit"));
   add_model_choice(self, mechanical);
   guint cells = last_count(spore_edit_body_tetrahedra(document, body), "cells", DEFAULT_CELLS);
-  self->tetrahedra_box = spore_generator_box_new("generate-tetrahedra", _("Number of tetrahedra"), cells, MOST_CELLS);
+  self->tetrahedra_box = spore_generator_box_new("preview-tetrahedra", _("Number of tetrahedra"), cells, MOST_CELLS);
   gtk_container_add(GTK_CONTAINER(mechanical), self->tetrahedra_box);
   add_unit(self, mechanical, body, "mechanical");
 

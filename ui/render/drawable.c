@@ -25,7 +25,7 @@ void spore_drawable_set_bounds(SporeDrawable *drawable, const double *points, gs
 }
 
 static void free_surface(SporeSurface *surface) {
-  GLuint buffers[] = {surface->moving, surface->rest, surface->indices};
+  GLuint buffers[] = {surface->moving, surface->rest, surface->values, surface->indices};
   glDeleteBuffers(G_N_ELEMENTS(buffers), buffers);
   glDeleteVertexArrays(1, &surface->vertex_array);
   g_free(surface->triangles);

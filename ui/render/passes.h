@@ -73,7 +73,7 @@ typedef struct SporeDrawable {
 
 typedef struct SporeSurface {
   SporeDrawable base;
-  GLuint vertex_array, moving, rest, indices;
+  GLuint vertex_array, moving, rest, values, indices; /* values 0: has none */
   gsize vertex_count, triangle_count;
   guint32 *triangles; /* triangle_count x 3 */
   double *normals;    /* vertex_count x 3 */
@@ -109,7 +109,7 @@ typedef struct SporeLineGroup {
 
 /* Context current in all that follows. */
 SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
-                                gsize triangle_count, const SporeSurfaceStyle *style);
+                                gsize triangle_count, const SporeSurfaceStyle *style, const float *values);
 void spore_surface_move(SporeSurface *surface, const double *vertices);
 SporeSphereGroup *spore_sphere_group_new(const double *spheres, gsize count, const float colour[3], const float *values,
                                          gboolean overlay);

@@ -1,6 +1,7 @@
 #include <gio/gio.h>
 #include <glib/gi18n.h>
 
+#include "ui/render/colour_scale.h"
 #include "ui/render/passes.h"
 #include "ui/render/shaders.h"
 
@@ -50,9 +51,10 @@ static gboolean refused(const char *name, const char *log, GError **error) {
 static GLuint compile(GLenum stage, const char *name, const char *define, SporeVariant variant, GError **error) {
   const char *parts[] = {"frame.glsl", "colour.glsl", "visibility.glsl", "tissue.glsl", name};
   GBytes *texts[G_N_ELEMENTS(parts)];
-  const char *strings[G_N_ELEMENTS(parts) + 2] = {preamble[variant], define ? define : ""};
-  GLint lengths[G_N_ELEMENTS(parts) + 2] = {-1, -1};
-  guint count = 2;
+  g_autofree char *scale = spore_colour_scale_shader();
+  const char *strings[G_N_ELEMENTS(parts) + 3] = {preamble[variant], define ? define : "", scale};
+  GLint lengths[G_N_ELEMENTS(parts) + 3] = {-1, -1, -1};
+  guint count = 3;
   for (guint i = 0; i < G_N_ELEMENTS(parts); i++) {
     gsize size;
     texts[i] = shader_text(parts[i]);

@@ -81,7 +81,14 @@ static void *find_kind(SporeRenderer *renderer, guint handle, SporeDrawableKind 
 guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
                                  const guint32 *triangles, gsize triangle_count, const SporeSurfaceStyle *style) {
   spore_offscreen_make_current(renderer->offscreen);
-  return add(renderer, &spore_surface_new(vertices, vertex_count, triangles, triangle_count, style)->base);
+  return add(renderer, &spore_surface_new(vertices, vertex_count, triangles, triangle_count, style, NULL)->base);
+}
+
+guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
+                                        const guint32 *triangles, gsize triangle_count, const float *values) {
+  static const SporeSurfaceStyle plain = {.colour = {0.5f, 0.5f, 0.5f}};
+  spore_offscreen_make_current(renderer->offscreen);
+  return add(renderer, &spore_surface_new(vertices, vertex_count, triangles, triangle_count, &plain, values)->base);
 }
 
 void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices) {

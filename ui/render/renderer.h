@@ -43,6 +43,9 @@ SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error);
 void spore_renderer_free(SporeRenderer *renderer);
 guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
                                  const guint32 *triangles, gsize triangle_count, const SporeSurfaceStyle *style);
+/* Coloured by the scale (colour_scale.h): one value a vertex, 0..1; below 0: grey. Neither tissue nor selected. */
+guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
+                                        const guint32 *triangles, gsize triangle_count, const float *values);
 void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices); /* normals follow */
 void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const SporeSurfaceStyle *style);
 /* Spheres as impostors that write depth. values: one a sphere in 0..1 for the colour map, or NULL for `colour`. */

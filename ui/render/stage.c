@@ -28,6 +28,7 @@ static void clear(SporeStage *stage) {
 
 void spore_stage_free(SporeStage *stage) {
   if (!stage) return;
+  spore_stage_set_candidate(stage, NULL);
   clear(stage);
   g_ptr_array_free(stage->bodies, TRUE);
   g_hash_table_destroy(stage->fit);
@@ -45,6 +46,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
     g_ptr_array_add(stage->bodies, spore_stage_body_new(stage, spore_object_child(bodies, i), simulation, NULL));
   stage->contact_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, contact_colour, 2.5f);
   spore_renderer_set_visible(stage->renderer, stage->contact_handle, stage->options.contacts);
+  spore_stage_place_candidate(stage);
 }
 
 /* Each contact as a line from its point along its force; the length grows with the force but never fills the picture.

@@ -11,6 +11,23 @@ typedef struct SporeStageOptions {
   gboolean surfaces, spheres, tetrahedra, contacts;
 } SporeStageOptions;
 
+/* What may come of a generator or of a hand: shown in place of what the body has of it. Arrays owned, in the body's
+ * axes at the start, m; counts of 0: none of that kind. */
+typedef struct SporeStageCandidate {
+  guint32 body; /* object id */
+  gsize sphere_count;
+  double *spheres;      /* sphere_count x 4 */
+  float *sphere_values; /* sphere_count, 0..1 of the scale of colours; NULL: plain */
+  gsize chosen;         /* sphere that is marked; G_MAXSIZE: none */
+  gsize vertex_count, triangle_count;
+  double *vertices;     /* vertex_count x 3 */
+  guint32 *triangles;   /* triangle_count x 3 */
+  float *vertex_values; /* vertex_count, as sphere_values */
+  gsize line_count;
+  double *lines; /* line_count x 2 points x 3 */
+} SporeStageCandidate;
+void spore_stage_candidate_free(SporeStageCandidate *candidate);
+
 /* All borrowed. simulation may be NULL: bodies stand where the document puts them. */
 SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document);
 void spore_stage_free(SporeStage *stage);
@@ -19,6 +36,8 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation);
 /* Moves what moves. */
 void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot);
 void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options);
+/* Borrowed until the next call; NULL: none. */
+void spore_stage_set_candidate(SporeStage *stage, const SporeStageCandidate *candidate);
 void spore_stage_set_selection(SporeStage *stage, guint32 object_id);
 /* The scene's camera of that name (tools > camera); NULL: its first, else one that sees everything at this aspect.
  * Below 16:9 a camera of the scene opens wider, so that nothing is lost at the sides.

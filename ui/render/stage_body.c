@@ -5,29 +5,18 @@
 
 #include "core/base/memory.h"
 #include "core/scene/schema_fields.h"
+#include "ui/render/colour_scale.h"
 
 static const float sphere_colour[3] = {0.03f, 0.24f, 0.36f};
 #define TUBE_SECTORS 16
 
 static const float wire_colour[3] = {0.16f, 0.42f, 0.55f};
 
-static float linear_light(double srgb) {
-  return (float)(srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4));
-}
-
-/* Where a body object stands in the document. */
-static SporePose document_pose(const SporeObject *object) {
-  SporeBodyFields fields;
-  spore_object_fields(object, &fields);
-  return (SporePose){spore_vec3_load(fields.position),
-                     spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))};
-}
-
 /* The configuration at time 0. Taken from the model, which never changes, and not from the world, which another thread
  * may be stepping. */
 static void init_configuration(SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation,
                                const SporeLevelGrade *level) {
-  SporePose pose = document_pose(object);
+  SporePose pose = spore_body_pose(object);
   const SporeModel *model = NULL;
   if (simulation) {
     const SporeWorld *world = simulation->world;
@@ -234,7 +223,7 @@ SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, con
   if (unit) spore_object_fields(unit, &visual);
   body->object = spore_object_id(object);
   body->world_body = SPORE_NO_BODY;
-  for (int i = 0; i < 3; i++) body->style.colour[i] = linear_light(visual.colour[i]);
+  for (int i = 0; i < 3; i++) body->style.colour[i] = (float)spore_linear_light(visual.colour[i]);
   body->style.wetness = (float)visual.wetness;
   SporeBodyFields fields;
   spore_object_fields(object, &fields);
@@ -343,12 +332,17 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
 
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {
   SporeRenderer *renderer = stage->renderer;
-  if (body->surface_handle) spore_renderer_set_visible(renderer, body->surface_handle, stage->options.surfaces);
+  const SporeStageCandidate *instead =
+      stage->candidate && stage->candidate->body == body->object ? stage->candidate : NULL;
+  if (body->surface_handle)
+    spore_renderer_set_visible(renderer, body->surface_handle,
+                               stage->options.surfaces && !(instead && instead->triangle_count));
   if (body->inside_handle) spore_renderer_set_visible(renderer, body->inside_handle, stage->options.surfaces);
   if (body->spheres_handle)
-    spore_renderer_set_visible(renderer, body->spheres_handle,
-                               body->solid ? stage->options.surfaces || stage->options.spheres
-                                           : stage->options.spheres);
+    spore_renderer_set_visible(
+        renderer, body->spheres_handle,
+        (body->solid ? stage->options.surfaces || stage->options.spheres : stage->options.spheres) &&
+            !(instead && (instead->sphere_count || instead->triangle_count)));
   if (body->puffs_handle) spore_renderer_set_visible(renderer, body->puffs_handle, stage->options.surfaces);
   if (body->wire_handle) spore_renderer_set_visible(renderer, body->wire_handle, stage->options.tetrahedra);
 }

@@ -69,7 +69,9 @@ struct SporeStage {
   guint contact_handle;
   gsize cut_count; /* of the snapshot that is shown, and its cut_run */
   guint64 cut_run;
-  GArray *contacts; /* double: segments of the contacts shown */
+  GArray *contacts;                     /* double: segments of the contacts shown */
+  const SporeStageCandidate *candidate; /* NULL: none */
+  guint candidate_handles[4];           /* spheres, the marked one, surface, lines; 0: none */
 };
 
 /* Builds what is drawn of a body object, at time 0; nothing of it where its assets cannot be read. level: NULL for the
@@ -83,6 +85,9 @@ void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
 /* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|, 1 at a fiftieth of the
  * diagonal. NULL: no such mesh. Kept by the stage. */
 const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
+
+/* Draws the candidate where its body stands at the start, anew. */
+void spore_stage_place_candidate(SporeStage *stage);
 
 /* Shows a surface made for this moment, where it is, instead of the last one; takes its triangles. */
 void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh);

@@ -97,6 +97,11 @@ static void describe_vertices(const SporeSurface *surface) {
   glBindBuffer(GL_ARRAY_BUFFER, surface->rest);
   glEnableVertexAttribArray(2);
   glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, 0, NULL);
+  if (surface->values) {
+    glBindBuffer(GL_ARRAY_BUFFER, surface->values);
+    glEnableVertexAttribArray(3);
+    glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, 0, NULL);
+  }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface->indices);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(surface->triangle_count * 3 * sizeof(guint32)), surface->triangles,
                GL_STATIC_DRAW);
@@ -104,7 +109,7 @@ static void describe_vertices(const SporeSurface *surface) {
 }
 
 SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
-                                gsize triangle_count, const SporeSurfaceStyle *style) {
+                                gsize triangle_count, const SporeSurfaceStyle *style, const float *values) {
   SporeSurface *surface = g_new0(SporeSurface, 1);
   surface->base.kind = SPORE_DRAW_SURFACE;
   surface->base.visible = TRUE;
@@ -118,6 +123,11 @@ SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, cons
   glGenBuffers(1, &surface->moving);
   glGenBuffers(1, &surface->rest);
   glGenBuffers(1, &surface->indices);
+  if (values) {
+    glGenBuffers(1, &surface->values);
+    glBindBuffer(GL_ARRAY_BUFFER, surface->values);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(vertex_count * sizeof *values), values, GL_STATIC_DRAW);
+  }
   spore_drawable_set_bounds(&surface->base, vertices, vertex_count, 3, FALSE, TRUE);
   surface->cell = pattern_cell(&surface->base);
   longest_axis(surface, vertices, surface->axis);
@@ -160,6 +170,7 @@ static void draw_surface(const SporeSurface *surface, const SporeFrame *frame, c
   else glDisable(GL_CULL_FACE);
   glPolygonMode(GL_FRONT_AND_BACK, style->wireframe && colours ? GL_LINE : GL_FILL);
   glBindVertexArray(surface->vertex_array);
+  if (!surface->values) glVertexAttrib1f(3, -1);
   glDrawElements(GL_TRIANGLES, (GLsizei)(3 * surface->triangle_count), GL_UNSIGNED_INT, NULL);
 }
 

@@ -1,4 +1,5 @@
 #include "ui/document/edits.h"
+#include "ui/panels/report.h"
 #include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
 
@@ -254,8 +255,8 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
   if (event->state & gtk_accelerator_get_default_mod_mask()) return GDK_EVENT_PROPAGATE;
   switch (event->keyval) {
   case GDK_KEY_Escape:
-    if (self->drag == DRAG_NONE) return GDK_EVENT_PROPAGATE;
-    abort_drag(self);
+    if (self->drag != DRAG_NONE) abort_drag(self);
+    else spore_activate(area, "cancel-job", NULL); /* a preview, if there is one */
     break;
   case GDK_KEY_f:
     spore_viewport_frame(self);

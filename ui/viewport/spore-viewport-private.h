@@ -15,6 +15,11 @@ struct _SporeViewport {
   SporeTool tool;
   SporeStageOptions options;
 
+  SporeStageCandidate *candidate;
+  char *legend; /* of the candidate's colours; NULL: none */
+  double legend_low, legend_high;
+  char *legend_unit;
+
   SporeOffscreen *offscreen;
   SporeRenderer *renderer;
   SporeStage *stage;

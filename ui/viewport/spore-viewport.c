@@ -1,6 +1,7 @@
 #include <glib/gi18n.h>
 
 #include "ui/document/edits.h"
+#include "ui/render/colour_scale.h"
 #include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
 
@@ -8,6 +9,9 @@
 #define FIELD_OF_VIEW_RAD 0.61
 /* An empty scene shows about a hand's breadth. */
 #define EMPTY_DISTANCE_M 0.4
+#define LEGEND_WIDTH 200
+#define LEGEND_MARGIN 22
+#define LEGEND_HEIGHT 48
 #define ARROW_PIXELS_A_NEWTON 40.0
 #define ARROW_LONGEST_PIXELS 160.0
 
@@ -110,6 +114,7 @@ static void ensure_stage(SporeViewport *self) {
   if (self->stage || !self->document || !ensure_renderer(self)) return;
   self->stage = spore_stage_new(self->renderer, spore_editor_document_get(self->document));
   g_clear_handle_id(&self->rebuild, g_source_remove);
+  spore_stage_set_candidate(self->stage, self->candidate);
   rebuild(self);
 }
 
@@ -177,6 +182,36 @@ static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
   draw_arrow(cr, x0, y0, x1 - x0, y1 - y0);
 }
 
+/* A bar of the scale's colours with its ends, at the lower right. */
+static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
+  const double bar = LEGEND_WIDTH, left = width - bar - LEGEND_MARGIN, top = height - LEGEND_HEIGHT;
+  if (!self->legend || width < bar + 2 * LEGEND_MARGIN) return;
+  cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
+  cairo_rectangle(cr, left - 10, top - 26, bar + 20, LEGEND_HEIGHT + 14);
+  cairo_fill(cr);
+  for (int i = 0; i < bar; i++) {
+    double colour[3];
+    spore_colour_scale(i / bar, colour);
+    cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+    cairo_rectangle(cr, left + i, top, 1, 10);
+    cairo_fill(cr);
+  }
+  g_autofree char *low = g_strdup_printf("%g", self->legend_low);
+  g_autofree char *high = g_strdup_printf("%g %s", self->legend_high, self->legend_unit);
+  const struct {
+    const char *text;
+    double y, align;
+  } lines[] = {{self->legend, top - 21, 0}, {low, top + 13, 0}, {high, top + 13, 1}};
+  cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
+  for (gsize i = 0; i < G_N_ELEMENTS(lines); i++) {
+    int wide;
+    g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(self->area, lines[i].text);
+    pango_layout_get_pixel_size(layout, &wide, NULL);
+    cairo_move_to(cr, left + lines[i].align * (bar - wide), lines[i].y);
+    pango_cairo_show_layout(cr, layout);
+  }
+}
+
 static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   int width = gtk_widget_get_allocated_width(area), height = gtk_widget_get_allocated_height(area);
   int scale = gtk_widget_get_scale_factor(area);
@@ -191,6 +226,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   cairo_restore(cr);
   draw_force(self, cr, width, height);
   draw_pull(self, cr, width, height);
+  draw_legend(self, cr, width, height);
   return FALSE;
 }
 
@@ -315,6 +351,22 @@ void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *op
   update_stage(self);
 }
 
+void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend) {
+  if (!candidate && !self->candidate) return;
+  if (self->stage) spore_stage_set_candidate(self->stage, candidate);
+  spore_stage_candidate_free(self->candidate);
+  self->candidate = candidate;
+  g_clear_pointer(&self->legend, g_free);
+  g_clear_pointer(&self->legend_unit, g_free);
+  if (candidate && legend->count) {
+    self->legend = g_strdup(legend->label);
+    self->legend_unit = g_strdup(legend->unit);
+    self->legend_low = legend->low;
+    self->legend_high = legend->high;
+  }
+  spore_viewport_redraw(self);
+}
+
 void spore_viewport_frame(SporeViewport *self) {
   if (!self->stage || !has_anything(self)) return;
   double lower[3], upper[3];
@@ -356,6 +408,9 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->offscreen, spore_offscreen_free);
   g_clear_pointer(&self->pixels, cairo_surface_destroy);
   g_clear_pointer(&self->renderer_name, g_free);
+  g_clear_pointer(&self->candidate, spore_stage_candidate_free);
+  g_clear_pointer(&self->legend, g_free);
+  g_clear_pointer(&self->legend_unit, g_free);
   G_OBJECT_CLASS(spore_viewport_parent_class)->dispose(object);
 }
 

@@ -9,6 +9,7 @@
 
 #include <gtk/gtk.h>
 
+#include "ui/jobs/quality.h"
 #include "ui/render/stage.h"
 #include "ui/sim/spore-player.h"
 
@@ -24,6 +25,9 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
 void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
 void spore_viewport_set_tool(SporeViewport *self, SporeTool tool);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
+/* What a generator offers, over what the scene has, and the legend of its colours (read at once; without values: none).
+ * Takes the candidate; NULL: nothing is offered. */
+void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend);
 void spore_viewport_frame(SporeViewport *self);
 /* When what was just changed is there to be seen. */
 void spore_viewport_frame_soon(SporeViewport *self);

@@ -1,0 +1,27 @@
+/* What is shown of how good a generated result is: by colours on it, and as a histogram. No GTK. */
+#ifndef SPORE_UI_JOBS_QUALITY_H
+#define SPORE_UI_JOBS_QUALITY_H
+
+#include "ui/jobs/works.h"
+
+typedef struct SporeQuality {
+  const char *label, *unit; /* translated; of the values */
+  gboolean of_surface;      /* a value a vertex of the source mesh; else one a sphere or cell */
+  gsize count;
+  double *values, *weights; /* count; weights NULL: all the same */
+  double low, high;         /* ends of the scale: round numbers, all but a few values lie between them */
+} SporeQuality;
+
+/* How many there are of results of this kind, and what each is called (translated). */
+gsize spore_quality_count(SporeGenerateKind kind);
+const char *spore_quality_label(SporeGenerateKind kind, gsize which);
+/* Empty where the work has no result. */
+void spore_quality_of(const SporeGenerateWork *work, gsize which, SporeQuality *quality);
+void spore_quality_clear(SporeQuality *quality);
+/* Place of a value on the scale of colours, 0..1. */
+double spore_quality_place(const SporeQuality *quality, gsize i);
+double spore_quality_mean(const SporeQuality *quality);
+/* The value that this share of the weight lies below. */
+double spore_quality_quantile(const SporeQuality *quality, double share);
+
+#endif

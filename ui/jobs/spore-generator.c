@@ -1,0 +1,175 @@
+#include "ui/jobs/spore-generator.h"
+
+#include <glib/gi18n.h>
+
+#include "core/scene/generated.h"
+#include "ui/document/edits.h"
+
+#define SETTLE_MS 250 /* options that change faster make one run */
+
+struct _SporeGenerator {
+  GObject parent;
+  SporeEditorDocument *document;
+  gboolean active, apply_when_done;
+  guint32 body;
+  SporeGenerateOptions options;
+  guint timer;
+  SporeJob *job;
+  SporeGenerateWork *result;
+};
+
+G_DEFINE_FINAL_TYPE(SporeGenerator, spore_generator, G_TYPE_OBJECT)
+
+enum { CHANGED, FAILED, APPLIED, SIGNAL_COUNT };
+static guint signals[SIGNAL_COUNT];
+
+static void tell(SporeGenerator *self) { g_signal_emit(self, signals[CHANGED], 0); }
+
+static void drop_job(SporeGenerator *self) {
+  g_clear_handle_id(&self->timer, g_source_remove);
+  if (!self->job) return;
+  g_signal_handlers_disconnect_by_data(self->job, self);
+  spore_job_cancel(self->job);
+  g_clear_object(&self->job);
+}
+
+static void drop(SporeGenerator *self) {
+  drop_job(self);
+  g_clear_pointer(&self->result, spore_generate_work_unref);
+  self->active = self->apply_when_done = FALSE;
+}
+
+static void fail(SporeGenerator *self, const GError *error) {
+  drop(self);
+  if (!g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED))
+    g_signal_emit(self, signals[FAILED], 0, error->message);
+  tell(self);
+}
+
+/* A job that was dropped comes here too, and is nobody's any more. */
+static void done(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeGenerator *self = owner;
+  g_autoptr(GError) refused = NULL;
+  if (self->job != job) return;
+  g_clear_object(&self->job);
+  if (error) {
+    fail(self, error);
+    return;
+  }
+  self->result = spore_generate_work_ref(data);
+  if (!self->apply_when_done) tell(self);
+  else if (!spore_generator_apply(self, &refused)) fail(self, refused);
+}
+
+static void start(SporeGenerator *self) {
+  static const char *const titles[SPORE_GENERATE_KIND_COUNT] = {N_("Generating spheres"), N_("Generating tetrahedra")};
+  SporeObject *body = spore_generator_get_body(self);
+  drop_job(self);
+  g_autoptr(GError) error = NULL;
+  SporeGenerateWork *work =
+      spore_generate_work_new(spore_editor_document_get(self->document), body, &self->options, &error);
+  if (!work) {
+    fail(self, error);
+    return;
+  }
+  self->job = spore_job_start(_(titles[self->options.kind]), spore_generate_work_run, work, spore_generate_work_unref,
+                              done, G_OBJECT(self));
+  g_signal_connect_object(self->job, "progressed", G_CALLBACK(tell), self, G_CONNECT_SWAPPED);
+  tell(self);
+}
+
+static gboolean settled(gpointer data) {
+  SporeGenerator *self = data;
+  self->timer = 0;
+  start(self);
+  return G_SOURCE_REMOVE;
+}
+
+gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const SporeGenerateOptions *options,
+                                 GError **error) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *asset = spore_generate_target(document, body, options->kind);
+  if (!spore_edit_visual_mesh(document, body, error) || (asset && !spore_generated_may_change(asset, error)))
+    return FALSE;
+  gboolean again = self->active && self->body == spore_object_id(body) && self->options.kind == options->kind;
+  if (!again) drop(self);
+  drop_job(self);
+  g_clear_pointer(&self->result, spore_generate_work_unref);
+  self->active = TRUE;
+  self->body = spore_object_id(body);
+  self->options = *options;
+  if (again) {
+    self->timer = g_timeout_add(SETTLE_MS, settled, self);
+    tell(self);
+  } else {
+    start(self);
+  }
+  return TRUE;
+}
+
+void spore_generator_apply_when_done(SporeGenerator *self) { self->apply_when_done = TRUE; }
+
+gboolean spore_generator_apply(SporeGenerator *self, GError **error) {
+  if (!self->result) return spore_error_raise(error, SPORE_ERROR_INPUT, NULL, _("there is no result yet; wait for it"));
+  if (!spore_generate_work_apply(self->result, spore_editor_document_get(self->document), error)) return FALSE;
+  g_signal_emit(self, signals[APPLIED], 0);
+  drop(self);
+  tell(self);
+  return TRUE;
+}
+
+void spore_generator_cancel(SporeGenerator *self) {
+  if (!self->active) return;
+  drop(self);
+  tell(self);
+}
+
+gboolean spore_generator_is_active(SporeGenerator *self) { return self->active; }
+
+gboolean spore_generator_is_working(SporeGenerator *self) { return self->job || self->timer; }
+
+SporeObject *spore_generator_get_body(SporeGenerator *self) {
+  return self->active ? spore_document_by_id(spore_editor_document_get(self->document), self->body) : NULL;
+}
+
+const SporeGenerateOptions *spore_generator_get_options(SporeGenerator *self) { return &self->options; }
+
+const SporeGenerateWork *spore_generator_get_result(SporeGenerator *self) { return self->result; }
+
+SporeJob *spore_generator_get_job(SporeGenerator *self) { return self->job; }
+
+/* The body may have gone, or show another mesh: then it is generated from that one. */
+static void document_changed(SporeGenerator *self) {
+  if (!self->active) return;
+  SporeObject *body = spore_generator_get_body(self);
+  if (!body) {
+    spore_generator_cancel(self);
+  } else if (self->result && !spore_generate_work_body(self->result, spore_editor_document_get(self->document))) {
+    SporeGenerateOptions options = self->options;
+    if (!spore_generator_preview(self, body, &options, NULL)) spore_generator_cancel(self);
+  }
+}
+
+static void spore_generator_dispose(GObject *object) {
+  SporeGenerator *self = SPORE_GENERATOR(object);
+  drop(self);
+  g_clear_object(&self->document);
+  G_OBJECT_CLASS(spore_generator_parent_class)->dispose(object);
+}
+
+static void spore_generator_class_init(SporeGeneratorClass *class) {
+  G_OBJECT_CLASS(class)->dispose = spore_generator_dispose;
+  GType type = G_TYPE_FROM_CLASS(class);
+  signals[CHANGED] = g_signal_new("changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+  signals[FAILED] = g_signal_new("failed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 1, G_TYPE_STRING);
+  signals[APPLIED] = g_signal_new("applied", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+}
+
+static void spore_generator_init(SporeGenerator *self) {}
+
+SporeGenerator *spore_generator_new(SporeEditorDocument *document) {
+  SporeGenerator *self = g_object_new(SPORE_TYPE_GENERATOR, NULL);
+  self->document = g_object_ref(document);
+  g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
+  return self;
+}

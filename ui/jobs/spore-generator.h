@@ -1,0 +1,41 @@
+/* A generator at work before its result is applied: it runs, is run again when its options change, and the document is
+ * not touched until Apply. One at a time.
+ *
+ * Signals
+ *   changed ()           anything below may have; on the GTK thread, at most ten times a second while it works
+ *   failed (s message)   there is no result, and the preview has ended; not when it was cancelled
+ *   applied ()           the document has the result, which can still be read during the call                      */
+#ifndef SPORE_UI_JOBS_SPORE_GENERATOR_H
+#define SPORE_UI_JOBS_SPORE_GENERATOR_H
+
+#include "ui/document/spore-editor-document.h"
+#include "ui/jobs/spore-job.h"
+#include "ui/jobs/works.h"
+
+G_BEGIN_DECLS
+
+#define SPORE_TYPE_GENERATOR spore_generator_get_type()
+G_DECLARE_FINAL_TYPE(SporeGenerator, spore_generator, SPORE, GENERATOR, GObject)
+
+SporeGenerator *spore_generator_new(SporeEditorDocument *document);
+/* Begins, or goes on with other options: what ran before is dropped, and several calls in a row make one run. FALSE:
+ * the body shows no mesh, or what is there is frozen. */
+gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const SporeGenerateOptions *options,
+                                 GError **error);
+/* Once there is a result it is applied. */
+void spore_generator_apply_when_done(SporeGenerator *self);
+/* The result becomes the body's, as one undo step, and the preview ends. FALSE: there is none yet, or it does not fit
+ * any more; the preview goes on. */
+gboolean spore_generator_apply(SporeGenerator *self, GError **error);
+/* At once; the document stays as it was. */
+void spore_generator_cancel(SporeGenerator *self);
+
+gboolean spore_generator_is_active(SporeGenerator *self);    /* working, or with a result that waits */
+gboolean spore_generator_is_working(SporeGenerator *self);   /* or about to */
+SporeObject *spore_generator_get_body(SporeGenerator *self); /* NULL: not active */
+const SporeGenerateOptions *spore_generator_get_options(SporeGenerator *self); /* when active */
+const SporeGenerateWork *spore_generator_get_result(SporeGenerator *self);     /* NULL: none with these options */
+SporeJob *spore_generator_get_job(SporeGenerator *self);                       /* NULL: does not run */
+
+G_END_DECLS
+#endif

@@ -1,0 +1,22 @@
+/* A generator at work: its options, how good its result is, Apply and Cancel.
+ *
+ * Signals
+ *   shown-quality-changed ()   the user chose another quality to look at                                            */
+#ifndef SPORE_UI_PANELS_SPORE_GENERATOR_PANEL_H
+#define SPORE_UI_PANELS_SPORE_GENERATOR_PANEL_H
+
+#include <gtk/gtk.h>
+
+#include "ui/jobs/spore-generator.h"
+
+G_BEGIN_DECLS
+
+#define SPORE_TYPE_GENERATOR_PANEL spore_generator_panel_get_type()
+G_DECLARE_FINAL_TYPE(SporeGeneratorPanel, spore_generator_panel, SPORE, GENERATOR_PANEL, GtkBox)
+
+void spore_generator_panel_set_generator(SporeGeneratorPanel *self, SporeGenerator *generator);
+/* Which of the qualities of the result's kind (quality.h). */
+gsize spore_generator_panel_get_quality(SporeGeneratorPanel *self);
+
+G_END_DECLS
+#endif
