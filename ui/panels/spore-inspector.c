@@ -124,6 +124,7 @@ static void show_state(SporeInspector *self, GtkWidget *box, const char *text, S
   SporeGenerated generated = asset ? spore_generated_state(document_of(self), asset) : SPORE_GENERATED_NOT;
   g_autofree char *path = asset ? spore_object_path(asset) : NULL;
   SporeGeneratorState state = {.asset = path,
+                               .count = last_count(asset, count, 0),
                                .generated = generated != SPORE_GENERATED_NOT,
                                .stale = generated == SPORE_GENERATED_SOURCE_CHANGED ||
                                         generated == SPORE_GENERATED_OPTIONS_CHANGED,
