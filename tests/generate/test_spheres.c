@@ -548,7 +548,7 @@ static void test_quality(void) {
   CLOSE(quality.depth_error[1], 0.1, 1e-12);
   double area = 0;
   for (size_t i = 0; i < quality.vertex_count; i++) {
-    CLOSE(quality.distance[i], sqrt(0.75) - 0.5, 1e-12);
+    CLOSE(quality.distance[i], sqrt(0.75) - 0.5, 1e-7); /* the field is of single precision */
     area += quality.area[i];
   }
   CLOSE(area, 1, 1e-12);
