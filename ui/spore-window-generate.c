@@ -96,7 +96,7 @@ static void applied(SporeWindow *self) {
   }
   spore_window_log(self, _("%zu tetrahedra in %.1f s (%s): least angle %.1f°, error %.2f %%"),
                    work->tetrahedra.tetrahedron_count, tetrahedra->seconds,
-                   tetrahedra->method ? tetrahedra->method : "?", tetrahedra->quality.min_dihedral_deg,
+                   spore_tetrahedra_method_names[tetrahedra->method], tetrahedra->quality.min_dihedral_deg,
                    100 * tetrahedra->hausdorff);
 }
 

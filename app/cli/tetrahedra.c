@@ -1,5 +1,6 @@
 /* spore tetrahedra: a tetrahedral mesh in a surface. */
 #include <glib/gi18n.h>
+#include <math.h>
 
 #include "app/cli/cli.h"
 #include "core/generate/tetrahedra.h"
@@ -14,21 +15,52 @@ static Formatter formatter_of(const char *file) {
   return g_str_has_suffix(file, ".mesh") ? spore_medit_format : NULL;
 }
 
+/* A figure of the result, that of the given surface and the change between them. */
+static void report_change(SporeCli *cli, const char *name, double result, double given, double change) {
+  spore_cli_open(cli, name);
+  spore_cli_number(cli, "given", given);
+  spore_cli_number(cli, "result", result);
+  spore_cli_number(cli, "change", change);
+  spore_cli_close(cli);
+}
+
+/* Each method that was tried before, and why it did not do. */
+static void report_refused(SporeCli *cli, const SporeTetrahedraReport *report) {
+  spore_cli_open_array(cli, "refused");
+  for (int i = 0; i < SPORE_TETRAHEDRA_METHODS; i++) {
+    if (!*report->refused[i]) continue;
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "method", spore_tetrahedra_method_names[i]);
+    spore_cli_text(cli, "reason", report->refused[i]);
+    spore_cli_close(cli);
+    spore_cli_say(cli, _("not %s: %s\n"), spore_tetrahedra_method_names[i], report->refused[i]);
+  }
+  spore_cli_close_array(cli);
+}
+
 static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeTetrahedraReport *report) {
+  const char *method = spore_tetrahedra_method_names[report->method];
   spore_cli_count(cli, "nodes", (gint64)mesh->vertex_count);
   spore_cli_count(cli, "tetrahedra", (gint64)mesh->tetrahedron_count);
   spore_cli_number(cli, "min_dihedral_deg", report->quality.min_dihedral_deg);
   spore_cli_number(cli, "mean_dihedral_deg", report->quality.mean_dihedral_deg);
   spore_cli_number(cli, "hausdorff", report->hausdorff);
+  spore_cli_number(cli, "inner_distance", report->inner_distance);
   spore_cli_number(cli, "volume_change", report->volume_change);
-  spore_cli_text(cli, "method", report->method);
+  report_change(cli, "volume", report->volume, report->volume_given, report->volume_change);
+  report_change(cli, "area", report->area, report->area_given, report->area_change);
+  spore_cli_text(cli, "method", method);
+  report_refused(cli, report);
   spore_cli_number(cli, "seconds", report->seconds);
   spore_cli_say(
       cli,
       _("%zu tetrahedra, %zu nodes: least dihedral angle %.1f degrees (mean of minima %.1f), distance %.2f %% of "
-        "the diagonal, volume %+.1f %%, %s, %.1f s\n"),
+        "the diagonal, volume %+.1f %%, surface %+.1f %%, %s, %.1f s\n"),
       mesh->tetrahedron_count, mesh->vertex_count, report->quality.min_dihedral_deg, report->quality.mean_dihedral_deg,
-      100 * report->hausdorff, 100 * report->volume_change, report->method, report->seconds);
+      100 * report->hausdorff, 100 * report->volume_change, 100 * report->area_change, method, report->seconds);
+  if (report->inner_distance > 0)
+    spore_cli_say(cli, _("the surface has walls inside the solid, up to %.2f %% of the diagonal from its outside\n"),
+                  100 * report->inner_distance);
 }
 
 static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,
@@ -51,41 +83,112 @@ static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOption
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
+/* X,Y,Z,R,SIZE in metres. */
+static gboolean parse_region(const char *text, SporeTetrahedraRegion *region) {
+  double number[5];
+  const char *at = text;
+  for (int i = 0; i < 5; i++) {
+    char *end;
+    number[i] = g_ascii_strtod(at, &end);
+    if (end == at || *end != (i < 4 ? ',' : '\0')) return FALSE;
+    at = end + 1;
+  }
+  *region = (SporeTetrahedraRegion){{number[0], number[1], number[2]}, number[3], number[4]};
+  return isfinite(number[0]) && isfinite(number[1]) && isfinite(number[2]) && number[3] > 0 && isfinite(number[3]) &&
+         number[4] > 0 && isfinite(number[4]);
+}
+
+static int parse_regions(char **texts, SporeTetrahedraRegion *regions, SporeTetrahedraOptions *options) {
+  for (gsize i = 0; texts && texts[i]; i++) {
+    if (i == SPORE_TETRAHEDRA_REGIONS)
+      return spore_cli_usage(_("--region is given too often; expected at most %d times; give fewer"),
+                             SPORE_TETRAHEDRA_REGIONS);
+    if (!parse_region(texts[i], regions + i))
+      return spore_cli_usage(
+          _("--region %s: this is no region; expected X,Y,Z,R,SIZE in metres, R and SIZE above 0, as "
+            "0.1,0,0.05,0.02,0.001"),
+          texts[i]);
+    options->region_count = i + 1;
+  }
+  options->regions = regions;
+  return SPORE_EXIT_DONE;
+}
+
+/* What the options must be; prints its own message. */
+static int check(const SporeTetrahedraOptions *options, gint64 cells, const char *output) {
+  if (cells < 0 || cells > SPORE_TETRAHEDRA_CELLS || (cells == 0) == !(options->size > 0))
+    return spore_cli_usage(_("spore tetrahedra: neither number of cells nor size is one; expected either --cells 1 to "
+                             "%u or --size in metres above 0; give one of them"),
+                           SPORE_TETRAHEDRA_CELLS);
+  if (options->curvature != 0 && !(options->curvature >= 5 && options->curvature <= 90))
+    return spore_cli_usage(_("--curvature %g: out of range; expected 5 to 90 degrees; give such a number"),
+                           options->curvature);
+  if (!(options->tolerance >= 0 && options->tolerance < 1))
+    return spore_cli_usage(_("--tolerance %g: out of range; expected a share of the diagonal from 0 to 1"),
+                           options->tolerance);
+  if (!(options->gap >= 0 && isfinite(options->gap)))
+    return spore_cli_usage(_("--gap %g: out of range; expected a length in metres, 0 or more"), options->gap);
+  if (output && !formatter_of(output))
+    return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .vtu, .msh or .mesh"), output);
+  return SPORE_EXIT_DONE;
+}
+
+static const SporeReportMember members[] = {
+    {"nodes", N_("number of nodes")},
+    {"tetrahedra", N_("number of tetrahedra")},
+    {"min_dihedral_deg", N_("least angle between two faces of any, degrees")},
+    {"mean_dihedral_deg", N_("mean of the least angles, degrees")},
+    {"hausdorff", N_("largest distance between the mesh and what of the surface bounds its solid, of the diagonal")},
+    {"inner_distance", N_("the same from walls inside the solid: double walls, overlapping parts; 0 where none are")},
+    {"volume_change", N_("share of the volume that was gained")},
+    {"volume", N_("m^3: given (where the winding number is over one half), result, change")},
+    {"area", N_("of what bounds it, m^2: given, result, change")},
+    {"method", N_("direct, repaired, wrapped or voxels: what the surface needed")},
+    {"refused", N_("methods that were tried before: method, reason")},
+    {"seconds", N_("that it took")},
+    {NULL, NULL}};
+
 int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
-  static const SporeReportMember members[] = {{"nodes", N_("number of nodes")},
-                                              {"tetrahedra", N_("number of tetrahedra")},
-                                              {"min_dihedral_deg", N_("least angle between two faces of any, degrees")},
-                                              {"mean_dihedral_deg", N_("mean of the least angles, degrees")},
-                                              {"hausdorff", N_("largest distance to the surface, of the diagonal")},
-                                              {"volume_change", N_("share of the volume that was gained")},
-                                              {"method", N_("direct, repaired or wrapped: what the surface needed")},
-                                              {"seconds", N_("that it took")},
-                                              {NULL, NULL}};
   static const SporeCommandInfo info = {"tetrahedra", "MESH", N_("Fills a mesh with tetrahedra."), 1, 1, members};
-  char *unit = NULL, *frame = NULL, *output = NULL;
+  char *unit = NULL, *frame = NULL, *output = NULL, *method = NULL, **regions = NULL;
   gint64 cells = 0;
-  double size = 0;
+  SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_METHODS};
   const GOptionEntry entries[] = {
       {"cells", 'n', 0, G_OPTION_ARG_INT64, &cells, N_("Number of tetrahedra, about"), "N"},
-      {"size", 's', 0, G_OPTION_ARG_DOUBLE, &size, N_("Edge length, m"), "D"},
+      {"size", 's', 0, G_OPTION_ARG_DOUBLE, &options.size, N_("Edge length, m"), "D"},
+      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &options.tolerance,
+       N_("Distance to the surface wanted, of the diagonal: with --cells, they get finer where it is larger (default "
+          "0.01)"),
+       "D"},
+      {"curvature", 'c', 0, G_OPTION_ARG_DOUBLE, &options.curvature,
+       N_("Finer where the surface bends: by at most so many degrees an edge, 5 to 90"), "DEGREES"},
+      {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &regions,
+       N_("Edges of length SIZE in the ball about X,Y,Z, all in m; may be repeated"), "X,Y,Z,R,SIZE"},
+      {"method", 'm', 0, G_OPTION_ARG_STRING, &method,
+       N_("direct, repaired, wrapped or voxels (default: the first that does it)"), "METHOD"},
+      {"fill", 0, 0, G_OPTION_ARG_NONE, &options.fill, N_("Fills cavities"), NULL},
+      {"gap", 'g', 0, G_OPTION_ARG_DOUBLE, &options.gap,
+       N_("Closes openings narrower than this, m, by wrapping: with --fill, the lumen behind them is filled too"), "D"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write: .vtu, .msh or .mesh"), "F"},
       G_OPTION_ENTRY_NULL};
+  SporeTetrahedraRegion balls[SPORE_TETRAHEDRA_REGIONS];
+  GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  if (status == SPORE_EXIT_DONE) {
-    SporeTetrahedraOptions options = {.cells = (size_t)MAX(cells, 0), .size = size};
-    if (cells < 0 || cells > 5000000 || (cells == 0) == !(size > 0))
-      status = spore_cli_usage(_("spore tetrahedra: neither number of cells nor size is one; expected either --cells 1 "
-                                 "to 5000000 or --size in "
-                                 "metres above 0; give one of them"));
-    else if (output && !formatter_of(output))
-      status =
-          spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .vtu, .msh or .mesh"), output);
-    else status = generate(cli, argv[1], &options, unit, frame, output);
-  }
+  int chosen = method && status == SPORE_EXIT_DONE
+                   ? spore_cli_choice("--method", method, spore_tetrahedra_method_names, &error)
+                   : SPORE_TETRAHEDRA_METHODS;
+  if (error) status = spore_cli_fail(error);
+  options.method = (SporeTetrahedraMethod)chosen;
+  if (status == SPORE_EXIT_DONE) status = parse_regions(regions, balls, &options);
+  if (status == SPORE_EXIT_DONE) status = check(&options, cells, output);
+  options.cells = (size_t)MAX(cells, 0);
+  if (status == SPORE_EXIT_DONE) status = generate(cli, argv[1], &options, unit, frame, output);
   g_free(unit);
   g_free(frame);
   g_free(output);
+  g_free(method);
+  g_strfreev(regions);
   return status;
 }

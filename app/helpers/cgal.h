@@ -7,6 +7,8 @@
 #include <stdint.h>
 
 #include "app/helpers/failure.h"
+#include "core/generate/sizing.h"
+#include "core/generate/tetrahedra_wire.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -29,11 +31,11 @@ bool spore_cgal_repair(const SporeFlatMesh *surface, SporeFlatMesh *result, Spor
 bool spore_cgal_wrap(const SporeFlatMesh *surface, double alpha, double offset, SporeFlatMesh *result,
                      SporeHelperFailure *failure);
 
-/* Delaunay refinement of a surface that passes the check, made better by moving vertices until the least dihedral angle
- * is 10 degrees or nothing helps. cells: wanted, about, or 0 to go by `size`, the edge length. */
-bool spore_cgal_tetrahedra(const SporeFlatMesh *surface, size_t cells, double size,
-                           void (*progress)(double fraction, const char *stage), SporeFlatMesh *result,
-                           SporeHelperFailure *failure);
+/* Delaunay refinement of a surface that passes the check: circumradii of cells and of facets follow the sizing, and
+ * facets lie within a tenth of it of the surface. Refused above `most_vertices`. */
+bool spore_cgal_mesh(const SporeFlatMesh *surface, const SporeSizing *sizing, SporeTetrahedraFinish finish,
+                     size_t most_vertices, void (*progress)(double fraction, const char *stage), SporeFlatMesh *result,
+                     SporeHelperFailure *failure);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,4 @@
-/* spore-tetrahedra: fills a surface with tetrahedra by one of three methods, in the sandbox. */
+/* spore-tetrahedra: makes surfaces fit for meshing, and meshes them, in the sandbox. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,46 +9,69 @@
 #include "core/io/helper.h"
 
 #define N_(text) text
+#define MOST 20000000u /* vertices, triangles */
 
-static bool read_surface(const char *request, size_t size, SporeTetrahedraRequest *head, SporeFlatMesh *surface) {
+/* The next `count` elements of the request, malloc'ed; NULL: there are not so many, or no memory. */
+static void *take(const char **at, size_t *left, uint64_t count, size_t size) {
+  if (count > *left / size) return NULL;
+  void *content = malloc(count ? count * size : 1);
+  if (!content) return NULL;
+  memcpy(content, *at, count * size);
+  *at += count * size;
+  *left -= count * size;
+  return content;
+}
+
+static bool read_request(const char *request, size_t size, SporeTetrahedraRequest *head, SporeFlatMesh *surface,
+                         SporeSizing *sizing) {
   if (size < sizeof *head) return false;
   memcpy(head, request, sizeof *head);
-  size_t vertex_bytes = head->vertex_count * 3 * sizeof(double),
-         corner_bytes = head->triangle_count * 3 * sizeof(uint32_t);
-  if (size != sizeof *head + vertex_bytes + corner_bytes) return false;
-  *surface = (SporeFlatMesh){head->vertex_count, head->triangle_count, malloc(vertex_bytes), malloc(corner_bytes)};
-  if (!surface->vertices || !surface->corners) return false;
-  memcpy(surface->vertices, request + sizeof *head, vertex_bytes);
-  memcpy(surface->corners, request + sizeof *head + vertex_bytes, corner_bytes);
+  const char *at = request + sizeof *head;
+  size_t left = size - sizeof *head, nodes = 1;
+  if (head->vertex_count > MOST || head->triangle_count > MOST) return false;
+  surface->vertex_count = head->vertex_count;
+  surface->cell_count = head->triangle_count;
+  surface->vertices = take(&at, &left, 3 * head->vertex_count, sizeof(double));
+  surface->corners = take(&at, &left, 3 * head->triangle_count, sizeof(uint32_t));
+  sizing->spacing = head->sizing_spacing;
+  for (int k = 0; k < 3; k++) {
+    if (head->sizing_count[k] > SPORE_SIZING_NODES) return false;
+    sizing->count[k] = head->sizing_count[k];
+    sizing->lower[k] = head->sizing_lower[k];
+    nodes *= sizing->count[k];
+  }
+  sizing->size = take(&at, &left, nodes, sizeof(double));
+  if (!surface->vertices || !surface->corners || !sizing->size || left) return false;
+  for (size_t i = 0; i < 3 * surface->cell_count; i++)
+    if (surface->corners[i] >= surface->vertex_count) return false;
   return true;
 }
 
-/* Half the edge length wanted, so that walls finer than the cells melt, within what is quick and what is still the
- * shape; the surface has a diagonal of 1. Without a size: solid organs fill about a tenth of their diagonal's cube. */
-static double wrap_alpha(const SporeTetrahedraRequest *head) {
-  double edge = head->cells ? cbrt(0.1 / (0.12 * (double)head->cells)) : head->size;
-  return fmin(fmax(0.5 * edge, 1. / 150), 1. / 50);
-}
-
-/* The surface that can be meshed: as it is, repaired or wrapped. */
-static bool prepare(const SporeTetrahedraRequest *head, SporeFlatMesh *surface, SporeHelperFailure *failure) {
-  SporeFlatMesh given = *surface;
-  switch ((SporeTetrahedraMethod)head->method) {
-  case SPORE_TETRAHEDRA_REPAIRED:
-    spore_helper_send_progress(0, N_("repairing the surface"));
-    return spore_cgal_repair(&given, surface, failure);
-  case SPORE_TETRAHEDRA_WRAPPED:
-    spore_helper_send_progress(0, N_("wrapping the surface"));
-    return spore_cgal_wrap(&given, wrap_alpha(head), wrap_alpha(head) / 20, surface, failure);
-  default:
+static bool perform(const SporeTetrahedraRequest *head, const SporeFlatMesh *surface, const SporeSizing *sizing,
+                    SporeFlatMesh *result, SporeHelperFailure *failure) {
+  switch ((SporeTetrahedraTask)head->task) {
+  case SPORE_TETRAHEDRA_CHECK:
     spore_helper_send_progress(0, N_("checking the surface"));
+    *result = *surface;
     return spore_cgal_check(surface, failure);
+  case SPORE_TETRAHEDRA_REPAIR:
+    spore_helper_send_progress(0, N_("repairing the surface"));
+    return spore_cgal_repair(surface, result, failure);
+  case SPORE_TETRAHEDRA_WRAP:
+    spore_helper_send_progress(0, N_("wrapping the surface"));
+    return spore_cgal_wrap(surface, head->alpha, head->offset, result, failure);
+  case SPORE_TETRAHEDRA_MESH:
+    return spore_cgal_mesh(surface, sizing, (SporeTetrahedraFinish)head->finish, head->most_vertices,
+                           spore_helper_send_progress, result, failure);
+  default:
+    _exit(1);
   }
 }
 
-static void send_mesh(const SporeFlatMesh *mesh) {
-  SporeTetrahedraAnswer head = {mesh->vertex_count, mesh->cell_count};
-  size_t vertex_bytes = mesh->vertex_count * 3 * sizeof(double), corner_bytes = mesh->cell_count * 4 * sizeof(uint32_t);
+static void send_mesh(const SporeFlatMesh *mesh, uint64_t corners) {
+  SporeTetrahedraAnswer head = {mesh->vertex_count, mesh->cell_count, corners};
+  size_t vertex_bytes = mesh->vertex_count * 3 * sizeof(double),
+         corner_bytes = mesh->cell_count * corners * sizeof(uint32_t);
   char *answer = malloc(sizeof head + vertex_bytes + corner_bytes);
   if (!answer) _exit(1);
   memcpy(answer, &head, sizeof head);
@@ -63,11 +86,11 @@ int main(int argc, char **argv) {
   size_t size;
   SporeTetrahedraRequest head;
   SporeFlatMesh surface, result;
+  SporeSizing sizing;
   SporeHelperFailure failure;
-  if (!spore_helper_read_request(&request, &size) || !read_surface(request, size, &head, &surface)) _exit(1);
-  if (prepare(&head, &surface, &failure) &&
-      spore_cgal_tetrahedra(&surface, head.cells, head.size, spore_helper_send_progress, &result, &failure))
-    send_mesh(&result);
+  if (!spore_helper_read_request(&request, &size) || !read_request(request, size, &head, &surface, &sizing)) _exit(1);
+  if (perform(&head, &surface, &sizing, &result, &failure))
+    send_mesh(&result, head.task == SPORE_TETRAHEDRA_MESH ? 4 : 3);
   else spore_helper_send_error(failure.code, failure.message, failure.detail);
   _exit(0);
 }

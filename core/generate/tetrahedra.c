@@ -7,174 +7,296 @@
 #include "core/base/memory.h"
 #include "core/base/profile.h"
 #include "core/generate/surface_distance.h"
-#include "core/generate/tetrahedra_wire.h"
-#include "core/io/helper.h"
+#include "core/generate/tetrahedra_parts.h"
 
-#define MOST_CELLS 5000000u
-#define SAMPLES 20000  /* a surface, for the Hausdorff distance */
-#define MEASURING 0.05 /* share of the progress */
+#define TOLERANCE 0.01 /* of the diagonal */
+#define LOOKING 0.05   /* share of the progress, before and after the work */
+#define MOST_WRAPS 3
+#define LEAST_ALPHA (1.0 / 500)
+#define PREPARED_SAMPLES 10000
+#define CLOSING 0.3 /* of one half: winding numbers in a hole of the surface */
 
-static const char *const method_names[SPORE_TETRAHEDRA_METHODS] = {"direct", "repaired", "wrapped"};
-/* For each attempt. */
-static const SporeHelperLimits tetrahedra_limits = {
-    .time_s = 120, .memory = G_GUINT64_CONSTANT(8) << 30, .output = 1 << 30};
+const char *const spore_tetrahedra_method_names[] = {"direct", "repaired", "wrapped", "voxels", NULL};
 
-typedef struct {
-  const SporeTriangleMesh *surface;
-  SporeMeshReport report;
-  double centre[3];
-  const SporeTetrahedraOptions *options;
-  const SporeProgress *progress;
-} Task;
-
-static gboolean raise_at(const char *place, SporeError *failure, GError **error) {
-  spore_error_at(failure, place);
-  return spore_error_propagate(failure, error);
+bool spore_tetrahedra_progress(const SporeTetrahedraWork *work, double fraction, const char *stage) {
+  return spore_progress(work->progress, work->fraction + work->share * fraction, stage);
 }
 
-static gboolean check_options(const char *place, const Task *task, GError **error) {
-  const SporeTetrahedraOptions *options = task->options;
-  if (!options->cells && !(options->size > 0 && isfinite(options->size)))
-    return spore_error_raise(
-        error, SPORE_ERROR_INPUT, place,
-        _("the cells' size is %g m; expected a length above 0, or a number of cells; give one of them"), options->size);
-  double regular = pow(options->size, 3) / (6 * sqrt(2)); /* volume of a regular cell of that edge */
-  double cells = options->cells ? (double)options->cells : fabs(task->report.volume) / regular;
-  if (cells > MOST_CELLS)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, place,
-                             _("that makes about %.0f cells; expected at most %u; ask for fewer or larger ones"), cells,
-                             MOST_CELLS);
+static gboolean refuse_option(const char *place, GError **error, const char *format, ...) G_GNUC_PRINTF(3, 4);
+static gboolean refuse_option(const char *place, GError **error, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *message = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  return spore_error_raise(error, SPORE_ERROR_INPUT, place, "%s", message);
+}
+
+static gboolean is_length(double x) { return x > 0 && isfinite(x); }
+
+static gboolean check_regions(const char *place, const SporeTetrahedraOptions *options, GError **error) {
+  if (options->region_count > SPORE_TETRAHEDRA_REGIONS)
+    return refuse_option(place, error, _("there are %zu regions of another size; expected at most %d; give fewer"),
+                         options->region_count, SPORE_TETRAHEDRA_REGIONS);
+  for (gsize i = 0; i < options->region_count; i++) {
+    const SporeTetrahedraRegion *region = options->regions + i;
+    if (!spore_vec3_is_finite(spore_vec3_load(region->centre)) || !is_length(region->radius) ||
+        !is_length(region->size))
+      return refuse_option(place, error,
+                           _("region %zu has radius %g m and size %g m; expected a finite centre and lengths above 0; "
+                             "correct it"),
+                           i, region->radius, region->size);
+  }
   return TRUE;
 }
 
-/* The surface about the origin with a diagonal of 1, so that no library meets organs in micrometres or kilometres. */
-static GBytes *make_request(const Task *task, SporeTetrahedraMethod method) {
-  const SporeTriangleMesh *surface = task->surface;
-  SporeTetrahedraRequest head = {method, task->options->cells, task->options->size / task->report.diagonal,
-                                 surface->vertex_count, surface->triangle_count};
-  gsize vertices = 3 * surface->vertex_count, corners = 3 * surface->triangle_count;
-  gsize size = sizeof head + vertices * sizeof(double) + corners * sizeof(guint32);
-  char *bytes = g_malloc(size);
-  memcpy(bytes, &head, sizeof head);
-  double *scaled = (double *)(void *)(bytes + sizeof head);
-  for (gsize i = 0; i < vertices; i++) scaled[i] = (surface->vertices[i] - task->centre[i % 3]) / task->report.diagonal;
-  memcpy(bytes + sizeof head + vertices * sizeof(double), surface->triangles, corners * sizeof(guint32));
-  return g_bytes_new_take(bytes, size);
+static gboolean check_options(const char *place, const SporeTetrahedraOptions *options, GError **error) {
+  if ((guint)options->method > SPORE_TETRAHEDRA_METHODS)
+    return refuse_option(place, error, _("there is no method %d; expected 0 to %d; give one of them"),
+                         (int)options->method, SPORE_TETRAHEDRA_METHODS);
+  if (!options->cells && !is_length(options->size))
+    return refuse_option(
+        place, error, _("the cells' size is %g m; expected a length above 0, or a number of cells; give one of them"),
+        options->size);
+  if (!(options->tolerance >= 0 && options->tolerance < 1))
+    return refuse_option(place, error,
+                         _("the tolerance is %g of the diagonal; expected 0 (for %g) to 1; give another one"),
+                         options->tolerance, TOLERANCE);
+  if (options->curvature != 0 && !(options->curvature >= 5 && options->curvature <= 90))
+    return refuse_option(place, error,
+                         _("the curvature is %g degrees an edge; expected 0 (none) or 5 to 90; give another one"),
+                         options->curvature);
+  if (!(options->gap >= 0 && isfinite(options->gap)))
+    return refuse_option(place, error, _("the gap is %g m; expected 0 or a length; give another one"), options->gap);
+  return check_regions(place, options, error);
 }
 
-/* The helper is not believed: sizes must agree to the byte, and the mesh is validated like any other. */
-static gboolean read_answer(const Task *task, GBytes *answer, SporeTetrahedralMesh *mesh, GError **error) {
-  gsize size;
-  const char *bytes = g_bytes_get_data(answer, &size);
-  SporeTetrahedraAnswer head = {0};
-  if (size >= sizeof head) memcpy(&head, bytes, sizeof head);
-  gboolean sane = head.vertex_count <= SPORE_MESH_MAXIMUM && head.tetrahedron_count <= SPORE_MESH_MAXIMUM;
-  gsize vertex_bytes = sane ? head.vertex_count * 3 * sizeof(double) : 0;
-  gsize corner_bytes = sane ? head.tetrahedron_count * 4 * sizeof(guint32) : 0;
-  if (!sane || size != sizeof head + vertex_bytes + corner_bytes)
-    return spore_error_raise(error, SPORE_ERROR_INTERNAL, NULL,
-                             _("the tetrahedra helper gave a wrong answer; expected a mesh; report this"));
+/* Cells in a solid where they have all the same size. */
+static gboolean check_count(const char *place, const SporeTetrahedraWork *work, GError **error) {
+  const SporeTetrahedraOptions *options = &work->options;
+  double cells = options->cells ? (double)options->cells : work->volume * 6 * sqrt(2) / pow(options->size, 3);
+  if (cells <= SPORE_TETRAHEDRA_CELLS) return TRUE;
+  return refuse_option(place, error,
+                       _("that makes about %.0f cells; expected at most %u; ask for fewer or larger ones"), cells,
+                       SPORE_TETRAHEDRA_CELLS);
+}
+
+/* A copy about the origin with a diagonal of 1, so that no library meets organs in micrometres or kilometres. */
+static bool normalise(SporeTetrahedraWork *work, const SporeTriangleMesh *surface,
+                      const SporeTetrahedraOptions *options, const SporeMeshReport *report, const double centre[3],
+                      SporeError *error) {
+  work->options = *options;
+  work->options.size /= report->diagonal;
+  work->options.gap /= report->diagonal;
+  if (!(options->tolerance > 0)) work->options.tolerance = TOLERANCE;
+  for (gsize i = 0; i < options->region_count; i++) {
+    SporeTetrahedraRegion *region = work->regions + i;
+    *region = options->regions[i];
+    for (int k = 0; k < 3; k++) region->centre[k] = (region->centre[k] - centre[k]) / report->diagonal;
+    region->radius /= report->diagonal;
+    region->size /= report->diagonal;
+  }
+  work->options.regions = work->regions;
+  if (!spore_triangle_mesh_copy(&work->surface, surface, error)) return false;
+  for (gsize i = 0; i < 3 * surface->vertex_count; i++)
+    work->surface.vertices[i] = (surface->vertices[i] - centre[i % 3]) / report->diagonal;
+  return true;
+}
+
+static void clear(SporeTetrahedraWork *work) {
+  spore_triangle_mesh_clear(&work->surface);
+  spore_bvh_free(work->tree);
+  spore_free(work->bounding);
+  spore_free(work->inner);
+}
+
+/* Largest distance between a prepared surface and what bounds the solid. Where the given surface is open, the winding
+ * number says that the solid ends where the prepared one closes it, and that counts as near. Below 0: no memory. */
+static double distance_to(const SporeTetrahedraWork *work, const SporeTriangleMesh *surface) {
+  double *points = SPORE_NEW_ARRAY(double, 3 * PREPARED_SAMPLES);
+  SporeBvh *tree = points ? spore_bvh_create(surface, NULL) : NULL;
+  double most = tree ? 0 : -1;
+  gsize count = tree ? MIN(work->bounding_count, PREPARED_SAMPLES) : 0;
+  for (gsize i = 0; i < count; i++) {
+    const double *p = work->bounding + 3 * (i * work->bounding_count / count);
+    most = fmax(most, spore_bvh_distance(tree, spore_vec3_load(p), NULL, NULL));
+  }
+  if (tree) spore_surface_samples(surface, PREPARED_SAMPLES, points, NULL);
+  for (gsize i = 0; tree && i < PREPARED_SAMPLES; i++) {
+    SporeVec3 p = spore_vec3_load(points + 3 * i);
+    double distance = spore_bvh_distance(work->tree, p, NULL, NULL);
+    if (distance > most && fabs(spore_bvh_winding(work->tree, p) - 0.5) > CLOSING) most = distance;
+  }
+  spore_bvh_free(tree);
+  spore_free(points);
+  return most;
+}
+
+static gboolean fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
+static gboolean fail(GError **error, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *message = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  return spore_error_raise(error, SPORE_ERROR_NUMERICAL, NULL, "%s", message);
+}
+
+/* Half the edge length, so that walls finer than the cells melt, within what is quick and what is still the shape. */
+static double usual_alpha(const SporeTetrahedraWork *work) {
+  double edge = work->options.cells ? cbrt(work->volume / (0.12 * (double)work->options.cells)) : work->options.size;
+  return fmin(fmax(0.5 * edge, 1.0 / 150), 1.0 / 50);
+}
+
+/* Wraps tighter until the wrap follows the solid as closely as the cells shall. */
+static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GError **error) {
+  const double share = work->share;
+  double alpha = work->options.gap > 0 ? work->options.gap : usual_alpha(work);
+  for (int i = 0; i < MOST_WRAPS; i++, alpha *= 0.5) {
+    spore_triangle_mesh_clear(surface);
+    work->share = share * 0.1;
+    gboolean done = spore_tetrahedra_prepare(work, SPORE_TETRAHEDRA_WRAP, alpha, surface, error);
+    work->share = share;
+    if (!done) return FALSE;
+    if (work->options.gap > 0 || 0.5 * alpha < LEAST_ALPHA ||
+        distance_to(work, surface) < 0.5 * work->options.tolerance)
+      break;
+  }
+  return TRUE;
+}
+
+/* The surface that a method meshes. */
+static gboolean prepare(SporeTetrahedraWork *work, SporeTetrahedraMethod method, SporeTriangleMesh *surface,
+                        GError **error) {
+  if (method == SPORE_TETRAHEDRA_WRAPPED) return wrap(work, surface, error);
+  if (work->options.gap > 0) return fail(error, _("openings are to be closed, which wrapping alone does"));
+  SporeTetrahedraTask task = method == SPORE_TETRAHEDRA_DIRECT ? SPORE_TETRAHEDRA_CHECK : SPORE_TETRAHEDRA_REPAIR;
+  const double share = work->share;
+  work->share = share * 0.1;
+  gboolean done = spore_tetrahedra_prepare(work, task, 0, surface, error);
+  work->share = share;
+  if (!done || method == SPORE_TETRAHEDRA_DIRECT) return done;
+  double distance = distance_to(work, surface);
+  if (distance <= 0.5 * work->options.tolerance) return TRUE;
+  return fail(error, _("the repaired surface is %.1f %% of the diagonal away from what was given"), 100 * distance);
+}
+
+static gboolean attempt(SporeTetrahedraWork *work, SporeTetrahedraMethod method, SporeTetrahedralMesh *mesh,
+                        GError **error) {
+  SporeTriangleMesh surface = {0};
   SporeError failure = SPORE_ERROR_INIT;
-  if (!spore_tetrahedral_mesh_allocate(mesh, head.vertex_count, head.tetrahedron_count, &failure))
-    return spore_error_propagate(&failure, error);
-  memcpy(mesh->vertices, bytes + sizeof head, vertex_bytes);
-  memcpy(mesh->tetrahedra, bytes + sizeof head + vertex_bytes, corner_bytes);
-  for (gsize i = 0; i < 3 * mesh->vertex_count; i++)
-    mesh->vertices[i] = mesh->vertices[i] * task->report.diagonal + task->centre[i % 3];
-  if (spore_tetrahedral_mesh_validate(mesh, &failure)) return TRUE;
-  spore_tetrahedral_mesh_clear(mesh);
-  return spore_error_propagate(&failure, error);
-}
-
-static bool report_attempt(void *data, double fraction, const char *stage) {
-  const Task *task = data;
-  return spore_progress(task->progress, (1 - MEASURING) * fraction, stage);
-}
-
-static gboolean attempt(Task *task, SporeTetrahedraMethod method, SporeTetrahedralMesh *mesh, GError **error) {
-  SporeProgress progress = {report_attempt, task};
-  GBytes *request = make_request(task, method);
-  GBytes *answer = spore_helper_run("spore-tetrahedra", NULL, request, &tetrahedra_limits, &progress, error);
-  g_bytes_unref(request);
-  if (!answer) return FALSE;
-  gboolean done = read_answer(task, answer, mesh, error);
-  g_bytes_unref(answer);
+  if (method == SPORE_TETRAHEDRA_VOXELS)
+    return spore_tetrahedra_voxels(work, mesh, &failure) || spore_error_propagate(&failure, error);
+  if (!SPORE_HAVE_CGAL)
+    return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, NULL,
+                             _("this build of SPORE is without CGAL; install libcgal-dev and build SPORE again"));
+  const double from = work->fraction, share = work->share;
+  gboolean done = prepare(work, method, &surface, error);
+  work->fraction = from + 0.1 * share;
+  work->share = 0.9 * share;
+  if (done && work->options.fill && !spore_tetrahedra_fill(&surface, &failure))
+    done = spore_error_propagate(&failure, error);
+  done = done && spore_tetrahedra_fit(work, &surface, mesh, error);
+  work->fraction = from, work->share = share;
+  spore_triangle_mesh_clear(&surface);
   return done;
 }
 
-/* The first method that works. */
-static gboolean run_chain(Task *task, const char *place, SporeTetrahedralMesh *mesh, SporeTetrahedraReport *report,
-                          GError **error) {
+/* The first method that works, or the one that is asked for. */
+static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
+                          SporeTetrahedraReport *report, GError **error) {
+  const SporeTetrahedraMethod asked = work->options.method;
+  const gboolean all = asked == SPORE_TETRAHEDRA_METHODS;
   GString *tried = g_string_new(NULL);
   gboolean done = FALSE, hopeless = FALSE;
-  for (int method = 0; method < SPORE_TETRAHEDRA_METHODS && !done && !hopeless; method++) {
+  for (int method = all ? 0 : (int)asked; method < SPORE_TETRAHEDRA_METHODS && !done && !hopeless; method++) {
     GError *failure = NULL;
-    report->method = method_names[method];
-    done = attempt(task, (SporeTetrahedraMethod)method, mesh, &failure);
+    report->method = (SporeTetrahedraMethod)method;
+    done = attempt(work, report->method, mesh, &failure);
     if (done) break;
-    hopeless = failure->code == SPORE_ERROR_CANCELLED || failure->code == SPORE_ERROR_UNSUPPORTED;
-    if (hopeless) spore_error_raise(error, (SporeErrorCode)failure->code, place, "%s", failure->message);
-    g_string_append_printf(tried, "%s%s: %.*s", tried->len ? ", " : "", report->method,
+    hopeless = failure->code == SPORE_ERROR_CANCELLED;
+    if (hopeless) spore_error_raise(error, SPORE_ERROR_CANCELLED, place, "%s", failure->message);
+    g_strlcpy(report->refused[method], failure->message, sizeof report->refused[method]);
+    g_string_append_printf(tried, "%s%s: %.*s", tried->len ? ", " : "", spore_tetrahedra_method_names[method],
                            (int)strcspn(failure->message, ";"), failure->message);
     g_error_free(failure);
+    if (!all) break;
   }
   if (!done && !hopeless)
     spore_error_raise(error, SPORE_ERROR_NUMERICAL, place,
-                      _("no tetrahedra could be made (%s); expected a surface that encloses a volume; close its holes, "
-                        "simplify it, or ask for another number of cells"),
+                      all ? _("no tetrahedra could be made (%s); expected a surface that encloses a volume; close its "
+                              "holes, simplify it, or ask for another number of cells")
+                          : _("no tetrahedra could be made (%s); expected a surface that this method can fill; mend "
+                              "it, or leave the choice of the method open"),
                       tried->str);
   g_string_free(tried, TRUE);
   return done;
 }
 
-static bool report_measuring(void *data, double fraction, const char *stage) {
-  return spore_progress(data, 1 - MEASURING + MEASURING * fraction, stage);
+/* The figures, still in diagonals. */
+static bool measure(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, SporeTetrahedraReport *report,
+                    SporeError *error) {
+  if (!spore_tetrahedra_progress(work, 0, _("measuring the distance")))
+    return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  spore_tetrahedral_mesh_quality(mesh, &report->quality);
+  return spore_tetrahedra_distances(work, mesh, &report->hausdorff, &report->inner_distance, &report->area, error);
 }
 
-static bool measure(const Task *task, const SporeTetrahedralMesh *mesh, SporeTetrahedraReport *report,
-                    SporeError *error) {
-  SporeTriangleMesh boundary = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
-  SporeProgress progress = {report_measuring, (void *)task->progress};
-  spore_tetrahedral_mesh_quality(mesh, &report->quality);
-  bool done = spore_tetrahedral_mesh_boundary(mesh, &boundary.triangles, &boundary.triangle_count) ||
-              spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
-                              _("there is not enough memory for the result; close other programs"));
-  done = done && spore_surface_distance(task->surface, &boundary, SAMPLES, &report->hausdorff, &progress, error);
-  spore_free(boundary.triangles);
-  report->hausdorff /= task->report.diagonal;
-  double volume = fabs(task->report.volume);
-  report->volume_change = volume > 0 ? report->quality.volume / volume - 1 : 0;
-  return done;
+static void to_metres(SporeTetrahedraReport *report, const SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh,
+                      double diagonal, const double centre[3]) {
+  for (gsize i = 0; i < 3 * mesh->vertex_count; i++) mesh->vertices[i] = mesh->vertices[i] * diagonal + centre[i % 3];
+  report->quality.volume *= pow(diagonal, 3);
+  report->volume = report->quality.volume;
+  report->volume_given = work->volume * pow(diagonal, 3);
+  report->area *= diagonal * diagonal;
+  report->area_given = work->area * diagonal * diagonal;
+  report->volume_change = report->volume / report->volume_given - 1;
+  report->area_change = report->area / report->area_given - 1;
+}
+
+static gboolean generate(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *result,
+                         SporeTetrahedraReport *report, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  work->share = LOOKING;
+  gboolean done = spore_tetrahedra_solid(work, &failure);
+  if (done) {
+    work->fraction = LOOKING, work->share = 1 - 2 * LOOKING;
+    if (!check_count(place, work, error) || !run_chain(work, place, result, report, error)) return FALSE;
+    work->fraction = 1 - LOOKING, work->share = LOOKING;
+    done = measure(work, result, report, &failure);
+  }
+  if (done) return TRUE;
+  spore_error_at(&failure, place);
+  return spore_error_propagate(&failure, error);
 }
 
 gboolean spore_tetrahedra_from_mesh(const char *place, const SporeTriangleMesh *surface,
                                     const SporeTetrahedraOptions *options, SporeTetrahedralMesh *result,
                                     SporeTetrahedraReport *report, const SporeProgress *progress, GError **error) {
-  Task task = {.surface = surface, .options = options, .progress = progress};
+  SporeTetrahedraWork work = {.progress = progress};
   SporeTetrahedraReport ignored;
+  SporeMeshReport given;
   SporeError failure = SPORE_ERROR_INIT;
   guint64 started = spore_clock_ns();
   if (!report) report = &ignored;
   *report = (SporeTetrahedraReport){0};
   *result = (SporeTetrahedralMesh){0};
-  if (!SPORE_HAVE_CGAL)
-    return spore_error_raise(
-        error, SPORE_ERROR_UNSUPPORTED, place,
-        _("this build of SPORE makes no tetrahedra; expected CGAL; install libcgal-dev and build SPORE "
-          "again, or give a .mesh file"));
-  if (!spore_triangle_mesh_validate(surface, &failure) || !spore_triangle_mesh_report(surface, &task.report, &failure))
-    return raise_at(place, &failure, error);
-  if (!(task.report.diagonal > 0) || surface->triangle_count < 4)
-    return spore_error_raise(
-        error, SPORE_ERROR_INPUT, place,
-        _("the surface of %zu triangles encloses nothing; expected one that encloses a volume; give another mesh"),
-        surface->triangle_count);
-  for (int axis = 0; axis < 3; axis++) task.centre[axis] = 0.5 * (task.report.lower[axis] + task.report.upper[axis]);
-  if (!check_options(place, &task, error) || !run_chain(&task, place, result, report, error)) return FALSE;
-  if (!measure(&task, result, report, &failure)) {
-    spore_tetrahedral_mesh_clear(result);
-    return raise_at(place, &failure, error);
-  }
+  if (!check_options(place, options, error)) return FALSE;
+  gboolean done =
+      spore_triangle_mesh_validate(surface, &failure) && spore_triangle_mesh_report(surface, &given, &failure);
+  if (done && !(given.diagonal > 0))
+    done = spore_error_set(&failure, SPORE_ERROR_INPUT, NULL,
+                           _("all %zu triangles are in one point; expected a surface that encloses a volume; give "
+                             "another mesh"),
+                           surface->triangle_count);
+  double centre[3];
+  for (int axis = 0; done && axis < 3; axis++) centre[axis] = 0.5 * (given.lower[axis] + given.upper[axis]);
+  done = done && normalise(&work, surface, options, &given, centre, &failure);
+  if (!done) {
+    spore_error_at(&failure, place);
+    spore_error_propagate(&failure, error);
+  } else done = generate(&work, place, result, report, error);
+  if (done) to_metres(report, &work, result, given.diagonal, centre);
+  else spore_tetrahedral_mesh_clear(result);
+  clear(&work);
   report->seconds = 1e-9 * (double)(spore_clock_ns() - started);
-  return TRUE;
+  return done;
 }

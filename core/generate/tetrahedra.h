@@ -1,4 +1,4 @@
-/* Tetrahedra in a surface, by CGAL in a helper process. */
+/* Tetrahedra in a surface: by CGAL in a helper process, by a lattice of our own where that cannot. */
 #ifndef SPORE_GENERATE_TETRAHEDRA_H
 #define SPORE_GENERATE_TETRAHEDRA_H
 
@@ -8,21 +8,57 @@
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
 
+/* In the order in which they are tried. */
+typedef enum SporeTetrahedraMethod {
+  SPORE_TETRAHEDRA_DIRECT,   /* the surface as it is: closed, oriented, free of self-intersections */
+  SPORE_TETRAHEDRA_REPAIRED, /* stitched, turned alike, holes filled, self-intersections removed */
+  SPORE_TETRAHEDRA_WRAPPED,  /* another surface closely around it */
+  SPORE_TETRAHEDRA_VOXELS,   /* a lattice of tetrahedra, cut at the surface; needs no CGAL */
+  SPORE_TETRAHEDRA_METHODS,  /* all of the above, the first that does it */
+} SporeTetrahedraMethod;
+/* SPORE_TETRAHEDRA_METHODS names, then NULL: "direct", "repaired", "wrapped", "voxels". */
+extern const char *const spore_tetrahedra_method_names[];
+
+#define SPORE_TETRAHEDRA_REGIONS 64     /* at most */
+#define SPORE_TETRAHEDRA_CELLS 5000000u /* at most */
+
+/* A ball of cells of another size. */
+typedef struct SporeTetrahedraRegion {
+  double centre[3], radius, size; /* m; size: edge length in it, where that is less than around it */
+} SporeTetrahedraRegion;
+
+/* All zero but cells or size, and method SPORE_TETRAHEDRA_METHODS, is the usual choice. */
 typedef struct SporeTetrahedraOptions {
-  size_t cells; /* wanted, about; > 0, or 0 to go by size */
-  double size;  /* edge length, m, when cells is 0 */
+  SporeTetrahedraMethod method; /* SPORE_TETRAHEDRA_METHODS: the first that does it */
+  size_t cells;                 /* wanted, about; > 0, or 0 to go by size */
+  double size;                  /* edge length, m, when cells is 0 */
+  double tolerance; /* distance to the surface wanted, of the diagonal: with cells, they get finer where it is larger;
+                       0: 0.01 */
+  double curvature; /* degrees, 0 or 5 to 90: edges shall be so short that the surface turns by no more along them, down
+                       to a quarter of the usual size */
+  bool fill;        /* cavities inside are filled, and wrapping closes what is narrower than `gap` */
+  double gap;       /* m: openings narrower than this are closed by wrapping; 0: half an edge */
+  const SporeTetrahedraRegion *regions;
+  size_t region_count;
 } SporeTetrahedraOptions;
 
 typedef struct SporeTetrahedraReport {
-  const char *method; /* "direct", "repaired" or "wrapped" */
+  SporeTetrahedraMethod method;
+  char refused[SPORE_TETRAHEDRA_METHODS][320]; /* why each earlier method did not do; empty: it was not tried */
   SporeTetrahedraQuality quality;
-  double hausdorff;     /* sampled, both ways, against the given surface / diagonal */
-  double volume_change; /* against the given surface, fraction; only meaningful when that was closed */
+  double hausdorff; /* sampled, both ways, between the mesh and what bounds the given solid, of the diagonal */
+  double
+      inner_distance; /* the largest from what of the given surface lies inside the solid, of the diagonal; 0: none */
+  double volume, volume_given,
+      volume_change;                    /* m^3, m^3, fraction; given: of the solid, winding number over one half */
+  double area, area_given, area_change; /* of what bounds them, m^2, m^2, fraction */
   double seconds;
 } SporeTetrahedraReport;
 
-/* Chain: direct when the surface is closed, oriented and free of self-intersections; else repaired; else wrapped. The
- * first that works is used and said. */
+/* The first method of the chain that works is used and said. The solid is where the winding number is over one half.
+ * *result is the caller's, to be cleared; untouched numbers of it are zero after a failure, whose message names
+ * `place`.
+ */
 gboolean spore_tetrahedra_from_mesh(const char *place, const SporeTriangleMesh *mesh,
                                     const SporeTetrahedraOptions *options, SporeTetrahedralMesh *result,
                                     SporeTetrahedraReport *report, const SporeProgress *progress, GError **error);

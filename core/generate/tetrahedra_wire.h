@@ -4,23 +4,36 @@
 
 #include <stdint.h>
 
-typedef enum SporeTetrahedraMethod {
-  SPORE_TETRAHEDRA_DIRECT,
-  SPORE_TETRAHEDRA_REPAIRED,
-  SPORE_TETRAHEDRA_WRAPPED,
-  SPORE_TETRAHEDRA_METHODS
-} SporeTetrahedraMethod;
+typedef enum SporeTetrahedraTask {
+  SPORE_TETRAHEDRA_CHECK,  /* the surface as it is, where the mesher can take it */
+  SPORE_TETRAHEDRA_REPAIR, /* the surface, mended */
+  SPORE_TETRAHEDRA_WRAP,   /* another one around it */
+  SPORE_TETRAHEDRA_MESH,   /* tetrahedra in a surface that one of the above has given */
+  SPORE_TETRAHEDRA_TASKS
+} SporeTetrahedraTask;
 
-/* vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. */
+/* What is done to a mesh after its refinement, a set of bits. */
+typedef enum SporeTetrahedraFinish {
+  SPORE_TETRAHEDRA_ROUGH = 0,   /* nothing: to count cells and to measure distances */
+  SPORE_TETRAHEDRA_SMOOTH = 1,  /* optimal Delaunay triangulation */
+  SPORE_TETRAHEDRA_PERTURB = 2, /* of slivers */
+  SPORE_TETRAHEDRA_EXUDE = 4    /* of slivers, by weights */
+} SporeTetrahedraFinish;
+
+/* vertex_count x 3 doubles, triangle_count x 3 uint32_t and the sizing's doubles (product of sizing_count, at least 1)
+ * follow. */
 typedef struct SporeTetrahedraRequest {
-  uint64_t method, cells; /* cells 0: by size */
-  double size;
+  uint64_t task, finish;
+  double alpha, offset;   /* of a wrap */
+  uint64_t most_vertices; /* of a mesh: it gives up above */
+  uint64_t sizing_count[3];
+  double sizing_lower[3], sizing_spacing;
   uint64_t vertex_count, triangle_count;
 } SporeTetrahedraRequest;
 
-/* vertex_count x 3 doubles and tetrahedron_count x 4 uint32_t follow. */
+/* vertex_count x 3 doubles and cell_count x corners (3: surface, 4: tetrahedra) uint32_t follow. */
 typedef struct SporeTetrahedraAnswer {
-  uint64_t vertex_count, tetrahedron_count;
+  uint64_t vertex_count, cell_count, corners;
 } SporeTetrahedraAnswer;
 
 #endif

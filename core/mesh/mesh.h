@@ -108,6 +108,9 @@ typedef struct SporeTetrahedraQuality {
   double min_dihedral_deg, mean_dihedral_deg; /* least of all; mean of each tetrahedron's least */
   double worst_radius_ratio;                  /* R / 3r, 1 is regular */
 } SporeTetrahedraQuality;
+/* One figure for the shape of a cell, to compare: its least dihedral angle (degrees), or 150 over its R / 3r where that
+ * is less, as it is of needles; below 0 where its volume is not above 0. */
+double spore_tetrahedron_quality(const SporeVec3 corner[4]);
 void spore_tetrahedral_mesh_quality(const SporeTetrahedralMesh *mesh, SporeTetrahedraQuality *quality);
 
 #endif

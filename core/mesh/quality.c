@@ -3,6 +3,7 @@
 #include "core/mesh/common.h"
 
 #define DEGREES (180 / M_PI)
+#define RATIO_DEGREES 150 /* over the radius ratio: one of 15 is as bad as an angle of 10 degrees */
 
 /* Outward face normals with the length of twice the area. */
 static void face_normals(const SporeVec3 p[4], SporeVec3 normal[4]) {
@@ -34,6 +35,14 @@ static double radius_ratio(const SporeVec3 p[4], const SporeVec3 normal[4], doub
   for (int f = 0; f < 4; f++) area += 0.5 * spore_vec3_length(normal[f]);
   if (!(volume > 0)) return HUGE_VAL;
   return spore_vec3_length(sum) / (12 * volume) * area / (9 * volume);
+}
+
+double spore_tetrahedron_quality(const SporeVec3 corner[4]) {
+  SporeVec3 normal[4];
+  double volume = spore_vec3_volume(corner[0], corner[1], corner[2], corner[3]) / 6;
+  if (!(volume > 0)) return -1;
+  face_normals(corner, normal);
+  return fmin(least_dihedral(normal) * DEGREES, RATIO_DEGREES / radius_ratio(corner, normal, volume));
 }
 
 void spore_tetrahedral_mesh_quality(const SporeTetrahedralMesh *mesh, SporeTetrahedraQuality *quality) {

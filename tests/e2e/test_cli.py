@@ -127,7 +127,7 @@ def help_explains_json():
                 ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("schema",),
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
                 ("surface", "ball.off", "--nodes", 50)]
-    commands += [("tetrahedra", "ball.off", "--cells", 100)] if "cgal" in FEATURES else []
+    commands += [("tetrahedra", "ball.off", "--cells", 100)]
     commands += [("render", soft_ball(), "-o", "told.png")] if "render" in FEATURES else []
     for command in commands:
         answer = json.loads(spore(*command, "--json", status=(0, 1)).stdout)
@@ -728,20 +728,26 @@ def spheres_series():
 
 @check
 def tetrahedra_command():
-    """tetrahedra fills a mesh in each format, spheres fill tetrahedra; or it says what this build lacks."""
+    """tetrahedra fills a mesh in each format by each method, spheres fill tetrahedra; options out of range are refused."""
     file("ball.off", shapes.off(*shapes.sphere()))
-    if "cgal" not in FEATURES:
-        refuses("tetrahedra", "ball.off", "--cells", 300, says=["CGAL"])
-        return
     answer = report("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.mesh")
-    assert answer["tetrahedra"] > 100 and answer["min_dihedral_deg"] > 5 and answer["method"] == "direct"
+    assert 250 < answer["tetrahedra"] < 350 and answer["min_dihedral_deg"] >= 10
+    assert answer["method"] == ("direct" if "cgal" in FEATURES else "voxels")
+    assert [r["method"] for r in answer["refused"]] == ([] if "cgal" in FEATURES else ["direct", "repaired", "wrapped"])
+    assert abs(answer["volume"]["result"] / answer["volume"]["given"] - 1 - answer["volume"]["change"]) < 1e-9
     answer = report("spheres", "ball.mesh", "--count", 20, "-o", "cells.spheres")
     assert answer["count"] == 20 and answer["coverage"] > 0.9
     refuses("spheres", file("bad.mesh", "MeshVersionFormatted 2\nnonsense\n"), "--count", 20, says=["bad.mesh:3", "Tetrahedra"])
     for name, mark in (("ball.vtu", "UnstructuredGrid"), ("ball.msh", "$MeshFormat"), ("ball.mesh", "Tetrahedra")):
-        spore("tetrahedra", "ball.off", "--cells", 300, "-o", name)
+        spore("tetrahedra", "ball.off", "--cells", 300, "--method", "voxels", "-o", name)
         assert mark in (WORK / name).read_text()
     refuses("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.xyz", says=["ball.xyz", ".vtu"])
+    refuses("tetrahedra", "ball.off", "--cells", 300, "--method", "magic", says=["magic", "voxels"])
+    refuses("tetrahedra", "ball.off", "--cells", 300, "--curvature", 3, says=["--curvature", "5 to 90"])
+    refuses("tetrahedra", "ball.off", "--cells", 300, "--tolerance", -1, says=["--tolerance"])
+    refuses("tetrahedra", "ball.off", "--cells", 300, "--gap", -1, says=["--gap"])
+    for region in ("1,2,3", "0,0,0,1,-1", "0,0,0,0,1", "0,0,0,1,nan", "a,b,c,d,e"):
+        refuses("tetrahedra", "ball.off", "--cells", 300, "--region", region, says=["--region", "X,Y,Z,R,SIZE"])
     file("one.off", shapes.off([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
     refuses("tetrahedra", "one.off", "--cells", 300, says=["one.off", "volume"])
 

@@ -72,8 +72,9 @@ static void read_spheres_options(const SporeObject *asset, SporeSpheresOptions *
 }
 
 SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
-  SporeGenerateOptions options = {
-      .kind = kind, .spheres = {.count = USUAL_SPHERES, .seed = 1}, .tetrahedra = {.cells = USUAL_CELLS}};
+  SporeGenerateOptions options = {.kind = kind,
+                                  .spheres = {.count = USUAL_SPHERES, .seed = 1},
+                                  .tetrahedra = {.method = SPORE_TETRAHEDRA_METHODS, .cells = USUAL_CELLS}};
   SporeObject *asset = spore_generate_target(document, body, kind);
   if (asset && kind == SPORE_GENERATE_SPHERES) read_spheres_options(asset, &options.spheres);
   if (asset && kind == SPORE_GENERATE_TETRAHEDRA)

@@ -1,0 +1,66 @@
+/* What the makers of tetrahedra share. All lengths are in diagonals of the given surface, about its centre. */
+#ifndef SPORE_GENERATE_TETRAHEDRA_PARTS_H
+#define SPORE_GENERATE_TETRAHEDRA_PARTS_H
+
+#include "core/generate/sizing.h"
+#include "core/generate/tetrahedra.h"
+#include "core/generate/tetrahedra_wire.h"
+#include "core/mesh/bvh.h"
+
+#define SPORE_TETRAHEDRA_ANGLE 10  /* degrees: the least dihedral angle wanted */
+#define SPORE_TETRAHEDRA_COUNT 0.1 /* by which the number of cells may differ, logarithm */
+
+typedef struct SporeTetrahedraWork {
+  SporeTetrahedraOptions options; /* lengths in diagonals; tolerance set */
+  SporeTetrahedraRegion regions[SPORE_TETRAHEDRA_REGIONS];
+  SporeTriangleMesh surface; /* the given one, welded and turned alike */
+  SporeBvh *tree;            /* of it */
+  double volume, area;       /* of the solid and of what bounds it */
+  double *bounding, *inner;  /* points of the surface (count x 3) that bound the solid, and that lie inside it */
+  size_t bounding_count, inner_count;
+  const SporeProgress *progress;
+  double fraction, share; /* of the progress, that the work in hand has */
+} SporeTetrahedraWork;
+
+/* Reports within the share of the work in hand. */
+bool spore_tetrahedra_progress(const SporeTetrahedraWork *work, double fraction, const char *stage);
+
+/* The solid: where the winding number of the surface is over one half. False with the reason: no memory, it encloses
+ * nothing, cancelled. */
+bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error);
+/* Largest distances between the mesh and the points that bound the solid, both ways, and from the inner points. */
+bool spore_tetrahedra_distances(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double *hausdorff,
+                                double *inner, double *area, SporeError *error);
+
+/* By the helper. A surface that can be meshed; alpha: of a wrap. */
+gboolean spore_tetrahedra_prepare(SporeTetrahedraWork *work, SporeTetrahedraTask task, double alpha,
+                                  SporeTriangleMesh *surface, GError **error);
+gboolean spore_tetrahedra_refine(SporeTetrahedraWork *work, const SporeTriangleMesh *surface, const SporeSizing *sizing,
+                                 SporeTetrahedraFinish finish, size_t most_vertices, SporeTetrahedralMesh *mesh,
+                                 GError **error);
+
+/* Drops the walls of cavities from a surface that is prepared; its vertices stay. */
+bool spore_tetrahedra_fill(SporeTriangleMesh *surface, SporeError *error);
+
+/* A mesh in a prepared surface of the number of cells, or the size, that is asked for. */
+gboolean spore_tetrahedra_fit(SporeTetrahedraWork *work, const SporeTriangleMesh *surface, SporeTetrahedralMesh *mesh,
+                              GError **error);
+
+/* Cells of a lattice, cut where the solid ends. */
+bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error);
+
+/* Plan of sizes: a relative one at each node, times a scale, under absolute bounds. */
+typedef struct SporeSizingPlan {
+  SporeSizing grid; /* size: scratch of the last scale */
+  double *relative; /* at each node, of the scale */
+  double *absolute; /* at each node, at most; never below a quarter of the scale */
+} SporeSizingPlan;
+bool spore_sizing_plan_create(SporeSizingPlan *plan, const SporeTetrahedraWork *work, const SporeTriangleMesh *surface,
+                              SporeError *error);
+void spore_sizing_plan_clear(SporeSizingPlan *plan);
+/* plan->grid.size for a scale: relative x scale, absolute bounds, regions; it grows by no more than the gradation. */
+void spore_sizing_plan_scale(SporeSizingPlan *plan, const SporeTetrahedraWork *work, double scale);
+/* The relative size around p is `relative` at most. */
+void spore_sizing_plan_refine(SporeSizingPlan *plan, SporeVec3 p, double relative);
+
+#endif
