@@ -181,7 +181,7 @@ const SporeModelType spore_finite_differences = {
            "stay so. Cells that the surface cuts count by the share that lies inside."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(GridFields)},
     .geometry = SPORE_GEOMETRY_SOLID,
-    .presets = spore_tissues,
+    .presets = spore_tissue_presets,
     .create = create,
     .destroy = destroy,
     .place = place,

@@ -299,7 +299,7 @@ static const char *notice(const SporeModel *model, const double *q) {
 /* What the types have in common. */
 #define SLOTS                                                                                                          \
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
-  .geometry = SPORE_GEOMETRY_TETRAHEDRA, .presets = spore_tissues, .destroy = destroy, .place = place, .force = force, \
+  .geometry = SPORE_GEOMETRY_TETRAHEDRA, .presets = spore_tissue_presets, .destroy = destroy, .place = place, .force = force, \
   .potential = potential, .map = map, .skin = skin, .pattern = pattern, .jacobian = jacobian, .retune = retune,        \
   .doubt = doubt, .prepare_heat = prepare_heat, .coagulate = coagulate, .mend = mend, .reserve = reserve, .cut = cut,  \
   .divide = divide, .settle = settle, .corners = corners, .notice = notice

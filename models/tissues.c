@@ -1,16 +1,14 @@
 #include "models/tissues.h"
 
-/* A shear modulus in kPa gives young_modulus in Pa: times 2900. */
-#define TISSUE(name, label, young)                                                                                     \
-  {                                                                                                                    \
-    name, label, "PMC6925591", { "young_modulus", young, "poisson_ratio", "0.45", "density", "1060", NULL }            \
-  }
+#include "core/sim/tissue.h"
 
-const SporePreset spore_tissues[] = {
-    TISSUE("stomach", N_("Stomach"), "1856"),                 /* 0.64 kPa */
-    TISSUE("liver", N_("Liver"), "5220"),                     /* 1.8 kPa */
-    TISSUE("gallbladder", N_("Gallbladder"), "246500"),       /* 85 kPa */
-    TISSUE("bile_duct", N_("Bile duct"), "481400"),           /* 166 kPa */
-    TISSUE("hepatic_artery", N_("Hepatic artery"), "609000"), /* 210 kPa */
-    {0},
-};
+/* Of the quantities, those that solids have, as the file writes them. */
+#define SETTING_young_modulus(value) "young_modulus", #value,
+#define SETTING_poisson_ratio(value) "poisson_ratio", #value,
+#define SETTING_density(value) "density", #value,
+#define SETTING_tear_strain(value)
+#define SETTING_friction(value)
+#define Q(quantity, typical, minimum, maximum, source) SETTING_##quantity(typical)
+#define T(name, label, source, quantities) {#name, label, source, {quantities NULL}},
+
+const SporePreset spore_tissue_presets[] = {SPORE_TISSUES{0}};

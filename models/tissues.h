@@ -6,9 +6,8 @@
 #include "core/sim/model.h"
 #include "models/fields.h"
 
-/* Of models with young_modulus, poisson_ratio and density. Young's modulus is 2 (1 + Poisson's ratio) times the shear
- * modulus that was measured; the ratio is 0.45, up to which linear elements are right. */
-extern const SporePreset spore_tissues[];
+/* Of models with young_modulus, poisson_ratio and density: the tissues of core/sim/tissue.h. */
+extern const SporePreset spore_tissue_presets[];
 
 /* Entries of their parameter tables that they have in common; young_modulus, poisson_ratio, then the rest. */
 #define SPORE_TISSUE_YOUNG_MODULUS(Fields)                                                                             \

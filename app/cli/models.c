@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "app/cli/cli.h"
+#include "core/sim/tissue.h"
 
 static const char *type_name(SporeParameterType type) {
   static const char *const names[] = {"real", "integer", "boolean",   "vector", "choice",
@@ -83,6 +84,38 @@ static void report_model(SporeCli *cli, const SporeModelType *type) {
   spore_cli_say(cli, "\n");
 }
 
+static void report_quantity(SporeCli *cli, const SporeTissueQuantity *quantity) {
+  gboolean ranged = quantity->maximum > quantity->minimum;
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", quantity->name);
+  spore_cli_text(cli, "unit", quantity->unit);
+  spore_cli_number(cli, "typical", quantity->typical.number[0]);
+  spore_cli_number(cli, "minimum", ranged ? quantity->minimum : NAN);
+  spore_cli_number(cli, "maximum", ranged ? quantity->maximum : NAN);
+  json_builder_set_member_name(cli->report, "fills");
+  json_builder_add_boolean_value(cli->report, spore_tissue_fills(quantity->name));
+  spore_cli_text(cli, "source", _(quantity->source));
+  spore_cli_close(cli);
+  g_autofree char *range = ranged ? g_strdup_printf("%g to %g", quantity->minimum, quantity->maximum) : g_strdup("-");
+  spore_cli_say(cli, "  %-16s %-7s %-10g %-18s %s\n", quantity->name, quantity->unit, quantity->typical.number[0],
+                range, _(quantity->source));
+}
+
+static void report_materials(SporeCli *cli) {
+  spore_cli_open_array(cli, "materials");
+  for (const SporeTissue *tissue = spore_tissues; tissue->name; tissue++) {
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", tissue->name);
+    spore_cli_text(cli, "label", _(tissue->label));
+    spore_cli_say(cli, "%s: %s\n", tissue->name, _(tissue->label));
+    spore_cli_open_array(cli, "quantities");
+    for (const SporeTissueQuantity *one = tissue->quantities; one->name; one++) report_quantity(cli, one);
+    spore_cli_close_array(cli);
+    spore_cli_close(cli);
+  }
+  spore_cli_close_array(cli);
+}
+
 int spore_command_models(SporeCli *cli, int argc, char **argv) {
   static const SporeReportMember members[] = {
       {"models",
@@ -91,11 +124,23 @@ int spore_command_models(SporeCli *cli, int argc, char **argv) {
        N_("each with name, type, unit, minimum, maximum, default, change (what a running simulation does with a new "
           "value: live, rebuild, restart), doc, and choices where there are some")},
       {"models.presets", N_("values that go together: each with name, label, source and settings (as PROPERTY=VALUE)")},
+      {"materials", N_("with --materials, instead of models: tissues, each with name (for material=\"...\" in "
+                       "<mechanical>), label and quantities")},
+      {"materials.quantities",
+       N_("each with name (of a parameter), unit, typical, minimum and maximum (null: not known), fills (whether a "
+          "model takes it where its author says nothing) and source")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {"models", "[NAME]", N_("Lists models and their parameters."), 0, 1, members};
-  const GOptionEntry entries[] = {G_OPTION_ENTRY_NULL};
+  gboolean materials = FALSE;
+  const GOptionEntry entries[] = {
+      {"materials", 0, 0, G_OPTION_ARG_NONE, &materials, N_("List tissues and their figures, with sources"), NULL},
+      G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status != SPORE_EXIT_DONE) return status;
+  if (materials) {
+    report_materials(cli);
+    return spore_cli_finish(cli, SPORE_EXIT_DONE);
+  }
   SporeModelRegistry registry = spore_schema_registry(cli->schema);
   if (argc > 1 && !spore_model_type_find(registry, argv[1])) {
     GString *names = g_string_new(NULL);

@@ -282,6 +282,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
   spore_check_each(&check, "effects", "emitter", check_emitter);
   spore_check_links(&check);
   spore_check_assets(&check);
+  spore_check_materials(&check);
   spore_check_solver(&check);
   spore_check_motion(&check);
   g_ptr_array_sort(check.found, worst_first); /* a merge sort: those alike stay in order */

@@ -31,6 +31,8 @@ gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object,
 
 void spore_check_links(SporeCheck *check);  /* that tie nothing, and bodies that are tied too often */
 void spore_check_assets(SporeCheck *check); /* readable, used, of a likely size, fresh */
+/* Values far from those of the material that the author named. */
+void spore_check_materials(SporeCheck *check);
 void spore_check_solver(SporeCheck *check); /* choices that nothing makes use of */
 /* Links whose points lie far from what they tie. */
 void spore_check_link_points(SporeCheck *check, const SporeSimulation *simulation);

@@ -235,8 +235,21 @@ char *spore_object_where(const SporeObject *object) {
   return g_strdup_printf("%s:%d:%d", file, object->line, object->column);
 }
 
-/* What `defaults` says of a property that the object does not set; NULL: nothing. */
+const SporeTissue *spore_object_tissue(const SporeObject *model) {
+  if (!model->type->model || !model->parent) return NULL;
+  int material = (int)spore_object_number(model->parent, "material");
+  return material > 0 ? &spore_tissues[material - 1] : NULL;
+}
+
+/* What the material of a body says of a property of its model; NULL: nothing. */
+static const SporeValue *material_value(const SporeObject *object, guint property) {
+  const SporeTissue *tissue = spore_object_tissue(object);
+  return tissue ? spore_tissue_value(tissue, &object->type->table->parameters[property]) : NULL;
+}
+
+/* What `defaults`, or the material, says of a property that the object does not set; NULL: nothing. */
 static const SporeValue *inherited_value(const SporeObject *object, guint property) {
+  if (object->type->model) return material_value(object, property);
   if (!object->type->defaults) return NULL;
   const SporeObject *section = spore_document_section(object->document, "defaults");
   const SporeObject *defaults = spore_object_child_of(section, object->type->defaults);

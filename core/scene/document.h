@@ -8,6 +8,7 @@
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
 #include "core/scene/schema.h"
+#include "core/sim/tissue.h"
 
 typedef struct SporeDocument SporeDocument;
 
@@ -42,6 +43,8 @@ const SporeValue *spore_object_value(const SporeObject *object, guint property);
 gboolean spore_object_is_set(const SporeObject *object, guint property);
 double spore_object_number(const SporeObject *object, const char *property);    /* by name, which must exist */
 const char *spore_object_text(const SporeObject *object, const char *property); /* NULL when neither set nor default */
+/* The tissue whose values the properties of a model take that are not set; NULL: none. */
+const SporeTissue *spore_object_tissue(const SporeObject *model);
 /* The object that a reference names; NULL: not set, or nothing has that name. */
 SporeObject *spore_object_reference(const SporeObject *object, const char *property);
 /* "FILE:LINE:COLUMN" where the object came from a file, else its path: the place of a message. g_free. */

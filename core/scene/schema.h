@@ -26,7 +26,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *              spheres(name file source method count seed) and what generated data remember (generated.h)
  *              tetrahedra(name file source cells), the same
  *     bodies > body(name role position rotation velocity spin)
- *                mechanical(geometry integrator substeps) > one model element (its own table)
+ *                mechanical(geometry integrator substeps material) > one model element (its own table)
  *                collision(spheres + spore_contact_parameters)
  *                visual(mesh colour wetness)
  *                fidelity(mode level level_tolerance) > coarse(geometry settings) medium(geometry settings)
@@ -39,7 +39,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *
  * Names are unique within a section (assets, bodies, links, tools, devices), so that "bodies/liver" says one object.
  * position and rotation place a body's frame: metres, and a rotation vector (axis times angle, rad).
- * A property of `collision` that is not set takes its value from `defaults > contact`.
+ * A property of `collision` that is not set takes its value from `defaults > contact`, one of a model from the material.
  */
 typedef struct SporeObjectType SporeObjectType;
 struct SporeObjectType {

@@ -56,6 +56,7 @@ typedef struct SporeMechanicalFields {
   const char *geometry;
   int integrator;   /* 0: the scene's; else SporeIntegratorKind + 1 */
   int64_t substeps; /* 0: the scene's */
+  int material;     /* of spore_material_names */
 } SporeMechanicalFields;
 
 typedef struct SporeCollisionFields {

@@ -3,6 +3,7 @@
 
 #include "core/scene/length_unit.h"
 #include "core/scene/schema_fields.h"
+#include "core/sim/tissue.h"
 
 #define ANY -HUGE_VAL, HUGE_VAL
 #define FIELD(Type, field) .offset = offsetof(Type, field)
@@ -297,6 +298,16 @@ static const SporeParameter mechanical_parameters[] = {
      FIELD(SporeMechanicalFields, substeps),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Parts that the body's motion over a step is integrated in; 0: as the solver says.")},
+    {.name = "material",
+     .type = SPORE_CHOICE,
+     .unit = "",
+     ANY,
+     .initial = {0},
+     .choices = spore_material_names,
+     FIELD(SporeMechanicalFields, material),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Tissue that the model's density, Young's modulus and Poisson's ratio are those of, where it does not "
+               "set them itself; spore models --materials tells its figures and where they were measured.")},
 };
 
 static const SporeParameter collision_parameters[] = {

@@ -124,7 +124,7 @@ def help_explains_json():
     """--help of each command names every member that --json prints, in the row of what it belongs to."""
     file("ball.off", shapes.off(*shapes.sphere()))
     commands = [("run", soft_ball(), "--steps", 20), ("run", grasper(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
-                ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("schema",),
+                ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("models", "--materials"), ("schema",),
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
                 ("surface", "ball.off", "--nodes", 50)]
     commands += [("tetrahedra", "ball.off", "--cells", 100)]
@@ -631,6 +631,11 @@ def models_and_schema():
     liver = next(p for p in models["neo_hookean_tetrahedra"]["presets"] if p["name"] == "liver")
     assert "young_modulus=5220" in liver["settings"] and liver["source"] and not models["rigid_body"]["presets"]
     assert len(report("models", "rigid_body")["models"]) == 1
+    materials = {m["name"]: {q["name"]: q for q in m["quantities"]} for m in report("models", "--materials")["materials"]}
+    assert materials["liver"]["young_modulus"] | {"source": 0} == {"name": "young_modulus", "unit": "Pa", "typical": 5220,
+                                                                   "minimum": 4060, "maximum": 6380, "fills": True, "source": 0}
+    assert all(q["source"] for m in materials.values() for q in m.values()) and materials["fat"]["young_modulus"]["minimum"] is None
+    assert "material" in spore("schema").stdout and "gallbladder" in spore("schema").stdout
     refuses("models", "rigid_boy", says=["rigid_boy", "rigid_body"])
     schema = file("spore.rng", spore("schema").stdout)
     subprocess.run(["xmllint", "--noout", "--relaxng", schema, soft_ball()], check=True, capture_output=True)

@@ -249,6 +249,22 @@ static const Mistake mistakes[] = {
            "\n<visual mesh=\"wide\"/></body></bodies>\n"),
      {"note 2:86: \"sheet\" is not a closed surface",
       "warning 6:1: \"net\" is not drawn: of its mesh, point 0: the point lies 0.1 m off a flat net"}},
+    {"material",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\" material=\"spleen\"><neo_hookean_tetrahedra/>"
+           "</mechanical>" BALL "</body></bodies>\n"),
+     {NULL}},
+    {"beyond-material",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\" material=\"spleen\">\n"
+           "<neo_hookean_tetrahedra young_modulus=\"5000\" density=\"1200\"/></mechanical>" BALL "</body></bodies>\n"),
+     {"warning 7:1: young_modulus=\"5000\" lies outside of what was measured of Spleen: 1100 to 4700 Pa (AJR.10.5449"}},
+    {"material-of-nothing",
+     BODIES(FLOOR "<body name=\"stone\"><mechanical geometry=\"cube\" material=\"small_intestine\"><rigid_body/>"
+                  "</mechanical>" BALL "</body>\n"),
+     {"note 5:20: material=\"small_intestine\" says nothing to rigid_body"}},
     {"locking",
      SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
            "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
@@ -291,6 +307,62 @@ static void test_step_of_implicit(void) {
   g_assert_cmpstr(said, ==, "");
 }
 
+/* A material gives the values that the author leaves out, and no others; a file keeps what was written. */
+static void test_material(void) {
+  static const char text[] =
+      SCENE("<assets><tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n<body name=\"organ\">"
+            "<mechanical geometry=\"cells\" material=\"kidney\"><neo_hookean_tetrahedra density=\"1111\"/>"
+            "</mechanical></body></bodies>\n");
+  g_autofree char *folder = fixture_scene_folder_new(text);
+  SporeDocument *document = fixture_load(folder);
+  GError *error = NULL;
+  SporeObject *mechanical = spore_document_by_path(document, "bodies/organ/mechanical");
+  SporeObject *model = spore_object_child(mechanical, 0);
+  g_assert_cmpstr(spore_object_tissue(model)->name, ==, "kidney");
+  g_assert_cmpfloat(spore_object_number(model, "young_modulus"), ==, 5000);
+  g_assert_cmpfloat(spore_object_number(model, "poisson_ratio"), ==, 0.45);
+  g_assert_cmpfloat(spore_object_number(model, "density"), ==, 1111);
+  g_assert_cmpfloat(spore_object_number(model, "stiffness_damping"), ==, 0.01);
+  g_assert_true(spore_document_set_text(document, mechanical, "material", "uterus", &error));
+  g_assert_cmpfloat(spore_object_number(model, "young_modulus"), ==, 6380);
+  spore_document_undo(document);
+  g_autofree char *written = fixture_format(document);
+  g_assert_nonnull(strstr(written, "material=\"kidney\">"));
+  g_assert_nonnull(strstr(written, "<neo_hookean_tetrahedra density=\"1111\"/>"));
+  g_assert_true(spore_document_set_text(document, mechanical, "material", "none", &error));
+  g_assert_null(spore_object_tissue(model));
+  g_assert_cmpfloat(spore_object_number(model, "young_modulus"), ==, 5000); /* the model's own */
+  g_assert_false(spore_document_set_text(document, mechanical, "material", "livr", &error));
+  g_assert_nonnull(strstr(error->message, "liver"));
+  g_clear_error(&error);
+  spore_document_free(document);
+  fixture_folder_free(g_steal_pointer(&folder));
+}
+
+/* Every figure of a tissue is one that each model with that parameter takes, and lies within its own range. */
+static void test_tissues(void) {
+  guint filled = 0;
+  SporeModelRegistry registry = spore_schema_registry(fixture_model_schema());
+  for (const SporeTissue *tissue = spore_tissues; tissue->name; tissue++)
+    for (const SporeTissueQuantity *one = tissue->quantities; one->name; one++) {
+      g_assert_cmpuint(strlen(one->source), >, 0);
+      if (one->maximum > one->minimum) {
+        g_assert_cmpfloat(one->typical.number[0], >=, one->minimum);
+        g_assert_cmpfloat(one->typical.number[0], <=, one->maximum);
+      }
+      for (gsize i = 0; registry[i]; i++) {
+        int index = spore_parameter_find(&registry[i]->parameters, one->name);
+        SporeError fault = SPORE_ERROR_INIT;
+        if (index < 0 || registry[i]->puff) continue; /* smoke is of no tissue */
+        g_assert_cmpstr(registry[i]->parameters.parameters[index].unit, ==, one->unit);
+        if (!spore_parameter_check(&registry[i]->parameters.parameters[index], &one->typical, &fault))
+          g_error("%s: %s", registry[i]->name, fault.message);
+        filled++;
+      }
+    }
+  g_assert_cmpuint(filled, >, 100);
+}
+
 /* As many bodies, assets and references as fit: in a time that grows with their number alone. */
 static void test_large(void) {
   GString *text = g_string_new("<spore version=\"1.0\"><assets>");
@@ -314,6 +386,8 @@ int main(int argc, char **argv) {
     g_test_add_data_func(path, &mistakes[i], test_mistake);
   }
   g_test_add_func("/check/step-of-implicit", test_step_of_implicit);
+  g_test_add_func("/check/tissues", test_tissues);
+  g_test_add_func("/check/fills", test_material);
   g_test_add_func("/check/large", test_large);
   return g_test_run();
 }
