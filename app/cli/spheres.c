@@ -197,6 +197,7 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"outside", N_("volume of the spheres that lies outside, of the mesh's volume; null for a sheet")},
       {"distance", N_("between surface and spheres, of the diagonal: mean, max; of a sheet see --thickness")},
       {"depth_error", N_("of the depth that is felt, of the largest depth; null for a sheet")},
+      {"certified", N_("whether it is proven that all of the inside lies in a sphere")},
       {"seconds", N_("that it took")},
       {"mirrors", N_("planes that mesh and spheres are symmetric about")},
       {"points", N_("with --counts, instead of all above: each number with the members above")},
@@ -223,7 +224,9 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
           "(default 0.01)"),
        "D"},
       {"mode", 'm', 0, G_OPTION_ARG_STRING, &r.mode,
-       N_("What the spheres are to be good at: balanced (default) fits the depth inside"), "MODE"},
+       N_("What the spheres are to be good at: balanced (default) fits the depth inside; bounding covers all of the "
+          "mesh, with little outside"),
+       "MODE"},
       {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &r.regions,
        N_("FACTOR times as many spheres within R metres of a place (several may be given)"), "X,Y,Z,R,FACTOR"},
       {"asymmetric", 0, 0, G_OPTION_ARG_NONE, &r.asymmetric, N_("Leave out that a symmetric mesh gets a symmetric set"),

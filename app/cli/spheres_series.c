@@ -49,6 +49,8 @@ void spore_cli_spheres_members(SporeCli *cli, size_t count, const SporeSpheresRe
   spore_cli_number(cli, "max", report->distance_max);
   spore_cli_close(cli);
   spore_cli_number(cli, "depth_error", report->depth_error);
+  json_builder_set_member_name(cli->report, "certified");
+  json_builder_add_boolean_value(cli->report, report->certified);
   spore_cli_number(cli, "seconds", report->seconds);
   spore_cli_count(cli, "mirrors", (gint64)report->mirrors);
 }
@@ -104,7 +106,8 @@ static char *draw(const char *file, const size_t *counts, const SporeSpheresRepo
   g_autofree char *name = g_path_get_basename(file), *title = g_strdup_printf(_("Spheres of %s"), name);
   g_autofree char *mark = enough < count ? g_strdup_printf(_("enough: %zu"), counts[enough]) : NULL;
   g_autofree char *note = g_strdup_printf(
-      _("Enough: from there on, twice as many spheres lower the depth error by less than %.2g %% of the largest depth.\n"
+      _("Enough: from there on, twice as many spheres lower the depth error by less than %.2g %% of the largest "
+        "depth.\n"
         "Depth error: of the largest depth; not covered, outside: of the volume; distance: of the diagonal."),
       100 * worth);
   const SporePlotPanel panels[] = {

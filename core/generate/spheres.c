@@ -6,13 +6,14 @@
 #include "core/base/memory.h"
 #include "core/base/profile.h"
 #include "core/base/text.h"
-#include "core/generate/spheres_parts.h"
+#include "core/generate/spheres_bounding.h"
 
 #define CANDIDATES_LEAST 1500
 #define CANDIDATES_PER_SPHERE 12
 #define NEAR_PLANE 0.4 /* of its radius: a ball whose centre is nearer to a mirror plane starts on it */
 
-const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1] = {[SPORE_SPHERES_BALANCED] = "balanced"};
+const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1] = {
+    [SPORE_SPHERES_BALANCED] = "balanced", [SPORE_SPHERES_BOUNDING] = "bounding"};
 
 /* What one way to make spheres works on. */
 typedef struct Work {
@@ -56,6 +57,15 @@ static bool check_options(const SporeSpheresOptions *options, SporeError *error)
                            _("the thickness is %g; a length of 0 m or more was expected; correct it"),
                            options->thickness);
   return check_regions(options, error);
+}
+
+/* Only what has an inside can be covered. */
+static bool check_mode(const SporeSpheresSource *source, const SporeSpheresOptions *options, SporeError *error) {
+  if (options->mode == SPORE_SPHERES_BALANCED || source->solid || source->tetrahedra) return true;
+  return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                         _("the mode \"%s\" needs an inside, and a curve or a sheet has none; a closed mesh was "
+                           "expected; use the mode \"%s\""),
+                         spore_spheres_mode_names[options->mode], spore_spheres_mode_names[SPORE_SPHERES_BALANCED]);
 }
 
 static SporeProgressPart part_of(const SporeProgressPart *whole, double first, double share) {
@@ -137,12 +147,15 @@ static bool place_balls(const SporeSolid *solid, size_t count, const SporeSphere
 static bool fill_solid(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
                        const SporeProgressPart *progress, SporeError *error) {
   const SporeSolid *solid = work->solid;
-  SporeProgressPart placing = part_of(progress, 0, 0.9), measuring = part_of(progress, 0.9, 0.1);
+  bool bounding = work->options->mode == SPORE_SPHERES_BOUNDING;
+  SporeProgressPart placing = part_of(progress, 0, bounding ? 0.4 : 0.9), growing = part_of(progress, 0.4, 0.5),
+                    measuring = part_of(progress, 0.9, 0.1);
   SporeBalls balls = {0};
   uint8_t *bound = SPORE_NEW_ARRAY(uint8_t, count);
   *set = (SporeSphereSet){0};
   bool done = bound || spore_spheres_no_memory(error);
   done = done && place_balls(solid, count, work->options, &balls, bound, &placing, error) &&
+         (!bounding || spore_spheres_bound(solid, &balls, work->options->seed, &growing, error)) &&
          store_balls(&solid->symmetry, &balls, bound, set, error) &&
          spore_solid_measure(solid, set, report, &measuring, error);
   report->mirrors = solid->symmetry.count;
@@ -213,7 +226,7 @@ static bool from_solid(Work *work, const SporeTriangleMesh *mesh, SporeSphereSet
   const SporeSpheresOptions *options = work->options;
   if (!spore_solid_create(&solid, mesh, error)) return false;
   solid.regions = options->regions, solid.region_count = options->region_count;
-  if (!options->asymmetric && !options->region_count)
+  if (!options->asymmetric && !options->region_count && options->mode == SPORE_SPHERES_BALANCED)
     spore_symmetry_find(&solid.symmetry, &solid.mesh, solid.bvh, solid.diagonal);
   work->solid = &solid;
   bool done = make_set(fill_solid, work, set, report, progress, error);
@@ -241,7 +254,7 @@ bool spore_spheres_from_source(const SporeSpheresSource *source, const SporeSphe
   bool done = false;
   *set = (SporeSphereSet){0};
   *report = (SporeSpheresReport){0};
-  if (!check_options(options, error)) return false;
+  if (!check_options(options, error) || !check_mode(source, options, error)) return false;
   if (source->solid) done = from_solid(&work, source->solid, set, report, progress, error);
   else if (source->tetrahedra) done = from_cells(&work, set, report, progress, error);
   else if (source->curve)

@@ -8,6 +8,7 @@
 /* What a set is to be good at; the names below are those of files and of the command line. */
 typedef enum SporeSpheresMode {
   SPORE_SPHERES_BALANCED, /* fits max(r_i - |x - c_i|) to the depth, inside and just outside */
+  SPORE_SPHERES_BOUNDING, /* covers all of the solid, with little outside */
   SPORE_SPHERES_MODE_COUNT
 } SporeSpheresMode;
 extern const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1]; /* NULL-terminated */
@@ -30,7 +31,7 @@ typedef struct SporeSpheresOptions {
   uint64_t seed;
   const SporeSpheresRegion *regions; /* region_count; of solids alone */
   size_t region_count;
-  bool asymmetric;  /* do not look whether the solid is its own mirror image */
+  bool asymmetric;  /* do not look whether the solid is its own mirror image; only balanced sets follow it */
   double thickness; /* m, of a sheet: all spheres are as wide; 0: each as wide as it takes to leave no gap */
 } SporeSpheresOptions;
 
@@ -40,6 +41,7 @@ typedef struct SporeSpheresReport {
   double outside;                     /* volume of the union that is outside the solid / volume of the solid */
   double distance_mean, distance_max; /* two-sided, surface of the solid to surface of the union */
   double depth_error;                 /* mean |depth - max_i(r_i - d_i)+| inside / largest depth */
+  bool certified; /* the mesh is closed, and all of it is proven, not sampled, to be inside the spheres */
   double seconds;
   size_t mirrors; /* planes that the solid and the set are symmetric about: 0 to 3 */
 } SporeSpheresReport;

@@ -3,7 +3,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "core/generate/spheres_parts.h"
+#include "core/generate/spheres_bounding.h"
 
 #define MEASURE_SAMPLES 30000
 #define ON_BALL 2e-6 /* of the largest radius: a point that is no deeper lies on the union's surface */
@@ -192,6 +192,13 @@ static bool measure_surfaces(Measure *m, SporeSpheresReport *report, SporeError 
   return true;
 }
 
+/* What samples find a gap in needs no proof. */
+static bool certify(const Measure *m, const SporeSpheresReport *report) {
+  SporeMeshReport mesh;
+  return report->coverage == 1 && spore_triangle_mesh_report(&m->solid->mesh, &mesh, NULL) && mesh.closed &&
+         spore_balls_cover(m->solid, &m->balls);
+}
+
 bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, SporeSpheresReport *report,
                          const SporeProgressPart *progress, SporeError *error) {
   Measure m = {.solid = solid, .random = {MEASURE_SEED}, .capacity = 3 * MEASURE_SAMPLES};
@@ -211,6 +218,7 @@ bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, Spo
   done = done && (going = spore_progress_part(progress, 0.4, stage, error)) && measure_outside(&m, report);
   done = done && (going = spore_progress_part(progress, 0.6, stage, error)) && measure_surfaces(&m, report, error);
   if (!done && going) spore_spheres_no_memory(error);
+  if (done) report->certified = certify(&m, report);
   spore_free(m.points);
   spore_free(m.value);
   spore_balls_clear(&m.balls);

@@ -1,8 +1,9 @@
 /* Each allocation of each part fails in turn: an error, no crash, nothing lost (the sanitizer looks). */
 #include <glib.h>
+#include <math.h>
 
 #include "core/base/memory.h"
-#include "core/generate/spheres_parts.h"
+#include "core/generate/spheres_bounding.h"
 #include "tests/mesh/shapes.h"
 
 static const SporeProgressPart quiet = {NULL, 0, 1};
@@ -61,6 +62,33 @@ static bool cover_and_fit(Fixture *f, SporeError *error) {
   return done;
 }
 
+static bool prices(Fixture *f, SporeError *error) {
+  SporeRandom random = {1};
+  SporePrices made;
+  const double point[3] = {0.06, 0, 0};
+  if (!spore_prices_create(&made, &f->solid, 1, &random, &quiet, error)) return false;
+  bool done = spore_prices_add(&made, point, 1, 1e-9) || spore_spheres_no_memory(error);
+  spore_prices_clear(&made);
+  return done;
+}
+
+/* Too small, so that there are gaps to be found and filled. */
+static bool cover(Fixture *f, SporeError *error) {
+  SporeBalls balls;
+  double *gaps;
+  size_t count;
+  if (!spore_balls_create(&balls, 12)) return spore_spheres_no_memory(error);
+  for (size_t i = 0; i < 12; i++) {
+    balls.x[i] = 0.06 * cos((double)i), balls.y[i] = 0.06 * sin((double)i), balls.r[i] = 0.026;
+  }
+  bool done = (spore_balls_gaps(&f->solid, &balls, 1e-3, 1e-2, &gaps, &count) &&
+               spore_balls_grow_to_cover(&f->solid, &balls)) ||
+              spore_spheres_no_memory(error);
+  spore_free(gaps);
+  spore_balls_clear(&balls);
+  return done;
+}
+
 static bool measure(Fixture *f, SporeError *error) {
   double sphere[4] = {0.06, 0, 0, 0.02};
   SporeSphereSet set = {1, sphere};
@@ -85,11 +113,11 @@ int main(int argc, char **argv) {
   static const struct {
     const char *path;
     bool (*work)(Fixture *, SporeError *);
-  } parts[] = {{"/generate/spheres-memory/solid", solid},
-               {"/generate/spheres-memory/samples", samples},
-               {"/generate/spheres-memory/candidates", candidates},
-               {"/generate/spheres-memory/cover-and-fit", cover_and_fit},
-               {"/generate/spheres-memory/measure", measure}};
+  } parts[] = {
+      {"/generate/spheres-memory/solid", solid},           {"/generate/spheres-memory/samples", samples},
+      {"/generate/spheres-memory/candidates", candidates}, {"/generate/spheres-memory/cover-and-fit", cover_and_fit},
+      {"/generate/spheres-memory/prices", prices},         {"/generate/spheres-memory/cover", cover},
+      {"/generate/spheres-memory/measure", measure}};
   g_test_init(&argc, &argv, NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(parts); i++)
     g_test_add(parts[i].path, Fixture, &parts[i].work, set_up, fail_each, tear_down);
