@@ -125,8 +125,8 @@ static bool choose_bound(const SporeSymmetry *symmetry, size_t count, const Spor
 static bool place_balls(const SporeSolid *solid, size_t count, const SporeSpheresOptions *options, SporeBalls *balls,
                         uint8_t *bound, const SporeProgressPart *progress, SporeError *error) {
   SporeRandom random = {options->seed ^ UINT64_C(0x9e3779b97f4a7c15)};
-  SporeProgressPart sampling = part_of(progress, 0, 0.1), finding = part_of(progress, 0.1, 0.2),
-                    fitting = part_of(progress, 0.3, 0.7);
+  SporeProgressPart sampling = part_of(progress, 0, 0.1), finding = part_of(progress, 0.1, 0.1),
+                    choosing = part_of(progress, 0.2, 0.1), fitting = part_of(progress, 0.3, 0.7);
   SporeSamples samples = {0};
   SporeBalls candidates = {0}, ranked = {0};
   size_t candidate_count = CANDIDATES_PER_SPHERE * count;
@@ -134,7 +134,7 @@ static bool place_balls(const SporeSolid *solid, size_t count, const SporeSphere
   bool done = spore_samples_create(&samples, solid, count, &random, &sampling, error) &&
               spore_candidates_create(&candidates, solid, candidate_count, &random, &finding, error) &&
               (spore_balls_create(&ranked, count) || spore_spheres_no_memory(error)) &&
-              spore_candidates_cover(&candidates, &samples, &ranked, &finding, error) &&
+              spore_candidates_cover(&candidates, &samples, &ranked, &choosing, error) &&
               (choose_bound(&solid->symmetry, count, &ranked, balls, bound) || spore_spheres_no_memory(error)) &&
               spore_spheres_fit(solid, &samples, &candidates, balls, bound, options->seed, &fitting, error);
   spore_balls_clear(&ranked);
@@ -226,7 +226,7 @@ static bool from_solid(Work *work, const SporeTriangleMesh *mesh, SporeSphereSet
   const SporeSpheresOptions *options = work->options;
   if (!spore_solid_create(&solid, mesh, error)) return false;
   solid.regions = options->regions, solid.region_count = options->region_count;
-  if (!options->asymmetric && !options->region_count && options->mode == SPORE_SPHERES_BALANCED)
+  if (options->mode == SPORE_SPHERES_BALANCED && !options->asymmetric && !options->region_count)
     spore_symmetry_find(&solid.symmetry, &solid.mesh, solid.bvh, solid.diagonal);
   work->solid = &solid;
   bool done = make_set(fill_solid, work, set, report, progress, error);

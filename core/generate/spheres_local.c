@@ -195,28 +195,29 @@ static bool try_split(Local *l, size_t spare, size_t target) {
   return better;
 }
 
-/* Trials over pairs that have nothing to do with what changed before in the pass. Returns how many paid; *tried is how
- * many there were. */
-static size_t pass(Local *l, double shake, size_t *tried) {
+/* Trials over pairs that have nothing to do with what changed before in the pass; *paid: how many were worth it. False:
+ * cancelled. */
+static bool pass(Local *l, double shake, size_t *paid, const SporeProgressPart *progress, SporeError *error) {
   SporeFit *fit = l->fit;
-  size_t n = fit->balls.count, next = 0, paid = 0, most = n / 8 + 2;
+  size_t n = fit->balls.count, next = 0, tried = 0, most = n / 8 + 2;
   spore_fit_weigh(fit);
   spore_fit_rank(fit, shake);
   memset(fit->marked, 0, n * sizeof *fit->marked);
-  *tried = 0;
-  for (size_t i = 0; i < n && *tried < most && l->work < WORK; i++) {
+  *paid = 0;
+  for (size_t i = 0; i < n && tried < most && l->work < WORK; i++) {
     uint32_t target = fit->heaviest[i];
     if (fit->marked[target]) continue;
     while (next < n && (fit->marked[fit->order[next]] || fit->order[next] == target)) next++;
     if (next == n || fit->worth[fit->order[next]] >= SPLIT_SHARE * fit->burden[target]) break;
     uint32_t spare = fit->order[next];
     fit->marked[target] = fit->marked[spare] = true;
-    ++*tried;
+    tried++;
+    if (!spore_progress_part(progress, fmin(1, (double)l->work / WORK), _("Fitting spheres"), error)) return false;
     if (!try_split(l, spare, target)) continue;
-    paid++;
+    ++*paid;
     for (size_t k = 0; k < l->active_count; k++) fit->marked[l->active[k]] = true;
   }
-  return paid;
+  return true;
 }
 
 static bool open_local(Local *l, SporeFit *fit) {
@@ -248,13 +249,17 @@ bool spore_fit_relocate(SporeFit *fit, const SporeProgressPart *progress, SporeE
   int failures = 0;
   bool done = open_local(&local, fit);
   if (!done) spore_spheres_no_memory(error);
-  for (size_t g = 0; done && g < fit->samples->points.group_count; g++) evaluate_group(&local, g);
+  for (size_t g = 0; done && g < fit->samples->points.group_count; g++) {
+    evaluate_group(&local, g);
+    if (g % 64 == 0) done = spore_progress_part(progress, 0, _("Fitting spheres"), error);
+  }
+  local.work = 0;
   while (done && failures < PATIENCE && local.work < WORK) {
-    size_t tried;
-    done = spore_progress_part(progress, fmin(1, (double)local.work / WORK), _("Fitting spheres"), error);
-    if (!done) break;
-    if (pass(&local, shake, &tried)) failures = 0;
+    size_t paid;
+    done = pass(&local, shake, &paid, progress, error);
+    if (paid) failures = 0;
     else failures++, shake = fmin(shake + 0.1, 0.6);
+    spore_progress_show_balls(progress, &fit->balls);
   }
   close_local(&local);
   return done;

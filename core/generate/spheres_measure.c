@@ -7,6 +7,7 @@
 
 #define MEASURE_SAMPLES 30000
 #define ON_BALL 2e-6 /* of the largest radius: a point that is no deeper lies on the union's surface */
+#define REPORT_EVERY 1024
 #define MEASURE_SEED UINT64_C(0x5350484552455321) /* other than any fit's */
 
 typedef struct Measure {
@@ -16,9 +17,19 @@ typedef struct Measure {
   double *points; /* 3 x capacity, scratch */
   double *value;  /* capacity, scratch */
   size_t capacity;
+  SporeProgressPart progress; /* of the figure at work */
+  SporeError *error;
+  bool cancelled;
   double ball_volume; /* of all balls, overlaps counted each time */
   double on_ball;     /* m: see ON_BALL */
 } Measure;
+
+/* To be asked before each of `count` points. False: cancelled. */
+static bool go_on(Measure *m, size_t i, size_t count) {
+  if (i % REPORT_EVERY) return true;
+  m->cancelled = !spore_progress_part(&m->progress, (double)i / (double)count, _("Measuring"), m->error);
+  return !m->cancelled;
+}
 
 /* max_i (r_i - d_i), whose it is, and how many hold it; back in the order of `points`. Each output may be NULL. */
 static bool field_at(const Measure *m, const double *xyz, size_t count, double *best, uint32_t *owner, uint32_t *held) {
@@ -49,6 +60,7 @@ static bool measure_inside(Measure *m, SporeSpheresReport *report) {
   double deepest = 0, error = 0;
   size_t covered = 0;
   for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
+    if (!go_on(m, i, MEASURE_SAMPLES)) return false;
     double depth = spore_bvh_distance(m->solid->bvh, spore_vec3_load(m->points + 3 * i), NULL, NULL);
     deepest = fmax(deepest, depth);
     error += fabs(depth - fmax(m->value[i], 0));
@@ -75,7 +87,7 @@ static bool measure_outside(Measure *m, SporeSpheresReport *report) {
   }
   bool done = field_at(m, m->points, MEASURE_SAMPLES, NULL, NULL, held);
   double sum = 0;
-  for (size_t i = 0; done && i < MEASURE_SAMPLES; i++)
+  for (size_t i = 0; done && i < MEASURE_SAMPLES && (done = go_on(m, i, MEASURE_SAMPLES)); i++)
     if (!(spore_bvh_winding(m->solid->bvh, spore_vec3_load(m->points + 3 * i)) > 0.5))
       sum += 1. / (held[i] ? held[i] : 1);
   report->outside = sum / MEASURE_SAMPLES * m->ball_volume * (4 * M_PI / 3) / m->solid->volume;
@@ -165,14 +177,16 @@ static bool from_solid(Measure *m, const Projection *p, size_t known, Distances 
     if (p->way_value[i] <= m->on_ball) memcpy(m->points + 3 * known++, p->way_out + 3 * i, 3 * sizeof(double));
   SporeBvh *tree = known ? tree_of_points(m->points, known, error) : NULL;
   if (known && !tree) return false;
+  bool done = true;
   for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
     double distance = fabs(p->value[i]);
+    if (!(done = go_on(m, MEASURE_SAMPLES + i, 2 * MEASURE_SAMPLES))) break;
     if (p->value[i] > 0 && p->way_value[i] > m->on_ball && tree)
       distance = fmax(distance, spore_bvh_distance(tree, spore_vec3_load(p->surface + 3 * i), NULL, NULL));
     add_distance(distances, distance);
   }
   spore_bvh_free(tree);
-  return true;
+  return done;
 }
 
 static bool measure_surfaces(Measure *m, SporeSpheresReport *report, SporeError *error) {
@@ -180,8 +194,10 @@ static bool measure_surfaces(Measure *m, SporeSpheresReport *report, SporeError 
   size_t count = union_surface(m, &failed);
   if (failed) return false;
   Distances there = {0}, back = {0};
-  for (size_t i = 0; i < count; i++)
+  for (size_t i = 0; i < count; i++) {
+    if (!go_on(m, i, 2 * count)) return false;
     add_distance(&there, spore_bvh_distance(m->solid->bvh, spore_vec3_load(m->points + 3 * i), NULL, NULL));
+  }
   Projection projection;
   bool done = project_surface(m, &projection) && from_solid(m, &projection, count, &back, error);
   clear_projection(&projection);
@@ -199,10 +215,13 @@ static bool certify(const Measure *m, const SporeSpheresReport *report) {
          spore_balls_cover(m->solid, &m->balls);
 }
 
+static SporeProgressPart part_at(const SporeProgressPart *whole, double first, double share) {
+  return (SporeProgressPart){whole->whole, whole->first + whole->share * first, whole->share * share};
+}
+
 bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, SporeSpheresReport *report,
                          const SporeProgressPart *progress, SporeError *error) {
-  Measure m = {.solid = solid, .random = {MEASURE_SEED}, .capacity = 3 * MEASURE_SAMPLES};
-  const char *stage = _("Measuring");
+  Measure m = {.solid = solid, .random = {MEASURE_SEED}, .capacity = 3 * MEASURE_SAMPLES, .error = error};
   m.points = SPORE_NEW_ARRAY(double, 3 * m.capacity);
   m.value = SPORE_NEW_ARRAY(double, m.capacity);
   bool ready = m.points && m.value && spore_balls_create(&m.balls, set->count), done = ready;
@@ -213,11 +232,13 @@ bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, Spo
     m.ball_volume += pow(m.balls.r[i], 3);
     m.on_ball = fmax(m.on_ball, ON_BALL * m.balls.r[i]);
   }
-  bool going = true;
-  done = done && (going = spore_progress_part(progress, 0, stage, error)) && measure_inside(&m, report);
-  done = done && (going = spore_progress_part(progress, 0.4, stage, error)) && measure_outside(&m, report);
-  done = done && (going = spore_progress_part(progress, 0.6, stage, error)) && measure_surfaces(&m, report, error);
-  if (!done && going) spore_spheres_no_memory(error);
+  m.progress = part_at(progress, 0, 0.4);
+  done = done && go_on(&m, 0, 1) && measure_inside(&m, report);
+  m.progress = part_at(progress, 0.4, 0.2);
+  done = done && go_on(&m, 0, 1) && measure_outside(&m, report);
+  m.progress = part_at(progress, 0.6, 0.4);
+  done = done && go_on(&m, 0, 1) && measure_surfaces(&m, report, error);
+  if (!done && !m.cancelled) spore_spheres_no_memory(error);
   if (done) report->certified = certify(&m, report);
   spore_free(m.points);
   spore_free(m.value);

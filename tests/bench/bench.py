@@ -8,6 +8,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "e2e"))
+import authoring
 import collide
 import commands
 import editor
@@ -23,7 +24,7 @@ import surface
 import table
 import table1
 
-BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **fold.BENCHES, **solvers.BENCHES, **solids.BENCHES, **peers.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **editor.BENCHES}
+BENCHES = {**kernel.BENCHES, **sofa.BENCHES, **kernels.BENCHES, **collide.BENCHES, **surface.BENCHES, **fold.BENCHES, **solvers.BENCHES, **solids.BENCHES, **peers.BENCHES, **fluid.BENCHES, **table1.BENCHES, **commands.BENCHES, **authoring.BENCHES, **editor.BENCHES}
 
 
 def main():
@@ -31,7 +32,9 @@ def main():
     parser.add_argument("names", nargs="*", choices=[[], *BENCHES])
     parser.add_argument("--build", required=True, type=lambda p: pathlib.Path(p).resolve())
     parser.add_argument("--json")
+    parser.add_argument("--organs", metavar="FOLDER", help="meshes in millimetres for the bench `authoring`; without it, shapes of its own")
     options = parser.parse_args()
+    authoring.organs = options.organs
     rows = []
     table.show_head()
     with tempfile.TemporaryDirectory(prefix="spore-bench-") as folder:
