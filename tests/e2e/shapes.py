@@ -87,3 +87,17 @@ def bar(along=8, across=2, length=0.08, width=0.02):
     lines += ["%.9g %.9g %.9g 0" % v for v in vertices] + ["Tetrahedra", str(len(tetrahedra))]
     lines += ["%d %d %d %d 0" % tuple(i + 1 for i in t) for t in tetrahedra] + ["End"]
     return "\n".join(lines) + "\n"
+
+
+def tube(radius=0.005, length=0.08, rings=16, sectors=16):
+    """A closed straight tube along x."""
+    vertices = [(length * i / rings, radius * math.cos(2 * math.pi * k / sectors), radius * math.sin(2 * math.pi * k / sectors))
+                for i in range(rings + 1) for k in range(sectors)] + [(0, 0, 0), (length, 0, 0)]
+    first, last, end = len(vertices) - 2, len(vertices) - 1, rings * sectors
+    triangles = []
+    for k in range(sectors):
+        after = (k + 1) % sectors
+        triangles += [(first, after, k), (last, end + k, end + after)]
+        for a in range(0, end, sectors):
+            triangles += [(a + k, a + after, a + sectors + after), (a + k, a + sectors + after, a + sectors + k)]
+    return vertices, triangles

@@ -101,7 +101,7 @@ def soft_ball():
 def help_lists_commands():
     """help lists every command; no command and unknown ones are usage errors."""
     text = spore("--help").stdout
-    for name in ("run", "check", "plan", "import", "spheres", "surface", "tetrahedra", "models", "schema"):
+    for name in ("run", "check", "plan", "import", "centreline", "spheres", "surface", "tetrahedra", "models", "schema"):
         assert f"\n  {name} " in text
         assert "--json" in spore(name, "--help").stdout
     spore(status=2)
@@ -126,7 +126,7 @@ def help_explains_json():
     commands = [("run", soft_ball(), "--steps", 20), ("run", grasper(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
                 ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("models", "--materials"), ("schema",),
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
-                ("surface", "ball.off", "--nodes", 50)]
+                ("surface", "ball.off", "--nodes", 50), ("centreline", file("told.off", shapes.off(*shapes.tube())))]
     commands += [("tetrahedra", "ball.off", "--cells", 100)]
     commands += [("render", soft_ball(), "-o", "told.png")] if "render" in FEATURES else []
     for command in commands:
@@ -729,6 +729,27 @@ def spheres_series():
     refuses("spheres", "ball.off", "--count", "4", "--svg", "s.svg", says=["--counts"])
     refuses("spheres", "ball.off", "--counts", "4", "--count", 4, says=["give one of them"])
     refuses("spheres", "ball.off", "--counts", "2", "--svg", "ball.off", says=["ball.off", "input"])
+
+
+@check
+def centreline_command():
+    """centreline writes the middle line of a tube with its radius, whole or between two ends, and says what is no tube."""
+    file("tube.off", shapes.off(*shapes.tube()))
+    answer = report("centreline", "tube.off", "--points", 9, "-o", "tube.curve")
+    assert answer["points"] == 9 and abs(answer["length"] - 0.08) < 0.001 and abs(answer["radius"]["max"] - 0.005) < 0.0003
+    assert answer["branches"] == 0 and answer["side_branches"] == [] and answer["outside"] == 0 and answer["components"] == 1
+    rows = [[float(word) for word in line.split()] for line in (WORK / "tube.curve").read_text().splitlines() if line[0] != "#"]
+    assert len(rows) == 9 and all(abs(y) < 2e-4 and abs(z) < 2e-4 for _, y, z, _ in rows)
+    answer = report("centreline", "tube.off", "--ends", "0.02,-0.004,0", "0.06,0,-0.001")
+    assert abs(answer["length"] - 0.04) < 0.001
+    file("ball.off", shapes.off(*shapes.sphere()))
+    refuses("centreline", "ball.off", "-o", "ball.curve", says=["ball.off", "not a tube"])
+    assert not (WORK / "ball.curve").exists()
+    refuses("centreline", "tube.off", "--ends", "0.02,-0.004", "0.06,0,0", says=["--ends", "X,Y,Z"])
+    refuses("centreline", "tube.off", "--ends", "0.02,0,0", "-0.06,0,0", says=["end 2", "outside"])
+    refuses("centreline", "tube.off", "--points", 5, "--tolerance", 0.1, says=["--points", "--tolerance"])
+    refuses("centreline", "tube.off", "--points", 1, says=["1 points"])
+    refuses("centreline", "tube.off", "-o", "tube.off", says=["tube.off", "input"])
 
 
 @check

@@ -1,0 +1,166 @@
+/* spore centreline: the middle line of a tubular organ. */
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "app/cli/cli.h"
+#include "core/base/number.h"
+#include "core/generate/centreline.h"
+#include "core/io/mesh_import.h"
+#include "core/io/scene_xml.h"
+
+static void report_branches(SporeCli *cli, const SporeCentrelineReport *report) {
+  spore_cli_count(cli, "branches", (gint64)report->branches);
+  spore_cli_open_array(cli, "side_branches");
+  for (gsize i = 0; i < MIN(report->branches, SPORE_CENTRELINE_NAMED); i++) {
+    const SporeCentrelineBranch *branch = &report->branch[i];
+    spore_cli_open(cli, NULL);
+    spore_cli_number(cli, "from", branch->from);
+    spore_cli_number(cli, "length", branch->length);
+    spore_cli_open_array(cli, "end");
+    for (int k = 0; k < 3; k++) spore_cli_number(cli, NULL, branch->end[k]);
+    spore_cli_close_array(cli);
+    spore_cli_text(cli, "kind", branch->returns ? "loop" : "branch");
+    spore_cli_close(cli);
+    spore_cli_say(cli,
+                  branch->returns ? _("left out: a loop at %.4g m of the line, to %.4g m off it (%.4g,%.4g,%.4g)\n")
+                                  : _("left out: a branch at %.4g m of the line, %.4g m long, to %.4g,%.4g,%.4g\n"),
+                  branch->from, branch->length, branch->end[0], branch->end[1], branch->end[2]);
+  }
+  spore_cli_close_array(cli);
+}
+
+static void report(SporeCli *cli, const SporeCurve *curve, const SporeCentrelineReport *report) {
+  spore_cli_count(cli, "points", (gint64)curve->count);
+  spore_cli_number(cli, "length", report->length);
+  spore_cli_open(cli, "radius");
+  spore_cli_number(cli, "mean", report->radius_mean);
+  spore_cli_number(cli, "min", report->radius_min);
+  spore_cli_number(cli, "max", report->radius_max);
+  spore_cli_close(cli);
+  spore_cli_count(cli, "components", (gint64)report->components);
+  spore_cli_number(cli, "share", report->share);
+  spore_cli_number(cli, "cover", report->cover);
+  spore_cli_number(cli, "inner_wall", report->inner_wall);
+  spore_cli_number(cli, "offset", report->offset);
+  spore_cli_number(cli, "outside", report->outside);
+  spore_cli_number(cli, "approach", report->approach);
+  spore_cli_number(cli, "seconds", report->seconds);
+  spore_cli_say(cli,
+                _("%zu points, %.4g m long, radius %.3g m (%.3g to %.3g), %.2f radii off the middle of its sections, "
+                  "%.0f %% of the organ around it, %.2f s\n"),
+                curve->count, report->length, report->radius_mean, report->radius_min, report->radius_max,
+                report->offset, 100 * report->cover, report->seconds);
+  if (report->components > 1)
+    spore_cli_say(cli, _("the organ is in %zu pieces; the line is that of the largest, %.1f %% of it\n"),
+                  report->components, 100 * report->share);
+  if (report->inner_wall > 0)
+    spore_cli_say(cli, _("the organ has a lumen, which counts as inside: %.0f %% of the surface is its wall\n"),
+                  100 * report->inner_wall);
+  if (report->approach < 1) spore_cli_say(cli, _("loops of the organ touch: they overlap as tubes of its radius\n"));
+  report_branches(cli, report);
+}
+
+static int generate(SporeCli *cli, const char *file, const SporeCentrelineOptions *options, const char *unit,
+                    const char *frame, const char *output) {
+  GError *error = NULL;
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeTriangleMesh mesh = {0};
+  SporeCurve curve = {0};
+  SporeCentrelineReport figures = {0};
+  gboolean done = (!output || spore_cli_keeps(output, file, &error)) &&
+                  spore_cli_read_mesh(cli, file, unit, frame, &mesh, NULL, NULL, NULL, &error);
+  if (done && !spore_centreline_from_mesh(&mesh, options, &curve, &figures, spore_cli_progress(cli), &fault)) {
+    spore_error_at(&fault, file);
+    done = spore_error_propagate(&fault, &error);
+  }
+  if (done && output) {
+    gsize size = 0;
+    g_autofree char *text = spore_curve_format(&curve, &size);
+    done = spore_write_file(output, text, size, &error);
+  }
+  if (done) report(cli, &curve, &figures);
+  spore_triangle_mesh_clear(&mesh);
+  spore_curve_clear(&curve);
+  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
+/* "X,Y,Z" */
+static gboolean parse_place(const char *text, double place[3]) {
+  g_auto(GStrv) parts = g_strsplit(text, ",", -1);
+  if (g_strv_length(parts) != 3) return FALSE;
+  for (int k = 0; k < 3; k++) {
+    gsize size = strlen(parts[k]);
+    if (size == 0 || spore_number_read(parts[k], size, &place[k]) != size) return FALSE;
+  }
+  return TRUE;
+}
+
+/* --ends takes two words, the second of which may begin with a minus: they are joined into one. */
+static void join_ends(int *argc, char **argv) {
+  for (int i = 1; i + 2 < *argc; i++) {
+    if (!g_str_equal(argv[i], "--ends") || !strchr(argv[i + 2], ',')) continue;
+    argv[i + 1] = g_strdup_printf("%s %s", argv[i + 1], argv[i + 2]);
+    memmove(argv + i + 2, argv + i + 3, (size_t)(*argc - i - 2) * sizeof *argv);
+    (*argc)--;
+    return;
+  }
+}
+
+static gboolean parse_ends(const char *text, SporeCentrelineOptions *options) {
+  g_auto(GStrv) words = g_strsplit(text, " ", -1);
+  options->ends_given = true;
+  return g_strv_length(words) == 2 && parse_place(words[0], options->ends[0]) &&
+         parse_place(words[1], options->ends[1]);
+}
+
+int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
+  static const SporeReportMember members[] = {
+      {"points", N_("of the curve")},
+      {"length", N_("of the line, m")},
+      {"radius", N_("distance to the surface, m: mean, min, max")},
+      {"components", N_("pieces of the organ; the line is that of the largest")},
+      {"share", N_("of the organ's volume, of the piece that has the line")},
+      {"cover", N_("share of that piece within two radii of the line")},
+      {"inner_wall", N_("share of the surface that is the wall of a lumen; the lumen counts as inside")},
+      {"offset", N_("mean distance of the line from the middle of its sections, of the radius (an estimate)")},
+      {"outside", N_("share of the points that lie outside of the organ")},
+      {"approach", N_("least distance of two loops, of the sum of their radii; below 1 they touch, null: no loops")},
+      {"seconds", N_("that it took")},
+      {"branches", N_("number of branches left out: the line takes the longest way")},
+      {"side_branches", N_("the longest of them: from (m along the line), length (m), end (m), kind (branch or loop)")},
+      {NULL, NULL}};
+  static const SporeCommandInfo info = {
+      "centreline", "MESH", N_("Finds the middle line of a tubular organ, with its radius."), 1, 1, members};
+  char *unit = NULL, *frame = NULL, *output = NULL, *ends = NULL;
+  gint64 points = 0;
+  double tolerance = 0;
+  const GOptionEntry entries[] = {
+      {"points", 'n', 0, G_OPTION_ARG_INT64, &points, N_("Number of points, evenly along the line"), "N"},
+      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &tolerance,
+       N_("How far straight pieces may leave the line, of the radius: as many points as that takes (default 0.02)"),
+       "D"},
+      {"ends", 0, 0, G_OPTION_ARG_STRING, &ends,
+       N_("Ends of the line, in metres and SPORE's axes (default: the ends of the organ)"), "X,Y,Z X,Y,Z"},
+      {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
+      {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, x y z r a line"), "F.curve"},
+      G_OPTION_ENTRY_NULL};
+  join_ends(&argc, argv);
+  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  if (status == SPORE_EXIT_DONE) {
+    SporeCentrelineOptions options = {.points = (size_t)MAX(points, 0), .tolerance = tolerance};
+    if (points < 0 || (points > 0 && tolerance != 0))
+      status = spore_cli_usage(_("spore centreline: neither number of points nor tolerance is one; expected either "
+                                 "--points 2 to %u or --tolerance above 0 and below 1; give one of them"),
+                               SPORE_CENTRELINE_MOST_POINTS);
+    else if (ends && !parse_ends(ends, &options))
+      status =
+          spore_cli_usage(_("spore centreline: --ends '%s' is not two places; expected X,Y,Z X,Y,Z in metres"), ends);
+    else status = generate(cli, argv[1], &options, unit, frame, output);
+  }
+  g_free(unit);
+  g_free(frame);
+  g_free(output);
+  g_free(ends);
+  return status;
+}
