@@ -218,8 +218,10 @@ static void draw_mark(Text *text, const Axis *x, const Axis *y, const SporePlotP
   double at = place(x, panel->mark_x);
   bool right = at < (x->from + x->to) / 2;
   add_line(text, at, y->from, at, y->to, " stroke=\"#444444\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"");
-  add_text(text, at + (right ? 6 : -6), y->to + 14,
-           right ? " text-anchor=\"start\" class=\"halo\"" : " text-anchor=\"end\" class=\"halo\"", panel->mark_label);
+  /* Twice: white and thick beneath, so that it is legible over lines. */
+  const char *ways[2][2] = {{" stroke=\"white\" stroke-width=\"5\" text-anchor=\"start\"", " text-anchor=\"start\""},
+                            {" stroke=\"white\" stroke-width=\"5\" text-anchor=\"end\"", " text-anchor=\"end\""}};
+  for (int k = 0; k < 2; k++) add_text(text, at + (right ? 6 : -6), y->to + 14, ways[!right][k], panel->mark_label);
 }
 
 static bool draw_panel(Text *text, const SporePlotPanel *panel, double left) {
@@ -278,7 +280,7 @@ static void open_document(Text *text, const char *title, double width) {
   add(text, " ");
   add_number(text, HEIGHT);
   add(text, "\" font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"12\" fill=\"#222222\">\n"
-            "<style>.halo{paint-order:stroke;stroke:white;stroke-width:4px}</style>\n<title>");
+            "<title>");
   add_escaped(text, title, strlen(title));
   add(text, "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n");
   add_text(text, LEFT, 28, " font-size=\"16\" font-weight=\"bold\"", title);
