@@ -222,8 +222,9 @@ int spore_command_import(SporeCli *cli, int argc, char **argv) {
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       .name = "import",
-      .arguments = "MESH...",
-      .summary = N_("Makes a new scene from organ meshes, each a body. Operations on the meshes are done in the order "
+      .arguments = "MESH|LABELS...",
+      .summary = N_("Makes a new scene from organ meshes, each a body, or label maps (NIfTI-1, NRRD), each label a "
+                    "body. Operations on the meshes are done in the order "
                     "in which they are listed below, whatever the order of the options."),
       .minimum = 1,
       .maximum = 10000,

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/tetrahedra_labels.h"
 #include "core/generate/tetrahedra.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
@@ -114,6 +115,48 @@ static int parse_regions(char **texts, SporeTetrahedraRegion *regions, SporeTetr
   return SPORE_EXIT_DONE;
 }
 
+/* Of a label map, which says its own unit and axes. */
+static int generate_labels(SporeCli *cli, const char *file, GBytes *content, const SporeTetrahedraOptions *options,
+                           const char *labels, const char *output) {
+  GError *error = NULL;
+  SporeTetrahedralMesh mesh = {0};
+  SporeLabelTetrahedraReport figures = {0};
+  gboolean done =
+      (!output || spore_cli_keeps(output, file, &error)) &&
+      spore_cli_label_tetrahedra(cli, file, content, labels, options->cells, options->size, &mesh, &figures, &error);
+  if (done && output) {
+    gsize size = 0;
+    g_autofree char *text = formatter_of(output)(&mesh, &size);
+    done = spore_write_file(output, text, size, &error);
+  }
+  if (done) spore_cli_report_labels(cli, &mesh, &figures);
+  g_clear_pointer(&figures.labels, g_array_unref);
+  spore_tetrahedral_mesh_clear(&mesh);
+  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
+/* Of a surface or a label map, whichever the file is. */
+static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,
+                        const char *frame, const char *labels, const char *output) {
+  GError *error = NULL;
+  g_autoptr(GBytes) content = spore_cli_read_file(file, _("a mesh or a label map"), &error);
+  if (!content) return spore_cli_fail(error);
+  gsize size;
+  const void *bytes = g_bytes_get_data(content, &size);
+  gboolean is_map = spore_label_map_is(file, bytes, size);
+  if (is_map && (unit || frame))
+    return spore_cli_usage(_("spore tetrahedra: --unit and --frame are for surfaces; a label map says both in its "
+                             "header; leave them out"));
+  if (is_map && (options->method != SPORE_TETRAHEDRA_METHODS || options->tolerance > 0 || options->curvature > 0 ||
+                 options->fill || options->gap > 0 || options->region_count > 0))
+    return spore_cli_usage(_("spore tetrahedra: --method, --tolerance, --curvature, --region, --fill and --gap are for "
+                             "surfaces; %s is a label map; leave them out"),
+                           file);
+  if (is_map) return generate_labels(cli, file, content, options, labels, output);
+  if (labels) return spore_cli_usage(_("spore tetrahedra: --labels is for label maps; %s is none; leave it out"), file);
+  return generate(cli, file, options, unit, frame, output);
+}
+
 /* What the options must be; prints its own message. */
 static int check(const SporeTetrahedraOptions *options, gint64 cells, const char *output) {
   if (cells < 0 || cells > SPORE_TETRAHEDRA_CELLS || (cells == 0) == !(options->size > 0))
@@ -143,14 +186,23 @@ static const SporeReportMember members[] = {
     {"volume_change", N_("share of the volume that was gained")},
     {"volume", N_("m^3: given (where the winding number is over one half), result, change")},
     {"area", N_("of what bounds it, m^2: given, result, change")},
-    {"method", N_("direct, repaired, wrapped or voxels: what the surface needed")},
+    {"method", N_("direct, repaired, wrapped or voxels: what the surface needed; labels: of a label map")},
     {"refused", N_("methods that were tried before: method, reason")},
     {"seconds", N_("that it took")},
+    {"shared_faces", N_("of a label map: between two organs")},
+    {"labels", N_("of a label map, of each organ: label, cells, volume_m3, voxel_volume_m3, volume_change, "
+                  "min_dihedral_deg")},
     {NULL, NULL}};
 
 int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
-  static const SporeCommandInfo info = {"tetrahedra", "MESH", N_("Fills a mesh with tetrahedra."), 1, 1, members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *method = NULL, **regions = NULL;
+  static const SporeCommandInfo info = {"tetrahedra",
+                                        "MESH|LABELS",
+                                        N_("Fills a mesh, or all organs of a label map (NIfTI-1, NRRD), with "
+                                           "tetrahedra; organs share the faces where they touch."),
+                                        1,
+                                        1,
+                                        members};
+  char *unit = NULL, *frame = NULL, *output = NULL, *method = NULL, *labels = NULL, **regions = NULL;
   gint64 cells = 0;
   SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_METHODS};
   const GOptionEntry entries[] = {
@@ -171,6 +223,8 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
        N_("Closes openings narrower than this, m, by wrapping: with --fill, the lumen behind them is filled too"), "D"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
+      {"labels", 'l', 0, G_OPTION_ARG_STRING, &labels, N_("Labels wanted of a label map (default: all above 0)"),
+       "1,2,5"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write: .vtu, .msh or .mesh"), "F"},
       G_OPTION_ENTRY_NULL};
   SporeTetrahedraRegion balls[SPORE_TETRAHEDRA_REGIONS];
@@ -184,11 +238,12 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
   if (status == SPORE_EXIT_DONE) status = parse_regions(regions, balls, &options);
   if (status == SPORE_EXIT_DONE) status = check(&options, cells, output);
   options.cells = (size_t)MAX(cells, 0);
-  if (status == SPORE_EXIT_DONE) status = generate(cli, argv[1], &options, unit, frame, output);
+  if (status == SPORE_EXIT_DONE) status = generate_any(cli, argv[1], &options, unit, frame, labels, output);
   g_free(unit);
   g_free(frame);
   g_free(output);
   g_free(method);
+  g_free(labels);
   g_strfreev(regions);
   return status;
 }

@@ -6,10 +6,12 @@
 #include <sys/stat.h>
 
 #include "core/base/memory.h"
+#include "core/generate/label_tetrahedra.h"
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/mesh/edit.h"
 
+#define LABEL_ROUNDS 10 /* of smoothing */
 #define MOST_BYTES ((goffset)1 << 30)
 
 typedef struct Intake {
@@ -107,6 +109,35 @@ static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFi
   return done;
 }
 
+/* A body for each label. Staircases of voxels are smoothed away; the volume stays. */
+static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
+  SporeProgress progress = {.report = report_share, .data = intake};
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeLabelMap map;
+  if (!spore_label_map_decode(file->file, bytes, size, &map, &progress, error)) return FALSE;
+  g_autoptr(GArray) labels = NULL, voxels = NULL;
+  g_autofree char *stem = stem_of(file->file);
+  spore_label_map_list(&map, &labels, &voxels);
+  gboolean done = labels->len > 0 && labels->len <= SPORE_IMPORT_BODIES_MAXIMUM;
+  if (!done)
+    spore_error_raise(error, SPORE_ERROR_INPUT, file->file,
+                      _("it has %u labels above 0; expected 1 to %u; is it a segmentation?"), labels->len,
+                      SPORE_IMPORT_BODIES_MAXIMUM);
+  for (guint i = 0; done && i < labels->len; i++) {
+    guint16 label = g_array_index(labels, guint16, i);
+    SporeTriangleMesh surface = {0};
+    g_autofree char *name = g_strdup_printf("%s-%u", stem, label);
+    done = (spore_label_surface(&map, label, &surface, &progress, &failure) &&
+            spore_triangle_mesh_smooth(&surface, LABEL_ROUNDS, &progress, &failure)) ||
+           spore_error_propagate(&failure, error);
+    done = done && spore_mesh_tidy(name, &surface, error);
+    if (done) add_body(intake, name, file, &surface, true);
+    else spore_triangle_mesh_clear(&surface);
+  }
+  spore_label_map_clear(&map);
+  return done;
+}
+
 /* One file's bodies. */
 static gboolean add_file(Intake *intake, const char *path, GError **error) {
   SporeImportDivision division = intake->options->division;
@@ -118,6 +149,11 @@ static gboolean add_file(Intake *intake, const char *path, GError **error) {
   if (!file->content) return FALSE;
   gsize size;
   const void *bytes = g_bytes_get_data(file->content, &size);
+  if (spore_label_map_is(path, bytes, size)) {
+    file->frame_said = -1;
+    file->overruled = intake->options->frame > 0;
+    return add_labels(intake, file, bytes, size, error);
+  }
   file->frame_said = spore_mesh_frame_hint(bytes, size);
   file->frame = intake->options->frame >= 0 ? intake->options->frame : MAX(file->frame_said, 0);
   g_autoptr(GPtrArray) parts = spore_mesh_decode_parts(path, bytes, size, intake->options->unit, file->frame,
@@ -217,6 +253,8 @@ char *spore_import_remark(const SporeImportFile *file) {
   if (file->frame_said >= 0 && file->frame_said != file->frame)
     return g_strdup_printf(_("the file says that its axes are %s, and %s was taken; leave the axes to the file"),
                            spore_mesh_frames[file->frame_said], spore_mesh_frames[file->frame]);
+  if (file->overruled)
+    return g_strdup(_("the volume's header says its unit and axes, and they were taken; leave them to the file"));
   if (!file->joined) return NULL;
   return g_strdup_printf(_("its %u parts were joined into one body; split it to have a body of each"), file->parts);
 }

@@ -32,6 +32,7 @@ typedef struct SporeImportFile {
   int frame_said; /* by the file itself, or -1 */
   guint parts;    /* that the file names */
   bool joined;    /* the parts, without being asked to */
+  bool overruled; /* a label map, whose header says unit and axes: others were given */
 } SporeImportFile;
 
 /* A body to be. */
@@ -51,15 +52,16 @@ typedef struct SporeImport {
 
 #define SPORE_IMPORT_BODIES_MAXIMUM 500u
 
-/* files: NULL-terminated paths of regular files. NULL with an error; cancelled by progress. Any thread. */
+/* files: NULL-terminated paths of regular files: meshes, or label maps, of which each label becomes a body (its
+ * surface, smoothed at the same volume). NULL with an error; cancelled by progress. Any thread. */
 SporeImport *spore_import_read(char *const *files, const SporeImportOptions *options, const SporeProgress *progress,
                                GError **error);
 void spore_import_free(SporeImport *import);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeImport, spore_import_free)
 
 /* A mesh asset and a body that shows it for each: a file's own content, unit and frame where nothing was changed, else
- * OFF in metres and SPORE's axes, named by its content. One undo step is the caller's to make (a group): on FALSE what was inserted stays.
- * *bodies (may be NULL): the objects, GPtrArray. */
+ * OFF in metres and SPORE's axes, named by its content. One undo step is the caller's to make (a group): on FALSE what
+ * was inserted stays. *bodies (may be NULL): the objects, GPtrArray. */
 gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, int unit, GPtrArray **bodies,
                              GError **error);
 

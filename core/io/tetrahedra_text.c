@@ -130,6 +130,10 @@ gboolean spore_medit_parse(const char *place, const char *text, gsize size, Spor
   return done;
 }
 
+static guint label_of(const SporeTetrahedralMesh *mesh, gsize cell, guint otherwise) {
+  return mesh->labels ? mesh->labels[cell] : otherwise;
+}
+
 static char *finish(GString *text, gsize *size) {
   if (size) *size = text->len;
   return g_string_free(text, FALSE);
@@ -142,7 +146,8 @@ char *spore_medit_format(const SporeTetrahedralMesh *mesh, gsize *size) {
   g_string_append_printf(text, "Tetrahedra\n%" G_GSIZE_FORMAT "\n", mesh->tetrahedron_count);
   for (gsize i = 0; i < mesh->tetrahedron_count; i++) {
     const guint32 *corner = mesh->tetrahedra + 4 * i;
-    g_string_append_printf(text, "%u %u %u %u 0\n", corner[0] + 1, corner[1] + 1, corner[2] + 1, corner[3] + 1);
+    g_string_append_printf(text, "%u %u %u %u %u\n", corner[0] + 1, corner[1] + 1, corner[2] + 1, corner[3] + 1,
+                           label_of(mesh, i, 0));
   }
   g_string_append(text, "End\n");
   return finish(text, size);
@@ -158,8 +163,8 @@ char *spore_gmsh_format(const SporeTetrahedralMesh *mesh, gsize *size) {
   g_string_append_printf(text, "$EndNodes\n$Elements\n%" G_GSIZE_FORMAT "\n", mesh->tetrahedron_count);
   for (gsize i = 0; i < mesh->tetrahedron_count; i++) { /* number, type 4 = tetrahedron, two tags, corners */
     const guint32 *corner = mesh->tetrahedra + 4 * i;
-    g_string_append_printf(text, "%" G_GSIZE_FORMAT " 4 2 1 1 %u %u %u %u\n", i + 1, corner[0] + 1, corner[1] + 1,
-                           corner[2] + 1, corner[3] + 1);
+    g_string_append_printf(text, "%" G_GSIZE_FORMAT " 4 2 %u %u %u %u %u %u\n", i + 1, label_of(mesh, i, 1),
+                           label_of(mesh, i, 1), corner[0] + 1, corner[1] + 1, corner[2] + 1, corner[3] + 1);
   }
   g_string_append(text, "$EndElements\n");
   return finish(text, size);
@@ -183,6 +188,13 @@ char *spore_vtu_format(const SporeTetrahedralMesh *mesh, gsize *size) {
     g_string_append_printf(text, "%" G_GSIZE_FORMAT "\n", 4 * (i + 1));
   g_string_append(text, "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n");
   for (gsize i = 0; i < mesh->tetrahedron_count; i++) g_string_append(text, "10\n"); /* VTK_TETRA */
-  g_string_append(text, "</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  g_string_append(text, "</DataArray>\n</Cells>\n");
+  if (mesh->labels) {
+    g_string_append(text,
+                    "<CellData Scalars=\"label\">\n<DataArray type=\"UInt32\" Name=\"label\" format=\"ascii\">\n");
+    for (gsize i = 0; i < mesh->tetrahedron_count; i++) g_string_append_printf(text, "%u\n", mesh->labels[i]);
+    g_string_append(text, "</DataArray>\n</CellData>\n");
+  }
+  g_string_append(text, "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   return finish(text, size);
 }

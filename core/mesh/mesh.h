@@ -20,6 +20,7 @@ typedef struct SporeTetrahedralMesh {
   size_t vertex_count, tetrahedron_count;
   double *vertices;     /* vertex_count x 3 */
   uint32_t *tetrahedra; /* tetrahedron_count x 4, positive volume: (b-a) x (c-a) . (d-a) > 0 */
+  uint32_t *labels;     /* tetrahedron_count: of which organ each is; NULL: of one */
 } SporeTetrahedralMesh;
 
 typedef struct SporeSphereSet {
@@ -100,8 +101,15 @@ double spore_triangle_mesh_share_area(const SporeTriangleMesh *mesh, double *are
 bool spore_edges_of_triangles(const uint32_t *triangles, size_t count, uint32_t **edges, size_t *edge_count);
 bool spore_edges_of_tetrahedra(const uint32_t *tetrahedra, size_t count, uint32_t **edges, size_t *edge_count);
 
+/* The corners of the face opposite each corner of a tetrahedron, counter-clockwise seen from outside. */
+extern const uint8_t spore_tetrahedron_faces[4][3];
+
 /* Outer triangles of a tetrahedral mesh, outward, indexing its vertices. *triangles from spore_allocate. */
 bool spore_tetrahedral_mesh_boundary(const SporeTetrahedralMesh *mesh, uint32_t **triangles, size_t *triangle_count);
+
+/* For each tetrahedron those across its faces, in the order of the corners opposite; UINT32_MAX: none.
+ * tetrahedron_count x 4, from spore_allocate. */
+bool spore_tetrahedral_mesh_neighbours(const SporeTetrahedralMesh *mesh, uint32_t **neighbours);
 
 typedef struct SporeTetrahedraQuality {
   double volume;                              /* m^3 */

@@ -21,6 +21,7 @@ bool spore_tetrahedral_mesh_allocate(SporeTetrahedralMesh *mesh, size_t vertices
 void spore_tetrahedral_mesh_clear(SporeTetrahedralMesh *mesh) {
   spore_free(mesh->vertices);
   spore_free(mesh->tetrahedra);
+  spore_free(mesh->labels);
   *mesh = (SporeTetrahedralMesh){0};
 }
 
@@ -58,11 +59,10 @@ bool spore_tetrahedral_mesh_validate(const SporeTetrahedralMesh *mesh, SporeErro
   return true;
 }
 
-/* The faces of a tetrahedron, outward. */
-static const uint8_t faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+const uint8_t spore_tetrahedron_faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 static void face_of(const uint32_t *tetrahedra, uint32_t face, uint32_t corner[3]) {
-  for (int k = 0; k < 3; k++) corner[k] = tetrahedra[4 * (size_t)(face / 4) + faces[face % 4][k]];
+  for (int k = 0; k < 3; k++) corner[k] = tetrahedra[4 * (size_t)(face / 4) + spore_tetrahedron_faces[face % 4][k]];
 }
 
 static void order_three(uint32_t v[3]) {
@@ -125,4 +125,22 @@ bool spore_tetrahedral_mesh_boundary(const SporeTetrahedralMesh *mesh, uint32_t 
   *triangles = result;
   *triangle_count = kept;
   return true;
+}
+
+bool spore_tetrahedral_mesh_neighbours(const SporeTetrahedralMesh *mesh, uint32_t **neighbours) {
+  size_t count = 4 * mesh->tetrahedron_count;
+  uint64_t *keys = SPORE_NEW_ARRAY(uint64_t, count);
+  uint32_t *order = SPORE_NEW_ARRAY(uint32_t, count), *result = SPORE_NEW_ARRAY(uint32_t, count);
+  bool done = keys && order && result && sort_faces(mesh->tetrahedra, order, keys, count);
+  for (size_t i = 0; done && i < count; i++) result[i] = UINT32_MAX;
+  for (size_t i = 0; done && i + 1 < count; i++)
+    if (same_face(mesh->tetrahedra, order[i], order[i + 1])) {
+      result[order[i]] = order[i + 1] / 4;
+      result[order[i + 1]] = order[i] / 4;
+    }
+  spore_free(keys);
+  spore_free(order);
+  if (!done) spore_free(result);
+  *neighbours = done ? result : NULL;
+  return done;
 }

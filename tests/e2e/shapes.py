@@ -1,4 +1,5 @@
 """Small meshes for the end-to-end tests, made here so that they need no file."""
+import gzip
 import json
 import math
 import struct
@@ -53,6 +54,29 @@ def glb(**parts):
     text += b" " * (-len(text) % 4)
     return (struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(blob)) + struct.pack("<I4s", len(text), b"JSON") + text +
             struct.pack("<I4s", len(blob), b"BIN\0") + blob)
+
+
+def labels(size, label_at):
+    """Bytes of a volume of uint8, the first index fastest: label_at(i, j, k)."""
+    return bytes(label_at(i, j, k) for k in range(size[2]) for j in range(size[1]) for i in range(size[0]))
+
+
+def nifti(size, voxels, spacing=(1, 1, 1), origin=(0, 0, 0), datatype=2, bits=8, sform=None, order="<"):
+    """NIfTI-1 in one file, voxels in mm: sform rows, else qform without a turn."""
+    rows = sform or [0] * 12
+    head = struct.pack(order + "i35xB8h3f4h8f3fhBB4f2i", 348, 0, 3, *size, 1, 1, 1, 1, 0, 0, 0, 0, datatype, bits, 0, 1, *spacing, 0, 0, 0, 0,
+                       352, 1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0)
+    head += struct.pack("80s24s", b"", b"") + struct.pack(order + "2h6f12f", 0 if sform else 1, 1 if sform else 0, 0, 0, 0, *origin, *rows)
+    return head + struct.pack("16s4s4x", b"", b"n+1") + voxels
+
+
+def nrrd(size, voxels, spacing=(1, 1, 1), origin=(0, 0, 0), space="left-posterior-superior", encoding="raw", **fields):
+    """NRRD with attached data of uint8, in mm."""
+    lines = {"type": "uint8", "dimension": "3", "space": space, "sizes": "%d %d %d" % tuple(size),
+             "space directions": "(%g,0,0) (0,%g,0) (0,0,%g)" % tuple(spacing), "encoding": encoding,
+             "space origin": "(%g,%g,%g)" % tuple(origin), **fields}
+    text = "NRRD0004\n# made by a test\n" + "".join(f"{name}: {value}\n" for name, value in lines.items() if value is not None) + "\n"
+    return text.encode() + (gzip.compress(voxels) if encoding == "gzip" else voxels)
 
 
 def off(vertices, triangles):

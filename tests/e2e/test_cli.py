@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 """The command line from end to end, as the contract has it. test_cli.py SPORE FEATURES: FEATURES is a comma-separated
-list of what the build holds (assimp, cgal, render)."""
+list of what the build holds (assimp, cgal, render, volumes)."""
+import gzip
 import json
+import math
 import os
 import pathlib
 import re
 import resource
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -128,6 +131,9 @@ def help_explains_json():
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
                 ("surface", "ball.off", "--nodes", 50), ("centreline", file("told.off", shapes.off(*shapes.tube())))]
     commands += [("tetrahedra", "ball.off", "--cells", 100)]
+    if "volumes" in FEATURES:
+        size, voxels = two_boxes()
+        commands.append(("tetrahedra", file("told.nrrd", shapes.nrrd(size, voxels)).name, "--cells", 100))
     commands += [("render", soft_ball(), "-o", "told.png")] if "render" in FEATURES else []
     for command in commands:
         answer = json.loads(spore(*command, "--json", status=(0, 1)).stdout)
@@ -248,6 +254,136 @@ def import_doubts_unit_and_axes():
     assert said["meshes"][0]["frame"] == "LPS" and 'frame="LPS"' in (WORK / "doubt/said.spore").read_text()
     other = report("import", "slicer.off", "--frame", "RAS", "-o", "doubt/other.spore")
     assert other["meshes"][0]["frame"] == "RAS" and any("LPS" in d["message"] for d in other["diagnostics"])
+
+
+def medit(name):
+    """(vertices, cells as (corners, label)) of a .mesh file."""
+    words = iter((WORK / name).read_text().split())
+    vertices, cells = [], []
+    for word in words:
+        if word == "Vertices":
+            vertices = [tuple(float(next(words)) for _ in range(4))[:3] for _ in range(int(next(words)))]
+        elif word == "Tetrahedra":
+            cells = [(tuple(int(next(words)) - 1 for _ in range(4)), int(next(words))) for _ in range(int(next(words)))]
+    return vertices, cells
+
+
+def volume_of(vertices, corners):
+    a, b, c, d = (vertices[i] for i in corners)
+    u, v, w = ([q - p for p, q in zip(a, x)] for x in (b, c, d))
+    return (u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0])) / 6
+
+
+def two_boxes():
+    """Two boxes of 16 x 16 x 16 voxels of 1 x 2 x 0.5 mm that share a face; 32 x 16 x 16 voxels from (4, 4, 4)."""
+    size = (40, 24, 24)
+    return size, shapes.labels(size, lambda i, j, k: (1 if i < 20 else 2) if 4 <= i < 36 and 4 <= j < 20 and 4 <= k < 20 else 0)
+
+
+@check
+def tetrahedra_of_a_label_map():
+    """Organs of a label map are meshed together: shared faces fit, each cell knows its label, volumes are those of the voxels."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without volumes")
+    size, voxels = two_boxes()
+    file("boxes.nii.gz", gzip.compress(shapes.nifti(size, voxels, spacing=(1, 2, 0.5), origin=(10, 20, 30))))
+    answer = report("tetrahedra", "boxes.nii.gz", "--cells", 2000, "-o", "boxes.mesh")
+    assert answer["min_dihedral_deg"] > 14.9 and abs(answer["tetrahedra"] / 2000 - 1) < 0.25 and answer["method"] == "labels"
+    vertices, cells = medit("boxes.mesh")
+    faces = {}
+    for corners, label in cells:
+        assert volume_of(vertices, corners) > 0
+        for k in range(4):
+            faces.setdefault(tuple(sorted(corners[:k] + corners[k + 1:])), []).append(label)
+    assert max(map(len, faces.values())) == 2
+    assert answer["shared_faces"] == sum(len(set(labels)) == 2 for labels in faces.values()) > 20
+    for row in answer["labels"]:
+        mine = [corners for corners, label in cells if label == row["label"]]
+        volume = sum(volume_of(vertices, corners) for corners in mine)
+        assert len(mine) == row["cells"] and abs(volume / row["volume_m3"] - 1) < 1e-6
+        assert abs(volume / 16 ** 3 / 1e-9 - 1) < 0.01 and abs(row["volume_change"]) < 0.01
+    # Axes: i to the right, j to the front (SPORE's -z), k up; the middle of voxel (0, 0, 0) at (10, 20, 30) mm.
+    for axis, (low, high) in enumerate(((13.5, 45.5), (31.75, 39.75), (-59, -27))):
+        at = [1000 * v[axis] for v in vertices]
+        assert abs(min(at) - low) < 1.5 and abs(max(at) - high) < 1.5, (axis, min(at), max(at))
+    one = report("tetrahedra", "boxes.nii.gz", "--cells", 500, "--labels", "2", "-o", "one.vtu")
+    assert [row["label"] for row in one["labels"]] == [2] and one["shared_faces"] == 0
+    assert 'Name="label"' in (WORK / "one.vtu").read_text()
+    spore("tetrahedra", "boxes.nii.gz", "--size", 0.004, "-o", "boxes.msh")
+    for arguments, says in ((("--labels", "7"), "label"), (("--labels", "1,x"), "x"), (("--unit", "mm"), "--unit")):
+        refuses("tetrahedra", "boxes.nii.gz", "--cells", 500, *arguments, says=[says])
+
+
+@check
+def label_maps_of_each_kind():
+    """NIfTI of both byte orders and kinds of numbers, NRRD raw and gzip: the same organs in the same place."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without volumes")
+    size, voxels = two_boxes()
+    wide = lambda order, kind: struct.pack(f"{order}{len(voxels)}{kind}", *voxels)
+    ras = [1, 0, 0, 10, 0, 2, 0, 20, 0, 0, .5, 30]
+    maps = {"q.nii": shapes.nifti(size, voxels, spacing=(1, 2, .5), origin=(10, 20, 30)),
+            "s.nii": shapes.nifti(size, wide("<", "h"), datatype=4, bits=16, sform=ras),
+            "big.nii": shapes.nifti(size, wide(">", "H"), datatype=512, bits=16, sform=ras, order=">"),
+            "f.nii": shapes.nifti(size, wide("<", "f"), datatype=16, bits=32, sform=ras),
+            "raw.nrrd": shapes.nrrd(size, voxels, spacing=(-1, -2, .5), origin=(-10, -20, 30)),
+            "gz.nrrd": shapes.nrrd(size, voxels, spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", encoding="gzip"),
+            "short.nrrd": shapes.nrrd(size, wide(">", "h"), spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", type="short", endian="big")}
+    texts = set()
+    for name, content in maps.items():
+        spore("tetrahedra", file(name, content), "--cells", 400, "-o", "same.mesh")
+        texts.add((WORK / "same.mesh").read_text())
+    assert len(texts) == 1
+
+
+@check
+def import_of_a_label_map():
+    """Each label becomes a body with a closed surface of its voxels' volume, nested ones with their hollow."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without volumes")
+    distance = lambda i, j, k: math.dist((i, j, k), (15.5, 15.5, 15.5))
+    voxels = shapes.labels((32, 32, 32), lambda i, j, k: 5 if distance(i, j, k) < 7 else 3 if distance(i, j, k) < 13 else 0)
+    file("nested.nrrd", shapes.nrrd((32, 32, 32), voxels, spacing=(2, 2, 2)))
+    answer = report("import", "nested.nrrd", "-o", "nested/nested.spore")
+    assert answer["bodies"] == ["nested-3", "nested-5"] and not answer["diagnostics"]
+    for mesh, label, pieces in zip(answer["meshes"], (3, 5), (2, 1)):
+        figures = mesh["as_read"]
+        assert figures["components"] == pieces and figures["boundary_edges"] == figures["nonmanifold_edges"] == 0
+        assert abs(figures["volume_m3"] / (voxels.count(label) * 8e-9) - 1) < 0.03, (figures, voxels.count(label))
+    told = report("import", "nested.nrrd", "--frame", "LPS", "-o", "nested/told.spore")
+    assert any("header" in d["message"] for d in told["diagnostics"])
+
+
+@check
+def bad_label_maps():
+    """Each bad label map gets one clear line and leaves no file."""
+    if "volumes" not in FEATURES:
+        refuses("tetrahedra", file("any.nii", b"x" * 400), "--cells", 100, says=["any.nii", "zlib1g-dev"])
+        raise Skip("built without volumes")
+    size, voxels = two_boxes()
+    good, nrrd = shapes.nifti(size, voxels), shapes.nrrd(size, voxels)
+    patch = lambda offset, form, *values: good[:offset] + struct.pack(form, *values) + good[offset + struct.calcsize(form):]
+    bombs = gzip.compress(good + bytes(1 << 20))
+    cases = {"cut.nii": (good[:-100], "cut short"), "head.nii": (good[:200], "cut short"), "magic.nii": (patch(344, "4s", b"ni1\0"), "NIfTI-1"),
+             "type.nii": (patch(70, "<h", 128), "datatype 128"), "dims.nii": (patch(40, "<h", 9), "dim"), "zero.nii": (patch(42, "<h", 0), "dim[1] = 0"),
+             "huge.nii": (patch(42, "<3h", 32767, 32767, 32767), "268 million"), "minus.nii": (patch(44, "<h", -4), "dim[2]"),
+             "nan.nii": (patch(80, "<f", float("nan")), "size"), "flat.nii": (patch(80, "<f", 0.0), "size"),
+             "offset.nii": (patch(108, "<f", 1e9), "vox_offset"), "time.nii": (patch(40, "<5h", 4, *size, 7), "dim[4]"),
+             "picture.nii": (shapes.nifti(size, struct.pack(f"<{len(voxels)}f", *[0.5] * len(voxels)), datatype=16, bits=32), "label"),
+             "negative.nii": (shapes.nifti(size, struct.pack(f"<{len(voxels)}h", *[-3] * len(voxels)), datatype=4, bits=16), "label"),
+             "empty.nii": (shapes.nifti(size, bytes(len(voxels))), "no voxel"), "text.nii": (b"Dear diary, " * 50, "NIfTI-1"),
+             "half.nii.gz": (bombs[:len(bombs) // 2], "gzip"), "noise.nii.gz": (b"\x1f\x8b" + bytes(range(256)), "gzip"),
+             "cut.nrrd": (nrrd[:-1], "cut short"), "head.nrrd": (nrrd[:40], "cut short"),
+             "sizes.nrrd": (shapes.nrrd(size, voxels, sizes="40 24"), "sizes"), "over.nrrd": (shapes.nrrd(size, voxels, sizes="99999 99999 99999"), "268 million"),
+             "many.nrrd": (shapes.nrrd(size, voxels, sizes="1e300 2 2"), "sizes"), "four.nrrd": (shapes.nrrd(size, voxels, dimension="4"), "dimension"),
+             "space.nrrd": (shapes.nrrd(size, voxels, space="scanner-xyz"), "scanner-xyz"), "bzip.nrrd": (shapes.nrrd(size, voxels, encoding="bzip2"), "bzip2"),
+             "away.nrrd": (shapes.nrrd(size, voxels, **{"data file": "/etc/passwd"}), "data file"),
+             "nan.nrrd": (shapes.nrrd(size, voxels, **{"space directions": "(nan,0,0) (0,1,0) (0,0,1)"}), "size"),
+             "order.nrrd": (shapes.nrrd(size, voxels * 2, type="short"), "endian"), "none.nrrd": (shapes.nrrd(size, voxels, sizes=None), "sizes")}
+    for name, (content, says) in cases.items():
+        refuses("tetrahedra", file(name, content), "--cells", 100, "-o", "bad.mesh", says=[name, says])
+    refuses("import", "cut.nii", "-o", "bad/bad.spore", says=["cut.nii", "cut short"])
+    assert not (WORK / "bad.mesh").exists() and not (WORK / "bad").exists()
 
 
 @check

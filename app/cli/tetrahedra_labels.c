@@ -1,0 +1,74 @@
+#include "app/cli/tetrahedra_labels.h"
+
+#include <glib/gi18n.h>
+
+/* "1,2,5"; NULL with an error. GArray of guint16. */
+static GArray *read_labels(const char *text, GError **error) {
+  g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint16));
+  g_auto(GStrv) words = g_strsplit(text ? text : "", ",", -1);
+  for (char **word = words; text && *word; word++) {
+    guint64 value = 0;
+    if (!g_ascii_string_to_unsigned(g_strstrip(*word), 10, 1, 65535, &value, NULL)) {
+      spore_error_raise(error, SPORE_ERROR_INPUT, "--labels",
+                        _("'%s' is no label; expected whole numbers from 1 to 65535 with commas; give those of the "
+                          "organs wanted"),
+                        *word);
+      return NULL;
+    }
+    guint16 label = (guint16)value;
+    g_array_append_val(labels, label);
+  }
+  return g_steal_pointer(&labels);
+}
+
+gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const char *labels, size_t cells,
+                                    double size, SporeTetrahedralMesh *mesh, SporeLabelTetrahedraReport *report,
+                                    GError **error) {
+  g_autoptr(GArray) wanted = read_labels(labels, error);
+  SporeLabelMap map = {0};
+  gsize bytes_size;
+  const void *bytes = g_bytes_get_data(content, &bytes_size);
+  if (!wanted || !spore_label_map_decode(file, bytes, bytes_size, &map, spore_cli_progress(cli), error)) return FALSE;
+  SporeLabelTetrahedraOptions options = {
+      .cells = cells, .size = size, .labels = (const uint16_t *)(const void *)wanted->data, .label_count = wanted->len};
+  gboolean done = spore_label_tetrahedra(file, &map, &options, mesh, report, spore_cli_progress(cli), error);
+  spore_label_map_clear(&map);
+  return done;
+}
+
+void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh,
+                             const SporeLabelTetrahedraReport *report) {
+  spore_cli_count(cli, "nodes", (gint64)mesh->vertex_count);
+  spore_cli_count(cli, "tetrahedra", (gint64)mesh->tetrahedron_count);
+  spore_cli_number(cli, "min_dihedral_deg", report->quality.min_dihedral_deg);
+  spore_cli_number(cli, "mean_dihedral_deg", report->quality.mean_dihedral_deg);
+  spore_cli_text(cli, "method", "labels");
+  spore_cli_number(cli, "seconds", report->seconds);
+  spore_cli_count(cli, "shared_faces", (gint64)report->shared_faces);
+  spore_cli_say(
+      cli,
+      _("%zu tetrahedra, %zu nodes: least dihedral angle %.1f degrees (mean of minima %.1f), %zu faces shared "
+        "between organs, %.1f s\n"),
+      mesh->tetrahedron_count, mesh->vertex_count, report->quality.min_dihedral_deg, report->quality.mean_dihedral_deg,
+      report->shared_faces, report->seconds);
+  spore_cli_open_array(cli, "labels");
+  for (guint i = 0; i < report->labels->len; i++) {
+    const SporeLabelFigures *figures = &g_array_index(report->labels, SporeLabelFigures, i);
+    double change = figures->volume / figures->voxel_volume - 1;
+    spore_cli_open(cli, NULL);
+    spore_cli_count(cli, "label", figures->label);
+    spore_cli_count(cli, "cells", (gint64)figures->cells);
+    spore_cli_number(cli, "volume_m3", figures->volume);
+    spore_cli_number(cli, "voxel_volume_m3", figures->voxel_volume);
+    spore_cli_number(cli, "volume_change", change);
+    spore_cli_number(cli, "min_dihedral_deg", figures->min_dihedral_deg);
+    spore_cli_close(cli);
+    if (figures->cells)
+      spore_cli_say(cli, _("  label %u: %zu cells, %.4g cm3 (%+.2f %% of its voxels'), least angle %.1f degrees\n"),
+                    figures->label, figures->cells, 1e6 * figures->volume, 100 * change, figures->min_dihedral_deg);
+    else
+      spore_cli_say(cli, _("  label %u: finer than the cells, it has none; ask for more or smaller cells\n"),
+                    figures->label);
+  }
+  spore_cli_close_array(cli);
+}

@@ -1,0 +1,122 @@
+/* NIfTI-1 in one file (.nii): nifti1.h of the NIfTI Data Format Working Group, 2005. */
+#include <math.h>
+#include <string.h>
+
+#include "app/helpers/volume.h"
+
+#define N_(text) text
+#define HEADER 348
+
+typedef struct Header {
+  const uint8_t *bytes;
+  bool swapped;
+} Header;
+
+static void take(const Header *header, size_t offset, void *value, size_t size) {
+  uint8_t *to = value;
+  for (size_t i = 0; i < size; i++) to[header->swapped ? size - 1 - i : i] = header->bytes[offset + i];
+}
+static int16_t take_i16(const Header *header, size_t offset) {
+  int16_t value;
+  take(header, offset, &value, sizeof value);
+  return value;
+}
+static double take_float(const Header *header, size_t offset) {
+  float value;
+  take(header, offset, &value, sizeof value);
+  return value;
+}
+
+static bool take_type(const Header *header, SporeVoxelType *type, SporeHelperFailure *failure) {
+  static const struct {
+    int16_t code;
+    SporeVoxelType type;
+  } known[] = {{2, SPORE_VOXEL_UINT8},     {256, SPORE_VOXEL_INT8},   {512, SPORE_VOXEL_UINT16},
+               {4, SPORE_VOXEL_INT16},     {768, SPORE_VOXEL_UINT32}, {8, SPORE_VOXEL_INT32},
+               {1280, SPORE_VOXEL_UINT64}, {1024, SPORE_VOXEL_INT64}, {16, SPORE_VOXEL_FLOAT},
+               {64, SPORE_VOXEL_DOUBLE}};
+  int16_t code = take_i16(header, 70);
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (known[i].code == code) {
+      *type = known[i].type;
+      return true;
+    }
+  return spore_volume_fail(failure,
+                           N_("its voxels are of a kind that holds no labels; expected integers or real numbers; save "
+                              "it as a label map"),
+                           "datatype %d", code);
+}
+
+/* More than three dimensions are taken where the others are one thick. */
+static bool take_size(const Header *header, uint64_t size[3], SporeHelperFailure *failure) {
+  int16_t dimensions = take_i16(header, 40);
+  for (int i = 0; i < 7; i++) {
+    int16_t length = i < dimensions ? take_i16(header, 42 + 2 * (size_t)i) : 1;
+    if (dimensions < 1 || dimensions > 7 || length < 1 || (i >= 3 && length > 1))
+      return spore_volume_fail(failure,
+                               N_("its dimensions are not those of a volume; expected three of at least one "
+                                  "voxel; save one volume of it"),
+                               "dim[%d] = %d", i < dimensions ? i + 1 : 0, i < dimensions ? length : dimensions);
+    if (i < 3) size[i] = (uint64_t)length;
+  }
+  return true;
+}
+
+/* Method 2: a turn as a quaternion, voxel sizes and a shift. */
+static void axes_of_quaternion(const Header *header, double axes[12]) {
+  double b = take_float(header, 256), c = take_float(header, 260), d = take_float(header, 264);
+  double rest = 1 - (b * b + c * c + d * d);
+  if (rest < 1e-7) { /* as the standard's own code does: a half turn */
+    double length = 1 / sqrt(b * b + c * c + d * d);
+    b *= length, c *= length, d *= length, rest = 0;
+  }
+  double a = sqrt(fmax(rest, 0));
+  const double turn[9] = {a * a + b * b - c * c - d * d, 2 * (b * c - a * d),           2 * (b * d + a * c),
+                          2 * (b * c + a * d),           a * a + c * c - b * b - d * d, 2 * (c * d - a * b),
+                          2 * (b * d - a * c),           2 * (c * d + a * b),           a * a + d * d - c * c - b * b};
+  for (int row = 0; row < 3; row++) {
+    for (int k = 0; k < 3; k++) axes[4 * row + k] = turn[3 * row + k] * take_float(header, 80 + 4 * (size_t)k);
+    axes[4 * row + 3] = take_float(header, 268 + 4 * (size_t)row);
+  }
+  if (take_float(header, 76) < 0) /* qfac */
+    for (int row = 0; row < 3; row++) axes[4 * row + 2] = -axes[4 * row + 2];
+}
+
+static void take_axes(const Header *header, double axes[12]) {
+  if (take_i16(header, 254) > 0)
+    for (size_t i = 0; i < 12; i++) axes[i] = take_float(header, 280 + 4 * i);
+  else if (take_i16(header, 252) > 0) axes_of_quaternion(header, axes);
+  else
+    for (size_t i = 0; i < 3; i++) axes[5 * i] = take_float(header, 80 + 4 * i); /* voxel sizes alone */
+  static const double units[8] = {1e-3, 1, 1e-3, 1e-6, 1e-3, 1e-3, 1e-3, 1e-3};  /* not said: mm */
+  for (int i = 0; i < 12; i++) axes[i] *= units[header->bytes[123] & 7];
+}
+
+bool spore_nifti_head(const uint8_t *bytes, size_t size, SporeVolumeHead *head, SporeHelperFailure *failure) {
+  if (size < HEADER + 4)
+    return spore_volume_fail(failure, N_("the NIfTI file is cut short; expected the whole file; copy it again"),
+                             "%zu bytes", size);
+  Header header = {bytes, false};
+  int32_t length;
+  take(&header, 0, &length, sizeof length);
+  header.swapped = length != HEADER;
+  if (memcmp(bytes + 344, "n+1", 4) != 0)
+    return spore_volume_fail(failure,
+                             N_("it is no NIfTI-1 volume in one file; expected .nii or .nii.gz with header and "
+                                "data together; save it so"),
+                             "%s", "");
+  *head = (SporeVolumeHead){.swapped = header.swapped};
+  if (!take_type(&header, &head->type, failure) || !take_size(&header, head->answer.size, failure)) return false;
+  take_axes(&header, head->answer.axes);
+  head->slope = take_float(&header, 112);
+  head->shift = take_float(&header, 116);
+  if (head->slope == 0 || !isfinite(head->slope)) head->slope = 1, head->shift = 0; /* not given */
+  double offset = take_float(&header, 108);
+  if (!(offset >= HEADER && offset <= (double)size))
+    return spore_volume_fail(failure,
+                             N_("its voxels would begin outside the file; expected them behind the header; "
+                                "save it again"),
+                             "vox_offset %g of %zu bytes", offset, size);
+  head->data = (size_t)offset;
+  return true;
+}

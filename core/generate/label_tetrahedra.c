@@ -1,0 +1,220 @@
+#include "core/generate/label_tetrahedra.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/profile.h"
+#include "core/generate/label_parts.h"
+
+#define MOST_CELLS 2000000u
+#define CELLS_A_VOLUME 12 /* in a cube of the lattice */
+#define ATTEMPTS 3        /* at the number of cells that was asked for */
+#define NEAR_ENOUGH 0.03
+#define SPIKE_ROUNDS 3
+#define MOST_SPIKES 20 /* an organ of fewer cells keeps them all */
+
+typedef struct Meshing {
+  const SporeLabelTetrahedraOptions *options;
+  SporeLabelField field;
+  bool wanted[65536];
+  double volumes[65536];     /* of the voxels of each label */
+  double lower[3], upper[3]; /* of the wanted voxels */
+  double volume;
+  double edge;
+  double done, share; /* of the progress */
+  const SporeProgress *progress;
+} Meshing;
+
+static bool report_share(void *data, double fraction, const char *stage) {
+  const Meshing *m = data;
+  return spore_progress(m->progress, m->done + m->share * fraction, stage);
+}
+
+/* Cells of which three faces or all lie against one other organ (or outside) are spikes: they go over to it, so that no
+ * border folds back on itself. */
+static bool remove_spikes(SporeTetrahedralMesh *mesh, SporeError *error) {
+  g_autofree size_t *cells = g_new0(size_t, 65536);
+  for (size_t c = 0; c < mesh->tetrahedron_count; c++) cells[mesh->labels[c]]++;
+  for (int round = 0; round < SPIKE_ROUNDS; round++) {
+    uint32_t *across;
+    size_t kept = 0;
+    if (!spore_tetrahedral_mesh_neighbours(mesh, &across))
+      return spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
+                             _("there is not enough memory for the cells; close other programs"));
+    for (size_t c = 0; c < mesh->tetrahedron_count; c++) {
+      uint32_t own = mesh->labels[c], label[4], winner = own;
+      for (int k = 0; k < 4; k++) {
+        uint32_t other = across[4 * c + (size_t)k];
+        label[k] = other == UINT32_MAX ? 0 : mesh->labels[other];
+      }
+      for (int k = 0; k < 2 && cells[own] > MOST_SPIKES; k++) { /* one of the first two is among any three */
+        int same = 0;
+        for (int i = 0; i < 4; i++) same += label[i] == label[k];
+        if (same >= 3 && label[k] != own) winner = label[k];
+      }
+      mesh->labels[c] = winner;
+    }
+    for (size_t c = 0; c < mesh->tetrahedron_count; c++) {
+      if (!mesh->labels[c]) continue;
+      memmove(mesh->tetrahedra + 4 * kept, mesh->tetrahedra + 4 * c, 4 * sizeof *mesh->tetrahedra);
+      mesh->labels[kept++] = mesh->labels[c];
+    }
+    mesh->tetrahedron_count = kept;
+    spore_free(across);
+  }
+  return true;
+}
+
+/* Vertices that no cell has any more go. */
+static bool drop_unused(SporeTetrahedralMesh *mesh, SporeError *error) {
+  uint32_t *number = SPORE_NEW_ARRAY(uint32_t, mesh->vertex_count);
+  size_t kept = 0;
+  if (!number)
+    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
+                           _("there is not enough memory for the cells; close other programs"));
+  for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++) number[mesh->tetrahedra[i]] = 1;
+  for (size_t v = 0; v < mesh->vertex_count; v++)
+    if (number[v]) {
+      memmove(mesh->vertices + 3 * kept, mesh->vertices + 3 * v, 3 * sizeof(double));
+      number[v] = (uint32_t)kept++;
+    }
+  for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++) mesh->tetrahedra[i] = number[mesh->tetrahedra[i]];
+  mesh->vertex_count = kept;
+  spore_free(number);
+  return true;
+}
+
+/* Box and volume of the wanted voxels; false: there are none. */
+static bool measure_map(Meshing *m, const SporeLabelMap *map) {
+  size_t count = 0, index = 0;
+  for (int k = 0; k < 3; k++) m->lower[k] = HUGE_VAL, m->upper[k] = -HUGE_VAL;
+  for (size_t k = 0; k < map->size[2]; k++)
+    for (size_t j = 0; j < map->size[1]; j++)
+      for (size_t i = 0; i < map->size[0]; i++) {
+        if (!m->wanted[map->labels[index++]]) continue;
+        count++;
+        m->volumes[map->labels[index - 1]] += spore_label_map_voxel_volume(map);
+        for (int corner = 0; corner < 8; corner++) {
+          SporeVec3 p = spore_label_map_place(map, (double)i + (corner & 1) - 0.5, (double)j + (corner >> 1 & 1) - 0.5,
+                                              (double)k + (corner >> 2) - 0.5);
+          const double x[3] = {p.x, p.y, p.z};
+          for (int r = 0; r < 3; r++) m->lower[r] = fmin(m->lower[r], x[r]), m->upper[r] = fmax(m->upper[r], x[r]);
+        }
+      }
+  m->volume = (double)count * spore_label_map_voxel_volume(map);
+  return count > 0;
+}
+
+/* A lattice of about as many cells as are wanted. */
+static bool make_cells(Meshing *m, SporeTetrahedralMesh *mesh, SporeError *error) {
+  SporeProgress progress = {.report = report_share, .data = m};
+  double wanted = (double)m->options->cells;
+  size_t count = 0;
+  m->edge = m->options->cells ? cbrt(CELLS_A_VOLUME * m->volume / wanted) : m->options->size;
+  for (int attempt = 0; m->options->cells && attempt < ATTEMPTS; attempt++) {
+    m->share = 0.15;
+    if (!spore_label_lattice(&m->field, m->lower, m->upper, m->edge, NULL, &count, &progress, error)) return false;
+    m->done += m->share;
+    if (fabs((double)count / wanted - 1) < NEAR_ENOUGH) break;
+    m->edge *= cbrt(fmax((double)count, 1) / wanted);
+  }
+  m->share = 0.15;
+  if (!spore_label_lattice(&m->field, m->lower, m->upper, m->edge, mesh, &count, &progress, error)) return false;
+  m->done += m->share;
+  if (count > MOST_CELLS)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("that makes %zu cells; expected at most %u; ask for fewer or larger ones"), count,
+                           MOST_CELLS);
+  return remove_spikes(mesh, error) && drop_unused(mesh, error);
+}
+
+static void measure_label(const SporeTetrahedralMesh *mesh, SporeLabelFigures *figures) {
+  g_autofree guint32 *cells = g_new(guint32, 4 * mesh->tetrahedron_count);
+  for (size_t c = 0; c < mesh->tetrahedron_count; c++)
+    if (mesh->labels[c] == figures->label) memcpy(cells + 4 * figures->cells++, mesh->tetrahedra + 4 * c, 16);
+  SporeTetrahedralMesh part = {.vertex_count = mesh->vertex_count,
+                               .tetrahedron_count = figures->cells,
+                               .vertices = mesh->vertices,
+                               .tetrahedra = cells};
+  SporeTetrahedraQuality quality = {0};
+  if (figures->cells) spore_tetrahedral_mesh_quality(&part, &quality);
+  figures->volume = quality.volume;
+  figures->min_dihedral_deg = quality.min_dihedral_deg;
+}
+
+static bool measure(const Meshing *m, const SporeTetrahedralMesh *mesh, SporeLabelTetrahedraReport *report,
+                    SporeError *error) {
+  g_autoptr(GArray) labels = NULL, voxels = NULL;
+  uint32_t *across;
+  if (!spore_tetrahedral_mesh_neighbours(mesh, &across))
+    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
+                           _("there is not enough memory for the cells; close other programs"));
+  for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++)
+    report->shared_faces += across[i] != UINT32_MAX && mesh->labels[i / 4] < mesh->labels[across[i]];
+  spore_free(across);
+  spore_tetrahedral_mesh_quality(mesh, &report->quality);
+  spore_label_map_list(m->field.map, &labels, &voxels);
+  report->labels = g_array_new(FALSE, FALSE, sizeof(SporeLabelFigures));
+  for (guint i = 0; i < labels->len; i++) {
+    guint16 label = g_array_index(labels, guint16, i);
+    if (!m->wanted[label]) continue;
+    SporeLabelFigures figures = {.label = label,
+                                 .voxel_volume = (double)g_array_index(voxels, guint64, i) *
+                                                 spore_label_map_voxel_volume(m->field.map)};
+    measure_label(mesh, &figures);
+    g_array_append_val(report->labels, figures);
+  }
+  report->edge = m->edge;
+  return true;
+}
+
+static bool check(Meshing *m, const SporeLabelMap *map, SporeError *error) {
+  const SporeLabelTetrahedraOptions *options = m->options;
+  if (!options->cells && !(options->size > 0 && isfinite(options->size)))
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("the cells' size is %g m; expected a length above 0, or a number of cells; give one of "
+                             "them"),
+                           options->size);
+  for (guint label = 1; label < 65536; label++) m->wanted[label] = options->label_count == 0;
+  for (size_t i = 0; i < options->label_count; i++) m->wanted[options->labels[i]] = options->labels[i] > 0;
+  if (!measure_map(m, map))
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("no voxel has a label that is wanted; expected some; give labels that there are"));
+  double cells = options->cells ? (double)options->cells : CELLS_A_VOLUME * m->volume / pow(options->size, 3);
+  if (cells > MOST_CELLS)
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("that makes about %.0f cells; expected at most %u; ask for fewer or larger ones"), cells,
+                           MOST_CELLS);
+  return true;
+}
+
+gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, const SporeLabelTetrahedraOptions *options,
+                                SporeTetrahedralMesh *result, SporeLabelTetrahedraReport *report,
+                                const SporeProgress *progress, GError **error) {
+  g_autofree Meshing *m = g_new0(Meshing, 1);
+  SporeError failure = SPORE_ERROR_INIT;
+  guint64 started = spore_clock_ns();
+  *result = (SporeTetrahedralMesh){0};
+  *report = (SporeLabelTetrahedraReport){0};
+  m->options = options;
+  m->progress = progress;
+  bool done = check(m, map, &failure);
+  if (done) spore_label_field_init(&m->field, map, m->wanted);
+  done = done && make_cells(m, result, &failure);
+  if (done && !result->tetrahedron_count)
+    done = spore_error_set(&failure, SPORE_ERROR_INPUT, NULL,
+                           _("the organs are finer than the cells: there is not one; expected larger organs; ask for "
+                             "more or smaller cells"));
+  SporeProgress fitting = {.report = report_share, .data = m};
+  m->share = 1 - m->done;
+  done = done && spore_label_fit(&m->field, result, m->edge, m->volumes, &fitting, &failure) &&
+         spore_tetrahedral_mesh_validate(result, &failure) && measure(m, result, report, &failure);
+  report->seconds = 1e-9 * (double)(spore_clock_ns() - started);
+  if (done) return TRUE;
+  spore_tetrahedral_mesh_clear(result);
+  g_clear_pointer(&report->labels, g_array_unref);
+  spore_error_at(&failure, place);
+  return spore_error_propagate(&failure, error);
+}

@@ -1,0 +1,37 @@
+/* Label maps: volumes in which each voxel says which organ it is of. */
+#ifndef SPORE_IO_LABEL_MAP_H
+#define SPORE_IO_LABEL_MAP_H
+
+#include <glib.h>
+#include <stdint.h>
+
+#include "core/base/progress.h"
+#include "core/math/vec3.h"
+#include "core/scene/error.h"
+
+typedef struct SporeLabelMap {
+  size_t size[3];
+  uint16_t *labels; /* size[0] x size[1] x size[2], the first index fastest; 0: nothing */
+  double axes[12];  /* 3 x 4: from indices (i, j, k, 1) of a voxel's middle to SPORE's axes, m */
+} SporeLabelMap;
+
+/* Whether the content or, for gzip, the name is that of a volume (NIfTI-1, NRRD). */
+gboolean spore_label_map_is(const char *file, const void *content, gsize size);
+/* NIfTI-1 in one file, plain or gzip, and NRRD with attached raw or gzip data, decoded in a helper process. Place and
+ * size of voxels come from the header (sform, else qform, else voxel sizes; NRRD's space), in mm where it says no unit.
+ * Refused with a message: what is cut short, cannot be, is too large, or holds no labels from 0 to 65535. */
+gboolean spore_label_map_decode(const char *place, const void *content, gsize size, SporeLabelMap *map,
+                                const SporeProgress *progress, GError **error);
+void spore_label_map_clear(SporeLabelMap *map);
+
+/* The labels above 0 that there are, ascending: GArray of guint16, and of how many voxels each: GArray of guint64. */
+void spore_label_map_list(const SporeLabelMap *map, GArray **labels, GArray **voxels);
+double spore_label_map_voxel_volume(const SporeLabelMap *map); /* m^3 */
+
+static inline SporeVec3 spore_label_map_place(const SporeLabelMap *map, double i, double j, double k) {
+  const double *a = map->axes;
+  return spore_vec3(a[0] * i + a[1] * j + a[2] * k + a[3], a[4] * i + a[5] * j + a[6] * k + a[7],
+                    a[8] * i + a[9] * j + a[10] * k + a[11]);
+}
+
+#endif
