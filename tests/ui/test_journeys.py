@@ -193,6 +193,25 @@ def spheres_with_their_error():
 
 
 @check
+def numbers_that_pay():
+    """the error of several numbers of spheres is measured and shown with where more stop paying; one is taken from it."""
+    with start() as editor:
+        import_ball(editor)
+        editor.act("preview-spheres", "u", 10)
+        editor.press(editor.find("push button", "^Measure numbers$"))
+        plot = editor.find("drawing area", r"Error against number: 8: .* %; 16: ", 60)
+        editor.press(editor.find("push button", "^Stop measuring$"))
+        editor.find("push button", "^Measure numbers$")
+        x, y, width, height = editor.place(plot)
+        editor.mouse("mousemove", x + 44, y + height // 2, "click", 1)
+        editor.mouse("mousemove", 5, 5)  # no tooltip takes the keyboard
+        editor.find("label", "(?s)8 spheres.*Coverage", 60)
+        editor.focus()
+        editor.keys("Right", "Return")
+        editor.find("label", "(?s)16 spheres.*Coverage", 60)
+
+
+@check
 def preview_is_dropped():
     """a preview that is cancelled, while it works and when it is there, leaves the scene as it was within half a second."""
     with start() as editor:

@@ -124,6 +124,8 @@ void spore_generator_cancel(SporeGenerator *self) {
   tell(self);
 }
 
+SporeDocument *spore_generator_get_document(SporeGenerator *self) { return spore_editor_document_get(self->document); }
+
 gboolean spore_generator_is_active(SporeGenerator *self) { return self->active; }
 
 gboolean spore_generator_is_working(SporeGenerator *self) { return self->job || self->timer; }

@@ -30,6 +30,7 @@ gboolean spore_generator_apply(SporeGenerator *self, GError **error);
 /* At once; the document stays as it was. */
 void spore_generator_cancel(SporeGenerator *self);
 
+SporeDocument *spore_generator_get_document(SporeGenerator *self);
 gboolean spore_generator_is_active(SporeGenerator *self);    /* working, or with a result that waits */
 gboolean spore_generator_is_working(SporeGenerator *self);   /* or about to */
 SporeObject *spore_generator_get_body(SporeGenerator *self); /* NULL: not active */

@@ -3,13 +3,18 @@
 #include <glib/gi18n.h>
 
 #include "ui/jobs/quality.h"
+#include "ui/jobs/spore-series.h"
 #include "ui/panels/report.h"
+#include "ui/panels/spore-count-plot.h"
 #include "ui/panels/spore-histogram.h"
 
 struct _SporeGeneratorPanel {
   GtkBox parent;
-  GtkWidget *empty, *content, *title, *count_label, *count, *mode, *shown, *facts, *apply, *cancel, *histogram;
+  GtkWidget *empty, *content, *title, *count_label, *count, *mode, *shown, *facts, *apply, *cancel, *histogram,
+      *numbers, *measure, *plot;
   SporeGenerator *generator;
+  SporeSeries *series;
+  guint32 body; /* that the series is of */
   gboolean filling;
   int kind; /* that the lists are filled for, -1: none yet */
 };
@@ -48,7 +53,41 @@ static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(self->count), count);
   gtk_label_set_text(GTK_LABEL(self->count_label), spheres ? _("Spheres") : _("Tetrahedra"));
   gtk_widget_set_visible(self->mode, spheres);
+  gtk_widget_set_visible(self->numbers, spheres);
+  spore_count_plot_set_current(SPORE_COUNT_PLOT(self->plot), options->spheres.count);
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->mode), (int)options->spheres.mode);
+}
+
+/* Numbers. */
+
+static void show_series(SporeGeneratorPanel *self) {
+  size_t counts[SPORE_SERIES_POINTS];
+  double errors[SPORE_SERIES_POINTS];
+  gsize count = spore_series_get_points(self->series, counts, errors);
+  spore_count_plot_set_points(SPORE_COUNT_PLOT(self->plot), counts, errors, count,
+                              spore_series_get_enough(self->series));
+  gtk_button_set_label(GTK_BUTTON(self->measure),
+                       spore_series_is_running(self->series) ? _("Stop measuring") : _("Measure numbers"));
+}
+
+static void measure_clicked(GtkButton *button, SporeGeneratorPanel *self) {
+  g_autoptr(GError) error = NULL;
+  SporeObject *body = spore_generator_get_body(self->generator);
+  if (spore_series_is_running(self->series)) spore_series_stop(self->series);
+  else if (body && !spore_series_start(self->series, spore_generator_get_document(self->generator), body,
+                                       spore_generator_get_options(self->generator), &error))
+    spore_report(GTK_WIDGET(self), error);
+}
+
+static void count_chosen(SporeCountPlot *plot, guint count, SporeGeneratorPanel *self) {
+  gtk_spin_button_set_value(GTK_SPIN_BUTTON(self->count), count);
+}
+
+/* Of another body, or of none, they say nothing. */
+static void follow_body(SporeGeneratorPanel *self, SporeObject *body) {
+  guint32 id = body ? spore_object_id(body) : 0;
+  if (id != self->body) spore_series_clear(self->series);
+  self->body = id;
 }
 
 /* Result. */
@@ -95,6 +134,7 @@ static void refresh(SporeGeneratorPanel *self) {
   SporeObject *body = spore_generator_get_body(self->generator);
   gtk_widget_set_visible(self->empty, !body);
   gtk_widget_set_visible(self->content, body != NULL);
+  follow_body(self, body);
   if (!body) return;
   const SporeGenerateOptions *options = spore_generator_get_options(self->generator);
   g_autofree char *title = g_strdup_printf(
@@ -130,7 +170,11 @@ static void fill_modes(SporeGeneratorPanel *self) {
 }
 
 static void spore_generator_panel_dispose(GObject *object) {
-  spore_generator_panel_set_generator(SPORE_GENERATOR_PANEL(object), NULL);
+  SporeGeneratorPanel *self = SPORE_GENERATOR_PANEL(object);
+  spore_generator_panel_set_generator(self, NULL);
+  if (self->series) g_signal_handlers_disconnect_by_data(self->series, self);
+  if (self->series) spore_series_stop(self->series);
+  g_clear_object(&self->series);
   G_OBJECT_CLASS(spore_generator_panel_parent_class)->dispose(object);
 }
 
@@ -146,22 +190,30 @@ static void bind(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, apply);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, cancel);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, histogram);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, numbers);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, measure);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, plot);
 }
 
 static void spore_generator_panel_class_init(SporeGeneratorPanelClass *class) {
   GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
   G_OBJECT_CLASS(class)->dispose = spore_generator_panel_dispose;
   g_type_ensure(SPORE_TYPE_HISTOGRAM);
+  g_type_ensure(SPORE_TYPE_COUNT_PLOT);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-generator-panel.ui");
   bind(widget);
   gtk_widget_class_bind_template_callback(widget, options_changed);
   gtk_widget_class_bind_template_callback(widget, quality_chosen);
+  gtk_widget_class_bind_template_callback(widget, measure_clicked);
+  gtk_widget_class_bind_template_callback(widget, count_chosen);
   signals[SHOWN_QUALITY_CHANGED] = g_signal_new("shown-quality-changed", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0,
                                                 NULL, NULL, NULL, G_TYPE_NONE, 0);
 }
 
 static void spore_generator_panel_init(SporeGeneratorPanel *self) {
   self->kind = -1;
+  self->series = spore_series_new();
+  g_signal_connect_object(self->series, "changed", G_CALLBACK(show_series), self, G_CONNECT_SWAPPED);
   gtk_widget_init_template(GTK_WIDGET(self));
   spore_ignore_wheel(self->count);
   spore_ignore_wheel(self->mode);

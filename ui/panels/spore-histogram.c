@@ -66,7 +66,7 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   double width = gtk_widget_get_allocated_width(widget), height = gtk_widget_get_allocated_height(widget);
   if (!self->title) return FALSE;
   double left = MARGIN, top = LINE + MARGIN, across = width - 2 * MARGIN, up = height - top - LINE - MARGIN;
-  g_autofree char *title = g_strdup_printf(_("%s, mean %.3g %s"), self->title, self->mean, self->unit);
+  g_autofree char *title = g_strdup_printf(_("Mean %.3g %s"), self->mean, self->unit);
   g_autofree char *low = g_strdup_printf("%g", self->low);
   g_autofree char *high = g_strdup_printf(_("%g %s and over"), self->high, self->unit);
   draw_text(widget, cr, left, 2, 0, title);
@@ -127,7 +127,7 @@ static void spore_histogram_class_init(SporeHistogramClass *class) {
 }
 
 static void spore_histogram_init(SporeHistogram *self) {
-  gtk_widget_set_size_request(GTK_WIDGET(self), 180, 110);
+  gtk_widget_set_size_request(GTK_WIDGET(self), 130, 110);
   spore_histogram_set_quality(self, NULL);
 }
 

@@ -1,0 +1,205 @@
+#include "ui/panels/spore-count-plot.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+
+#define MOST_POINTS 16
+#define LEFT 44
+#define RIGHT 12
+#define TOP 22
+#define BOTTOM 22
+#define NEAR_PIXELS 14
+
+struct _SporeCountPlot {
+  GtkDrawingArea parent;
+  gsize count, chosen; /* chosen: by the keyboard */
+  size_t counts[MOST_POINTS], enough, current;
+  double errors[MOST_POINTS];
+};
+
+G_DEFINE_FINAL_TYPE(SporeCountPlot, spore_count_plot, GTK_TYPE_DRAWING_AREA)
+
+enum { COUNT_CHOSEN, SIGNAL_COUNT };
+static guint signals[SIGNAL_COUNT];
+
+/* Frame in pixels, and the logarithms at its ends. */
+typedef struct {
+  double left, top, width, height, low_x, high_x, low_y, high_y;
+} Frame;
+
+static Frame frame_of(SporeCountPlot *self) {
+  Frame frame = {.left = LEFT,
+                 .top = TOP,
+                 .width = gtk_widget_get_allocated_width(GTK_WIDGET(self)) - LEFT - RIGHT,
+                 .height = gtk_widget_get_allocated_height(GTK_WIDGET(self)) - TOP - BOTTOM,
+                 .low_x = log(8),
+                 .high_x = log(512),
+                 .low_y = HUGE_VAL,
+                 .high_y = -HUGE_VAL};
+  for (gsize i = 0; i < self->count; i++) {
+    frame.low_y = MIN(frame.low_y, log(self->errors[i]));
+    frame.high_y = MAX(frame.high_y, log(self->errors[i]));
+  }
+  frame.low_y -= 0.2;
+  frame.high_y += 0.2;
+  return frame;
+}
+
+static double x_of(const Frame *f, size_t count) {
+  return f->left + f->width * (log((double)count) - f->low_x) / (f->high_x - f->low_x);
+}
+
+static double y_of(const Frame *f, double error) {
+  return f->top + f->height * (f->high_y - log(error)) / (f->high_y - f->low_y);
+}
+
+static void draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double align, const char *text) {
+  int width;
+  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
+  pango_layout_get_pixel_size(layout, &width, NULL);
+  gtk_render_layout(gtk_widget_get_style_context(widget), cr, x - align * width, y, layout);
+}
+
+static void draw_axes(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
+  GtkWidget *widget = GTK_WIDGET(self);
+  cairo_rectangle(cr, f->left + 0.5, f->top + 0.5, f->width, f->height);
+  cairo_set_line_width(cr, 1);
+  cairo_stroke(cr);
+  for (gsize i = 0; i < self->count; i += 2) {
+    g_autofree char *number = g_strdup_printf("%zu", self->counts[i]);
+    draw_text(widget, cr, x_of(f, self->counts[i]), f->top + f->height + 2, 0.5, number);
+  }
+  g_autofree char *high = g_strdup_printf("%.2g %%", exp(f->high_y)), *low = g_strdup_printf("%.2g %%", exp(f->low_y));
+  draw_text(widget, cr, f->left - 4, f->top - 4, 1, high);
+  draw_text(widget, cr, f->left - 4, f->top + f->height - 12, 1, low);
+  draw_text(widget, cr, f->left, 1, 0, _("Depth error"));
+}
+
+static void draw_line_at(cairo_t *cr, const Frame *f, size_t count, gboolean dashed) {
+  double x = x_of(f, count);
+  if (x < f->left || x > f->left + f->width) return;
+  cairo_save(cr);
+  if (dashed) cairo_set_dash(cr, (double[]){4, 3}, 2, 0);
+  cairo_move_to(cr, x, f->top);
+  cairo_line_to(cr, x, f->top + f->height);
+  cairo_stroke(cr);
+  cairo_restore(cr);
+}
+
+static void draw_points(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
+  for (gsize i = 0; i < self->count; i++) cairo_line_to(cr, x_of(f, self->counts[i]), y_of(f, self->errors[i]));
+  cairo_set_line_width(cr, 2);
+  cairo_stroke(cr);
+  for (gsize i = 0; i < self->count; i++) {
+    gboolean marked = i == self->chosen && gtk_widget_has_focus(GTK_WIDGET(self));
+    cairo_arc(cr, x_of(f, self->counts[i]), y_of(f, self->errors[i]), marked ? 6.5 : 4, 0, 2 * G_PI);
+    cairo_fill(cr);
+  }
+}
+
+static gboolean draw(GtkWidget *widget, cairo_t *cr) {
+  SporeCountPlot *self = SPORE_COUNT_PLOT(widget);
+  GtkStyleContext *style = gtk_widget_get_style_context(widget);
+  GdkRGBA text, accent;
+  gtk_style_context_get_color(style, gtk_style_context_get_state(style), &text);
+  if (!gtk_style_context_lookup_color(style, "theme_selected_bg_color", &accent)) accent = text;
+  if (!self->count) {
+    draw_text(widget, cr, LEFT, TOP, 0, _("Measure what other numbers give"));
+    return FALSE;
+  }
+  Frame f = frame_of(self);
+  gdk_cairo_set_source_rgba(cr, &text);
+  draw_axes(self, cr, &f);
+  if (self->current) draw_line_at(cr, &f, self->current, FALSE);
+  if (self->enough) {
+    draw_line_at(cr, &f, self->enough, TRUE);
+    gboolean right = x_of(&f, self->enough) > f.left + 0.6 * f.width;
+    draw_text(widget, cr, x_of(&f, self->enough) + (right ? -5 : 5), f.top + 3, right, _("more stop paying"));
+  }
+  gdk_cairo_set_source_rgba(cr, &accent);
+  draw_points(self, cr, &f);
+  if (gtk_widget_has_visible_focus(widget))
+    gtk_render_focus(style, cr, 0, 0, gtk_widget_get_allocated_width(widget), gtk_widget_get_allocated_height(widget));
+  return FALSE;
+}
+
+/* Choosing. */
+
+static void choose(SporeCountPlot *self, size_t count) { g_signal_emit(self, signals[COUNT_CHOSEN], 0, (guint)count); }
+
+static gboolean pressed(GtkWidget *widget, GdkEventButton *event) {
+  SporeCountPlot *self = SPORE_COUNT_PLOT(widget);
+  Frame f = frame_of(self);
+  gtk_widget_grab_focus(widget);
+  if (event->button != GDK_BUTTON_PRIMARY || event->type != GDK_BUTTON_PRESS || !self->count)
+    return GDK_EVENT_PROPAGATE;
+  for (gsize i = 0; i < self->count; i++)
+    if (fabs(x_of(&f, self->counts[i]) - event->x) < NEAR_PIXELS) {
+      self->chosen = i;
+      choose(self, self->counts[i]);
+      return GDK_EVENT_STOP;
+    }
+  double part = CLAMP((event->x - f.left) / f.width, 0, 1);
+  choose(self, (size_t)lround(exp(f.low_x + part * (f.high_x - f.low_x))));
+  return GDK_EVENT_STOP;
+}
+
+static gboolean key_pressed(GtkWidget *widget, GdkEventKey *event) {
+  SporeCountPlot *self = SPORE_COUNT_PLOT(widget);
+  if (!self->count) return GTK_WIDGET_CLASS(spore_count_plot_parent_class)->key_press_event(widget, event);
+  if (event->keyval == GDK_KEY_Left && self->chosen > 0) self->chosen--;
+  else if (event->keyval == GDK_KEY_Right && self->chosen + 1 < self->count) self->chosen++;
+  else if (event->keyval == GDK_KEY_Return || event->keyval == GDK_KEY_space) choose(self, self->counts[self->chosen]);
+  else return GTK_WIDGET_CLASS(spore_count_plot_parent_class)->key_press_event(widget, event);
+  gtk_widget_queue_draw(widget);
+  return GDK_EVENT_STOP;
+}
+
+static void describe(SporeCountPlot *self) {
+  GString *text = g_string_new(_("Error against number:"));
+  for (gsize i = 0; i < self->count; i++)
+    g_string_append_printf(text, " %zu: %.2g %%;", self->counts[i], self->errors[i]);
+  if (self->enough) {
+    g_string_append_c(text, ' ');
+    g_string_append_printf(text, _("more than %zu stop paying"), self->enough);
+  }
+  atk_object_set_name(gtk_widget_get_accessible(GTK_WIDGET(self)), text->str);
+  g_string_free(text, TRUE);
+}
+
+void spore_count_plot_set_points(SporeCountPlot *self, const size_t *counts, const double *errors, gsize count,
+                                 size_t enough) {
+  self->count = 0;
+  for (gsize i = 0; i < count && self->count < MOST_POINTS; i++) {
+    if (!(errors[i] > 0)) continue; /* has no logarithm */
+    self->counts[self->count] = counts[i];
+    self->errors[self->count++] = errors[i];
+  }
+  self->enough = enough;
+  self->chosen = MIN(self->chosen, self->count ? self->count - 1 : 0);
+  describe(self);
+  gtk_widget_queue_draw(GTK_WIDGET(self));
+}
+
+void spore_count_plot_set_current(SporeCountPlot *self, size_t count) {
+  self->current = count;
+  gtk_widget_queue_draw(GTK_WIDGET(self));
+}
+
+static void spore_count_plot_class_init(SporeCountPlotClass *class) {
+  GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+  widget->draw = draw;
+  widget->button_press_event = pressed;
+  widget->key_press_event = key_pressed;
+  signals[COUNT_CHOSEN] = g_signal_new("count-chosen", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+                                       G_TYPE_NONE, 1, G_TYPE_UINT);
+}
+
+static void spore_count_plot_init(SporeCountPlot *self) {
+  gtk_widget_set_size_request(GTK_WIDGET(self), 130, 110);
+  gtk_widget_set_can_focus(GTK_WIDGET(self), TRUE);
+  gtk_widget_add_events(GTK_WIDGET(self), GDK_BUTTON_PRESS_MASK | GDK_KEY_PRESS_MASK);
+  gtk_widget_set_tooltip_text(GTK_WIDGET(self),
+                              _("Click to take a number; Left, Right and Enter do it with the keyboard"));
+  describe(self);
+}
