@@ -5,6 +5,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
+#include "core/sim/mapping_kernels.h"
 
 static bool no_memory(SporeMapping *mapping, SporeError *error) {
   spore_mapping_clear(mapping);
@@ -223,7 +224,7 @@ void spore_mapping_positions(const SporeMapping *mapping, const double *q, doubl
     break;
   }
   case SPORE_MAPPING_LINEAR:
-    for (size_t i = 0; i < n; i++) spore_vec3_store(positions + 3 * i, linear_combination(mapping, i, q));
+    SPORE_KERNEL(spore_mapping_combine)(mapping, q, positions);
     break;
   }
 }
@@ -247,7 +248,7 @@ void spore_mapping_velocities(const SporeMapping *mapping, const double *q, cons
     break;
   }
   case SPORE_MAPPING_LINEAR:
-    for (size_t i = 0; i < n; i++) spore_vec3_store(velocities + 3 * i, linear_combination(mapping, i, v));
+    SPORE_KERNEL(spore_mapping_combine)(mapping, v, velocities);
     break;
   }
 }
