@@ -117,40 +117,9 @@ static SporeVec3 away(const State *state, const double *q, size_t i, SporeVec3 s
   return spore_vec3_sub(spore_vec3_sub(spore_vec3_load(q + 3 * i), state->centre), s);
 }
 
-static void shape_forces(const SporeCore *core, const double *q, double *f) {
-  State state = state_at(core, q);
-  SporeVec3 force = {0, 0, 0}, torque = {0, 0, 0};
-  for (size_t i = 0; i < core->count; i++) {
-    SporeVec3 s = place_of(core, &state, i);
-    SporeVec3 pull = spore_vec3_scale(core->stiffness * core->weight[i], away(&state, q, i, s));
-    spore_vec3_accumulate(f + 3 * i, spore_vec3_scale(-1, pull));
-    force = spore_vec3_add(force, pull);
-    torque = spore_vec3_add(torque, spore_vec3_cross(s, pull));
-  }
-  spore_vec3_accumulate(f + 3 * core->count, force);
-  spore_vec3_accumulate(f + 3 * core->count + 3, torque);
-}
-
-static void damping_forces(const SporeCore *core, const double *q, const double *v, double *f) {
-  SporeVec3 centre = spore_vec3_load(q + 3 * core->count);
-  SporeVec3 velocity = spore_vec3_load(v + 3 * core->count), spin = spore_vec3_load(v + 3 * core->count + 3);
-  SporeVec3 force = {0, 0, 0}, torque = {0, 0, 0};
-  for (size_t i = 0; i < core->count; i++) {
-    SporeVec3 arm = spore_vec3_sub(spore_vec3_load(q + 3 * i), centre);
-    SporeVec3 carried = spore_vec3_add(velocity, spore_vec3_cross(spin, arm));
-    SporeVec3 drag =
-        spore_vec3_scale(core->damping * core->weight[i], spore_vec3_sub(spore_vec3_load(v + 3 * i), carried));
-    spore_vec3_accumulate(f + 3 * i, spore_vec3_scale(-1, drag));
-    force = spore_vec3_add(force, drag);
-    torque = spore_vec3_add(torque, spore_vec3_cross(arm, drag));
-  }
-  spore_vec3_accumulate(f + 3 * core->count, force);
-  spore_vec3_accumulate(f + 3 * core->count + 3, torque);
-}
-
 void spore_core_force(const SporeCore *core, const double *q, const double *shape, const double *v, double *f) {
-  shape_forces(core, q, f);
-  if (core->damping > 0) damping_forces(core, shape, v, f);
+  State state = state_at(core, q);
+  SPORE_KERNEL(spore_core_ties)(core, &state.rotation, q, shape, v, f);
 }
 
 double spore_core_potential(const SporeCore *core, const double *q) {

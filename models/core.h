@@ -8,6 +8,7 @@
 #ifndef SPORE_MODELS_CORE_H
 #define SPORE_MODELS_CORE_H
 
+#include "core/math/simd.h"
 #include "core/sim/model.h"
 #include "models/rigid_motion.h"
 
@@ -47,6 +48,8 @@ SporeMat3 spore_core_inertia(const SporeCore *core, const double *q);
 void spore_core_drift(const SporeCore *core, const double *q, const double *v, double h, double *q1, double *v1);
 
 /* What the ties add, as SporeModelType says. */
+SPORE_DECLARE_KERNEL(void, spore_core_ties, const SporeCore *core, const SporeMat3 *rotation, const double *q,
+                     const double *shape, const double *v, double *f);
 void spore_core_force(const SporeCore *core, const double *q, const double *shape, const double *v, double *f);
 double spore_core_potential(const SporeCore *core, const double *q);
 void spore_core_jacobian(const SporeCore *core, const SporeTangent *at, SporeBlockMatrix *matrix);

@@ -54,11 +54,19 @@ static void strang_step(FreeTop *top, const double inverse[3], double h) {
   turn_about(top, 0, 0.5 * h * a * top->p[0]);
 }
 
+/* The last turn of one part and the first of the next are one. */
 static void composed_step(FreeTop *top, const double inverse[3], double h) {
   static const double part[9] = {0.13020248308889008088, 0.56116298177510838456,  -0.38947496264484728641,
                                  0.15884190655515560090, -0.39590389413323757734, 0.18453964097831570709,
                                  0.25837438768632204729, 0.29501172360931029887,  -0.60550853383003451170};
-  for (int i = 0; i < 17; i++) strang_step(top, inverse, part[i < 9 ? i : 16 - i] * h);
+  double a = inverse[0] - inverse[1], b = inverse[2] - inverse[1], before = 0;
+  for (int i = 0; i < 17; i++) {
+    double now = part[i < 9 ? i : 16 - i] * h;
+    turn_about(top, 0, 0.5 * (before + now) * a * top->p[0]);
+    turn_about(top, 2, now * b * top->p[2]);
+    before = now;
+  }
+  turn_about(top, 0, 0.5 * before * a * top->p[0]);
 }
 
 /* Turns the top for h seconds, in substeps in which neither partial rotation passes 0.2 rad, by bounds that free motion
