@@ -163,11 +163,16 @@ static void drift(const SporeModel *model, const double *q, const double *v, dou
   spore_core_drift(&((const Surface *)model)->core, q, v, h, q1, v1);
 }
 
-static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+static void force_along(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
+                        double *f) {
   const Surface *body = (const Surface *)model;
-  spore_springs_force(body->springs, KINDS, model->pool, q, shape, v, f);
+  spore_springs_force(body->springs, KINDS, model->pool, q, shape, v, h, f);
   spore_core_force(&body->core, q, shape, v, f);
   spore_volume_force(&body->volume, q, f);
+}
+
+static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+  force_along(model, q, shape, v, 0, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -220,6 +225,7 @@ const SporeModelType spore_deformable_surface = {
     .place = place,
     .inertia = inertia,
     .force = force,
+    .force_along = force_along,
     .potential = potential,
     .map = map,
     .skin = skin,

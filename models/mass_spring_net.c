@@ -143,9 +143,13 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   spore_nodal_place(net->rest, net->base.block_count, pose, velocity, spin, q, v);
 }
 
+static void force_along(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
+                        double *f) {
+  spore_springs_force(((const Net *)model)->springs, KINDS, model->pool, q, shape, v, h, f);
+}
+
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
-  const Net *net = (const Net *)model;
-  spore_springs_force(net->springs, KINDS, model->pool, q, shape, v, f);
+  force_along(model, q, shape, v, 0, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -238,6 +242,7 @@ const SporeModelType spore_mass_spring_net = {
     .destroy = destroy,
     .place = place,
     .force = force,
+    .force_along = force_along,
     .potential = potential,
     .map = map,
     .skin = skin,

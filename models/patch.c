@@ -132,6 +132,11 @@ bool spore_patch_allocate(SporePatch *patch, size_t span_u, size_t span_v) {
   patch->gauss = SPORE_NEW_ARRAY(SporePatchGauss, SPORE_PATCH_POINTS * patch->group_count);
   patch->node = SPORE_NEW_ARRAY(uint32_t, FUNCTIONS * SPORE_LANES * patch->group_count);
   patch->flat = spore_allocate(SPORE_PATCH_PAIRS * patch->group_count, sizeof *patch->flat);
+  patch->damped = SPORE_NEW(SporePatchShape);
+  if (!patch->damped) return false;
+  patch->damped->shape = SPORE_NEW_ARRAY(double, 3 * spore_patch_nodes(patch));
+  patch->damped->at = spore_allocate(SPORE_PATCH_POINTS * patch->group_count, sizeof *patch->damped->at);
+  if (!patch->damped->shape || !patch->damped->at) return false;
   patch->upper = spore_allocate(patch->cell_count, sizeof *patch->upper);
   patch->lower = spore_allocate(patch->cell_count, sizeof *patch->lower);
   if (!patch->gauss || !patch->node || !patch->flat || !patch->upper || !patch->lower || !find_blocks(patch))
@@ -143,6 +148,11 @@ bool spore_patch_allocate(SporePatch *patch, size_t span_u, size_t span_v) {
 }
 
 void spore_patch_clear(SporePatch *patch) {
+  if (patch->damped) {
+    spore_free(patch->damped->shape);
+    spore_free(patch->damped->at);
+    spore_free(patch->damped);
+  }
   spore_free(patch->gauss);
   spore_free(patch->node);
   spore_free(patch->flat);

@@ -29,6 +29,13 @@ typedef struct SporePatchGauss {
   double area[SPORE_LANES];         /* m^2 */
 } SporePatchGauss;
 
+/* What a_i and b_k were in the shape that was last damped along: an implicit step asks for that again and again. */
+typedef struct SporePatchShape {
+  bool ready;
+  double *shape;                 /* 3 a control point */
+  double (*at)[15][SPORE_LANES]; /* as gauss: a1, a2, b1, b2, b3, x y z each */
+} SporePatchShape;
+
 typedef struct SporePatch {
   size_t span_u, span_v, cell_count, group_count; /* groups of SPORE_LANES cells */
   SporePatchGauss *gauss;                         /* group x SPORE_PATCH_POINTS */
@@ -37,6 +44,7 @@ typedef struct SporePatch {
   uint32_t (*upper)[SPORE_PATCH_PAIRS], (*lower)[SPORE_PATCH_PAIRS]; /* cell: where blocks (i, j) and (j, i) lie */
   bool curved;                                                       /* some c_k is not 0 */
   double thickness, poisson, young, viscous;                         /* m, -, Pa, s */
+  SporePatchShape *damped;
 } SporePatch;
 
 static inline size_t spore_patch_nodes(const SporePatch *patch) { return (patch->span_u + 3) * (patch->span_v + 3); }
@@ -61,10 +69,10 @@ bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const 
 /* Points of the sheet, 3 each, even by its parameters and four a span each way. False: no memory. */
 bool spore_patch_sample(size_t span_u, size_t span_v, const double *control, double **points, size_t *count);
 
-/* Forces, energy and stiffness as SporeModelType says. Viscous: the rates of E and of b_k.(a1 x a2), each times viscous
- * and its stiffness. */
+/* Forces, energy and stiffness as SporeModelType says; force_along where h > 0. Viscous: the rates of E and of
+ * b_k.(a1 x a2), each times viscous and its stiffness. */
 SPORE_DECLARE_KERNEL(void, spore_patch_force, const SporePatch *patch, const double *q, const double *shape,
-                     const double *v, double *f);
+                     const double *v, double h, double *f);
 SPORE_DECLARE_KERNEL(double, spore_patch_potential, const SporePatch *patch, const double *q);
 SPORE_DECLARE_KERNEL(void, spore_patch_jacobian, const SporePatch *patch, const double *q, const double *shape,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);

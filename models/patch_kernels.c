@@ -44,6 +44,43 @@ SPORE_INLINE Five five_of(const SporePatchGauss *gauss, size_t lane, const Spore
   return five;
 }
 
+/* a1, a2, b1, b2, b3 of a Gauss point, x y z each. */
+SPORE_INLINE void store_five(double (*to)[SPORE_LANES], size_t lane, const Five *five) {
+  for (int e = 0; e < 5; e++) {
+    SporeVd3 r = e < 2 ? five->a[e] : five->b[e - 2];
+    spore_vd_store(to[3 * e] + lane, r.x), spore_vd_store(to[3 * e + 1] + lane, r.y);
+    spore_vd_store(to[3 * e + 2] + lane, r.z);
+  }
+}
+SPORE_INLINE Five load_five(double (*from)[SPORE_LANES], size_t lane) {
+  Five five;
+  for (int e = 0; e < 5; e++) {
+    SporeVd3 r = {spore_vd_load(from[3 * e] + lane), spore_vd_load(from[3 * e + 1] + lane),
+                  spore_vd_load(from[3 * e + 2] + lane)};
+    if (e < 2) five.a[e] = r;
+    else five.b[e - 2] = r;
+  }
+  return five;
+}
+
+/* Fills patch->damped, but where it is of that shape already. */
+SPORE_INLINE void damp_along(const SporePatch *patch, const double *shape) {
+  SporePatchShape *damped = patch->damped;
+  size_t size = 3 * spore_patch_nodes(patch) * sizeof *shape;
+  if (damped->ready && memcmp(damped->shape, shape, size) == 0) return;
+  damped->ready = true;
+  memcpy(damped->shape, shape, size);
+  for (size_t group = 0; group < patch->group_count; group++)
+    for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
+      SporeVd3 s[FUNCTIONS];
+      gather(patch, group, lane, shape, s);
+      for (size_t point = group * POINTS; point < (group + 1) * POINTS; point++) {
+        Five at = five_of(patch->gauss + point, lane, s);
+        store_five(damped->at[point], lane, &at);
+      }
+    }
+}
+
 SPORE_INLINE void subtract_forces(const SporePatchGauss *gauss, size_t lane, const Five *by, SporeVd3 *sum) {
   for (int i = 0; i < FUNCTIONS; i++) {
     for (int k = 0; k < 2; k++)
@@ -150,26 +187,42 @@ SPORE_INLINE size_t cells_of(const SporePatch *patch, size_t group) {
   return left < SPORE_LANES ? left : SPORE_LANES;
 }
 
-void SPORE_LEVEL_NAME(spore_patch_force)(const SporePatch *patch, const double *q, const double *shape, const double *v,
-                                         double *f) {
+SPORE_INLINE Five moved(const Five *from, const Five *speed, double h) {
+  SporeVd by = spore_vd_all(h);
+  Five five;
+  for (int e = 0; e < 2; e++) five.a[e] = spore_vd3_add(from->a[e], spore_vd3_scale(by, speed->a[e]));
+  for (int e = 0; e < 3; e++) five.b[e] = spore_vd3_add(from->b[e], spore_vd3_scale(by, speed->b[e]));
+  return five;
+}
+
+enum { ELASTIC, DAMPED_AT_Q, DAMPED_AT_SHAPE, MOVED_FROM_SHAPE };
+
+/* The forces of a Gauss point. */
+SPORE_INLINE Five point_forces(const SporePatch *patch, Material by, size_t point, size_t lane, const SporeVd3 *x,
+                               const SporeVd3 *u, double h, int damped) {
+  const SporePatchGauss *gauss = patch->gauss + point;
+  Five at, speed, shape;
+  if (damped) speed = five_of(gauss, lane, u);
+  if (damped >= DAMPED_AT_SHAPE) shape = load_five(patch->damped->at[point], lane);
+  if (damped == MOVED_FROM_SHAPE) at = moved(&shape, &speed, h);
+  else at = five_of(gauss, lane, x);
+  Five force = elastic_forces(patch, by, gauss, lane, &at);
+  if (damped) add_viscous(by, patch->viscous, gauss, lane, damped == DAMPED_AT_Q ? &at : &shape, &speed, &force);
+  return force;
+}
+
+SPORE_INLINE void add_forces(const SporePatch *patch, const double *q, const double *v, double h, int damped,
+                             double *f) {
   Material by = material_of(patch);
-  bool drags = patch->viscous > 0;
   double pulls[FUNCTIONS][3 * SPORE_LANES];
   for (size_t group = 0; group < patch->group_count; group++) {
     for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
-      SporeVd3 x[FUNCTIONS], s[FUNCTIONS], u[FUNCTIONS], sum[FUNCTIONS] = {0};
-      gather(patch, group, lane, q, x);
-      if (drags && shape != q) gather(patch, group, lane, shape, s);
-      if (drags) gather(patch, group, lane, v, u);
-      for (size_t point = 0; point < POINTS; point++) {
-        const SporePatchGauss *gauss = patch->gauss + group * POINTS + point;
-        Five at = five_of(gauss, lane, x), force = elastic_forces(patch, by, gauss, lane, &at);
-        if (drags) {
-          Five speed = five_of(gauss, lane, u);
-          if (shape != q) at = five_of(gauss, lane, s);
-          add_viscous(by, patch->viscous, gauss, lane, &at, &speed, &force);
-        }
-        subtract_forces(gauss, lane, &force, sum);
+      SporeVd3 x[FUNCTIONS], u[FUNCTIONS], sum[FUNCTIONS] = {0};
+      if (damped != MOVED_FROM_SHAPE) gather(patch, group, lane, q, x);
+      if (damped) gather(patch, group, lane, v, u);
+      for (size_t point = group * POINTS; point < (group + 1) * POINTS; point++) {
+        Five force = point_forces(patch, by, point, lane, x, u, h, damped);
+        subtract_forces(patch->gauss + point, lane, &force, sum);
       }
       for (int k = 0; k < FUNCTIONS; k++) spore_vd3_store(pulls[k] + 3 * lane, sum[k]);
     }
@@ -179,6 +232,16 @@ void SPORE_LEVEL_NAME(spore_patch_force)(const SporePatch *patch, const double *
         for (size_t c = 0; c < 3; c++) f[3 * (size_t)node[i] + c] += pulls[k][3 * i + c];
     }
   }
+}
+
+void SPORE_LEVEL_NAME(spore_patch_force)(const SporePatch *patch, const double *q, const double *shape, const double *v,
+                                         double h, double *f) {
+  bool damped = patch->viscous > 0;
+  if (damped && shape != q) damp_along(patch, shape);
+  if (!damped) add_forces(patch, q, v, 0, ELASTIC, f);
+  else if (shape == q) add_forces(patch, q, v, 0, DAMPED_AT_Q, f);
+  else if (h > 0) add_forces(patch, q, v, h, MOVED_FROM_SHAPE, f);
+  else add_forces(patch, q, v, 0, DAMPED_AT_SHAPE, f);
 }
 
 double SPORE_LEVEL_NAME(spore_patch_potential)(const SporePatch *patch, const double *q) {
@@ -403,12 +466,12 @@ void SPORE_LEVEL_NAME(spore_patch_jacobian)(const SporePatch *patch, const doubl
   Material by = material_of(patch);
   double viscous = damping_scale * patch->viscous;
   Rows rows[PAIRS];
+  if (viscous > 0) damp_along(patch, shape);
   for (size_t group = 0; group < patch->group_count; group++)
     for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
-      SporeVd3 x[FUNCTIONS], s[FUNCTIONS];
+      SporeVd3 x[FUNCTIONS];
       Part part;
       gather(patch, group, lane, q, x);
-      gather(patch, group, lane, shape, s);
       for (int point = 0; point < POINTS; point++) {
         const SporePatchGauss *gauss = patch->gauss + group * POINTS + point;
         Stiffness *stiffness = &part.stiffness[point];
@@ -416,7 +479,7 @@ void SPORE_LEVEL_NAME(spore_patch_jacobian)(const SporePatch *patch, const doubl
         Five at = five_of(gauss, lane, x);
         add_elastic(patch, by, stiffness_scale, gauss, lane, &at, stiffness);
         if (!(viscous > 0)) continue;
-        at = five_of(gauss, lane, s);
+        at = load_five(patch->damped->at[group * POINTS + (size_t)point], lane);
         add_viscosity(by, viscous, gauss, lane, &at, stiffness);
         for (int i = 0; i < FUNCTIONS; i++) rates_of(gauss, lane, i, stiffness, part.rate[point][i]);
       }

@@ -114,8 +114,13 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   spore_nodal_place(((const Spline2d *)model)->rest, model->block_count, pose, velocity, spin, q, v);
 }
 
+static void force_along(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
+                        double *f) {
+  SPORE_KERNEL(spore_patch_force)(&((const Spline2d *)model)->patch, q, shape, v, h, f);
+}
+
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
-  SPORE_KERNEL(spore_patch_force)(&((const Spline2d *)model)->patch, q, shape, v, f);
+  force_along(model, q, shape, v, 0, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
@@ -163,6 +168,7 @@ const SporeModelType spore_spline_2d = {
     .destroy = destroy,
     .place = place,
     .force = force,
+    .force_along = force_along,
     .potential = potential,
     .map = map,
     .samples = samples,

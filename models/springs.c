@@ -1,8 +1,18 @@
 #include "models/springs.h"
 
+#include <string.h>
+
 #include "core/base/memory.h"
 
+static void free_lines(SporeSpringsLines *lines) {
+  if (!lines) return;
+  spore_free(lines->shape);
+  spore_free(lines->along);
+  spore_free(lines);
+}
+
 void spore_springs_clear(SporeSprings *springs) {
+  free_lines(springs->lines);
   spore_free(springs->chunk_start);
   spore_free(springs->node);
   spore_free(springs->lanes);
@@ -93,6 +103,15 @@ static bool make_slots(SporeSprings *springs, const uint32_t *valence) {
   return true;
 }
 
+static bool make_lines(SporeSprings *springs, size_t node_count) {
+  springs->lines = SPORE_NEW(SporeSpringsLines);
+  if (!springs->lines) return false;
+  springs->lines->count = 3 * node_count;
+  springs->lines->shape = SPORE_NEW_ARRAY(double, 3 * node_count);
+  springs->lines->along = SPORE_NEW_ARRAY(double, 4 * SPORE_LANES * (size_t)springs->slot_start[springs->group_count]);
+  return springs->lines->shape && springs->lines->along;
+}
+
 static void put(SporeSprings *springs, uint32_t place, uint32_t slot, uint32_t neighbour, double length) {
   size_t at = ((size_t)springs->slot_start[place / SPORE_LANES] + slot) * SPORE_LANES + place % SPORE_LANES;
   springs->neighbour[at] = neighbour;
@@ -130,7 +149,7 @@ bool spore_springs_create(SporeSprings *springs, const uint64_t *keys, size_t co
   bool made = valence && place && count <= UINT32_MAX / 2;
   for (size_t k = 0; made && k < count; k++) valence[first_of(keys[k])]++, valence[second_of(keys[k])]++;
   made = made && make_groups(springs, valence, node_count) && order_chunks(springs, valence, node_count, place) &&
-         make_slots(springs, valence);
+         make_slots(springs, valence) && make_lines(springs, node_count);
   if (made) fill_slots(springs, keys, count, place, valence, node_count);
   if (made) find_runs(springs);
   spore_free(valence);
@@ -170,33 +189,70 @@ typedef struct Loop {
   const SporeSprings *springs;
   size_t kinds;
   const double *q, *shape, *v;
+  double h;
   double *f;
   const SporeTangent *at;
   SporeBlockMatrix *matrix;
 } Loop;
 
+static bool damps_along_lines(const SporeSprings *springs, const double *q, const double *shape) {
+  return springs->stiffness > 0 && springs->damping > 0 && shape != q;
+}
+
+/* Copies the shape, but for lines that are of it already. */
+static void begin_lines(const Loop *loop) {
+  for (size_t k = 0; k < loop->kinds; k++) {
+    SporeSpringsLines *lines = loop->springs[k].lines;
+    if (!damps_along_lines(&loop->springs[k], loop->q, loop->shape)) continue;
+    lines->ready = lines->ready && memcmp(lines->shape, loop->shape, lines->count * sizeof *lines->shape) == 0;
+    if (!lines->ready) memcpy(lines->shape, loop->shape, lines->count * sizeof *lines->shape);
+  }
+}
+
+static void end_lines(const Loop *loop) {
+  for (size_t k = 0; k < loop->kinds; k++)
+    if (damps_along_lines(&loop->springs[k], loop->q, loop->shape)) loop->springs[k].lines->ready = true;
+}
+
+/* Whether a chunk's springs of a kind are damped along their lines, which are then found. */
+static bool find_lines(const Loop *loop, const SporeSprings *springs, size_t chunk) {
+  if (!damps_along_lines(springs, loop->q, loop->shape)) return false;
+  if (!springs->lines->ready) SPORE_KERNEL(spore_springs_chunk_lines)(springs, chunk, loop->shape);
+  return true;
+}
+
 static void add_forces(void *data, size_t chunk) {
   const Loop *loop = data;
-  for (size_t k = 0; k < loop->kinds; k++)
-    if (loop->springs[k].stiffness > 0)
-      SPORE_KERNEL(spore_springs_chunk_force)(&loop->springs[k], chunk, loop->q, loop->shape, loop->v, loop->f);
+  for (size_t k = 0; k < loop->kinds; k++) {
+    const SporeSprings *springs = &loop->springs[k];
+    if (!(springs->stiffness > 0)) continue;
+    bool along_lines = find_lines(loop, springs, chunk);
+    SPORE_KERNEL(spore_springs_chunk_force)(springs, chunk, loop->q, loop->v, along_lines, loop->h, loop->f);
+  }
 }
 
 void spore_springs_force(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
-                         const double *shape, const double *v, double *f) {
-  Loop loop = {.springs = springs, .kinds = kinds, .q = q, .shape = shape, .v = v, .f = f};
+                         const double *shape, const double *v, double h, double *f) {
+  Loop loop = {.springs = springs, .kinds = kinds, .q = q, .shape = shape, .v = v, .h = h, .f = f};
+  begin_lines(&loop);
   spore_pool_run(spore_pool_for(pool, slot_count(springs, kinds)), springs->chunk_count, add_forces, &loop);
+  end_lines(&loop);
 }
 
 static void add_jacobian(void *data, size_t chunk) {
   const Loop *loop = data;
-  for (size_t k = 0; k < loop->kinds; k++)
-    if (loop->springs[k].stiffness > 0)
-      SPORE_KERNEL(spore_springs_chunk_jacobian)(&loop->springs[k], chunk, loop->at, loop->matrix);
+  for (size_t k = 0; k < loop->kinds; k++) {
+    const SporeSprings *springs = &loop->springs[k];
+    if (!(springs->stiffness > 0)) continue;
+    bool along_lines = find_lines(loop, springs, chunk);
+    SPORE_KERNEL(spore_springs_chunk_jacobian)(springs, chunk, loop->at, along_lines, loop->matrix);
+  }
 }
 
 void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const SporeTangent *at,
                             SporeBlockMatrix *matrix) {
-  Loop loop = {.springs = springs, .kinds = kinds, .at = at, .matrix = matrix};
+  Loop loop = {.springs = springs, .kinds = kinds, .q = at->q, .shape = at->shape, .at = at, .matrix = matrix};
+  begin_lines(&loop);
   spore_pool_run(spore_pool_for(pool, 4 * slot_count(springs, kinds)), springs->chunk_count, add_jacobian, &loop);
+  end_lines(&loop);
 }

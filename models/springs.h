@@ -18,6 +18,15 @@
  * written by its groups alone, whatever the kind of springs, so that chunks may be computed on several threads. */
 #define SPORE_SPRINGS_CHUNK 512
 
+/* Where the springs lay in the shape that they were last damped along: an implicit step asks for that again and again.
+ */
+typedef struct SporeSpringsLines {
+  bool ready;
+  size_t count;  /* of entries of shape */
+  double *shape; /* three a node */
+  double *along; /* slot x 4 x lane: the lines, x y z, 0 where there is no spring, and one over the square of each */
+} SporeSpringsLines;
+
 typedef struct SporeSprings {
   size_t chunk_count;    /* of the model */
   uint32_t *chunk_start; /* chunk_count + 1: its first group */
@@ -36,6 +45,7 @@ typedef struct SporeSprings {
   double *share;        /* slot x lane: of that stiffness; NULL: all have it whole */
   double *dose;         /* as share: how far coagulated, 0 to 1 */
   double damping;       /* N s/m, of each */
+  SporeSpringsLines *lines;
 } SporeSprings;
 
 /* One spring for each pair of nodes, `keys` as in SporePairs; no pair twice. rest: node_count x 3, borrowed. Stiffness
@@ -48,16 +58,20 @@ bool spore_springs_pattern(const SporeSprings *springs, SporeBlockPattern *patte
 /* Looks up where the springs' blocks lie, once the matrix of all of the model's patterns is known. */
 void spore_springs_find_blocks(SporeSprings *springs, const SporeBlockMatrix *matrix);
 
+/* Fills the chunk's part of lines->along, at `shape`. */
+SPORE_DECLARE_KERNEL(void, spore_springs_chunk_lines, const SporeSprings *springs, size_t chunk, const double *shape);
+/* along_lines: damped along those, or else along what q shows. h: q is their shape moved along v for h seconds; 0: it
+ * may be anywhere. */
 SPORE_DECLARE_KERNEL(void, spore_springs_chunk_force, const SporeSprings *springs, size_t chunk, const double *q,
-                     const double *shape, const double *v, double *f);
+                     const double *v, bool along_lines, double h, double *f);
 SPORE_DECLARE_KERNEL(double, spore_springs_potential, const SporeSprings *springs, const double *q);
 SPORE_DECLARE_KERNEL(void, spore_springs_chunk_jacobian, const SporeSprings *springs, size_t chunk,
-                     const SporeTangent *at, SporeBlockMatrix *matrix);
+                     const SporeTangent *at, bool along_lines, SporeBlockMatrix *matrix);
 
 /* f += the forces of several kinds of springs between the same nodes, damped along the lines that they have in
- * `shape`. */
+ * `shape`. h: q = shape + h v, s; 0: it may be anywhere. */
 void spore_springs_force(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
-                         const double *shape, const double *v, double *f);
+                         const double *shape, const double *v, double h, double *f);
 static inline double spore_springs_potential(const SporeSprings *springs, const double *q) {
   return springs->stiffness > 0 ? SPORE_KERNEL(spore_springs_potential)(springs, q) : 0;
 }

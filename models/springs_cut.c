@@ -34,6 +34,7 @@ void spore_springs_restore(SporeSprings *springs, const SporeSpringsWhole *whole
   memcpy(springs->block, whole->block, lanes * sizeof *whole->block);
   memcpy(springs->length, whole->length, lanes * sizeof *whole->length);
   memcpy(springs->is_run, whole->is_run, lanes / SPORE_LANES * sizeof *whole->is_run);
+  springs->lines->ready = false;
   for (size_t i = 0; springs->share && i < lanes; i++) springs->share[i] = 1, springs->dose[i] = 0;
 }
 
@@ -74,6 +75,7 @@ static void empty(SporeSprings *springs, const SporeSpringsWhole *whole, uint32_
   springs->length[at] = -0.0;
   springs->block[at] = springs->diagonal[whole->place[a]];
   springs->is_run[at / SPORE_LANES] = false;
+  springs->lines->ready = false;
 }
 
 bool spore_springs_part(SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, uint32_t b) {

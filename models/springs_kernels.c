@@ -28,10 +28,9 @@ SPORE_INLINE SporeVd3 at_neighbours(const SporeSprings *springs, size_t slot, co
                                              : spore_vd3_gather(x, neighbour);
 }
 
-/* From the neighbours in the slot to the nodes; *square: of its length, not 0. */
-SPORE_INLINE SporeVd3 line_of(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 position,
-                              const double *q, SporeVd length, SporeVd *square) {
-  SporeVd3 line = spore_vd3_sub(position, at_neighbours(springs, slot, q));
+/* The line, or that of rest where it is none; *square: of its length, not 0. */
+SPORE_INLINE SporeVd3 not_short(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 line,
+                                SporeVd length, SporeVd *square) {
   *square = spore_vd3_dot(line, line);
   SporeVl is_short = *square < SHORT * SHORT * length * length;
   if (__builtin_expect(spore_vl_any(is_short), 0)) {
@@ -40,6 +39,13 @@ SPORE_INLINE SporeVd3 line_of(const SporeSprings *springs, const uint32_t *node,
   }
   *square += 1e-300;
   return line;
+}
+
+/* From the neighbours in the slot to the nodes. */
+SPORE_INLINE SporeVd3 line_of(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 position,
+                              const double *q, SporeVd length, SporeVd *square) {
+  SporeVd3 line = spore_vd3_sub(position, at_neighbours(springs, slot, q));
+  return not_short(springs, node, slot, line, length, square);
 }
 
 /* How many of the SPORE_WIDTH lanes from `first` hold nodes. */
@@ -62,7 +68,31 @@ SPORE_INLINE void subtract_rows(const SporeSprings *springs, size_t first, Spore
   }
 }
 
-enum { UNDAMPED, DAMPED_AT_Q, DAMPED_AT_SHAPE };
+enum { UNDAMPED, DAMPED_AT_Q, DAMPED_ALONG_LINES, MOVED_FROM_LINES };
+
+SPORE_INLINE double *lines_at(const SporeSprings *springs, size_t slot) {
+  return springs->lines->along + 4 * (slot - slot % SPORE_LANES) + slot % SPORE_LANES;
+}
+SPORE_INLINE SporeVd3 load_line(const double *line) {
+  return (SporeVd3){spore_vd_load(line), spore_vd_load(line + SPORE_LANES), spore_vd_load(line + 2 * SPORE_LANES)};
+}
+SPORE_INLINE SporeVd load_inverse_square(const double *line) { return spore_vd_load(line + 3 * SPORE_LANES); }
+
+void SPORE_LEVEL_NAME(spore_springs_chunk_lines)(const SporeSprings *springs, size_t chunk, const double *shape) {
+  for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
+    const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
+    SporeVd3 position = spore_vd3_gather(shape, node);
+    for (size_t s = start[0]; s < start[1]; s++) {
+      size_t slot = s * SPORE_LANES + first % SPORE_LANES;
+      SporeVd square;
+      SporeVd3 line = line_of(springs, node, slot, position, shape, spore_vd_load(springs->length + slot), &square);
+      double *to = lines_at(springs, slot);
+      spore_vd_store(to, line.x), spore_vd_store(to + SPORE_LANES, line.y),
+          spore_vd_store(to + 2 * SPORE_LANES, line.z);
+      spore_vd_store(to + 3 * SPORE_LANES, 1 / square);
+    }
+  }
+}
 
 /* shared: some have more stiffness than others, or less. */
 SPORE_INLINE SporeVd stiffness_at(const SporeSprings *springs, size_t slot, double stiffness, bool shared) {
@@ -70,28 +100,35 @@ SPORE_INLINE SporeVd stiffness_at(const SporeSprings *springs, size_t slot, doub
   return shared ? all * spore_vd_load(springs->share + slot) : all;
 }
 
-/* f = -k (1 - L/l) d - c (e . w) / |e|^2 e, with e = d or as it is in shape. Nodes that meet with L = 0 feel nothing.
- */
-SPORE_INLINE void add_forces(const SporeSprings *springs, size_t chunk, const double *q, const double *shape,
-                             const double *v, double *f, int damped, bool shared) {
+/* What a line has become; *square: of its length, not 0. */
+SPORE_INLINE SporeVd3 moved_line(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 line,
+                                 SporeVd3 speed, double h, SporeVd length, SporeVd *square) {
+  line.x += h * speed.x, line.y += h * speed.y, line.z += h * speed.z;
+  return not_short(springs, node, slot, line, length, square);
+}
+
+/* f = -k (1 - L/l) d - c (e . w) / |e|^2 e, with e = d or as lines->along. Nodes that meet with L = 0 feel nothing. */
+SPORE_INLINE void add_forces(const SporeSprings *springs, size_t chunk, const double *q, const double *v, double h,
+                             double *f, int damped, bool shared) {
   for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
-    SporeVd3 position = spore_vd3_gather(q, node), velocity, before, sum = {0};
+    SporeVd3 position, velocity, sum = {0};
+    if (damped != MOVED_FROM_LINES) position = spore_vd3_gather(q, node);
     if (damped) velocity = spore_vd3_gather(v, node);
-    if (damped == DAMPED_AT_SHAPE) before = spore_vd3_gather(shape, node);
     for (size_t s = start[0]; s < start[1]; s++) {
       size_t slot = s * SPORE_LANES + first % SPORE_LANES;
       SporeVd length = spore_vd_load(springs->length + slot), square;
-      SporeVd3 line = line_of(springs, node, slot, position, q, length, &square);
+      SporeVd3 line, speed, before;
+      if (damped) speed = spore_vd3_sub(velocity, at_neighbours(springs, slot, v));
+      if (damped >= DAMPED_ALONG_LINES) before = load_line(lines_at(springs, slot));
+      if (damped != MOVED_FROM_LINES) line = line_of(springs, node, slot, position, q, length, &square);
+      else line = moved_line(springs, node, slot, before, speed, h, length, &square);
       SporeVd pull = stiffness_at(springs, slot, springs->stiffness, shared) * (1 - length / spore_vd_sqrt(square));
-      if (damped) {
-        SporeVd3 speed = spore_vd3_sub(velocity, at_neighbours(springs, slot, v));
-        if (damped == DAMPED_AT_Q) pull += springs->damping * spore_vd3_dot(line, speed) / square;
-        if (damped == DAMPED_AT_SHAPE) {
-          SporeVd3 along = line_of(springs, node, slot, before, shape, length, &square);
-          SporeVd drag = springs->damping * spore_vd3_dot(along, speed) / square;
-          sum.x += drag * along.x, sum.y += drag * along.y, sum.z += drag * along.z;
-        }
+      if (damped == DAMPED_AT_Q) pull += springs->damping * spore_vd3_dot(line, speed) / square;
+      if (damped >= DAMPED_ALONG_LINES) {
+        SporeVd inverse = load_inverse_square(lines_at(springs, slot));
+        SporeVd drag = springs->damping * (spore_vd3_dot(before, speed) * inverse);
+        sum.x += drag * before.x, sum.y += drag * before.y, sum.z += drag * before.z;
       }
       sum.x += pull * line.x, sum.y += pull * line.y, sum.z += pull * line.z;
     }
@@ -102,17 +139,18 @@ SPORE_INLINE void add_forces(const SporeSprings *springs, size_t chunk, const do
   }
 }
 
-SPORE_INLINE void add_damped_forces(const SporeSprings *springs, size_t chunk, const double *q, const double *shape,
-                                    const double *v, double *f, bool shared) {
-  if (!(springs->damping > 0)) add_forces(springs, chunk, q, q, v, f, UNDAMPED, shared);
-  else if (shape == q) add_forces(springs, chunk, q, q, v, f, DAMPED_AT_Q, shared);
-  else add_forces(springs, chunk, q, shape, v, f, DAMPED_AT_SHAPE, shared);
+SPORE_INLINE void add_damped_forces(const SporeSprings *springs, size_t chunk, const double *q, const double *v,
+                                    bool along_lines, double h, double *f, bool shared) {
+  if (along_lines && h > 0) add_forces(springs, chunk, q, v, h, f, MOVED_FROM_LINES, shared);
+  else if (along_lines) add_forces(springs, chunk, q, v, 0, f, DAMPED_ALONG_LINES, shared);
+  else if (springs->damping > 0) add_forces(springs, chunk, q, v, 0, f, DAMPED_AT_Q, shared);
+  else add_forces(springs, chunk, q, v, 0, f, UNDAMPED, shared);
 }
 
 void SPORE_LEVEL_NAME(spore_springs_chunk_force)(const SporeSprings *springs, size_t chunk, const double *q,
-                                                 const double *shape, const double *v, double *f) {
-  if (springs->share) add_damped_forces(springs, chunk, q, shape, v, f, true);
-  else add_damped_forces(springs, chunk, q, shape, v, f, false);
+                                                 const double *v, bool along_lines, double h, double *f) {
+  if (springs->share) add_damped_forces(springs, chunk, q, v, along_lines, h, f, true);
+  else add_damped_forces(springs, chunk, q, v, along_lines, h, f, false);
 }
 
 /* Each spring comes twice, hence a quarter of k (l - L)^2. */
@@ -173,7 +211,7 @@ SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd inverse, SporeVd leng
   return (Symmetric){ax * nx + across, ax * ny, ax * nz, ay * ny + across, ay * nz, az * nz + across};
 }
 
-/* damping: along the lines at q; drag: along those in shape. promised: the tension is that which linearising at `from`
+/* damping: along the lines at q; drag: along lines->along. promised: the tension is that which linearising at `from`
  * gives at q, k (n . d - L) with the direction n of there. */
 SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const SporeTangent *at, double damping,
                                double drag, int damped, bool promised, bool shared, SporeBlockMatrix *matrix) {
@@ -182,8 +220,7 @@ SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const 
   for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
     size_t lanes = lanes_from(springs, first);
-    SporeVd3 position = spore_vd3_gather(at->q, node), before, old;
-    if (damped == DAMPED_AT_SHAPE) before = spore_vd3_gather(at->shape, node);
+    SporeVd3 position = spore_vd3_gather(at->q, node), old;
     if (promised) old = spore_vd3_gather(at->from, node);
     Symmetric sum = {0};
     for (size_t s = start[0]; s < start[1]; s++) {
@@ -197,9 +234,10 @@ SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const 
       }
       Symmetric block = stiffness_of(line, inverse, length, spore_vd_max(tension, least),
                                      stiffness_at(springs, slot, stiffness, shared), damping);
-      if (damped == DAMPED_AT_SHAPE) {
-        line = line_of(springs, node, slot, before, at->shape, length, &square);
-        Symmetric part = stiffness_of(line, 1 / spore_vd_sqrt(square), length, none, none, drag);
+      if (damped == DAMPED_ALONG_LINES) {
+        const double *before = lines_at(springs, slot);
+        SporeVd root = spore_vd_sqrt(load_inverse_square(before));
+        Symmetric part = stiffness_of(load_line(before), root, length, none, none, drag);
         block.xx += part.xx, block.xy += part.xy, block.xz += part.xz;
         block.yy += part.yy, block.yz += part.yz, block.zz += part.zz;
       }
@@ -217,18 +255,17 @@ SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const 
   }
 }
 
-SPORE_INLINE void add_damped_jacobian(const SporeSprings *springs, size_t chunk, const SporeTangent *at, bool shared,
-                                      SporeBlockMatrix *matrix) {
+SPORE_INLINE void add_damped_jacobian(const SporeSprings *springs, size_t chunk, const SporeTangent *at,
+                                      bool along_lines, bool shared, SporeBlockMatrix *matrix) {
   double damping = at->damping_scale * springs->damping;
-  bool at_q = at->shape == at->q || damping == 0;
-  if (at_q && !at->from) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, false, shared, matrix);
-  else if (at_q) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, true, shared, matrix);
-  else if (!at->from) add_jacobian(springs, chunk, at, 0, damping, DAMPED_AT_SHAPE, false, shared, matrix);
-  else add_jacobian(springs, chunk, at, 0, damping, DAMPED_AT_SHAPE, true, shared, matrix);
+  if (!along_lines && !at->from) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, false, shared, matrix);
+  else if (!along_lines) add_jacobian(springs, chunk, at, damping, 0, DAMPED_AT_Q, true, shared, matrix);
+  else if (!at->from) add_jacobian(springs, chunk, at, 0, damping, DAMPED_ALONG_LINES, false, shared, matrix);
+  else add_jacobian(springs, chunk, at, 0, damping, DAMPED_ALONG_LINES, true, shared, matrix);
 }
 
 void SPORE_LEVEL_NAME(spore_springs_chunk_jacobian)(const SporeSprings *springs, size_t chunk, const SporeTangent *at,
-                                                    SporeBlockMatrix *matrix) {
-  if (springs->share) add_damped_jacobian(springs, chunk, at, true, matrix);
-  else add_damped_jacobian(springs, chunk, at, false, matrix);
+                                                    bool along_lines, SporeBlockMatrix *matrix) {
+  if (springs->share) add_damped_jacobian(springs, chunk, at, along_lines, true, matrix);
+  else add_damped_jacobian(springs, chunk, at, along_lines, false, matrix);
 }

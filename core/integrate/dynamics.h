@@ -16,9 +16,9 @@ typedef struct SporeDynamics {
   size_t q_count, block_count;
   bool switches; /* some forces set in or end as things move: there are contacts */
   /* From here on forces are elastic where they are evaluated and viscous at `shape` (borrowed), so that the viscous
-   * ones are linear in v and A below is the whole Jacobian; first order in time. At first, and with NULL: viscous there
-   * too. */
-  void (*set_shape)(void *data, const double *shape);
+   * ones are linear in v and A below is the whole Jacobian; first order in time; and they are asked for where nodes
+   * moved from `shape` along v for h seconds, which saves work. At first, and with NULL: viscous there too. */
+  void (*set_shape)(void *data, const double *shape, double h);
   void (*force)(void *data, const double *q, const double *v, double *f); /* f = all forces, N */
   /* The same in two parts: f = the bodies' own forces, and f += those of contacts and links. */
   void (*body_force)(void *data, const double *q, const double *v, double *f);
@@ -47,9 +47,9 @@ typedef struct SporeDynamics {
    * of the bodies' part of A; 0 where it is not meant to be one. */
   double (*factor_cost)(void *data);
   bool (*factorised)(void *data); /* whether P is one now */
-  /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries at q, by the diagonal of the current A: along the soft axes
-   * alone, or along the stiff ones too. */
-  double (*rounding)(void *data, const double *q, double c, bool stiff_axes);
+  /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries, by the diagonal of the current A where that was made: along
+   * the soft axes alone, or along the stiff ones too. */
+  double (*rounding)(void *data, double c, bool stiff_axes);
   /* Largest root mean square displacement of a body, (x.M x / mass)^1/2, m; x in m. */
   double (*distance)(void *data, const double *x);
   bool held;               /* by pins, or by links to what does not follow from q */

@@ -5,7 +5,7 @@
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
   double *v = scratch, *work = v + 3 * dynamics->block_count;
-  dynamics->set_shape(dynamics->data, q0);
+  dynamics->set_shape(dynamics->data, q0, h);
   const double *change = history->step_s == h ? history->a : NULL;
   SporeStepResult result = spore_stage_solve(dynamics, fields, h, q0, v0, change, v, work);
   dynamics->drift(dynamics->data, q0, v, h, q1, v1);

@@ -89,7 +89,7 @@ static double dual_norm(void *data, const double *r) {
 
 static double rounding(void *data, const double *v, bool stiff_axes) {
   Stage *stage = data;
-  return stage->dynamics->rounding(stage->dynamics->data, stage->q, stage->c, stiff_axes);
+  return stage->dynamics->rounding(stage->dynamics->data, stage->c, stiff_axes);
 }
 
 /* What contacts and links push. */

@@ -87,7 +87,7 @@ static bool balance_load(Balance *balance, const SporeSolverFields *fields, doub
     double c2 = balance->pseudo_step * balance->pseudo_step;
     dynamics->linearise(dynamics->data, balance->q, NULL, balance->moved, c2 / balance->h, c2);
     result->linearisations++;
-    if (norm <= dynamics->rounding(dynamics->data, balance->q, balance->h, false)) return true;
+    if (norm <= dynamics->rounding(dynamics->data, balance->h, false)) return true;
     SporeLinearResult solved = spore_pcg(&operator, r, LINEAR_TOLERANCE, (size_t)fields->linear_iterations, d, linear);
     result->newton_iterations++;
     result->linear_iterations += solved.iterations;
@@ -99,7 +99,7 @@ static bool balance_load(Balance *balance, const SporeSolverFields *fields, doub
     change_pseudo_step(balance, length, norm, after);
   }
   /* No better than rounding allows: the linearisation tells. */
-  return result->linearisations > 0 && norm <= dynamics->rounding(dynamics->data, balance->q, balance->h, true);
+  return result->linearisations > 0 && norm <= dynamics->rounding(dynamics->data, balance->h, true);
 }
 
 /* What nothing holds has no balance. It creeps: each step it starts from rest, and gains what one step gives it. */

@@ -254,7 +254,6 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   world->mass = SPORE_NEW_ARRAY(double, 3 * v);
   world->mass_inverse = SPORE_NEW_ARRAY(double, 3 * v);
   world->precondition = SPORE_NEW_ARRAY(double, 3 * v);
-  world->block_stiffness = SPORE_NEW_ARRAY(double, v / 3);
   world->still = SPORE_NEW_ARRAY(double, v);
   world->local_q0 = SPORE_NEW_ARRAY(double, q);
   world->local_q1 = SPORE_NEW_ARRAY(double, q);
@@ -271,10 +270,10 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error) {
   world->islands = SPORE_NEW_ARRAY(SporeIsland, n);
   world->local_sites = SPORE_NEW_ARRAY(SporeSite, n);
   world->commands.ring = SPORE_NEW_ARRAY(SporeCommand, SPORE_COMMAND_CAPACITY);
-  bool made = world->target_q && world->mass && world->mass_inverse && world->precondition && world->block_stiffness &&
-              world->local_q0 && world->local_q1 && world->local_v0 && world->local_v1 && world->scratch &&
-              world->reaction && world->parent && world->island_of && world->island_bodies && world->islands &&
-              world->local_sites && world->frames && world->commands.ring && world->still && world->best_q &&
-              world->best_v && allocate_history(world);
+  bool made = world->target_q && world->mass && world->mass_inverse && world->precondition && world->local_q0 &&
+              world->local_q1 && world->local_v0 && world->local_v1 && world->scratch && world->reaction &&
+              world->parent && world->island_of && world->island_bodies && world->islands && world->local_sites &&
+              world->frames && world->commands.ring && world->still && world->best_q && world->best_v &&
+              allocate_history(world);
   return made || no_memory(error);
 }

@@ -9,8 +9,11 @@ static void add_body_forces(const SporeGroup *group, const double *q, const doub
     SporeBody *body = spore_group_body(group, b, &site);
     const double *shape = (group->shape ? group->shape : q) + site->q;
     if (spore_group_leaves(group, body)) continue;
-    const double *velocity = spore_body_is_static(body) ? group->world->still : v + site->v;
-    body->model->type->force(body->model, q + site->q, shape, velocity, f + site->v);
+    const SporeModelType *type = body->model->type;
+    bool still = spore_body_is_static(body);
+    if (type->force_along && group->shape_s > 0 && !still)
+      type->force_along(body->model, q + site->q, shape, v + site->v, group->shape_s, f + site->v);
+    else type->force(body->model, q + site->q, shape, still ? group->world->still : v + site->v, f + site->v);
     double gravity[3];
     spore_vec3_store(gravity, spore_body_gravity(group->world, body));
     spore_nodes_pull(body->block_count, f + site->v, body->model->block_mass, gravity);
@@ -23,7 +26,11 @@ static void add_term_forces(const SporeGroup *group, const double *q, const doub
     spore_spring_term_force(spore_group_spring(group, i), group->world->local_sites, q, v, f);
 }
 
-static void set_shape(void *data, const double *shape) { ((SporeGroup *)data)->shape = shape; }
+static void set_shape(void *data, const double *shape, double h) {
+  SporeGroup *group = data;
+  group->shape = shape;
+  group->shape_s = h;
+}
 
 static void start_forces(const SporeGroup *group, double *f) {
   if (group->given) memcpy(f, group->given, group->island->v_count * sizeof *f);
@@ -198,10 +205,11 @@ static void kick(void *data, const double *f, double h, double *v) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    if (spore_model_is_nodal(body->model))
-      spore_nodes_kick(body->block_count, v + site->v, h, f + site->v, body->model->block_mass);
-    else
-      spore_blocks_add(group->world->mass_inverse + 3 * body->v_offset, body->block_count, h, f + site->v, v + site->v);
+    /* A rigid body's single node comes with its frame. */
+    size_t nodes = spore_model_is_rigid(body->model) ? 0 : body->model->node_count;
+    spore_nodes_kick(nodes, v + site->v, h, f + site->v, body->model->block_mass);
+    spore_blocks_add(group->world->mass_inverse + 3 * body->v_offset + 9 * nodes, body->block_count - nodes, h,
+                     f + site->v + 3 * nodes, v + site->v + 3 * nodes);
   }
   spore_group_filter(group, v);
 }

@@ -200,7 +200,7 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
 
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
   const SporeStepResult *result = &island->result;
-  const SporeGroup group = {.world = world, .island = island};
+  SporeGroup group = {.world = world, .island = island};
   bool again = false, alone = !spore_group_couples(&group);
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];

@@ -68,7 +68,7 @@ void spore_body_fold_bend(SporeBody *body, const SporeRailBend *bend) {
     }
 }
 
-bool spore_group_couples(const SporeGroup *group) {
+static bool couples(const SporeGroup *group) {
   for (size_t i = 0; i < group->island->contact_count; i++) {
     const SporeContactTerm *term = spore_group_contact(group, i);
     if (spore_group_folds(group, &term->a, &term->b) == SPORE_NO_BODY) return true;
@@ -78,4 +78,10 @@ bool spore_group_couples(const SporeGroup *group) {
     if (spore_group_folds(group, &term->a, &term->b) == SPORE_NO_BODY) return true;
   }
   return false;
+}
+
+bool spore_group_couples(SporeGroup *group) {
+  if (!group->asked_couples) group->couples = couples(group);
+  group->asked_couples = true;
+  return group->couples;
 }

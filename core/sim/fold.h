@@ -11,7 +11,7 @@ uint32_t spore_group_folds(const SporeGroup *group, const SporeEnd *a, const Spo
 /* Adds J^T k J to the matrix, J the motion of end a relative to end b; `folds` of those ends is not SPORE_NO_BODY. */
 void spore_body_fold(SporeBody *body, const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k);
 /* Whether some contact or link of the island is not folded. */
-bool spore_group_couples(const SporeGroup *group);
+bool spore_group_couples(SporeGroup *group);
 
 /* What the bending of a rail on this body adds, of a term whose other end physics does not move. */
 void spore_body_fold_bend(SporeBody *body, const SporeRailBend *bend);

@@ -70,8 +70,10 @@ static inline void spore_blocks_add(const double *blocks, size_t count, double s
 
 /* y = M x of a body */
 static inline void spore_group_weigh(const SporeGroup *group, const SporeBody *body, const double *x, double *y) {
-  if (spore_model_is_nodal(body->model)) spore_nodes_weigh(body->block_count, y, body->model->block_mass, x);
-  else spore_blocks_apply(spore_group_mass(group, body), body->block_count, x, y);
+  size_t nodes = body->model->node_count;
+  spore_nodes_weigh(nodes, y, body->model->block_mass, x);
+  spore_blocks_apply(spore_group_mass(group, body) + 9 * nodes, body->block_count - nodes, x + 3 * nodes,
+                     y + 3 * nodes);
   double inertia = spore_group_inertia(group, body);
   for (size_t k = 0; inertia != 1 && k < 3 * body->block_count; k++) y[k] *= inertia;
 }
@@ -116,6 +118,6 @@ void spore_group_multiply(void *data, const double *x, double *y);
 void spore_group_precondition(void *data, const double *r, double *z);
 double spore_group_factor_cost(void *data);
 bool spore_group_factorised(void *data);
-double spore_group_rounding(void *data, const double *q, double c, bool stiff_axes);
+double spore_group_rounding(void *data, double c, bool stiff_axes);
 
 #endif

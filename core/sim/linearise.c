@@ -7,10 +7,6 @@
 
 #define FLOPS_TO_ROUND 1e5 /* of a solution: below, its factor is quick to read as it is */
 
-static double *block_stiffness(const SporeGroup *group) {
-  return group->world->block_stiffness + group->island->v_start / 3;
-}
-
 static SporeCoupling *contact_couplings(const SporeGroup *group) {
   return group->world->contact_couplings + group->island->contact_start;
 }
@@ -80,18 +76,38 @@ static void factorise(SporeBody *body, const double *blocks, bool alone) {
   body->choice.factors++;
 }
 
-/* Root mean square of the eigenvalues of A - M in each diagonal block. */
-static void measure_stiffness(const double *blocks, const double *mass, size_t count, double *stiffness) {
-  for (size_t i = 0; i < count; i++, blocks += 9, mass += 9) {
-    double sum = 0;
-    for (int e = 0; e < 9; e++) sum += (blocks[e] - mass[e]) * (blocks[e] - mass[e]);
-    stiffness[i] = sqrt(sum / 3);
+/* How stiff a diagonal block of A - M is: the root mean square of its eigenvalues. */
+static double stiffness_of(const double *block, const double *mass) {
+  double sum = 0;
+  for (int e = 0; e < 9; e++) sum += (block[e] - mass[e]) * (block[e] - mass[e]);
+  return sqrt(sum / 3);
+}
+
+/* And along its soft axes, from the inverse of A's. */
+static double softest_stiffness(const double *inverse, double weight) {
+  double flexible = (inverse[0] + inverse[4] + inverse[8]) / 3;
+  return fmax(1 / flexible - 1 / weight, 0);
+}
+
+/* Inverts A's diagonal blocks, and sums up what they say of rounding on the way, see spore_group_rounding. */
+static void invert_diagonal(const SporeGroup *group, SporeBody *body, const double *q, double *blocks) {
+  const double *mass = spore_group_mass(group, body), *inverse = group->world->mass_inverse + 3 * body->v_offset;
+  size_t nodes = body->model->node_count;
+  body->rounding_soft = body->rounding_stiff = 0;
+  for (size_t i = 0; i < body->block_count; i++, blocks += 9, mass += 9, inverse += 9) {
+    double weight = (inverse[0] + inverse[4] + inverse[8]) / 3, stiff = stiffness_of(blocks, mass);
+    double size = spore_vec3_length(spore_vec3_load(q + 3 * (i < nodes ? i : nodes - 1)));
+    if (nodes < body->block_count) size += 1; /* an orientation is known to rounding of 1 */
+    spore_blocks_invert(blocks, 1);
+    double soft = softest_stiffness(blocks, weight);
+    body->rounding_soft += weight * soft * soft * size * size;
+    body->rounding_stiff += weight * stiff * stiff * size * size;
   }
 }
 
 /* Among couplings conjugate gradients make up for what a factor does not know, so that one of an earlier matrix does as
  * long as it does well: see factor.c. Alone it is all there is. */
-static void make_preconditioner(SporeGroup *group) {
+static void make_preconditioner(SporeGroup *group, const double *q) {
   bool alone = group->contact_couplings + group->spring_couplings == 0;
   double *blocks = spore_group_precondition_blocks(group);
   for (size_t b = 0; b < group->island->kept_count; b++) {
@@ -104,14 +120,12 @@ static void make_preconditioner(SporeGroup *group) {
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
     SporeBody *body = spore_group_body(group, b, &site);
-    measure_stiffness(blocks + 3 * site->v, spore_group_mass(group, body), body->block_count,
-                      block_stiffness(group) + site->v / 3);
     bool current = body->factor_ready && body->factor_alone && alone;
     if (!body->choice.factorised || !spore_group_assembles(group, body)) body->factor_ready = body->factor_kept = false;
     else if (body->factor_kept && !alone) body->factor_ready = true;
     else if (!current) factorise(body, blocks + 3 * site->v, alone);
+    invert_diagonal(group, body, q + site->q, blocks + 3 * site->v);
   }
-  spore_blocks_invert(blocks, group->island->v_count / 3);
 }
 
 static void assemble(const SporeGroup *group, SporeBody *body, const SporeTangent *at, double c, double c2) {
@@ -166,8 +180,20 @@ void spore_group_linearise(void *data, const double *q, const double *from, cons
   SporeGroup *group = data;
   assemble_bodies(group, q, from, v, c, c2, true);
   linearise_terms(group, q, v, c, c2, false);
-  make_preconditioner(group);
-  if (assemble_bodies(group, q, from, v, c, c2, false)) make_preconditioner(group);
+  make_preconditioner(group, q);
+  if (assemble_bodies(group, q, from, v, c, c2, false)) make_preconditioner(group, q);
+}
+
+/* Whether factors that are as good as when they were made are all of the preconditioner. */
+static bool has_factors_alone(SporeGroup *group) {
+  if (spore_group_couples(group)) return false;
+  for (size_t b = 0; b < group->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_group_body(group, b, &site);
+    if (!body->choice.factorised || !body->factor_ready || !body->factor_alone) return false;
+    if (!spore_group_assembles(group, body)) return false;
+  }
+  return true;
 }
 
 /* Whether every matrix of the island is that of c and c2, and not older than it is kept. */
@@ -190,8 +216,10 @@ bool spore_group_reuse(void *data, const double *q, const double *v, double c, d
     spore_group_body(group, b, &site)->choice.start = kept ? SPORE_START_KEPT : SPORE_START_NEW;
   }
   if (!kept) return false;
+  group->contact_couplings = group->spring_couplings = 0;
+  if (has_factors_alone(group)) return true;
   linearise_terms(group, q, v, c, c2, true);
-  make_preconditioner(group);
+  make_preconditioner(group, q);
   return true;
 }
 
@@ -250,32 +278,14 @@ void spore_group_precondition(void *data, const double *r, double *z) {
   spore_group_filter(group, z);
 }
 
-/* How stiff a block is along its soft axes, from the preconditioner, which holds the inverse of A's diagonal blocks. */
-static double softest_stiffness(const double *inverse, double weight) {
-  double flexible = (inverse[0] + inverse[4] + inverse[8]) / 3;
-  return fmax(1 / flexible - 1 / weight, 0);
-}
-
-/* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness. */
-double spore_group_rounding(void *data, const double *q, double c, bool stiff_axes) {
-  SporeGroup *group = data;
-  const double *inverse = spore_group_precondition_blocks(group);
+/* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness; by the q of the last linearisation. */
+double spore_group_rounding(void *data, double c, bool stiff_axes) {
+  const SporeGroup *group = data;
   double sum = 0;
   for (size_t b = 0; b < group->island->kept_count; b++) {
     const SporeSite *site;
-    SporeBody *body = spore_group_body(group, b, &site);
-    const double *mass_inverse = group->world->mass_inverse + 3 * body->v_offset;
-    size_t nodes = body->model->node_count;
-    for (size_t i = 0; i < body->block_count; i++) {
-      const double *w = mass_inverse + 9 * i;
-      double weight = (w[0] + w[4] + w[8]) / 3;
-      double stiff = stiff_axes ? block_stiffness(group)[site->v / 3 + i]
-                                : softest_stiffness(inverse + 3 * site->v + 9 * i, weight);
-      stiff /= c;
-      double size = spore_vec3_length(spore_vec3_load(q + site->q + 3 * (i < nodes ? i : nodes - 1)));
-      if (nodes < body->block_count) size += 1; /* an orientation is known to rounding of 1 */
-      sum += weight * stiff * stiff * size * size;
-    }
+    const SporeBody *body = spore_group_body(group, b, &site);
+    sum += stiff_axes ? body->rounding_stiff : body->rounding_soft;
   }
-  return 4 * DBL_EPSILON * sqrt(sum);
+  return 4 * DBL_EPSILON * sqrt(sum) / c;
 }

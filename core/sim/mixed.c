@@ -133,7 +133,7 @@ static SporeStepResult advance_part(const Mixed *mixed, SporeGroup *group, const
   place_start(mixed, q0, v0, q1, v1, &own);
   dynamics.set_mass(dynamics.data, mixed->qa);
   dynamics.set_time(dynamics.data, mixed->h);
-  dynamics.set_shape(dynamics.data, mixed->qa);
+  dynamics.set_shape(dynamics.data, mixed->qa, mixed->h);
   SporeStepResult result = spore_stage_solve(&dynamics, &mixed->world->solver, mixed->h, mixed->qa, mixed->va, NULL,
                                              mixed->v, mixed->scratch);
   dynamics.drift(dynamics.data, mixed->qa, mixed->v, mixed->h, q1, v1);

@@ -119,6 +119,10 @@ struct SporeModelType {
    * `shape`, linear in v. Where shape is q the force is that of the state (q, v); an implicit step may instead take the
    * viscous one at the shape that it began from, so that its Jacobian is symmetric and whole. */
   void (*force)(const SporeModel *model, const double *q, const double *shape, const double *v, double *f);
+  /* The same where the nodes of q are those of shape moved along v for h > 0 seconds, as in an implicit step: what is
+   * linear in q is then that of the shape, which is asked for again and again, and of v. NULL: force serves. */
+  void (*force_along)(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
+                      double *f);
   /* Internal potential energy, J: force(q, q, 0) = -dU/dq. */
   double (*potential)(const SporeModel *model, const double *q);
   /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. */

@@ -71,7 +71,6 @@ static void free_arrays(SporeWorld *world) {
                     world->best_v,
                     world->scratch,
                     world->precondition,
-                    world->block_stiffness,
                     world->still,
                     world->history_a,
                     world->history_b,

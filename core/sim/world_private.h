@@ -128,8 +128,9 @@ typedef struct SporeBody {
   SporeBlockCholesky factor; /* without blocks: not worth it for this body */
   uint8_t *held_flags;       /* a block, for the factor */
   SporeFactorChoice choice;
-  bool factor_ready, factor_alone; /* the factor is that of the current A, or kept; no couplings were in it */
-  bool factor_kept;                /* among couplings: it preconditions later matrices of the same c and c2 too */
+  bool factor_ready, factor_alone;      /* the factor is that of the current A, or kept; no couplings were in it */
+  bool factor_kept;                     /* among couplings: it preconditions later matrices of the same c and c2 too */
+  double rounding_soft, rounding_stiff; /* squares, of the last preconditioner: see spore_group_rounding */
 
   /* What its integrator remembers of the step before, see SporeHistory: by which method, and for which step alone. */
   SporeIntegratorKind history_kind;
@@ -329,8 +330,7 @@ struct SporeWorld {
   double *still;   /* zeros: the velocity of the largest body, at rest */
   double *scratch; /* of the integrators, scratch_per_block doubles a block */
   size_t scratch_per_block;
-  double *precondition;    /* 9 a block, as local_v0 */
-  double *block_stiffness; /* 1 a block */
+  double *precondition; /* 9 a block, as local_v0 */
 
   SporeCommands commands;
   SporeSnapshots snapshots;
@@ -555,12 +555,14 @@ typedef struct SporeGroup {
   SporeWorld *world;
   const SporeIsland *island;
   const double *shape;   /* as q of the island: where viscous forces are taken; NULL: where each force is */
+  double shape_s;        /* forces are asked for where nodes moved from there along v for so long; 0: anywhere */
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
   bool apart;            /* explicit bodies are masses alone: see mixed.c */
   double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
   size_t contact_couplings, spring_couplings; /* of the current A, first in their arrays: see fold.h */
   bool driven;                                /* some end is moved by a device */
   bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
+  bool asked_couples, couples;                /* see spore_group_couples */
   double softened_s;                          /* the step that terms are softened for; 0: they are not */
 } SporeGroup;
 /* Motion of a body free of force; q1 and v1 may be q0 and v. */

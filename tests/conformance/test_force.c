@@ -30,6 +30,7 @@ static void check_gradient(gconstpointer data) {
 }
 
 static gboolean has_jacobian(const SporeModelType *type) { return type->jacobian != NULL; }
+static gboolean has_force_along(const SporeModelType *type) { return type->force_along != NULL; }
 static gboolean has_tangent(const SporeModelType *type) { return type->tangent != NULL; }
 /* Of nodes alone, and nothing around them: what smoke loses goes to the air (tests/stability/test_smoke.c). */
 static gboolean is_alone(const SporeModelType *type) { return !type->inertia && !type->puff; }
@@ -239,6 +240,37 @@ static void check_viscosity(gconstpointer data) {
   model->type->destroy(model);
 }
 
+/* Where nodes moved from the shape along v, force_along is force. */
+static void check_force_along(gconstpointer data) {
+  const Specimen *specimen = data;
+  SporeModel *model = specimen_model(specimen);
+  if (model->type->force_along) {
+    const double h = 0.004;
+    GRand *random = g_rand_new_with_seed(12);
+    State shape = state_random(model, random, 1, 0.1 * specimen->size), state = state_random(model, random, 1, 0);
+    double *along = vector_new(state.v_count), *force = vector_new(state.v_count);
+    for (int round = 0; round < 2; round++) { /* the second time at another shape: nothing is left of the first */
+      for (size_t i = 0; i < 3 * model->node_count; i++) {
+        shape.q[i] += 1e-3 * round;
+        if (i % 7 == 0) shape.q[i] += 1e-3 * specimen->size * round;
+        state.q[i] = shape.q[i] + h * state.v[i];
+      }
+      memset(along, 0, state.v_count * sizeof *along);
+      memset(force, 0, state.v_count * sizeof *force);
+      model->type->force_along(model, state.q, shape.q, state.v, h, along);
+      model->type->force(model, state.q, shape.q, state.v, force);
+      g_assert_cmpfloat(vector_length(force, state.v_count), >, 0);
+      g_assert_cmpfloat(vector_distance(along, force, state.v_count), <=, 1e-11 * vector_length(force, state.v_count));
+    }
+    g_free(along);
+    g_free(force);
+    state_clear(&state);
+    state_clear(&shape);
+    g_rand_free(random);
+  }
+  model->type->destroy(model);
+}
+
 /* Squeezed to a fifth from all sides nothing of it resists any more: no stiffness is left. */
 static gboolean may_give_way(const SporeModelType *type) { return type == &spore_saint_venant_kirchhoff_tetrahedra; }
 
@@ -403,6 +435,7 @@ int main(int argc, char **argv) {
   specimen_add_tests("/conformance/jacobian", check_jacobian, has_jacobian);
   specimen_add_tests("/conformance/tangent", check_tangent, has_tangent);
   specimen_add_tests("/conformance/viscosity", check_viscosity, has_jacobian);
+  specimen_add_tests("/conformance/force_along", check_force_along, has_force_along);
   specimen_add_tests("/conformance/definite", check_definite, has_jacobian);
   specimen_add_tests("/conformance/momentum", check_momentum, is_alone);
   specimen_add_tests("/conformance/frame", check_frame, NULL);

@@ -28,7 +28,7 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Chain *chain = (const Chain *)model;
-  spore_springs_force(chain->springs, chain->count, model->pool, q, shape, v, f);
+  spore_springs_force(chain->springs, chain->count, model->pool, q, shape, v, 0, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {

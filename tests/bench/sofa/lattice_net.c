@@ -86,7 +86,7 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Net *net = (const Net *)model;
-  spore_springs_force(net->springs, KINDS, model->pool, q, shape, v, f);
+  spore_springs_force(net->springs, KINDS, model->pool, q, shape, v, 0, f);
   for (size_t i = 0; i < model->q_count; i++) f[i] -= net->mass_damping * model->block_mass[i / 3] * v[i];
 }
 
