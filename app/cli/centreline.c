@@ -4,9 +4,13 @@
 
 #include "app/cli/cli.h"
 #include "core/base/number.h"
+#include "core/generate/centreline_scene.h"
 #include "core/generate/centreline.h"
 #include "core/io/mesh_import.h"
+#include "core/io/organ.h"
 #include "core/io/scene_xml.h"
+
+#define APART 1.2 /* radii from loop to loop, over their sum: the body may touch itself */
 
 static void report_branches(SporeCli *cli, const SporeCentrelineReport *report) {
   spore_cli_count(cli, "branches", (gint64)report->branches);
@@ -60,26 +64,96 @@ static void report(SporeCli *cli, const SporeCurve *curve, const SporeCentreline
   report_branches(cli, report);
 }
 
+/* Where the results go. */
+typedef struct Output {
+  char *curve, *scene, *as;
+  gint64 control_points;
+} Output;
+
+/* The mesh that the body shows: a tube carries the organ's own surface. */
+static SporeObject *insert_mesh(SporeDocument *document, const char *name, const char *file, GBytes *content, int unit,
+                                int frame, GError **error) {
+  SporeObject *shown = spore_organ_insert(document, name, file, content, unit, frame, error);
+  if (!shown || !spore_document_remove(document, shown, error)) return NULL;
+  SporeObject *assets = spore_document_section(document, "assets");
+  return spore_object_child(assets, spore_object_child_count(assets) - 1);
+}
+
+/* A mesh file that was read. */
+typedef struct Input {
+  const char *file;
+  GBytes *content;
+  int unit, frame;
+  SporeTriangleMesh mesh;
+} Input;
+
+static gboolean make_body(SporeDocument *document, const Input *input, const SporeCurve *curve,
+                          const SporeCentrelineBodyOptions *options, bool carried, GError **error) {
+  g_autofree char *base = g_path_get_basename(input->file);
+  char *dot = strrchr(base, '.');
+  if (dot && dot != base) *dot = '\0';
+  g_autofree char *name = spore_organ_name(base);
+  SporeObject *mesh = NULL;
+  if (carried) {
+    mesh = insert_mesh(document, name, input->file, input->content, input->unit, input->frame, error);
+    if (!mesh) return FALSE;
+  }
+  return spore_centreline_body_insert(document, name, curve, options, mesh, error) != NULL;
+}
+
+static gboolean write_scene(SporeCli *cli, const Input *input, const SporeCurve *curve,
+                            const SporeCentrelineReport *figures, const Output *output, GError **error) {
+  int kind = spore_cli_choice("--as", output->as ? output->as : "tube", spore_centreline_body_names, error);
+  if (kind < 0) return FALSE;
+  SporeCentrelineBodyOptions options = {.body = (SporeCentrelineBody)kind,
+                                        .control_points = (size_t)output->control_points,
+                                        .loops_apart = figures->approach > APART};
+  bool carried = kind == SPORE_CENTRELINE_TUBE && spore_centreline_carries(curve, &input->mesh, options.loops_apart);
+  SporeDocument *document = spore_document_new(cli->schema);
+  spore_document_set_readers(document, &spore_io_readers);
+  gboolean done = make_body(document, input, curve, &options, carried, error) &&
+                  spore_cli_make_folder_of(output->scene, error) && spore_scene_save(document, output->scene, error);
+  spore_document_free(document);
+  if (!done) return FALSE;
+  spore_cli_text(cli, "skin", carried ? "mesh" : "own");
+  spore_cli_say(cli,
+                carried ? _("%s: written; the body carries the mesh\n")
+                        : _("%s: written; the body shows a skin of its own\n"),
+                output->scene);
+  return TRUE;
+}
+
+static gboolean write_curve(const char *file, const SporeCurve *curve, GError **error) {
+  gsize size = 0;
+  g_autofree char *text = spore_curve_format(curve, &size);
+  return spore_write_file(file, text, size, error);
+}
+
+static gboolean write_results(SporeCli *cli, const Input *input, const SporeCurve *curve,
+                              const SporeCentrelineReport *figures, const Output *output, GError **error) {
+  return (!output->curve || write_curve(output->curve, curve, error)) &&
+         (!output->scene || write_scene(cli, input, curve, figures, output, error));
+}
+
 static int generate(SporeCli *cli, const char *file, const SporeCentrelineOptions *options, const char *unit,
-                    const char *frame, const char *output) {
+                    const char *frame, const Output *output) {
   GError *error = NULL;
   SporeError fault = SPORE_ERROR_INIT;
-  SporeTriangleMesh mesh = {0};
+  Input input = {.file = file};
   SporeCurve curve = {0};
   SporeCentrelineReport figures = {0};
-  gboolean done = (!output || spore_cli_keeps(output, file, &error)) &&
-                  spore_cli_read_mesh(cli, file, unit, frame, &mesh, NULL, NULL, NULL, &error);
-  if (done && !spore_centreline_from_mesh(&mesh, options, &curve, &figures, spore_cli_progress(cli), &fault)) {
+  gboolean done =
+      (!output->curve || spore_cli_keeps(output->curve, file, &error)) &&
+      (!output->scene || spore_cli_keeps(output->scene, file, &error)) &&
+      spore_cli_read_mesh(cli, file, unit, frame, &input.mesh, &input.content, &input.unit, &input.frame, &error);
+  if (done && !spore_centreline_from_mesh(&input.mesh, options, &curve, &figures, spore_cli_progress(cli), &fault)) {
     spore_error_at(&fault, file);
     done = spore_error_propagate(&fault, &error);
   }
-  if (done && output) {
-    gsize size = 0;
-    g_autofree char *text = spore_curve_format(&curve, &size);
-    done = spore_write_file(output, text, size, &error);
-  }
+  done = done && write_results(cli, &input, &curve, &figures, output, &error);
   if (done) report(cli, &curve, &figures);
-  spore_triangle_mesh_clear(&mesh);
+  spore_triangle_mesh_clear(&input.mesh);
+  if (input.content) g_bytes_unref(input.content);
   spore_curve_clear(&curve);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
@@ -128,10 +202,12 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
       {"seconds", N_("that it took")},
       {"branches", N_("number of branches left out: the line takes the longest way")},
       {"side_branches", N_("the longest of them: from (m along the line), length (m), end (m), kind (branch or loop)")},
+      {"skin", N_("with --scene: mesh where the body carries the mesh, own where it shows a tube around the line")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "centreline", "MESH", N_("Finds the middle line of a tubular organ, with its radius."), 1, 1, members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *ends = NULL;
+  char *unit = NULL, *frame = NULL, *ends = NULL;
+  Output output = {0};
   gint64 points = 0;
   double tolerance = 0;
   const GOptionEntry entries[] = {
@@ -143,7 +219,17 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
        N_("Ends of the line, in metres and SPORE's axes (default: the ends of the organ)"), "X,Y,Z X,Y,Z"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, x y z r a line"), "F.curve"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output.curve, N_("File to write, x y z r a line"), "F.curve"},
+      {"scene", 's', 0, G_OPTION_ARG_FILENAME, &output.scene, N_("Scene to write, with a body along the line"),
+       "F.spore"},
+      {"as", 'a', 0, G_OPTION_ARG_STRING, &output.as,
+       N_("What the body is: a solid thread, a tube with a wall that carries the mesh where that lies about the line, "
+          "or an intestine on its "
+          "mesentery "
+          "(default tube)"),
+       "thread, tube or intestine"},
+      {"control-points", 0, 0, G_OPTION_ARG_INT64, &output.control_points,
+       N_("Control points of the body (default: one each two radii)"), "N"},
       G_OPTION_ENTRY_NULL};
   join_ends(&argc, argv);
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
@@ -156,11 +242,19 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
     else if (ends && !parse_ends(ends, &options))
       status =
           spore_cli_usage(_("spore centreline: --ends '%s' is not two places; expected X,Y,Z X,Y,Z in metres"), ends);
-    else status = generate(cli, argv[1], &options, unit, frame, output);
+    else if (!output.scene && (output.as || output.control_points))
+      status = spore_cli_usage(_("spore centreline: --as and --control-points say what scene to write; expected "
+                                 "--scene F.spore too; name it"));
+    else if (output.control_points != 0 && (output.control_points < 4 || output.control_points > 100000))
+      status = spore_cli_usage(_("spore centreline: --control-points %lld; expected 4 to 100000; give another number"),
+                               (long long)output.control_points);
+    else status = generate(cli, argv[1], &options, unit, frame, &output);
   }
   g_free(unit);
   g_free(frame);
-  g_free(output);
+  g_free(output.curve);
+  g_free(output.scene);
+  g_free(output.as);
   g_free(ends);
   return status;
 }

@@ -1,5 +1,6 @@
 #include "app/cli/cli.h"
 
+#include <errno.h>
 #include <glib/gi18n.h>
 #include <math.h>
 #include <signal.h>
@@ -154,6 +155,13 @@ gboolean spore_cli_keeps(const char *output, const char *input, GError **error) 
     return TRUE;
   return spore_error_raise(error, SPORE_ERROR_INPUT, output,
                            _("this is the input; expected another file to write to; name one"));
+}
+
+gboolean spore_cli_make_folder_of(const char *file, GError **error) {
+  g_autofree char *folder = g_path_get_dirname(file);
+  if (g_mkdir_with_parents(folder, 0777) == 0) return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_FILE, folder, _("the folder cannot be made (%s); name another place"),
+                           g_strerror(errno));
 }
 
 int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error) {

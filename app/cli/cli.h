@@ -74,6 +74,8 @@ gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, 
                              GError **error);
 /* TRUE unless writing output would destroy input: the same file, be it by another name. */
 gboolean spore_cli_keeps(const char *output, const char *input, GError **error);
+/* Makes the folder that the file is to lie in, where there is none. */
+gboolean spore_cli_make_folder_of(const char *file, GError **error);
 /* Index of text in a NULL-terminated list; -1 with a GError that lists it. */
 int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error);
 

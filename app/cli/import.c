@@ -1,5 +1,4 @@
 /* spore import: a new scene from organ meshes. */
-#include <errno.h>
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -106,13 +105,6 @@ static void report(SporeCli *cli, SporeDocument *document, const SporeImport *im
   report_diagnostics(cli, document, import);
 }
 
-static gboolean make_folder_of(const char *file, GError **error) {
-  g_autofree char *folder = g_path_get_dirname(file);
-  if (g_mkdir_with_parents(folder, 0777) == 0) return TRUE;
-  return spore_error_raise(error, SPORE_ERROR_FILE, folder, _("the folder cannot be made (%s); name another place"),
-                           g_strerror(errno));
-}
-
 static int import(SporeCli *cli, char **meshes, const SporeImportOptions *options, const char *output) {
   GError *error = NULL;
   gboolean done = TRUE;
@@ -122,7 +114,7 @@ static int import(SporeCli *cli, char **meshes, const SporeImportOptions *option
   SporeDocument *document = spore_document_new(cli->schema);
   spore_document_set_readers(document, &spore_io_readers);
   done = found && spore_import_insert(document, found, options->unit, &bodies, &error) &&
-         make_folder_of(output, &error) && spore_scene_save(document, output, &error);
+         spore_cli_make_folder_of(output, &error) && spore_scene_save(document, output, &error);
   if (done) {
     spore_cli_say(cli, _("%s: written\n"), output);
     report(cli, document, found, bodies, spore_length_units[options->unit]);

@@ -129,7 +129,7 @@ def help_explains_json():
     commands = [("run", soft_ball(), "--steps", 20), ("run", grasper(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
                 ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("models", "--materials"), ("schema",),
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
-                ("surface", "ball.off", "--nodes", 50), ("centreline", file("told.off", shapes.off(*shapes.tube())))]
+                ("surface", "ball.off", "--nodes", 50), ("centreline", file("told.off", shapes.off(*shapes.tube())), "--scene", "told/line.spore")]
     commands += [("tetrahedra", "ball.off", "--cells", 100)]
     if "volumes" in FEATURES:
         size, voxels = two_boxes()
@@ -886,6 +886,26 @@ def centreline_command():
     refuses("centreline", "tube.off", "--points", 5, "--tolerance", 0.1, says=["--points", "--tolerance"])
     refuses("centreline", "tube.off", "--points", 1, says=["1 points"])
     refuses("centreline", "tube.off", "-o", "tube.off", says=["tube.off", "input"])
+
+
+@check
+def centreline_scenes():
+    """centreline --scene writes bodies that check passes and that run without an alarm."""
+    file("tube.off", shapes.off(*shapes.tube()))
+    for kind in ("thread", "tube", "intestine"):
+        scene = f"along/{kind}.spore"
+        answer = report("centreline", "tube.off", "--scene", scene, "--as", kind)
+        assert answer["skin"] == ("mesh" if kind == "tube" else "own")
+        worse = [d for d in report("check", scene)["diagnostics"] if d["severity"] == "error"]
+        assert not worse, worse
+        answer = report("run", scene, "--time", 0.2)
+        assert answer["monitor"]["recoveries"] == 0 and answer["monitor"]["frozen"] == [] and answer["spheres"] > 8
+    assert 'control_points="12"' in (report("centreline", "tube.off", "--scene", "along/twelve.spore", "--control-points", 12)
+                                    and (WORK / "along/twelve.spore").read_text())
+    refuses("centreline", "tube.off", "--scene", "along/no.spore", "--as", "tub", says=["--as", "tube"])
+    refuses("centreline", "tube.off", "--as", "tube", says=["--scene"])
+    refuses("centreline", "tube.off", "--scene", "along/no.spore", "--control-points", 3, says=["3", "4 to"])
+    assert not (WORK / "along/no.spore").exists()
 
 
 @check
