@@ -24,6 +24,11 @@ typedef enum SporeVoxelType {
 } SporeVoxelType;
 extern const size_t spore_voxel_bytes[SPORE_VOXEL_TYPES];
 
+/* A file's content: gzip undone, header and labels read. *result: SporeVolumeAnswer and the labels, malloc'ed. False
+ * with what is wrong. */
+bool spore_volume_decode(const uint8_t *bytes, size_t size, void **result, size_t *result_size,
+                         SporeHelperFailure *failure);
+
 /* What a header says. */
 typedef struct SporeVolumeHead {
   SporeVolumeAnswer answer; /* size, axes */

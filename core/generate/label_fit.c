@@ -6,6 +6,7 @@
 #include "core/generate/label_parts.h"
 
 #define ROUNDS 12
+#define REPORT_VERTICES 1024
 #define FLATTEST 0.9659258262890683 /* cosine of 15 degrees */
 #define REACH 0.75                  /* edges: how far from a vertex the border of its labels is looked for */
 #define STEPS 12                    /* to each side */
@@ -213,8 +214,6 @@ static void move_inside(Fit *f, uint32_t v) {
 static bool run(Fit *f, const SporeProgress *progress, SporeError *error) {
   each_border_face(f, note_labels);
   for (int round = 0; round < ROUNDS; round++) {
-    if (!spore_progress(progress, (double)round / ROUNDS, _("fitting the borders")))
-      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
     for (size_t v = 0; v < f->mesh->vertex_count; v++) {
       f->border[v].normal = f->border[v].sum = spore_vec3(0, 0, 0);
       f->border[v].neighbours = 0;
@@ -223,6 +222,9 @@ static bool run(Fit *f, const SporeProgress *progress, SporeError *error) {
     each_border_face(f, note_shape);
     if (round > 2) adjust_growth(f); /* once the borders are near their places */
     for (uint32_t v = 0; v < f->mesh->vertex_count; v++) {
+      double done = round + (double)v / (double)f->mesh->vertex_count;
+      if (v % REPORT_VERTICES == 0 && !spore_progress(progress, done / ROUNDS, _("fitting the borders")))
+        return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
       if (f->border[v].count) move_on_border(f, v, f->border + v);
       else move_inside(f, v);
     }

@@ -60,7 +60,10 @@ static uint16_t cell_label(const SporeLabelField *field, const SporeVec3 corner[
     SporeVec3 p = s ? spore_vec3_scale(0.5, spore_vec3_add(middle, corner[s - 1])) : middle;
     spore_label_field_shares(field, p, label + s * SPORE_LABEL_CORNERS, share + s * SPORE_LABEL_CORNERS);
   }
-  uint16_t best = 0;
+  uint16_t best = label[0];
+  bool alike = true;
+  for (int i = 1; i < SAMPLES * SPORE_LABEL_CORNERS; i++) alike = alike && label[i] == best;
+  if (alike) return best;
   double most = -1;
   for (int i = 0; i < SAMPLES * SPORE_LABEL_CORNERS; i++) {
     double sum = 0;
@@ -76,10 +79,10 @@ static uint16_t cell_label(const SporeLabelField *field, const SporeVec3 corner[
 static bool label_cells(const Lattice *l, const SporeLabelField *field, uint16_t *labels, size_t *count,
                         const SporeProgress *progress, SporeError *error) {
   *count = 0;
-  for (size_t k = 0; k < l->n[2]; k++) {
-    if (!spore_progress(progress, (double)k / (double)l->n[2], _("labelling cells")))
-      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
-    for (size_t j = 0; j < l->n[1]; j++)
+  for (size_t k = 0; k < l->n[2]; k++)
+    for (size_t j = 0; j < l->n[1]; j++) {
+      if (!spore_progress(progress, ((double)k + (double)j / (double)l->n[1]) / (double)l->n[2], _("labelling cells")))
+        return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
       for (size_t i = 0; i < l->n[0]; i++)
         for (int q = 0; q < CELLS_A_CUBE; q++) {
           const size_t cube[3] = {i, j, k};
@@ -91,7 +94,7 @@ static bool label_cells(const Lattice *l, const SporeLabelField *field, uint16_t
           *label = cell_label(field, corner);
           *count += *label > 0;
         }
-  }
+    }
   return true;
 }
 

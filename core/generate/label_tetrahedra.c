@@ -86,25 +86,29 @@ static bool drop_unused(SporeTetrahedralMesh *mesh, SporeError *error) {
   return true;
 }
 
-/* Box and volume of the wanted voxels; false: there are none. */
+/* Box (of the wanted voxels' box in the indices' space) and volumes; false: there are none. */
 static bool measure_map(Meshing *m, const SporeLabelMap *map) {
-  size_t count = 0, index = 0;
-  for (int k = 0; k < 3; k++) m->lower[k] = HUGE_VAL, m->upper[k] = -HUGE_VAL;
+  size_t low[3] = {SIZE_MAX, SIZE_MAX, SIZE_MAX}, high[3] = {0, 0, 0}, index = 0;
+  double voxel = spore_label_map_voxel_volume(map);
   for (size_t k = 0; k < map->size[2]; k++)
     for (size_t j = 0; j < map->size[1]; j++)
       for (size_t i = 0; i < map->size[0]; i++) {
-        if (!m->wanted[map->labels[index++]]) continue;
-        count++;
-        m->volumes[map->labels[index - 1]] += spore_label_map_voxel_volume(map);
-        for (int corner = 0; corner < 8; corner++) {
-          SporeVec3 p = spore_label_map_place(map, (double)i + (corner & 1) - 0.5, (double)j + (corner >> 1 & 1) - 0.5,
-                                              (double)k + (corner >> 2) - 0.5);
-          const double x[3] = {p.x, p.y, p.z};
-          for (int r = 0; r < 3; r++) m->lower[r] = fmin(m->lower[r], x[r]), m->upper[r] = fmax(m->upper[r], x[r]);
-        }
+        uint16_t label = map->labels[index++];
+        if (!m->wanted[label]) continue;
+        m->volumes[label] += voxel;
+        m->volume += voxel;
+        low[0] = MIN(low[0], i), low[1] = MIN(low[1], j), low[2] = MIN(low[2], k);
+        high[0] = MAX(high[0], i), high[1] = MAX(high[1], j), high[2] = MAX(high[2], k);
       }
-  m->volume = (double)count * spore_label_map_voxel_volume(map);
-  return count > 0;
+  for (int r = 0; r < 3; r++) m->lower[r] = HUGE_VAL, m->upper[r] = -HUGE_VAL;
+  for (int corner = 0; corner < 8; corner++) {
+    double at[3];
+    for (int r = 0; r < 3; r++) at[r] = corner >> r & 1 ? (double)high[r] + 0.5 : (double)low[r] - 0.5;
+    SporeVec3 p = spore_label_map_place(map, at[0], at[1], at[2]);
+    const double x[3] = {p.x, p.y, p.z};
+    for (int r = 0; r < 3; r++) m->lower[r] = fmin(m->lower[r], x[r]), m->upper[r] = fmax(m->upper[r], x[r]);
+  }
+  return m->volume > 0;
 }
 
 /* A lattice of about as many cells as are wanted. */

@@ -1,0 +1,193 @@
+#include "app/helpers/volume.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#define N_(text) text
+#define CHUNK ((size_t)1 << 20)
+#define LARGEST_LABEL 65535
+#define MOST_BYTES ((size_t)SPORE_VOLUME_VOXELS * 8)
+
+const size_t spore_voxel_bytes[SPORE_VOXEL_TYPES] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+
+bool spore_volume_fail(SporeHelperFailure *failure, const char *message, const char *detail, ...) {
+  va_list arguments;
+  va_start(arguments, detail);
+  failure->code = SPORE_ERROR_INPUT;
+  failure->message = message;
+  vsnprintf(failure->detail, sizeof failure->detail, detail, arguments);
+  va_end(arguments);
+  return false;
+}
+
+static bool fail_memory(SporeHelperFailure *failure) {
+  failure->code = SPORE_ERROR_MEMORY;
+  failure->message = N_("the volume needs more memory than it may have; expected a smaller one; crop it first");
+  failure->detail[0] = '\0';
+  return false;
+}
+
+/* Grows the result as the stream goes, so that a lie about its size costs nothing. */
+static bool inflate_all(z_stream *stream, size_t most, uint8_t **result, size_t *filled, SporeHelperFailure *failure) {
+  size_t room = 0;
+  for (int state = Z_OK; state != Z_STREAM_END;) {
+    if (*filled == room) {
+      if (room >= most)
+        return spore_volume_fail(failure,
+                                 N_("there are more voxels than its header says, or than can be taken; expected "
+                                    "as many; save it again"),
+                                 "over %zu bytes", most);
+      room = room ? 2 * room : CHUNK;
+      if (room > most) room = most;
+      uint8_t *grown = realloc(*result, room);
+      if (!grown) return fail_memory(failure);
+      *result = grown;
+    }
+    size_t step = room - *filled < CHUNK ? room - *filled : CHUNK;
+    stream->next_out = *result + *filled;
+    stream->avail_out = (uInt)step;
+    state = inflate(stream, Z_NO_FLUSH);
+    *filled += step - stream->avail_out;
+    if (state != Z_OK && state != Z_STREAM_END)
+      return spore_volume_fail(failure,
+                               N_("its compressed data are cut short or damaged; expected a whole gzip stream; "
+                                  "copy or save it again"),
+                               "%s", stream->msg ? stream->msg : "");
+  }
+  return true;
+}
+
+bool spore_inflate(const uint8_t *bytes, size_t size, size_t most, uint8_t **result, size_t *result_size,
+                   SporeHelperFailure *failure) {
+  z_stream stream = {.next_in = (uint8_t *)bytes, .avail_in = (uInt)size};
+  *result = NULL;
+  *result_size = 0;
+  if (size > UINT32_MAX / 2 || inflateInit2(&stream, 15 + 16) != Z_OK) return fail_memory(failure);
+  bool done = inflate_all(&stream, most, result, result_size, failure);
+  inflateEnd(&stream);
+  if (done) return true;
+  free(*result);
+  *result = NULL;
+  return false;
+}
+
+bool spore_volume_head_check(const SporeVolumeHead *head, SporeHelperFailure *failure) {
+  const uint64_t *size = head->answer.size;
+  const double *a = head->answer.axes;
+  uint64_t voxels = 1;
+  for (int i = 0; i < 3; i++) {
+    if (size[i] == 0 || size[i] > SPORE_VOLUME_VOXELS / voxels)
+      return spore_volume_fail(failure,
+                               N_("the volume is empty or too large; expected at most 268 million voxels; crop "
+                                  "it or halve its resolution"),
+                               "%llu x %llu x %llu", (unsigned long long)size[0], (unsigned long long)size[1],
+                               (unsigned long long)size[2]);
+    voxels *= size[i];
+  }
+  double volume =
+      a[0] * (a[5] * a[10] - a[6] * a[9]) - a[1] * (a[4] * a[10] - a[6] * a[8]) + a[2] * (a[4] * a[9] - a[5] * a[8]);
+  double product = 1;
+  for (int k = 0; k < 3; k++) product *= sqrt(a[k] * a[k] + a[4 + k] * a[4 + k] + a[8 + k] * a[8 + k]);
+  bool finite = true;
+  for (int i = 0; i < 12; i++) finite = finite && isfinite(a[i]) && fabs(a[i]) < 1e6;
+  if (!finite || !(fabs(volume) > 1e-6 * product) || !(product > 1e-30))
+    return spore_volume_fail(failure,
+                             N_("its voxels have no size or no direction; expected three axes that span a "
+                                "space; save it again with its geometry"),
+                             "%g %g %g, %g %g %g, %g %g %g", a[0], a[1], a[2], a[4], a[5], a[6], a[8], a[9], a[10]);
+  return true;
+}
+
+static double voxel(const SporeVolumeHead *head, const uint8_t *at) {
+  uint8_t bytes[8];
+  size_t size = spore_voxel_bytes[head->type];
+  for (size_t i = 0; i < size; i++) bytes[head->swapped ? size - 1 - i : i] = at[i];
+#define CASE(TYPE, type)                                                                                               \
+  case SPORE_VOXEL_##TYPE: {                                                                                           \
+    type value;                                                                                                        \
+    memcpy(&value, bytes, sizeof value);                                                                               \
+    return (double)value;                                                                                              \
+  }
+  switch (head->type) {
+    CASE(UINT8, uint8_t)
+    CASE(INT8, int8_t)
+    CASE(UINT16, uint16_t)
+    CASE(INT16, int16_t)
+    CASE(UINT32, uint32_t)
+    CASE(INT32, int32_t)
+    CASE(UINT64, uint64_t)
+    CASE(INT64, int64_t)
+    CASE(FLOAT, float)
+    CASE(DOUBLE, double)
+  case SPORE_VOXEL_TYPES:
+    break;
+  }
+#undef CASE
+  return NAN;
+}
+
+static bool fill_labels(const SporeVolumeHead *head, const uint8_t *data, size_t voxels, char *labels,
+                        SporeHelperFailure *failure) {
+  for (size_t i = 0; i < voxels; i++) {
+    double value = head->slope * voxel(head, data + i * spore_voxel_bytes[head->type]) + head->shift;
+    if (!(value >= 0 && value <= LARGEST_LABEL) || value != floor(value))
+      return spore_volume_fail(failure,
+                               N_("it holds a value that is no label; expected whole numbers from 0 to 65535; "
+                                  "is it a picture and not a segmentation?"),
+                               "%g in voxel %zu", value, i);
+    uint16_t label = (uint16_t)value;
+    memcpy(labels + i * sizeof label, &label, sizeof label);
+  }
+  return true;
+}
+
+static bool make_answer(const SporeVolumeHead *head, const uint8_t *data, size_t size, void **result,
+                        size_t *result_size, SporeHelperFailure *failure) {
+  size_t voxels = (size_t)(head->answer.size[0] * head->answer.size[1] * head->answer.size[2]);
+  size_t bytes = spore_voxel_bytes[head->type];
+  if (size < voxels * bytes)
+    return spore_volume_fail(failure,
+                             N_("the volume is cut short; expected as many voxels as its header says; copy or "
+                                "save it again"),
+                             "%zu of %zu bytes", size, voxels * bytes);
+  *result_size = sizeof head->answer + voxels * sizeof(uint16_t);
+  char *answer = malloc(*result_size);
+  if (!answer) return fail_memory(failure);
+  memcpy(answer, &head->answer, sizeof head->answer);
+  if (fill_labels(head, data, voxels, answer + sizeof head->answer, failure)) {
+    *result = answer;
+    return true;
+  }
+  free(answer);
+  return false;
+}
+
+/* Of a file that is not, or no longer, compressed as a whole. */
+static bool decode_plain(const uint8_t *bytes, size_t size, void **result, size_t *result_size,
+                         SporeHelperFailure *failure) {
+  SporeVolumeHead head;
+  bool nrrd = size >= 5 && memcmp(bytes, "NRRD0", 5) == 0;
+  if (!(nrrd ? spore_nrrd_head(bytes, size, &head, failure) : spore_nifti_head(bytes, size, &head, failure)) ||
+      !spore_volume_head_check(&head, failure))
+    return false;
+  uint8_t *data = NULL;
+  bytes += head.data, size -= head.data;
+  if (head.compressed && !spore_inflate(bytes, size, MOST_BYTES, &data, &size, failure)) return false;
+  bool done = make_answer(&head, data ? data : bytes, size, result, result_size, failure);
+  free(data);
+  return done;
+}
+
+bool spore_volume_decode(const uint8_t *bytes, size_t size, void **result, size_t *result_size,
+                         SporeHelperFailure *failure) {
+  if (size < 2 || bytes[0] != 0x1f || bytes[1] != 0x8b) return decode_plain(bytes, size, result, result_size, failure);
+  uint8_t *whole; /* .nii.gz */
+  if (!spore_inflate(bytes, size, MOST_BYTES, &whole, &size, failure)) return false;
+  bool done = decode_plain(whole, size, result, result_size, failure);
+  free(whole);
+  return done;
+}
