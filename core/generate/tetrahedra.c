@@ -12,7 +12,8 @@
 #define TOLERANCE 0.01 /* of the diagonal */
 #define LOOKING 0.05   /* share of the progress, before and after the work */
 #define MOST_WRAPS 3
-#define LEAST_ALPHA (1.0 / 500)
+#define MOST_WRAPPED 40000 /* triangles: a tighter wrap has four times as many */
+#define WRAPPED_NEAR 0.8   /* of the tolerance */
 #define PREPARED_SAMPLES 10000
 #define CLOSING 0.3 /* of one half: winding numbers in a hole of the surface */
 
@@ -156,8 +157,9 @@ static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GErr
     gboolean done = spore_tetrahedra_prepare(work, SPORE_TETRAHEDRA_WRAP, alpha, surface, error);
     work->share = share;
     if (!done) return FALSE;
-    if (work->options.gap > 0 || 0.5 * alpha < LEAST_ALPHA ||
-        distance_to(work, surface) < 0.5 * work->options.tolerance)
+    g_debug("a wrap of alpha %.4g has %zu triangles", alpha, surface->triangle_count);
+    if (work->options.gap > 0 || 4 * surface->triangle_count > MOST_WRAPPED ||
+        distance_to(work, surface) < WRAPPED_NEAR * work->options.tolerance)
       break;
   }
   return TRUE;

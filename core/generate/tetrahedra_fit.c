@@ -168,7 +168,8 @@ static bool better(Fit *fit, SporeTetrahedralMesh *mesh, SporeError *error) {
   const SporeProgress progress = {report, fit->work};
   return spore_tetrahedra_improve(mesh, NULL, fit->tree, GOAL, &progress, error) &&
          spore_tetrahedra_pull(mesh, fit->tree, fit->points, SAMPLES, AIM * fit->work->options.tolerance,
-                               SPORE_TETRAHEDRA_ANGLE + 0.75, &progress, error);
+                               SPORE_TETRAHEDRA_ANGLE + 0.75, &progress, error) &&
+         spore_tetrahedra_balance(mesh, fit->tree, fit->points, SAMPLES, SPORE_TETRAHEDRA_ANGLE + 0.75, error);
 }
 
 static gboolean finish(Fit *fit, SporeTetrahedralMesh *mesh, GError **error) {

@@ -20,4 +20,11 @@ bool spore_tetrahedra_improve(SporeTetrahedralMesh *mesh, uint32_t **labels, con
 bool spore_tetrahedra_pull(SporeTetrahedralMesh *mesh, const SporeBvh *surface, const double *points, size_t count,
                            double tolerance, double least, const SporeProgress *progress, SporeError *error);
 
+/* Vertices on a surface leave the faces between them on one side of it, all within what bends outward: moves those of
+ * the boundary along their normals until the surface runs through the faces' middle, where no quality falls below
+ * `least` (or below what it is). The volume comes near that of the surface, and the largest distance halves where the
+ * surface is smooth; points (count x 3) of the surface say whether it is worth it: else nothing changes. */
+bool spore_tetrahedra_balance(SporeTetrahedralMesh *mesh, const SporeBvh *surface, const double *points, size_t count,
+                              double least, SporeError *error);
+
 #endif

@@ -242,6 +242,8 @@ bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *me
     const SporeProgress progress = {report, work};
     return spore_tetrahedra_pull(mesh, work->tree, work->bounding, work->bounding_count, 0.5 * work->options.tolerance,
                                  SPORE_TETRAHEDRA_ANGLE + 0.75, &progress, error) &&
+           spore_tetrahedra_balance(mesh, work->tree, work->bounding, work->bounding_count,
+                                    SPORE_TETRAHEDRA_ANGLE + 0.75, error) &&
            spore_tetrahedral_mesh_validate(mesh, error);
   }
   spore_tetrahedral_mesh_clear(mesh);
