@@ -165,10 +165,11 @@ static bool eliminate(SporeLinearSolid *body, Condensation *work, const SporeLin
   return made;
 }
 
-static bool build(SporeLinearSolid *body, const SporeTetrahedralMesh *mesh, const SporeLinearFields *fields,
+static bool build(SporeLinearSolid *body, const SporeGeometry *geometry, const SporeLinearFields *fields,
                   SporeError *error) {
   Condensation work = {0};
-  bool made = spore_tetrahedron_nodes_create(&body->nodes, mesh, false) && set_surface(body, &work);
+  bool made = spore_tetrahedron_nodes_create(&body->nodes, geometry->tetrahedra, false, geometry->regions) &&
+              set_surface(body, &work);
   if (!made) spore_linear_solid_no_memory(error);
   made = made && check_size(body, error) &&
          spore_model_init(&body->base, &spore_condensed_tetrahedra, body->surface.vertex_count, false, error) &&
@@ -185,7 +186,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
     spore_linear_solid_no_memory(error);
     return NULL;
   }
-  if (build(body, geometry->tetrahedra, fields, error)) return &body->base;
+  if (build(body, geometry, fields, error)) return &body->base;
   spore_linear_solid_destroy(&body->base);
   return NULL;
 }

@@ -71,13 +71,14 @@ static bool is_thin(const SporeVoxels *voxels) {
   return whole < WHOLE * all;
 }
 
-static bool build(Body *body, const SporeTriangleMesh *surface, const GridFields *fields, SporeError *error) {
+static bool build(Body *body, const SporeGeometry *geometry, const GridFields *fields, SporeError *error) {
   SporeVoxels voxels;
-  if (!spore_voxels_create(&voxels, surface, (size_t)fields->cells, error)) return false;
+  if (!spore_voxels_create(&voxels, geometry->surface, (size_t)fields->cells, error)) return false;
   body->thin = is_thin(&voxels);
   if (!spore_lattice_create(&body->lattice, &voxels)) return no_memory(error);
   if (!spore_model_init(&body->base, &spore_finite_differences, body->lattice.node_count, false, error)) return false;
-  spore_lattice_add_mass(&body->lattice, fields->density * body->lattice.voxels.volume, body->base.block_mass);
+  spore_lattice_add_mass(&body->lattice, fields->density * body->lattice.voxels.volume, geometry->regions,
+                         body->base.block_mass);
   if (!find_blocks(body)) return no_memory(error);
   tune(body, fields);
   return true;
@@ -89,7 +90,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
     no_memory(error);
     return NULL;
   }
-  if (build(body, geometry->surface, fields, error)) return &body->base;
+  if (build(body, geometry, fields, error)) return &body->base;
   destroy(&body->base);
   return NULL;
 }
@@ -181,6 +182,7 @@ const SporeModelType spore_finite_differences = {
            "stay so. Cells that the surface cuts count by the share that lies inside."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(GridFields)},
     .geometry = SPORE_GEOMETRY_SOLID,
+    .regions = true,
     .presets = spore_tissue_presets,
     .create = create,
     .destroy = destroy,

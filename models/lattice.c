@@ -152,12 +152,23 @@ void spore_lattice_find_blocks(SporeLattice *lattice, const SporeBlockMatrix *ma
               matrix, corner_of(lattice->runs + r, lane, a), corner_of(lattice->runs + r, lane, b));
 }
 
-void spore_lattice_add_mass(const SporeLattice *lattice, double total, double *mass) {
+static SporeVec3 middle_of(const SporeLattice *lattice, const SporeLatticeRun *run, size_t lane) {
+  SporeVec3 sum = {0, 0, 0};
+  for (unsigned c = 0; c < 8; c++)
+    sum = spore_vec3_add(sum, spore_vec3_load(lattice->rest + 3 * (size_t)corner_of(run, lane, c)));
+  return spore_vec3_scale(0.125, sum);
+}
+
+void spore_lattice_add_mass(SporeLattice *lattice, double total, const SporeRegions *regions, double *mass) {
   double volume = 0;
   for (size_t r = 0; r < lattice->run_count; r++)
     for (size_t lane = 0; lane < lattice->runs[r].count; lane++) volume += lattice->runs[r].volume[lane];
   for (size_t r = 0; r < lattice->run_count; r++)
-    for (size_t lane = 0; lane < lattice->runs[r].count; lane++)
+    for (size_t lane = 0; lane < lattice->runs[r].count; lane++) {
+      SporeLatticeRun *run = &lattice->runs[r];
+      SporeRegionFactors factors = spore_regions_at(regions, middle_of(lattice, run, lane));
       for (unsigned c = 0; c < 8; c++)
-        mass[corner_of(lattice->runs + r, lane, c)] += 0.125 * total * lattice->runs[r].volume[lane] / volume;
+        mass[corner_of(run, lane, c)] += 0.125 * total * run->volume[lane] / volume * factors.density;
+      run->volume[lane] *= factors.stiffness;
+    }
 }

@@ -21,6 +21,7 @@
 #define SPORE_lattice_H
 
 #include "core/sim/mapping.h"
+#include "core/sim/region.h"
 #include "models/tetrahedra.h"
 #include "models/voxels.h"
 
@@ -31,7 +32,8 @@
 typedef struct SporeLatticeRun {
   uint32_t row[4];            /* nodes at the first cell's corners 0, 2, 4, 6 */
   uint32_t count;             /* cells, 1..SPORE_LANES */
-  double volume[SPORE_LANES]; /* m^3 of the cell that lies inside; 0 behind the last */
+  double volume[SPORE_LANES]; /* m^3 of the cell that lies inside, times how much stiffer it is than the body; 0 behind
+                                 the last */
 } SporeLatticeRun;
 
 /* Corner c of a cell lies on the upper side along the grid's axis 0 where c & 4, 1 where c & 2, 2 where c & 1. Mode m,
@@ -56,8 +58,9 @@ uint32_t spore_lattice_corner(const SporeLattice *lattice, size_t i, size_t j, s
 bool spore_lattice_pattern(const SporeLattice *lattice, SporeBlockPattern *pattern);
 /* In a matrix of that pattern. */
 void spore_lattice_find_blocks(SporeLattice *lattice, const SporeBlockMatrix *matrix);
-/* mass += `total` (kg), spread over the corners of cells by what of them lies inside. */
-void spore_lattice_add_mass(const SporeLattice *lattice, double total, double *mass);
+/* mass += `total` (kg), spread over the corners of cells by what of them lies inside, times what regions (NULL: none)
+ * say; cells become as much stiffer as those say: to be called once. */
+void spore_lattice_add_mass(SporeLattice *lattice, double total, const SporeRegions *regions, double *mass);
 /* A point follows the corners of its cell by trilinear weights; one in no cell the nearest cell, extended affinely. The
  * nodes in their order give the identity. */
 bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t count, SporeMapping *mapping,

@@ -62,8 +62,10 @@ bool spore_linear_stiffness(const SporeTetrahedronNodes *nodes, double poisson_r
   spore_block_pattern_clear(&pattern);
   if (!made) return false;
   spore_block_matrix_zero(matrix);
-  for (size_t t = 0; t < nodes->mesh.tetrahedron_count; t++)
-    add_element(matrix, nodes->nodes + 4 * t, nodes->rest, mu, lambda);
+  for (size_t t = 0; t < nodes->mesh.tetrahedron_count; t++) {
+    double stiffer = spore_tetrahedron_factors(nodes, t).stiffness;
+    add_element(matrix, nodes->nodes + 4 * t, nodes->rest, stiffer * mu, stiffer * lambda);
+  }
   return true;
 }
 

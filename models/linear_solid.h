@@ -59,9 +59,10 @@ const char *spore_linear_solid_doubt(const SporeModel *model);
 
 #define SPORE_LINEAR_SOLID_SLOTS                                                                                       \
   .parameters = {spore_linear_parameters, SPORE_LINEAR_PARAMETERS, sizeof(SporeLinearFields)},                         \
-  .geometry = SPORE_GEOMETRY_TETRAHEDRA, .presets = spore_tissue_presets, .destroy = spore_linear_solid_destroy,              \
-  .place = spore_linear_solid_place, .force = spore_linear_solid_force, .potential = spore_linear_solid_potential,     \
-  .pattern = spore_linear_solid_pattern, .jacobian = spore_linear_solid_jacobian, .retune = spore_linear_solid_retune, \
-  .notice = spore_linear_solid_notice, .doubt = spore_linear_solid_doubt
+  .geometry = SPORE_GEOMETRY_TETRAHEDRA, .regions = true, .presets = spore_tissue_presets,                             \
+  .destroy = spore_linear_solid_destroy, .place = spore_linear_solid_place, .force = spore_linear_solid_force,         \
+  .potential = spore_linear_solid_potential, .pattern = spore_linear_solid_pattern,                                    \
+  .jacobian = spore_linear_solid_jacobian, .retune = spore_linear_solid_retune, .notice = spore_linear_solid_notice,   \
+  .doubt = spore_linear_solid_doubt
 
 #endif

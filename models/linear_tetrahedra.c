@@ -17,9 +17,11 @@ static bool set_surface(SporeLinearSolid *body) {
   return made;
 }
 
-static bool build(SporeLinearSolid *body, const SporeTetrahedralMesh *mesh, const SporeLinearFields *fields,
+static bool build(SporeLinearSolid *body, const SporeGeometry *geometry, const SporeLinearFields *fields,
                   SporeError *error) {
-  if (!spore_tetrahedron_nodes_create(&body->nodes, mesh, false)) return spore_linear_solid_no_memory(error);
+  const SporeTetrahedralMesh *mesh = geometry->tetrahedra;
+  if (!spore_tetrahedron_nodes_create(&body->nodes, mesh, false, geometry->regions))
+    return spore_linear_solid_no_memory(error);
   if (!spore_model_init(&body->base, &spore_linear_tetrahedra, mesh->vertex_count, false, error)) return false;
   spore_tetrahedron_nodes_add_mass(&body->nodes, fields->density, body->base.block_mass);
   if (!spore_nodal_check_mass(&body->base, "tetrahedron", error)) return false;
@@ -35,7 +37,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
     spore_linear_solid_no_memory(error);
     return NULL;
   }
-  if (build(body, geometry->tetrahedra, fields, error)) return &body->base;
+  if (build(body, geometry, fields, error)) return &body->base;
   spore_linear_solid_destroy(&body->base);
   return NULL;
 }

@@ -109,9 +109,11 @@ static void tune(Body *body, const TetrahedraFields *fields) {
   body->locks = fields->poisson_ratio > LOCKS && fields->element == LINEAR;
 }
 
-static bool build(Body *body, const SporeModelType *type, const SporeTetrahedralMesh *mesh,
-                  const TetrahedraFields *fields, SporeError *error) {
-  if (!spore_tetrahedron_nodes_create(&body->nodes, mesh, fields->element == QUADRATIC)) return no_memory(error);
+static bool build(Body *body, const SporeModelType *type, const SporeGeometry *geometry, const TetrahedraFields *fields,
+                  SporeError *error) {
+  if (!spore_tetrahedron_nodes_create(&body->nodes, geometry->tetrahedra, fields->element == QUADRATIC,
+                                      geometry->regions))
+    return no_memory(error);
   if (!spore_model_init(&body->base, type, body->nodes.count, false, error)) return false;
   spore_tetrahedron_nodes_add_mass(&body->nodes, fields->density, body->base.block_mass);
   if (!spore_nodal_check_mass(&body->base, "tetrahedron", error)) return false;
@@ -131,7 +133,7 @@ static SporeModel *create(const SporeModelType *type, const Material *material, 
     return NULL;
   }
   body->material = material;
-  if (build(body, type, geometry->tetrahedra, fields, error)) return &body->base;
+  if (build(body, type, geometry, fields, error)) return &body->base;
   destroy(&body->base);
   return NULL;
 }
@@ -299,10 +301,11 @@ static const char *notice(const SporeModel *model, const double *q) {
 /* What the types have in common. */
 #define SLOTS                                                                                                          \
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
-  .geometry = SPORE_GEOMETRY_TETRAHEDRA, .presets = spore_tissue_presets, .destroy = destroy, .place = place, .force = force, \
-  .potential = potential, .map = map, .skin = skin, .pattern = pattern, .jacobian = jacobian, .retune = retune,        \
-  .doubt = doubt, .prepare_heat = prepare_heat, .coagulate = coagulate, .mend = mend, .reserve = reserve, .cut = cut,  \
-  .divide = divide, .settle = settle, .corners = corners, .notice = notice
+  .geometry = SPORE_GEOMETRY_TETRAHEDRA, .regions = true, .presets = spore_tissue_presets, .destroy = destroy,         \
+  .place = place, .force = force, .potential = potential, .map = map, .skin = skin, .pattern = pattern,                \
+  .jacobian = jacobian, .retune = retune, .doubt = doubt, .prepare_heat = prepare_heat, .coagulate = coagulate,        \
+  .mend = mend, .reserve = reserve, .cut = cut, .divide = divide, .settle = settle, .corners = corners,                \
+  .notice = notice
 
 static SporeModel *create_corotational(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_corotation_force_by_level, spore_corotation_potential_by_level,

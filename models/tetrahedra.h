@@ -35,7 +35,8 @@
 typedef struct SporeTetrahedronBatch {
   uint32_t node[4][SPORE_LANES];
   double inverse[9][SPORE_LANES]; /* Dm^-1, row-major, 1/m */
-  double volume[SPORE_LANES];     /* m^3; 0 in lanes without a tetrahedron, which repeat another */
+  double volume[SPORE_LANES];     /* m^3, times how much stiffer it is than the body; 0 in lanes without a tetrahedron,
+                                     which repeat another */
 } SporeTetrahedronBatch;
 
 /* Nodes on the edges between corners 01 02 03 12 13 23. */

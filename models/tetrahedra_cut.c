@@ -102,7 +102,8 @@ static bool find_lanes(SporeTetrahedraCut *cut, const SporeTetrahedra *tetrahedr
 static void set_masses(SporeTetrahedraCut *cut, const SporeTetrahedronNodes *nodes, double density) {
   for (size_t t = 0; t < cut->count; t++) {
     SporeVec3 gradient[3];
-    cut->mass[t] = 0.25 * (density / 6 * spore_tetrahedron_gradients(nodes->rest, nodes->nodes + 4 * t, gradient));
+    cut->mass[t] = 0.25 * (density / 6 * spore_tetrahedron_gradients(nodes->rest, nodes->nodes + 4 * t, gradient) *
+                           spore_tetrahedron_factors(nodes, t).density);
   }
 }
 

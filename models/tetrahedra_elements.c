@@ -83,7 +83,21 @@ static void set_middles(SporeTetrahedronNodes *nodes, const uint32_t *edges, siz
     }
 }
 
-bool spore_tetrahedron_nodes_create(SporeTetrahedronNodes *nodes, const SporeTetrahedralMesh *mesh, bool middles) {
+static bool find_factors(SporeTetrahedronNodes *nodes, const SporeRegions *regions) {
+  const SporeTetrahedralMesh *mesh = &nodes->mesh;
+  if (!regions || regions->count == 0) return true;
+  nodes->factors = SPORE_NEW_ARRAY(SporeRegionFactors, mesh->tetrahedron_count);
+  for (size_t t = 0; nodes->factors && t < mesh->tetrahedron_count; t++) {
+    SporeVec3 sum = {0, 0, 0};
+    for (size_t k = 0; k < 4; k++)
+      sum = spore_vec3_add(sum, spore_vec3_load(mesh->vertices + 3 * (size_t)mesh->tetrahedra[4 * t + k]));
+    nodes->factors[t] = spore_regions_at(regions, spore_vec3_scale(0.25, sum));
+  }
+  return nodes->factors != NULL;
+}
+
+bool spore_tetrahedron_nodes_create(SporeTetrahedronNodes *nodes, const SporeTetrahedralMesh *mesh, bool middles,
+                                    const SporeRegions *regions) {
   uint32_t *edges = NULL;
   size_t edge_count = 0, tetrahedra = mesh->tetrahedron_count, per = middles ? 10 : 4;
   *nodes = (SporeTetrahedronNodes){.per_element = per};
@@ -102,13 +116,14 @@ bool spore_tetrahedron_nodes_create(SporeTetrahedronNodes *nodes, const SporeTet
     if (middles) set_middles(nodes, edges, edge_count);
   }
   spore_free(edges);
-  return made;
+  return made && find_factors(nodes, regions);
 }
 
 void spore_tetrahedron_nodes_clear(SporeTetrahedronNodes *nodes) {
   spore_tetrahedral_mesh_clear(&nodes->mesh);
   spore_free(nodes->rest);
   spore_free(nodes->nodes);
+  spore_free(nodes->factors);
   *nodes = (SporeTetrahedronNodes){0};
 }
 
@@ -117,7 +132,8 @@ void spore_tetrahedron_nodes_add_mass(const SporeTetrahedronNodes *nodes, double
   bool middles = nodes->per_element > 4;
   for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
     SporeVec3 gradient[3];
-    double mass = density / 6 * spore_tetrahedron_gradients(mesh->vertices, mesh->tetrahedra + 4 * t, gradient);
+    double mass = density / 6 * spore_tetrahedron_gradients(mesh->vertices, mesh->tetrahedra + 4 * t, gradient) *
+                  spore_tetrahedron_factors(nodes, t).density;
     for (size_t a = 0; a < nodes->per_element; a++)
       masses[nodes->nodes[nodes->per_element * t + a]] += mass * (!middles ? 0.25 : a < 4 ? 1.0 / 36 : 4.0 / 27);
   }
@@ -173,7 +189,7 @@ static void set_slab(SporeTetrahedra *tetrahedra, const SporeTetrahedronNodes *n
     SporeVec3 gradient[3];
     double volume = spore_tetrahedron_gradients(nodes->rest, of, gradient) / 6;
     size_t at = start + i % batches, lane = tetrahedra->lanes[at]++;
-    set_element(tetrahedra, at, lane, of, gradient, volume);
+    set_element(tetrahedra, at, lane, of, gradient, volume * spore_tetrahedron_factors(nodes, order[i]).stiffness);
     for (size_t free = lane; lane == 0 && ++free < SPORE_LANES;) /* until others come: the same without a volume */
       set_element(tetrahedra, at, free, of, gradient, 0);
   }

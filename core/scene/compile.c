@@ -132,6 +132,65 @@ static SporeObject *model_object(const SporeObject *body) {
   return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
 }
 
+/* Regions. */
+
+/* By how much the region's tissue differs from what the model has of a parameter. */
+static gboolean scale_by_tissue(Compiler *compiler, const SporeObject *region, const SporeObject *model,
+                                const SporeTissue *tissue, const char *name, double *scale) {
+  const SporeTissueQuantity *quantity = spore_tissue_find(tissue, name);
+  if (!quantity || spore_parameter_find(spore_object_type(model)->table, name) < 0)
+    return refuse(compiler, region,
+                  _("material=\"%s\" does not tell the region its %s; expected a tissue of which that is known; choose "
+                    "another or set a factor"),
+                  tissue->name, name);
+  *scale *= quantity->typical.number[0] / spore_object_number(model, name);
+  return TRUE;
+}
+
+static gboolean describe_region(Compiler *compiler, const SporeObject *object, const SporeObject *model,
+                                SporeRegion *region) {
+  SporeRegionFields fields;
+  spore_object_fields(object, &fields);
+  *region = (SporeRegion){.centre = spore_vec3_load(fields.centre),
+                          .radius = fields.radius,
+                          .stiffness = fields.stiffness_scale,
+                          .density = fields.density_scale};
+  const SporeTissue *tissue = fields.material > 0 ? &spore_tissues[fields.material - 1] : NULL;
+  return !tissue || (scale_by_tissue(compiler, object, model, tissue, "young_modulus", &region->stiffness) &&
+                     scale_by_tissue(compiler, object, model, tissue, "density", &region->density));
+}
+
+/* *regions: what `model` is to be given; free its regions. */
+static gboolean find_regions(Compiler *compiler, const SporeObject *body, const SporeObject *model,
+                             SporeRegions *regions) {
+  const SporeObject *unit = spore_object_child_of(body, "regions");
+  guint count = unit ? spore_object_child_count(unit) : 0;
+  if (count == 0) return TRUE;
+  if (!spore_object_type(model)->model->regions)
+    return refuse(compiler, unit,
+                  _("%s has no regions; expected tetrahedra or finite differences; choose one of those or take the "
+                    "regions out"),
+                  spore_object_type(model)->element);
+  *regions = (SporeRegions){count, g_new0(SporeRegion, count)};
+  for (guint i = 0; i < count; i++)
+    if (!describe_region(compiler, spore_object_child(unit, i), model, &regions->regions[i])) return FALSE;
+  return TRUE;
+}
+
+/* A region that the finest model has nothing in is a mistake. */
+static gboolean check_regions(Compiler *compiler, const SporeObject *body, const SporeRegions *regions) {
+  for (guint i = 0; i < regions->count; i++) {
+    const SporeObject *region = spore_object_child(spore_object_child_of(body, "regions"), i);
+    if (regions->regions[i].elements == 0)
+      return refuse(
+          compiler, region,
+          _("the region \"%s\" holds the middle of no element; expected one within %g m of its centre, in the "
+            "body's frame; move it or make it larger"),
+          spore_object_name(region), regions->regions[i].radius);
+  }
+  return TRUE;
+}
+
 static gboolean make_model(Compiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
   const SporeObject *object = model_object(body);
   if (!object)
@@ -141,27 +200,40 @@ static gboolean make_model(Compiler *compiler, const SporeObject *body, SporeBod
                   spore_object_name(body));
   const SporeObject *mechanical = spore_object_parent(object);
   const SporeModelType *type = spore_object_type(object)->model;
-  SporeGeometry geometry = {0};
-  if (!find_geometry(compiler, mechanical, type, &geometry)) return FALSE;
+  SporeRegions regions = {0};
+  SporeGeometry geometry = {.regions = &regions};
+  gboolean described =
+      find_geometry(compiler, mechanical, type, &geometry) && find_regions(compiler, body, object, &regions);
+  g_autofree SporeRegion *owned = regions.regions;
+  if (!described) return FALSE;
   SporeError fault = SPORE_ERROR_INIT;
   g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
   spore_object_fields(object, fields);
   description->model = type->create(&geometry, fields, &fault);
   description->integrator = (SporeIntegratorKind)((int)spore_object_number(mechanical, "integrator") - 1);
   description->substeps = (size_t)spore_object_number(mechanical, "substeps");
-  if (description->model) return TRUE;
+  if (description->model && check_regions(compiler, body, &regions)) return TRUE;
+  if (description->model) {
+    type->destroy(description->model);
+    description->model = NULL;
+    return FALSE;
+  }
   return refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
 }
 
 /* One level: the body's model with what differs. */
 static gboolean make_level(Compiler *compiler, const SporeObject *model, SporeObject *level, SporeModel **made) {
   const SporeModelType *type = spore_object_type(model)->model;
-  SporeGeometry geometry = {0};
+  SporeRegions regions = {0};
+  SporeGeometry geometry = {.regions = &regions};
   SporeLevelFields level_fields;
   SporeError fault = SPORE_ERROR_INIT;
   spore_object_fields(level, &level_fields);
   const SporeObject *from = level_fields.geometry ? level : spore_object_parent(model);
-  if (!find_geometry(compiler, from, type, &geometry)) return FALSE;
+  const SporeObject *body = spore_object_parent(spore_object_parent(model));
+  gboolean described = find_geometry(compiler, from, type, &geometry) && find_regions(compiler, body, model, &regions);
+  g_autofree SporeRegion *owned = regions.regions;
+  if (!described) return FALSE;
   g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
   spore_object_fields(model, fields);
   if (spore_level_settings_apply(&type->parameters, level_fields.settings, fields, &fault))

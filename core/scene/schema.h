@@ -27,6 +27,7 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *              tetrahedra(name file source cells), the same
  *     bodies > body(name role position rotation velocity spin)
  *                mechanical(geometry integrator substeps material) > one model element (its own table)
+ *                regions > region(name centre radius stiffness_scale density_scale material)
  *                collision(spheres + spore_contact_parameters)
  *                visual(mesh colour wetness)
  *                fidelity(mode level level_tolerance) > coarse(geometry settings) medium(geometry settings)

@@ -59,6 +59,12 @@ typedef struct SporeMechanicalFields {
   int material;     /* of spore_material_names */
 } SporeMechanicalFields;
 
+typedef struct SporeRegionFields {
+  const char *name;
+  double centre[3], radius, stiffness_scale, density_scale;
+  int material; /* of spore_material_names */
+} SporeRegionFields;
+
 typedef struct SporeCollisionFields {
   const char *spheres;
   SporeContactFields contact;

@@ -18,6 +18,7 @@
 #include "core/math/spline.h"
 #include "core/mesh/mesh.h"
 #include "core/sim/mapping.h"
+#include "core/sim/region.h"
 
 typedef enum SporeGeometryKind {
   SPORE_GEOMETRY_NONE,       /* parameters alone */
@@ -32,6 +33,7 @@ typedef struct SporeGeometry {
   const SporeTriangleMesh *surface;
   const SporeTetrahedralMesh *tetrahedra;
   const SporeCurve *curve;
+  const SporeRegions *regions; /* NULL: none; for types that take them. Their elements are counted */
 } SporeGeometry;
 
 typedef struct SporeModelType SporeModelType;
@@ -106,6 +108,7 @@ struct SporeModelType {
   SporeParameterTable parameters;
   SporeGeometryKind geometry;
   const SporePreset *presets; /* ended by one without a name; NULL: none */
+  bool regions;   /* takes regions of other stiffness and density */
   bool particles; /* its points keep no neighbours: shown by the skin around them, not by a surface that follows them */
 
   /* Required. */

@@ -261,6 +261,31 @@ static const Mistake mistakes[] = {
            "<body name=\"organ\"><mechanical geometry=\"cells\" material=\"spleen\">\n"
            "<neo_hookean_tetrahedra young_modulus=\"5000\" density=\"1200\"/></mechanical>" BALL "</body></bodies>\n"),
      {"warning 7:1: young_modulus=\"5000\" lies outside of what was measured of Spleen: 1100 to 4700 Pa (AJR.10.5449"}},
+    {"region",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra/></mechanical><regions>"
+           "<region name=\"knot\" centre=\"0 0 0\" radius=\"0.04\" stiffness_scale=\"20\" density_scale=\"1.1\"/>"
+           "<region name=\"fat\" centre=\"0.05 0.05 0.05\" radius=\"0.06\" material=\"fat\"/></regions>" BALL
+           "</body></bodies>\n"),
+     {NULL}},
+    {"region-of-nothing",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra/></mechanical>\n<regions>"
+           "<region name=\"knot\" centre=\"1 0 0\" radius=\"0.04\"/></regions>" BALL "</body></bodies>\n"),
+     {"fault 7:10: the region \"knot\" holds the middle of no element"}},
+    {"region-of-net",
+     BODIES(FLOOR "<body name=\"stone\">" STONE "\n<regions><region name=\"knot\" centre=\"0 0 0\"/></regions>" BALL
+                  "</body>\n"),
+     {"fault 6:1: rigid_body has no regions; expected tetrahedra or finite differences"}},
+    {"region-of-unknown-density",
+     SCENE("<solver integrator=\"implicit_euler\"/>\n<assets><spheres name=\"ball\" file=\"ball.spheres\"/>"
+           "<tetrahedra name=\"cells\" file=\"cube.mesh\"/></assets>\n<bodies>\n" FLOOR
+           "<body name=\"organ\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra/></mechanical>\n<regions>"
+           "<region name=\"knot\" centre=\"0 0 0\" radius=\"0.1\" material=\"small_intestine\"/></regions>" BALL
+           "</body></bodies>\n"),
+     {"fault 7:10: material=\"small_intestine\" does not tell the region its density"}},
     {"material-of-nothing",
      BODIES(FLOOR "<body name=\"stone\"><mechanical geometry=\"cube\" material=\"small_intestine\"><rigid_body/>"
                   "</mechanical>" BALL "</body>\n"),
