@@ -102,6 +102,9 @@ static gboolean write_set(SporeCli *cli, const char *file, const Request *reques
     spore_cli_spheres_members(cli, set.count, &report);
     if (source->sheet) say_sheet(cli, &set, &report, options->thickness > 0);
     else say_solid(cli, &set, &report);
+    if (set.weights)
+      spore_cli_say(cli, _("weighted sum: depth error %.4f, felt at %.1f %% of the places just outside\n"),
+                    report.weighted_depth_error, 100 * report.felt_outside);
   }
   spore_sphere_set_clear(&set);
   return done;
@@ -197,6 +200,8 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"outside", N_("volume of the spheres that lies outside, of the mesh's volume; null for a sheet")},
       {"distance", N_("between surface and spheres, of the diagonal: mean, max; of a sheet see --thickness")},
       {"depth_error", N_("of the depth that is felt, of the largest depth; null for a sheet")},
+      {"weighted_depth_error", N_("the same of the weighted sum of the spheres' depths; 0 without weights")},
+      {"felt_outside", N_("share of places up to 2 % of the diagonal outside where that sum is not 0")},
       {"certified", N_("whether it is proven that all of the inside lies in a sphere")},
       {"seconds", N_("that it took")},
       {"mirrors", N_("planes that mesh and spheres are symmetric about")},
@@ -225,7 +230,7 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
        "D"},
       {"mode", 'm', 0, G_OPTION_ARG_STRING, &r.mode,
        N_("What the spheres are to be good at: balanced (default) fits the depth inside; bounding covers all of the "
-          "mesh, with little outside"),
+          "mesh, with little outside; weighted gives them weights whose sum fits the depth"),
        "MODE"},
       {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &r.regions,
        N_("FACTOR times as many spheres within R metres of a place (several may be given)"), "X,Y,Z,R,FACTOR"},
@@ -238,7 +243,8 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &r.unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &r.frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"seed", 0, 0, G_OPTION_ARG_INT64, &r.seed, N_("Seed: the same one gives the same spheres (default 1)"), "N"},
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &r.output, N_("File to write, x y z r a line"), "F.spheres"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &r.output, N_("File to write, x y z r a line, with weights x y z r w"),
+       "F.spheres"},
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);

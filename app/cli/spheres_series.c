@@ -49,6 +49,8 @@ void spore_cli_spheres_members(SporeCli *cli, size_t count, const SporeSpheresRe
   spore_cli_number(cli, "max", report->distance_max);
   spore_cli_close(cli);
   spore_cli_number(cli, "depth_error", report->depth_error);
+  spore_cli_number(cli, "weighted_depth_error", report->weighted_depth_error);
+  spore_cli_number(cli, "felt_outside", report->felt_outside);
   json_builder_set_member_name(cli->report, "certified");
   json_builder_add_boolean_value(cli->report, report->certified);
   spore_cli_number(cli, "seconds", report->seconds);

@@ -7,13 +7,15 @@
 #include "core/base/profile.h"
 #include "core/base/text.h"
 #include "core/generate/spheres_bounding.h"
+#include "core/generate/spheres_weighted.h"
 
 #define CANDIDATES_LEAST 1500
 #define CANDIDATES_PER_SPHERE 12
 #define NEAR_PLANE 0.4 /* of its radius: a ball whose centre is nearer to a mirror plane starts on it */
 
-const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1] = {
-    [SPORE_SPHERES_BALANCED] = "balanced", [SPORE_SPHERES_BOUNDING] = "bounding"};
+const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1] = {[SPORE_SPHERES_BALANCED] = "balanced",
+                                                                            [SPORE_SPHERES_BOUNDING] = "bounding",
+                                                                            [SPORE_SPHERES_WEIGHTED] = "weighted"};
 
 /* What one way to make spheres works on. */
 typedef struct Work {
@@ -143,21 +145,35 @@ static bool place_balls(const SporeSolid *solid, size_t count, const SporeSphere
   return done;
 }
 
+/* What the other modes make of a balanced start, which has no mirror images; *weights: the caller's to free. */
+static bool refine(const Work *work, SporeBalls *balls, double **weights, const SporeProgressPart *progress,
+                   SporeError *error) {
+  uint64_t seed = work->options->seed;
+  if (work->options->mode == SPORE_SPHERES_BOUNDING)
+    return spore_spheres_bound(work->solid, balls, seed, progress, error);
+  if (work->options->mode == SPORE_SPHERES_BALANCED) return true;
+  *weights = SPORE_NEW_ARRAY(double, balls->count);
+  return *weights ? spore_spheres_weigh(work->solid, balls, *weights, seed, progress, error)
+                  : spore_spheres_no_memory(error);
+}
+
 /* Exactly `count` spheres in the solid, measured. */
 static bool fill_solid(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
                        const SporeProgressPart *progress, SporeError *error) {
   const SporeSolid *solid = work->solid;
-  bool bounding = work->options->mode == SPORE_SPHERES_BOUNDING;
-  SporeProgressPart placing = part_of(progress, 0, bounding ? 0.4 : 0.9), growing = part_of(progress, 0.4, 0.5),
+  bool balanced = work->options->mode == SPORE_SPHERES_BALANCED;
+  SporeProgressPart placing = part_of(progress, 0, balanced ? 0.9 : 0.4), refining = part_of(progress, 0.4, 0.5),
                     measuring = part_of(progress, 0.9, 0.1);
   SporeBalls balls = {0};
+  double *weights = NULL;
   uint8_t *bound = SPORE_NEW_ARRAY(uint8_t, count);
   *set = (SporeSphereSet){0};
   bool done = bound || spore_spheres_no_memory(error);
   done = done && place_balls(solid, count, work->options, &balls, bound, &placing, error) &&
-         (!bounding || spore_spheres_bound(solid, &balls, work->options->seed, &growing, error)) &&
-         store_balls(&solid->symmetry, &balls, bound, set, error) &&
-         spore_solid_measure(solid, set, report, &measuring, error);
+         refine(work, &balls, &weights, &refining, error) && store_balls(&solid->symmetry, &balls, bound, set, error);
+  if (done) set->weights = weights;
+  else spore_free(weights);
+  done = done && spore_solid_measure(solid, set, report, &measuring, error);
   report->mirrors = solid->symmetry.count;
   spore_balls_clear(&balls);
   spore_free(bound);

@@ -9,10 +9,12 @@
 typedef enum SporeSpheresMode {
   SPORE_SPHERES_BALANCED, /* fits max(r_i - |x - c_i|) to the depth, inside and just outside */
   SPORE_SPHERES_BOUNDING, /* covers all of the solid, with little outside */
+  SPORE_SPHERES_WEIGHTED, /* has weights, and fits sum w_i max(0, r_i - |x - c_i|) to the depth */
   SPORE_SPHERES_MODE_COUNT
 } SporeSpheresMode;
 extern const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1]; /* NULL-terminated */
 
+#define SPORE_SPHERES_NEAR 0.02     /* of the diagonal */
 #define SPORE_SPHERES_MAXIMUM 5000u /* of one set */
 
 /* More spheres, or fewer, in a ball: `factor` times as many in a volume as elsewhere. Where regions overlap, the
@@ -41,6 +43,9 @@ typedef struct SporeSpheresReport {
   double outside;                     /* volume of the union that is outside the solid / volume of the solid */
   double distance_mean, distance_max; /* two-sided, surface of the solid to surface of the union */
   double depth_error;                 /* mean |depth - max_i(r_i - d_i)+| inside / largest depth */
+  /* Of a set with weights, 0 else: mean |depth - sum_i w_i (r_i - d_i)+| inside / largest depth, and the share of
+   * points up to SPORE_SPHERES_NEAR outside at which that sum is not 0. */
+  double weighted_depth_error, felt_outside;
   bool certified; /* the mesh is closed, and all of it is proven, not sampled, to be inside the spheres */
   double seconds;
   size_t mirrors; /* planes that the solid and the set are symmetric about: 0 to 3 */

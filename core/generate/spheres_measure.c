@@ -71,6 +71,40 @@ static bool measure_inside(Measure *m, SporeSpheresReport *report) {
   return true;
 }
 
+/* The weighted sum at a point. */
+static double weighted_depth(const Measure *m, const double *weights, const double p[3]) {
+  double sum = 0;
+  for (size_t i = 0; i < m->balls.count; i++) {
+    double dx = m->balls.x[i] - p[0], dy = m->balls.y[i] - p[1], dz = m->balls.z[i] - p[2];
+    sum += weights[i] * fmax(0, m->balls.r[i] - sqrt(dx * dx + dy * dy + dz * dz));
+  }
+  return sum;
+}
+
+/* Depth error of the weighted sum, and where it is felt outside. */
+static void measure_weighted(Measure *m, const double *weights, SporeSpheresReport *report) {
+  double deepest = 0, error = 0, near = SPORE_SPHERES_NEAR * m->solid->diagonal;
+  size_t outside = 0, felt = 0;
+  spore_solid_interior(m->solid, MEASURE_SAMPLES, &m->random, m->points);
+  for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
+    double depth = spore_bvh_distance(m->solid->bvh, spore_vec3_load(m->points + 3 * i), NULL, NULL);
+    deepest = fmax(deepest, depth);
+    error += fabs(depth - weighted_depth(m, weights, m->points + 3 * i));
+  }
+  spore_solid_surface(m->solid, MEASURE_SAMPLES, &m->random, m->points, NULL);
+  for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
+    double distance = near * spore_random_unit(&m->random), p[3];
+    SporeVec3 place =
+        spore_vec3_add_scaled(spore_vec3_load(m->points + 3 * i), distance, spore_random_direction(&m->random));
+    if (spore_bvh_winding(m->solid->bvh, place) > 0.5) continue;
+    spore_vec3_store(p, place);
+    outside++;
+    felt += weighted_depth(m, weights, p) > 0;
+  }
+  report->weighted_depth_error = deepest > 0 ? error / MEASURE_SAMPLES / deepest : 0;
+  report->felt_outside = outside ? (double)felt / (double)outside : 0;
+}
+
 /* Volume of the union outside the solid, from points spread over the balls, each divided by how many hold it. */
 static bool measure_outside(Measure *m, SporeSpheresReport *report) {
   uint32_t *held = SPORE_NEW_ARRAY(uint32_t, MEASURE_SAMPLES);
@@ -240,6 +274,7 @@ bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, Spo
   done = done && go_on(&m, 0, 1) && measure_surfaces(&m, report, error);
   if (!done && !m.cancelled) spore_spheres_no_memory(error);
   if (done) report->certified = certify(&m, report);
+  if (done && set->weights) measure_weighted(&m, set->weights, report);
   spore_free(m.points);
   spore_free(m.value);
   spore_balls_clear(&m.balls);

@@ -1,4 +1,4 @@
-/* .spheres and .curve: "x y z r" a line, metres, # comments. */
+/* .spheres and .curve: "x y z r" a line, metres, # comments; spheres with weights "x y z r w". */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -8,12 +8,14 @@
 /* What messages say of a kind of rows. */
 typedef struct RowWords {
   const char *numbers[4];
+  const char *weight; /* NULL: has none */
   const char *radius, *too_many, *none;
 } RowWords;
 
 static const RowWords sphere_words = {
     .numbers = {N_("the x of a sphere, in metres"), N_("the y of a sphere, in metres"),
                 N_("the z of a sphere, in metres"), N_("the radius of a sphere, in metres")},
+    .weight = N_("the weight of a sphere"),
     .radius = N_("the radius %g is not above 0; expected a length in metres; correct or remove the sphere"),
     .too_many = N_("there are more than %u spheres; expected fewer; split the file"),
     .none = N_("there is no sphere in the file; expected lines \"x y z r\" in metres; generate the set again")};
@@ -25,8 +27,33 @@ static const RowWords curve_words = {
     .too_many = N_("there are more than %u points; expected fewer; use a coarser curve"),
     .none = N_("there is no point in the file; expected lines \"x y z r\" in metres; generate the curve again")};
 
-static gboolean read_row(SporeScanner *scanner, const RowWords *words, GArray *rows, GError **error) {
-  double row[4];
+/* Rows of a file: 4 numbers each, or 5 where the first row has a weight. */
+typedef struct Rows {
+  GArray *numbers;
+  guint columns; /* 0 before the first row */
+} Rows;
+
+/* The weight, where there is one: all rows have it, or none has. */
+static gboolean read_weight(SporeScanner *scanner, const RowWords *words, Rows *rows, double *weight, GError **error) {
+  gboolean more = spore_scanner_more_on_line(scanner);
+  if (!rows->columns) rows->columns = more && words->weight ? 5 : 4;
+  if (rows->columns == 5 && !more)
+    return spore_scanner_fail(scanner, error,
+                              _("the sphere has no weight, others have; expected \"x y z r w\"; give it one"));
+  if (rows->columns == 4 && more && words->weight)
+    return spore_scanner_fail(
+        scanner, error,
+        _("there is more behind the four numbers, and the spheres before have no weight; expected \"x y z r\"; remove "
+          "it or put # before it"));
+  if (rows->columns == 5 && !spore_scanner_real(scanner, _(words->weight), weight, error)) return FALSE;
+  if (rows->columns == 5 && !(*weight > 0))
+    return spore_scanner_fail(
+        scanner, error, _("the weight %g is not above 0; expected a number; correct or remove the sphere"), *weight);
+  return TRUE;
+}
+
+static gboolean read_row(SporeScanner *scanner, const RowWords *words, Rows *rows, GError **error) {
+  double row[5];
   unsigned line = 0;
   for (int i = 0; i < 4; i++) {
     if (!spore_scanner_real(scanner, _(words->numbers[i]), &row[i], error)) return FALSE;
@@ -38,29 +65,34 @@ static gboolean read_row(SporeScanner *scanner, const RowWords *words, GArray *r
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
   if (!(row[3] > 0)) return spore_scanner_fail(scanner, error, _(words->radius), row[3]);
-  if (rows->len / 4 >= SPORE_MESH_MAXIMUM)
+  if (rows->columns && rows->numbers->len / rows->columns >= SPORE_MESH_MAXIMUM)
     return spore_scanner_fail(scanner, error, _(words->too_many), SPORE_MESH_MAXIMUM);
 #pragma GCC diagnostic pop
+  if (!read_weight(scanner, words, rows, &row[4], error)) return FALSE;
   if (spore_scanner_more_on_line(scanner))
-    return spore_scanner_fail(
-        scanner, error, _("there is more behind the four numbers; expected \"x y z r\"; remove it or put # before it"));
-  g_array_append_vals(rows, row, 4);
+    return rows->columns == 5
+               ? spore_scanner_fail(scanner, error,
+                                    _("there is more behind the five numbers; expected \"x y z r w\"; remove it or put "
+                                      "# before it"))
+               : spore_scanner_fail(scanner, error,
+                                    _("there is more behind the four numbers; expected \"x y z r\"; remove it or put # "
+                                      "before it"));
+  g_array_append_vals(rows->numbers, row, rows->columns);
   return TRUE;
 }
 
-/* All rows, 4 numbers each; NULL with a message. */
-static GArray *read_rows(SporeScanner *scanner, const RowWords *words, GError **error) {
-  GArray *rows = g_array_new(FALSE, FALSE, sizeof(double));
+/* All rows; numbers is NULL with a message. */
+static Rows read_rows(SporeScanner *scanner, const RowWords *words, GError **error) {
+  Rows rows = {g_array_new(FALSE, FALSE, sizeof(double)), 0};
   gboolean done = TRUE;
   while (done) {
     SporeScanner ahead = *scanner;
     if (!spore_scanner_next(&ahead)) break;
-    done = read_row(scanner, words, rows, error);
+    done = read_row(scanner, words, &rows, error);
   }
-  if (done && !rows->len) done = spore_scanner_fail(scanner, error, "%s", _(words->none));
-  if (done) return rows;
-  g_array_unref(rows);
-  return NULL;
+  if (done && !rows.numbers->len) done = spore_scanner_fail(scanner, error, "%s", _(words->none));
+  if (!done) g_clear_pointer(&rows.numbers, g_array_unref);
+  return rows;
 }
 
 static gboolean finish(SporeScanner *scanner, SporeError *failure, GError **error) {
@@ -68,15 +100,27 @@ static gboolean finish(SporeScanner *scanner, SporeError *failure, GError **erro
   return spore_error_propagate(failure, error);
 }
 
+static gboolean store_spheres(const Rows *rows, SporeSphereSet *set, SporeError *failure) {
+  const double *numbers = (const double *)(const void *)rows->numbers->data;
+  if (!spore_sphere_set_allocate(set, rows->numbers->len / rows->columns, failure)) return FALSE;
+  if (rows->columns == 5 && !spore_sphere_set_add_weights(set, failure)) return FALSE;
+  for (gsize i = 0; i < set->count; i++) {
+    memcpy(set->spheres + 4 * i, numbers + rows->columns * i, 4 * sizeof *numbers);
+    if (set->weights) set->weights[i] = numbers[rows->columns * i + 4];
+  }
+  return spore_sphere_set_validate(set, failure);
+}
+
 gboolean spore_spheres_parse(const char *place, const char *text, gsize size, SporeSphereSet *set, GError **error) {
   SporeScanner scanner;
   spore_scanner_init(&scanner, place, text, size);
-  g_autoptr(GArray) rows = read_rows(&scanner, &sphere_words, error);
-  if (!rows) return FALSE;
+  Rows rows = read_rows(&scanner, &sphere_words, error);
+  if (!rows.numbers) return FALSE;
   SporeError failure = SPORE_ERROR_INIT;
-  if (!spore_sphere_set_allocate(set, rows->len / 4, &failure)) return finish(&scanner, &failure, error);
-  memcpy(set->spheres, rows->data, rows->len * sizeof(double));
-  if (spore_sphere_set_validate(set, &failure)) return TRUE;
+  *set = (SporeSphereSet){0};
+  gboolean done = store_spheres(&rows, set, &failure);
+  g_array_unref(rows.numbers);
+  if (done) return TRUE;
   spore_sphere_set_clear(set);
   return finish(&scanner, &failure, error);
 }
@@ -84,7 +128,7 @@ gboolean spore_spheres_parse(const char *place, const char *text, gsize size, Sp
 gboolean spore_curve_parse(const char *place, const char *text, gsize size, SporeCurve *curve, GError **error) {
   SporeScanner scanner;
   spore_scanner_init(&scanner, place, text, size);
-  g_autoptr(GArray) rows = read_rows(&scanner, &curve_words, error);
+  g_autoptr(GArray) rows = read_rows(&scanner, &curve_words, error).numbers;
   if (!rows) return FALSE;
   SporeError failure = SPORE_ERROR_INIT;
   if (!spore_curve_allocate(curve, rows->len / 4, &failure)) return finish(&scanner, &failure, error);
@@ -102,7 +146,14 @@ static char *format_rows(const double *rows, gsize count, gsize *size) {
 }
 
 char *spore_spheres_format(const SporeSphereSet *set, gsize *size) {
-  return format_rows(set->spheres, set->count, size);
+  if (!set->weights) return format_rows(set->spheres, set->count, size);
+  GString *text = g_string_new("# x y z r w, in metres; w: weight of the sphere's depth\n");
+  for (gsize i = 0; i < set->count; i++) {
+    const double *sphere = set->spheres + 4 * i, row[] = {sphere[0], sphere[1], sphere[2], sphere[3], set->weights[i]};
+    spore_append_reals(text, row, 1, 5, "");
+  }
+  if (size) *size = text->len;
+  return g_string_free(text, FALSE);
 }
 
 char *spore_curve_format(const SporeCurve *curve, gsize *size) {

@@ -26,6 +26,7 @@ typedef struct SporeTetrahedralMesh {
 typedef struct SporeSphereSet {
   size_t count;
   double *spheres; /* count x 4: x y z r */
+  double *weights; /* count, above 0, of the depth sum_i w_i max(0, r_i - distance to centre i); NULL: it has none */
 } SporeSphereSet;
 
 /* The middle line of something long and thin, from one end to the other, with its radius at each point. */
@@ -44,12 +45,14 @@ void spore_triangle_mesh_clear(SporeTriangleMesh *mesh);
 bool spore_tetrahedral_mesh_allocate(SporeTetrahedralMesh *mesh, size_t vertices, size_t tetrahedra, SporeError *error);
 void spore_tetrahedral_mesh_clear(SporeTetrahedralMesh *mesh);
 bool spore_sphere_set_allocate(SporeSphereSet *set, size_t count, SporeError *error);
+/* Weights of 0, to be filled. */
+bool spore_sphere_set_add_weights(SporeSphereSet *set, SporeError *error);
 void spore_sphere_set_clear(SporeSphereSet *set);
 bool spore_curve_allocate(SporeCurve *curve, size_t count, SporeError *error);
 void spore_curve_clear(SporeCurve *curve);
 
 /* Finite coordinates (|x| <= 1e9 m), indices in range, at least one element; for tetrahedra positive volume above
- * 1e-12 of the cubed longest edge; for spheres r > 0; for curves r > 0, two points or more and no two neighbours in the
+ * 1e-12 of the cubed longest edge; for spheres r > 0, and weights above 0 and at most 1000; for curves r > 0, two points or more and no two neighbours in the
  * same place. The message names the first offending element (0-based). */
 bool spore_triangle_mesh_validate(const SporeTriangleMesh *mesh, SporeError *error);
 bool spore_tetrahedral_mesh_validate(const SporeTetrahedralMesh *mesh, SporeError *error);

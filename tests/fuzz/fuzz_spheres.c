@@ -23,6 +23,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *content, size_t size) {
   g_autofree char *text = spore_spheres_format(&set, &length);
   spore_spheres_parse("again.spheres", text, length, &again, &error);
   g_assert_no_error(error);
+  g_assert_true(!set.weights == !again.weights);
+  if (set.weights)
+    g_assert_cmpmem(set.weights, set.count * sizeof(double), again.weights, again.count * sizeof(double));
   g_assert_cmpmem(set.spheres, set.count * 4 * sizeof(double), again.spheres, again.count * 4 * sizeof(double));
   spore_sphere_set_clear(&set);
   spore_sphere_set_clear(&again);

@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/generate/spheres_bounding.h"
+#include "core/generate/spheres_weighted.h"
 #include "tests/mesh/shapes.h"
 
 static const SporeProgressPart quiet = {NULL, 0, 1};
@@ -89,6 +90,17 @@ static bool cover(Fixture *f, SporeError *error) {
   return done;
 }
 
+static bool weigh(Fixture *f, SporeError *error) {
+  SporeBalls balls;
+  double weights[2];
+  if (!spore_balls_create(&balls, 2)) return spore_spheres_no_memory(error);
+  spore_balls_set(&balls, 0, spore_vec3(0.06, 0, 0), 0.02);
+  spore_balls_set(&balls, 1, spore_vec3(-0.06, 0, 0), 0.02);
+  bool done = spore_spheres_weigh(&f->solid, &balls, weights, 1, &quiet, error);
+  spore_balls_clear(&balls);
+  return done;
+}
+
 static bool measure(Fixture *f, SporeError *error) {
   double sphere[4] = {0.06, 0, 0, 0.02};
   SporeSphereSet set = {1, sphere};
@@ -116,8 +128,8 @@ int main(int argc, char **argv) {
   } parts[] = {
       {"/generate/spheres-memory/solid", solid},           {"/generate/spheres-memory/samples", samples},
       {"/generate/spheres-memory/candidates", candidates}, {"/generate/spheres-memory/cover-and-fit", cover_and_fit},
-      {"/generate/spheres-memory/prices", prices},         {"/generate/spheres-memory/cover", cover},
-      {"/generate/spheres-memory/measure", measure}};
+      {"/generate/spheres-memory/prices", prices},         {"/generate/spheres-memory/weigh", weigh},
+      {"/generate/spheres-memory/cover", cover},           {"/generate/spheres-memory/measure", measure}};
   g_test_init(&argc, &argv, NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(parts); i++)
     g_test_add(parts[i].path, Fixture, &parts[i].work, set_up, fail_each, tear_down);

@@ -34,6 +34,25 @@ static void test_spheres(void) {
   g_free(text);
 }
 
+/* Weights go to the file and come back; of all spheres, or of none. */
+static void test_spheres_weights(void) {
+  double values[] = {0.1, -1. / 3, 1e-9, 0.05, 1e5, 2, 3.0000000000000004, 1e-300}, weights[] = {1. / 3, 0.7};
+  SporeSphereSet set = {2, values, weights}, again = {0};
+  gsize size;
+  g_autofree char *text = spore_spheres_format(&set, &size);
+  GError *error = NULL;
+  g_assert_true(spore_spheres_parse("a.spheres", text, size, &again, &error));
+  g_assert_no_error(error);
+  g_assert_cmpmem(again.spheres, again.count * 4 * sizeof(double), values, sizeof values);
+  g_assert_cmpmem(again.weights, again.count * sizeof(double), weights, sizeof weights);
+  spore_sphere_set_clear(&again);
+  check_spheres_refused("0 0 0 1 1\n0 0 0 1\n", "has no weight");
+  check_spheres_refused("0 0 0 1\n0 0 0 1 1\n", "have no weight");
+  check_spheres_refused("0 0 0 1 0\n", "not above 0");
+  check_spheres_refused("0 0 0 1 2000\n", "weight 2000");
+  check_spheres_refused("0 0 0 1 1 1\n", "behind the five numbers");
+}
+
 /* Blank lines, comments, carriage returns, and no end of line at the end: not NUL-terminated either. */
 static void test_spheres_layout(void) {
   static const char text[] = "# from the liver\r\n\r\n 1 2 3 0.5 # the first\r\n\t4\t5 6 +1e-1X";
@@ -80,7 +99,7 @@ static void test_spheres_refused(void) {
   check_spheres_refused("", "a.spheres:1:1: there is no sphere");
   check_spheres_refused("# nothing\n", "there is no sphere");
   check_spheres_refused("1 2 3 1\n1 2 3\n4 5 6 1\n", "a.spheres:3:1: line 2 has fewer than four numbers");
-  check_spheres_refused("1 2 3 1 7\n", "there is more behind");
+  check_spheres_refused("1 2 3 1 7 7\n", "there is more behind");
   check_spheres_refused("1 2 3 0\n", "a.spheres:1:7: the radius 0 is not above 0");
   check_spheres_refused("1 2 3 -1\n", "not above 0");
   check_spheres_refused("1 2 3 nan\n", "\"nan\" is not the radius of a sphere");
@@ -205,6 +224,7 @@ static void test_off(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/text-formats/spheres", test_spheres);
+  g_test_add_func("/text-formats/spheres-weights", test_spheres_weights);
   g_test_add_func("/text-formats/spheres-layout", test_spheres_layout);
   g_test_add_func("/text-formats/spheres-refused", test_spheres_refused);
   g_test_add_func("/text-formats/curve", test_curve);

@@ -1,0 +1,69 @@
+/* Spheres with weights, whose sum is the depth. */
+#include <glib.h>
+#include <math.h>
+
+#include "core/generate/spheres.h"
+#include "tests/mesh/shapes.h"
+
+static SporeSphereSet make(const SporeTriangleMesh *mesh, SporeSpheresMode mode, size_t count,
+                           SporeSpheresReport *report) {
+  SporeSpheresOptions options = {.mode = mode, .count = count, .seed = 1};
+  SporeError error = SPORE_ERROR_INIT;
+  SporeSphereSet set;
+  bool done = spore_spheres_from_mesh(mesh, &options, &set, report, NULL, &error);
+  g_assert_cmpstr(error.message, ==, "");
+  g_assert_true(done);
+  g_assert_true(spore_sphere_set_validate(&set, NULL));
+  g_test_message("%zu spheres: depth error %.4f, weighted %.4f, felt outside %.4f, %.2f s", count, report->depth_error,
+                 report->weighted_depth_error, report->felt_outside, report->seconds);
+  return set;
+}
+
+/* The depth in a ball is that of one sphere of weight 1. */
+static void test_ball(void) {
+  SporeTriangleMesh ball;
+  SporeSpheresReport report;
+  shape_ball(&ball, 0.05, 24);
+  shape_move(&ball, 1, 2, 3);
+  SporeSphereSet set = make(&ball, SPORE_SPHERES_WEIGHTED, 1, &report);
+  const double expected[4] = {1, 2, 3, 0.05};
+  for (int k = 0; k < 4; k++) g_assert_cmpfloat_with_epsilon(set.spheres[k], expected[k], 5e-3 * 0.05);
+  g_assert_cmpfloat_with_epsilon(set.weights[0], 1, 5e-3);
+  g_assert_cmpfloat(report.weighted_depth_error, <, 2e-3);
+  set.weights[0] = 0.5; /* the mean of half the depth is an eighth of the radius; the deepest sample is not quite it */
+  g_assert_true(spore_spheres_measure(&ball, &set, &report, NULL));
+  g_assert_cmpfloat(report.weighted_depth_error, >, 0.124);
+  g_assert_cmpfloat(report.weighted_depth_error, <, 0.132);
+  set.spheres[3] += 0.02 * 2 * sqrt(3) * 0.05; /* all places near it are felt */
+  g_assert_true(spore_spheres_measure(&ball, &set, &report, NULL));
+  g_assert_cmpfloat(report.felt_outside, ==, 1);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&ball);
+}
+
+/* In a box the sum says more of the depth than the largest of as many balls, and the same input gives the same set. */
+static void test_box(void) {
+  SporeTriangleMesh box;
+  SporeSpheresReport report, balanced;
+  shape_box(&box, (double[3]){-0.05, -0.03, -0.02}, (double[3]){0.05, 0.03, 0.02}, 4);
+  SporeSphereSet plain = make(&box, SPORE_SPHERES_BALANCED, 16, &balanced);
+  SporeSphereSet set = make(&box, SPORE_SPHERES_WEIGHTED, 16, &report),
+                 again = make(&box, SPORE_SPHERES_WEIGHTED, 16, &report);
+  g_assert_null(plain.weights);
+  g_assert_cmpfloat(balanced.weighted_depth_error, ==, 0);
+  g_assert_cmpfloat(report.weighted_depth_error, <, 0.8 * balanced.depth_error);
+  g_assert_cmpfloat(report.felt_outside, <, 0.45);
+  g_assert_cmpmem(set.spheres, 32 * set.count, again.spheres, 32 * again.count);
+  g_assert_cmpmem(set.weights, 8 * set.count, again.weights, 8 * again.count);
+  spore_sphere_set_clear(&plain);
+  spore_sphere_set_clear(&set);
+  spore_sphere_set_clear(&again);
+  spore_triangle_mesh_clear(&box);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/generate/spheres-weighted/ball", test_ball);
+  g_test_add_func("/generate/spheres-weighted/box", test_box);
+  return g_test_run();
+}
