@@ -11,7 +11,7 @@
 #include "core/io/organ.h"
 #include "core/mesh/edit.h"
 
-#define LABEL_ROUNDS 10 /* of smoothing */
+#define LABEL_ROUNDS 100 /* of smoothing: fewer leave the voxels' terraces */
 #define MOST_BYTES ((goffset)1 << 30)
 
 typedef struct Intake {
