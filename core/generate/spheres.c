@@ -11,7 +11,9 @@
 
 #define CANDIDATES_LEAST 1500
 #define CANDIDATES_PER_SPHERE 12
-#define NEAR_PLANE 0.4 /* of its radius: a ball whose centre is nearer to a mirror plane starts on it */
+#define ENOUGH_ROOM 0.9 /* of its radius: depth where a ball is moved to that has to lie on a plane */
+#define RANKED_LEAST 64 /* balls to choose those from that go with the number */
+#define NEAR_PLANE 0.4  /* of its radius: a ball whose centre is nearer to a mirror plane starts on it */
 
 const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1] = {[SPORE_SPHERES_BALANCED] = "balanced",
                                                                             [SPORE_SPHERES_BOUNDING] = "bounding",
@@ -83,16 +85,8 @@ static size_t images_of(const SporeSymmetry *symmetry, unsigned bound) {
 
 static bool store_balls(const SporeSymmetry *symmetry, const SporeBalls *balls, const uint8_t *bound,
                         SporeSphereSet *set, SporeError *error) {
-  size_t total = 0, stored = 0;
-  for (size_t i = 0; i < balls->count; i++) total += images_of(symmetry, bound[i]);
-  if (!spore_sphere_set_allocate(set, total, error)) return false;
-  for (size_t i = 0; i < balls->count; i++)
-    for (unsigned planes = 0; planes < 1u << symmetry->count; planes++) {
-      if (planes & bound[i]) continue;
-      double *sphere = set->spheres + 4 * stored++;
-      spore_vec3_store(sphere, spore_symmetry_mirror(symmetry, planes, spore_balls_centre(balls, i)));
-      sphere[3] = balls->r[i];
-    }
+  if (!spore_sphere_set_allocate(set, spore_balls_images(symmetry, balls, bound, NULL), error)) return false;
+  spore_balls_images(symmetry, balls, bound, set->spheres);
   return true;
 }
 
@@ -106,42 +100,104 @@ static unsigned near_planes(const SporeSymmetry *symmetry, SporeVec3 centre, dou
   return planes;
 }
 
-/* Of `ranked`, the best first, those that with their images come to `count`, each bound to the planes it is near; what
- * is missing at the end is made up by balls that are bound to more. *balls is made. */
-static bool choose_bound(const SporeSymmetry *symmetry, size_t count, const SporeBalls *ranked, SporeBalls *balls,
-                         uint8_t *bound) {
-  size_t chosen = 0;
-  for (size_t left = count; left; chosen++) {
-    unsigned planes = near_planes(symmetry, spore_balls_centre(ranked, chosen), ranked->r[chosen]);
-    for (unsigned k = 0; images_of(symmetry, planes) > left; k++) planes |= 1u << k;
-    left -= images_of(symmetry, planes);
-    bound[chosen] = (uint8_t)planes;
+/* More planes for a ball that has too many images to be one of `count`: those where it has as much room. `forced`: any.
+ */
+static unsigned bind_more(const SporeSolid *solid, size_t count, SporeVec3 centre, double radius, unsigned planes,
+                          bool forced) {
+  for (unsigned k = 0; k < solid->symmetry.count && images_of(&solid->symmetry, planes) > count; k++) {
+    SporeVec3 moved = spore_symmetry_bind(&solid->symmetry, planes | 1u << k, centre);
+    if (forced || spore_bvh_depth(solid->bvh, moved) >= ENOUGH_ROOM * radius) planes |= 1u << k;
   }
-  if (!spore_balls_create(balls, chosen)) return false;
-  for (size_t i = 0; i < chosen; i++)
-    spore_balls_set(balls, i, spore_symmetry_bind(symmetry, bound[i], spore_balls_centre(ranked, i)), ranked->r[i]);
-  return true;
+  return planes;
 }
 
-/* Balls in the solid that come to `count` with their images. *balls is made; bound holds `count`. */
-static bool place_balls(const SporeSolid *solid, size_t count, const SporeSpheresOptions *options, SporeBalls *balls,
+/* Of `ranked`, the best first, those that with their images come to `count`, each bound to the planes it is near.
+ * False: they do not come to it, unless `forced`. Counts in *chosen. */
+static bool choose_bound(const SporeSolid *solid, size_t count, const SporeBalls *ranked, bool forced, uint32_t *which,
+                         uint8_t *bound, size_t *chosen) {
+  *chosen = 0;
+  for (size_t i = 0; i < ranked->count && count; i++) {
+    SporeVec3 centre = spore_balls_centre(ranked, i);
+    unsigned planes = near_planes(&solid->symmetry, centre, ranked->r[i]);
+    planes = bind_more(solid, count, centre, ranked->r[i], planes, forced);
+    if (images_of(&solid->symmetry, planes) > count) continue;
+    count -= images_of(&solid->symmetry, planes);
+    which[*chosen] = (uint32_t)i, bound[(*chosen)++] = (uint8_t)planes;
+  }
+  return count == 0;
+}
+
+/* What a fit starts from. */
+typedef struct Start {
+  SporeSamples samples;
+  SporeBalls candidates, ranked;
+} Start;
+
+static void clear_start(Start *start) {
+  spore_balls_clear(&start->ranked);
+  spore_balls_clear(&start->candidates);
+  spore_samples_clear(&start->samples);
+}
+
+static bool make_start(Start *start, const SporeSolid *solid, size_t count, uint64_t seed,
+                       const SporeProgressPart *progress, SporeError *error) {
+  SporeRandom random = {seed ^ UINT64_C(0x9e3779b97f4a7c15)};
+  SporeProgressPart sampling = part_of(progress, 0, 0.3), finding = part_of(progress, 0.3, 0.4),
+                    choosing = part_of(progress, 0.7, 0.3);
+  size_t candidates = CANDIDATES_PER_SPHERE * count, ranked = count < RANKED_LEAST ? RANKED_LEAST : count;
+  *start = (Start){0};
+  return spore_samples_create(&start->samples, solid, count, &random, &sampling, error) &&
+         spore_candidates_create(&start->candidates, solid,
+                                 candidates < CANDIDATES_LEAST ? CANDIDATES_LEAST : candidates, &random, &finding,
+                                 error) &&
+         (spore_balls_create(&start->ranked, ranked) || spore_spheres_no_memory(error)) &&
+         spore_candidates_cover(&start->candidates, &start->samples, &start->ranked, &choosing, error);
+}
+
+/* The planes of `all` whose bits are set. */
+static SporeSymmetry some_planes(const SporeSymmetry *all, unsigned planes) {
+  SporeSymmetry some = {.point = all->point};
+  for (unsigned k = 0; k < all->count; k++)
+    if (planes >> k & 1) some.normal[some.count++] = all->normal[k];
+  return some;
+}
+
+/* A start in as many of the solid's mirror planes as the number goes with: an odd one, say, needs a ball that is its
+ * own image in all. */
+static bool start_in_planes(Start *start, SporeSolid *solid, size_t count, uint64_t seed, uint32_t *which,
+                            uint8_t *bound, size_t *chosen, const SporeProgressPart *progress, SporeError *error) {
+  static const unsigned char ways[] = {7, 3, 5, 6, 1, 2, 4, 1}; /* the most first; the last one is forced */
+  const SporeSymmetry all = solid->symmetry;
+  for (size_t i = 0; i < sizeof ways; i++) {
+    SporeProgressPart part = part_of(progress, (double)i / sizeof ways, 1. / sizeof ways);
+    if (all.count && ways[i] >> all.count) continue;
+    solid->symmetry = some_planes(&all, ways[i]);
+    if (!make_start(start, solid, count, seed, &part, error)) return false;
+    if (choose_bound(solid, count, &start->ranked, i + 1 == sizeof ways, which, bound, chosen)) return true;
+    clear_start(start);
+  }
+  return false;
+}
+
+/* Balls in the solid that come to `count` with their images in those of its planes that are left. *balls is made; bound
+ * holds `count`. */
+static bool place_balls(SporeSolid *solid, size_t count, const SporeSpheresOptions *options, SporeBalls *balls,
                         uint8_t *bound, const SporeProgressPart *progress, SporeError *error) {
-  SporeRandom random = {options->seed ^ UINT64_C(0x9e3779b97f4a7c15)};
-  SporeProgressPart sampling = part_of(progress, 0, 0.1), finding = part_of(progress, 0.1, 0.1),
-                    choosing = part_of(progress, 0.2, 0.1), fitting = part_of(progress, 0.3, 0.7);
-  SporeSamples samples = {0};
-  SporeBalls candidates = {0}, ranked = {0};
-  size_t candidate_count = CANDIDATES_PER_SPHERE * count;
-  if (candidate_count < CANDIDATES_LEAST) candidate_count = CANDIDATES_LEAST;
-  bool done = spore_samples_create(&samples, solid, count, &random, &sampling, error) &&
-              spore_candidates_create(&candidates, solid, candidate_count, &random, &finding, error) &&
-              (spore_balls_create(&ranked, count) || spore_spheres_no_memory(error)) &&
-              spore_candidates_cover(&candidates, &samples, &ranked, &choosing, error) &&
-              (choose_bound(&solid->symmetry, count, &ranked, balls, bound) || spore_spheres_no_memory(error)) &&
-              spore_spheres_fit(solid, &samples, &candidates, balls, bound, options->seed, &fitting, error);
-  spore_balls_clear(&ranked);
-  spore_balls_clear(&candidates);
-  spore_samples_clear(&samples);
+  SporeProgressPart starting = part_of(progress, 0, 0.3), fitting = part_of(progress, 0.3, 0.7);
+  Start start = {0};
+  size_t chosen = 0;
+  uint32_t *which = SPORE_NEW_ARRAY(uint32_t, count);
+  bool done = which || spore_spheres_no_memory(error);
+  done = done && start_in_planes(&start, solid, count, options->seed, which, bound, &chosen, &starting, error) &&
+         (spore_balls_create(balls, chosen) || spore_spheres_no_memory(error));
+  for (size_t i = 0; done && i < chosen; i++) {
+    SporeVec3 centre = spore_balls_centre(&start.ranked, which[i]);
+    spore_balls_set(balls, i, spore_symmetry_bind(&solid->symmetry, bound[i], centre), start.ranked.r[which[i]]);
+  }
+  done =
+      done && spore_spheres_fit(solid, &start.samples, &start.candidates, balls, bound, options->seed, &fitting, error);
+  spore_free(which);
+  clear_start(&start);
   return done;
 }
 
@@ -160,7 +216,7 @@ static bool refine(const Work *work, SporeBalls *balls, double **weights, const 
 /* Exactly `count` spheres in the solid, measured. */
 static bool fill_solid(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
                        const SporeProgressPart *progress, SporeError *error) {
-  const SporeSolid *solid = work->solid;
+  SporeSolid part = *work->solid, *solid = &part; /* of which it may take fewer planes */
   bool balanced = work->options->mode == SPORE_SPHERES_BALANCED;
   SporeProgressPart placing = part_of(progress, 0, balanced ? 0.9 : 0.4), refining = part_of(progress, 0.4, 0.5),
                     measuring = part_of(progress, 0.9, 0.1);

@@ -54,7 +54,8 @@ typedef struct SporeSpheresReport {
 /* What spheres are made from; the first that is not NULL counts. */
 typedef struct SporeSpheresSource {
   /* Valid; need not be watertight (winding number > 0.5 is inside; one that is inside out is turned), but must enclose
-   * volume. One that is its own image in up to three planes at right angles gives a set that is, too. */
+   * volume. One that is its own image in up to three planes at right angles gives a set that is, too, in as many of
+   * them as go with the number of spheres: an odd one needs spheres on the planes. */
   const SporeTriangleMesh *solid;
   /* Its cells fill the solid inside their boundary: the same as of that. */
   const SporeTetrahedralMesh *tetrahedra;

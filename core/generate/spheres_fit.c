@@ -178,7 +178,7 @@ static bool fill(SporeFit *fit, const SporeProgressPart *progress, double from, 
     if (!spore_progress_part(progress, fraction, _("Fitting spheres"), error)) return false;
     double before = fit->loss;
     take_round(fit);
-    spore_progress_show_balls(progress, &fit->best);
+    spore_progress_show_images(progress, &fit->solid->symmetry, &fit->best, fit->bound);
     if (round % FILL_EVERY != FILL_EVERY - 1) continue;
     if (!spore_fit_fill(fit, (size_t)round)) {
       if (settled(fit, before)) break;

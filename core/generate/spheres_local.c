@@ -259,7 +259,7 @@ bool spore_fit_relocate(SporeFit *fit, const SporeProgressPart *progress, SporeE
     done = pass(&local, shake, &paid, progress, error);
     if (paid) failures = 0;
     else failures++, shake = fmin(shake + 0.1, 0.6);
-    spore_progress_show_balls(progress, &fit->balls);
+    spore_progress_show_images(progress, &fit->solid->symmetry, &fit->balls, fit->bound);
   }
   close_local(&local);
   return done;

@@ -131,6 +131,14 @@ bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, con
                        SporeBalls *balls, const uint8_t *bound, uint64_t seed, const SporeProgressPart *progress,
                        SporeError *error);
 
+/* The balls and their images in the planes that they are not bound to (bound: as for spore_spheres_fit), x y z r each;
+ * spheres: NULL to count alone. Returns how many. */
+size_t spore_balls_images(const SporeSymmetry *symmetry, const SporeBalls *balls, const uint8_t *bound,
+                          double *spheres);
+/* As spore_progress_show_balls, with all images. */
+void spore_progress_show_images(const SporeProgressPart *part, const SporeSymmetry *symmetry, const SporeBalls *balls,
+                                const uint8_t *bound);
+
 /* Measures balls against a union of other balls, as spore_spheres_measure does against a solid. */
 bool spore_balls_compare(const SporeBalls *whole, const SporeBalls *balls, SporeSpheresReport *report,
                          const SporeProgressPart *progress, SporeError *error);

@@ -21,15 +21,7 @@ bool spore_progress_part(const SporeProgressPart *part, double fraction, const c
 }
 
 void spore_progress_show_balls(const SporeProgressPart *part, const SporeBalls *balls) {
-  if (!part->whole || !part->whole->show) return;
-  double *spheres = SPORE_NEW_ARRAY(double, 4 * balls->count);
-  if (!spheres) return; /* a look that is missed */
-  for (size_t i = 0; i < balls->count; i++) {
-    const double sphere[4] = {balls->x[i], balls->y[i], balls->z[i], balls->r[i]};
-    memcpy(spheres + 4 * i, sphere, sizeof sphere);
-  }
-  part->whole->show(part->whole->data, spheres, balls->count);
-  spore_free(spheres);
+  spore_progress_show_images(part, &(SporeSymmetry){0}, balls, NULL);
 }
 
 SporeVec3 spore_random_direction(SporeRandom *random) {
