@@ -130,7 +130,23 @@ static double sum_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 p
   return sum;
 }
 
+/* sum w_i max(0, r_i - d_i), and its gradient. */
+static double plain_sum_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 point, SporeVec3 *gradient) {
+  double sum = 0;
+  *gradient = (SporeVec3){0, 0, 0};
+  for (uint32_t k = field->start[nearest]; k < field->start[nearest + 1]; k++) {
+    uint32_t i = field->neighbour[k];
+    SporeVec3 offset = spore_vec3_sub(point, centre_of(field, i));
+    double distance = spore_vec3_length(offset), depth = radius_of(field, i) - distance;
+    if (!(depth > 0)) continue;
+    sum += field->weight[i] * depth;
+    if (distance > 0) *gradient = spore_vec3_add_scaled(*gradient, -field->weight[i] / distance, offset);
+  }
+  return sum;
+}
+
 double spore_depth_field_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 point, SporeVec3 *gradient) {
+  if (field->plain) return plain_sum_at(field, nearest, point, gradient);
   double sum = sum_at(field, nearest, point, gradient);
   if (!(sum > 0)) return 0;
   double root = sqrt(sqrt(sum));
@@ -183,18 +199,21 @@ static bool weigh(SporeDepthField *field) {
   return made;
 }
 
-bool spore_depth_field_create(SporeDepthField *field, const double *centre, const double *radius, size_t count) {
+bool spore_depth_field_create(SporeDepthField *field, const double *centre, const double *radius, const double *weight,
+                              size_t count) {
   bool made = allocate(field, count);
+  field->plain = weight;
   for (size_t i = 0; made && i < count; i++) {
     for (size_t k = 0; k < 3; k++) field->ball[4 * i + k] = centre[3 * i + k];
     field->ball[4 * i + 3] = radius[i];
     field->mean_radius += radius[i] / (double)count;
+    if (weight) field->weight[i] = weight[i];
   }
   field->margin = WIDEST_MARGIN * field->mean_radius;
   if (made) field->half_width = half_width_of(field);
   if (made && find_neighbours(field)) {
     field->margin = choose_margin(field);
-    if (find_neighbours(field) && weigh(field)) return true;
+    if (find_neighbours(field) && (field->plain || weigh(field))) return true;
   }
   spore_depth_field_clear(field);
   return false;

@@ -5,7 +5,11 @@
  * with d_i the distance to centre i and m the mean radius: a weighted sum of sphere depths, as in the depth fields of
  * Meseure and Chaillou, whose spheres reach m beyond themselves and whose fourth power lets the nearest lead. For a
  * sphere alone it is the depth in that sphere. The weights are such that g is 0 where a sphere stands out most among
- * its neighbours; what lies between spheres is filled to about that height. */
+ * its neighbours; what lies between spheres is filled to about that height.
+ *
+ * Spheres that come with weights of their own were fitted for the paper's plain sum, and are felt as that:
+ *
+ *   g(x) = sum_i w_i max(0, r_i - d_i(x)) */
 #ifndef SPORE_COLLIDE_DEPTH_FIELD_H
 #define SPORE_COLLIDE_DEPTH_FIELD_H
 
@@ -17,7 +21,8 @@
 
 typedef struct SporeDepthField {
   size_t count;
-  double margin;       /* m */
+  bool plain;          /* weights came with the spheres */
+  double margin;       /* m; of a plain sum it only widens the neighbourhood */
   double mean_radius;  /* m */
   double half_width;   /* m: of the widest side of the box that the spheres fill */
   double *ball;        /* count x 4: x y z radius, in the body's frame, m */
@@ -26,8 +31,9 @@ typedef struct SporeDepthField {
   uint32_t *neighbour; /* of sphere i: those that count anywhere on its surface, itself among them */
 } SporeDepthField;
 
-/* centre (3 a sphere) and radius are copied. False: no memory, *field cleared. */
-bool spore_depth_field_create(SporeDepthField *field, const double *centre, const double *radius, size_t count);
+/* centre (3 a sphere), radius and weight (NULL: found here) are copied. False: no memory, *field cleared. */
+bool spore_depth_field_create(SporeDepthField *field, const double *centre, const double *radius, const double *weight,
+                              size_t count);
 void spore_depth_field_clear(SporeDepthField *field);
 
 /* g at a point near sphere `nearest`, and its gradient; both 0 where no sphere reaches. */

@@ -235,7 +235,7 @@ bool spore_world_compile_spheres(SporeWorld *world, const SporeWorldDescription 
   if (!all->centre || !all->velocity || !all->radius || !all->body) return no_memory(error);
   if (!add_spheres(world, description, true, error)) return false;
   all->static_count = all->count;
-  return add_spheres(world, description, false, error) && spore_world_compile_fields(world, error) &&
+  return add_spheres(world, description, false, error) && spore_world_compile_fields(world, description, error) &&
          make_grid(world, error);
 }
 

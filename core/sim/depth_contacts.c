@@ -33,7 +33,7 @@ static bool wants_field(const SporeBody *body) {
          (kind == SPORE_MAPPING_RIGID || kind == SPORE_MAPPING_FIXED);
 }
 
-bool spore_world_compile_fields(SporeWorld *world, SporeError *error) {
+bool spore_world_compile_fields(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
   const SporeSpheres *spheres = &world->spheres;
   world->reach = SPORE_NEW_ARRAY(double, spheres->count);
   bool made = world->reach;
@@ -44,7 +44,8 @@ bool spore_world_compile_fields(SporeWorld *world, SporeError *error) {
     size_t count = body->spheres.point_count;
     if (!wants_field(body)) continue;
     const double *radius = spheres->radius + body->sphere_start;
-    made = spore_depth_field_create(&body->field, body->spheres.points, radius, count);
+    const double *weight = description->bodies[b].spheres->weights;
+    made = spore_depth_field_create(&body->field, body->spheres.points, radius, weight, count);
     for (size_t i = 0; made && i < count; i++) world->reach[body->sphere_start + i] = (1 + REACH) * radius[i];
   }
   return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL,

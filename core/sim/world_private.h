@@ -537,7 +537,7 @@ void spore_world_fill_end(const SporeWorld *world, SporeEnd *end);
 bool spore_world_reserve_contacts(SporeWorld *world);
 
 /* depth_contacts.c: bodies that are felt as one depth field. */
-bool spore_world_compile_fields(SporeWorld *world, SporeError *error);
+bool spore_world_compile_fields(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
 /* What comes of the contacts found, into world->felt, in the order of their grips; returns their number. */
 size_t spore_world_feel(SporeWorld *world);
 

@@ -14,7 +14,7 @@ static void make_floor(SporeDepthField *field, int side, double spacing) {
                                                 ((double)(i / (size_t)side) - side / 2) * spacing));
     radius[i] = 1;
   }
-  g_assert_true(spore_depth_field_create(field, centre, radius, count));
+  g_assert_true(spore_depth_field_create(field, centre, radius, NULL, count));
   g_free(centre);
   g_free(radius);
 }
@@ -89,7 +89,7 @@ static void test_floor(void) {
 static void test_alone(void) {
   static const double centre[] = {0, 0, 0, 10, 0, 0}, radius[] = {1, 0.5};
   SporeDepthField field;
-  g_assert_true(spore_depth_field_create(&field, centre, radius, 2));
+  g_assert_true(spore_depth_field_create(&field, centre, radius, NULL, 2));
   SporeVec3 normal, out = spore_vec3_normalise(spore_vec3(1, 2, 3), spore_vec3(0, 1, 0));
   double depth = spore_depth_field_ball(&field, 0, spore_vec3_scale(1.2, out), 0.3, &normal);
   g_assert_cmpfloat(fabs(depth - 0.1), <, 1e-12);
@@ -132,12 +132,49 @@ static void test_nearest(void) {
   spore_depth_field_clear(&field);
 }
 
+/* Spheres with weights of their own: the sum is what it says, its slope is that of the sum, and one of weight 1 is felt
+ * as the sphere. */
+static void test_weights(void) {
+  static const double centre[] = {0, 0, 0, 0.8, 0, 0, 0.3, 0.6, 0.1}, radius[] = {1, 0.9, 0.7},
+                      weight[] = {0.5, 0.7, 0.25}, one[] = {1, 1};
+  GRand *random = g_rand_new_with_seed(5);
+  SporeDepthField field;
+  g_assert_true(spore_depth_field_create(&field, centre, radius, weight, 3));
+  for (int i = 0; i < 1000; i++) {
+    SporeVec3 point = {g_rand_double_range(random, -0.9, 0.9), g_rand_double_range(random, -0.9, 0.9),
+                       g_rand_double_range(random, -0.9, 0.9)};
+    SporeVec3 slope, unused;
+    double sum = 0, value = spore_depth_field_at(&field, 0, point, &slope), near_edge = 1;
+    for (int k = 0; k < 3; k++) {
+      double depth = radius[k] - spore_vec3_distance(point, spore_vec3_load(centre + 3 * k));
+      sum += weight[k] * fmax(0, depth);
+      near_edge = fmin(near_edge, fabs(depth));
+    }
+    g_assert_cmpfloat(fabs(value - sum), <, 1e-15);
+    for (int axis = 0; axis < 3 && near_edge > 1e-5; axis++) {
+      SporeVec3 step = {axis == 0, axis == 1, axis == 2};
+      double ahead = spore_depth_field_at(&field, 0, spore_vec3_add_scaled(point, 1e-6, step), &unused);
+      double behind = spore_depth_field_at(&field, 0, spore_vec3_add_scaled(point, -1e-6, step), &unused);
+      g_assert_cmpfloat(fabs((ahead - behind) / 2e-6 - spore_vec3_dot(slope, step)), <, 1e-5);
+    }
+  }
+  spore_depth_field_clear(&field);
+  static const double apart[] = {0, 0, 0, 10, 0, 0};
+  SporeVec3 normal, out = spore_vec3_normalise(spore_vec3(1, 2, 3), spore_vec3(0, 1, 0));
+  g_assert_true(spore_depth_field_create(&field, apart, radius, one, 2));
+  double depth = spore_depth_field_ball(&field, 0, spore_vec3_scale(1.2, out), 0.3, &normal);
+  g_assert_cmpfloat(fabs(depth - 0.1), <, 1e-12);
+  g_assert_cmpfloat(spore_vec3_distance(normal, out), <, 1e-12);
+  spore_depth_field_clear(&field);
+  g_rand_free(random);
+}
+
 static void test_without_memory(void) {
   static const double centre[] = {0, 0, 0, 1, 0, 0}, radius[] = {1, 1};
   for (guint64 n = 1;; n++) {
     SporeDepthField field;
     spore_allocation_fail_at(n);
-    bool made = spore_depth_field_create(&field, centre, radius, 2);
+    bool made = spore_depth_field_create(&field, centre, radius, NULL, 2);
     spore_allocation_fail_at(0);
     if (made) {
       g_assert_cmpuint(n, >, 8);
@@ -154,6 +191,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/depth-field/alone", test_alone);
   g_test_add_func("/depth-field/gradient", test_gradient);
   g_test_add_func("/depth-field/nearest", test_nearest);
+  g_test_add_func("/depth-field/weights", test_weights);
   g_test_add_func("/depth-field/without-memory", test_without_memory);
   return g_test_run();
 }

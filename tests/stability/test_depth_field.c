@@ -56,6 +56,18 @@ static Momentum momentum_of(const SporeWorld *world) {
   return sum;
 }
 
+/* The spheres overlap, and bring weights of their own. */
+static void give_weights(Rig *rig) {
+  for (guint s = 0; s < rig->sets->len; s++) {
+    SporeSphereSet *set = g_ptr_array_index(rig->sets, s);
+    g_assert_true(spore_sphere_set_add_weights(set, NULL));
+    for (size_t i = 0; i < set->count; i++) {
+      set->spheres[4 * i + 3] *= 1.5;
+      set->weights[i] = 0.5 + 0.1 * (double)(i % 3);
+    }
+  }
+}
+
 static void run_to_contact(SporeWorld *world) {
   while (spore_world_counts(world).contacts == 0 || world->contacts[0].depth < 1e-4) {
     g_assert_cmpfloat(spore_world_time_s(world), <, 1);
@@ -65,8 +77,9 @@ static void run_to_contact(SporeWorld *world) {
 
 /* Field against field, by a method that keeps what forces keep; from touch on, as the step that finds it is taken
  * implicitly. */
-static void test_momentum(void) {
+static void check_momentum(gboolean weighted) {
   Rig *rig = collision(SPORE_INTEGRATOR_SYMPLECTIC_EULER, 1e-4);
+  if (weighted) give_weights(rig);
   SporeWorld *world = rig_build(rig);
   run_to_contact(world);
   Momentum before = momentum_of(world);
@@ -87,6 +100,9 @@ static void test_momentum(void) {
   g_assert_cmpfloat(turned, <, 1e-12);
   rig_free(rig);
 }
+
+static void test_momentum(void) { check_momentum(FALSE); }
+static void test_weighted_momentum(void) { check_momentum(TRUE); }
 
 /* The island of both bricks while they press on each other, ready for its forces to be asked for. */
 static SporeIsland *pressed_island(SporeWorld *world) {
@@ -305,6 +321,7 @@ static void test_corner(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/stability/depth_field/momentum", test_momentum);
+  g_test_add_func("/stability/depth_field/weighted-momentum", test_weighted_momentum);
   g_test_add_func("/stability/depth_field/forces", test_forces);
   g_test_add_func("/stability/depth_field/friction", test_friction);
   g_test_add_func("/stability/depth_field/sleep", test_sleep);

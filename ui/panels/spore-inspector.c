@@ -165,6 +165,8 @@ static const SporeSpheresReport *report_of(SporeInspector *self, SporeObject *bo
     return NULL;
   }
   memcpy(work->spheres.spheres, set->spheres, set->count * 4 * sizeof(double));
+  if (set->weights && spore_sphere_set_add_weights(&work->spheres, NULL))
+    memcpy(work->spheres.weights, set->weights, set->count * sizeof(double));
   self->measured_key = g_steal_pointer(&key);
   g_object_unref(spore_job_start(_("Measuring spheres"), spore_measure_work_run, work, spore_generate_work_unref,
                                  measured, G_OBJECT(self)));
