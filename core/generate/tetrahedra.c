@@ -12,8 +12,8 @@
 #define TOLERANCE 0.01 /* of the diagonal */
 #define LOOKING 0.05   /* share of the progress, before and after the work */
 #define MOST_WRAPS 3
-#define MOST_WRAPPED 40000 /* triangles: a tighter wrap has four times as many */
-#define WRAPPED_NEAR 0.8   /* of the tolerance */
+#define MOST_WRAPPED 40000.0 /* triangles: half the alpha makes four times as many */
+#define WRAPPED_NEAR 0.8     /* of the tolerance */
 #define PREPARED_SAMPLES 10000
 #define CLOSING 0.3 /* of one half: winding numbers in a hole of the surface */
 
@@ -151,16 +151,16 @@ static double usual_alpha(const SporeTetrahedraWork *work) {
 static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GError **error) {
   const double share = work->share;
   double alpha = work->options.gap > 0 ? work->options.gap : usual_alpha(work);
-  for (int i = 0; i < MOST_WRAPS; i++, alpha *= 0.5) {
+  for (int i = 0; i < MOST_WRAPS; i++) {
     spore_triangle_mesh_clear(surface);
     work->share = share * 0.1;
     gboolean done = spore_tetrahedra_prepare(work, SPORE_TETRAHEDRA_WRAP, alpha, surface, error);
     work->share = share;
     if (!done) return FALSE;
     g_debug("a wrap of alpha %.4g has %zu triangles", alpha, surface->triangle_count);
-    if (work->options.gap > 0 || 4 * surface->triangle_count > MOST_WRAPPED ||
-        distance_to(work, surface) < WRAPPED_NEAR * work->options.tolerance)
-      break;
+    double room = MOST_WRAPPED / (double)surface->triangle_count;
+    if (work->options.gap > 0 || room < 2 || distance_to(work, surface) < WRAPPED_NEAR * work->options.tolerance) break;
+    alpha *= room < 4 ? M_SQRT1_2 : 0.5;
   }
   return TRUE;
 }

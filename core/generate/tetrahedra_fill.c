@@ -3,6 +3,8 @@
 #include "core/generate/tetrahedra_parts.h"
 #include "core/mesh/common.h"
 
+#define LEAST_WELD 1e-12 /* of the diagonal */
+
 /* The smallest vertex that is known to be joined to i. */
 static uint32_t root_of(uint32_t *joined, uint32_t i) {
   while (joined[i] != i) i = joined[i] = joined[joined[i]];
@@ -32,7 +34,10 @@ bool spore_tetrahedra_fill(SporeTriangleMesh *surface, SporeError *error) {
     for (int k = 0; k < 3; k++) surface->triangles[3 * kept + (size_t)k] = corner[k];
     kept++;
   }
-  if (done) surface->triangle_count = kept;
+  if (done && kept && kept < surface->triangle_count) {
+    surface->triangle_count = kept;
+    done = spore_triangle_mesh_weld(surface, LEAST_WELD, error); /* drops vertices without triangles */
+  }
   spore_free(joined);
   spore_free(volume);
   return done;

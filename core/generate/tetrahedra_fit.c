@@ -15,6 +15,7 @@
 #define SAMPLES 10000
 #define GOAL 14           /* degrees, for the least angle */
 #define LEAST_VOLUME 0.75 /* of the surface's: a mesh below lost a part that is thinner than its cells */
+#define USUAL_SLOPE 2.8   /* by which the logarithm of the number falls with that of the size */
 #define EDGE_SCALE 0.7    /* circumradius bound of cells whose edges have length 1 */
 
 typedef struct {
@@ -174,9 +175,10 @@ static bool better(Fit *fit, SporeTetrahedralMesh *mesh, SporeError *error) {
 
 static gboolean finish(Fit *fit, SporeTetrahedralMesh *mesh, GError **error) {
   SporeTetrahedraWork *work = fit->work;
+  const SporeTetrahedraOptions *options = &work->options;
   const double from = work->fraction, share = work->share;
-  double best = -1;
-  for (int i = 0; i < WAYS && best < SPORE_TETRAHEDRA_ANGLE; i++) {
+  double best = -1; /* least angle, as far as it is wanted, and 1 where the number is met */
+  for (int i = 0; i < WAYS && best < SPORE_TETRAHEDRA_ANGLE + 1; i++) {
     SporeTetrahedralMesh made = {0};
     SporeTetrahedraQuality quality;
     SporeError problem = SPORE_ERROR_INIT;
@@ -198,11 +200,14 @@ static gboolean finish(Fit *fit, SporeTetrahedralMesh *mesh, GError **error) {
     }
     spore_tetrahedral_mesh_quality(&made, &quality);
     g_debug("way %d: %zu cells, angle %.2f", i, made.tetrahedron_count, quality.min_dihedral_deg);
-    if (quality.min_dihedral_deg > best) {
-      best = quality.min_dihedral_deg;
+    double over = options->cells ? log((double)made.tetrahedron_count / (double)options->cells) : 0;
+    double worth = fmin(quality.min_dihedral_deg, SPORE_TETRAHEDRA_ANGLE) + (fabs(over) < SPORE_TETRAHEDRA_COUNT);
+    if (worth > best) {
+      best = worth;
       spore_tetrahedral_mesh_clear(mesh);
       *mesh = made;
     } else spore_tetrahedral_mesh_clear(&made);
+    if (fabs(over) > SPORE_TETRAHEDRA_COUNT) fit->scale *= exp(over / USUAL_SLOPE);
   }
   work->fraction = from, work->share = share;
   return best >= 0;
@@ -210,7 +215,7 @@ static gboolean finish(Fit *fit, SporeTetrahedralMesh *mesh, GError **error) {
 
 gboolean spore_tetrahedra_fit(SporeTetrahedraWork *work, const SporeTriangleMesh *surface, SporeTetrahedralMesh *mesh,
                               GError **error) {
-  Fit fit = {.work = work, .surface = surface, .slope = -2.8};
+  Fit fit = {.work = work, .surface = surface, .slope = -USUAL_SLOPE};
   SporeMeshReport report;
   SporeError failure = SPORE_ERROR_INIT;
   *mesh = (SporeTetrahedralMesh){0};

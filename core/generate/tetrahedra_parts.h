@@ -39,7 +39,7 @@ gboolean spore_tetrahedra_refine(SporeTetrahedraWork *work, const SporeTriangleM
                                  SporeTetrahedraFinish finish, size_t most_vertices, SporeTetrahedralMesh *mesh,
                                  GError **error);
 
-/* Drops the walls of cavities from a surface that is prepared; its vertices stay. */
+/* Drops the walls of cavities from a surface that is turned alike, and their vertices. */
 bool spore_tetrahedra_fill(SporeTriangleMesh *surface, SporeError *error);
 
 /* A mesh in a prepared surface of the number of cells, or the size, that is asked for. */

@@ -58,12 +58,14 @@ static double row_inside(const SporeBvh *tree, SporeVec3 p, double h, size_t cou
   return sum;
 }
 
-static bool measure_volume(SporeTetrahedraWork *work, SporeError *error) {
+/* given: of the surface before its cavities were dropped. */
+static bool measure_volume(SporeTetrahedraWork *work, const SporeMeshReport *given, SporeError *error) {
   SporeMeshReport report;
   if (!spore_triangle_mesh_report(&work->surface, &report, error)) return false;
-  work->area = report.area * (double)work->bounding_count / SAMPLES;
-  work->volume = report.volume;
-  if (report.closed && !work->inner_count && report.volume > 0) return true;
+  const bool sound = given->closed && !work->inner_count && given->volume != 0;
+  work->area = (sound ? given->area : report.area) * (double)work->bounding_count / SAMPLES;
+  work->volume = fabs(given->volume);
+  if (sound) return true;
   const double h = 1.0 / VOLUME_ROWS;
   size_t count[3];
   double sum = 0;
@@ -92,8 +94,9 @@ bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error) {
       uint32_t *corner = work->surface.triangles + 3 * t, kept = corner[1];
       corner[1] = corner[2], corner[2] = kept;
     }
+  if (work->options.fill && !spore_tetrahedra_fill(&work->surface, error)) return false;
   work->tree = spore_bvh_create(&work->surface, error);
-  if (!work->tree || !sort_samples(work, error) || !measure_volume(work, error)) return false;
+  if (!work->tree || !sort_samples(work, error) || !measure_volume(work, &report, error)) return false;
   if (work->volume > LEAST_VOLUME && work->bounding_count) return true;
   return spore_error_set(
       error, SPORE_ERROR_INPUT, NULL,
