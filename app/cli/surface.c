@@ -2,14 +2,12 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "app/cli/cli.h"
+#include "app/cli/surface_wall.h"
 #include "core/generate/surface.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
-typedef char *(*Formatter)(const SporeTriangleMesh *mesh, gsize *size);
-
-static Formatter formatter_of(const char *file) {
+SporeSurfaceFormatter spore_surface_formatter(const char *file) {
   if (g_str_has_suffix(file, ".off")) return spore_off_format;
   return g_str_has_suffix(file, ".obj") ? spore_obj_format : NULL;
 }
@@ -61,41 +59,61 @@ static void report(SporeCli *cli, const SporeTriangleMesh *mesh, const SporeSurf
                          "it should hang together otherwise\n"));
 }
 
-static int generate(SporeCli *cli, const char *file, const SporeSimplifyOptions *options, const char *unit,
-                    const char *frame, const char *output) {
-  GError *error = NULL;
+/* With a wall, the surface is thinned only where that is asked for. */
+static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *surface,
+                     const SporeSimplifyOptions *options, const SporeWallOptions *wall, GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
-  SporeTriangleMesh surface = {0}, mesh = {0};
+  SporeTriangleMesh mesh = {0};
   SporeSurfaceReport figures;
-  gboolean done = (!output || spore_cli_keeps(output, file, &error)) &&
-                  spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error);
-  if (done && !spore_surface_from_mesh(&surface, options, &mesh, &figures, spore_cli_progress(cli), &fault)) {
+  gboolean thin = options->vertices > 0 || options->size > 0, done = TRUE;
+  if (thin && !spore_surface_from_mesh(surface, options, &mesh, &figures, spore_cli_progress(cli), &fault)) {
     spore_error_at(&fault, file);
-    done = spore_error_propagate(&fault, &error);
+    return spore_error_propagate(&fault, error);
   }
-  if (done && output) {
+  if (wall->thickness > 0) {
+    done = spore_surface_make_wall(cli, file, thin ? &mesh : surface, wall, error);
+  } else if (wall->wall) {
     gsize size = 0;
-    g_autofree char *text = formatter_of(output)(&mesh, &size);
-    done = spore_write_file(output, text, size, &error);
+    g_autofree char *text = spore_surface_formatter(wall->wall)(&mesh, &size);
+    done = spore_write_file(wall->wall, text, size, error);
   }
-  if (done) report(cli, &mesh, &figures);
-  spore_triangle_mesh_clear(&surface);
+  if (done && thin) report(cli, &mesh, &figures);
   spore_triangle_mesh_clear(&mesh);
+  return done;
+}
+
+static int generate(SporeCli *cli, const char *file, const SporeSimplifyOptions *options, const char *unit,
+                    const char *frame, const SporeWallOptions *wall) {
+  GError *error = NULL;
+  SporeTriangleMesh surface = {0};
+  gboolean done = (!wall->wall || spore_cli_keeps(wall->wall, file, &error)) &&
+                  (!wall->inner || spore_cli_keeps(wall->inner, file, &error)) &&
+                  spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
+                  make(cli, file, &surface, options, wall, &error);
+  spore_triangle_mesh_clear(&surface);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
 /* SPORE_EXIT_DONE where the options can be meant. */
-static int check_options(gint64 nodes, double size, double keep_angle_deg, const char *output) {
-  if (nodes < 0 || nodes > SPORE_MESH_MAXIMUM || (nodes == 0) == !(size > 0 && isfinite(size)))
+static int check_options(gint64 nodes, double size, double keep_angle_deg, const SporeWallOptions *wall) {
+  gboolean walled = wall->thickness > 0 && isfinite(wall->thickness), sized = size > 0 && isfinite(size);
+  if (wall->thickness != 0 && !walled)
+    return spore_cli_usage(_("--wall %g: not a thickness; expected metres above 0, such as 0.003"), wall->thickness);
+  if (nodes < 0 || nodes > SPORE_MESH_MAXIMUM || (nodes > 0 && sized) || (nodes == 0 && !sized && !walled))
     return spore_cli_usage(_("spore surface: neither number of nodes nor size is one; expected either --nodes 1 to %u "
-                             "or --size in metres above 0; give one of them"),
+                             "or --size in metres above 0, or a --wall in metres; give one of them"),
                            SPORE_MESH_MAXIMUM);
+  if (wall->inner && !walled)
+    return spore_cli_usage(
+        _("--inner %s: there is no inner surface; expected a --wall to have one; give its thickness"), wall->inner);
   if (!(keep_angle_deg > 0 && keep_angle_deg <= 360))
     return spore_cli_usage(_("--keep-angle %g: not an angle to keep; expected above 0 to 360 degrees; 60 keeps the "
                              "edges of a box, 360 none"),
                            keep_angle_deg);
-  if (output && !formatter_of(output))
-    return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .off or .obj"), output);
+  const char *const files[] = {wall->wall, wall->inner};
+  for (gsize i = 0; i < G_N_ELEMENTS(files); i++)
+    if (files[i] && !spore_surface_formatter(files[i]))
+      return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .off or .obj"), files[i]);
   return SPORE_EXIT_DONE;
 }
 
@@ -116,35 +134,46 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
       {"creases_kept", N_("false: so few nodes come nearer to the surface without")},
       {"reached", N_("false: fewer nodes would change what the surface hangs together like")},
       {"seconds", N_("that it took")},
+      {"wall", N_("with --wall: thickness_m (min, mean, max: from the outer surface to the lumen; most where the lumen "
+                  "ends short "
+                  "of a narrow part), inner_m (min, max: from the lumen to the outer surface), volume_m3, lumen_m3, "
+                  "pieces of the "
+                  "lumen, its nodes and triangles, step_m (of the lattice that it was found on), seconds")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "surface",
       "MESH",
       N_("Makes a surface of fewer, well-shaped triangles, for a net, a deformable surface or a spline. Open edges, "
-         "creases, thin parts, holes and handles are kept."),
+         "creases, thin parts, holes and handles are kept. Or makes a closed organ hollow: a wall of given thickness "
+         "around a lumen that does not cut itself."),
       1,
       1,
       members};
-  char *unit = NULL, *frame = NULL, *output = NULL;
+  char *unit = NULL, *frame = NULL, *output = NULL, *inner = NULL;
   gint64 nodes = 0;
-  double size = 0, keep_angle_deg = SPORE_SIMPLIFY_KEEP_ANGLE * 180 / G_PI;
+  double size = 0, thickness = 0, keep_angle_deg = SPORE_SIMPLIFY_KEEP_ANGLE * 180 / G_PI;
   const GOptionEntry entries[] = {
       {"nodes", 'n', 0, G_OPTION_ARG_INT64, &nodes, N_("Number of nodes at most"), "N"},
       {"size", 's', 0, G_OPTION_ARG_DOUBLE, &size, N_("Edge length, m, instead: as many nodes as that takes"), "D"},
       {"keep-angle", 'k', 0, G_OPTION_ARG_DOUBLE, &keep_angle_deg,
        N_("Keep edges at which the surface turns by more (degrees, default 60; 360: none)"), "DEG"},
+      {"wall", 'w', 0, G_OPTION_ARG_DOUBLE, &thickness,
+       N_("Make the organ hollow, with a wall of this thickness, m; -o takes the wall as one closed surface"), "M"},
+      {"inner", 'i', 0, G_OPTION_ARG_FILENAME, &inner, N_("File to write the lumen's surface to: .off or .obj"), "F"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, in metres: .off or .obj"), "F"},
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  if (status == SPORE_EXIT_DONE) status = check_options(nodes, size, keep_angle_deg, output);
+  const SporeWallOptions wall = {thickness, output, inner};
+  if (status == SPORE_EXIT_DONE) status = check_options(nodes, size, keep_angle_deg, &wall);
   if (status == SPORE_EXIT_DONE) {
     SporeSimplifyOptions options = {(size_t)nodes, size, keep_angle_deg * G_PI / 180};
-    status = generate(cli, argv[1], &options, unit, frame, output);
+    status = generate(cli, argv[1], &options, unit, frame, &wall);
   }
   g_free(unit);
   g_free(frame);
   g_free(output);
+  g_free(inner);
   return status;
 }

@@ -129,7 +129,7 @@ def help_explains_json():
     commands = [("run", soft_ball(), "--steps", 20), ("run", grasper(), "--steps", 20), ("check", soft_ball()), ("plan", soft_ball(), "--measure"),
                 ("run", soft_ball(), "--steps", 5, "--realtime"), ("check", organ()), ("models",), ("models", "--materials"), ("schema",),
                 ("import", "ball.off", "-o", "told/told.spore"), ("spheres", "ball.off", "--count", 5),
-                ("surface", "ball.off", "--nodes", 50), ("centreline", file("told.off", shapes.off(*shapes.tube())), "--scene", "told/line.spore")]
+                ("surface", "ball.off", "--nodes", 50, "--wall", 0.01), ("centreline", file("told.off", shapes.off(*shapes.tube())), "--scene", "told/line.spore")]
     commands += [("tetrahedra", "ball.off", "--cells", 100)]
     if "volumes" in FEATURES:
         size, voxels = two_boxes()
@@ -161,7 +161,14 @@ def surface_makes_nets():
         scene = file("net.spore", f"""<spore version="1.0"><assets><mesh name="m" file="net.off"/></assets><bodies>
             <body name="b"><mechanical geometry="m"><{model}/></mechanical></body></bodies></spore>""")
         assert report("run", scene, "--steps", 50)["dof"] >= 180
-    refuses("surface", "ball.off", says=["--nodes 1 to", "--size"])
+    refuses("surface", "ball.off", says=["--nodes 1 to", "--size", "--wall"])
+    hollow = report("surface", "ball.off", "--wall", 0.006, "-o", "wall.off", "--inner", "lumen.off")["wall"]
+    assert hollow["pieces"] == 1 and 0.0055 < hollow["thickness_m"]["min"] <= hollow["thickness_m"]["mean"] < 0.0065
+    assert abs(hollow["lumen_m3"] / (4 / 3 * 3.14159 * 0.024**3) - 1) < 0.06
+    assert report("surface", "wall.off", "--nodes", 5000)["pieces"] == 2 and report("surface", "lumen.off", "-n", 100)["open_edges"] == 0
+    refuses("surface", "ball.off", "--wall", 0.05, says=["leaves no lumen", "0.02", "thinner"])
+    refuses("surface", "ball.off", "--wall", -1, says=["--wall -1"])
+    refuses("surface", "ball.off", "-n", 60, "--inner", "lumen.off", says=["--inner lumen.off"])
     refuses("surface", "ball.off", "-n", 60, "--keep-angle", -5, says=["--keep-angle -5"])
     refuses("surface", "ball.off", "-n", 60, "-o", "ball.stl", says=["ball.stl", ".off or .obj"])
     refuses("surface", "gone.off", "-n", 60, says=["gone.off"])

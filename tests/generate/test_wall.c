@@ -1,0 +1,130 @@
+/* Walls of shapes whose inner surface is known: as thick as asked for, closed, one lumen or none. */
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/generate/wall.h"
+#include "core/mesh/bvh.h"
+#include "tests/mesh/shapes.h"
+
+static SporeMeshReport report_of(const SporeTriangleMesh *mesh) {
+  SporeMeshReport report;
+  SporeError error = SPORE_ERROR_INIT;
+  g_assert_true(spore_triangle_mesh_report(mesh, &report, &error));
+  return report;
+}
+
+/* Whether an edge of one triangle goes through another of the same mesh. */
+static gboolean cuts_itself(const SporeTriangleMesh *mesh) {
+  for (size_t s = 0; s < mesh->triangle_count; s++)
+    for (size_t t = 0; t < mesh->triangle_count; t++) {
+      const uint32_t *n = mesh->triangles + 3 * s, *m = mesh->triangles + 3 * t;
+      SporeVec3 p[3], q[3];
+      gboolean joined = FALSE;
+      for (int k = 0; k < 3; k++) {
+        p[k] = spore_vec3_load(mesh->vertices + 3 * (size_t)n[k]);
+        q[k] = spore_vec3_load(mesh->vertices + 3 * (size_t)m[k]);
+        for (int l = 0; l < 3; l++) joined |= n[k] == m[l];
+      }
+      for (int k = 0; k < 3 && !joined; k++)
+        if (spore_vec3_crosses(p[k], p[(k + 1) % 3], q[0], q[1], q[2])) return TRUE;
+    }
+  return FALSE;
+}
+
+/* The lumen of a box is a box; of a ball a ball. */
+static void test_box_and_ball(void) {
+  const double lower[3] = {-0.03, -0.04, -0.05}, upper[3] = {0.03, 0.04, 0.05};
+  SporeTriangleMesh outer[2], inner, wall;
+  SporeError error = SPORE_ERROR_INIT;
+  SporeWallReport report;
+  const double volume[2] = {0.05 * 0.07 * 0.09, 4 * G_PI / 3 * pow(0.045, 3)};
+  shape_box(&outer[0], lower, upper, 4);
+  shape_ball(&outer[1], 0.05, 24);
+  for (int shape = 0; shape < 2; shape++) {
+    if (!spore_wall_inner(&outer[shape], 0.005, 6, &inner, &report, NULL, &error)) g_error("%s", error.message);
+    SporeMeshReport lumen = report_of(&inner);
+    g_test_message("lumen %+.2f %%, %zu pieces, from it %.3f to %.3f mm, from outside %.3f to %.3f mm",
+                   100 * (lumen.volume / volume[shape] - 1), report.pieces, 1e3 * report.inner_min,
+                   1e3 * report.inner_max, 1e3 * report.thickness_min, 1e3 * report.thickness_max);
+    g_assert_true(lumen.closed);
+    g_assert_cmpuint(report.pieces, ==, 1);
+    g_assert_cmpfloat(fabs(lumen.volume / volume[shape] - 1), <, 0.02);
+    g_assert_cmpfloat(report.inner_min, >, 0.0048);
+    g_assert_cmpfloat(report.inner_max, <, 0.0055);
+    g_assert_cmpfloat(report.thickness_min, >, 0.0048);
+    g_assert_true(spore_wall_solid(&outer[shape], &inner, &wall, &error));
+    SporeMeshReport solid = report_of(&wall);
+    g_assert_true(solid.closed);
+    g_assert_cmpuint(solid.components, ==, 2);
+    g_assert_cmpfloat(fabs(solid.volume - report.wall_volume), <, 1e-12);
+    spore_triangle_mesh_clear(&wall);
+    spore_triangle_mesh_clear(&inner);
+    spore_triangle_mesh_clear(&outer[shape]);
+  }
+}
+
+/* A ring's lumen is a ring; two balls joined by what is thinner than the walls have two. Neither cuts itself. */
+static void test_ring_and_pair(void) {
+  SporeTriangleMesh ring, inner, small;
+  SporeError error = SPORE_ERROR_INIT;
+  SporeWallReport report;
+  shape_torus(&ring, 0.05, 0.015, 60, 24);
+  g_assert_true(spore_wall_inner(&ring, 0.005, 1.5, &inner, &report, NULL, &error));
+  uint32_t *edges;
+  size_t count;
+  g_assert_true(report_of(&inner).closed);
+  g_assert_true(spore_edges_of_triangles(inner.triangles, inner.triangle_count, &edges, &count));
+  g_assert_cmpint((int)inner.vertex_count - (int)count + (int)inner.triangle_count, ==, 0);
+  g_assert_false(cuts_itself(&inner));
+  spore_free(edges);
+  spore_triangle_mesh_clear(&inner);
+  spore_triangle_mesh_clear(&ring);
+  shape_ball(&ring, 0.02, 10);
+  shape_ball(&small, 0.02, 10);
+  shape_move(&small, 0.05, 0, 0);
+  shape_append(&ring, &small);
+  g_assert_true(spore_wall_inner(&ring, 0.004, 2, &inner, &report, NULL, &error));
+  g_assert_cmpuint(report.pieces, ==, 2);
+  g_assert_true(report_of(&inner).closed);
+  spore_triangle_mesh_clear(&inner);
+  spore_triangle_mesh_clear(&small);
+  spore_triangle_mesh_clear(&ring);
+}
+
+static bool refuse(void *data, double fraction, const char *stage) { return false; }
+
+/* Too thick, open, cancelled, no memory. */
+static void test_refused(void) {
+  SporeTriangleMesh ball, inner;
+  SporeWallReport report;
+  SporeError error = SPORE_ERROR_INIT, open = SPORE_ERROR_INIT, stopped = SPORE_ERROR_INIT;
+  const SporeProgress progress = {.report = refuse};
+  shape_ball(&ball, 0.02, 6);
+  g_assert_false(spore_wall_inner(&ball, 0.03, 0, &inner, &report, NULL, &error));
+  g_assert_nonnull(strstr(error.message, "leaves no lumen: the deepest place found lies 0.01"));
+  g_assert_false(spore_wall_inner(&ball, 0.004, 0, &inner, &report, &progress, &stopped));
+  g_assert_cmpint(stopped.code, ==, SPORE_ERROR_CANCELLED);
+  for (uint64_t n = 1;; n++) {
+    SporeError fault = SPORE_ERROR_INIT;
+    spore_allocation_fail_at(n);
+    bool made = spore_wall_inner(&ball, 0.008, 1, &inner, &report, NULL, &fault);
+    spore_allocation_fail_at(0);
+    if (made) break;
+    g_assert_cmpint(fault.code, ==, SPORE_ERROR_MEMORY);
+  }
+  spore_triangle_mesh_clear(&inner);
+  ball.triangle_count--;
+  g_assert_false(spore_wall_inner(&ball, 0.004, 0, &inner, &report, NULL, &open));
+  g_assert_nonnull(strstr(open.message, "not closed"));
+  spore_triangle_mesh_clear(&ball);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/wall/box-and-ball", test_box_and_ball);
+  g_test_add_func("/wall/ring-and-pair", test_ring_and_pair);
+  g_test_add_func("/wall/refused", test_refused);
+  return g_test_run();
+}
