@@ -45,6 +45,8 @@ bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, con
 bool spore_outer_wall(const SporeTriangleMesh *mesh, const SporeBvh *bvh, SporeTriangleMesh *outer, double *hidden,
                       const SporeProgressPart *progress, SporeError *error);
 
+/* Distance (m) of the wall from a point inside, through walls that have the organ on both sides; at most `reach`. */
+double spore_section_wall(const SporeSolid *solid, SporeVec3 p, SporeVec3 d, double reach);
 /* Centroid of the organ's section across a direction, as far as it is seen from a point inside, and no farther than
  * `reach` (m). */
 #define SPORE_SECTION_RAYS 24

@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -11,13 +10,16 @@
 #define ROUNDS 10       /* of middling and smoothing */
 #define SMOOTHING 3.0   /* of a round: waves shorter than about 2 pi SMOOTHING^(1/4) points go */
 #define REACH 2.0       /* of a section, in radii */
-#define OUTLIER 1.25    /* of the median distance of a section's wall, that counts at most */
 #define MOVE 0.7        /* of the way to the middle of the section */
 #define END_DEPTH 0.35  /* of the radius: where an end is so near to the surface, it goes there straight */
 #define CUT 3.0         /* radii of each end that are found anew, at most */
 #define MIDDLED 0.7     /* of the largest depth ahead */
 #define STEERED 0.75    /* of the radius: the least depth at which an end that is led on is middled */
 #define BACK 4          /* points from whose pieces an end's direction is taken */
+#define HOOK 2.0        /* mean radii of each end in which a sharp bend is cut off */
+#define BEND 3          /* points on either side between which a bend is measured */
+#define SHARP 0.75      /* cosine of what is sharp */
+#define TIGHTEST 0.5    /* mean radii over the radius of a bend that is led on */
 #define LONGEST_END 5.0 /* radii by which an end may be led on */
 
 /* Points that are added one by one: x y z r. */
@@ -126,66 +128,6 @@ static SporeVec3 direction_at(const Line *line, size_t i) {
   return spore_vec3_normalise(spore_vec3_sub(at(line, after), at(line, before)), spore_vec3(1, 0, 0));
 }
 
-/* Whether the ray leaves through the triangle's front; what it comes to from outside lies within the organ, or is
- * turned the wrong way round. */
-static bool leaves(const SporeSolid *solid, uint32_t triangle, SporeVec3 d) {
-  SporeVec3 corner[3];
-  for (size_t k = 0; k < 3; k++)
-    corner[k] = spore_vec3_load(solid->mesh.vertices + 3 * (size_t)solid->mesh.triangles[3 * (size_t)triangle + k]);
-  SporeVec3 n = spore_vec3_cross(spore_vec3_sub(corner[1], corner[0]), spore_vec3_sub(corner[2], corner[0]));
-  return spore_vec3_dot(n, d) > 0;
-}
-
-/* Distance of the wall, through walls that have the organ on both sides. */
-static double wall_at(const SporeSolid *solid, SporeVec3 p, SporeVec3 d, double reach) {
-  double gone = 0, beyond = 1e-3 * reach, t;
-  uint32_t triangle;
-  while (gone < reach && spore_bvh_ray(solid->bvh, spore_vec3_add_scaled(p, gone, d), d, &t, &triangle)) {
-    gone += t;
-    if (gone >= reach) return reach;
-    if (leaves(solid, triangle, d) || spore_bvh_winding(solid->bvh, spore_vec3_add_scaled(p, gone + beyond, d)) < 0.5)
-      return gone;
-    gone += beyond;
-  }
-  return reach;
-}
-
-static int by_size(const void *a, const void *b) {
-  double one = *(const double *)a, other = *(const double *)b;
-  return (one > other) - (one < other);
-}
-
-/* Through the neck where two loops touch, rays go on into the other: none counts for more than a bit over the median.
- */
-static void cut_outliers(double wall[SPORE_SECTION_RAYS]) {
-  double sorted[SPORE_SECTION_RAYS];
-  memcpy(sorted, wall, sizeof sorted);
-  qsort(sorted, SPORE_SECTION_RAYS, sizeof *sorted, by_size);
-  double most = OUTLIER * sorted[SPORE_SECTION_RAYS / 2];
-  for (int i = 0; i < SPORE_SECTION_RAYS; i++) wall[i] = fmin(wall[i], most);
-}
-
-SporeVec3 spore_section_middle(const SporeSolid *solid, SporeVec3 p, SporeVec3 across, double reach) {
-  SporeVec3 axis = fabs(across.x) < 0.6 ? spore_vec3(1, 0, 0) : spore_vec3(0, 1, 0);
-  SporeVec3 u = spore_vec3_normalise(spore_vec3_cross(across, axis), axis), v = spore_vec3_cross(across, u);
-  double wall[SPORE_SECTION_RAYS], area = 0;
-  SporeVec3 ray[SPORE_SECTION_RAYS], sum = {0, 0, 0};
-  for (int i = 0; i < SPORE_SECTION_RAYS; i++) {
-    double angle = 2 * M_PI * i / SPORE_SECTION_RAYS;
-    ray[i] = spore_vec3_add_scaled(spore_vec3_scale(cos(angle), u), sin(angle), v);
-    wall[i] = wall_at(solid, p, ray[i], reach);
-  }
-  cut_outliers(wall);
-  for (int i = 0; i < SPORE_SECTION_RAYS; i++) { /* triangles from p to two neighbouring rays */
-    int next = (i + 1) % SPORE_SECTION_RAYS;
-    double share = wall[i] * wall[next];
-    area += share;
-    sum = spore_vec3_add_scaled(sum, share * wall[i] / 3, ray[i]);
-    sum = spore_vec3_add_scaled(sum, share * wall[next] / 3, ray[next]);
-  }
-  return area > 0 ? spore_vec3_add_scaled(p, 1 / area, sum) : p;
-}
-
 /* Each point toward the middle of its section. */
 static void middle(Line *line, const SporeSolid *solid) {
   double *moved = line->points;
@@ -219,13 +161,15 @@ static SporeVec3 heading(const Line *line, SporeVec3 *turn) {
             b = spore_vec3_sub(at(line, last), at(line, last - step));
   double length = 0.5 * (spore_vec3_length(a) + spore_vec3_length(b));
   SporeVec3 any = spore_vec3(1, 0, 0), now = spore_vec3_normalise(b, any);
-  *turn = length > 0 ? spore_vec3_scale(1 / length, spore_vec3_sub(now, spore_vec3_normalise(a, now))) : any;
+  *turn = spore_vec3_scale(length > 0 ? 1 / length : 0, spore_vec3_sub(now, spore_vec3_normalise(a, now)));
+  double most = TIGHTEST / mean_radius(line), sharp = spore_vec3_length(*turn);
+  if (sharp > most) *turn = spore_vec3_scale(most / sharp, *turn);
   return spore_vec3_normalise(spore_vec3_add_scaled(now, 0.5 * length, *turn), now);
 }
 
 /* How far from p along d the line may still go: to the surface or, where that is nearer, to the section with `end`. */
 static double way_left(const SporeSolid *solid, SporeVec3 p, SporeVec3 d, double reach, const double *end) {
-  double left = wall_at(solid, p, d, reach);
+  double left = spore_section_wall(solid, p, d, reach);
   if (end) left = fmin(left, spore_vec3_dot(spore_vec3_sub(spore_vec3_load(end), p), d));
   return left;
 }
@@ -302,6 +246,27 @@ void spore_centreline_set_radii(const SporeSolid *solid, SporeCurve *curve) {
   }
 }
 
+/* Last point that is at most `reach` along the line behind point `from`. */
+static size_t point_after(const Line *line, size_t from, double reach) {
+  double gone = 0;
+  while (from + 1 < line->count && (gone += spore_vec3_distance(at(line, from), at(line, from + 1))) <= reach) from++;
+  return from;
+}
+
+/* Drops what is before a sharp bend near the beginning: there the way came out of the rim of an open lumen. */
+static void cut_hook(Line *line) {
+  double usual = mean_radius(line);
+  size_t last = point_after(line, 0, HOOK * usual), hook = 0;
+  for (size_t i = 1; i < last && last < line->count / 3; i++) {
+    size_t bend = point_after(line, i, 0.5 * usual), after = point_after(line, bend, usual);
+    SporeVec3 back = spore_vec3_sub(at(line, bend), at(line, i - 1)),
+              on = spore_vec3_sub(at(line, after), at(line, bend));
+    if (spore_vec3_dot(back, on) < SHARP * spore_vec3_length(back) * spore_vec3_length(on)) hook = bend;
+  }
+  line->count -= hook;
+  memmove(line->points, line->points + 4 * hook, 4 * line->count * sizeof *line->points);
+}
+
 /* Points of an end that was asked for, up to which it is nearer to that than to the surface. */
 static size_t end_given(const Line *line) {
   double gone = 0;
@@ -338,6 +303,10 @@ bool spore_centreline_refine(const SporeSolid *solid, const SporeVoxelTube *tube
     room = respace(&line);
     if (room) middle(&line, solid);
     room = room && smooth(&line, SMOOTHING, 1);
+    for (int side = 0; room && !options->ends_given && side < 2; side++) {
+      cut_hook(&line);
+      turn_round(&line);
+    }
   }
   room = room && going && lead_on_both(&line, solid, options) && respace(&line) && smooth(&line, 2, 1e3);
   bool done = going && (room || spore_centreline_no_memory(error)) && spore_curve_allocate(curve, line.count, error);

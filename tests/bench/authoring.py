@@ -1,6 +1,7 @@
 """Geometry made from organs: what each generator reaches and takes, beside what is aimed at and what others reach.
 
---organs FOLDER: closed meshes in millimetres (.off, .stl, .obj), by their names; without it, shapes made here. Sections are
+--organs FOLDER: closed meshes in millimetres (.off, .stl, .obj), by their names, NAME_centreline.json with the known middle
+line of NAME beside it; without it, shapes made here. Sections are
 functions that yield rows, one for each generator; SECTIONS lists them."""
 import json
 import math
@@ -84,7 +85,49 @@ def balanced_spheres(build, work):
             yield aimed(f"{name}, {count} spheres: processor time", seconds, "s", MOST_SECONDS)
 
 
-SECTIONS = [balanced_spheres]
+def to_polyline(point, line):
+    """Distance (in the unit of both) to a polyline, and the radius there."""
+    best = (math.inf, 0)
+    for (ax, ay, az, ar), (bx, by, bz, br) in zip(line, line[1:]):
+        d = (bx - ax, by - ay, bz - az)
+        square = sum(x * x for x in d)
+        t = min(max(sum((p - a) * x for p, a, x in zip(point, (ax, ay, az), d)) / square, 0), 1) if square else 0
+        best = min(best, (math.dist(point, (ax + t * d[0], ay + t * d[1], az + t * d[2])), ar + t * (br - ar)))
+    return best
+
+
+def tubes(work):
+    """(name, path, points of the published or exact middle line in mm): NAME_centreline.json beside NAME.stl or .off."""
+    if organs is None:
+        vertices, triangles = shapes.tube(radius=10, length=300, rings=120, sectors=32)
+        bend = lambda x, y: ((80 + y) * math.cos(x / 80), (80 + y) * math.sin(x / 80))
+        path = work / "bent.off"
+        path.write_bytes(shapes.off([(*bend(x, y), z) for x, y, z in vertices], triangles))
+        yield "bent tube", path, [(*bend(3 * i, 0), 0) for i in range(101)]
+        return
+    for known in sorted(pathlib.Path(organs).glob("*_centreline.json")):
+        for path in sorted(pathlib.Path(organs).glob(known.name.removesuffix("_centreline.json") + ".*")):
+            yield path.stem, path, json.loads(known.read_text())["points"]
+
+
+def centrelines(build, work):
+    """Middle lines beside known ones: offset in radii, difference of length, time; found alone, and between the known ends."""
+    for name, path, known in tubes(work):
+        ends = [",".join(str(x / 1000) for x in known[i]) for i in (0, -1)]
+        for how, options in (("ends found", ()), ("ends given", ("--ends", *ends))):
+            answer, seconds, fault = run(build, "centreline", path, "--unit", "mm", "-o", work / "line.curve", *options)
+            if answer is None:
+                yield row("authoring", f"{name}, line, {how} REFUSED: {fault}", math.nan, "")
+                continue
+            line = [[1000 * float(x) for x in text.split()] for text in (work / "line.curve").read_text().splitlines() if text[0] != "#"]
+            near = [to_polyline(point, line) for point in known]
+            length = sum(math.dist(a, b) for a, b in zip(known, known[1:]))
+            yield aimed(f"{name}, line, {how}: offset", sum(d for d, _ in near) / sum(r for _, r in near), "radii", 0.35)
+            yield aimed(f"{name}, line, {how}: length off by", abs(1000 * answer["length"] / length - 1), "of it", 0.03)
+            yield aimed(f"{name}, line, {how}: processor time", seconds, "s", MOST_SECONDS)
+
+
+SECTIONS = [balanced_spheres, centrelines]
 
 
 def bench_authoring(build, work):

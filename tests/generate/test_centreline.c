@@ -187,7 +187,7 @@ static void test_branch(void) {
 }
 
 static void test_pieces(void) {
-  SporeTriangleMesh mesh = tube_of(straight, even), other = tube_of(arc, inside);
+  SporeTriangleMesh mesh = tube_of(straight, taper), other = tube_of(arc, inside);
   SporeCentrelineReport report;
   shape_move(&other, 0, 0, 0.3);
   shape_append(&mesh, &other);
@@ -195,7 +195,7 @@ static void test_pieces(void) {
   g_assert_cmpuint(report.components, ==, 2);
   g_assert_cmpfloat(report.share, >, 0.5);
   g_assert_cmpfloat(report.share, <, 0.75);
-  check(&curve, &report, straight, even);
+  check(&curve, &report, straight, taper);
   spore_curve_clear(&curve);
   spore_triangle_mesh_clear(&other);
   spore_triangle_mesh_clear(&mesh);
@@ -269,12 +269,27 @@ static void test_refusals(void) {
   spore_triangle_mesh_clear(&tube);
 }
 
+/* Without memory, at whichever allocation, it says so and leaves nothing. */
+static void test_memory(void) {
+  SporeTriangleMesh tube = tube_of(straight, even);
+  SporeCentrelineOptions plain = {0};
+  SporeCentrelineReport report;
+  SporeCurve curve;
+  uint64_t before = spore_allocation_count(), all;
+  g_assert_true(spore_centreline_from_mesh(&tube, &plain, &curve, &report, NULL, NULL));
+  spore_curve_clear(&curve);
+  all = spore_allocation_count() - before;
+  for (uint64_t n = 1; n <= all; n += 1 + n / 2) {
+    spore_allocation_fail_at(n);
+    refuse(&tube, &plain, NULL, SPORE_ERROR_MEMORY, "memory");
+  }
+  spore_allocation_fail_at(0);
+  spore_triangle_mesh_clear(&tube);
+}
+
 int main(int argc, char **argv) {
-  static const Tube tubes[] = {{"straight", straight, even},
-                               {"arc", arc, even},
-                               {"helix", helix, even},
-                               {"spiral", spiral, even},
-                               {"taper", straight, taper}};
+  static const Tube tubes[] = {
+      {"straight", straight, even}, {"arc", arc, even}, {"helix", helix, even}, {"spiral", spiral, even}};
   g_test_init(&argc, &argv, NULL);
   for (gsize i = 0; i < G_N_ELEMENTS(tubes); i++) {
     g_autofree char *path = g_strdup_printf("/centreline/%s", tubes[i].name);
@@ -286,5 +301,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/centreline/pieces", test_pieces);
   g_test_add_func("/centreline/options", test_options);
   g_test_add_func("/centreline/refusals", test_refusals);
+  g_test_add_func("/centreline/memory", test_memory);
   return g_test_run();
 }
