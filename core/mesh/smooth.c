@@ -10,6 +10,7 @@
 #define MU (-0.53)
 #define VOLUME_ROUNDS 12
 #define VOLUME_TOLERANCE 1e-10 /* of the volume */
+#define LOST 0.01              /* of volume or area: a piece further off was too thin for so many rounds */
 
 /* Who is pulled by whom: pairs of vertices on an edge. A vertex on an open edge is pulled along open edges alone, so
  * that a rim stays a rim and does not shrink into the surface. */
@@ -69,12 +70,12 @@ static void diffuse(Smoothing *s, double factor) {
  * with a step of all its vertices along their normals. */
 typedef struct Piece {
   SporeVec3 origin;
-  double wanted, volume, growth;
+  double wanted, volume, growth, area, area_before;
   bool open, started;
 } Piece;
 
 static void measure(const Smoothing *s, const uint32_t *pieces, const double *normals, Piece *piece, size_t count) {
-  for (size_t p = 0; p < count; p++) piece[p].volume = piece[p].growth = 0, piece[p].started = false;
+  for (size_t p = 0; p < count; p++) piece[p].volume = piece[p].growth = piece[p].area = 0, piece[p].started = false;
   for (size_t t = 0; t < s->mesh->triangle_count; t++) {
     const uint32_t *v = s->mesh->triangles + 3 * t;
     Piece *to = piece + pieces[t];
@@ -82,6 +83,7 @@ static void measure(const Smoothing *s, const uint32_t *pieces, const double *no
               c = spore_mesh_vertex(s->mesh->vertices, v[2]);
     if (!to->started) to->origin = a, to->started = true;
     SporeVec3 area = spore_mesh_area_vector(a, b, c);
+    to->area += spore_vec3_length(area);
     for (int k = 0; k < 3; k++) to->growth += spore_vec3_dot(area, spore_mesh_vertex(normals, v[k])) / 3;
     to->volume += spore_vec3_dot(spore_vec3_sub(a, to->origin),
                                  spore_vec3_cross(spore_vec3_sub(b, to->origin), spore_vec3_sub(c, to->origin))) /
@@ -120,6 +122,21 @@ static bool restore_volumes(Smoothing *s, const uint32_t *pieces, Piece *piece, 
   return done;
 }
 
+/* A closed piece that smoothing has made collapse, so that it has not its volume or more area than before, goes back.
+ */
+static void take_back_lost(Smoothing *s, const uint32_t *pieces, Piece *piece, size_t count) {
+  measure_anew(s, pieces, piece, count);
+  for (size_t t = 0; t < s->mesh->triangle_count; t++) {
+    const Piece *of = piece + pieces[t];
+    bool sound = fabs(of->wanted - of->volume) <= LOST * fabs(of->wanted) && of->area <= (1 + LOST) * of->area_before;
+    if (sound || of->open) continue;
+    for (size_t k = 0; k < 3; k++) {
+      size_t v = 3 * (size_t)s->mesh->triangles[3 * t + k];
+      memcpy(s->mesh->vertices + v, s->before + v, 3 * sizeof(double));
+    }
+  }
+}
+
 static bool run(Smoothing *s, size_t rounds, const SporeProgress *progress, SporeError *error) {
   uint32_t *pieces;
   size_t count;
@@ -127,7 +144,7 @@ static bool run(Smoothing *s, size_t rounds, const SporeProgress *progress, Spor
   Piece *piece = SPORE_NEW_ARRAY(Piece, count);
   bool done = piece != NULL || spore_mesh_no_memory(error);
   if (done) measure_anew(s, pieces, piece, count);
-  for (size_t p = 0; done && p < count; p++) piece[p].wanted = piece[p].volume;
+  for (size_t p = 0; done && p < count; p++) piece[p].wanted = piece[p].volume, piece[p].area_before = piece[p].area;
   for (size_t i = 0; done && i < rounds; i++) {
     if (!spore_progress(progress, (double)i / (double)rounds, _("smoothing")))
       done = spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
@@ -135,6 +152,7 @@ static bool run(Smoothing *s, size_t rounds, const SporeProgress *progress, Spor
     diffuse(s, MU);
   }
   done = done && (restore_volumes(s, pieces, piece, count) || spore_mesh_no_memory(error));
+  if (done) take_back_lost(s, pieces, piece, count);
   spore_free(piece);
   spore_free(pieces);
   return done;
