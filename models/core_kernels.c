@@ -1,21 +1,16 @@
 #include <string.h>
 
+#include "core/math/simd_matrix.h"
 #include "models/core.h"
 
 SPORE_INLINE SporeVd3 all(const double *a) {
   return (SporeVd3){spore_vd_all(a[0]), spore_vd_all(a[1]), spore_vd_all(a[2])};
 }
 
-SPORE_INLINE SporeVd3 cross(SporeVd3 a, SporeVd3 b) {
-  return (SporeVd3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 SPORE_INLINE SporeVd3 turn(const double *m, SporeVd3 a) {
   return (SporeVd3){m[0] * a.x + m[1] * a.y + m[2] * a.z, m[3] * a.x + m[4] * a.y + m[5] * a.z,
                     m[6] * a.x + m[7] * a.y + m[8] * a.z};
 }
-
-SPORE_INLINE void accumulate(SporeVd3 *sum, SporeVd3 a) { sum->x += a.x, sum->y += a.y, sum->z += a.z; }
 
 typedef struct Core { /* at q, and in the shape that is damped along */
   SporeVd3 centre, shape_centre, velocity, spin;
@@ -29,14 +24,14 @@ SPORE_INLINE SporeVd3 pull(const SporeCore *ties, const Core *core, const SporeM
   SporeVd w = spore_vd_load(weight), k = ties->stiffness * w, b = ties->damping * w;
   SporeVd3 s = turn(rotation->m, spore_vd3_load(place));
   SporeVd3 away = spore_vd3_sub(spore_vd3_sub(spore_vd3_load(q), core->centre), s);
-  SporeVd3 elastic = {k * away.x, k * away.y, k * away.z};
-  accumulate(torque, cross(s, elastic));
+  SporeVd3 elastic = spore_vd3_scale(k, away);
+  *torque = spore_vd3_add(*torque, spore_vd3_cross(s, elastic));
   if (!damped) return elastic;
   SporeVd3 arm = spore_vd3_sub(spore_vd3_load(shape), core->shape_centre);
-  SporeVd3 speed = spore_vd3_sub(spore_vd3_sub(spore_vd3_load(v), core->velocity), cross(core->spin, arm));
-  SporeVd3 viscous = {b * speed.x, b * speed.y, b * speed.z};
-  accumulate(torque, cross(arm, viscous));
-  return (SporeVd3){elastic.x + viscous.x, elastic.y + viscous.y, elastic.z + viscous.z};
+  SporeVd3 speed = spore_vd3_sub(spore_vd3_sub(spore_vd3_load(v), core->velocity), spore_vd3_cross(core->spin, arm));
+  SporeVd3 viscous = spore_vd3_scale(b, speed);
+  *torque = spore_vd3_add(*torque, spore_vd3_cross(arm, viscous));
+  return spore_vd3_add(elastic, viscous);
 }
 
 /* Nodes behind the last whole vector of them, with as many that weigh nothing. */
@@ -73,14 +68,14 @@ SPORE_INLINE void add_forces(const SporeCore *ties, const SporeMat3 *rotation, c
       if (count == SPORE_WIDTH) {
         SporeVd3 p = pull(ties, &core, rotation, ties->place + 3 * i, ties->weight + i, q + 3 * i, shape + 3 * i,
                           v + 3 * i, damped, &torque);
-        accumulate(&force, p);
+        force = spore_vd3_add(force, p);
         spore_vd3_store(f + 3 * i, spore_vd3_sub(spore_vd3_load(f + 3 * i), p));
       } else {
         Rest rest;
         double back[3 * SPORE_WIDTH];
         load_rest(&rest, ties, i, count, q, shape, v);
         SporeVd3 p = pull(ties, &core, rotation, rest.place, rest.weight, rest.q, rest.shape, rest.v, damped, &torque);
-        accumulate(&force, p);
+        force = spore_vd3_add(force, p);
         spore_vd3_store(back, p);
         for (size_t k = 0; k < 3 * count; k++) f[3 * i + k] -= back[k];
       }
