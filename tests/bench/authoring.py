@@ -127,7 +127,45 @@ def centrelines(build, work):
             yield aimed(f"{name}, line, {how}: processor time", seconds, "s", MOST_SECONDS)
 
 
-SECTIONS = [balanced_spheres, centrelines]
+# Volume outside of sets that cover all, by spheretree's medial method, on the reference solids.
+BOUNDING_PEER = {("liver", 32): 0.500, ("liver", 110): 0.183, ("uterus", 32): 0.272, ("uterus", 110): 0.160, ("colon", 32): 2.13,
+                 ("colon", 110): 0.988}
+
+
+def bounding_spheres(build, work):
+    """Spheres that cover all of a solid: volume outside, beside spheretree's where it is known; whether that is proven."""
+    for name, _, path in meshes(work):
+        for count in (32, 110):
+            answer, seconds, fault = run(build, "spheres", path, "--unit", "mm", "--mode", "bounding", "--count", count)
+            if answer is None:
+                yield row("authoring", f"{name}, {count} bounding spheres REFUSED: {fault}", math.nan, "")
+                continue
+            peer = next((outside for (organ, n), outside in BOUNDING_PEER.items() if organ in name and n == count), None)
+            proven = "" if answer["certified"] else " (NOT PROVEN)"
+            yield row("authoring", f"{name}, {count} bounding spheres: outside{proven}", answer["outside"], "of it",
+                      peer_name="spheretree" if peer else None, peer=peer, least=1 if peer else None)
+            yield aimed(f"{name}, {count} bounding spheres: processor time", seconds, "s", MOST_SECONDS)
+
+
+# Depth error aimed at, by kind of organ and number of spheres.
+WEIGHTED_AIMS = {("compact", 32): 0.04, ("compact", 110): 0.02, ("folded", 110): 0.035, ("tubular", 110): 0.05}
+
+
+def weighted_spheres(build, work):
+    """Spheres whose weighted sum is the depth: its error, and where it is felt just outside."""
+    for name, kind, path in meshes(work):
+        for count in (32, 110):
+            answer, seconds, fault = run(build, "spheres", path, "--unit", "mm", "--mode", "weighted", "--count", count)
+            if answer is None:
+                yield row("authoring", f"{name}, {count} weighted spheres REFUSED: {fault}", math.nan, "")
+                continue
+            case = f"{name}, {count} weighted spheres"
+            yield aimed(f"{case}: depth error", answer["weighted_depth_error"], "of it", WEIGHTED_AIMS.get((kind, count)))
+            yield row("authoring", f"{case}: felt outside", answer["felt_outside"], "of places")
+            yield aimed(f"{case}: processor time", seconds, "s", MOST_SECONDS)
+
+
+SECTIONS = [balanced_spheres, bounding_spheres, weighted_spheres, centrelines]
 
 
 def bench_authoring(build, work):
