@@ -17,7 +17,7 @@ bool spore_spheres_no_memory(SporeError *error) {
 
 bool spore_progress_part(const SporeProgressPart *part, double fraction, const char *stage, SporeError *error) {
   if (spore_progress(part->whole, part->first + part->share * fraction, stage)) return true;
-  return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("generating spheres was cancelled"));
+  return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
 }
 
 void spore_progress_show_balls(const SporeProgressPart *part, const SporeBalls *balls) {
