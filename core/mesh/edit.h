@@ -31,8 +31,8 @@ bool spore_triangle_mesh_fill_holes(SporeTriangleMesh *mesh, size_t most_edges, 
 
 /* `rounds` rounds of Taubin's smoothing (1995, "A signal processing approach to fair surface design": lambda 0.5,
  * mu -0.53, equal weights), open edges smoothed along themselves alone; then each closed piece is moved along its
- * normals until its volume is what it was; one that has not it back then, or more area than it had, was too thin for so
- * many rounds and stays as it came. */
+ * normals until its volume is what it was; one that has not it back then, or clearly more area than it had, was too
+ * thin for so many rounds and stays as it came. */
 bool spore_triangle_mesh_smooth(SporeTriangleMesh *mesh, size_t rounds, const SporeProgress *progress,
                                 SporeError *error);
 

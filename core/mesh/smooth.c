@@ -10,7 +10,8 @@
 #define MU (-0.53)
 #define VOLUME_ROUNDS 12
 #define VOLUME_TOLERANCE 1e-10 /* of the volume */
-#define LOST 0.01              /* of volume or area: a piece further off was too thin for so many rounds */
+#define LOST 0.01              /* of the volume: a piece further off was too thin for so many rounds */
+#define SPIKY 1.2              /* of the area: so was one that has more */
 
 /* Who is pulled by whom: pairs of vertices on an edge. A vertex on an open edge is pulled along open edges alone, so
  * that a rim stays a rim and does not shrink into the surface. */
@@ -128,7 +129,7 @@ static void take_back_lost(Smoothing *s, const uint32_t *pieces, Piece *piece, s
   measure_anew(s, pieces, piece, count);
   for (size_t t = 0; t < s->mesh->triangle_count; t++) {
     const Piece *of = piece + pieces[t];
-    bool sound = fabs(of->wanted - of->volume) <= LOST * fabs(of->wanted) && of->area <= (1 + LOST) * of->area_before;
+    bool sound = fabs(of->wanted - of->volume) <= LOST * fabs(of->wanted) && of->area <= SPIKY * of->area_before;
     if (sound || of->open) continue;
     for (size_t k = 0; k < 3; k++) {
       size_t v = 3 * (size_t)s->mesh->triangles[3 * t + k];

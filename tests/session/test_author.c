@@ -20,6 +20,10 @@
 static const char tetrahedron_off[] =
     "OFF\n4 4 0\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
+static const char octahedron_off[] =
+    "OFF\n6 8 0\n0.05 0 0\n-0.05 0 0\n0 0.05 0\n0 -0.05 0\n0 0 0.08\n0 0 -0.08\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n"
+    "3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n";
+
 typedef struct {
   SporeSchema *schema;
   SporeEditorDocument *editor;
@@ -101,9 +105,9 @@ static void test_add_twice(Fixture *fixture, gconstpointer data) {
 /* A changed mesh takes the place of the old one as one step, and a result that is out of date has no place. */
 static void test_change_mesh(Fixture *fixture, gconstpointer data) {
   GError *error = NULL;
-  SporeObject *mesh = spore_edit_visual_mesh(fixture->document, add_organ(fixture), NULL);
+  SporeObject *mesh = spore_edit_visual_mesh(fixture->document, add_content(fixture, octahedron_off), NULL);
   g_autofree char *before = text_of(fixture);
-  double volume = 0.001 / 6;
+  double volume = 4. / 3 * 0.05 * 0.05 * 0.08;
   for (int i = 0; i < 2; i++) {
     SporeMeshWork *work = spore_mesh_work_new(fixture->document, mesh, SPORE_MESH_SMOOTH, 3, &error);
     g_assert_true(spore_mesh_work_run(work, NULL, &error));
@@ -115,7 +119,7 @@ static void test_change_mesh(Fixture *fixture, gconstpointer data) {
     spore_mesh_work_free(work);
     if (i == 0) assert_one_step(fixture, before);
   }
-  g_assert_cmpuint(spore_document_mesh(fixture->document, mesh, NULL)->triangle_count, ==, 4);
+  g_assert_cmpuint(spore_document_mesh(fixture->document, mesh, NULL)->triangle_count, ==, 8);
 }
 
 static void use_spheres(Fixture *fixture, SporeObject *body, double radius) {
