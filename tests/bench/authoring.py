@@ -165,7 +165,23 @@ def weighted_spheres(build, work):
             yield aimed(f"{case}: processor time", seconds, "s", MOST_SECONDS)
 
 
-SECTIONS = [balanced_spheres, bounding_spheres, weighted_spheres, centrelines]
+def tetrahedra(build, work):
+    """5,000 cells by the chain, and by the lattice alone: distance, angle, number and time beside their aims."""
+    for name, _, path in meshes(work):
+        for options in ((), ("--method", "voxels")):
+            answer, seconds, fault = run(build, "tetrahedra", path, "--unit", "mm", "--cells", 5000, *options)
+            if answer is None:
+                yield row("authoring", f"{name}, 5000 cells {' '.join(options)} REFUSED: {fault}", math.nan, "")
+                continue
+            case = f"{name}, 5000 cells {answer['method']}"
+            yield aimed(f"{case}: distance", 100 * answer["hausdorff"], "%", 1)
+            yield aimed(f"{case}: 10 degrees over the least angle", 10 / answer["min_dihedral_deg"], "", 1)
+            yield aimed(f"{case}: number off by", abs(answer["tetrahedra"] / 5000 - 1), "of it", 0.1)
+            yield aimed(f"{case}: volume off by", abs(answer["volume_change"]), "of it", None)
+            yield aimed(f"{case}: processor time", seconds, "s", 30)
+
+
+SECTIONS = [balanced_spheres, bounding_spheres, weighted_spheres, centrelines, tetrahedra]
 
 
 def bench_authoring(build, work):
