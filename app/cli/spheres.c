@@ -201,7 +201,7 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"distance", N_("between surface and spheres, of the diagonal: mean, max; of a sheet see --thickness")},
       {"depth_error", N_("of the depth that is felt, of the largest depth; null for a sheet")},
       {"weighted_depth_error", N_("the same of the weighted sum of the spheres' depths; 0 without weights")},
-      {"felt_outside", N_("share of places up to 2 % of the diagonal outside where that sum is not 0")},
+      {"felt_outside", N_("share of places up to 0.02 diagonals outside where that sum is not 0")},
       {"certified", N_("whether it is proven that all of the inside lies in a sphere")},
       {"seconds", N_("that it took")},
       {"mirrors", N_("planes that mesh and spheres are symmetric about")},
