@@ -145,11 +145,24 @@ static void change_speed(GSimpleAction *action, GVariant *state, gpointer data) 
 
 /* View. */
 
+/* What is edited is where it is at the start. */
+static gboolean may_edit(SporeWindow *self) {
+  SporeSession *session = spore_player_get_session(self->player);
+  if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
+  spore_window_complain(self, _("Editing by hand needs the scene at its start; go back to it first (Shift+F5)"));
+  return FALSE;
+}
+
 static void change_tool(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
-  gboolean probe = g_str_equal(g_variant_get_string(state, NULL), "probe");
-  spore_viewport_set_tool(SPORE_VIEWPORT(self->viewport), probe ? SPORE_TOOL_PROBE : SPORE_TOOL_SELECT);
+  const char *name = g_variant_get_string(state, NULL);
+  gboolean edit = g_str_equal(name, "edit");
+  if (edit && !may_edit(self)) return;
+  spore_viewport_set_tool(SPORE_VIEWPORT(self->viewport), edit                         ? SPORE_TOOL_EDIT
+                                                          : g_str_equal(name, "probe") ? SPORE_TOOL_PROBE
+                                                                                       : SPORE_TOOL_SELECT);
   g_simple_action_set_state(action, state);
+  spore_window_show_hint(self);
 }
 
 static gboolean is_on(SporeWindow *self, const char *action) {

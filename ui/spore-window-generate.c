@@ -9,65 +9,85 @@ static SporeDocument *document_of(SporeWindow *self) { return spore_editor_docum
 
 /* Starting. */
 
-/* What was edited by hand is not replaced without a word. */
-static gboolean may_replace(SporeWindow *self, SporeObject *body, SporeGenerateKind kind) {
-  SporeObject *asset = spore_generate_target(document_of(self), body, kind);
-  if (!asset || !spore_generated_is(asset, "edited") || spore_generator_is_active(self->generator)) return TRUE;
-  GtkWidget *dialog =
-      gtk_message_dialog_new(GTK_WINDOW(self), GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, GTK_MESSAGE_QUESTION,
-                             GTK_BUTTONS_NONE, _("Generate “%s” again?"), spore_object_name(asset));
-  gtk_message_dialog_format_secondary_text(GTK_MESSAGE_DIALOG(dialog),
-                                           _("It was edited by hand; what is generated takes the place of the edits "
-                                             "once it is applied."));
-  gtk_dialog_add_buttons(GTK_DIALOG(dialog), _("Keep the edits"), GTK_RESPONSE_CANCEL, _("Generate again"),
-                         GTK_RESPONSE_ACCEPT, NULL);
-  gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_CANCEL);
-  gboolean sure = gtk_dialog_run(GTK_DIALOG(dialog)) == GTK_RESPONSE_ACCEPT;
-  gtk_widget_destroy(dialog);
-  return sure;
-}
-
-/* count 0: as the body's asset says. */
-static gboolean start(SporeWindow *self, SporeGenerateKind kind, guint count) {
-  SporeObject *body = spore_window_body_to_work_on(self);
-  if (!body || !may_replace(self, body, kind)) return FALSE;
-  g_autoptr(GError) error = NULL;
-  SporeGenerateOptions options = spore_generate_options_of(document_of(self), body, kind);
-  if (count && kind == SPORE_GENERATE_SPHERES) options.spheres.count = count;
-  if (count && kind == SPORE_GENERATE_TETRAHEDRA) options.tetrahedra.cells = count;
-  if (self->job) {
-    spore_window_complain(self, _("Something else is still being worked on; wait for it or cancel it"));
-    return FALSE;
-  }
-  if (!spore_generator_is_active(self->generator)) spore_recovery_keep(self->recovery, self->document, NULL);
-  if (spore_generator_preview(self->generator, body, &options, &error)) return TRUE;
-  spore_window_failed(self, error);
-  return FALSE;
-}
-
-static void act_generate_spheres(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  if (start(self, SPORE_GENERATE_SPHERES, MAX(1, g_variant_get_uint32(parameter))))
-    spore_generator_apply_when_done(self->generator);
-}
-
-static void act_generate_tetrahedra(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  SporeWindow *self = data;
-  if (start(self, SPORE_GENERATE_TETRAHEDRA, MAX(1, g_variant_get_uint32(parameter))))
-    spore_generator_apply_when_done(self->generator);
-}
+/* What is asked for; carried over the question whether edits may be replaced. */
+typedef struct {
+  SporeWindow *window;
+  SporeGenerateKind kind;
+  guint count; /* 0: as the body's asset says */
+  gboolean apply;
+} Request;
 
 static void show_panel(SporeWindow *self) {
   g_action_group_change_action_state(G_ACTION_GROUP(self), "show-problems", g_variant_new_boolean(TRUE));
   gtk_stack_set_visible_child(GTK_STACK(self->tabs), self->generator_panel);
 }
 
+static void begin(const Request *request) {
+  SporeWindow *self = request->window;
+  SporeObject *body = spore_window_body_to_work_on(self);
+  if (!body) return;
+  g_autoptr(GError) error = NULL;
+  SporeGenerateOptions options = spore_generate_options_of(document_of(self), body, request->kind);
+  if (request->count && request->kind == SPORE_GENERATE_SPHERES) options.spheres.count = request->count;
+  if (request->count && request->kind == SPORE_GENERATE_TETRAHEDRA) options.tetrahedra.cells = request->count;
+  if (self->job) {
+    spore_window_complain(self, _("Something else is still being worked on; wait for it or cancel it"));
+    return;
+  }
+  if (!spore_generator_is_active(self->generator)) spore_recovery_keep(self->recovery, self->document, NULL);
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "tool", g_variant_new_string("select"));
+  if (!spore_generator_preview(self->generator, body, &options, &error)) spore_window_failed(self, error);
+  else if (request->apply) spore_generator_apply_when_done(self->generator);
+  else show_panel(self);
+}
+
+static void answered(GtkDialog *dialog, int response, Request *request) {
+  if (response == GTK_RESPONSE_ACCEPT) begin(request);
+  gtk_widget_destroy(GTK_WIDGET(dialog));
+}
+
+static void free_request(gpointer data, GClosure *closure) { g_free(data); }
+
+/* What was edited by hand is not replaced without a word. */
+static void ask(const Request *request, SporeObject *asset) {
+  GtkWidget *dialog = gtk_message_dialog_new(GTK_WINDOW(request->window),
+                                             GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, GTK_MESSAGE_QUESTION,
+                                             GTK_BUTTONS_NONE, _("Generate “%s” again?"), spore_object_name(asset));
+  gtk_message_dialog_format_secondary_text(GTK_MESSAGE_DIALOG(dialog),
+                                           _("It was edited by hand; what is generated takes the place of the edits "
+                                             "once it is applied."));
+  gtk_dialog_add_buttons(GTK_DIALOG(dialog), _("Keep the edits"), GTK_RESPONSE_CANCEL, _("Generate again"),
+                         GTK_RESPONSE_ACCEPT, NULL);
+  gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_CANCEL);
+  g_signal_connect_data(dialog, "response", G_CALLBACK(answered), g_memdup2(request, sizeof *request), free_request, 0);
+  gtk_widget_show(dialog);
+}
+
+static void start(SporeWindow *self, SporeGenerateKind kind, guint count, gboolean apply) {
+  Request request = {self, kind, count, apply};
+  SporeObject *body = spore_window_body_to_work_on(self);
+  SporeObject *asset = body ? spore_generate_target(document_of(self), body, kind) : NULL;
+  gboolean goes_on = body && spore_generator_get_body(self->generator) == body &&
+                     spore_generator_get_options(self->generator)->kind == kind;
+  if (asset && spore_generated_is(asset, "edited") && !spore_generated_is(asset, "frozen") && !goes_on)
+    ask(&request, asset);
+  else if (body) begin(&request);
+}
+
+static void act_generate_spheres(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  start(data, SPORE_GENERATE_SPHERES, MAX(1, g_variant_get_uint32(parameter)), TRUE);
+}
+
+static void act_generate_tetrahedra(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  start(data, SPORE_GENERATE_TETRAHEDRA, MAX(1, g_variant_get_uint32(parameter)), TRUE);
+}
+
 static void act_preview_spheres(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  if (start(data, SPORE_GENERATE_SPHERES, g_variant_get_uint32(parameter))) show_panel(data);
+  start(data, SPORE_GENERATE_SPHERES, g_variant_get_uint32(parameter), FALSE);
 }
 
 static void act_preview_tetrahedra(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  if (start(data, SPORE_GENERATE_TETRAHEDRA, g_variant_get_uint32(parameter))) show_panel(data);
+  start(data, SPORE_GENERATE_TETRAHEDRA, g_variant_get_uint32(parameter), FALSE);
 }
 
 /* Ending. */

@@ -44,6 +44,7 @@ void spore_window_show_job(SporeWindow *self);
 /* Says an error, but not that the user cancelled. TRUE: there was one. */
 gboolean spore_window_failed(SporeWindow *self, const GError *error);
 void spore_window_update_actions(SporeWindow *self);
+void spore_window_show_hint(SporeWindow *self); /* what the tool of now does */
 void spore_window_set_enabled(SporeWindow *self, const char *action, gboolean enabled);
 
 /* Generators. */

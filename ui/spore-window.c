@@ -128,12 +128,17 @@ static const char *hint_for(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   if (spore_object_child_count(spore_document_section(document, "bodies")) == 0)
     return _("Import a mesh to begin, or open the demo");
+  g_autoptr(GVariant) tool = g_action_group_get_action_state(G_ACTION_GROUP(self), "tool");
+  if (g_str_equal(g_variant_get_string(tool, NULL), "edit"))
+    return _("Drag moves a sphere or point, the wheel resizes it; N and P choose, Insert adds, Delete deletes");
   if (spore_player_is_playing(self->player))
     return _("Choose Probe: drag leads an instrument, the right button closes it; Ctrl+drag pulls tissue; F5 pauses");
   if (!spore_player_get_session(self->player))
     return _("Click selects, middle button turns, wheel zooms, F frames; F5 plays");
   return _("Paused: F5 goes on, F6 makes one step, Shift+F5 goes back to the start");
 }
+
+void spore_window_show_hint(SporeWindow *self) { gtk_label_set_text(GTK_LABEL(self->hint), hint_for(self)); }
 
 static void update_title(SporeWindow *self) {
   g_autofree char *name = spore_editor_document_get_title(self->document);
@@ -180,7 +185,7 @@ void spore_window_update_actions(SporeWindow *self) {
 static void update(SporeWindow *self) {
   update_title(self);
   spore_window_update_actions(self);
-  gtk_label_set_text(GTK_LABEL(self->hint), hint_for(self));
+  spore_window_show_hint(self);
 }
 
 static void history_changed(SporeWindow *self) {

@@ -8,12 +8,13 @@
  *               save-as [s path], save-as-dialog, save-recording [s path], save-recording-dialog, close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
  *               set-property [s path, s name, s value], unset-property [s path, s name], set-model [s element],
- * use-preset [s name], generate-spheres [u count], generate-tetrahedra [u cells], add-probe, add-pin, cancel-job
- *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body
- *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state]
- *   view        tool [s "select" or "probe"; state], show-surfaces, show-spheres, show-tetrahedra, show-contacts
- * (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector, show-problems (state), filter
- *   others      report [s message]
+ * use-preset [s name], generate-spheres [u count], generate-tetrahedra [u cells] (at once),
+ *               preview-spheres [u count], preview-tetrahedra [u cells] (0: as before), apply-generated, add-probe,
+ * add-pin, cancel-job mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the
+ * selected mesh or body simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes;
+ * state] view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
+ * show-contacts (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector, show-problems
+ * (state), filter others      report [s message]
  *
  * Paths are those of objects: "bodies/liver/collision". */
 #ifndef SPORE_UI_SPORE_WINDOW_H

@@ -8,7 +8,9 @@
 #include "core/io/scene_xml.h"
 #include "models/registry.h"
 #include "ui/document/asset-readers.h"
+#include "core/scene/generated.h"
 #include "ui/document/edits.h"
+#include "ui/document/hand-edit.h"
 #include "ui/document/labels.h"
 #include "ui/document/mesh-edits.h"
 #include "ui/document/recovery.h"
@@ -146,6 +148,50 @@ static void test_use_spheres(Fixture *fixture, gconstpointer data) {
   assert_one_step(fixture, first);
   spore_document_undo(fixture->document);
   g_assert_cmpfloat(spore_document_spheres(fixture->document, asset, NULL)->spheres[3], ==, 0.02);
+}
+
+/* Spheres by hand: each commit is one step and remarked; options that change later make the data stale; what is frozen
+ * is not generated again, and what is not sound is refused. */
+static void test_hand_edit(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeHandEdit edit = {.chosen = G_MAXSIZE};
+  SporeObject *body = add_organ(fixture);
+  g_assert_false(spore_hand_edit_open(&edit, fixture->document, body));
+  use_spheres(fixture, body, 0.02);
+  SporeObject *asset = spore_edit_body_spheres(fixture->document, body);
+  g_assert_false(spore_generated_is(asset, "edited"));
+  g_autofree char *before = text_of(fixture);
+  g_assert_true(spore_hand_edit_open(&edit, fixture->document, body));
+  g_assert_cmpuint(edit.count, ==, 1);
+  g_assert_cmpuint(spore_hand_edit_pick(&edit, spore_vec3(0.02, 0.02, 1), spore_vec3(0, 0, -1)), ==, 0);
+  g_assert_cmpuint(spore_hand_edit_pick(&edit, spore_vec3(0.05, 0.02, 1), spore_vec3(0, 0, -1)), ==, G_MAXSIZE);
+  g_assert_false(spore_hand_edit_remove(&edit));
+  spore_hand_edit_add(&edit, spore_vec3(0.01, 0, 0), 0);
+  g_assert_true(spore_hand_edit_commit(&edit, fixture->document, "add", &error));
+  g_assert_true(spore_generated_is(asset, "edited"));
+  const SporeSphereSet *set = spore_document_spheres(fixture->document, asset, NULL);
+  g_assert_cmpuint(set->count, ==, 2);
+  g_assert_cmpfloat(set->spheres[7], ==, 0.02);
+  assert_one_step(fixture, before);
+  g_assert_true(spore_hand_edit_open(&edit, fixture->document, body));
+  edit.points[3] = -1;
+  g_assert_false(spore_hand_edit_commit(&edit, fixture->document, "resize", &error));
+  g_assert_nonnull(error);
+  g_clear_error(&error);
+  g_assert_cmpfloat(edit.points[3], ==, 0.02);
+  spore_hand_edit_close(&edit);
+
+  g_autofree char *hash = spore_document_asset_hash(fixture->document, spore_object_reference(asset, "source"));
+  spore_document_set_text(fixture->document, asset, "source_hash", hash, NULL);
+  g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_FRESH);
+  spore_document_set_text(fixture->document, asset, "count", "7", NULL);
+  g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_OPTIONS_CHANGED);
+  spore_document_set_text(fixture->document, asset, "frozen", "true", NULL);
+  SporeSpheresOptions options = {.count = 1, .seed = 7};
+  g_assert_false(
+      spore_edit_use_spheres(fixture->document, body, "my_organ", "0123456789abcdef", &options, set, &error));
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_INPUT);
+  g_clear_error(&error);
 }
 
 /* Tetrahedra bring their usual model to a body that has none, and leave one that was chosen. */
@@ -460,6 +506,7 @@ int main(int argc, char **argv) {
       {"change-mesh", test_change_mesh},
       {"add-twice", test_add_twice},
       {"use-spheres", test_use_spheres},
+      {"hand-edit", test_hand_edit},
       {"usual-model", test_usual_model},
       {"set-model", test_set_model},
       {"probe-and-pin", test_probe_and_pin},

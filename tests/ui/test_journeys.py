@@ -252,6 +252,47 @@ def stale_and_frozen():
 
 
 @check
+def spheres_by_hand():
+    """a sphere is moved, resized, added and deleted by hand, a step each; generating again asks before it replaces the edits."""
+    with start() as editor:
+        import_ball(editor)
+        editor.act("generate-spheres", "u", 1)
+        ui.wait(lambda: editor.row("ball_spheres"), "the sphere")
+        editor.act("select", "s", "bodies/ball")
+        editor.act("view", "s", "front")
+        editor.act("tool", "s", "edit")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+
+        def spheres():
+            text = saved(editor, "by_hand")
+            return [[float(number) for number in line.split()] for line in
+                    (folder("saved") / "by_hand" / re.search(r'file="(ball_spheres[^"]*)"', text)[1]).read_text().splitlines()
+                    if not line.startswith("#")], 'edited="true"' in text
+
+        (before,), edited = spheres()
+        assert not edited
+        middle = x + width // 2, y + height // 2
+        editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", 30, 0, "sleep", 0.2, "mouseup", 1)
+        ui.wait(lambda: spheres()[1], "the edit")
+        (moved,), _ = spheres()
+        assert moved[0] > before[0] + 1e-3 and moved[3] == before[3], (before, moved)
+        editor.mouse("click", 4, "click", 4)
+        ui.wait(lambda: spheres()[0][0][3] > before[3] * 1.05, "the sphere to grow")
+        editor.focus()
+        editor.keys("Insert")
+        ui.wait(lambda: len(spheres()[0]) == 2, "another sphere")
+        editor.keys("Delete")
+        ui.wait(lambda: len(spheres()[0]) == 1, "the sphere to go")
+        for _ in range(4):
+            editor.act("undo")
+        assert spheres() == ([before], False)
+        editor.act("redo")
+        editor.act("preview-spheres", "u", 3)
+        editor.press(editor.find("push button", "^Keep the edits$"))
+        assert spheres()[0] == [moved] and not editor.enabled("apply-generated")
+
+
+@check
 def tetrahedra_and_model():
     """tetrahedra are generated with their usual model, and another one is chosen for them."""
     if "cgal" not in FEATURES:

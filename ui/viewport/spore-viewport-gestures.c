@@ -156,8 +156,10 @@ static void release_pull(SporeViewport *self) {
 /* Drags. */
 
 void spore_viewport_end_drag(SporeViewport *self) {
+  gboolean edits = self->drag == DRAG_EDIT;
   if (self->drag == DRAG_PULL) release_pull(self);
   self->drag = DRAG_NONE;
+  if (edits) spore_viewport_edit_release(self, TRUE);
 }
 
 static void abort_drag(SporeViewport *self) {
@@ -166,6 +168,7 @@ static void abort_drag(SporeViewport *self) {
     self->hand = self->hand_before;
     lead_probe(self);
   }
+  if (self->drag == DRAG_EDIT) spore_viewport_edit_release(self, FALSE);
   spore_viewport_end_drag(self);
   spore_viewport_redraw(self);
 }
@@ -180,6 +183,7 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
   SporeVec3 point;
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
   if (self->tool == SPORE_TOOL_PROBE && begin_probe(self)) return;
+  if (self->tool == SPORE_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
   spore_editor_document_select(self->document, pick(self, event->x, event->y, &point));
 }
 
@@ -229,6 +233,9 @@ gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeView
   case DRAG_PULL:
     move_pull(self);
     break;
+  case DRAG_EDIT:
+    spore_viewport_edit_motion(self);
+    break;
   }
   spore_viewport_redraw(self);
   return GDK_EVENT_STOP;
@@ -243,7 +250,7 @@ static double notches_of(const GdkEventScroll *event) {
 gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeViewport *self) {
   double notches = notches_of(event);
   if (self->tool == SPORE_TOOL_PROBE && session_of(self)) deepen_probe(self, notches);
-  else {
+  else if (self->tool != SPORE_TOOL_EDIT || !spore_viewport_edit_scroll(self, notches)) {
     spore_viewport_leave_scene_camera(self);
     spore_camera_zoom(&self->camera, pow(ZOOM_A_NOTCH, -notches), event->x, event->y, width_of(self), height_of(self));
   }
@@ -253,6 +260,7 @@ gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeView
 
 gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self) {
   if (event->state & gtk_accelerator_get_default_mod_mask()) return GDK_EVENT_PROPAGATE;
+  if (spore_viewport_edit_key(self, event->keyval)) return GDK_EVENT_STOP;
   switch (event->keyval) {
   case GDK_KEY_Escape:
     if (self->drag != DRAG_NONE) abort_drag(self);

@@ -2,9 +2,10 @@
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 
+#include "ui/document/hand-edit.h"
 #include "ui/viewport/spore-viewport.h"
 
-typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL } SporeDrag;
+typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT } SporeDrag;
 
 struct _SporeViewport {
   GtkOverlay parent;
@@ -15,6 +16,9 @@ struct _SporeViewport {
   SporeTool tool;
   SporeStageOptions options;
 
+  SporeHandEdit edit;    /* of the Edit tool */
+  double edit_before[4]; /* the chosen one when the drag began */
+  guint edit_timer;      /* wheel notches that are not committed yet */
   SporeStageCandidate *candidate;
   char *legend; /* of the candidate's colours; NULL: none */
   double legend_low, legend_high;
@@ -54,6 +58,15 @@ gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeView
 gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self);
 /* Ends a drag without taking it back. */
 void spore_viewport_end_drag(SporeViewport *self);
+
+/* Edit tool. Shows what the selection offers to edit; commits and closes it. */
+void spore_viewport_edit_refresh(SporeViewport *self);
+void spore_viewport_edit_end(SporeViewport *self);
+gboolean spore_viewport_edit_press(SporeViewport *self, double x, double y); /* FALSE: nothing to edit was there */
+void spore_viewport_edit_motion(SporeViewport *self);
+void spore_viewport_edit_release(SporeViewport *self, gboolean keep);
+gboolean spore_viewport_edit_scroll(SporeViewport *self, double notches); /* FALSE: nothing is chosen */
+gboolean spore_viewport_edit_key(SporeViewport *self, guint key);         /* FALSE: not its key */
 
 /* What moves the view by hand comes after this: it looks through no camera of the scene any more. */
 void spore_viewport_leave_scene_camera(SporeViewport *self);

@@ -102,6 +102,7 @@ static gboolean rebuild(gpointer data) {
   spore_stage_set_options(self->stage, &self->options);
   spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
   if (!self->framed) look_through_camera(self);
+  spore_viewport_edit_refresh(self);
   update_stage(self);
   return G_SOURCE_REMOVE;
 }
@@ -302,12 +303,14 @@ static void player_replaced(SporeViewport *self) {
 
 static void selection_changed(SporeViewport *self) {
   if (self->stage) spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
+  spore_viewport_edit_refresh(self);
   spore_viewport_redraw(self);
 }
 
 /* Life. */
 
 static void release_document(SporeViewport *self) {
+  if (self->document) spore_viewport_edit_end(self);
   g_clear_handle_id(&self->rebuild, g_source_remove);
   g_clear_pointer(&self->stage, spore_stage_free);
   if (self->renderer) spore_renderer_clear(self->renderer);
@@ -341,7 +344,9 @@ void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting) {
 
 void spore_viewport_set_tool(SporeViewport *self, SporeTool tool) {
   spore_viewport_end_drag(self);
+  spore_viewport_edit_end(self);
   self->tool = tool;
+  spore_viewport_edit_refresh(self);
   spore_viewport_redraw(self);
 }
 
@@ -433,6 +438,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
 
 static void spore_viewport_init(SporeViewport *self) {
   self->options = (SporeStageOptions){.surfaces = TRUE};
+  spore_hand_edit_close(&self->edit);
   self->camera = (SporeCamera){
       .distance = EMPTY_DISTANCE_M, .azimuth = 0.5, .elevation = 0.35, .field_of_view = FIELD_OF_VIEW_RAD};
   gtk_widget_init_template(GTK_WIDGET(self));

@@ -3,7 +3,8 @@
  * Left selects, Ctrl+left pulls tissue, middle orbits, Shift+middle pans, the wheel zooms to the cursor; F frames, 1,
  * 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the Probe tool,
  * left moves the probe and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its
- * jaws and presses its pedal; with Shift let go, they stay so. */
+ * jaws and presses its pedal; with Shift let go, they stay so. With the Edit tool, left picks and moves spheres and
+ * points of curves, the wheel and +, - resize, arrows move, N and P go on, Insert adds, Delete deletes. */
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_H
 
@@ -18,7 +19,7 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_VIEWPORT spore_viewport_get_type()
 G_DECLARE_FINAL_TYPE(SporeViewport, spore_viewport, SPORE, VIEWPORT, GtkOverlay)
 
-typedef enum { SPORE_TOOL_SELECT, SPORE_TOOL_PROBE } SporeTool;
+typedef enum { SPORE_TOOL_SELECT, SPORE_TOOL_PROBE, SPORE_TOOL_EDIT } SporeTool;
 
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
 /* A scene is on its way: do not offer to begin with another. */
