@@ -23,7 +23,7 @@ int main(void) {
   for (int i = 0; i < 49; i++)
     table[4 * i] = .01 * (i % 7) - .03, table[4 * i + 1] = -.03, table[4 * i + 2] = .01 * (i / 7) - .03,
               table[4 * i + 3] = .01;
-  SporeSphereSet table_set = {49, table}, stone_set = {1, stone};
+  SporeSphereSet table_set = {.count = 49, .spheres = table}, stone_set = {.count = 1, .spheres = stone};
   SporeBodyDescription bodies[2] = {
       {.name = "table", .role = SPORE_UNMOVABLE, .pose = {{0, 0, 0}, {1, 0, 0, 0}}, .spheres = &table_set},
       {.name = "stone",
