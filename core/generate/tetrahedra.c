@@ -159,8 +159,8 @@ static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GErr
     if (!done) return FALSE;
     g_debug("a wrap of alpha %.4g has %zu triangles", alpha, surface->triangle_count);
     double room = MOST_WRAPPED / (double)surface->triangle_count;
-    if (work->options.gap > 0 || room < 2 || distance_to(work, surface) < WRAPPED_NEAR * work->options.tolerance) break;
-    alpha *= room < 4 ? M_SQRT1_2 : 0.5;
+    if (work->options.gap > 0 || room < 4 || distance_to(work, surface) < WRAPPED_NEAR * work->options.tolerance) break;
+    alpha *= 0.5;
   }
   return TRUE;
 }
