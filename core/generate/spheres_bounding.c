@@ -15,6 +15,7 @@
 #define COVER_TRIES 10   /* of places of a ball, to cover a point */
 #define COVER_SLACK 2e-3 /* of the diagonal: balls not this much farther from a point than the nearest may cover it */
 #define NEEDED 1e3       /* of the solid's volume: price of a point that must be covered */
+#define FEW 60           /* balls: so many sweep twice, half as many or fewer three times */
 #define HARD_PRICE 1e4   /* of volume left uncovered, above which nothing is */
 #define GAP_VOLUME 0.3   /* of a cube: volume that an added point stands for */
 
@@ -247,10 +248,11 @@ static bool go_through(Search *search, const SporeProgressPart *progress, SporeE
     const Stage *stage = &stages[s];
     search->price = stage->price;
     if (stage->finest > 0 && !add_points(search, stage)) return spore_spheres_no_memory(error);
-    for (int sweep = 0; sweep < stage->sweeps; sweep++) {
-      double fraction = ((double)s + (double)sweep / stage->sweeps) / (double)count;
+    int sweeps = stage->sweeps * (1 + (int)fmin(2, FEW / (double)search->balls->count));
+    for (int sweep = 0; sweep < sweeps; sweep++) {
+      double fraction = ((double)s + (double)sweep / sweeps) / (double)count;
       if (!spore_progress_part(progress, fraction, _("Bounding with spheres"), error)) return false;
-      double step = stage->step / (1 + 0.3 * sweep);
+      double step = stage->step / (1 + 0.3 * sweep * stage->sweeps / sweeps);
       for (size_t i = 0; i < search->balls->count; i++) settle_ball(search, i, step * search->balls->r[i]);
       spore_progress_show_balls(progress, search->balls);
     }

@@ -141,8 +141,9 @@ static const SporeParameter spheres_parameters[] = {
      FIELD(SporeSpheresFields, file),
      .required = true,
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("File of the spheres, inside the scene's folder: x y z r a line, of a centre and its radius, m; # "
-               "begins a comment.")},
+     .doc =
+         N_("File of the spheres, inside the scene's folder: x y z r a line, of a centre and its radius, m; or x y z "
+            "r w with a weight, which a depth field as surface then uses; # begins a comment.")},
     {.name = "source",
      .type = SPORE_REFERENCE,
      .unit = "",
