@@ -194,6 +194,27 @@ static void test_hand_edit(Fixture *fixture, gconstpointer data) {
   g_clear_error(&error);
 }
 
+/* Weights stay with their spheres. */
+static void test_hand_edit_weights(Fixture *fixture, gconstpointer data) {
+  double numbers[] = {0, 0, 0, 0.02, 0.05, 0, 0, 0.03}, weights[] = {2, 3};
+  SporeSphereSet set = {.count = 2, .spheres = numbers, .weights = weights};
+  SporeSpheresOptions options = {.count = 2, .seed = 7};
+  SporeHandEdit edit = {.chosen = G_MAXSIZE};
+  SporeObject *body = add_organ(fixture);
+  spore_edit_use_spheres(fixture->document, body, "my_organ", "0123456789abcdef", &options, &set, NULL);
+  g_assert_true(spore_hand_edit_open(&edit, fixture->document, body));
+  edit.chosen = 1;
+  spore_hand_edit_add(&edit, spore_vec3(0, 0.1, 0), 0);
+  edit.chosen = 0;
+  g_assert_true(spore_hand_edit_remove(&edit));
+  g_assert_true(spore_hand_edit_commit(&edit, fixture->document, "change", NULL));
+  const SporeSphereSet *now =
+      spore_document_spheres(fixture->document, spore_edit_body_spheres(fixture->document, body), NULL);
+  g_assert_cmpuint(now->count, ==, 2);
+  g_assert_true(now->weights && now->weights[0] == 3 && now->weights[1] == 3);
+  spore_hand_edit_close(&edit);
+}
+
 /* Tetrahedra bring their usual model to a body that has none, and leave one that was chosen. */
 static void test_usual_model(Fixture *fixture, gconstpointer data) {
   GError *error = NULL;
@@ -507,6 +528,7 @@ int main(int argc, char **argv) {
       {"add-twice", test_add_twice},
       {"use-spheres", test_use_spheres},
       {"hand-edit", test_hand_edit},
+      {"hand-edit-weights", test_hand_edit_weights},
       {"usual-model", test_usual_model},
       {"set-model", test_set_model},
       {"probe-and-pin", test_probe_and_pin},

@@ -36,8 +36,10 @@ static SporeObject *body_of_asset(SporeDocument *document, SporeObject *asset) {
   return NULL;
 }
 
-static void copy_points(SporeHandEdit *edit, const double *points, gsize count) {
+static void copy_points(SporeHandEdit *edit, const double *points, const double *weights, gsize count) {
   g_free(edit->points);
+  g_free(edit->weights);
+  edit->weights = weights ? g_memdup2(weights, count * sizeof *weights) : NULL;
   edit->points = g_memdup2(points, 4 * count * sizeof *points);
   edit->count = count;
   if (edit->chosen >= count) edit->chosen = G_MAXSIZE;
@@ -47,8 +49,8 @@ static gboolean load(SporeHandEdit *edit, SporeDocument *document, SporeObject *
   edit->curve = is_of(asset, "curve");
   const SporeCurve *curve = edit->curve ? spore_document_curve(document, asset, NULL) : NULL;
   const SporeSphereSet *set = edit->curve ? NULL : spore_document_spheres(document, asset, NULL);
-  if (curve) copy_points(edit, curve->points, curve->count);
-  if (set) copy_points(edit, set->spheres, set->count);
+  if (curve) copy_points(edit, curve->points, NULL, curve->count);
+  if (set) copy_points(edit, set->spheres, set->weights, set->count);
   return curve || set;
 }
 
@@ -66,6 +68,7 @@ gboolean spore_hand_edit_open(SporeHandEdit *edit, SporeDocument *document, Spor
 
 void spore_hand_edit_close(SporeHandEdit *edit) {
   g_free(edit->points);
+  g_free(edit->weights);
   *edit = (SporeHandEdit){.chosen = G_MAXSIZE};
 }
 
@@ -96,6 +99,10 @@ void spore_hand_edit_add(SporeHandEdit *edit, SporeVec3 place, double r) {
   edit->points = g_renew(double, edit->points, 4 * (edit->count + 1));
   memmove(edit->points + 4 * (at + 1), edit->points + 4 * at, 4 * (edit->count - at) * sizeof(double));
   memcpy(edit->points + 4 * at, sphere, sizeof sphere);
+  if (edit->weights) { /* of spheres, which are added at the end */
+    edit->weights = g_renew(double, edit->weights, edit->count + 1);
+    edit->weights[edit->count] = edit->chosen < edit->count ? edit->weights[edit->chosen] : 1;
+  }
   edit->count++;
   edit->chosen = at;
 }
@@ -104,6 +111,7 @@ gboolean spore_hand_edit_remove(SporeHandEdit *edit) {
   if (edit->chosen >= edit->count || edit->count <= (edit->curve ? 2 : 1)) return FALSE;
   gsize after = edit->count - edit->chosen - 1;
   memmove(edit->points + 4 * edit->chosen, edit->points + 4 * (edit->chosen + 1), 4 * after * sizeof(double));
+  if (edit->weights) memmove(edit->weights + edit->chosen, edit->weights + edit->chosen + 1, after * sizeof(double));
   edit->count--;
   edit->chosen = G_MAXSIZE;
   return TRUE;
@@ -111,7 +119,7 @@ gboolean spore_hand_edit_remove(SporeHandEdit *edit) {
 
 static char *format(const SporeHandEdit *edit, gsize *size, SporeError *error) {
   SporeCurve curve = {.count = edit->count, .points = edit->points};
-  SporeSphereSet set = {.count = edit->count, .spheres = edit->points};
+  SporeSphereSet set = {.count = edit->count, .spheres = edit->points, .weights = edit->weights};
   if (edit->curve) return spore_curve_validate(&curve, error) ? spore_curve_format(&curve, size) : NULL;
   return spore_sphere_set_validate(&set, error) ? spore_spheres_format(&set, size) : NULL;
 }

@@ -9,7 +9,9 @@ typedef struct SporeHandEdit {
   gboolean curve;      /* points of a curve, in its order; else spheres */
   gsize count;
   double *points; /* count x 4: x y z r, in the body's axes; what is shown, committed or not */
-  gsize chosen;   /* G_MAXSIZE: none */
+  double
+      *weights; /* count, of a set that has them; NULL: it has none. A new sphere gets that of the chosen one, or 1 */
+  gsize chosen; /* G_MAXSIZE: none */
 } SporeHandEdit;
 
 /* Takes what the selected object (an asset, or a body or part of one) offers: its spheres, else its curve. Goes on with
