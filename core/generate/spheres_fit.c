@@ -194,6 +194,7 @@ static bool fill(SporeFit *fit, const SporeProgressPart *progress, double from, 
 /* Rounds from the best so far, until the loss settles. */
 static bool settle(SporeFit *fit, int rounds, const SporeProgressPart *progress, double from, double to,
                    SporeError *error) {
+  if (!spore_progress_part(progress, from, _("Fitting spheres"), error)) return false;
   spore_balls_copy(&fit->balls, &fit->best);
   evaluate(fit);
   fit->damping = DAMPING_INITIAL;
