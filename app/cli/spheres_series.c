@@ -107,11 +107,16 @@ static char *draw(const char *file, const size_t *counts, const SporeSpheresRepo
   }
   g_autofree char *name = g_path_get_basename(file), *title = g_strdup_printf(_("Spheres of %s"), name);
   g_autofree char *mark = enough < count ? g_strdup_printf(_("enough: %zu"), counts[enough]) : NULL;
-  g_autofree char *note = g_strdup_printf(
-      _("Enough: from there on, twice as many spheres lower the depth error by less than %.2g %% of the largest "
-        "depth.\n"
-        "Depth error: of the largest depth; not covered, outside: of the volume; distance: of the diagonal."),
+  g_autofree char *found = g_strdup_printf(
+      enough < count
+          ? _("Enough: from there on, twice as many spheres lower the depth error by less than %.2g %% of the largest "
+              "depth.")
+          : _("Not enough yet: twice as many spheres still lower the depth error by %.2g %% of the largest depth or "
+              "more."),
       100 * worth);
+  g_autofree char *note = g_strconcat(
+      found, "\n",
+      _("Depth error: of the largest depth; not covered, outside: of the volume; distance: of the diagonal."), NULL);
   const SporePlotPanel panels[] = {
       {_("number of spheres"), _("error (%)"), true, true, lines[0], LINES, mark, enough < count ? number[enough] : 0},
       {_("time to generate (s)"), _("error (%)"), true, true, lines[1], LINES, mark,
