@@ -169,15 +169,17 @@ static gboolean parse_place(const char *text, double place[3]) {
   return TRUE;
 }
 
-/* --ends takes two words, the second of which may begin with a minus: they are joined into one. */
-static void join_ends(int *argc, char **argv) {
+/* --ends takes two words, the second of which may begin with a minus: they are joined into one, which argv then holds.
+ * g_free. NULL: --ends is not there. */
+static char *join_ends(int *argc, char **argv) {
   for (int i = 1; i + 2 < *argc; i++) {
     if (!g_str_equal(argv[i], "--ends") || !strchr(argv[i + 2], ',')) continue;
-    argv[i + 1] = g_strdup_printf("%s %s", argv[i + 1], argv[i + 2]);
+    char *joined = argv[i + 1] = g_strdup_printf("%s %s", argv[i + 1], argv[i + 2]);
     memmove(argv + i + 2, argv + i + 3, (size_t)(*argc - i - 2) * sizeof *argv);
     (*argc)--;
-    return;
+    return joined;
   }
+  return NULL;
 }
 
 static gboolean parse_ends(const char *text, SporeCentrelineOptions *options) {
@@ -224,14 +226,12 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
        "F.spore"},
       {"as", 'a', 0, G_OPTION_ARG_STRING, &output.as,
        N_("What the body is: a solid thread, a tube with a wall that carries the mesh where that lies about the line, "
-          "or an intestine on its "
-          "mesentery "
-          "(default tube)"),
+          "or an intestine on its mesentery (default tube)"),
        "thread, tube or intestine"},
       {"control-points", 0, 0, G_OPTION_ARG_INT64, &output.control_points,
        N_("Control points of the body (default: one each two radii)"), "N"},
       G_OPTION_ENTRY_NULL};
-  join_ends(&argc, argv);
+  g_autofree char *joined = join_ends(&argc, argv);
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) {
     SporeCentrelineOptions options = {.points = (size_t)MAX(points, 0), .tolerance = tolerance};
