@@ -58,6 +58,22 @@ static void draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double
   g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
   pango_layout_get_pixel_size(layout, &width, NULL);
   gtk_render_layout(gtk_widget_get_style_context(widget), cr, x - align * width, y, layout);
+  cairo_new_path(cr); /* the text leaves a point there, that a line would begin at */
+}
+
+static double text_width(GtkWidget *widget, const char *text) {
+  int width;
+  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
+  pango_layout_get_pixel_size(layout, &width, NULL);
+  return width;
+}
+
+/* In as many lines as the widget's width asks for. */
+static void draw_invitation(GtkWidget *widget, cairo_t *cr, const char *text) {
+  g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
+  pango_layout_set_width(layout, (gtk_widget_get_allocated_width(widget) - 2 * RIGHT) * PANGO_SCALE);
+  pango_layout_set_wrap(layout, PANGO_WRAP_WORD);
+  gtk_render_layout(gtk_widget_get_style_context(widget), cr, RIGHT, TOP, layout);
 }
 
 static void draw_axes(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
@@ -65,9 +81,13 @@ static void draw_axes(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
   cairo_rectangle(cr, f->left + 0.5, f->top + 0.5, f->width, f->height);
   cairo_set_line_width(cr, 1);
   cairo_stroke(cr);
-  for (gsize i = 0; i < self->count; i += 2) {
+  double free_from = 0; /* numbers that would touch the one before are left out */
+  for (gsize i = 0; i < self->count; i++) {
     g_autofree char *number = g_strdup_printf("%zu", self->counts[i]);
-    draw_text(widget, cr, x_of(f, self->counts[i]), f->top + f->height + 2, 0.5, number);
+    double x = x_of(f, self->counts[i]), half = 0.5 * text_width(widget, number);
+    if (x - half < free_from) continue;
+    draw_text(widget, cr, x, f->top + f->height + 2, 0.5, number);
+    free_from = x + half + 6;
   }
   g_autofree char *high = g_strdup_printf("%.2g %%", exp(f->high_y)), *low = g_strdup_printf("%.2g %%", exp(f->low_y));
   draw_text(widget, cr, f->left - 4, f->top - 4, 1, high);
@@ -104,7 +124,7 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   gtk_style_context_get_color(style, gtk_style_context_get_state(style), &text);
   if (!gtk_style_context_lookup_color(style, "theme_selected_bg_color", &accent)) accent = text;
   if (!self->count) {
-    draw_text(widget, cr, LEFT, TOP, 0, _("Measure what other numbers give"));
+    draw_invitation(widget, cr, _("Measure what other numbers give"));
     return FALSE;
   }
   Frame f = frame_of(self);
@@ -113,8 +133,9 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   if (self->current) draw_line_at(cr, &f, self->current, FALSE);
   if (self->enough) {
     draw_line_at(cr, &f, self->enough, TRUE);
-    gboolean right = x_of(&f, self->enough) > f.left + 0.6 * f.width;
-    draw_text(widget, cr, x_of(&f, self->enough) + (right ? -5 : 5), f.top + 3, right, _("more stop paying"));
+    double x = x_of(&f, self->enough) - 5; /* the error falls: there is room below, before the mark, or nowhere */
+    if (text_width(widget, _("more stop paying")) < x - f.left - 5)
+      draw_text(widget, cr, x, f.top + f.height - 20, 1, _("more stop paying"));
   }
   gdk_cairo_set_source_rgba(cr, &accent);
   draw_points(self, cr, &f);
@@ -164,6 +185,8 @@ static void describe(SporeCountPlot *self) {
     g_string_append_printf(text, _("more than %zu stop paying"), self->enough);
   }
   atk_object_set_name(gtk_widget_get_accessible(GTK_WIDGET(self)), text->str);
+  g_string_append_printf(text, "\n%s", _("Click to take a number; Left, Right and Enter do it with the keyboard"));
+  gtk_widget_set_tooltip_text(GTK_WIDGET(self), text->str);
   g_string_free(text, TRUE);
 }
 
@@ -199,7 +222,5 @@ static void spore_count_plot_init(SporeCountPlot *self) {
   gtk_widget_set_size_request(GTK_WIDGET(self), 130, 110);
   gtk_widget_set_can_focus(GTK_WIDGET(self), TRUE);
   gtk_widget_add_events(GTK_WIDGET(self), GDK_BUTTON_PRESS_MASK | GDK_KEY_PRESS_MASK);
-  gtk_widget_set_tooltip_text(GTK_WIDGET(self),
-                              _("Click to take a number; Left, Right and Enter do it with the keyboard"));
   describe(self);
 }
