@@ -5,7 +5,7 @@
 #include "core/generate/spheres_parts.h"
 
 #define SHRINK_ROUNDS 24
-#define REPORT_EVERY 8      /* candidates */
+#define REPORT_EVERY 8       /* candidates */
 #define COVER_TOLERANCE 0.12 /* of the typical radius: how far outside a ball a sample counts as held */
 
 /* Largest ball that touches the surface at p from inside (Ma, Bae and Choi 2012: shrink it until its nearest surface

@@ -18,8 +18,8 @@
 #define SMOOTHING_FIRST 0.3 /* at first */
 #define SMOOTHING_FALL 0.93 /* a round */
 #define LEAST_WEIGHT 0.01
-#define LEAST_RADIUS 0.05  /* of the typical radius */
-#define LONGEST_STEP 0.3   /* of the typical radius, of a centre or radius in a round */
+#define LEAST_RADIUS 0.05 /* of the typical radius */
+#define LONGEST_STEP 0.3  /* of the typical radius, of a centre or radius in a round */
 #define OUTSIDE_SHARE 0.5 /* of what the samples weigh there in a balanced fit: the sum cannot meet both as well */
 #define START_WEIGHT 0.6
 #define START_GROWTH 0.15 /* of the typical radius */

@@ -52,8 +52,8 @@ bool spore_curve_allocate(SporeCurve *curve, size_t count, SporeError *error);
 void spore_curve_clear(SporeCurve *curve);
 
 /* Finite coordinates (|x| <= 1e9 m), indices in range, at least one element; for tetrahedra positive volume above
- * 1e-12 of the cubed longest edge; for spheres r > 0, and weights above 0 and at most 1000; for curves r > 0, two points or more and no two neighbours in the
- * same place. The message names the first offending element (0-based). */
+ * 1e-12 of the cubed longest edge; for spheres r > 0, and weights above 0 and at most 1000; for curves r > 0, two
+ * points or more and no two neighbours in the same place. The message names the first offending element (0-based). */
 bool spore_triangle_mesh_validate(const SporeTriangleMesh *mesh, SporeError *error);
 bool spore_tetrahedral_mesh_validate(const SporeTetrahedralMesh *mesh, SporeError *error);
 bool spore_sphere_set_validate(const SporeSphereSet *set, SporeError *error);

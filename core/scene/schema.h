@@ -40,7 +40,8 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *
  * Names are unique within a section (assets, bodies, links, tools, devices), so that "bodies/liver" says one object.
  * position and rotation place a body's frame: metres, and a rotation vector (axis times angle, rad).
- * A property of `collision` that is not set takes its value from `defaults > contact`, one of a model from the material.
+ * A property of `collision` that is not set takes its value from `defaults > contact`, one of a model from the
+ * material.
  */
 typedef struct SporeObjectType SporeObjectType;
 struct SporeObjectType {

@@ -108,7 +108,7 @@ struct SporeModelType {
   SporeParameterTable parameters;
   SporeGeometryKind geometry;
   const SporePreset *presets; /* ended by one without a name; NULL: none */
-  bool regions;   /* takes regions of other stiffness and density */
+  bool regions;               /* takes regions of other stiffness and density */
   bool particles; /* its points keep no neighbours: shown by the skin around them, not by a surface that follows them */
 
   /* Required. */
