@@ -162,7 +162,7 @@ static bool snap_all(SporeBcc *lattice, const SporeTetrahedraWork *work, size_t 
 bool spore_bcc_create(SporeBcc *lattice, const SporeTetrahedraWork *work, double edge, SporeError *error) {
   double lower[3], upper[3], extent[3];
   *lattice = (SporeBcc){.edge = edge};
-  spore_mesh_bounds(work->surface.vertices, work->surface.vertex_count, lower, upper);
+  spore_mesh_bounds(work->surface.vertices, work->surface.vertex_count, 3, lower, upper);
   for (int k = 0; k < 3; k++) {
     lattice->lower[k] = lower[k] - 1.25 * edge; /* no node lies in a plane that the bounds touch */
     extent[k] = ceil((upper[k] - lower[k]) / edge) + 4;

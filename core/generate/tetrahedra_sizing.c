@@ -61,7 +61,7 @@ bool spore_sizing_plan_create(SporeSizingPlan *plan, const SporeTetrahedraWork *
                               SporeError *error) {
   double lower[3], upper[3], longest = 0;
   *plan = (SporeSizingPlan){0};
-  spore_mesh_bounds(surface->vertices, surface->vertex_count, lower, upper);
+  spore_mesh_bounds(surface->vertices, surface->vertex_count, 3, lower, upper);
   for (int k = 0; k < 3; k++) longest = fmax(longest, upper[k] - lower[k]);
   plan->grid.spacing = longest / (SPORE_SIZING_NODES - 1 - 2 * MARGIN);
   for (int k = 0; k < 3; k++) {

@@ -37,12 +37,17 @@ bool spore_mesh_check_indices(const uint32_t *indices, size_t count, size_t corn
   return true;
 }
 
-double spore_mesh_bounds(const double *points, size_t count, double lower[3], double upper[3]) {
+double spore_mesh_bounds(const double *points, size_t count, size_t stride, double lower[3], double upper[3]) {
   for (int k = 0; k < 3; k++) lower[k] = upper[k] = points[k];
   for (size_t i = 1; i < count; i++)
-    for (int k = 0; k < 3; k++) {
-      lower[k] = fmin(lower[k], points[3 * i + k]);
-      upper[k] = fmax(upper[k], points[3 * i + k]);
+    for (size_t k = 0; k < 3; k++) {
+      lower[k] = fmin(lower[k], points[stride * i + k]);
+      upper[k] = fmax(upper[k], points[stride * i + k]);
     }
   return spore_vec3_distance(spore_vec3_load(lower), spore_vec3_load(upper));
+}
+
+double spore_mesh_diagonal(const double *points, size_t count, size_t stride) {
+  double lower[3], upper[3];
+  return spore_mesh_bounds(points, count, stride, lower, upper);
 }

@@ -18,8 +18,10 @@ bool spore_mesh_check_points(const double *points, size_t count, size_t stride, 
 bool spore_mesh_check_indices(const uint32_t *indices, size_t count, size_t corners, size_t vertex_count,
                               const char *noun, SporeError *error);
 
-/* Axis-aligned bounds of points; returns the length of the diagonal. count > 0. */
-double spore_mesh_bounds(const double *points, size_t count, double lower[3], double upper[3]);
+/* Axis-aligned bounds of points, `stride` doubles apart; returns the length of the diagonal. count > 0. */
+double spore_mesh_bounds(const double *points, size_t count, size_t stride, double lower[3], double upper[3]);
+/* That length alone. */
+double spore_mesh_diagonal(const double *points, size_t count, size_t stride);
 
 static inline SporeVec3 spore_mesh_vertex(const double *vertices, uint32_t index) {
   return spore_vec3_load(vertices + 3 * (size_t)index);

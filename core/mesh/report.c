@@ -47,7 +47,7 @@ bool spore_triangle_mesh_report(const SporeTriangleMesh *mesh, SporeMeshReport *
     spore_free(parent);
     return spore_mesh_no_memory(error);
   }
-  report->diagonal = spore_mesh_bounds(mesh->vertices, mesh->vertex_count, report->lower, report->upper);
+  report->diagonal = spore_mesh_bounds(mesh->vertices, mesh->vertex_count, 3, report->lower, report->upper);
   measure_triangles(mesh, report);
   for (size_t t = 0; t < mesh->triangle_count; t++) parent[t] = (uint32_t)t;
   count_edges(mesh, &halves, parent, report);

@@ -34,7 +34,7 @@ static void unhang(SporeShell *shell, uint32_t corner) {
 
 static void fill(SporeShell *shell, const SporeTriangleMesh *mesh) {
   double lower[3], upper[3];
-  shell->diagonal = spore_mesh_bounds(mesh->vertices, mesh->vertex_count, lower, upper);
+  shell->diagonal = spore_mesh_bounds(mesh->vertices, mesh->vertex_count, 3, lower, upper);
   for (int k = 0; k < 3; k++) shell->middle[k] = 0.5 * (lower[k] + upper[k]);
   for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
     shell->x[i] = (mesh->vertices[i] - shell->middle[i % 3]) / shell->diagonal;

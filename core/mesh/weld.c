@@ -53,7 +53,7 @@ static uint32_t weld_vertex(Weld *weld, uint32_t i) {
 }
 
 static bool find_targets(const SporeTriangleMesh *mesh, double relative, uint32_t *target) {
-  double lower[3], upper[3], diagonal = spore_mesh_bounds(mesh->vertices, mesh->vertex_count, lower, upper);
+  double lower[3], upper[3], diagonal = spore_mesh_bounds(mesh->vertices, mesh->vertex_count, 3, lower, upper);
   size_t slots = 16;
   while (slots < 2 * mesh->vertex_count) slots *= 2;
   Weld weld = {.vertices = mesh->vertices,

@@ -5,6 +5,7 @@
 
 #include "core/base/memory.h"
 #include "core/mesh/bvh.h"
+#include "core/mesh/common.h"
 #include "core/scene/schema_fields.h"
 
 #define ON 1e-6 /* of the size: rounding of what a file holds */
@@ -41,22 +42,12 @@ typedef struct Shape {
   double size;
 } Shape;
 
-static double box_diagonal(const double *points, gsize count, gsize stride) {
-  SporeVec3 lower = {INFINITY, INFINITY, INFINITY}, upper = {-INFINITY, -INFINITY, -INFINITY};
-  for (gsize i = 0; i < count; i++) {
-    SporeVec3 p = spore_vec3_load(points + stride * i);
-    lower = spore_vec3(fmin(lower.x, p.x), fmin(lower.y, p.y), fmin(lower.z, p.z));
-    upper = spore_vec3(fmax(upper.x, p.x), fmax(upper.y, p.y), fmax(upper.z, p.z));
-  }
-  return spore_vec3_distance(lower, upper);
-}
-
 static gboolean take_boundary(Shape *shape, const SporeTetrahedralMesh *cells, SporeError *fault) {
   SporeTriangleMesh boundary = {cells->vertex_count, 0, cells->vertices, NULL};
   if (spore_tetrahedral_mesh_boundary(cells, &boundary.triangles, &boundary.triangle_count))
     shape->surface = spore_bvh_create(&boundary, fault);
   spore_free(boundary.triangles);
-  shape->size = box_diagonal(cells->vertices, cells->vertex_count, 3);
+  shape->size = spore_mesh_diagonal(cells->vertices, cells->vertex_count, 3);
   return shape->surface != NULL;
 }
 
@@ -72,12 +63,12 @@ static gboolean take_shape(SporeDocument *document, const SporeObject *body, Spo
   }
   if (kind == SPORE_GEOMETRY_CURVE) {
     shape->curve = spore_document_curve(document, asset, NULL);
-    if (shape->curve) shape->size = box_diagonal(shape->curve->points, shape->curve->count, 4);
+    if (shape->curve) shape->size = spore_mesh_diagonal(shape->curve->points, shape->curve->count, 4);
     return shape->curve != NULL;
   }
   const SporeTriangleMesh *mesh = spore_document_mesh(document, asset, NULL);
   if (mesh) shape->surface = spore_bvh_create(mesh, &fault);
-  if (mesh) shape->size = box_diagonal(mesh->vertices, mesh->vertex_count, 3);
+  if (mesh) shape->size = spore_mesh_diagonal(mesh->vertices, mesh->vertex_count, 3);
   return shape->surface != NULL;
 }
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/mesh/common.h"
 #include "core/scene/check_private.h"
 #include "core/scene/generated.h"
 
@@ -15,17 +16,6 @@ static void check_size(SporeCheck *check, SporeObject *asset, double diagonal_m,
   g_autofree char *length = spore_length_text(diagonal_m);
   g_autofree char *remedy = g_strdup_printf(_("if it is an organ or a tool, its unit is wrong: %s"), doubt);
   spore_check_say(check, SPORE_WARNING, asset, remedy, _("\"%s\" is %s across"), spore_object_name(asset), length);
-}
-
-static double diagonal(const double *points, size_t count, size_t stride) {
-  double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY}, square = 0;
-  for (size_t i = 0; i < count; i++)
-    for (int k = 0; k < 3; k++) {
-      lower[k] = fmin(lower[k], points[stride * i + (size_t)k]);
-      upper[k] = fmax(upper[k], points[stride * i + (size_t)k]);
-    }
-  for (int k = 0; k < 3; k++) square += (upper[k] - lower[k]) * (upper[k] - lower[k]);
-  return count ? sqrt(square) : 0;
 }
 
 static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error) {
@@ -52,7 +42,7 @@ static gboolean check_tetrahedra(SporeCheck *check, SporeObject *asset, GError *
   if (!mesh) return FALSE;
   SporeTetrahedraQuality quality;
   spore_tetrahedral_mesh_quality(mesh, &quality);
-  check_size(check, asset, diagonal(mesh->vertices, mesh->vertex_count, 3), METRES);
+  check_size(check, asset, spore_mesh_diagonal(mesh->vertices, mesh->vertex_count, 3), METRES);
   if (quality.min_dihedral_deg < SLIVER_DEG)
     spore_check_say(check, SPORE_WARNING, asset, _("generate them again with another number of cells"),
                     _("\"%s\" has slivers: the flattest tetrahedron has an angle of %.2g degrees; expected over %g"),
@@ -62,13 +52,13 @@ static gboolean check_tetrahedra(SporeCheck *check, SporeObject *asset, GError *
 
 static gboolean check_spheres(SporeCheck *check, SporeObject *asset, GError **error) {
   const SporeSphereSet *set = spore_document_spheres(check->document, asset, error);
-  if (set && set->count > 1) check_size(check, asset, diagonal(set->spheres, set->count, 4), METRES);
+  if (set && set->count > 1) check_size(check, asset, spore_mesh_diagonal(set->spheres, set->count, 4), METRES);
   return set != NULL;
 }
 
 static gboolean check_curve(SporeCheck *check, SporeObject *asset, GError **error) {
   const SporeCurve *curve = spore_document_curve(check->document, asset, error);
-  if (curve) check_size(check, asset, diagonal(curve->points, curve->count, 4), METRES);
+  if (curve) check_size(check, asset, spore_mesh_diagonal(curve->points, curve->count, 4), METRES);
   return curve != NULL;
 }
 

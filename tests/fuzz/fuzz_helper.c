@@ -1,11 +1,10 @@
 /* What an import helper says, believed in nothing: the child here says whatever the input holds. */
 #include <glib.h>
-#include <glib/gstdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/io/helper.h"
 #include "core/io/mesh_import.h"
+#include "answers.h"
 #include "fuzz.h"
 
 const unsigned fuzz_rounds = 150;
@@ -15,22 +14,9 @@ static const char stl[] =
     "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
     "endsolid x\n";
 
-/* A folder of helpers, each of which is fake_helper.c. */
-static const char *prepare(void) {
-  static char *answer;
-  if (answer) return answer;
-  g_autofree char *folder = g_dir_make_tmp("spore-fuzz-XXXXXX", NULL),
-                  *link = g_build_filename(folder, "spore-import", NULL);
-  g_assert_cmpint(symlink(FAKE_HELPER, link), ==, 0);
-  g_setenv("SPORE_HELPERS", folder, TRUE);
-  answer = g_build_filename(folder, "answer", NULL);
-  g_setenv("SPORE_FUZZ_ANSWER", answer, TRUE);
-  return answer;
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *content, size_t size) {
   GError *error = NULL;
-  g_file_set_contents(prepare(), (const char *)content, (gssize)size, &error);
+  g_file_set_contents(fuzz_answer_file("spore-import"), (const char *)content, (gssize)size, &error);
   g_assert_no_error(error);
   SporeHelperLimits limits = {.time_s = 10, .memory = 1 << 30, .output = 1 << 20};
   g_autoptr(GBytes) request = g_bytes_new_static("x", 1);

@@ -1,28 +1,14 @@
 /* What the tetrahedra helper says, believed in nothing: it answers with a frame around whatever the input holds. */
 #include <glib.h>
-#include <glib/gstdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/generate/tetrahedra_parts.h"
 #include "core/io/helper_wire.h"
+#include "answers.h"
 #include "fuzz.h"
 
 const unsigned fuzz_rounds = 150;
 const char *const fuzz_words[] = {"\xff\xff\xff\xff\xff\xff\xff\xff", "\x03", "\x04", "\x01", "\x7f\xf0", "nan", NULL};
-
-/* A folder with a helper that is fake_helper.c; the file that it answers with. */
-static const char *prepare(void) {
-  static char *answer;
-  if (answer) return answer;
-  g_autofree char *folder = g_dir_make_tmp("spore-fuzz-XXXXXX", NULL),
-                  *link = g_build_filename(folder, "spore-tetrahedra", NULL);
-  g_assert_cmpint(symlink(FAKE_HELPER, link), ==, 0);
-  g_setenv("SPORE_HELPERS", folder, TRUE);
-  answer = g_build_filename(folder, "answer", NULL);
-  g_setenv("SPORE_FUZZ_ANSWER", answer, TRUE);
-  return answer;
-}
 
 int LLVMFuzzerTestOneInput(const uint8_t *content, size_t size) {
   GError *error = NULL;
@@ -30,7 +16,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *content, size_t size) {
   g_autoptr(GByteArray) bytes = g_byte_array_new();
   g_byte_array_append(bytes, (const guint8 *)&frame, sizeof frame);
   g_byte_array_append(bytes, content, (guint)size);
-  g_file_set_contents(prepare(), (const char *)bytes->data, bytes->len, &error);
+  g_file_set_contents(fuzz_answer_file("spore-tetrahedra"), (const char *)bytes->data, bytes->len, &error);
   g_assert_no_error(error);
   double vertices[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, length = 1;
   uint32_t triangles[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};

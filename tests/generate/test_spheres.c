@@ -5,22 +5,13 @@
 #include "core/base/memory.h"
 #include "core/generate/spheres_series.h"
 #include "core/generate/spheres_quality.h"
+#include "sets.h"
 #include "tests/mesh/shapes.h"
 
 #define CLOSE(a, b, tolerance) g_assert_cmpfloat_with_epsilon(a, b, tolerance)
 
 static SporeSphereSet make(const SporeTriangleMesh *mesh, size_t count, uint64_t seed, SporeSpheresReport *report) {
-  SporeSpheresOptions options = {.count = count, .seed = seed};
-  SporeError error = SPORE_ERROR_INIT;
-  SporeSphereSet set;
-  bool done = spore_spheres_from_mesh(mesh, &options, &set, report, NULL, &error);
-  g_assert_cmpstr(error.message, ==, "");
-  g_assert_true(done);
-  g_assert_cmpuint(set.count, ==, count);
-  g_assert_true(spore_sphere_set_validate(&set, NULL));
-  g_test_message("%zu spheres: coverage %.4f outside %.4f distance %.4f %% depth %.4f, %.2f s", count, report->coverage,
-                 report->outside, 100 * report->distance_mean, report->depth_error, report->seconds);
-  return set;
+  return make_set(mesh, (SporeSpheresOptions){.count = count, .seed = seed}, report);
 }
 
 static void test_ball(void) {

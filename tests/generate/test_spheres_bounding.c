@@ -3,19 +3,11 @@
 #include <math.h>
 
 #include "core/generate/spheres_bounding.h"
+#include "sets.h"
 #include "tests/mesh/shapes.h"
 
 static SporeSphereSet make(const SporeTriangleMesh *mesh, size_t count, SporeSpheresReport *report) {
-  SporeSpheresOptions options = {.mode = SPORE_SPHERES_BOUNDING, .count = count, .seed = 1};
-  SporeError error = SPORE_ERROR_INIT;
-  SporeSphereSet set;
-  bool done = spore_spheres_from_mesh(mesh, &options, &set, report, NULL, &error);
-  g_assert_cmpstr(error.message, ==, "");
-  g_assert_true(done);
-  g_assert_cmpuint(set.count, ==, count);
-  g_test_message("%zu spheres: coverage %.4f outside %.4f, certified %d, %.2f s", count, report->coverage,
-                 report->outside, report->certified, report->seconds);
-  return set;
+  return make_set(mesh, (SporeSpheresOptions){.mode = SPORE_SPHERES_BOUNDING, .count = count, .seed = 1}, report);
 }
 
 /* The smallest ball around a polyhedron that is a ball but for its facets. */

@@ -3,20 +3,12 @@
 #include <math.h>
 
 #include "core/generate/spheres.h"
+#include "sets.h"
 #include "tests/mesh/shapes.h"
 
 static SporeSphereSet make(const SporeTriangleMesh *mesh, SporeSpheresMode mode, size_t count,
                            SporeSpheresReport *report) {
-  SporeSpheresOptions options = {.mode = mode, .count = count, .seed = 1};
-  SporeError error = SPORE_ERROR_INIT;
-  SporeSphereSet set;
-  bool done = spore_spheres_from_mesh(mesh, &options, &set, report, NULL, &error);
-  g_assert_cmpstr(error.message, ==, "");
-  g_assert_true(done);
-  g_assert_true(spore_sphere_set_validate(&set, NULL));
-  g_test_message("%zu spheres: depth error %.4f, weighted %.4f, felt outside %.4f, %.2f s", count, report->depth_error,
-                 report->weighted_depth_error, report->felt_outside, report->seconds);
-  return set;
+  return make_set(mesh, (SporeSpheresOptions){.mode = mode, .count = count, .seed = 1}, report);
 }
 
 /* The depth in a ball is that of one sphere of weight 1. */
