@@ -1,6 +1,7 @@
 #include <glib/gi18n.h>
 
 #include "ui/document/edits.h"
+#include "ui/document/region-edits.h"
 #include "ui/spore-window-private.h"
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
@@ -86,6 +87,21 @@ static void act_use_preset(GSimpleAction *action, GVariant *parameter, gpointer 
   SporeObject *body = spore_window_body_to_work_on(self);
   g_autoptr(GError) error = NULL;
   if (body && !spore_edit_use_preset(document_of(self), body, g_variant_get_string(parameter, NULL), &error))
+    spore_window_failed(self, error);
+}
+
+static void act_add_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = spore_window_body_to_work_on(self);
+  g_autoptr(GError) error = NULL;
+  if (body && !spore_edit_add_region(document_of(self), body, g_variant_get_string(parameter, NULL), &error))
+    spore_window_failed(self, error);
+}
+
+static void act_remove_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  if (!spore_edit_remove_region(document_of(self), g_variant_get_string(parameter, NULL), &error))
     spore_window_failed(self, error);
 }
 
@@ -204,6 +220,10 @@ static void act_report(GSimpleAction *action, GVariant *parameter, gpointer data
   spore_window_complain(data, g_variant_get_string(parameter, NULL));
 }
 
+static void marks_changed(SporeWindow *self) {
+  spore_viewport_set_marks(SPORE_VIEWPORT(self->viewport), spore_inspector_get_marks(SPORE_INSPECTOR(self->inspector)));
+}
+
 void spore_window_add_scene_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
       {"undo", act_undo},
@@ -216,6 +236,8 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"unset-property", act_unset_property, "(ss)"},
       {"set-model", act_set_model, "s"},
       {"use-preset", act_use_preset, "s"},
+      {"add-region", act_add_region, "s"},
+      {"remove-region", act_remove_region, "s"},
       {"add-probe", act_add_probe},
       {"add-pin", act_add_pin},
       {"play", act_play},
@@ -238,4 +260,5 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"report", act_report, "s"},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+  g_signal_connect_object(self->inspector, "marks-changed", G_CALLBACK(marks_changed), self, G_CONNECT_SWAPPED);
 }

@@ -10,7 +10,7 @@
  *               set-property [s path, s name, s value], unset-property [s path, s name], set-model [s element],
  * use-preset [s name], generate-spheres [u count], generate-tetrahedra [u cells] (at once),
  *               preview-spheres [u count], preview-tetrahedra [u cells] (0: as before), apply-generated, add-probe,
- * add-pin, cancel-job mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the
+ * add-region [s path of what holds it], remove-region [s path], add-pin, cancel-job mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the
  * selected mesh or body simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes;
  * state] view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  * show-contacts (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector, show-problems

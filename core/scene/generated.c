@@ -24,11 +24,20 @@ static guint64 hash_option(guint64 hash, const SporeParameter *parameter, const 
   return hash_text(hash_text(hash, parameter->name), text);
 }
 
-char *spore_generated_options_hash(const SporeObject *asset) {
-  const SporeParameterTable *table = spore_object_type(asset)->table;
-  guint64 hash = SPORE_HASH_INIT;
+static guint64 hash_options(guint64 hash, const SporeObject *object) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
   for (guint i = 0; i < table->count; i++)
-    if (is_option(&table->parameters[i])) hash = hash_option(hash, &table->parameters[i], spore_object_value(asset, i));
+    if (is_option(&table->parameters[i]))
+      hash = hash_option(hash, &table->parameters[i], spore_object_value(object, i));
+  for (guint i = 0; i < spore_object_child_count(object); i++) {
+    const SporeObject *region = spore_object_child(object, i);
+    hash = hash_options(hash_text(hash, spore_object_type(region)->element), region);
+  }
+  return hash;
+}
+
+char *spore_generated_options_hash(const SporeObject *asset) {
+  guint64 hash = hash_options(SPORE_HASH_INIT, asset);
   return g_strdup_printf("%016" G_GINT64_MODIFIER "x", hash);
 }
 

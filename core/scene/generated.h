@@ -14,7 +14,8 @@ typedef enum SporeGenerated {
 
 /* Data that remember no hash of their options are held to be made with those they have. */
 SporeGenerated spore_generated_state(SporeDocument *document, SporeObject *asset);
-/* Of all parameters that are no default and say how to generate: 16 hex digits, what options_hash holds. g_free. */
+/* Of all parameters, the asset's and those of its regions, that are no default and say how to generate: 16 hex digits,
+ * what options_hash holds. g_free. */
 char *spore_generated_options_hash(const SporeObject *asset);
 /* remark: "frozen" or "edited". FALSE too for elements that have none. */
 gboolean spore_generated_is(const SporeObject *asset, const char *remark);

@@ -23,8 +23,10 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *     solver(spore_solver_parameters)
  *     defaults > contact(spore_contact_parameters)   what bodies' collision units start from
  *     assets > mesh(name file unit frame)
- *              spheres(name file source method count seed) and what generated data remember (generated.h)
- *              tetrahedra(name file source cells), the same
+ *              spheres(name file source method count tolerance seed) and what generated data remember (generated.h)
+ *                > sphere_region(name centre radius density)
+ *              tetrahedra(name file source method cells size tolerance curvature fill gap), the same
+ *                > cell_region(name centre radius size)
  *     bodies > body(name role position rotation velocity spin)
  *                mechanical(geometry integrator substeps material) > one model element (its own table)
  *                regions > region(name centre radius stiffness_scale density_scale material)

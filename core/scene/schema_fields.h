@@ -31,15 +31,29 @@ typedef struct SporeMeshFields {
 typedef struct SporeSpheresFields {
   const char *name, *file, *source, *source_hash, *options_hash;
   bool frozen, edited;
-  int method; /* index in the table's choices */
+  int method;       /* index in the table's choices */
+  double tolerance; /* 0: by count */
   int64_t count, seed;
 } SporeSpheresFields;
+
+typedef struct SporeSphereRegionFields {
+  const char *name;
+  double centre[3], radius, density;
+} SporeSphereRegionFields;
 
 typedef struct SporeTetrahedraFields {
   const char *name, *file, *source, *source_hash, *options_hash;
   bool frozen, edited;
+  int method; /* index in the table's choices: 0 the first that does it, else SporeTetrahedraMethod + 1 */
   int64_t cells;
+  double size, tolerance, curvature, gap; /* size 0: by cells */
+  bool fill;
 } SporeTetrahedraFields;
+
+typedef struct SporeCellRegionFields {
+  const char *name;
+  double centre[3], radius, size;
+} SporeCellRegionFields;
 
 typedef struct SporeCurveFields {
   const char *name, *file, *source, *source_hash, *options_hash;

@@ -13,6 +13,7 @@
 
 static const char *const frames[] = {"Y_UP", "RAS", "LPS", NULL};
 static const char *const sphere_methods[] = {"balanced", "tetrahedra", "bounding", "weighted", NULL};
+static const char *const tetrahedra_methods[] = {"automatic", "direct", "repaired", "wrapped", "voxels", NULL};
 static const char *const roles[] = {"unmovable", "active", "passive", NULL};
 static const char *const fidelities[] = {"physical", "effect", NULL};
 
@@ -168,7 +169,17 @@ static const SporeParameter spheres_parameters[] = {
      .initial = {100},
      FIELD(SporeSpheresFields, count),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Number of spheres to generate.")},
+     .doc = N_("Number of spheres to generate; counts where the tolerance is 0.")},
+    {.name = "tolerance",
+     .type = SPORE_REAL,
+     .unit = "",
+     0,
+     0.5,
+     .initial = {0},
+     FIELD(SporeSpheresFields, tolerance),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Mean distance between mesh and spheres that is let pass, as a share of the diagonal: as few spheres as "
+               "keep to it are generated; 0: by their number.")},
     {.name = "seed",
      .type = SPORE_INTEGER,
      .unit = "",
@@ -179,6 +190,35 @@ static const SporeParameter spheres_parameters[] = {
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Start of the random numbers of generation; the same seed gives the same spheres.")},
     GENERATED(SporeSpheresFields),
+};
+
+/* A ball that a generator does something of its own in. */
+#define BALL(Type)                                                                                                     \
+  NAME(Type, N_("Name of the region.")),                                                                               \
+      {.name = "centre",                                                                                               \
+       .type = SPORE_VECTOR,                                                                                           \
+       .unit = "m",                                                                                                    \
+       -POSITION_M,                                                                                                    \
+       POSITION_M,                                                                                                     \
+       FIELD(Type, centre),                                                                                            \
+       .change = SPORE_CHANGE_LIVE,                                                                                    \
+       .doc = N_("Middle of the region, in the axes of the mesh.")},                                                   \
+  {                                                                                                                    \
+    .name = "radius", .type = SPORE_REAL, .unit = "m", 1e-6, POSITION_M, .initial = {0.01}, FIELD(Type, radius),       \
+    .change = SPORE_CHANGE_LIVE, .doc = N_("Radius of the region.")                                                    \
+  }
+
+static const SporeParameter sphere_region_parameters[] = {
+    BALL(SporeSphereRegionFields),
+    {.name = "density",
+     .type = SPORE_REAL,
+     .unit = "",
+     1.0 / 16,
+     16,
+     .initial = {4},
+     FIELD(SporeSphereRegionFields, density),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("How many times as many spheres lie in a volume there; where regions overlap, the largest holds.")},
 };
 
 static const SporeParameter tetrahedra_parameters[] = {
@@ -197,6 +237,16 @@ static const SporeParameter tetrahedra_parameters[] = {
      FIELD(SporeTetrahedraFields, source),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Mesh that the tetrahedra were generated from; none: made elsewhere.")},
+    {.name = "method",
+     .type = SPORE_CHOICE,
+     .unit = "",
+     ANY,
+     .initial = {0},
+     .choices = tetrahedra_methods,
+     FIELD(SporeTetrahedraFields, method),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("How the mesh is made ready: as it is, repaired, wrapped, or cut out of a lattice; automatic: the first "
+               "of these that does it.")},
     {.name = "cells",
      .type = SPORE_INTEGER,
      .unit = "",
@@ -205,8 +255,65 @@ static const SporeParameter tetrahedra_parameters[] = {
      .initial = {1000},
      FIELD(SporeTetrahedraFields, cells),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Number of tetrahedra to generate, about.")},
+     .doc = N_("Number of tetrahedra to generate, about; counts where the size is 0.")},
+    {.name = "size",
+     .type = SPORE_REAL,
+     .unit = "m",
+     0,
+     POSITION_M,
+     .initial = {0},
+     FIELD(SporeTetrahedraFields, size),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Length of their edges; 0: by their number.")},
+    {.name = "tolerance",
+     .type = SPORE_REAL,
+     .unit = "",
+     1e-5,
+     1,
+     .initial = {0.01},
+     FIELD(SporeTetrahedraFields, tolerance),
+     .change = SPORE_CHANGE_LIVE,
+     .doc =
+         N_("Distance to the mesh that is let pass, as a share of the diagonal: tetrahedra by number get finer where "
+            "it is larger.")},
+    {.name = "curvature",
+     .type = SPORE_REAL,
+     .unit = "deg",
+     0,
+     90,
+     .initial = {0},
+     FIELD(SporeTetrahedraFields, curvature),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("By how much the mesh may turn along an edge, 5 to 90: they get finer where it bends; 0: no matter.")},
+    {.name = "fill",
+     .type = SPORE_BOOLEAN,
+     .unit = "",
+     FIELD(SporeTetrahedraFields, fill),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Whether cavities inside are filled.")},
+    {.name = "gap",
+     .type = SPORE_REAL,
+     .unit = "m",
+     0,
+     POSITION_M,
+     .initial = {0},
+     FIELD(SporeTetrahedraFields, gap),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Openings narrower than this are closed by wrapping; 0: those narrower than half an edge.")},
     GENERATED(SporeTetrahedraFields),
+};
+
+static const SporeParameter cell_region_parameters[] = {
+    BALL(SporeCellRegionFields),
+    {.name = "size",
+     .type = SPORE_REAL,
+     .unit = "m",
+     1e-6,
+     POSITION_M,
+     .initial = {0.002},
+     FIELD(SporeCellRegionFields, size),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Length of the edges in the region, where that is less than around it.")},
 };
 
 static const SporeParameter curve_parameters[] = {
@@ -778,9 +885,13 @@ const SporeElement spore_scene_elements[] = {
      .children = CHILDREN("mesh", "spheres", "tetrahedra", "curve")},
     {"mesh", N_("Mesh"), N_("A surface of triangles."), TABLE(mesh_parameters, SporeMeshFields)},
     {"spheres", N_("Spheres"), N_("A set of spheres that fills a shape, for collision."),
-     TABLE(spheres_parameters, SporeSpheresFields)},
+     TABLE(spheres_parameters, SporeSpheresFields), .children = CHILDREN("sphere_region")},
+    {"sphere_region", N_("Region"), N_("A ball in which the generated spheres lie denser, or less so."),
+     TABLE(sphere_region_parameters, SporeSphereRegionFields)},
     {"tetrahedra", N_("Tetrahedra"), N_("A volume cut into tetrahedra."),
-     TABLE(tetrahedra_parameters, SporeTetrahedraFields)},
+     TABLE(tetrahedra_parameters, SporeTetrahedraFields), .children = CHILDREN("cell_region")},
+    {"cell_region", N_("Region"), N_("A ball in which the generated tetrahedra are smaller."),
+     TABLE(cell_region_parameters, SporeCellRegionFields)},
     {"curve", N_("Curve"), N_("The middle line of a thread or a tube, with its radius along it."),
      TABLE(curve_parameters, SporeCurveFields)},
     {"bodies", N_("Bodies"), N_("Organs, instruments and surroundings."), .children = CHILDREN("body")},

@@ -23,6 +23,13 @@ static const char canonical[] =
     "    <!-- above -->\n"
     "\n"
     "    <spheres name=\"liver-spheres\" file=\"liver.spheres\" source=\"liver\" count=\"0110\"/>\n"
+    "    <spheres name=\"bag\" file=\"bag.spheres\" tolerance=\".010\">\n"
+    "      <sphere_region name=\"neck\" centre=\"0 0 1e-2\" radius=\"5e-3\"/> <!-- beside -->\n"
+    "      <sphere_region name=\"body\" density=\"0.50\"/>\n"
+    "    </spheres>\n"
+    "    <tetrahedra name=\"cells\" file=\"cells.mesh\" method=\"wrapped\" size=\"2e-3\" fill=\"true\">\n"
+    "      <cell_region name=\"neck\" size=\"1e-3\"/>\n"
+    "    </tetrahedra>\n"
     "  </assets>\n"
     "  <bodies>\n"
     "    <!-- first -->\n"
@@ -52,7 +59,7 @@ static void test_round_trip(void) {
   g_assert_cmpstr(spore_object_text(meta, "description"), ==, "a < b & c > d \"e\" &#38; f\ng \xC5\x91");
   SporeObject *body = spore_document_by_path(document, "bodies/liver");
   g_assert_cmpfloat(spore_object_value(body, 2)->number[2], ==, -0.002);
-  g_assert_cmpint(spore_object_line(body), ==, 21);
+  g_assert_cmpint(spore_object_line(body), ==, 28);
   g_assert_cmpint(spore_object_column(body), ==, 5);
   g_assert_cmpfloat(spore_object_number(spore_document_by_path(document, "assets/liver-spheres"), "count"), ==, 110);
   g_assert_cmpfloat(spore_object_number(spore_document_by_path(document, "bodies/liver/collision"), "stiffness"), ==,

@@ -12,7 +12,9 @@
 #include "ui/document/edits.h"
 #include "ui/document/hand-edit.h"
 #include "ui/document/labels.h"
+#include "ui/document/mapping-report.h"
 #include "ui/document/mesh-edits.h"
+#include "ui/document/region-edits.h"
 #include "ui/document/recovery.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
@@ -235,6 +237,96 @@ static void test_usual_model(Fixture *fixture, gconstpointer data) {
   g_assert_true(spore_edit_set_model(fixture->document, body, "corotational_tetrahedra", &error));
   g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, "my_organ", "0", 1, &mesh, &error));
   g_assert_cmpstr(spore_object_type(spore_edit_body_model(body))->element, ==, "corotational_tetrahedra");
+}
+
+/* One tetrahedron, and so the body's own. */
+static void use_tetrahedron(Fixture *fixture, SporeObject *body) {
+  double corners[12] = {0, 0, 0, 0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.04};
+  uint32_t numbers[4] = {0, 1, 2, 3};
+  SporeTetrahedralMesh mesh = {4, 1, corners, numbers};
+  spore_edit_use_tetrahedra(fixture->document, body, "my_organ", "0", 1, &mesh, NULL);
+}
+
+/* A region of a body is one step, and its holder comes and goes with it; each has rings of its own. */
+static void test_regions(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  gsize count;
+  SporeObject *body = add_organ(fixture);
+  use_tetrahedron(fixture, body);
+  g_autofree char *before = text_of(fixture);
+  SporeObject *region = spore_edit_add_region(fixture->document, body, "bodies/my_organ/regions", &error);
+  g_assert_no_error(error);
+  g_assert_cmpstr(spore_object_name(region), ==, "region");
+  g_assert_cmpfloat(spore_object_value(region, 1)->number[0], ==, 0.01); /* middle of the only cell */
+  assert_one_step(fixture, before);
+  body = spore_document_by_path(fixture->document, "bodies/my_organ");
+  g_assert_nonnull(spore_edit_add_region(fixture->document, body, "bodies/my_organ/regions", &error));
+  g_autofree double *rings = spore_region_rings(spore_object_child_of(body, "regions"), &count);
+  g_assert_cmpuint(count, ==, 2 * 3 * 48);
+  double radius =
+      spore_object_number(spore_document_by_path(fixture->document, "bodies/my_organ/regions/region"), "radius");
+  g_assert_cmpfloat_with_epsilon(spore_vec3_distance(spore_vec3_load(rings + 6 * 100), spore_vec3(0.01, 0.01, 0.01)),
+                                 radius, 1e-12);
+  g_assert_false(spore_edit_remove_region(fixture->document, "bodies/my_organ", &error));
+  g_assert_nonnull(strstr(error->message, "no such region"));
+  g_clear_error(&error);
+  g_assert_true(spore_edit_remove_region(fixture->document, "bodies/my_organ/regions/region", &error));
+  g_assert_true(spore_edit_remove_region(fixture->document, "bodies/my_organ/regions/region-2", &error));
+  g_assert_null(spore_object_child_of(body, "regions"));
+  g_assert_null(spore_edit_add_region(fixture->document, body, "bodies/my_organ/visual", &error));
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_INPUT);
+  g_clear_error(&error);
+}
+
+/* A region is an option of what is generated: data made without it are stale. */
+static void test_regions_of_generated(Fixture *fixture, gconstpointer data) {
+  SporeObject *body = add_organ(fixture);
+  use_spheres(fixture, body, 0.02);
+  SporeObject *asset = spore_edit_body_spheres(fixture->document, body);
+  g_autofree char *hash = spore_document_asset_hash(fixture->document, spore_object_reference(asset, "source"));
+  spore_document_set_text(fixture->document, asset, "source_hash", hash, NULL);
+  g_autofree char *path = spore_object_path(asset);
+  SporeObject *region = spore_edit_add_region(fixture->document, body, path, NULL);
+  g_assert_cmpstr(spore_object_type(region)->element, ==, "sphere_region");
+  g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_OPTIONS_CHANGED);
+  g_autofree char *one = spore_generated_options_hash(asset);
+  spore_document_set_text(fixture->document, region, "density", "2", NULL);
+  g_autofree char *other = spore_generated_options_hash(asset);
+  g_assert_cmpstr(one, !=, other);
+  spore_document_rename(fixture->document, region, "neck", NULL);
+  g_autofree char *renamed = spore_generated_options_hash(asset);
+  g_assert_cmpstr(other, ==, renamed);
+  g_assert_true(spore_edit_remove_region(fixture->document, "assets/my_organ_spheres/neck", NULL));
+  g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_FRESH);
+}
+
+/* The mesh around a tetrahedron is extrapolated where it lies outside; the report is of the document as it was. */
+static void test_mapping_report(Fixture *fixture, gconstpointer data) {
+  SporeMappingReport report = {0};
+  SporeVec3 place;
+  double size;
+  SporeObject *body = add_organ(fixture);
+  use_tetrahedron(fixture, body);
+  g_assert_false(spore_mapping_report_holds(&report, fixture->document, body));
+  spore_mapping_report_measure(&report, fixture->document, body);
+  g_assert_true(spore_mapping_report_holds(&report, fixture->document, body));
+  g_autofree char *text = spore_mapping_report_text(&report);
+  g_assert_cmpstr(report.trouble, ==, NULL);
+  g_assert_true(report.known[SPORE_CARRIED_VISUAL] && !report.known[SPORE_CARRIED_COLLISION]);
+  g_assert_true(spore_mapping_report_worst(&report, &place, &size));
+  const SporeCarried *carried = &report.carried[SPORE_CARRIED_VISUAL];
+  g_assert_nonnull(strstr(text, "extrapolated"));
+  g_assert_cmpuint(carried->off, >, 0);
+  g_assert_cmpfloat(spore_vec3_distance(place, carried->place), ==, 0);
+  spore_document_set_text(fixture->document, body, "position", "0 1 0", NULL);
+  g_assert_false(spore_mapping_report_holds(&report, fixture->document, body));
+  spore_edit_set_model(fixture->document, body, "", NULL);
+  spore_document_set_text(fixture->document, body, "role", "passive", NULL);
+  spore_mapping_report_measure(&report, fixture->document, body);
+  g_autofree char *trouble = spore_mapping_report_text(&report);
+  g_assert_nonnull(strstr(trouble, "no mechanical model"));
+  g_assert_false(spore_mapping_report_worst(&report, &place, &size));
+  spore_mapping_report_clear(&report);
 }
 
 static void test_set_model(Fixture *fixture, gconstpointer data) {
@@ -530,6 +622,9 @@ int main(int argc, char **argv) {
       {"hand-edit", test_hand_edit},
       {"hand-edit-weights", test_hand_edit_weights},
       {"usual-model", test_usual_model},
+      {"regions", test_regions},
+      {"regions-of-generated", test_regions_of_generated},
+      {"mapping-report", test_mapping_report},
       {"set-model", test_set_model},
       {"probe-and-pin", test_probe_and_pin},
       {"set-property", test_set_property},

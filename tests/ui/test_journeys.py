@@ -315,6 +315,91 @@ def tetrahedra_and_model():
         ui.wait(lambda: editor.time_s(), "time to advance")
 
 
+def make_solid_ball(editor, count=200):
+    """Tetrahedra with their usual model, and nothing else."""
+    if "cgal" not in FEATURES:
+        raise Skip("built without CGAL")
+    import_ball(editor)
+    editor.act("generate-tetrahedra", "u", count)
+    ui.wait(lambda: editor.row("ball_tetrahedra"), "the tetrahedra", 120)
+    editor.act("select", "s", "bodies/ball")
+
+
+@check
+def regions_are_added_and_deleted():
+    """a region is added, changed and deleted in the inspector, a step each, and shown in the view; the scene runs with it."""
+    with start() as editor:
+        make_solid_ball(editor)
+        editor.act("view", "s", "front")
+        editor.find("label", "All of it is of one tissue", showing=False)
+        bare = yellow(editor)
+        editor.act("add-region", "s", "bodies/ball/regions")
+        button = editor.find("push button", "^Delete region region$", showing=False)
+        ui.wait(lambda: yellow(editor) > bare + 50, "rings in the view")
+        editor.set_entry(editor.find("text", "^Stiffness scale$", showing=False), "25")
+        ui.wait(lambda: 'stiffness_scale="25"' in saved(editor, "region"), "the factor in the file")
+        editor.act("step")
+        ui.wait(lambda: editor.time_s(), "time to advance")
+        ui.wait(lambda: yellow(editor) < bare + 50, "the rings to go with the time")
+        editor.act("reset")
+        editor.press(button)
+        ui.wait(lambda: "<region" not in saved(editor, "region"), "the region to go")
+        editor.act("undo")
+        ui.wait(lambda: 'stiffness_scale="25"' in saved(editor, "region"), "the region to come back")
+        editor.act("add-region", "s", "assets/ball_tetrahedra")
+        editor.find("label", "(?s)Stale: the options have changed", showing=False)
+        editor.find("push button", "^Regenerate$", showing=False)
+
+
+def yellow(editor):
+    """Pixels of the view in the colour of what is pointed out."""
+    import gi
+    gi.require_version("Gdk", "3.0")
+    from gi.repository import Gdk
+    x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+    picture = Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), x, y, width, height)
+    pixels, step, row = picture.get_pixels(), picture.get_n_channels(), picture.get_rowstride()
+    return sum(pixels[at] > 160 and pixels[at + 1] > 150 and pixels[at] - pixels[at + 2] > 60
+               for line in range(height) for at in range(line * row, line * row + width * step, step))
+
+
+@check
+def rows_follow_the_material():
+    """values that the tissue gives are shown as soon as it is chosen, and go when it is taken back; presets are told from them."""
+    with start() as editor:
+        make_solid_ball(editor)
+
+        def modulus():
+            return float(editor.text_of(editor.find("text", "^Young.* modulus$", showing=False)))
+
+        own = modulus()
+        editor.act("set-property", "(sss)", ("bodies/ball/mechanical", "material", "muscle"))
+        ui.wait(lambda: modulus() != own, "the tissue's modulus")
+        assert "young_modulus" not in saved(editor, "material")
+        editor.act("undo")
+        ui.wait(lambda: modulus() == own, "the model's own modulus")
+        editor.act("use-preset", "s", "liver")
+        ui.wait(lambda: modulus() == 5220, "the preset's modulus")
+        preset = editor.find("combo box", "^Liver", showing=False)
+        editor.set_entry(editor.find("text", "^Young.* modulus$", showing=False), "6000")
+        ui.wait(lambda: editor.look("combo box", "^Own values$", showing=False), "the preset to be left")
+        del preset
+
+
+@check
+def mapping_is_measured():
+    """how far what is drawn follows wrong is measured on demand, and said to be of the past after a change."""
+    with start() as editor:
+        make_solid_ball(editor)
+        editor.find("label", "not measured yet", showing=False)
+        editor.press(editor.find("push button", "^Measure mapping$", showing=False))
+        label = editor.find("label", r"(?s)Visual mesh: 266 vertices.*extrapolated.*Error at rest", showing=False)
+        rest = float(re.search(r"Error at rest (\S+) mm", editor.name_of(label))[1])
+        assert rest < 1e-6, rest
+        editor.act("set-property", "(sss)", ("bodies/ball", "position", "0 0.1 0"))
+        editor.find("label", "The scene has changed since it was measured", showing=False)
+
+
 @check
 def inspector_sets_a_property():
     """a parameter set in the inspector is saved; a bad value is refused where it stands; reset takes it back."""

@@ -20,8 +20,7 @@
 /* Radius of a new pin, as a part of the organ's diagonal. */
 #define PIN_PART 0.3
 
-/* Ends the group, or takes back what it did. */
-static gboolean finish(SporeDocument *document, gboolean done) {
+gboolean spore_edit_finish(SporeDocument *document, gboolean done) {
   if (done) spore_document_end(document);
   else spore_document_abort(document);
   return done;
@@ -137,7 +136,7 @@ static gboolean use_spheres(SporeDocument *document, SporeObject *body, const ch
 gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
                                 const SporeSpheresOptions *options, const SporeSphereSet *set, GError **error) {
   spore_document_begin(document, _("Generate spheres"));
-  return finish(document, use_spheres(document, body, source, source_hash, options, set, error));
+  return spore_edit_finish(document, use_spheres(document, body, source, source_hash, options, set, error));
 }
 
 /* Models. */
@@ -188,7 +187,7 @@ static gboolean set_model(SporeDocument *document, SporeObject *body, const char
 
 gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error) {
   spore_document_begin(document, _("Choose model"));
-  return finish(document, set_model(document, body, model, error));
+  return spore_edit_finish(document, set_model(document, body, model, error));
 }
 
 /* A body that no model moves yet gets the usual one for the geometry: the first that takes it. */
@@ -216,7 +215,7 @@ gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, c
                                    const char *source_hash, gsize cells, const SporeTetrahedralMesh *mesh,
                                    GError **error) {
   spore_document_begin(document, _("Generate tetrahedra"));
-  return finish(document, use_tetrahedra(document, body, source, source_hash, cells, mesh, error));
+  return spore_edit_finish(document, use_tetrahedra(document, body, source, source_hash, cells, mesh, error));
 }
 
 static gboolean use_preset(SporeDocument *document, SporeObject *model, const char *name, GError **error) {
@@ -234,7 +233,7 @@ gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const
   SporeObject *model = spore_edit_body_model(body);
   if (!model) return spore_error_raise(error, SPORE_ERROR_INPUT, NULL, _("the body has no model; choose one first"));
   spore_document_begin(document, _("Use preset"));
-  return finish(document, use_preset(document, model, name, error));
+  return spore_edit_finish(document, use_preset(document, model, name, error));
 }
 
 /* Probe. */
@@ -319,7 +318,7 @@ SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error) {
   spore_document_begin(document, _("Add probe"));
   SporeObject *body = insert_probe(document, position, error);
   gboolean done = body && insert_probe_tool(document, body, error);
-  return finish(document, done) ? body : NULL;
+  return spore_edit_finish(document, done) ? body : NULL;
 }
 
 /* Pin. */
@@ -361,14 +360,13 @@ SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GErr
   SporeVec3 point = hold_point(mesh, spore_body_pose(body), &extent);
   spore_document_begin(document, _("Hold organ"));
   SporeObject *pin = insert_pin(document, body, point, PIN_PART * extent, error);
-  finish(document, pin != NULL);
+  spore_edit_finish(document, pin != NULL);
   return pin;
 }
 
 /* By path. */
 
-/* The object of a path whose last part may be a unit that its body does not have yet. */
-static SporeObject *object_or_new_unit(SporeDocument *document, const char *path, GError **error) {
+SporeObject *spore_edit_object_or_unit(SporeDocument *document, const char *path, GError **error) {
   SporeObject *object = spore_document_by_path(document, path);
   if (object) return object;
   const char *slash = strrchr(path, '/');
@@ -399,6 +397,6 @@ gboolean spore_edit_set_property(SporeDocument *document, const char *path, cons
                                  GError **error) {
   g_autofree char *label = g_strdup_printf(text ? _("Set %s") : _("Reset %s"), property);
   spore_document_begin(document, label);
-  SporeObject *object = object_or_new_unit(document, path, error);
-  return finish(document, object && change_property(document, object, property, text, error));
+  SporeObject *object = spore_edit_object_or_unit(document, path, error);
+  return spore_edit_finish(document, object && change_property(document, object, property, text, error));
 }

@@ -36,6 +36,12 @@ SporeObject *spore_edit_find_probe(SporeDocument *document);
 /* Holds the organ where it lies lowest and farthest behind, so that it does not fall. Returns the pin. */
 SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GError **error);
 
+/* The object of a path whose last part may be a unit that its body does not have yet: that is made. NULL with an error.
+ */
+SporeObject *spore_edit_object_or_unit(SporeDocument *document, const char *path, GError **error);
+/* Ends the group of an edit, or takes back what it did. Returns done. */
+gboolean spore_edit_finish(SporeDocument *document, gboolean done);
+
 /* Sets by path ("bodies/liver/collision"), property name and text as in a file; text NULL: back to the default.
  * A unit of a body that is not there yet ("bodies/liver/collision") is made. */
 gboolean spore_edit_set_property(SporeDocument *document, const char *path, const char *property, const char *text,

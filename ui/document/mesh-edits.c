@@ -4,13 +4,7 @@
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
-
-/* Ends the group, or takes back what it did. */
-static gboolean finish(SporeDocument *document, gboolean done) {
-  if (done) spore_document_end(document);
-  else spore_document_abort(document);
-  return done;
-}
+#include "ui/document/edits.h"
 
 SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, int unit, GError **error) {
   g_autoptr(GPtrArray) bodies = NULL;
@@ -19,7 +13,8 @@ SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *impor
   g_autofree char *label = import->files->len > 1 ? g_strdup_printf(_("Import %u meshes"), import->files->len)
                                                   : g_strdup_printf(_("Import %s"), base);
   spore_document_begin(document, label);
-  return finish(document, spore_import_insert(document, import, unit, &bodies, error)) ? bodies->pdata[0] : NULL;
+  return spore_edit_finish(document, spore_import_insert(document, import, unit, &bodies, error)) ? bodies->pdata[0]
+                                                                                                  : NULL;
 }
 
 gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label,
@@ -33,5 +28,5 @@ gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, con
   gboolean done = spore_document_set_text(document, asset, "file", file, error) &&
                   spore_document_set_text(document, asset, "unit", spore_length_units[0], error) &&
                   spore_document_set_text(document, asset, "frame", spore_mesh_frames[0], error);
-  return finish(document, done);
+  return spore_edit_finish(document, done);
 }

@@ -6,8 +6,11 @@
 #include "core/scene/compile.h"
 #include "core/scene/generated.h"
 #include "ui/document/edits.h"
+#include "ui/document/mapping-report.h"
+#include "ui/document/region-edits.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/jobs/works.h"
+#include "ui/panels/region-list.h"
 #include "ui/panels/report.h"
 #include "ui/panels/spore-generator-box.h"
 #include "ui/panels/spore-property-row.h"
@@ -15,6 +18,7 @@
 #define DEFAULT_SPHERES 100
 #define DEFAULT_CELLS 1000
 #define MOST_CELLS 1000000
+#define WORST_PART 0.08 /* of the size: half of the cross at the worst place */
 
 struct _SporeInspector {
   GtkBox parent;
@@ -22,16 +26,20 @@ struct _SporeInspector {
   SporeEditorDocument *document;
   guint rebuild, refresh;
   GPtrArray *rows; /* SporePropertyRow *, borrowed from the widget tree */
-  GtkWidget *mesh_facts, *spheres_box, *tetrahedra_box, *model;
+  GtkWidget *mesh_facts, *spheres_box, *tetrahedra_box, *model, *preset, *mapping_facts, *measure;
   gboolean filling;
   GHashTable *collapsed; /* set of section titles that the user closed */
 
   /* How good the spheres are: measured apart, kept by content of mesh and spheres. */
   GHashTable *reports; /* char * -> SporeSpheresReport * */
   char *measured_key;  /* now being measured, or NULL */
+  SporeMappingReport mapping;
 };
 
 G_DEFINE_FINAL_TYPE(SporeInspector, spore_inspector, GTK_TYPE_BOX)
+
+enum { MARKS_CHANGED, SIGNAL_COUNT };
+static guint signals[SIGNAL_COUNT];
 
 static SporeDocument *document_of(SporeInspector *self) { return spore_editor_document_get(self->document); }
 
@@ -113,7 +121,7 @@ static void append_state(SporeInspector *self, SporeObject *asset, GString *text
   if (generated == SPORE_GENERATED_SOURCE_CHANGED) g_string_append(text, _("\nStale: the mesh has changed since"));
   if (generated == SPORE_GENERATED_OPTIONS_CHANGED) g_string_append(text, _("\nStale: the options have changed since"));
   if (spore_generated_is(asset, "edited")) g_string_append(text, _("\nEdited by hand"));
-  if (spore_generated_is(asset, "frozen")) g_string_append(text, _("\nFrozen: nothing generates it again"));
+  if (spore_generated_is(asset, "frozen")) g_string_append(text, _("\nFrozen: nothing generates it again; it may be edited by hand"));
 }
 
 static guint last_count(SporeObject *asset, const char *property, guint otherwise) {
@@ -214,10 +222,42 @@ static void show_tetrahedra(SporeInspector *self, SporeObject *body) {
   g_string_free(text, TRUE);
 }
 
+static void show_mapping(SporeInspector *self, SporeObject *body) {
+  gboolean holds = spore_mapping_report_holds(&self->mapping, document_of(self), body);
+  const char *why = self->mapping.body == spore_object_id(body)
+                        ? _("The scene has changed since it was measured")
+                        : _("How well what is drawn and felt follows what moves it: not measured yet");
+  g_autofree char *text = holds ? spore_mapping_report_text(&self->mapping) : g_strdup(why);
+  gtk_label_set_text(GTK_LABEL(self->mapping_facts), text);
+  gtk_widget_set_sensitive(self->measure, !holds);
+}
+
 static void show_model(SporeInspector *self, SporeObject *body) {
   SporeObject *model = spore_edit_body_model(body);
   self->filling = TRUE;
   gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->model), model ? spore_object_type(model)->element : "");
+  self->filling = FALSE;
+}
+
+/* Whether the model has the preset's values. */
+static gboolean has_preset(SporeObject *model, const SporePreset *preset) {
+  const SporeParameterTable *table = spore_object_type(model)->table;
+  gboolean same = TRUE;
+  for (const char *const *setting = preset->settings; *setting && same; setting += 2) {
+    SporeValue value = {0};
+    int index = spore_parameter_find(table, setting[0]);
+    same = index >= 0 && spore_parameter_parse(&table->parameters[index], setting[1], &value, NULL) &&
+           spore_value_equal(&value, spore_object_value(model, (guint)index));
+    spore_value_clear(&value);
+  }
+  return same;
+}
+
+static void show_preset(SporeInspector *self, SporeObject *model) {
+  const SporePreset *preset = model ? spore_object_type(model)->model->presets : NULL;
+  while (preset && preset->name && !has_preset(model, preset)) preset++;
+  self->filling = TRUE;
+  gtk_combo_box_set_active_id(GTK_COMBO_BOX(self->preset), preset && preset->name ? preset->name : "");
   self->filling = FALSE;
 }
 
@@ -228,6 +268,53 @@ static void show_facts(SporeInspector *self) {
   show_spheres(self, body);
   show_tetrahedra(self, body);
   show_model(self, body);
+  if (self->preset) show_preset(self, spore_edit_body_model(body));
+  if (self->mapping_facts) show_mapping(self, body);
+}
+
+/* What is pointed out in the view. */
+
+static void append_segments(GArray *all, const double *segments, gsize count) {
+  g_array_append_vals(all, segments, (guint)(6 * count));
+}
+
+static void append_rings(GArray *all, const SporeObject *holder) {
+  gsize count = 0;
+  g_autofree double *segments = holder ? spore_region_rings(holder, &count) : NULL;
+  append_segments(all, segments, count);
+}
+
+/* A cross of three lines where what is carried along lies farthest off. */
+static void append_worst(GArray *all, const SporeMappingReport *report) {
+  SporeVec3 place;
+  double size;
+  if (!spore_mapping_report_worst(report, &place, &size)) return;
+  for (int axis = 0; axis < 3; axis++) {
+    double segment[6] = {place.x, place.y, place.z, place.x, place.y, place.z};
+    segment[axis] -= WORST_PART * size;
+    segment[3 + axis] += WORST_PART * size;
+    append_segments(all, segment, 1);
+  }
+}
+
+SporeStageMarks spore_inspector_get_marks(SporeInspector *self) {
+  SporeObject *body = self->document ? spore_editor_document_selected_body(self->document) : NULL;
+  if (!body) return (SporeStageMarks){0};
+  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(double));
+  append_rings(all, spore_object_child_of(body, "regions"));
+  append_rings(all, spore_edit_body_spheres(document_of(self), body));
+  append_rings(all, spore_edit_body_tetrahedra(document_of(self), body));
+  if (spore_mapping_report_holds(&self->mapping, document_of(self), body)) append_worst(all, &self->mapping);
+  gsize count = all->len / 6;
+  return (SporeStageMarks){spore_object_id(body), count, (double *)g_array_free(g_steal_pointer(&all), FALSE)};
+}
+
+static void measure_mapping(SporeInspector *self) {
+  SporeObject *body = spore_editor_document_selected_body(self->document);
+  if (!body) return;
+  spore_mapping_report_measure(&self->mapping, document_of(self), body);
+  show_mapping(self, body);
+  g_signal_emit(self, signals[MARKS_CHANGED], 0);
 }
 
 /* What is selected. */
@@ -263,35 +350,50 @@ static void add_model_choice(SporeInspector *self, GtkBox *box) {
 
 static void preset_chosen(GtkComboBox *combo, SporeInspector *self) {
   const char *id = gtk_combo_box_get_active_id(combo);
-  if (id && *id) spore_activate(GTK_WIDGET(self), "use-preset", g_variant_new_string(id));
-}
-
-/* Whether the model has the preset's values. */
-static gboolean has_preset(SporeObject *model, const SporePreset *preset) {
-  const SporeParameterTable *table = spore_object_type(model)->table;
-  gboolean same = TRUE;
-  for (const char *const *setting = preset->settings; *setting && same; setting += 2) {
-    SporeValue value = {0};
-    int index = spore_parameter_find(table, setting[0]);
-    same = index >= 0 && spore_parameter_parse(&table->parameters[index], setting[1], &value, NULL) &&
-           spore_value_equal(&value, spore_object_value(model, (guint)index));
-    spore_value_clear(&value);
-  }
-  return same;
+  if (id && *id && !self->filling) spore_activate(GTK_WIDGET(self), "use-preset", g_variant_new_string(id));
 }
 
 static void add_preset_choice(SporeInspector *self, GtkBox *box, SporeObject *model) {
   const SporePreset *preset = spore_object_type(model)->model->presets;
   if (!preset) return;
   GtkComboBoxText *combo = add_choice(box, _("Preset"));
+  self->preset = GTK_WIDGET(combo);
   gtk_combo_box_text_append(combo, "", _("Own values"));
-  gtk_combo_box_set_active_id(GTK_COMBO_BOX(combo), "");
   for (; preset->name; preset++) {
     g_autofree char *text = g_strdup_printf("%s (%s)", _(preset->label), preset->source);
     gtk_combo_box_text_append(combo, preset->name, text);
-    if (has_preset(model, preset)) gtk_combo_box_set_active_id(GTK_COMBO_BOX(combo), preset->name);
   }
   g_signal_connect(combo, "changed", G_CALLBACK(preset_chosen), self);
+}
+
+/* Parts of other tissue, for models that know of such, and for those that do not but have been given some. */
+static void add_regions(SporeInspector *self, SporeObject *body, SporeObject *model) {
+  const SporeModelType *type = spore_object_type(model)->model;
+  if (!(type && type->regions) && !spore_object_child_of(body, "regions")) return;
+  const SporeObjectType *holder = spore_object_type_child(spore_object_type(body), "regions");
+  g_autofree char *parent = spore_object_path(body);
+  g_autofree char *path = g_strconcat(parent, "/regions", NULL);
+  spore_fill_region_list(add_section(self, _("Regions")), self->document, path, holder,
+                         _("All of it is of one tissue: a region is a part of another stiffness, density or tissue"),
+                         self->rows);
+}
+
+/* Of what a generator made: where it shall be finer. */
+static void add_generator_regions(SporeInspector *self, GtkBox *box, SporeObject *asset, const char *empty) {
+  if (!asset || !spore_region_element(spore_object_type(asset))) return;
+  g_autofree char *path = spore_object_path(asset);
+  spore_fill_region_list(box, self->document, path, spore_object_type(asset), empty, self->rows);
+}
+
+static void add_mapping(SporeInspector *self) {
+  GtkBox *box = add_section(self, _("Mapping"));
+  self->mapping_facts = add_fact(box);
+  self->measure = gtk_button_new_with_label(_("Measure mapping"));
+  gtk_widget_set_halign(self->measure, GTK_ALIGN_START);
+  gtk_widget_set_tooltip_text(self->measure,
+                              _("Compile the scene and measure how far vertices and spheres are carried wrong"));
+  g_signal_connect_swapped(self->measure, "clicked", G_CALLBACK(measure_mapping), self);
+  gtk_container_add(GTK_CONTAINER(box), self->measure);
 }
 
 static void add_body(SporeInspector *self, SporeObject *body) {
@@ -308,6 +410,8 @@ static void add_body(SporeInspector *self, SporeObject *body) {
       spore_generator_box_new("preview-spheres", _("Number of spheres"), spheres, SPORE_SPHERES_MAXIMUM);
   gtk_container_add(GTK_CONTAINER(collision), self->spheres_box);
   add_unit(self, collision, body, "collision");
+  add_generator_regions(self, collision, spore_edit_body_spheres(document, body),
+                        _("Spheres lie as densely everywhere: in a region they lie denser, or less so"));
 
   GtkBox *mechanical = add_section(self, _("Mechanical unit"));
   add_model_choice(self, mechanical);
@@ -315,6 +419,8 @@ static void add_body(SporeInspector *self, SporeObject *body) {
   self->tetrahedra_box = spore_generator_box_new("preview-tetrahedra", _("Number of tetrahedra"), cells, MOST_CELLS);
   gtk_container_add(GTK_CONTAINER(mechanical), self->tetrahedra_box);
   add_unit(self, mechanical, body, "mechanical");
+  add_generator_regions(self, mechanical, spore_edit_body_tetrahedra(document, body),
+                        _("Tetrahedra are as large everywhere: in a region they are of a size of their own"));
 
   SporeObject *model = spore_edit_body_model(body);
   if (model) {
@@ -323,6 +429,8 @@ static void add_body(SporeInspector *self, SporeObject *body) {
     if (type) gtk_widget_set_tooltip_text(GTK_WIDGET(parameters), _(type->doc));
     if (type) add_preset_choice(self, parameters, model);
     add_object(self, parameters, model);
+    add_regions(self, body, model);
+    add_mapping(self);
   }
   add_unit(self, add_section(self, _("Fidelity")), body, "fidelity");
 }
@@ -351,7 +459,8 @@ static gboolean rebuild(gpointer data) {
   self->rebuild = 0;
   g_clear_handle_id(&self->refresh, g_source_remove);
   g_ptr_array_set_size(self->rows, 0);
-  self->mesh_facts = self->spheres_box = self->tetrahedra_box = self->model = NULL;
+  self->mesh_facts = self->spheres_box = self->tetrahedra_box = self->model = self->preset = NULL;
+  self->mapping_facts = self->measure = NULL;
   gtk_container_foreach(GTK_CONTAINER(self->sections), destroy_child, NULL);
   SporeObject *selected = spore_editor_document_selected(self->document);
   SporeObject *body = spore_editor_document_selected_body(self->document);
@@ -368,6 +477,7 @@ static gboolean rebuild(gpointer data) {
   }
   gtk_widget_show_all(self->sections);
   for (guint i = 0; i < self->rows->len; i++) spore_property_row_refresh(g_ptr_array_index(self->rows, i));
+  g_signal_emit(self, signals[MARKS_CHANGED], 0);
   return G_SOURCE_REMOVE;
 }
 
@@ -376,6 +486,7 @@ static gboolean refresh(gpointer data) {
   self->refresh = 0;
   for (guint i = 0; i < self->rows->len; i++) spore_property_row_refresh(g_ptr_array_index(self->rows, i));
   show_facts(self);
+  g_signal_emit(self, signals[MARKS_CHANGED], 0);
   return G_SOURCE_REMOVE;
 }
 
@@ -418,6 +529,7 @@ static void spore_inspector_finalize(GObject *object) {
   g_hash_table_unref(self->collapsed);
   g_hash_table_unref(self->reports);
   g_free(self->measured_key);
+  spore_mapping_report_clear(&self->mapping);
   G_OBJECT_CLASS(spore_inspector_parent_class)->finalize(object);
 }
 
@@ -425,6 +537,8 @@ static void spore_inspector_class_init(SporeInspectorClass *class) {
   GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
   G_OBJECT_CLASS(class)->dispose = spore_inspector_dispose;
   G_OBJECT_CLASS(class)->finalize = spore_inspector_finalize;
+  signals[MARKS_CHANGED] =
+      g_signal_new("marks-changed", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-inspector.ui");
   gtk_widget_class_bind_template_child(widget, SporeInspector, title);
   gtk_widget_class_bind_template_child(widget, SporeInspector, subtitle);

@@ -1,10 +1,14 @@
-/* What is selected, with every parameter from its table. */
+/* What is selected, with every parameter from its table.
+ *
+ * Signals
+ *   marks-changed ()   what the view is to point out may differ                                                     */
 #ifndef SPORE_UI_PANELS_SPORE_INSPECTOR_H
 #define SPORE_UI_PANELS_SPORE_INSPECTOR_H
 
 #include <gtk/gtk.h>
 
 #include "ui/document/spore-editor-document.h"
+#include "ui/render/stage.h"
 
 G_BEGIN_DECLS
 
@@ -12,6 +16,8 @@ G_BEGIN_DECLS
 G_DECLARE_FINAL_TYPE(SporeInspector, spore_inspector, SPORE, INSPECTOR, GtkBox)
 
 void spore_inspector_set_document(SporeInspector *self, SporeEditorDocument *document);
+/* Of the selected body: its regions, and the worst place of its mapping where that was measured. The caller's. */
+SporeStageMarks spore_inspector_get_marks(SporeInspector *self);
 
 G_END_DECLS
 #endif

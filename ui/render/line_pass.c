@@ -9,6 +9,7 @@ SporeLineGroup *spore_line_group_new(const double *points, gsize count, const fl
   group->base.kind = SPORE_DRAW_LINES;
   group->base.visible = TRUE;
   group->width = width;
+  group->hidden = HIDDEN_ALPHA;
   memcpy(group->colour, colour, sizeof group->colour);
   glGenVertexArrays(1, &group->vertex_array);
   glGenBuffers(1, &group->moving);
@@ -34,7 +35,7 @@ void spore_line_group_move(SporeLineGroup *group, const double *points, gsize co
   g_free(moved);
 }
 
-static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const SporeProgram *program) {
+static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const SporeProgram *program, gboolean hidden) {
   for (guint i = 0; i < drawables->len; i++) {
     const SporeDrawable *drawable = drawables->pdata[i];
     if (!drawable || !drawable->visible || drawable->kind != SPORE_DRAW_LINES) continue;
@@ -43,6 +44,7 @@ static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const Spo
     glUniform3fv(program->colour, 1, group->colour);
     glUniform1f(program->width, group->width);
     glUniform1f(program->fade, group->fade);
+    glUniform1f(program->dim, hidden ? group->hidden : 1);
     glBindVertexArray(group->vertex_array);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)group->count);
   }
@@ -58,12 +60,10 @@ gboolean spore_line_pass(GPtrArray *drawables, const SporeFrame *frame, SporePro
   glDepthMask(GL_FALSE);
   if (hidden) {
     glDepthFunc(GL_GREATER);
-    glUniform1f(program->dim, HIDDEN_ALPHA);
-    draw_groups(drawables, frame, program);
+    draw_groups(drawables, frame, program, TRUE);
     glDepthFunc(GL_LEQUAL);
   }
-  glUniform1f(program->dim, 1);
-  draw_groups(drawables, frame, program);
+  draw_groups(drawables, frame, program, FALSE);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   return TRUE;

@@ -104,7 +104,8 @@ typedef struct SporeLineGroup {
   GLuint vertex_array, moving;
   gsize count;
   float colour[3], width;
-  float fade; /* m; 0: lines do not fade */
+  float fade;   /* m; 0: lines do not fade */
+  float hidden; /* how much of them is seen through what lies before them, 0..1 */
 } SporeLineGroup;
 
 /* Context current in all that follows. */

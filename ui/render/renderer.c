@@ -128,6 +128,11 @@ guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gs
   return add(renderer, &spore_line_group_new(points, count, colour, width)->base);
 }
 
+void spore_renderer_see_lines_through(SporeRenderer *renderer, guint group, double share) {
+  SporeLineGroup *drawable = find_kind(renderer, group, SPORE_DRAW_LINES);
+  if (drawable) drawable->hidden = (float)share;
+}
+
 void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const double *points, gsize count) {
   SporeLineGroup *drawable = find_kind(renderer, group, SPORE_DRAW_LINES);
   if (drawable) spore_line_group_move(drawable, points, count);

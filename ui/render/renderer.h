@@ -64,6 +64,8 @@ void spore_renderer_move_puffs(SporeRenderer *renderer, guint group, const Spore
 /* Line segments, count x 2 points x 3; overlays are drawn dimmed where hidden. */
 guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3],
                                float width);
+/* How much of them is seen through what lies before them, 0..1; a fifth unless told. */
+void spore_renderer_see_lines_through(SporeRenderer *renderer, guint group, double share);
 void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const double *points, gsize count);
 void spore_renderer_remove(SporeRenderer *renderer, guint handle);
 void spore_renderer_set_visible(SporeRenderer *renderer, guint handle, gboolean visible);

@@ -29,6 +29,7 @@ static void clear(SporeStage *stage) {
 void spore_stage_free(SporeStage *stage) {
   if (!stage) return;
   spore_stage_set_candidate(stage, NULL);
+  spore_stage_set_marks(stage, NULL);
   clear(stage);
   g_ptr_array_free(stage->bodies, TRUE);
   g_hash_table_destroy(stage->fit);
@@ -47,6 +48,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   stage->contact_handle = spore_renderer_add_lines(stage->renderer, NULL, 0, contact_colour, 2.5f);
   spore_renderer_set_visible(stage->renderer, stage->contact_handle, stage->options.contacts);
   spore_stage_place_candidate(stage);
+  spore_stage_place_marks(stage);
 }
 
 /* Each contact as a line from its point along its force; the length grows with the force but never fills the picture.
@@ -98,6 +100,7 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
     spore_stage_body_place(stage, body);
   }
   show_cuts(stage, snapshot);
+  if (stage->marks_handle) spore_renderer_set_visible(stage->renderer, stage->marks_handle, snapshot->step == 0);
   if (stage->options.contacts && stage->contact_handle) show_contacts(stage, snapshot);
 }
 

@@ -28,6 +28,13 @@ typedef struct SporeStageCandidate {
 } SporeStageCandidate;
 void spore_stage_candidate_free(SporeStageCandidate *candidate);
 
+/* Lines that point something out on a body before it moves: 2 points of 3 each, in its axes at the start, m. */
+typedef struct SporeStageMarks {
+  guint32 body; /* object id */
+  gsize count;
+  double *segments;
+} SporeStageMarks;
+
 /* All borrowed. simulation may be NULL: bodies stand where the document puts them. */
 SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document);
 void spore_stage_free(SporeStage *stage);
@@ -38,6 +45,8 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot);
 void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options);
 /* Borrowed until the next call; NULL: none. */
 void spore_stage_set_candidate(SporeStage *stage, const SporeStageCandidate *candidate);
+/* Borrowed until the next call; NULL: none. Not seen once time has gone on. */
+void spore_stage_set_marks(SporeStage *stage, const SporeStageMarks *marks);
 void spore_stage_set_selection(SporeStage *stage, guint32 object_id);
 /* The scene's camera of that name (tools > camera); NULL: its first, else one that sees everything at this aspect.
  * Below 16:9 a camera of the scene opens wider, so that nothing is lost at the sides.

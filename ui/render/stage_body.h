@@ -72,6 +72,8 @@ struct SporeStage {
   GArray *contacts;                     /* double: segments of the contacts shown */
   const SporeStageCandidate *candidate; /* NULL: none */
   guint candidate_handles[4];           /* spheres, the marked one, surface, lines; 0: none */
+  const SporeStageMarks *marks;         /* NULL: none */
+  guint marks_handle;
 };
 
 /* Builds what is drawn of a body object, at time 0; nothing of it where its assets cannot be read. level: NULL for the
@@ -86,8 +88,9 @@ void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
  * diagonal. NULL: no such mesh. Kept by the stage. */
 const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
 
-/* Draws the candidate where its body stands at the start, anew. */
+/* Draws the candidate, or the marks, where their body stands at the start, anew. */
 void spore_stage_place_candidate(SporeStage *stage);
+void spore_stage_place_marks(SporeStage *stage);
 
 /* Shows a surface made for this moment, where it is, instead of the last one; takes its triangles. */
 void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh);

@@ -6,7 +6,7 @@
 #define MARK_GROWS 1.02 /* so that the mark lies over its sphere */
 
 static const float plain_colour[3] = {0.03f, 0.24f, 0.36f}, mark_colour[3] = {0.95f, 0.32f, 0.02f},
-                   line_colour[3] = {0.95f, 0.62f, 0.05f};
+                   line_colour[3] = {0.95f, 0.62f, 0.05f}, marks_colour[3] = {0.98f, 0.84f, 0.22f};
 
 void spore_stage_candidate_free(SporeStageCandidate *candidate) {
   if (!candidate) return;
@@ -64,4 +64,20 @@ void spore_stage_set_candidate(SporeStage *stage, const SporeStageCandidate *can
   stage->candidate = candidate;
   spore_stage_place_candidate(stage);
   for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_show(stage, stage->bodies->pdata[i]);
+}
+
+void spore_stage_place_marks(SporeStage *stage) {
+  const SporeStageMarks *marks = stage->marks;
+  if (stage->marks_handle) spore_renderer_remove(stage->renderer, stage->marks_handle);
+  stage->marks_handle = 0;
+  const SporeObject *body = marks ? spore_document_by_id(stage->document, marks->body) : NULL;
+  if (!body || !marks->count) return;
+  g_autofree double *segments = posed(spore_body_pose(body), marks->segments, 2 * marks->count, 3);
+  stage->marks_handle = spore_renderer_add_lines(stage->renderer, segments, marks->count, marks_colour, 1.8f);
+  spore_renderer_see_lines_through(stage->renderer, stage->marks_handle, 0.8);
+}
+
+void spore_stage_set_marks(SporeStage *stage, const SporeStageMarks *marks) {
+  stage->marks = marks;
+  spore_stage_place_marks(stage);
 }

@@ -20,6 +20,7 @@ struct _SporeViewport {
   double edit_before[4]; /* the chosen one when the drag began */
   guint edit_timer;      /* wheel notches that are not committed yet */
   SporeStageCandidate *candidate;
+  SporeStageMarks marks;
   char *legend; /* of the candidate's colours; NULL: none */
   double legend_low, legend_high;
   char *legend_unit;

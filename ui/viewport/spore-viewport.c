@@ -116,6 +116,7 @@ static void ensure_stage(SporeViewport *self) {
   self->stage = spore_stage_new(self->renderer, spore_editor_document_get(self->document));
   g_clear_handle_id(&self->rebuild, g_source_remove);
   spore_stage_set_candidate(self->stage, self->candidate);
+  spore_stage_set_marks(self->stage, &self->marks);
   rebuild(self);
 }
 
@@ -372,6 +373,17 @@ void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *cand
   spore_viewport_redraw(self);
 }
 
+void spore_viewport_set_marks(SporeViewport *self, SporeStageMarks marks) {
+  if (!marks.count && !self->marks.count) {
+    g_free(marks.segments);
+    return;
+  }
+  g_free(self->marks.segments);
+  self->marks = marks;
+  if (self->stage) spore_stage_set_marks(self->stage, &self->marks);
+  update_stage(self);
+}
+
 void spore_viewport_frame(SporeViewport *self) {
   if (!self->stage || !has_anything(self)) return;
   double lower[3], upper[3];
@@ -414,6 +426,7 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->pixels, cairo_surface_destroy);
   g_clear_pointer(&self->renderer_name, g_free);
   g_clear_pointer(&self->candidate, spore_stage_candidate_free);
+  g_clear_pointer(&self->marks.segments, g_free);
   g_clear_pointer(&self->legend, g_free);
   g_clear_pointer(&self->legend_unit, g_free);
   G_OBJECT_CLASS(spore_viewport_parent_class)->dispose(object);

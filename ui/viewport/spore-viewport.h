@@ -29,6 +29,8 @@ void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *op
 /* What a generator offers, over what the scene has, and the legend of its colours (read at once; without values: none).
  * Takes the candidate; NULL: nothing is offered. */
 void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend);
+/* What is pointed out on a body; takes the segments. */
+void spore_viewport_set_marks(SporeViewport *self, SporeStageMarks marks);
 void spore_viewport_frame(SporeViewport *self);
 /* When what was just changed is there to be seen. */
 void spore_viewport_frame_soon(SporeViewport *self);

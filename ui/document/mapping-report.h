@@ -1,0 +1,26 @@
+/* How well what a body carries along, what is drawn of it and its spheres, follows what moves it; in words. No GTK. */
+#ifndef SPORE_UI_DOCUMENT_MAPPING_REPORT_H
+#define SPORE_UI_DOCUMENT_MAPPING_REPORT_H
+
+#include "core/scene/carried.h"
+
+typedef struct SporeMappingReport {
+  guint32 body;     /* object id; 0: nothing was measured */
+  guint64 revision; /* of the document that was measured */
+  gboolean known[SPORE_CARRIED_COUNT];
+  SporeCarried carried[SPORE_CARRIED_COUNT];
+  char *trouble; /* why nothing could be; NULL: it was */
+} SporeMappingReport;
+
+/* Compiles a copy of the scene of its own: as long as that takes, this does. */
+void spore_mapping_report_measure(SporeMappingReport *report, SporeDocument *document, SporeObject *body);
+void spore_mapping_report_clear(SporeMappingReport *report);
+/* Of this body, as the document is now. */
+gboolean spore_mapping_report_holds(const SporeMappingReport *report, const SporeDocument *document,
+                                    const SporeObject *body);
+/* Translated, a line each. g_free. */
+char *spore_mapping_report_text(const SporeMappingReport *report);
+/* The vertex or sphere that lies farthest off; FALSE: none does. size: of what moves the body, m. */
+gboolean spore_mapping_report_worst(const SporeMappingReport *report, SporeVec3 *place, double *size);
+
+#endif

@@ -1,0 +1,148 @@
+#include "ui/document/region-edits.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/mesh/common.h"
+#include "ui/document/edits.h"
+
+#define PART 0.125 /* of the diagonal: radius of a new region */
+#define LEAST_M 1e-4
+#define RING_SEGMENTS 48
+
+const char *spore_region_element(const SporeObjectType *holder) {
+  for (guint i = 0; i < holder->children->len; i++) {
+    const SporeObjectType *child = g_ptr_array_index(holder->children, i);
+    if (spore_parameter_find(child->table, "centre") >= 0 && spore_parameter_find(child->table, "radius") >= 0)
+      return child->element;
+  }
+  return NULL;
+}
+
+static gboolean set_numbers(SporeDocument *document, SporeObject *object, const char *property, const double *numbers,
+                            gsize count, GError **error) {
+  g_autoptr(GString) text = g_string_new(NULL);
+  for (gsize i = 0; i < count; i++) {
+    char number[G_ASCII_DTOSTR_BUF_SIZE];
+    g_ascii_formatd(number, sizeof number, "%.4g", numbers[i]);
+    g_string_append_printf(text, i ? " %s" : "%s", number);
+  }
+  return spore_document_set_text(document, object, property, text->str, error);
+}
+
+/* Points of an organ, `stride` doubles apart. */
+typedef struct Points {
+  const double *first;
+  gsize count, stride;
+} Points;
+
+static SporeVec3 nearest(const Points *points, SporeVec3 place) {
+  SporeVec3 best = place;
+  double least = HUGE_VAL;
+  for (gsize i = 0; i < points->count; i++) {
+    SporeVec3 p = spore_vec3_load(points->first + points->stride * i);
+    double distance = spore_vec3_distance(p, place);
+    if (distance < least) least = distance, best = p;
+  }
+  return best;
+}
+
+/* Middles of cells; g_free. */
+static double *middles_of(const SporeTetrahedralMesh *cells) {
+  double *middles = g_new0(double, 3 * cells->tetrahedron_count);
+  for (gsize i = 0; i < 12 * cells->tetrahedron_count; i++)
+    middles[3 * (i / 12) + i % 3] += 0.25 * cells->vertices[3 * cells->tetrahedra[i / 3] + i % 3];
+  return middles;
+}
+
+/* Where the organ has something, near its middle: of a bent one that is not in the middle of its box. Its frame. */
+static gboolean find_middle(SporeDocument *document, SporeObject *body, SporeObject *holder, SporeVec3 *middle,
+                            double *radius, GError **error) {
+  gboolean of_spheres = g_str_equal(spore_object_type(holder)->element, "spheres");
+  SporeObject *asset = of_spheres ? holder : spore_edit_body_tetrahedra(document, body);
+  const SporeSphereSet *set = of_spheres ? spore_document_spheres(document, asset, error) : NULL;
+  if (of_spheres && !set) return FALSE;
+  const SporeTetrahedralMesh *cells = asset && !set ? spore_document_tetrahedra(document, asset, NULL) : NULL;
+  SporeObject *visual = set || cells ? NULL : spore_edit_visual_mesh(document, body, error);
+  const SporeTriangleMesh *mesh = visual ? spore_document_mesh(document, visual, error) : NULL;
+  if (!set && !cells && !mesh) return FALSE;
+  g_autofree double *middles = cells ? middles_of(cells) : NULL;
+  Points points = set     ? (Points){set->spheres, set->count, 4}
+                  : cells ? (Points){middles, cells->tetrahedron_count, 3}
+                          : (Points){mesh->vertices, mesh->vertex_count, 3};
+  double lower[3], upper[3], box[3];
+  double diagonal = cells ? spore_mesh_bounds(cells->vertices, cells->vertex_count, 3, lower, upper)
+                          : spore_mesh_bounds(points.first, points.count, points.stride, lower, upper);
+  for (int i = 0; i < 3; i++) box[i] = 0.5 * (lower[i] + upper[i]);
+  *middle = mesh ? spore_vec3_load(box) : nearest(&points, spore_vec3_load(box));
+  *radius = fmax(PART * diagonal, LEAST_M);
+  return TRUE;
+}
+
+static SporeObject *add_region(SporeDocument *document, SporeObject *body, const char *path, GError **error) {
+  double centre[3], radius;
+  SporeVec3 middle;
+  SporeObject *holder = spore_edit_object_or_unit(document, path, error);
+  if (!holder) return NULL;
+  const char *element = spore_region_element(spore_object_type(holder));
+  if (!element) {
+    spore_error_raise(error, SPORE_ERROR_INPUT, path,
+                      _("it has no regions; expected the regions of a body, spheres or tetrahedra; name one of those"));
+    return NULL;
+  }
+  if (!find_middle(document, body, holder, &middle, &radius, error)) return NULL;
+  spore_vec3_store(centre, middle);
+  SporeObject *region = spore_document_insert(document, holder, element, "region", G_MAXUINT, error);
+  gboolean done = region && set_numbers(document, region, "centre", centre, 3, error) &&
+                  set_numbers(document, region, "radius", &radius, 1, error);
+  return done ? region : NULL;
+}
+
+SporeObject *spore_edit_add_region(SporeDocument *document, SporeObject *body, const char *holder, GError **error) {
+  spore_document_begin(document, _("Add region"));
+  SporeObject *region = add_region(document, body, holder, error);
+  return spore_edit_finish(document, region != NULL) ? region : NULL;
+}
+
+static gboolean remove_region(SporeDocument *document, SporeObject *region, GError **error) {
+  SporeObject *holder = spore_object_parent(region);
+  gboolean unit = !spore_object_name(holder); /* `regions` of a body, not an asset */
+  return spore_document_remove(document, region, error) &&
+         (!unit || spore_object_child_count(holder) || spore_document_remove(document, holder, error));
+}
+
+gboolean spore_edit_remove_region(SporeDocument *document, const char *path, GError **error) {
+  SporeObject *region = spore_document_by_path(document, path);
+  SporeObject *holder = region ? spore_object_parent(region) : NULL;
+  const char *element = holder ? spore_region_element(spore_object_type(holder)) : NULL;
+  if (!element || strcmp(spore_object_type(region)->element, element) != 0)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, path, _("there is no such region; choose one of the list"));
+  spore_document_begin(document, _("Delete region"));
+  return spore_edit_finish(document, remove_region(document, region, error));
+}
+
+static void add_ring(double *segments, SporeVec3 centre, double radius, int axis) {
+  for (int i = 0; i < 2 * RING_SEGMENTS; i++) {
+    double angle = 2 * G_PI * ((i + 1) / 2) / RING_SEGMENTS, point[3] = {centre.x, centre.y, centre.z};
+    point[(axis + 1) % 3] += radius * cos(angle);
+    point[(axis + 2) % 3] += radius * sin(angle);
+    memcpy(segments + 3 * i, point, sizeof point);
+  }
+}
+
+double *spore_region_rings(const SporeObject *holder, gsize *count) {
+  const char *element = spore_region_element(spore_object_type(holder));
+  guint regions = element ? spore_object_child_count(holder) : 0;
+  *count = 3 * (gsize)regions * RING_SEGMENTS;
+  double *segments = g_new(double, 6 * *count);
+  for (guint i = 0; i < regions; i++) {
+    const SporeObject *region = spore_object_child(holder, i);
+    int centre = spore_parameter_find(spore_object_type(region)->table, "centre");
+    const SporeValue *value = spore_object_value(region, (guint)centre);
+    for (int axis = 0; axis < 3; axis++)
+      add_ring(segments + 6 * RING_SEGMENTS * (3 * i + (guint)axis), spore_vec3_load(value->number),
+               spore_object_number(region, "radius"), axis);
+  }
+  return segments;
+}

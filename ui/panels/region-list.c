@@ -1,0 +1,71 @@
+#include "ui/panels/region-list.h"
+
+#include <glib/gi18n.h>
+
+#include "ui/panels/report.h"
+#include "ui/panels/spore-property-row.h"
+
+static void activate_named(GtkButton *button, const char *action) {
+  const char *path = g_object_get_data(G_OBJECT(button), "path");
+  spore_activate(GTK_WIDGET(button), action, g_variant_new_string(path));
+}
+
+static GtkWidget *new_button(GtkWidget *button, const char *action, const char *path) {
+  g_object_set_data_full(G_OBJECT(button), "path", g_strdup(path), g_free);
+  g_signal_connect(button, "clicked", G_CALLBACK(activate_named), (gpointer)action);
+  return button;
+}
+
+static GtkWidget *new_head(SporeObject *region, const char *path) {
+  GtkWidget *head = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *name = gtk_label_new(spore_object_name(region));
+  GtkWidget *button = gtk_button_new_from_icon_name("edit-delete-symbolic", GTK_ICON_SIZE_BUTTON);
+  g_autofree char *tooltip = g_strdup_printf(_("Delete region %s"), spore_object_name(region));
+  gtk_label_set_xalign(GTK_LABEL(name), 0);
+  gtk_label_set_ellipsize(GTK_LABEL(name), PANGO_ELLIPSIZE_END);
+  gtk_widget_set_hexpand(name, TRUE);
+  gtk_style_context_add_class(gtk_widget_get_style_context(name), "heading");
+  gtk_style_context_add_class(gtk_widget_get_style_context(button), "row-button");
+  gtk_button_set_relief(GTK_BUTTON(button), GTK_RELIEF_NONE);
+  gtk_widget_set_tooltip_text(button, tooltip);
+  atk_object_set_name(gtk_widget_get_accessible(button), tooltip);
+  gtk_container_add(GTK_CONTAINER(head), name);
+  gtk_container_add(GTK_CONTAINER(head), new_button(button, "remove-region", path));
+  return head;
+}
+
+static void add_region(GtkBox *box, SporeEditorDocument *document, SporeObject *region, GPtrArray *rows) {
+  g_autofree char *path = spore_object_path(region);
+  const SporeObjectType *type = spore_object_type(region);
+  gtk_container_add(GTK_CONTAINER(box), new_head(region, path));
+  for (guint i = 0; i < type->table->count; i++) {
+    GtkWidget *row = spore_property_row_new(document, path, type, i);
+    gtk_container_add(GTK_CONTAINER(box), row);
+    g_ptr_array_add(rows, row);
+  }
+}
+
+void spore_fill_region_list(GtkBox *box, SporeEditorDocument *document, const char *holder, const SporeObjectType *type,
+                            const char *empty, GPtrArray *rows) {
+  SporeObject *object = spore_document_by_path(spore_editor_document_get(document), holder);
+  const char *element = spore_region_element(type);
+  guint count = 0;
+  for (guint i = 0; object && i < spore_object_child_count(object); i++) {
+    SporeObject *child = spore_object_child(object, i);
+    if (!g_str_equal(spore_object_type(child)->element, element)) continue;
+    add_region(box, document, child, rows);
+    count++;
+  }
+  if (!count) {
+    GtkWidget *label = gtk_label_new(empty);
+    gtk_label_set_xalign(GTK_LABEL(label), 0);
+    gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
+    gtk_label_set_max_width_chars(GTK_LABEL(label), 40);
+    gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
+    gtk_style_context_add_class(gtk_widget_get_style_context(label), "result");
+    gtk_container_add(GTK_CONTAINER(box), label);
+  }
+  GtkWidget *button = new_button(gtk_button_new_with_label(_("Add region")), "add-region", holder);
+  gtk_widget_set_tooltip_text(button, _("A ball in the middle of the body, to be placed and sized by its rows"));
+  gtk_widget_set_halign(button, GTK_ALIGN_START);
+  gtk_container_add(GTK_CONTAINER(box), button);
+}

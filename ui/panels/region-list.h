@@ -1,0 +1,15 @@
+/* The regions of a body, or of what is generated for it: add, edit, delete. */
+#ifndef SPORE_UI_PANELS_REGION_LIST_H
+#define SPORE_UI_PANELS_REGION_LIST_H
+
+#include <gtk/gtk.h>
+
+#include "ui/document/region-edits.h"
+#include "ui/document/spore-editor-document.h"
+
+/* Fills the box. holder: path of what the regions are children of, there or not, of that type. rows: gets each
+ * SporePropertyRow, borrowed. empty: said where there is none yet, translated. */
+void spore_fill_region_list(GtkBox *box, SporeEditorDocument *document, const char *holder, const SporeObjectType *type,
+                            const char *empty, GPtrArray *rows);
+
+#endif
