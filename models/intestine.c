@@ -162,6 +162,11 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
                                error);
 }
 
+static bool carry(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping,
+                  SporeError *error) {
+  return spore_spline_line_carry(&((const Intestine *)model)->line, model, false, points, count, mapping, error);
+}
+
 static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
   return spore_spline_line_samples(&((const Intestine *)model)->line, NULL, 0, points, count, seen);
 }
@@ -184,7 +189,8 @@ const SporeModelType spore_intestine = {
         N_("A bowel along a curve, with the curve's radius: a hollow axis that stretches and bends, spheres along it "
            "that touch other bodies and, where the collision unit says self, each other, and a mesentery that draws "
            "it back to how it lies. Pin the mesentery's root, which is where the centre of mass is at rest, or the "
-           "intestine falls with it. The wall keeps how sharply it bends and knows no twist."),
+           "intestine falls with it. The wall keeps how sharply it bends and knows no twist; what is "
+           "drawn of it goes with frames along the axis that turn with the mesentery."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(IntestineFields)},
     .geometry = SPORE_GEOMETRY_CURVE,
     .create = create,
@@ -194,6 +200,7 @@ const SporeModelType spore_intestine = {
     .force = force,
     .potential = potential,
     .map = map,
+    .carry = carry,
     .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,

@@ -164,6 +164,12 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
   return spore_spline_line_map(&body->line, body->twist.rest, points, count, model->map_slack, mapping, error);
 }
 
+static bool carry(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping,
+                  SporeError *error) {
+  const Spline1d *body = (const Spline1d *)model;
+  return spore_spline_line_carry(&body->line, model, body->twist.span_count > 0, points, count, mapping, error);
+}
+
 static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
   const Spline1d *body = (const Spline1d *)model;
   return spore_spline_line_samples(&body->line, body->twist.rest, model->node_count - body->line.control_count, points,
@@ -195,9 +201,10 @@ const SporeModelType spore_spline_1d = {
            "twist_modulus it resists twist too, and coils up where it is twisted and slack: what holds a piece of it "
            "as long as it is from one control point to the next (a weld, or a pin of that radius, at least four radii "
            "of the line) holds it from turning. It touches other bodies with spheres along the line, unless its "
-           "collision unit names other spheres: put those on the line too, since points off a straight line cannot "
-           "follow it unless it resists twist, and points off a bent one follow it only while its bends change "
-           "little."),
+           "collision unit names other spheres: put those on the line too, since spheres off a straight line cannot "
+           "follow it unless it resists twist, and spheres off a bent one follow it only while its bends change "
+           "little. What is drawn around it goes with frames along the line, which turn about it with its twist; "
+           "where it knows none, as little as they can."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(SplineFields)},
     .geometry = SPORE_GEOMETRY_CURVE,
     .create = create,
@@ -206,6 +213,7 @@ const SporeModelType spore_spline_1d = {
     .force = force,
     .potential = potential,
     .map = map,
+    .carry = carry,
     .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,

@@ -19,6 +19,7 @@ void spore_spline_line_clear(SporeSplineLine *line) {
   spore_sphere_set_clear(&line->spheres);
   spore_free(line->breaks);
   spore_free(line->rest);
+  spore_free(line->radius);
   spore_free(line->mass);
   spore_free(line->length);
   *line = (SporeSplineLine){0};
@@ -174,6 +175,14 @@ static bool fit(SporeSplineLine *line, const SporeCurve *curve, const SporeSplin
   return made;
 }
 
+static bool set_radii(SporeSplineLine *line, const SporeCurve *curve) {
+  size_t count = SPORE_LINE_SAMPLES * line->knots.span_count + 1;
+  line->radius = SPORE_NEW_ARRAY(double, count);
+  for (size_t i = 0; line->radius && i < count; i++)
+    line->radius[i] = spore_spline_radius(curve, line->knots, spore_spline_part(line->knots, SPORE_LINE_SAMPLES, i));
+  return line->radius;
+}
+
 bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineDensity *density,
                             const SporeSplineSection *section, SporeError *error) {
   *line = (SporeSplineLine){.control_count = density->count};
@@ -185,7 +194,8 @@ bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, cons
   if (!line->rest || !fit(line, curve, density)) return no_memory(error);
   line->mass = SPORE_NEW_ARRAY(double, line->control_count);
   line->length = SPORE_NEW_ARRAY(double, line->control_count);
-  if (!line->mass || !line->length || !spore_spline_allocate(&line->spline, line->knots.span_count))
+  if (!line->mass || !line->length || !set_radii(line, curve) ||
+      !spore_spline_allocate(&line->spline, line->knots.span_count))
     return no_memory(error);
   return set_points(line, curve, section, error) && set_spheres(line, curve, error);
 }
@@ -193,6 +203,23 @@ bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, cons
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
                            double slack, SporeMapping *mapping, SporeError *error) {
   return spore_spline_map(line->knots, line->rest, arms, points, count, slack, mapping, error);
+}
+
+bool spore_spline_line_carry(const SporeSplineLine *line, const SporeModel *model, bool arms, const double *points,
+                             size_t count, SporeMapping *mapping, SporeError *error) {
+  const SporeVec3 none = {0, 0, 0};
+  double *q = SPORE_NEW_ARRAY(double, model->q_count), *v = SPORE_NEW_ARRAY(double, 3 * model->block_count);
+  bool made = q && v;
+  if (made) {
+    model->type->place(model, spore_pose_identity(), none, none, q, v);
+    SporeLine at_rest = {line->knots, line->radius, arms, !spore_model_is_nodal(model), q};
+    made = spore_mapping_init_frames(mapping, &at_rest, points, count, error);
+  } else {
+    no_memory(error);
+  }
+  spore_free(q);
+  spore_free(v);
+  return made;
 }
 
 bool spore_spline_line_samples(const SporeSplineLine *line, const double *arms, size_t arm_count, double **points,

@@ -29,6 +29,7 @@ typedef struct SporeSplineLine {
   double *breaks;         /* of the knots; NULL: evenly */
   bool bends;             /* a span turns by more than the density asks for: there were to be no more points */
   double *rest;           /* control points, 3 each, body's frame, m */
+  double *radius;         /* at SPORE_LINE_SAMPLES places a span and at the end, m */
   double *mass, *length;  /* of each control point: integrals of its function, kg and m */
   SporeSphereSet spheres; /* along the line, each a radius from the next */
   SporeSpline spline;     /* young, bending and viscous are the model's to set; its blocks are not looked up yet */
@@ -41,6 +42,10 @@ void spore_spline_line_clear(SporeSplineLine *line);
 /* The slots map, samples and spheres of SporeModelType; arms as for spore_spline_map. */
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
                            double slack, SporeMapping *mapping, SporeError *error);
+/* The slot carry of a model that begins with the line; arms: it has them behind the control points, else a root if it
+ * has a frame. */
+bool spore_spline_line_carry(const SporeSplineLine *line, const SporeModel *model, bool arms, const double *points,
+                             size_t count, SporeMapping *mapping, SporeError *error);
 bool spore_spline_line_samples(const SporeSplineLine *line, const double *arms, size_t arm_count, double **points,
                                size_t *count, size_t *seen);
 bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error);

@@ -6,6 +6,7 @@ static unsigned char couple(const SporeEnd *end, const SporeSite *sites, SporeCo
   coupled->v = sites[end->body].v;
   switch (end->mapping->kind) {
   case SPORE_MAPPING_FIXED:
+  case SPORE_MAPPING_FRAMES:
     return SPORE_COUPLED_NOTHING;
   case SPORE_MAPPING_IDENTITY:
     coupled->v += 3 * (size_t)end->point;

@@ -61,7 +61,19 @@ bool spore_mapping_init_linear(SporeMapping *mapping, size_t count, size_t width
   return true;
 }
 
+bool spore_mapping_init_frames(SporeMapping *mapping, const SporeLine *line, const double *points, size_t count,
+                               SporeError *error) {
+  *mapping = (SporeMapping){.kind = SPORE_MAPPING_FRAMES, .point_count = count};
+  mapping->frames = SPORE_NEW(SporeLineFrames);
+  if (!mapping->frames) return no_memory(mapping, error);
+  if (spore_line_frames_init(mapping->frames, line, points, count, error)) return true;
+  spore_mapping_clear(mapping);
+  return false;
+}
+
 void spore_mapping_clear(SporeMapping *mapping) {
+  if (mapping->frames) spore_line_frames_clear(mapping->frames);
+  spore_free(mapping->frames);
   spore_free(mapping->points);
   spore_free(mapping->row_start);
   spore_free(mapping->block);
@@ -134,6 +146,7 @@ static SporeVec3 lever(const SporeMapping *mapping, size_t point, const double *
 }
 
 SporeVec3 spore_mapping_position(const SporeMapping *mapping, size_t point, const double *q) {
+  double place[3];
   switch (mapping->kind) {
   case SPORE_MAPPING_FIXED:
     return spore_vec3_load(mapping->points + 3 * point);
@@ -141,6 +154,9 @@ SporeVec3 spore_mapping_position(const SporeMapping *mapping, size_t point, cons
     return spore_vec3_load(q + 3 * point);
   case SPORE_MAPPING_RIGID:
     return spore_vec3_add(spore_vec3_load(q), lever(mapping, point, q));
+  case SPORE_MAPPING_FRAMES:
+    spore_line_frames_positions(mapping->frames, point, q, place);
+    return spore_vec3_load(place);
   case SPORE_MAPPING_LINEAR:
     break;
   }
@@ -148,6 +164,7 @@ SporeVec3 spore_mapping_position(const SporeMapping *mapping, size_t point, cons
 }
 
 SporeVec3 spore_mapping_velocity(const SporeMapping *mapping, size_t point, const double *q, const double *v) {
+  double speed[3];
   switch (mapping->kind) {
   case SPORE_MAPPING_FIXED:
     return (SporeVec3){0, 0, 0};
@@ -155,6 +172,9 @@ SporeVec3 spore_mapping_velocity(const SporeMapping *mapping, size_t point, cons
     return spore_vec3_load(v + 3 * point);
   case SPORE_MAPPING_RIGID:
     return spore_vec3_add(spore_vec3_load(v), spore_vec3_cross(spore_vec3_load(v + 3), lever(mapping, point, q)));
+  case SPORE_MAPPING_FRAMES:
+    spore_line_frames_velocities(mapping->frames, point, q, v, speed);
+    return spore_vec3_load(speed);
   case SPORE_MAPPING_LINEAR:
     break;
   }
@@ -162,6 +182,7 @@ SporeVec3 spore_mapping_velocity(const SporeMapping *mapping, size_t point, cons
 }
 
 void spore_mapping_add_force(const SporeMapping *mapping, size_t point, const double *q, SporeVec3 force, double *f) {
+  double one[3];
   switch (mapping->kind) {
   case SPORE_MAPPING_FIXED:
     break;
@@ -171,6 +192,10 @@ void spore_mapping_add_force(const SporeMapping *mapping, size_t point, const do
   case SPORE_MAPPING_RIGID:
     spore_vec3_accumulate(f, force);
     spore_vec3_accumulate(f + 3, spore_vec3_cross(lever(mapping, point, q), force));
+    break;
+  case SPORE_MAPPING_FRAMES:
+    spore_vec3_store(one, force);
+    spore_line_frames_add_forces(mapping->frames, point, q, one, f);
     break;
   case SPORE_MAPPING_LINEAR:
     for (uint32_t k = mapping->row_start[point]; k < mapping->row_start[point + 1]; k++)
@@ -186,6 +211,7 @@ static void add_block(double *block, double scale, const SporeMat3 *k) {
 void spore_mapping_add_diagonal(const SporeMapping *mapping, size_t point, const double *q, const SporeMat3 *k,
                                 double *blocks) {
   switch (mapping->kind) {
+  case SPORE_MAPPING_FRAMES:
   case SPORE_MAPPING_FIXED:
     break;
   case SPORE_MAPPING_IDENTITY:
@@ -223,6 +249,9 @@ void spore_mapping_positions(const SporeMapping *mapping, const double *q, doubl
     }
     break;
   }
+  case SPORE_MAPPING_FRAMES:
+    spore_line_frames_positions(mapping->frames, SPORE_LINE_ALL, q, positions);
+    break;
   case SPORE_MAPPING_LINEAR:
     SPORE_KERNEL(spore_mapping_combine)(mapping, q, positions);
     break;
@@ -247,6 +276,9 @@ void spore_mapping_velocities(const SporeMapping *mapping, const double *q, cons
     }
     break;
   }
+  case SPORE_MAPPING_FRAMES:
+    spore_line_frames_velocities(mapping->frames, SPORE_LINE_ALL, q, v, velocities);
+    break;
   case SPORE_MAPPING_LINEAR:
     SPORE_KERNEL(spore_mapping_combine)(mapping, v, velocities);
     break;
@@ -254,6 +286,10 @@ void spore_mapping_velocities(const SporeMapping *mapping, const double *q, cons
 }
 
 void spore_mapping_add_forces(const SporeMapping *mapping, const double *q, const double *forces, double *f) {
+  if (mapping->kind == SPORE_MAPPING_FRAMES) {
+    spore_line_frames_add_forces(mapping->frames, SPORE_LINE_ALL, q, forces, f);
+    return;
+  }
   for (size_t i = 0; i < mapping->point_count; i++)
     spore_mapping_add_force(mapping, i, q, spore_vec3_load(forces + 3 * i), f);
 }

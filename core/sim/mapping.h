@@ -11,21 +11,24 @@
 
 #include "core/base/error.h"
 #include "core/math/quat.h"
+#include "core/sim/line_frames.h"
 
 typedef enum SporeMappingKind {
   SPORE_MAPPING_FIXED,    /* points never move; no degrees of freedom behind them */
   SPORE_MAPPING_IDENTITY, /* point i is block i: p = q[3i..3i+2] */
-  SPORE_MAPPING_RIGID, /* q = position (3), quaternion wxyz (4); v = velocity (3), angular velocity (3), world axes */
-  SPORE_MAPPING_LINEAR /* p_i = sum over the row of weight * q[3 block..], weights sum to 1 */
+  SPORE_MAPPING_RIGID,  /* q = position (3), quaternion wxyz (4); v = velocity (3), angular velocity (3), world axes */
+  SPORE_MAPPING_LINEAR, /* p_i = sum over the row of weight * q[3 block..], weights sum to 1 */
+  SPORE_MAPPING_FRAMES  /* points go with frames along a line: what is drawn alone, neither links nor contacts */
 } SporeMappingKind;
 
 typedef struct SporeMapping {
   SporeMappingKind kind;
   size_t point_count;
-  double *points;      /* fixed: world positions; rigid: in the body's frame; else NULL; point_count x 3 */
-  uint32_t *row_start; /* linear: point_count + 1 */
-  uint32_t *block;     /* linear: row_start[point_count] */
-  double *weight;      /* linear: same length */
+  double *points;          /* fixed: world positions; rigid: in the body's frame; else NULL; point_count x 3 */
+  uint32_t *row_start;     /* linear: point_count + 1 */
+  uint32_t *block;         /* linear: row_start[point_count] */
+  double *weight;          /* linear: same length */
+  SporeLineFrames *frames; /* frames: from spore_allocate */
 } SporeMapping;
 
 /* Constructors copy; arrays from spore_allocate. */
@@ -35,6 +38,9 @@ bool spore_mapping_init_identity(SporeMapping *mapping, size_t count);
 /* Rows of equal length `width`: blocks and weights are count x width; zero weights are dropped. */
 bool spore_mapping_init_linear(SporeMapping *mapping, size_t count, size_t width, const uint32_t *blocks,
                                const double *weights, SporeError *error);
+/* Not for two threads at once, here and below. */
+bool spore_mapping_init_frames(SporeMapping *mapping, const SporeLine *line, const double *points, size_t count,
+                               SporeError *error);
 void spore_mapping_clear(SporeMapping *mapping);
 
 /* Points that hang on tetrahedra whose nodes change. Finds for each entry of a linear mapping a corner, of 4
@@ -55,7 +61,8 @@ void spore_mapping_add_forces(const SporeMapping *mapping, const double *q, cons
 SporeVec3 spore_mapping_position(const SporeMapping *mapping, size_t point, const double *q);
 SporeVec3 spore_mapping_velocity(const SporeMapping *mapping, size_t point, const double *q, const double *v);
 void spore_mapping_add_force(const SporeMapping *mapping, size_t point, const double *q, SporeVec3 force, double *f);
-/* Adds J^T K J of one point to 3x3 diagonal blocks (block_count x 9): what a block-Jacobi preconditioner needs. */
+/* Adds J^T K J of one point to 3x3 diagonal blocks (block_count x 9): what a block-Jacobi preconditioner needs; of
+ * frames nothing. */
 void spore_mapping_add_diagonal(const SporeMapping *mapping, size_t point, const double *q, const SporeMat3 *k,
                                 double *blocks);
 

@@ -14,15 +14,25 @@ double spore_mapping_leverage(const SporeMapping *mapping, size_t point) {
   return sum;
 }
 
-/* x' = centre + stretch (x - centre) + shift + along^2 aside, along the longest side of the box around the nodes. */
+/* x' = centre + stretch (x - centre) + shift + along^2 aside, along the longest side of the box around the nodes; with
+ * a radius instead an arc of a circle, to which planes across that side stay square, in its plane with aside. */
 typedef struct Field {
   SporeVec3 centre, shift, along, aside;
   SporeMat3 stretch;
+  double radius;
 } Field;
+
+static SporeVec3 arc_at(const Field *field, SporeVec3 arm) {
+  double along = spore_vec3_dot(field->along, arm), aside = spore_vec3_dot(field->aside, arm);
+  double angle = along / field->radius, within = field->radius - aside;
+  SporeVec3 moved = spore_vec3_add_scaled(arm, within * sin(angle) - along, field->along);
+  return spore_vec3_add_scaled(moved, within * (1 - cos(angle)), field->aside);
+}
 
 static SporeVec3 field_at(const Field *field, SporeVec3 x) {
   SporeVec3 arm = spore_vec3_sub(x, field->centre);
   double along = spore_vec3_dot(field->along, arm);
+  if (field->radius > 0) return spore_vec3_add(field->centre, arc_at(field, arm));
   SporeVec3 moved = spore_vec3_add(field->shift, spore_mat3_apply(field->stretch, arm));
   return spore_vec3_add(field->centre, spore_vec3_add_scaled(moved, along * along, field->aside));
 }
@@ -56,6 +66,14 @@ static Field bend_field(const double *nodes, size_t count) {
   Field field = still(nodes, count, &longest, &length);
   field.along = spore_vec3_load(axes[longest]);
   if (length > 0) field.aside = spore_vec3_scale(4 * BEND / length, spore_vec3_load(axes[(longest + 1) % 3]));
+  return field;
+}
+
+static Field arc_field(const double *nodes, size_t count) {
+  Field field = bend_field(nodes, count);
+  double depth = spore_vec3_length(field.aside); /* 1 / (2 radius) */
+  field.radius = depth > 0 ? 0.5 / depth : 0;
+  field.aside = spore_vec3_normalise(field.aside, field.along);
   return field;
 }
 
@@ -99,13 +117,17 @@ static double after_field(Trial *trial, Field (*make)(const double *nodes, size_
 }
 
 static void run_trials(Trial *trial, SporeMappingError *measured) {
+  *measured = (SporeMappingError){0};
   const SporePose turned = {{0.3, -0.2, 0.1}, spore_quat_from_rotation_vector(spore_vec3(0.48, -0.6, 0.64))};
   bool follows_nodes = trial->mapping->kind == SPORE_MAPPING_LINEAR || trial->mapping->kind == SPORE_MAPPING_IDENTITY;
+  bool framed = trial->mapping->kind == SPORE_MAPPING_FRAMES;
   measured->rest = after_pose(trial, spore_pose_identity());
   measured->rigid = after_pose(trial, turned);
   measured->affine = follows_nodes ? after_field(trial, affine_field) : NAN;
-  measured->bend = follows_nodes ? after_field(trial, bend_field) : NAN;
+  measured->bend = follows_nodes ? after_field(trial, bend_field) : framed ? after_field(trial, arc_field) : NAN;
   measured->leverage = 1;
+  if (framed)
+    measured->crowd = spore_line_frames_crowd(trial->mapping->frames, &measured->crowd_point, &measured->crowd_share);
   for (size_t i = 0; i < trial->mapping->point_count; i++)
     measured->leverage = fmax(measured->leverage, spore_mapping_leverage(trial->mapping, i));
 }

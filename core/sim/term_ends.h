@@ -35,6 +35,7 @@ INLINE SporeVec3 gather(const SporeEnd *end, const SporeSite *sites, const doubl
   case SPORE_MAPPING_RIGID:
     return spore_vec3_add(spore_vec3_load(local), spore_vec3_cross(spore_vec3_load(local + 3), end->offset));
   case SPORE_MAPPING_LINEAR:
+  case SPORE_MAPPING_FRAMES:
   case SPORE_MAPPING_FIXED:
     break;
   }
@@ -54,6 +55,7 @@ INLINE void scatter(const SporeEnd *end, const SporeSite *sites, SporeVec3 force
     spore_vec3_accumulate(local + 3, spore_vec3_cross(end->offset, force));
     return;
   case SPORE_MAPPING_LINEAR:
+  case SPORE_MAPPING_FRAMES:
   case SPORE_MAPPING_FIXED:
     break;
   }

@@ -43,10 +43,11 @@ static void init_configuration(SporeStageBody *body, const SporeObject *object, 
 
 static gboolean map_points(const SporeStageBody *body, const SporeSimulation *simulation, const double *points,
                            gsize count, SporeStagePoints *mapped) {
-  gboolean done = body->world_body != SPORE_NO_BODY
-                      ? spore_world_map_level(simulation->world, body->world_body, body->level, points, count,
-                                              &mapped->mapping, NULL)
-                      : spore_mapping_init_points(&mapped->mapping, SPORE_MAPPING_RIGID, points, count, NULL);
+  gboolean done, surface = mapped == &body->surface;
+  done = body->world_body != SPORE_NO_BODY
+             ? (surface ? spore_world_map_drawn : spore_world_map_level)(
+                   simulation->world, body->world_body, body->level, points, count, &mapped->mapping, NULL)
+             : spore_mapping_init_points(&mapped->mapping, SPORE_MAPPING_RIGID, points, count, NULL);
   if (!done) return FALSE;
   mapped->count = count;
   mapped->positions = g_new(double, 3 * count);
