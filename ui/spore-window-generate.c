@@ -2,7 +2,7 @@
 
 #include "core/scene/generated.h"
 #include "ui/document/edits.h"
-#include "ui/jobs/quality.h"
+#include "ui/jobs/generate-types.h"
 #include "ui/spore-window-private.h"
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
@@ -28,8 +28,7 @@ static void begin(const Request *request) {
   if (!body) return;
   g_autoptr(GError) error = NULL;
   SporeGenerateOptions options = spore_generate_options_of(document_of(self), body, request->kind);
-  if (request->count && request->kind == SPORE_GENERATE_SPHERES) options.spheres.count = request->count;
-  if (request->count && request->kind == SPORE_GENERATE_TETRAHEDRA) options.tetrahedra.cells = request->count;
+  if (request->count) spore_generate_set_count(&options, request->count);
   if (self->job) {
     spore_window_complain(self, _("Something else is still being worked on; wait for it or cancel it"));
     return;
@@ -74,20 +73,20 @@ static void start(SporeWindow *self, SporeGenerateKind kind, guint count, gboole
   else if (body) begin(&request);
 }
 
-static void act_generate_spheres(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  start(data, SPORE_GENERATE_SPHERES, MAX(1, g_variant_get_uint32(parameter)), TRUE);
+/* The kind that the action is named after. */
+static SporeGenerateKind kind_of(GSimpleAction *action) {
+  const char *name = strchr(g_action_get_name(G_ACTION(action)), '-') + 1;
+  SporeGenerateKind kind = 0;
+  while (!g_str_equal(spore_generate_type(kind)->name, name)) kind++;
+  return kind;
 }
 
-static void act_generate_tetrahedra(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  start(data, SPORE_GENERATE_TETRAHEDRA, MAX(1, g_variant_get_uint32(parameter)), TRUE);
+static void act_generate(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  start(data, kind_of(action), MAX(1, g_variant_get_uint32(parameter)), TRUE);
 }
 
-static void act_preview_spheres(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  start(data, SPORE_GENERATE_SPHERES, g_variant_get_uint32(parameter), FALSE);
-}
-
-static void act_preview_tetrahedra(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  start(data, SPORE_GENERATE_TETRAHEDRA, g_variant_get_uint32(parameter), FALSE);
+static void act_preview(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  start(data, kind_of(action), g_variant_get_uint32(parameter), FALSE);
 }
 
 /* Ending. */
@@ -106,41 +105,15 @@ static void act_cancel_job(GSimpleAction *action, GVariant *parameter, gpointer 
 
 static void applied(SporeWindow *self) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
-  const SporeTetrahedraReport *tetrahedra = &work->tetrahedra_report;
-  if (work->options.kind == SPORE_GENERATE_SPHERES) {
+  if (work->options.kind == SPORE_GENERATE_SPHERES)
     g_action_group_change_action_state(G_ACTION_GROUP(self), "show-spheres", g_variant_new_boolean(TRUE));
-    spore_window_log(self, _("%zu spheres in %.1f s: coverage %.1f %%, depth error %.1f %%"), work->spheres.count,
-                     work->spheres_report.seconds, 100 * work->spheres_report.coverage,
-                     100 * work->spheres_report.depth_error);
-    return;
-  }
-  spore_window_log(self, _("%zu tetrahedra in %.1f s (%s): least angle %.1f°, error %.2f %%"),
-                   work->tetrahedra.tetrahedron_count, tetrahedra->seconds,
-                   spore_tetrahedra_method_names[tetrahedra->method], tetrahedra->quality.min_dihedral_deg,
-                   100 * tetrahedra->hausdorff);
+  g_autofree char *facts = spore_generate_type(work->options.kind)->facts(work);
+  g_auto(GStrv) lines = g_strsplit(facts, "\n", -1);
+  g_autofree char *line = g_strjoinv("; ", lines);
+  spore_window_log(self, "%s", line);
 }
 
 /* Showing. */
-
-static float *places_of(const SporeQuality *quality) {
-  float *places = g_new(float, quality->count);
-  for (gsize i = 0; i < quality->count; i++) places[i] = (float)spore_quality_place(quality, i);
-  return places;
-}
-
-static void take_surface(SporeStageCandidate *candidate, const SporeTriangleMesh *mesh, const SporeQuality *quality) {
-  candidate->vertex_count = mesh->vertex_count;
-  candidate->triangle_count = mesh->triangle_count;
-  candidate->vertices = g_memdup2(mesh->vertices, 3 * mesh->vertex_count * sizeof(double));
-  candidate->triangles = g_memdup2(mesh->triangles, 3 * mesh->triangle_count * sizeof(guint32));
-  candidate->vertex_values = places_of(quality);
-}
-
-static void take_spheres(SporeStageCandidate *candidate, const SporeSphereSet *set, const SporeQuality *quality) {
-  candidate->sphere_count = set->count;
-  candidate->spheres = g_memdup2(set->spheres, 4 * set->count * sizeof(double));
-  candidate->sphere_values = places_of(quality);
-}
 
 /* Of what the work has come to, or what it gave. */
 static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *quality) {
@@ -155,10 +128,10 @@ static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *qualit
     candidate->spheres = spore_job_get_look(job, &candidate->sphere_count);
     return candidate;
   }
-  spore_quality_of(work, spore_generator_panel_get_quality(SPORE_GENERATOR_PANEL(self->generator_panel)), quality);
-  if (work->options.kind == SPORE_GENERATE_SPHERES && quality->of_surface)
-    take_surface(candidate, &work->mesh, quality);
-  else if (work->options.kind == SPORE_GENERATE_SPHERES) take_spheres(candidate, &work->spheres, quality);
+  gsize which = spore_generator_panel_get_quality(SPORE_GENERATOR_PANEL(self->generator_panel));
+  spore_quality_of(work, which, quality);
+  const SporeGenerateQuality *shown = &spore_generate_type(work->options.kind)->qualities[which];
+  if (quality->count) shown->show(work, spore_quality_places(quality), candidate);
   return candidate;
 }
 
@@ -188,19 +161,23 @@ void spore_window_set_generator(SporeWindow *self) {
 
 void spore_window_update_generator(SporeWindow *self, gboolean bodies) {
   gboolean idle = !self->job && !spore_generator_is_working(self->generator);
-  spore_window_set_enabled(self, "generate-spheres", idle && bodies);
-  spore_window_set_enabled(self, "generate-tetrahedra", idle && bodies);
-  spore_window_set_enabled(self, "preview-spheres", !self->job && bodies);
-  spore_window_set_enabled(self, "preview-tetrahedra", !self->job && bodies);
+  for (SporeGenerateKind kind = 0; kind < SPORE_GENERATE_KIND_COUNT; kind++) {
+    g_autofree char *generate = g_strconcat("generate-", spore_generate_type(kind)->name, NULL);
+    g_autofree char *preview = g_strconcat("preview-", spore_generate_type(kind)->name, NULL);
+    spore_window_set_enabled(self, generate, idle && bodies);
+    spore_window_set_enabled(self, preview, !self->job && bodies);
+  }
   spore_window_set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
   spore_window_set_enabled(self, "cancel-job", self->job || spore_generator_is_active(self->generator));
 }
 
 void spore_window_add_generator_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
-      {"generate-spheres", act_generate_spheres, "u"}, {"generate-tetrahedra", act_generate_tetrahedra, "u"},
-      {"preview-spheres", act_preview_spheres, "u"},   {"preview-tetrahedra", act_preview_tetrahedra, "u"},
-      {"apply-generated", act_apply_generated},        {"cancel-job", act_cancel_job},
+      {"generate-spheres", act_generate, "u"},  {"generate-tetrahedra", act_generate, "u"},
+      {"generate-curve", act_generate, "u"},    {"generate-surface", act_generate, "u"},
+      {"preview-spheres", act_preview, "u"},    {"preview-tetrahedra", act_preview, "u"},
+      {"preview-curve", act_preview, "u"},      {"preview-surface", act_preview, "u"},
+      {"apply-generated", act_apply_generated}, {"cancel-job", act_cancel_job},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
   g_signal_connect_object(self->generator_panel, "shown-quality-changed", G_CALLBACK(show_candidate), self,

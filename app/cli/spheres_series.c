@@ -170,7 +170,9 @@ gboolean spore_cli_spheres_series(SporeCli *cli, const char *file, const SporeSp
     spore_error_at(&fault, file);
     return spore_error_propagate(&fault, error);
   }
-  size_t enough = spore_spheres_enough(numbers, reports, count, worth);
+  g_autofree double *errors = g_new(double, count);
+  for (size_t i = 0; i < count; i++) errors[i] = reports[i].depth_error;
+  size_t enough = spore_enough(numbers, errors, count, worth);
   if (svg && !write_svg(svg, file, numbers, reports, count, enough, worth, error)) return FALSE;
   if (csv && !write_csv(csv, numbers, reports, count, error)) return FALSE;
   report_series(cli, numbers, reports, count, enough, worth);

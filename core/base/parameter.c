@@ -348,7 +348,7 @@ int spore_parameter_format(const SporeParameter *parameter, const SporeValue *va
 
 /* Structures. */
 
-static SporeValue read_field(const SporeParameter *parameter, const void *fields) {
+SporeValue spore_parameter_load(const SporeParameter *parameter, const void *fields) {
   const unsigned char *field = (const unsigned char *)fields + parameter->offset;
   SporeValue value = {.type = parameter->type};
   switch (parameter->type) {
@@ -410,7 +410,7 @@ void spore_parameters_set_initial(const SporeParameterTable *table, void *fields
 
 bool spore_parameters_check(const SporeParameterTable *table, const void *fields, SporeError *error) {
   for (size_t i = 0; i < table->count; i++) {
-    SporeValue value = read_field(&table->parameters[i], fields);
+    SporeValue value = spore_parameter_load(&table->parameters[i], fields);
     if (!spore_parameter_check(&table->parameters[i], &value, error)) return false;
   }
   return true;

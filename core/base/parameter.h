@@ -83,6 +83,7 @@ int spore_parameter_format(const SporeParameter *parameter, const SporeValue *va
 /* Structure side: `fields` points to a structure of table->size bytes. */
 void spore_parameters_set_initial(const SporeParameterTable *table, void *fields); /* texts: initial_text */
 void spore_parameter_store(const SporeParameter *parameter, const SporeValue *value, void *fields); /* borrows text */
+SporeValue spore_parameter_load(const SporeParameter *parameter, const void *fields);               /* borrowing text */
 bool spore_parameters_check(const SporeParameterTable *table, const void *fields, SporeError *error);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
+#include "core/scene/compile.h"
 
 const char *const spore_centreline_body_names[] = {"thread", "tube", "intestine", NULL};
 
@@ -100,16 +101,20 @@ static gboolean insert_units(SporeDocument *document, SporeObject *body, const S
       !set_number(document, collision, "damping", 0.3, error) ||
       (options->loops_apart && !spore_document_set_text(document, collision, "self", "true", error)))
     return FALSE;
-  SporeObject *visual = insert(document, body, "visual", NULL, error);
+  SporeObject *visual = spore_object_child_of(body, "visual");
+  if (!visual) visual = insert(document, body, "visual", NULL, error);
   if (!visual) return FALSE;
-  return !mesh || spore_document_set_text(document, visual, "mesh", spore_object_name(mesh), error);
+  if (mesh) return spore_document_set_text(document, visual, "mesh", spore_object_name(mesh), error);
+  int shown = spore_parameter_find(spore_object_type(visual)->table, "mesh");
+  return spore_document_unset(document, visual, (guint)shown, error);
 }
 
 static gboolean insert_pin(SporeDocument *document, SporeObject *body, const char *name, SporeVec3 p, double radius,
                            GError **error) {
   SporeObject *pin = insert(document, spore_document_section(document, "links"), "pin", name, error);
   char place[3][G_ASCII_DTOSTR_BUF_SIZE];
-  const double at[3] = {p.x, p.y, p.z};
+  SporeVec3 placed = spore_pose_apply(spore_body_pose(body), p);
+  const double at[3] = {placed.x, placed.y, placed.z};
   for (int k = 0; k < 3; k++) g_ascii_formatd(place[k], sizeof place[k], "%.6g", at[k]);
   g_autofree char *text = g_strjoin(" ", place[0], place[1], place[2], NULL);
   return pin && spore_document_set_text(document, pin, "body", spore_object_name(body), error) &&
@@ -141,6 +146,31 @@ static gboolean hold(SporeDocument *document, SporeObject *body, const SporeCurv
          insert_pin(document, body, "end", point(curve, last), PIN * curve->points[4 * last + 3], error);
 }
 
+/* Units and holds that an earlier call, or another model, gave the body. */
+static gboolean empty(SporeDocument *document, SporeObject *body, GError **error) {
+  static const char *const units[] = {"mechanical", "collision"};
+  gboolean done = TRUE;
+  for (guint i = 0; done && i < G_N_ELEMENTS(units); i++) {
+    SporeObject *unit = spore_object_child_of(body, units[i]);
+    done = !unit || spore_document_remove(document, unit, error);
+  }
+  SporeObject *links = spore_document_section(document, "links");
+  for (guint i = spore_object_child_count(links); done && i-- > 0;) {
+    SporeObject *link = spore_object_child(links, i);
+    if (g_str_equal(spore_object_type(link)->element, "pin") && spore_object_reference(link, "body") == body)
+      done = spore_document_remove(document, link, error);
+  }
+  int role = spore_parameter_find(spore_object_type(body)->table, "role");
+  return done && spore_document_unset(document, body, (guint)role, error);
+}
+
+gboolean spore_centreline_body_fill(SporeDocument *document, SporeObject *body, SporeObject *line,
+                                    const SporeCurve *curve, const SporeCentrelineBodyOptions *options,
+                                    SporeObject *mesh, GError **error) {
+  return empty(document, body, error) && insert_model(document, body, line, curve, options, error) &&
+         insert_units(document, body, options, mesh, error) && hold(document, body, curve, options->body, error);
+}
+
 SporeObject *spore_centreline_body_insert(SporeDocument *document, const char *name, const SporeCurve *curve,
                                           const SporeCentrelineBodyOptions *options, SporeObject *mesh,
                                           GError **error) {
@@ -148,8 +178,5 @@ SporeObject *spore_centreline_body_insert(SporeDocument *document, const char *n
   SporeObject *line = insert_curve(document, line_name, curve, error);
   if (!line) return NULL;
   SporeObject *body = insert(document, spore_document_section(document, "bodies"), "body", name, error);
-  gboolean done = body && insert_model(document, body, line, curve, options, error) &&
-                  insert_units(document, body, options, mesh, error) &&
-                  hold(document, body, curve, options->body, error);
-  return done ? body : NULL;
+  return body && spore_centreline_body_fill(document, body, line, curve, options, mesh, error) ? body : NULL;
 }

@@ -26,6 +26,12 @@ size_t spore_centreline_control_points(const SporeCurve *curve);
  * loops touch, so that none follows the wrong one. */
 bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *mesh, bool loops_apart);
 
+/* Makes a body that is there one along the curve asset `line`: its model, collision unit and holds take the place of
+ * those it had. mesh as below. FALSE with a GError: what was changed by then stays. */
+gboolean spore_centreline_body_fill(SporeDocument *document, SporeObject *body, SporeObject *line,
+                                    const SporeCurve *curve, const SporeCentrelineBodyOptions *options,
+                                    SporeObject *mesh, GError **error);
+
 /* Inserts a curve asset (its file waits as a blob), a body of that kind with collision spheres along the line (the
  * model's own) and what holds it. mesh: object of a mesh asset that the body shows (a tube alone), or NULL: its own
  * skin. Returns the body; NULL with a GError: what was inserted by then stays, so call it inside a group where that

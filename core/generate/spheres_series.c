@@ -53,13 +53,13 @@ bool spore_spheres_series(const SporeSpheresSource *source, const SporeSpheresOp
   return true;
 }
 
-/* What a doubling lowers the depth error by, before point i. */
-static double gain(const size_t *counts, const SporeSpheresReport *reports, size_t i) {
-  return (reports[i - 1].depth_error - reports[i].depth_error) / log2((double)counts[i] / (double)counts[i - 1]);
+/* What a doubling lowers the error by, before point i. */
+static double gain(const size_t *counts, const double *errors, size_t i) {
+  return (errors[i - 1] - errors[i]) / log2((double)counts[i] / (double)counts[i - 1]);
 }
 
-size_t spore_spheres_enough(const size_t *counts, const SporeSpheresReport *reports, size_t count, double worth) {
+size_t spore_enough(const size_t *counts, const double *errors, size_t count, double worth) {
   size_t enough = count;
-  for (size_t i = count; i-- > 1 && gain(counts, reports, i) < worth;) enough = i - 1;
+  for (size_t i = count; i-- > 1 && gain(counts, errors, i) < worth;) enough = i - 1;
   return enough;
 }

@@ -15,9 +15,8 @@ bool spore_spheres_series(const SporeSpheresSource *source, const SporeSpheresOp
                           size_t count, SporeSpheresReport *reports, SporeSpheresMeasured *measured, void *data,
                           const SporeProgress *progress, SporeError *error);
 
-/* Index of the first point from which on doubling the number of spheres lowers the depth error by less than `worth` (of
- * the largest depth) everywhere measured; count where it pays to the end. Between points the error is taken to fall
- * evenly with the logarithm of the number. */
-size_t spore_spheres_enough(const size_t *counts, const SporeSpheresReport *reports, size_t count, double worth);
+/* Index of the first point from which on doubling the number lowers the error by less than `worth` everywhere measured;
+ * count where it pays to the end. Between points the error is taken to fall evenly with the logarithm of the number. */
+size_t spore_enough(const size_t *counts, const double *errors, size_t count, double worth);
 
 #endif

@@ -6,9 +6,9 @@
 #include "core/base/hash.h"
 
 /* Of an asset that is generated, everything else says how. */
-static gboolean is_option(const SporeParameter *parameter) {
-  static const char *const others[] = {"name",         "file",   "source", "source_hash",
-                                       "options_hash", "frozen", "edited", NULL};
+gboolean spore_generated_is_option(const SporeParameter *parameter) {
+  static const char *const others[] = {"name",        "file",         "unit",   "frame",  "source",
+                                       "source_hash", "options_hash", "frozen", "edited", NULL};
   return !g_strv_contains(others, parameter->name);
 }
 
@@ -27,7 +27,7 @@ static guint64 hash_option(guint64 hash, const SporeParameter *parameter, const 
 static guint64 hash_options(guint64 hash, const SporeObject *object) {
   const SporeParameterTable *table = spore_object_type(object)->table;
   for (guint i = 0; i < table->count; i++)
-    if (is_option(&table->parameters[i]))
+    if (spore_generated_is_option(&table->parameters[i]))
       hash = hash_option(hash, &table->parameters[i], spore_object_value(object, i));
   for (guint i = 0; i < spore_object_child_count(object); i++) {
     const SporeObject *region = spore_object_child(object, i);

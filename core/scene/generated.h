@@ -1,5 +1,5 @@
-/* Generated data (spheres, tetrahedra, curves): what an asset remembers of how it was made. Nothing is thrown away when
- * that is no longer so: the data are stale, and stay until somebody generates them anew. */
+/* Generated data (spheres, tetrahedra, curves, surfaces): what an asset remembers of how it was made. Nothing is thrown
+ * away when that is no longer so: the data are stale, and stay until somebody generates them anew. */
 #ifndef SPORE_SCENE_GENERATED_H
 #define SPORE_SCENE_GENERATED_H
 
@@ -17,6 +17,8 @@ SporeGenerated spore_generated_state(SporeDocument *document, SporeObject *asset
 /* Of all parameters, the asset's and those of its regions, that are no default and say how to generate: 16 hex digits,
  * what options_hash holds. g_free. */
 char *spore_generated_options_hash(const SporeObject *asset);
+/* Whether a parameter of an asset says how to generate it. */
+gboolean spore_generated_is_option(const SporeParameter *parameter);
 /* remark: "frozen" or "edited". FALSE too for elements that have none. */
 gboolean spore_generated_is(const SporeObject *asset, const char *remark);
 /* FALSE with a message and its remedy where the asset is frozen. */

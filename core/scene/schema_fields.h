@@ -26,8 +26,13 @@ typedef struct SporeEnvironmentFields {
 typedef struct SporeMeshFields {
   const char *name, *file;
   int unit, frame; /* as core/io/mesh_import.h counts them */
+  const char *source, *source_hash, *options_hash;
+  bool frozen, edited;
+  int64_t nodes;
+  double size, keep_angle, wall; /* m, degrees, m */
 } SporeMeshFields;
 
+extern const char *const spore_sphere_methods[]; /* that `method` counts; NULL-terminated */
 typedef struct SporeSpheresFields {
   const char *name, *file, *source, *source_hash, *options_hash;
   bool frozen, edited;
@@ -58,6 +63,9 @@ typedef struct SporeCellRegionFields {
 typedef struct SporeCurveFields {
   const char *name, *file, *source, *source_hash, *options_hash;
   bool frozen, edited;
+  int64_t points;
+  double tolerance;                     /* of the radius */
+  double first_place[3], last_place[3]; /* m; the same: the organ's own ends */
 } SporeCurveFields;
 
 typedef struct SporeBodyFields {

@@ -12,7 +12,7 @@
 #define POSITION_M 1e6 /* beyond it a double no longer resolves a nanometre */
 
 static const char *const frames[] = {"Y_UP", "RAS", "LPS", NULL};
-static const char *const sphere_methods[] = {"balanced", "tetrahedra", "bounding", "weighted", NULL};
+const char *const spore_sphere_methods[] = {"balanced", "tetrahedra", "bounding", "weighted", NULL};
 static const char *const tetrahedra_methods[] = {"automatic", "direct", "repaired", "wrapped", "voxels", NULL};
 static const char *const roles[] = {"unmovable", "active", "passive", NULL};
 static const char *const fidelities[] = {"physical", "effect", NULL};
@@ -79,6 +79,32 @@ static const SporeParameter environment_parameters[] = {
      .doc = N_("Acceleration of free fall; y points up.")},
 };
 
+/* What generated data remember (core/scene/generated.h); the other parameters of their element are the options. */
+#define GENERATED(Type)                                                                                                \
+  {.name = "source_hash",                                                                                              \
+   .type = SPORE_TEXT,                                                                                                 \
+   .unit = "",                                                                                                         \
+   FIELD(Type, source_hash),                                                                                           \
+   .change = SPORE_CHANGE_LIVE,                                                                                        \
+   .doc = N_("Hash of the source's content at the time of generation; when it differs, the data are stale.")},         \
+      {.name = "options_hash",                                                                                         \
+       .type = SPORE_TEXT,                                                                                             \
+       .unit = "",                                                                                                     \
+       FIELD(Type, options_hash),                                                                                      \
+       .change = SPORE_CHANGE_LIVE,                                                                                    \
+       .doc = N_("Hash of the options at the time of generation; when it differs, the data are stale.")},              \
+      {.name = "frozen",                                                                                               \
+       .type = SPORE_BOOLEAN,                                                                                          \
+       .unit = "",                                                                                                     \
+       FIELD(Type, frozen),                                                                                            \
+       .change = SPORE_CHANGE_LIVE,                                                                                    \
+       .doc =                                                                                                          \
+           N_("Whether the data stay as they are, whatever becomes of their source: nothing generates them anew.")},   \
+  {                                                                                                                    \
+    .name = "edited", .type = SPORE_BOOLEAN, .unit = "", FIELD(Type, edited), .change = SPORE_CHANGE_LIVE,             \
+    .doc = N_("Whether the data were edited by hand since they were generated.")                                       \
+  }
+
 static const SporeParameter mesh_parameters[] = {
     NAME(SporeMeshFields, N_("Name by which bodies and generators refer to the mesh.")),
     {.name = "file",
@@ -106,33 +132,49 @@ static const SporeParameter mesh_parameters[] = {
      FIELD(SporeMeshFields, frame),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Axes of the mesh file: Y_UP as in the scene, RAS or LPS for medical images.")},
+    {.name = "source",
+     .type = SPORE_REFERENCE,
+     .unit = "",
+     .references = "mesh",
+     FIELD(SporeMeshFields, source),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Mesh that this one was generated from, with fewer nodes or a wall; none: made elsewhere.")},
+    {.name = "nodes",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     0,
+     10000000,
+     .initial = {300},
+     FIELD(SporeMeshFields, nodes),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Number of nodes to generate at most; 0: as many as the size takes, or with a wall all.")},
+    {.name = "size",
+     .type = SPORE_REAL,
+     .unit = "m",
+     0,
+     POSITION_M,
+     FIELD(SporeMeshFields, size),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Length of edges to generate, where the number of nodes is 0.")},
+    {.name = "keep_angle",
+     .type = SPORE_REAL,
+     .unit = "deg",
+     1,
+     360,
+     .initial = {60},
+     FIELD(SporeMeshFields, keep_angle),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Edges at which the surface turns by more are kept; 360: none.")},
+    {.name = "wall",
+     .type = SPORE_REAL,
+     .unit = "m",
+     0,
+     POSITION_M,
+     FIELD(SporeMeshFields, wall),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Thickness of the wall that makes the organ hollow; 0: it stays as it is.")},
+    GENERATED(SporeMeshFields),
 };
-
-/* What generated data remember (core/scene/generated.h); the other parameters of their element are the options. */
-#define GENERATED(Type)                                                                                                \
-  {.name = "source_hash",                                                                                              \
-   .type = SPORE_TEXT,                                                                                                 \
-   .unit = "",                                                                                                         \
-   FIELD(Type, source_hash),                                                                                           \
-   .change = SPORE_CHANGE_LIVE,                                                                                        \
-   .doc = N_("Hash of the source's content at the time of generation; when it differs, the data are stale.")},         \
-      {.name = "options_hash",                                                                                         \
-       .type = SPORE_TEXT,                                                                                             \
-       .unit = "",                                                                                                     \
-       FIELD(Type, options_hash),                                                                                      \
-       .change = SPORE_CHANGE_LIVE,                                                                                    \
-       .doc = N_("Hash of the options at the time of generation; when it differs, the data are stale.")},              \
-      {.name = "frozen",                                                                                               \
-       .type = SPORE_BOOLEAN,                                                                                          \
-       .unit = "",                                                                                                     \
-       FIELD(Type, frozen),                                                                                            \
-       .change = SPORE_CHANGE_LIVE,                                                                                    \
-       .doc =                                                                                                          \
-           N_("Whether the data stay as they are, whatever becomes of their source: nothing generates them anew.")},   \
-  {                                                                                                                    \
-    .name = "edited", .type = SPORE_BOOLEAN, .unit = "", FIELD(Type, edited), .change = SPORE_CHANGE_LIVE,             \
-    .doc = N_("Whether the data were edited by hand since they were generated.")                                       \
-  }
 
 static const SporeParameter spheres_parameters[] = {
     NAME(SporeSpheresFields, N_("Name by which collision units refer to the spheres.")),
@@ -157,7 +199,7 @@ static const SporeParameter spheres_parameters[] = {
      .unit = "",
      ANY,
      .initial = {0},
-     .choices = sphere_methods,
+     .choices = spore_sphere_methods,
      FIELD(SporeSpheresFields, method),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("How the spheres are generated.")},
@@ -333,6 +375,39 @@ static const SporeParameter curve_parameters[] = {
      FIELD(SporeCurveFields, source),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Mesh that the curve is the middle line of; none: made elsewhere.")},
+    {.name = "points",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     0,
+     100000,
+     FIELD(SporeCurveFields, points),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Number of points to generate, evenly along the line; 0: as many as the tolerance takes.")},
+    {.name = "tolerance",
+     .type = SPORE_REAL,
+     .unit = "",
+     0.0001,
+     0.9,
+     .initial = {0.02},
+     FIELD(SporeCurveFields, tolerance),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("How far straight pieces may leave the line, of the radius, where the number of points is 0.")},
+    {.name = "first_place",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeCurveFields, first_place),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Place in or on the organ where the line begins; the same as the last place: at the organ's end.")},
+    {.name = "last_place",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeCurveFields, last_place),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Place in or on the organ where the line ends; the same as the first place: at the organ's end.")},
     GENERATED(SporeCurveFields),
 };
 

@@ -311,13 +311,12 @@ static void test_sheet(void) {
 
 static void test_enough(void) {
   const size_t counts[] = {10, 20, 40, 160};
-  SporeSpheresReport reports[4] = {
-      {.depth_error = 0.1}, {.depth_error = 0.05}, {.depth_error = 0.045}, {.depth_error = 0.039}};
-  g_assert_cmpuint(spore_spheres_enough(counts, reports, 4, 0.01), ==, 1); /* from 20 on .005, then .003 a doubling */
-  g_assert_cmpuint(spore_spheres_enough(counts, reports, 4, 0.004), ==, 2);
-  g_assert_cmpuint(spore_spheres_enough(counts, reports, 4, 0.001), ==, 4);
-  g_assert_cmpuint(spore_spheres_enough(counts, reports, 4, 0.9), ==, 0);
-  g_assert_cmpuint(spore_spheres_enough(counts, reports, 1, 0.01), ==, 1);
+  const double errors[] = {0.1, 0.05, 0.045, 0.039};
+  g_assert_cmpuint(spore_enough(counts, errors, 4, 0.01), ==, 1); /* from 20 on .005, then .003 a doubling */
+  g_assert_cmpuint(spore_enough(counts, errors, 4, 0.004), ==, 2);
+  g_assert_cmpuint(spore_enough(counts, errors, 4, 0.001), ==, 4);
+  g_assert_cmpuint(spore_enough(counts, errors, 4, 0.9), ==, 0);
+  g_assert_cmpuint(spore_enough(counts, errors, 1, 0.01), ==, 1);
 }
 
 static void count_point(void *data, size_t point, const SporeSpheresReport *report) {

@@ -10,6 +10,7 @@
 #include "ui/document/asset-readers.h"
 #include "core/scene/generated.h"
 #include "ui/document/edits.h"
+#include "ui/document/generated-edits.h"
 #include "ui/document/hand-edit.h"
 #include "ui/document/labels.h"
 #include "ui/document/mapping-report.h"
@@ -126,12 +127,16 @@ static void test_change_mesh(Fixture *fixture, gconstpointer data) {
   g_assert_cmpuint(spore_document_mesh(fixture->document, mesh, NULL)->triangle_count, ==, 8);
 }
 
+static const SporeSpheresFields spheres_fields = {.count = 1, .seed = 7};
+static const SporeTetrahedraFields tetrahedra_fields = {.cells = 1};
+static const SporeGeneratedFrom from_organ = {"my_organ", "0123456789abcdef", &spheres_fields},
+                                cells_from_organ = {"my_organ", "0", &tetrahedra_fields};
+
 static void use_spheres(Fixture *fixture, SporeObject *body, double radius) {
   GError *error = NULL;
   double numbers[] = {0.02, 0.02, 0.02, radius};
   SporeSphereSet set = {1, numbers};
-  SporeSpheresOptions options = {.count = 1, .seed = 7};
-  spore_edit_use_spheres(fixture->document, body, "my_organ", "0123456789abcdef", &options, &set, &error);
+  spore_edit_use_spheres(fixture->document, body, &from_organ, &set, &error);
   g_assert_no_error(error);
 }
 
@@ -189,9 +194,7 @@ static void test_hand_edit(Fixture *fixture, gconstpointer data) {
   spore_document_set_text(fixture->document, asset, "count", "7", NULL);
   g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_OPTIONS_CHANGED);
   spore_document_set_text(fixture->document, asset, "frozen", "true", NULL);
-  SporeSpheresOptions options = {.count = 1, .seed = 7};
-  g_assert_false(
-      spore_edit_use_spheres(fixture->document, body, "my_organ", "0123456789abcdef", &options, set, &error));
+  g_assert_false(spore_edit_use_spheres(fixture->document, body, &from_organ, set, &error));
   g_assert_error(error, SPORE_ERROR, SPORE_ERROR_INPUT);
   g_clear_error(&error);
 }
@@ -200,10 +203,9 @@ static void test_hand_edit(Fixture *fixture, gconstpointer data) {
 static void test_hand_edit_weights(Fixture *fixture, gconstpointer data) {
   double numbers[] = {0, 0, 0, 0.02, 0.05, 0, 0, 0.03}, weights[] = {2, 3};
   SporeSphereSet set = {.count = 2, .spheres = numbers, .weights = weights};
-  SporeSpheresOptions options = {.count = 2, .seed = 7};
   SporeHandEdit edit = {.chosen = G_MAXSIZE};
   SporeObject *body = add_organ(fixture);
-  spore_edit_use_spheres(fixture->document, body, "my_organ", "0123456789abcdef", &options, &set, NULL);
+  spore_edit_use_spheres(fixture->document, body, &from_organ, &set, NULL);
   g_assert_true(spore_hand_edit_open(&edit, fixture->document, body));
   edit.chosen = 1;
   spore_hand_edit_add(&edit, spore_vec3(0, 0.1, 0), 0);
@@ -224,7 +226,7 @@ static void test_usual_model(Fixture *fixture, gconstpointer data) {
   uint32_t numbers[4] = {0, 1, 2, 3};
   SporeTetrahedralMesh mesh = {4, 1, corners, numbers};
   SporeObject *body = add_organ(fixture);
-  g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, "my_organ", "0", 1, &mesh, &error));
+  g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, &cells_from_organ, &mesh, &error));
   SporeObject *model = spore_edit_body_model(body);
   g_assert_cmpstr(spore_object_type(model)->element, ==, "neo_hookean_tetrahedra");
   g_autofree char *made = text_of(fixture);
@@ -235,7 +237,7 @@ static void test_usual_model(Fixture *fixture, gconstpointer data) {
   g_assert_nonnull(strstr(error->message, "marble"));
   g_clear_error(&error);
   g_assert_true(spore_edit_set_model(fixture->document, body, "corotational_tetrahedra", &error));
-  g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, "my_organ", "0", 1, &mesh, &error));
+  g_assert_true(spore_edit_use_tetrahedra(fixture->document, body, &cells_from_organ, &mesh, &error));
   g_assert_cmpstr(spore_object_type(spore_edit_body_model(body))->element, ==, "corotational_tetrahedra");
 }
 

@@ -26,15 +26,10 @@ gboolean spore_edit_finish(SporeDocument *document, gboolean done) {
   return done;
 }
 
-static SporeObject *child_or_new(SporeDocument *document, SporeObject *parent, const char *element, GError **error) {
+SporeObject *spore_edit_child_or_new(SporeDocument *document, SporeObject *parent, const char *element,
+                                     GError **error) {
   SporeObject *child = spore_object_child_of(parent, element);
   return child ? child : spore_document_insert(document, parent, element, NULL, G_MAXUINT, error);
-}
-
-static gboolean set_integer(SporeDocument *document, SporeObject *object, const char *property, guint64 value,
-                            GError **error) {
-  g_autofree char *text = g_strdup_printf("%" G_GUINT64_FORMAT, value);
-  return spore_document_set_text(document, object, property, text, error);
 }
 
 /* Back to the default, by name. */
@@ -55,15 +50,15 @@ static gboolean set_vector(SporeDocument *document, SporeObject *object, const c
 
 /* What a body uses. */
 
-static SporeObject *used_asset(SporeDocument *document, SporeObject *body, const char *unit, const char *property,
-                               const char *element) {
+SporeObject *spore_edit_used_asset(SporeDocument *document, SporeObject *body, const char *unit, const char *property,
+                                   const char *element) {
   SporeObject *part = spore_object_child_of(body, unit);
   const char *name = part ? spore_object_text(part, property) : NULL;
   return name && *name ? spore_document_find(document, element, name) : NULL;
 }
 
 SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, GError **error) {
-  SporeObject *mesh = used_asset(document, body, "visual", "mesh", "mesh");
+  SporeObject *mesh = spore_edit_used_asset(document, body, "visual", "mesh", "mesh");
   if (!mesh) {
     g_autofree char *path = spore_object_path(body);
     spore_error_raise(error, SPORE_ERROR_INPUT, path,
@@ -72,71 +67,9 @@ SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, 
   return mesh;
 }
 
-SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body) {
-  return used_asset(document, body, "collision", "spheres", "spheres");
-}
-
-SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body) {
-  return used_asset(document, body, "mechanical", "geometry", "tetrahedra");
-}
-
 SporeObject *spore_edit_body_model(SporeObject *body) {
   SporeObject *mechanical = spore_object_child_of(body, "mechanical");
   return mechanical && spore_object_child_count(mechanical) ? spore_object_child(mechanical, 0) : NULL;
-}
-
-/* Generated. */
-
-/* The asset the body uses, where it came from the same generator; else a new one. */
-static SporeObject *generated_asset(SporeDocument *document, SporeObject *body, SporeObject *used, const char *element,
-                                    GError **error) {
-  const char *source = used ? spore_object_text(used, "source") : NULL;
-  if (source && *source) return used;
-  g_autofree char *name = g_strdup_printf("%s_%s", spore_object_name(body), element);
-  return spore_document_insert(document, spore_document_section(document, "assets"), element, name, G_MAXUINT, error);
-}
-
-/* The content of a generated asset, and what it remembers of how it was made; its options are set before. */
-static gboolean fill_generated(SporeDocument *document, SporeObject *asset, char *text, gsize size,
-                               const char *extension, const char *source, const char *source_hash, GError **error) {
-  g_autofree char *file = spore_content_file_name(spore_object_name(asset), extension, text, size);
-  g_autofree char *options_hash = spore_generated_options_hash(asset);
-  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
-  spore_document_put_blob(document, file, content);
-  return spore_document_set_text(document, asset, "file", file, error) &&
-         spore_document_set_text(document, asset, "source", source, error) &&
-         spore_document_set_text(document, asset, "source_hash", source_hash, error) &&
-         spore_document_set_text(document, asset, "options_hash", options_hash, error) &&
-         unset(document, asset, "edited", error);
-}
-
-static gboolean set_spheres_options(SporeDocument *document, SporeObject *asset, const SporeSpheresOptions *options,
-                                    gsize count, GError **error) {
-  const char *mode = spore_spheres_mode_names[options->mode];
-  return set_integer(document, asset, "count", options->count ? options->count : count, error) &&
-         set_integer(document, asset, "seed", options->seed, error) &&
-         (options->mode == SPORE_SPHERES_BALANCED ? unset(document, asset, "method", error)
-                                                  : spore_document_set_text(document, asset, "method", mode, error));
-}
-
-static gboolean use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
-                            const SporeSpheresOptions *options, const SporeSphereSet *set, GError **error) {
-  SporeObject *collision = child_or_new(document, body, "collision", error);
-  if (!collision) return FALSE;
-  SporeObject *asset = generated_asset(document, body, spore_edit_body_spheres(document, body), "spheres", error);
-  if (!asset || !spore_generated_may_change(asset, error) ||
-      !set_spheres_options(document, asset, options, set->count, error))
-    return FALSE;
-  gsize size;
-  char *text = spore_spheres_format(set, &size);
-  return fill_generated(document, asset, text, size, "spheres", source, source_hash, error) &&
-         spore_document_set_text(document, collision, "spheres", spore_object_name(asset), error);
-}
-
-gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
-                                const SporeSpheresOptions *options, const SporeSphereSet *set, GError **error) {
-  spore_document_begin(document, _("Generate spheres"));
-  return spore_edit_finish(document, use_spheres(document, body, source, source_hash, options, set, error));
 }
 
 /* Models. */
@@ -144,14 +77,14 @@ gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, cons
 /* The geometry that a model asks for, where the body has it; NULL: leave what is there. */
 static const char *geometry_for(SporeDocument *document, SporeObject *body, SporeGeometryKind kind) {
   if (kind == SPORE_GEOMETRY_SURFACE || kind == SPORE_GEOMETRY_SOLID) {
-    SporeObject *mesh = used_asset(document, body, "visual", "mesh", "mesh");
+    SporeObject *mesh = spore_edit_used_asset(document, body, "visual", "mesh", "mesh");
     return mesh ? spore_object_name(mesh) : NULL;
   }
   if (kind == SPORE_GEOMETRY_NONE) return NULL;
   const char *element = kind == SPORE_GEOMETRY_CURVE ? "curve" : "tetrahedra";
-  if (used_asset(document, body, "mechanical", "geometry", element)) return NULL;
+  if (spore_edit_used_asset(document, body, "mechanical", "geometry", element)) return NULL;
   /* One made earlier of the mesh that the body shows, then set aside for another model. */
-  SporeObject *mesh = used_asset(document, body, "visual", "mesh", "mesh");
+  SporeObject *mesh = spore_edit_used_asset(document, body, "visual", "mesh", "mesh");
   SporeObject *assets = spore_document_section(document, "assets");
   for (guint i = 0; mesh && i < spore_object_child_count(assets); i++) {
     SporeObject *asset = spore_object_child(assets, i);
@@ -190,32 +123,11 @@ gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const 
   return spore_edit_finish(document, set_model(document, body, model, error));
 }
 
-/* A body that no model moves yet gets the usual one for the geometry: the first that takes it. */
-static gboolean give_usual_model(SporeDocument *document, SporeObject *body, SporeGeometryKind kind, GError **error) {
+gboolean spore_edit_give_usual_model(SporeDocument *document, SporeObject *body, SporeGeometryKind kind,
+                                     GError **error) {
   SporeModelRegistry type = spore_schema_registry(spore_document_schema(document));
   while (*type && (*type)->geometry != kind) type++;
   return !*type || spore_edit_body_model(body) || set_model(document, body, (*type)->name, error);
-}
-
-static gboolean use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
-                               gsize cells, const SporeTetrahedralMesh *mesh, GError **error) {
-  SporeObject *mechanical = child_or_new(document, body, "mechanical", error);
-  if (!mechanical) return FALSE;
-  SporeObject *asset = generated_asset(document, body, spore_edit_body_tetrahedra(document, body), "tetrahedra", error);
-  if (!asset || !spore_generated_may_change(asset, error) || !set_integer(document, asset, "cells", cells, error))
-    return FALSE;
-  gsize size;
-  char *text = spore_medit_format(mesh, &size);
-  return fill_generated(document, asset, text, size, "mesh", source, source_hash, error) &&
-         spore_document_set_text(document, mechanical, "geometry", spore_object_name(asset), error) &&
-         give_usual_model(document, body, SPORE_GEOMETRY_TETRAHEDRA, error);
-}
-
-gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source,
-                                   const char *source_hash, gsize cells, const SporeTetrahedralMesh *mesh,
-                                   GError **error) {
-  spore_document_begin(document, _("Generate tetrahedra"));
-  return spore_edit_finish(document, use_tetrahedra(document, body, source, source_hash, cells, mesh, error));
 }
 
 static gboolean use_preset(SporeDocument *document, SporeObject *model, const char *name, GError **error) {
@@ -261,7 +173,7 @@ static gboolean find_top(SporeDocument *document, SporeVec3 *top) {
   gboolean found = FALSE;
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
-    SporeObject *asset = used_asset(document, body, "visual", "mesh", "mesh");
+    SporeObject *asset = spore_edit_used_asset(document, body, "visual", "mesh", "mesh");
     const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, NULL) : NULL;
     for (gsize v = 0; mesh && v < mesh->vertex_count; v++) {
       SporeVec3 p = spore_pose_apply(spore_body_pose(body), spore_vec3_load(mesh->vertices + 3 * v));
@@ -295,7 +207,7 @@ static SporeObject *insert_probe(SporeDocument *document, SporeVec3 position, GE
   if (!body || !spore_document_set_text(document, body, "role", "active", error) ||
       !set_vector(document, body, "position", position, error))
     return NULL;
-  SporeObject *collision = child_or_new(document, body, "collision", error);
+  SporeObject *collision = spore_edit_child_or_new(document, body, "collision", error);
   if (!collision || !spore_document_set_text(document, collision, "spheres", spore_object_name(spheres), error))
     return NULL;
   return body;

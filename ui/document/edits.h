@@ -2,27 +2,23 @@
 #ifndef SPORE_UI_DOCUMENT_EDITS_H
 #define SPORE_UI_DOCUMENT_EDITS_H
 
-#include "core/generate/spheres.h"
-#include "core/generate/tetrahedra.h"
 #include "core/scene/document.h"
 
 /* Mesh asset that the body shows, NULL with an error where it has none. */
 SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, GError **error);
-/* Sphere or tetrahedra asset in use by the body, or NULL. */
-SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body);
-SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body);
-
-/* What was generated becomes an asset of the body (its earlier generated one is replaced). With tetrahedra a body that
- * has no model yet gets the usual one for them. */
-gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, const char *source, const char *source_hash,
-                                const SporeSpheresOptions *options, const SporeSphereSet *set, GError **error);
-gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const char *source,
-                                   const char *source_hash, gsize cells, const SporeTetrahedralMesh *mesh,
-                                   GError **error);
+/* Asset of one of these elements that a property of the body's unit names, or NULL: ("collision", "spheres",
+ * "spheres"). */
+SporeObject *spore_edit_used_asset(SporeDocument *document, SporeObject *body, const char *unit, const char *property,
+                                   const char *elements);
+/* The child of that element, made where there is none. Inside a group. */
+SporeObject *spore_edit_child_or_new(SporeDocument *document, SporeObject *parent, const char *element, GError **error);
 
 /* Gives the body a mechanical model of that element and so makes it passive, on the geometry it asks for where the body
  * has it; "" takes the mechanical unit away. */
 gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error);
+/* A body that no model moves yet gets the usual one for the geometry: the first that takes it. Inside a group. */
+gboolean spore_edit_give_usual_model(SporeDocument *document, SporeObject *body, SporeGeometryKind kind,
+                                     GError **error);
 /* Sets the parameters of the body's model to those of one of its presets. */
 gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const char *name, GError **error);
 /* Element of the body's model, or NULL. */

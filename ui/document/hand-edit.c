@@ -12,25 +12,17 @@ static gboolean is_of(SporeObject *object, const char *element) {
   return object && g_str_equal(spore_object_type(object)->element, element);
 }
 
-/* The asset that a body's unit names, of that element. */
-static SporeObject *used(SporeDocument *document, SporeObject *body, const char *unit, const char *property,
-                         const char *element) {
-  SporeObject *part = spore_object_child_of(body, unit);
-  const char *name = part ? spore_object_text(part, property) : NULL;
-  return name ? spore_document_find(document, element, name) : NULL;
-}
-
 static SporeObject *asset_of_body(SporeDocument *document, SporeObject *body) {
-  SporeObject *spheres = used(document, body, "collision", "spheres", "spheres");
-  return spheres ? spheres : used(document, body, "mechanical", "geometry", "curve");
+  SporeObject *spheres = spore_edit_used_asset(document, body, "collision", "spheres", "spheres");
+  return spheres ? spheres : spore_edit_used_asset(document, body, "mechanical", "geometry", "curve");
 }
 
 static SporeObject *body_of_asset(SporeDocument *document, SporeObject *asset) {
   SporeObject *bodies = spore_document_section(document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
-    if (used(document, body, "collision", "spheres", "spheres") == asset ||
-        used(document, body, "mechanical", "geometry", "curve") == asset)
+    if (spore_edit_used_asset(document, body, "collision", "spheres", "spheres") == asset ||
+        spore_edit_used_asset(document, body, "mechanical", "geometry", "curve") == asset)
       return body;
   }
   return NULL;

@@ -3,66 +3,15 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "ui/jobs/generate-types.h"
+
 /* Beyond the scale lies this share of the values, so that a few far ones do not make all others look alike. */
 #define BEYOND 0.02
 
-typedef enum { OUTSIDE_SHARE, DEPTH_ERROR, SURFACE_DISTANCE, RADIUS, LEAST_ANGLE } Measure;
+gsize spore_quality_count(SporeGenerateKind kind) { return spore_generate_type(kind)->quality_count; }
 
-static const char *const labels[] = {N_("Outside share"), N_("Depth error"), N_("Surface distance"), N_("Radius"),
-                                     N_("Least angle")};
-static const Measure of_spheres[] = {SURFACE_DISTANCE, OUTSIDE_SHARE, DEPTH_ERROR, RADIUS},
-                     of_tetrahedra[] = {LEAST_ANGLE};
-
-static Measure measure_of(SporeGenerateKind kind, gsize which) {
-  return (kind == SPORE_GENERATE_SPHERES ? of_spheres : of_tetrahedra)[which];
-}
-
-gsize spore_quality_count(SporeGenerateKind kind) {
-  return kind == SPORE_GENERATE_SPHERES ? G_N_ELEMENTS(of_spheres) : G_N_ELEMENTS(of_tetrahedra);
-}
-
-const char *spore_quality_label(SporeGenerateKind kind, gsize which) { return _(labels[measure_of(kind, which)]); }
-
-static double *scaled(const double *values, gsize count, gsize stride, double scale) {
-  double *copy = g_new(double, count);
-  for (gsize i = 0; i < count; i++) copy[i] = scale * fabs(values[stride * i]);
-  return copy;
-}
-
-static void measure_spheres(const SporeGenerateWork *work, Measure measure, SporeQuality *quality) {
-  const SporeSpheresQuality *found = &work->spheres_quality;
-  quality->unit = "mm";
-  quality->count = found->sphere_count;
-  switch (measure) {
-  case OUTSIDE_SHARE:
-    quality->unit = "%";
-    quality->values = scaled(found->outside, quality->count, 1, 100);
-    break;
-  case DEPTH_ERROR:
-    quality->values = scaled(found->depth_error, quality->count, 1, 1e3);
-    break;
-  case SURFACE_DISTANCE:
-    quality->of_surface = TRUE;
-    quality->count = found->vertex_count;
-    quality->values = scaled(found->distance, quality->count, 1, 1e3);
-    quality->weights = g_memdup2(found->area, quality->count * sizeof(double));
-    break;
-  default:
-    quality->values = scaled(work->spheres.spheres + 3, quality->count, 4, 1e3);
-  }
-}
-
-static void measure_tetrahedra(const SporeGenerateWork *work, SporeQuality *quality) {
-  quality->unit = "°";
-  quality->count = work->tetrahedra.tetrahedron_count;
-  quality->values = g_new(double, quality->count);
-  for (gsize i = 0; i < quality->count; i++) {
-    SporeTetrahedralMesh one = {work->tetrahedra.vertex_count, 1, work->tetrahedra.vertices,
-                                work->tetrahedra.tetrahedra + 4 * i};
-    SporeTetrahedraQuality found;
-    spore_tetrahedral_mesh_quality(&one, &found);
-    quality->values[i] = found.min_dihedral_deg;
-  }
+const char *spore_quality_label(SporeGenerateKind kind, gsize which) {
+  return _(spore_generate_type(kind)->qualities[which].label);
 }
 
 /* The next of 1, 2, 5 times a power of ten. */
@@ -74,11 +23,9 @@ static double round_up(double value) {
 }
 
 void spore_quality_of(const SporeGenerateWork *work, gsize which, SporeQuality *quality) {
-  Measure measure = measure_of(work->options.kind, which);
-  *quality = (SporeQuality){.label = _(labels[measure])};
-  if (work->options.kind == SPORE_GENERATE_SPHERES && work->spheres_quality.sphere_count)
-    measure_spheres(work, measure, quality);
-  if (work->options.kind == SPORE_GENERATE_TETRAHEDRA) measure_tetrahedra(work, quality);
+  const SporeGenerateQuality *kind = &spore_generate_type(work->options.kind)->qualities[which];
+  *quality = (SporeQuality){.label = _(kind->label), .unit = kind->unit};
+  kind->measure(work, quality);
   double most = spore_quality_quantile(quality, 1 - BEYOND);
   quality->high = most > 0 ? round_up(most) : 1;
 }
@@ -91,6 +38,12 @@ void spore_quality_clear(SporeQuality *quality) {
 
 double spore_quality_place(const SporeQuality *quality, gsize i) {
   return CLAMP((quality->values[i] - quality->low) / (quality->high - quality->low), 0, 1);
+}
+
+float *spore_quality_places(const SporeQuality *quality) {
+  float *places = g_new(float, quality->count);
+  for (gsize i = 0; i < quality->count; i++) places[i] = (float)spore_quality_place(quality, i);
+  return places;
 }
 
 static double weight_of(const SporeQuality *quality, gsize i) { return quality->weights ? quality->weights[i] : 1; }

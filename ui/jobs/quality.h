@@ -6,7 +6,6 @@
 
 typedef struct SporeQuality {
   const char *label, *unit; /* translated; of the values */
-  gboolean of_surface;      /* a value a vertex of the source mesh; else one a sphere or cell */
   gsize count;
   double *values, *weights; /* count; weights NULL: all the same */
   double low, high;         /* ends of the scale: round numbers, all but a few values lie between them */
@@ -15,11 +14,12 @@ typedef struct SporeQuality {
 /* How many there are of results of this kind, and what each is called (translated). */
 gsize spore_quality_count(SporeGenerateKind kind);
 const char *spore_quality_label(SporeGenerateKind kind, gsize which);
-/* Empty where the work has no result. */
+/* Empty where the work has no result, or not this of it. */
 void spore_quality_of(const SporeGenerateWork *work, gsize which, SporeQuality *quality);
 void spore_quality_clear(SporeQuality *quality);
-/* Place of a value on the scale of colours, 0..1. */
+/* Place of a value on the scale of colours, 0..1; of all values (g_free). */
 double spore_quality_place(const SporeQuality *quality, gsize i);
+float *spore_quality_places(const SporeQuality *quality);
 double spore_quality_mean(const SporeQuality *quality);
 /* The value that this share of the weight lies below. */
 double spore_quality_quantile(const SporeQuality *quality, double share);

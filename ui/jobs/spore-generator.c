@@ -4,6 +4,7 @@
 
 #include "core/scene/generated.h"
 #include "ui/document/edits.h"
+#include "ui/jobs/generate-types.h"
 
 #define SETTLE_MS 250 /* options that change faster make one run */
 
@@ -62,7 +63,6 @@ static void done(SporeJob *job, gpointer data, const GError *error, gpointer own
 }
 
 static void start(SporeGenerator *self) {
-  static const char *const titles[SPORE_GENERATE_KIND_COUNT] = {N_("Generating spheres"), N_("Generating tetrahedra")};
   SporeObject *body = spore_generator_get_body(self);
   drop_job(self);
   g_autoptr(GError) error = NULL;
@@ -72,8 +72,8 @@ static void start(SporeGenerator *self) {
     fail(self, error);
     return;
   }
-  self->job = spore_job_start(_(titles[self->options.kind]), spore_generate_work_run, work, spore_generate_work_unref,
-                              done, G_OBJECT(self));
+  self->job = spore_job_start(_(spore_generate_type(self->options.kind)->working), spore_generate_work_run, work,
+                              spore_generate_work_unref, done, G_OBJECT(self));
   g_signal_connect_object(self->job, "progressed", G_CALLBACK(tell), self, G_CONNECT_SWAPPED);
   tell(self);
 }
@@ -85,13 +85,25 @@ static gboolean settled(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
+/* TRUE: the result stays what it is. */
+static gboolean change_purpose(SporeGenerator *self, const SporeGenerateOptions *options) {
+  SporeGenerateOptions same = *options;
+  same.purpose = self->options.purpose;
+  if (memcmp(&same, &self->options, sizeof same) != 0) return FALSE;
+  self->options.purpose = self->result->options.purpose = options->purpose;
+  tell(self);
+  return TRUE;
+}
+
 gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const SporeGenerateOptions *options,
                                  GError **error) {
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *asset = spore_generate_target(document, body, options->kind);
-  if (!spore_edit_visual_mesh(document, body, error) || (asset && !spore_generated_may_change(asset, error)))
+  if (!spore_generate_source(document, body, options->kind, error) ||
+      (asset && !spore_generated_may_change(asset, error)))
     return FALSE;
   gboolean again = self->active && self->body == spore_object_id(body) && self->options.kind == options->kind;
+  if (again && self->result && change_purpose(self, options)) return TRUE;
   if (!again) drop(self);
   drop_job(self);
   g_clear_pointer(&self->result, spore_generate_work_unref);

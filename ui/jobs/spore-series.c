@@ -3,14 +3,13 @@
 #include <glib/gi18n.h>
 
 #include "core/generate/spheres_series.h"
-
-static const size_t usual_counts[SPORE_SERIES_POINTS] = {8, 16, 32, 64, 128, 256, 512};
+#include "ui/jobs/generate-types.h"
 
 typedef struct {
   SporeGenerateWork *source;
   GMutex mutex; /* over what follows */
   gsize measured;
-  SporeSpheresReport reports[SPORE_SERIES_POINTS];
+  double errors[SPORE_SERIES_POINTS]; /* % */
 } Measurement;
 
 struct _SporeSeries {
@@ -32,22 +31,43 @@ static void clear_measurement(gpointer data) {
 
 static void unref_measurement(gpointer data) { g_atomic_rc_box_release_full(data, clear_measurement); }
 
-static void measured(void *data, size_t point, const SporeSpheresReport *report) {
-  Measurement *measurement = data;
+static void measured(Measurement *measurement, gsize point, double error) {
   g_mutex_lock(&measurement->mutex);
-  measurement->reports[point] = *report;
+  measurement->errors[point] = error;
   measurement->measured = point + 1;
   g_mutex_unlock(&measurement->mutex);
 }
 
+/* Of the whole. */
+typedef struct {
+  const SporeProgress *whole;
+  double done, share;
+} Part;
+
+static bool report_part(void *data, double fraction, const char *stage) {
+  const Part *part = data;
+  return spore_progress(part->whole, part->done + part->share * fraction, stage);
+}
+
+static const SporeGenerateType *type_of(const Measurement *measurement) {
+  return spore_generate_type(measurement->source->options.kind);
+}
+
 static gboolean run(gpointer data, const SporeProgress *progress, GError **error) {
   Measurement *measurement = data;
-  SporeSpheresReport reports[SPORE_SERIES_POINTS];
-  SporeError failure = SPORE_ERROR_INIT;
-  SporeSpheresSource source = {.solid = &measurement->source->mesh};
-  return spore_spheres_series(&source, &measurement->source->options.spheres, usual_counts, SPORE_SERIES_POINTS,
-                              reports, measured, measurement, progress, &failure) ||
-         spore_error_propagate(&failure, error);
+  const size_t *counts = type_of(measurement)->counts;
+  double sum = 0;
+  for (gsize i = 0; counts[i]; i++) sum += (double)counts[i];
+  Part part = {.whole = progress};
+  for (gsize i = 0; counts[i]; i++) {
+    double found = 0;
+    part.done += part.share;
+    part.share = (double)counts[i] / sum;
+    SporeProgress inner = {.report = report_part, .data = &part};
+    if (!type_of(measurement)->price(measurement->source, counts[i], &found, &inner, error)) return FALSE;
+    measured(measurement, i, found);
+  }
+  return TRUE;
 }
 
 static void tell(SporeSeries *self) { g_signal_emit(self, signals[CHANGED], 0); }
@@ -81,7 +101,7 @@ gboolean spore_series_start(SporeSeries *self, SporeDocument *document, SporeObj
   self->measurement = g_atomic_rc_box_new0(Measurement);
   self->measurement->source = source;
   g_mutex_init(&self->measurement->mutex);
-  self->job = spore_job_start(_("Measuring numbers of spheres"), run, g_atomic_rc_box_acquire(self->measurement),
+  self->job = spore_job_start(_("Measuring numbers"), run, g_atomic_rc_box_acquire(self->measurement),
                               unref_measurement, done, G_OBJECT(self));
   g_signal_connect_object(self->job, "progressed", G_CALLBACK(tell), self, G_CONNECT_SWAPPED);
   tell(self);
@@ -90,31 +110,23 @@ gboolean spore_series_start(SporeSeries *self, SporeDocument *document, SporeObj
 
 gboolean spore_series_is_running(SporeSeries *self) { return self->job != NULL; }
 
-static gsize copy_reports(SporeSeries *self, SporeSpheresReport reports[SPORE_SERIES_POINTS]) {
+gsize spore_series_get_points(SporeSeries *self, size_t counts[SPORE_SERIES_POINTS],
+                              double errors[SPORE_SERIES_POINTS]) {
   if (!self->measurement) return 0;
   g_mutex_lock(&self->measurement->mutex);
   gsize count = self->measurement->measured;
-  memcpy(reports, self->measurement->reports, count * sizeof *reports);
+  memcpy(errors, self->measurement->errors, count * sizeof *errors);
   g_mutex_unlock(&self->measurement->mutex);
-  return count;
-}
-
-gsize spore_series_get_points(SporeSeries *self, size_t counts[SPORE_SERIES_POINTS],
-                              double errors[SPORE_SERIES_POINTS]) {
-  SporeSpheresReport reports[SPORE_SERIES_POINTS];
-  gsize count = copy_reports(self, reports);
-  for (gsize i = 0; i < count; i++) {
-    counts[i] = usual_counts[i];
-    errors[i] = 100 * reports[i].depth_error;
-  }
+  memcpy(counts, type_of(self->measurement)->counts, count * sizeof *counts);
   return count;
 }
 
 size_t spore_series_get_enough(SporeSeries *self) {
-  SporeSpheresReport reports[SPORE_SERIES_POINTS];
-  gsize count = copy_reports(self, reports);
-  size_t enough = count < 2 ? count : spore_spheres_enough(usual_counts, reports, count, SPORE_SPHERES_WORTH);
-  return enough < count ? usual_counts[enough] : 0;
+  size_t counts[SPORE_SERIES_POINTS];
+  double errors[SPORE_SERIES_POINTS];
+  gsize count = spore_series_get_points(self, counts, errors);
+  size_t enough = count < 2 ? count : spore_enough(counts, errors, count, type_of(self->measurement)->worth);
+  return enough < count ? counts[enough] : 0;
 }
 
 static void spore_series_dispose(GObject *object) {

@@ -1,4 +1,5 @@
-/* Sphere sets of several numbers, measured one after the other on a worker: where more of them stop paying.
+/* Results of several numbers (SporeGenerateType.counts), measured one after the other on a worker: where more of them
+ * stop paying.
  *
  * Signals
  *   changed ()   another point was measured, or it ended; on the GTK thread                                          */
@@ -13,7 +14,7 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_SERIES spore_series_get_type()
 G_DECLARE_FINAL_TYPE(SporeSeries, spore_series, SPORE, SERIES, GObject)
 
-#define SPORE_SERIES_POINTS 7
+#define SPORE_SERIES_POINTS 8 /* at most */
 
 SporeSeries *spore_series_new(void);
 /* Begins anew. NULL with an error: the body shows no mesh. */
@@ -22,10 +23,10 @@ gboolean spore_series_start(SporeSeries *self, SporeDocument *document, SporeObj
 void spore_series_stop(SporeSeries *self);  /* what was measured stays */
 void spore_series_clear(SporeSeries *self); /* and goes */
 gboolean spore_series_is_running(SporeSeries *self);
-/* Points measured so far; depth error in % of the largest depth. */
+/* Points measured so far; errors in %, of what the kind says. */
 gsize spore_series_get_points(SporeSeries *self, size_t counts[SPORE_SERIES_POINTS],
                               double errors[SPORE_SERIES_POINTS]);
-/* Number of spheres from which on more do not pay; 0: not known, or all pay. */
+/* The number from which on more do not pay; 0: not known, or all pay. */
 size_t spore_series_get_enough(SporeSeries *self);
 
 G_END_DECLS

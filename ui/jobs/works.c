@@ -5,6 +5,7 @@
 #include "core/io/scene_xml.h"
 #include "ui/document/asset-readers.h"
 #include "ui/document/edits.h"
+#include "ui/jobs/generate-types.h"
 
 /* Open. */
 
@@ -48,43 +49,18 @@ gboolean spore_open_work_run(gpointer data, const SporeProgress *progress, GErro
 
 /* Generate. */
 
-#define USUAL_SPHERES 100
-#define USUAL_CELLS 1000
-
-SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
-  return kind == SPORE_GENERATE_SPHERES ? spore_edit_body_spheres(document, body)
-                                        : spore_edit_body_tetrahedra(document, body);
-}
-
-/* Spheres from tetrahedra are those of their surface, balanced. */
-static SporeSpheresMode mode_named(const char *name) {
-  for (int i = 0; i < SPORE_SPHERES_MODE_COUNT; i++)
-    if (g_strcmp0(name, spore_spheres_mode_names[i]) == 0) return (SporeSpheresMode)i;
-  return SPORE_SPHERES_BALANCED;
-}
-
-static void read_spheres_options(const SporeObject *asset, SporeSpheresOptions *options) {
-  const SporeParameter *method =
-      &spore_object_type(asset)->table->parameters[spore_parameter_find(spore_object_type(asset)->table, "method")];
-  options->mode = mode_named(method->choices[(int)spore_object_number(asset, "method")]);
-  options->count = (size_t)spore_object_number(asset, "count");
-  options->seed = (uint64_t)spore_object_number(asset, "seed");
-}
-
-SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
-  SporeGenerateOptions options = {.kind = kind,
-                                  .spheres = {.count = USUAL_SPHERES, .seed = 1},
-                                  .tetrahedra = {.method = SPORE_TETRAHEDRA_METHODS, .cells = USUAL_CELLS}};
-  SporeObject *asset = spore_generate_target(document, body, kind);
-  if (asset && kind == SPORE_GENERATE_SPHERES) read_spheres_options(asset, &options.spheres);
-  if (asset && kind == SPORE_GENERATE_TETRAHEDRA)
-    options.tetrahedra.cells = (size_t)spore_object_number(asset, "cells");
-  return options;
+SporeObject *spore_generate_source(SporeDocument *document, SporeObject *body, SporeGenerateKind kind, GError **error) {
+  SporeObject *shown = spore_edit_visual_mesh(document, body, NULL);
+  SporeObject *target = spore_generate_target(document, body, kind);
+  if (shown && shown != target) return shown;
+  const char *source = target ? spore_object_text(target, "source") : NULL;
+  SporeObject *mesh = source ? spore_document_find(document, "mesh", source) : NULL;
+  return mesh ? mesh : spore_edit_visual_mesh(document, body, error);
 }
 
 SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
                                            const SporeGenerateOptions *options, GError **error) {
-  SporeObject *asset = spore_edit_visual_mesh(document, body, error);
+  SporeObject *asset = spore_generate_source(document, body, options->kind, error);
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, error) : NULL;
   if (!mesh) return NULL;
   SporeGenerateWork *work = g_atomic_rc_box_new0(SporeGenerateWork);
@@ -107,25 +83,18 @@ static void clear_work(gpointer data) {
   spore_sphere_set_clear(&work->spheres);
   spore_spheres_quality_clear(&work->spheres_quality);
   spore_tetrahedral_mesh_clear(&work->tetrahedra);
+  spore_curve_clear(&work->curve);
+  spore_triangle_mesh_clear(&work->surface);
+  g_free(work->surface_distance);
 }
 
 SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work) { return g_atomic_rc_box_acquire(work); }
 
 void spore_generate_work_unref(gpointer data) { g_atomic_rc_box_release_full(data, clear_work); }
 
-static gboolean run_spheres(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
-  SporeError failure = SPORE_ERROR_INIT;
-  return (spore_spheres_from_mesh(&work->mesh, &work->options.spheres, &work->spheres, &work->spheres_report, progress,
-                                  &failure) &&
-          spore_spheres_quality(&work->mesh, &work->spheres, &work->spheres_quality, progress, &failure)) ||
-         spore_error_propagate(&failure, error);
-}
-
 gboolean spore_generate_work_run(gpointer data, const SporeProgress *progress, GError **error) {
   SporeGenerateWork *work = data;
-  if (work->options.kind == SPORE_GENERATE_SPHERES) return run_spheres(work, progress, error);
-  return spore_tetrahedra_from_mesh(work->source, &work->mesh, &work->options.tetrahedra, &work->tetrahedra,
-                                    &work->tetrahedra_report, progress, error);
+  return spore_generate_type(work->options.kind)->run(work, progress, error);
 }
 
 gboolean spore_measure_work_run(gpointer data, const SporeProgress *progress, GError **error) {
@@ -137,7 +106,7 @@ gboolean spore_measure_work_run(gpointer data, const SporeProgress *progress, GE
 
 SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document) {
   SporeObject *body = spore_document_by_id(document, work->body);
-  SporeObject *asset = body ? spore_edit_visual_mesh(document, body, NULL) : NULL;
+  SporeObject *asset = body ? spore_generate_source(document, body, work->options.kind, NULL) : NULL;
   if (!asset || g_strcmp0(spore_object_name(asset), work->source) != 0) return NULL;
   g_autofree char *hash = spore_document_asset_hash(document, asset);
   return g_strcmp0(hash, work->source_hash) == 0 ? body : NULL;
@@ -148,9 +117,5 @@ gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument 
   if (!body)
     return spore_error_raise(error, SPORE_ERROR_INPUT, work->source,
                              _("the mesh changed meanwhile and the result was dropped; generate it again"));
-  if (work->options.kind == SPORE_GENERATE_SPHERES)
-    return spore_edit_use_spheres(document, body, work->source, work->source_hash, &work->options.spheres,
-                                  &work->spheres, error);
-  return spore_edit_use_tetrahedra(document, body, work->source, work->source_hash, work->options.tetrahedra.cells,
-                                   &work->tetrahedra, error);
+  return spore_generate_type(work->options.kind)->apply(work, document, body, error);
 }

@@ -3,10 +3,14 @@
 #define SPORE_UI_JOBS_WORKS_H
 
 #include "core/base/progress.h"
+#include "core/generate/centreline.h"
 #include "core/generate/spheres.h"
 #include "core/generate/spheres_quality.h"
+#include "core/generate/surface.h"
 #include "core/generate/tetrahedra.h"
+#include "core/generate/wall.h"
 #include "core/scene/document.h"
+#include "core/scene/schema_fields.h"
 
 /* Reads a scene and decodes its assets. */
 typedef struct SporeOpenWork {
@@ -20,21 +24,38 @@ SporeOpenWork *spore_open_work_new(const SporeSchema *schema, const char *file);
 gboolean spore_open_work_run(gpointer work, const SporeProgress *progress, GError **error);
 void spore_open_work_free(gpointer work);
 
+/* See generate-types.h. */
 typedef enum SporeGenerateKind {
   SPORE_GENERATE_SPHERES,
   SPORE_GENERATE_TETRAHEDRA,
+  SPORE_GENERATE_CURVE,
+  SPORE_GENERATE_SURFACE,
   SPORE_GENERATE_KIND_COUNT
 } SporeGenerateKind;
 
+/* Copied as it is: of the fields those that say how to generate count, and none of those is a text. */
 typedef struct SporeGenerateOptions {
   SporeGenerateKind kind;
-  SporeSpheresOptions spheres;
-  SporeTetrahedraOptions tetrahedra;
+  union {
+    SporeSpheresFields spheres;
+    SporeTetrahedraFields tetrahedra;
+    SporeCurveFields curve;
+    SporeMeshFields surface;
+  } fields;    /* of the asset of that kind */
+  int purpose; /* what becomes of the result, of the kind's */
 } SporeGenerateOptions;
 /* The asset of the body that a generator of this kind makes, or NULL. */
 SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
+/* The mesh asset that it is made from: what the body shows; where that is what was generated, or nothing, what the
+ * generated asset came from. NULL with an error: there is none. */
+SporeObject *spore_generate_source(SporeDocument *document, SporeObject *body, SporeGenerateKind kind, GError **error);
+/* What describes the fields. */
+const SporeParameterTable *spore_generate_table(SporeDocument *document, SporeGenerateKind kind);
 /* Those of the asset, else the usual ones. */
 SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
+/* How many to make; nothing where the kind does not ask. */
+size_t spore_generate_get_count(const SporeGenerateOptions *options);
+void spore_generate_set_count(SporeGenerateOptions *options, size_t count);
 
 /* What generators share: where they started from, to be compared when they are through. Counted references. */
 typedef struct SporeGenerateWork {
@@ -48,15 +69,21 @@ typedef struct SporeGenerateWork {
   SporeSpheresQuality spheres_quality;     /* out */
   SporeTetrahedralMesh tetrahedra;         /* out */
   SporeTetrahedraReport tetrahedra_report; /* out */
+  SporeCurve curve;                        /* out */
+  SporeCentrelineReport curve_report;      /* out */
+  SporeTriangleMesh surface;               /* out: with a wall, all around it */
+  SporeSurfaceReport surface_report;       /* out; zero where it was not thinned */
+  SporeWallReport wall_report;             /* out; zero without a wall */
+  double *surface_distance;                /* out: a vertex of the given mesh, to the outer surface made, m */
 } SporeGenerateWork;
-/* Copies the mesh that the body shows. NULL with an error when there is none. */
+/* Copies the mesh that it is made from. NULL with an error when there is none. */
 SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
                                            const SporeGenerateOptions *options, GError **error);
 gboolean spore_generate_work_run(gpointer work, const SporeProgress *progress, GError **error);
 gboolean spore_measure_work_run(gpointer work, const SporeProgress *progress, GError **error);
 SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work);
 void spore_generate_work_unref(gpointer work);
-/* The body, where it still shows the mesh that the work began with; NULL: the document moved on. */
+/* The body, where it still has the mesh that the work began with; NULL: the document moved on. */
 SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document);
 /* The result becomes the body's, as one undo step; the options are remembered. */
 gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument *document, GError **error);

@@ -15,6 +15,8 @@ struct _SporeCountPlot {
   gsize count, chosen; /* chosen: by the keyboard */
   size_t counts[MOST_POINTS], enough, current;
   double errors[MOST_POINTS];
+  size_t least, most; /* ends of the axis */
+  const char *label;
 };
 
 G_DEFINE_FINAL_TYPE(SporeCountPlot, spore_count_plot, GTK_TYPE_DRAWING_AREA)
@@ -32,8 +34,8 @@ static Frame frame_of(SporeCountPlot *self) {
                  .top = TOP,
                  .width = gtk_widget_get_allocated_width(GTK_WIDGET(self)) - LEFT - RIGHT,
                  .height = gtk_widget_get_allocated_height(GTK_WIDGET(self)) - TOP - BOTTOM,
-                 .low_x = log(8),
-                 .high_x = log(512),
+                 .low_x = log((double)self->least),
+                 .high_x = log((double)self->most),
                  .low_y = HUGE_VAL,
                  .high_y = -HUGE_VAL};
   for (gsize i = 0; i < self->count; i++) {
@@ -92,7 +94,7 @@ static void draw_axes(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
   g_autofree char *high = g_strdup_printf("%.2g %%", exp(f->high_y)), *low = g_strdup_printf("%.2g %%", exp(f->low_y));
   draw_text(widget, cr, f->left - 4, f->top - 4, 1, high);
   draw_text(widget, cr, f->left - 4, f->top + f->height - 12, 1, low);
-  draw_text(widget, cr, f->left, 1, 0, _("Depth error"));
+  draw_text(widget, cr, f->left, 1, 0, self->label);
 }
 
 static void draw_line_at(cairo_t *cr, const Frame *f, size_t count, gboolean dashed) {
@@ -201,6 +203,13 @@ void spore_count_plot_set_points(SporeCountPlot *self, const size_t *counts, con
   self->enough = enough;
   self->chosen = MIN(self->chosen, self->count ? self->count - 1 : 0);
   describe(self);
+  gtk_widget_queue_draw(GTK_WIDGET(self));
+}
+
+void spore_count_plot_set_axes(SporeCountPlot *self, size_t least, size_t most, const char *label) {
+  self->least = least;
+  self->most = most;
+  self->label = label;
   gtk_widget_queue_draw(GTK_WIDGET(self));
 }
 

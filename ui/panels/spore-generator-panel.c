@@ -2,19 +2,20 @@
 
 #include <glib/gi18n.h>
 
-#include "ui/jobs/quality.h"
+#include "ui/jobs/generate-types.h"
 #include "ui/jobs/spore-series.h"
 #include "ui/panels/report.h"
 #include "ui/panels/spore-count-plot.h"
+#include "ui/panels/spore-generator-rows.h"
 #include "ui/panels/spore-histogram.h"
 
 struct _SporeGeneratorPanel {
   GtkBox parent;
-  GtkWidget *empty, *content, *title, *count_label, *count, *mode, *shown, *facts, *apply, *cancel, *histogram,
-      *numbers, *measure, *plot;
+  GtkWidget *empty, *content, *title, *rows, *shown, *facts, *apply, *cancel, *histogram, *numbers, *measure, *plot;
   SporeGenerator *generator;
   SporeSeries *series;
   guint32 body; /* that the series is of */
+  int series_kind;
   gboolean filling;
   int kind; /* that the lists are filled for, -1: none yet */
 };
@@ -33,29 +34,22 @@ static void preview(SporeGeneratorPanel *self, const SporeGenerateOptions *optio
 }
 
 static void options_changed(GtkWidget *widget, SporeGeneratorPanel *self) {
-  if (self->filling || !spore_generator_is_active(self->generator)) return;
+  if (!spore_generator_is_active(self->generator)) return;
   SporeGenerateOptions options = *spore_generator_get_options(self->generator);
-  size_t count = (size_t)gtk_spin_button_get_value_as_int(GTK_SPIN_BUTTON(self->count));
-  if (options.kind == SPORE_GENERATE_SPHERES) {
-    options.spheres.count = count;
-    options.spheres.mode = (SporeSpheresMode)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(self->mode)), 0);
-  } else {
-    options.tetrahedra.cells = count;
-  }
+  spore_generator_rows_get_options(SPORE_GENERATOR_ROWS(self->rows), &options);
   preview(self, &options);
 }
 
 static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *options) {
-  gboolean spheres = options->kind == SPORE_GENERATE_SPHERES;
-  double count = (double)(spheres ? options->spheres.count : options->tetrahedra.cells);
-  gtk_spin_button_set_range(GTK_SPIN_BUTTON(self->count), 1, spheres ? SPORE_SPHERES_MAXIMUM : 1e6);
-  if (gtk_spin_button_get_value(GTK_SPIN_BUTTON(self->count)) != count)
-    gtk_spin_button_set_value(GTK_SPIN_BUTTON(self->count), count);
-  gtk_label_set_text(GTK_LABEL(self->count_label), spheres ? _("Spheres") : _("Tetrahedra"));
-  gtk_widget_set_visible(self->mode, spheres);
-  gtk_widget_set_visible(self->numbers, spheres);
-  spore_count_plot_set_current(SPORE_COUNT_PLOT(self->plot), options->spheres.count);
-  gtk_combo_box_set_active(GTK_COMBO_BOX(self->mode), (int)options->spheres.mode);
+  const SporeGenerateType *type = spore_generate_type(options->kind);
+  const SporeParameterTable *table = spore_generate_table(spore_generator_get_document(self->generator), options->kind);
+  spore_generator_rows_set_options(SPORE_GENERATOR_ROWS(self->rows), table, options);
+  gtk_widget_set_visible(self->numbers, type->counts != NULL);
+  if (!type->counts) return;
+  gsize last = 0;
+  while (type->counts[last + 1]) last++;
+  spore_count_plot_set_axes(SPORE_COUNT_PLOT(self->plot), type->counts[0], type->counts[last], _(type->error_label));
+  spore_count_plot_set_current(SPORE_COUNT_PLOT(self->plot), spore_generate_get_count(options));
 }
 
 /* Numbers. */
@@ -80,14 +74,16 @@ static void measure_clicked(GtkButton *button, SporeGeneratorPanel *self) {
 }
 
 static void count_chosen(SporeCountPlot *plot, guint count, SporeGeneratorPanel *self) {
-  gtk_spin_button_set_value(GTK_SPIN_BUTTON(self->count), count);
+  spore_generator_rows_set_count(SPORE_GENERATOR_ROWS(self->rows), count);
 }
 
 /* Of another body, or of none, they say nothing. */
 static void follow_body(SporeGeneratorPanel *self, SporeObject *body) {
   guint32 id = body ? spore_object_id(body) : 0;
-  if (id != self->body) spore_series_clear(self->series);
+  int kind = body ? (int)spore_generator_get_options(self->generator)->kind : -1;
+  if (id != self->body || kind != self->series_kind) spore_series_clear(self->series);
   self->body = id;
+  self->series_kind = kind;
 }
 
 /* Result. */
@@ -101,24 +97,11 @@ static void fill_qualities(SporeGeneratorPanel *self, SporeGenerateKind kind) {
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->shown), 0);
 }
 
-static char *facts_of(const SporeGenerateWork *work) {
-  const SporeSpheresReport *spheres = &work->spheres_report;
-  const SporeTetrahedraReport *tetrahedra = &work->tetrahedra_report;
-  if (work->options.kind == SPORE_GENERATE_SPHERES)
-    return g_strdup_printf(_("%zu spheres in %.1f s\nCoverage %.1f %%, outside %.1f %%\n"
-                             "Depth error %.1f %%, distance %.2f %%"),
-                           work->spheres.count, spheres->seconds, 100 * spheres->coverage, 100 * spheres->outside,
-                           100 * spheres->depth_error, 100 * spheres->distance_mean);
-  return g_strdup_printf(_("%zu tetrahedra in %.1f s\nLeast angle %.1f°, mean %.1f°\nError %.2f %%"),
-                         work->tetrahedra.tetrahedron_count, tetrahedra->seconds, tetrahedra->quality.min_dihedral_deg,
-                         tetrahedra->quality.mean_dihedral_deg, 100 * tetrahedra->hausdorff);
-}
-
 static void show_result(SporeGeneratorPanel *self) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   SporeQuality quality = {0};
   if (work) spore_quality_of(work, spore_generator_panel_get_quality(self), &quality);
-  g_autofree char *facts = work ? facts_of(work) : g_strdup(_("Working…"));
+  g_autofree char *facts = work ? spore_generate_type(work->options.kind)->facts(work) : g_strdup(_("Working…"));
   gtk_label_set_text(GTK_LABEL(self->facts), facts);
   spore_histogram_set_quality(SPORE_HISTOGRAM(self->histogram), &quality);
   spore_quality_clear(&quality);
@@ -137,8 +120,7 @@ static void refresh(SporeGeneratorPanel *self) {
   follow_body(self, body);
   if (!body) return;
   const SporeGenerateOptions *options = spore_generator_get_options(self->generator);
-  g_autofree char *title = g_strdup_printf(
-      options->kind == SPORE_GENERATE_SPHERES ? _("Spheres of %s") : _("Tetrahedra of %s"), spore_object_name(body));
+  g_autofree char *title = g_strdup_printf(_(spore_generate_type(options->kind)->title), spore_object_name(body));
   gtk_label_set_text(GTK_LABEL(self->title), title);
   self->filling = TRUE;
   fill_qualities(self, options->kind);
@@ -161,14 +143,6 @@ void spore_generator_panel_set_generator(SporeGeneratorPanel *self, SporeGenerat
 
 /* Life. */
 
-/* Widgets named in the template cannot be filled there with what other tables say. */
-static void fill_modes(SporeGeneratorPanel *self) {
-  for (int i = 0; i < SPORE_SPHERES_MODE_COUNT; i++) {
-    g_autofree char *label = spore_choice_label(spore_spheres_mode_names[i]);
-    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(self->mode), label);
-  }
-}
-
 static void spore_generator_panel_dispose(GObject *object) {
   SporeGeneratorPanel *self = SPORE_GENERATOR_PANEL(object);
   spore_generator_panel_set_generator(self, NULL);
@@ -182,9 +156,7 @@ static void bind(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, empty);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, content);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, title);
-  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, count_label);
-  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, count);
-  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, mode);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, rows);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, shown);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, facts);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, apply);
@@ -200,6 +172,7 @@ static void spore_generator_panel_class_init(SporeGeneratorPanelClass *class) {
   G_OBJECT_CLASS(class)->dispose = spore_generator_panel_dispose;
   g_type_ensure(SPORE_TYPE_HISTOGRAM);
   g_type_ensure(SPORE_TYPE_COUNT_PLOT);
+  g_type_ensure(SPORE_TYPE_GENERATOR_ROWS);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-generator-panel.ui");
   bind(widget);
   gtk_widget_class_bind_template_callback(widget, options_changed);
@@ -215,8 +188,5 @@ static void spore_generator_panel_init(SporeGeneratorPanel *self) {
   self->series = spore_series_new();
   g_signal_connect_object(self->series, "changed", G_CALLBACK(show_series), self, G_CONNECT_SWAPPED);
   gtk_widget_init_template(GTK_WIDGET(self));
-  spore_ignore_wheel(self->count);
-  spore_ignore_wheel(self->mode);
   spore_ignore_wheel(self->shown);
-  fill_modes(self);
 }

@@ -6,6 +6,7 @@
 #include "core/scene/compile.h"
 #include "core/scene/generated.h"
 #include "ui/document/edits.h"
+#include "ui/document/generated-edits.h"
 #include "ui/document/mapping-report.h"
 #include "ui/document/region-edits.h"
 #include "ui/jobs/spore-job.h"

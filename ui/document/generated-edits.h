@@ -1,0 +1,36 @@
+/* What generators made, taken into the scene: each one undo step. No GTK. */
+#ifndef SPORE_UI_DOCUMENT_GENERATED_EDITS_H
+#define SPORE_UI_DOCUMENT_GENERATED_EDITS_H
+
+#include "core/generate/centreline_scene.h"
+#include "core/scene/document.h"
+#include "core/scene/schema_fields.h"
+
+/* Where generated data come from. */
+typedef struct SporeGeneratedFrom {
+  const char *source, *source_hash; /* name of the mesh asset, and its hash then */
+  const void *fields;               /* of the asset's table: those that say how to generate are remembered */
+} SporeGeneratedFrom;
+
+/* Sphere, tetrahedra or curve asset in use by the body, or NULL. */
+SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body);
+SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body);
+/* The curve that the body is made of, else one that was made of the mesh it shows. */
+SporeObject *spore_edit_body_curve(SporeDocument *document, SporeObject *body);
+/* A generated mesh that the body is made of or shows, else one that was made of the mesh it shows. */
+SporeObject *spore_edit_body_surface(SporeDocument *document, SporeObject *body);
+
+/* What was generated becomes an asset of the body (its earlier generated one is replaced). With tetrahedra, a body that
+ * has no model yet gets the usual one for them; with a surface, too. */
+gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
+                                const SporeSphereSet *set, GError **error);
+gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
+                                   const SporeTetrahedralMesh *mesh, GError **error);
+/* options NULL: the asset alone; else the body becomes a thread, tube or intestine along it, with what holds it. */
+gboolean spore_edit_use_curve(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
+                              const SporeCurve *curve, const SporeCentrelineBodyOptions *options, GError **error);
+typedef enum SporeSurfaceUse { SPORE_SURFACE_MODEL, SPORE_SURFACE_SHOWN, SPORE_SURFACE_ASSET } SporeSurfaceUse;
+gboolean spore_edit_use_surface(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
+                                const SporeTriangleMesh *mesh, SporeSurfaceUse use, GError **error);
+
+#endif

@@ -1,0 +1,117 @@
+/* The middle line of a tubular organ, and a body along it. */
+#include <glib/gi18n.h>
+#include <math.h>
+
+#include "ui/document/generated-edits.h"
+#include "ui/jobs/generate-types.h"
+
+#define APART 1.2 /* radii from loop to loop, over their sum: the body may touch itself */
+
+static const char *const purpose_names[] = {"curve", "thread", "tube", "intestine", NULL};
+static const SporeParameter purposes = {
+    .name = "make",
+    .type = SPORE_CHOICE,
+    .unit = "",
+    .minimum = -HUGE_VAL,
+    .maximum = HUGE_VAL,
+    .choices = purpose_names,
+    .offset = offsetof(SporeGenerateOptions, purpose),
+    .doc =
+        N_("What Apply makes: the curve alone, or of the body a solid thread, a tube with a wall, or an intestine on "
+           "its mesentery.")};
+
+static SporeCentrelineOptions options_of(const SporeGenerateWork *work) {
+  const SporeCurveFields *fields = &work->options.fields.curve;
+  SporeCentrelineOptions options = {.points = (size_t)fields->points, .tolerance = fields->tolerance};
+  memcpy(options.ends[0], fields->first_place, sizeof options.ends[0]);
+  memcpy(options.ends[1], fields->last_place, sizeof options.ends[1]);
+  options.ends_given = memcmp(options.ends[0], options.ends[1], sizeof options.ends[0]) != 0;
+  return options;
+}
+
+static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeCentrelineOptions options = options_of(work);
+  if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure))
+    return TRUE;
+  spore_error_at(&failure, work->source);
+  return spore_error_propagate(&failure, error);
+}
+
+static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
+  const SporeGeneratedFrom from = {work->source, work->source_hash, &work->options.fields};
+  const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)(work->options.purpose - 1),
+                                            .loops_apart = work->curve_report.approach > APART};
+  return spore_edit_use_curve(document, body, &from, &work->curve, work->options.purpose ? &along : NULL, error);
+}
+
+static char *facts(const SporeGenerateWork *work) {
+  const SporeCentrelineReport *report = &work->curve_report;
+  size_t loops = 0;
+  for (size_t i = 0; i < MIN(report->branches, SPORE_CENTRELINE_NAMED); i++) loops += report->branch[i].returns;
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(
+      text, _("%zu points in %.1f s, %.1f mm long\nRadius %.2f mm (%.2f to %.2f)\nLoops left out: %zu, branches: %zu"),
+      work->curve.count, report->seconds, 1e3 * report->length, 1e3 * report->radius_mean, 1e3 * report->radius_min,
+      1e3 * report->radius_max, loops, report->branches - loops);
+  if (report->components > 1)
+    g_string_append_printf(text, _("\nOf the largest of %zu pieces, %.1f %% of the organ"), report->components,
+                           100 * report->share);
+  if (report->approach < 1) g_string_append(text, _("\nIts windings touch"));
+  return g_string_free(text, FALSE);
+}
+
+/* Qualities. */
+
+static void measure_radius(const SporeGenerateWork *work, SporeQuality *quality) {
+  quality->count = work->curve.count;
+  quality->values = spore_generate_scaled(work->curve.points + 3, quality->count, 4, 1e3);
+}
+
+static SporeVec3 point(const SporeCurve *curve, gsize i) { return spore_vec3_load(curve->points + 4 * i); }
+
+/* The angle by which the line turns at each point. */
+static void measure_bend(const SporeGenerateWork *work, SporeQuality *quality) {
+  const SporeCurve *curve = &work->curve;
+  quality->count = curve->count;
+  quality->values = g_new0(double, quality->count);
+  for (gsize i = 1; i + 1 < curve->count; i++) {
+    SporeVec3 before = spore_vec3_sub(point(curve, i), point(curve, i - 1));
+    SporeVec3 after = spore_vec3_sub(point(curve, i + 1), point(curve, i));
+    double across = spore_vec3_length(spore_vec3_cross(before, after)), along = spore_vec3_dot(before, after);
+    quality->values[i] = 180 / G_PI * atan2(across, along);
+  }
+}
+
+static void show(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
+  const SporeSphereSet balls = {.count = work->curve.count, .spheres = work->curve.points};
+  spore_generate_show_spheres(&balls, places, candidate);
+  candidate->line_count = work->curve.count - 1;
+  candidate->lines = g_new(double, 6 * candidate->line_count);
+  for (gsize i = 0; i < candidate->line_count; i++) {
+    spore_vec3_store(candidate->lines + 6 * i, point(&work->curve, i));
+    spore_vec3_store(candidate->lines + 6 * i + 3, point(&work->curve, i + 1));
+  }
+}
+
+static const SporeGenerateQuality qualities[] = {
+    {N_("Radius"), "mm", measure_radius, show},
+    {N_("Bend"), "°", measure_bend, show},
+};
+
+const SporeGenerateType spore_generate_curve = {
+    .name = "curve",
+    .element = "curve",
+    .title = N_("Middle line of %s"),
+    .working = N_("Finding the middle line"),
+    .count = "points",
+    .count_label = N_("Points"),
+    .purposes = &purposes,
+    .picks_ends = TRUE,
+    .qualities = qualities,
+    .quality_count = G_N_ELEMENTS(qualities),
+    .target = spore_edit_body_curve,
+    .run = run,
+    .apply = apply,
+    .facts = facts,
+};

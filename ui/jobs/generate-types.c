@@ -1,0 +1,81 @@
+#include "ui/jobs/generate-types.h"
+
+#include <math.h>
+
+const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
+  static const SporeGenerateType *const types[SPORE_GENERATE_KIND_COUNT] = {
+      [SPORE_GENERATE_SPHERES] = &spore_generate_spheres,
+      [SPORE_GENERATE_TETRAHEDRA] = &spore_generate_tetrahedra,
+      [SPORE_GENERATE_CURVE] = &spore_generate_curve,
+      [SPORE_GENERATE_SURFACE] = &spore_generate_surface,
+  };
+  return types[kind];
+}
+
+/* Options. */
+
+const SporeParameterTable *spore_generate_table(SporeDocument *document, SporeGenerateKind kind) {
+  const SporeObject *assets = spore_document_section(document, "assets");
+  return spore_object_type_child(spore_object_type(assets), spore_generate_type(kind)->element)->table;
+}
+
+SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
+  return spore_generate_type(kind)->target(document, body);
+}
+
+SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
+  SporeGenerateOptions options = {.kind = kind};
+  SporeObject *asset = spore_generate_target(document, body, kind);
+  if (asset) spore_object_fields(asset, &options.fields);
+  else spore_parameters_set_initial(spore_generate_table(document, kind), &options.fields);
+  return options;
+}
+
+/* Where the count is; NULL: the kind has none. */
+static int64_t *count_of(SporeGenerateOptions *options) {
+  switch (options->kind) {
+  case SPORE_GENERATE_SPHERES:
+    return &options->fields.spheres.count;
+  case SPORE_GENERATE_TETRAHEDRA:
+    return &options->fields.tetrahedra.cells;
+  case SPORE_GENERATE_CURVE:
+    return &options->fields.curve.points;
+  case SPORE_GENERATE_SURFACE:
+    return &options->fields.surface.nodes;
+  default:
+    return NULL;
+  }
+}
+
+size_t spore_generate_get_count(const SporeGenerateOptions *options) {
+  SporeGenerateOptions copy = *options;
+  const int64_t *count = count_of(&copy);
+  return count ? (size_t)*count : 0;
+}
+
+void spore_generate_set_count(SporeGenerateOptions *options, size_t count) {
+  int64_t *place = count_of(options);
+  if (place) *place = (int64_t)count;
+}
+
+/* Services for the kinds. */
+
+double *spore_generate_scaled(const double *values, gsize count, gsize stride, double scale) {
+  double *copy = g_new(double, count);
+  for (gsize i = 0; i < count; i++) copy[i] = scale * fabs(values[stride * i]);
+  return copy;
+}
+
+void spore_generate_show_surface(const SporeTriangleMesh *mesh, float *places, SporeStageCandidate *candidate) {
+  candidate->vertex_count = mesh->vertex_count;
+  candidate->triangle_count = mesh->triangle_count;
+  candidate->vertices = g_memdup2(mesh->vertices, 3 * mesh->vertex_count * sizeof(double));
+  candidate->triangles = g_memdup2(mesh->triangles, 3 * mesh->triangle_count * sizeof(guint32));
+  candidate->vertex_values = places;
+}
+
+void spore_generate_show_spheres(const SporeSphereSet *set, float *places, SporeStageCandidate *candidate) {
+  candidate->sphere_count = set->count;
+  candidate->spheres = g_memdup2(set->spheres, 4 * set->count * sizeof(double));
+  candidate->sphere_values = places;
+}

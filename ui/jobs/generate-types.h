@@ -1,0 +1,54 @@
+/* The kinds of generators: one table. What a kind is asked for are the attributes of the asset that it makes
+ * (spore_generated_is_option): the panel makes a row of each, Apply writes them. No GTK. */
+#ifndef SPORE_UI_JOBS_GENERATE_TYPES_H
+#define SPORE_UI_JOBS_GENERATE_TYPES_H
+
+#include "ui/jobs/quality.h"
+#include "ui/render/stage.h"
+
+/* A quality of a result, by colours and as a histogram. */
+typedef struct SporeGenerateQuality {
+  const char *label, *unit; /* label: N_ */
+  /* Fills count, values and, where they differ, weights. */
+  void (*measure)(const SporeGenerateWork *work, SporeQuality *quality);
+  /* Shows them: places are the values on the scale of colours (spore_quality_place), taken. */
+  void (*show)(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate);
+} SporeGenerateQuality;
+
+typedef struct SporeGenerateType {
+  const char *name;               /* of the actions: "generate-NAME", "preview-NAME" */
+  const char *element;            /* of the asset */
+  const char *title, *working;    /* "Spheres of %s", "Generating spheres"; N_ */
+  const char *count;              /* the option that says how many; NULL: none */
+  const char *count_label;        /* N_ */
+  const SporeParameter *purposes; /* a choice, what Apply makes of the result: SporeGenerateOptions.purpose; or NULL */
+  gboolean picks_ends;            /* the options have a first and a last place, that can be picked by hand */
+
+  /* Error against number: for these numbers, ended by 0; NULL: no plot. */
+  const size_t *counts;
+  const char *error_label; /* N_ */
+  double worth;            /* %, that twice the number must lower the error by */
+  gboolean (*price)(const SporeGenerateWork *work, size_t count, double *error_percent, const SporeProgress *progress,
+                    GError **error);
+
+  const SporeGenerateQuality *qualities; /* at least one */
+  gsize quality_count;
+
+  SporeObject *(*target)(SporeDocument *document, SporeObject *body); /* asset that the body uses, or NULL */
+  gboolean (*run)(SporeGenerateWork *work, const SporeProgress *progress, GError **error);
+  /* Inside a group; FALSE: all of it is taken back. */
+  gboolean (*apply)(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error);
+  char *(*facts)(const SporeGenerateWork *work); /* a line each; g_free */
+} SporeGenerateType;
+
+extern const SporeGenerateType spore_generate_spheres, spore_generate_tetrahedra, spore_generate_curve,
+    spore_generate_surface;
+const SporeGenerateType *spore_generate_type(SporeGenerateKind kind);
+
+/* values x scale, without sign, every stride-th; g_free. */
+double *spore_generate_scaled(const double *values, gsize count, gsize stride, double scale);
+/* Copies a surface into a candidate, with a place on the scale a vertex (taken) or none. */
+void spore_generate_show_surface(const SporeTriangleMesh *mesh, float *places, SporeStageCandidate *candidate);
+void spore_generate_show_spheres(const SporeSphereSet *set, float *places, SporeStageCandidate *candidate);
+
+#endif
