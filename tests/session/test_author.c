@@ -128,7 +128,7 @@ static void test_change_mesh(Fixture *fixture, gconstpointer data) {
 }
 
 static const SporeSpheresFields spheres_fields = {.count = 1, .seed = 7};
-static const SporeTetrahedraFields tetrahedra_fields = {.cells = 1};
+static const SporeTetrahedraFields tetrahedra_fields = {.cells = 1, .tolerance = 0.01};
 static const SporeGeneratedFrom from_organ = {"my_organ", "0123456789abcdef", &spheres_fields},
                                 cells_from_organ = {"my_organ", "0", &tetrahedra_fields};
 
@@ -246,7 +246,7 @@ static void use_tetrahedron(Fixture *fixture, SporeObject *body) {
   double corners[12] = {0, 0, 0, 0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.04};
   uint32_t numbers[4] = {0, 1, 2, 3};
   SporeTetrahedralMesh mesh = {4, 1, corners, numbers};
-  spore_edit_use_tetrahedra(fixture->document, body, "my_organ", "0", 1, &mesh, NULL);
+  spore_edit_use_tetrahedra(fixture->document, body, &cells_from_organ, &mesh, NULL);
 }
 
 /* A region of a body is one step, and its holder comes and goes with it; each has rings of its own. */

@@ -6,6 +6,7 @@
 
 #include "core/mesh/common.h"
 #include "ui/document/edits.h"
+#include "ui/document/generated-edits.h"
 
 #define PART 0.125 /* of the diagonal: radius of a new region */
 #define LEAST_M 1e-4

@@ -6,14 +6,14 @@
 
 static SporeTetrahedraOptions options_of(const SporeGenerateWork *work) {
   const SporeTetrahedraFields *fields = &work->options.fields.tetrahedra;
-  return (SporeTetrahedraOptions){
-      .method = fields->method ? (SporeTetrahedraMethod)(fields->method - 1) : SPORE_TETRAHEDRA_METHODS,
-      .cells = fields->size > 0 ? 0 : (size_t)fields->cells,
-      .size = fields->size,
-      .tolerance = fields->tolerance,
-      .curvature = fields->curvature,
-      .fill = fields->fill,
-      .gap = fields->gap};
+  return (SporeTetrahedraOptions){.method = fields->method ? (SporeTetrahedraMethod)(fields->method - 1)
+                                                           : SPORE_TETRAHEDRA_METHODS,
+                                  .cells = fields->size > 0 ? 0 : (size_t)fields->cells,
+                                  .size = fields->size,
+                                  .tolerance = fields->tolerance,
+                                  .curvature = fields->curvature,
+                                  .fill = fields->fill,
+                                  .gap = fields->gap};
 }
 
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
