@@ -123,6 +123,18 @@ static SporeEnergy recent_energy(SporeWorld *world) {
   return world->energy;
 }
 
+static SporeToolCounts count_tools(const SporeWorld *world) {
+  SporeToolCounts counts = {0};
+  for (size_t i = 0; i < world->tool_count; i++) {
+    const SporeTool *tool = &world->tools[i];
+    counts.cut += tool->cut;
+    if (!tool->needle) continue;
+    counts.pierced += tool->needle->pierced;
+    counts.stitches += spore_needle_stitch_count(tool->needle);
+  }
+  return counts;
+}
+
 void spore_snapshot_publish(SporeWorld *world) {
   SporeSnapshots *snapshots = &world->snapshots;
   SporeSnapshot *snapshot = &snapshots->buffers[snapshots->triple.writing];
@@ -133,6 +145,7 @@ void spore_snapshot_publish(SporeWorld *world) {
     snapshot->level[b] = (uint8_t)world->bodies[b].level;
   copy_contacts(world, snapshot);
   snapshot->counts = world->counts;
+  snapshot->tools = count_tools(world);
   snapshot->energy = recent_energy(world);
   copy_messages(world, snapshot);
   copy_cuts(world, snapshot);

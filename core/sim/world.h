@@ -441,6 +441,10 @@ typedef struct SporeSnapshotContact {
   SporeVec3 point, force; /* on sphere a */
   uint32_t sphere_a, sphere_b;
 } SporeSnapshotContact;
+/* What all tools have done so far, as SporeToolState. */
+typedef struct SporeToolCounts {
+  size_t cut, pierced, stitches;
+} SporeToolCounts;
 typedef struct SporeSnapshot {
   uint64_t step;
   double time_s;
@@ -454,6 +458,7 @@ typedef struct SporeSnapshot {
   SporeCuts cuts;   /* since time 0 */
   uint64_t cut_run; /* another number: they began anew */
   SporeStepCounts counts;
+  SporeToolCounts tools;
   SporeEnergy energy;     /* of this state, or of the first one after the snapshot before was acquired */
   uint64_t message_count; /* of the monitor, and its messages */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];

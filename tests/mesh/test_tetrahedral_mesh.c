@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/mesh/cell_faces.h"
 #include "tests/mesh/shapes.h"
 
 #define CLOSE(a, b, tolerance) g_assert_cmpfloat_with_epsilon(a, b, tolerance)
@@ -77,6 +78,60 @@ static void test_validate(void) {
   g_assert_nonnull(strstr(error.message, "tetrahedron 1 uses vertex 5"));
 }
 
+static double area_of(const SporeCellFaces *faces) {
+  double area = 0;
+  for (size_t i = 0; i < faces->triangle_count; i++) {
+    const double *p = faces->vertices + 9 * i;
+    SporeVec3 a = spore_vec3_load(p), b = spore_vec3_sub(spore_vec3_load(p + 3), a);
+    area += 0.5 * spore_vec3_length(spore_vec3_cross(b, spore_vec3_sub(spore_vec3_load(p + 6), a)));
+  }
+  return area;
+}
+
+/* A box of 2 x 2 x 2 cubes is seen from outside, cut to one layer, drawn apart, and cut away. */
+static void test_cell_faces(void) {
+  static const struct {
+    double beyond, shrink;
+    size_t triangles;
+    double area;
+  } views[] = {{2, 1, 48, 24}, {1, 1, 32, 16}, {2, 0.5, 4 * 48, 0}, {0, 1, 0, 0}};
+  SporeTetrahedralMesh mesh;
+  shape_tetrahedral_box(&mesh, 2, 1);
+  for (size_t i = 0; i < G_N_ELEMENTS(views); i++) {
+    SporeCellFaces faces;
+    SporeCellView view = {spore_vec3(1, 0, 0), views[i].beyond, views[i].shrink};
+    g_assert_true(spore_cell_faces(&mesh, &view, &faces, NULL));
+    g_assert_cmpuint(faces.triangle_count, ==, views[i].triangles);
+    if (views[i].shrink == 1) CLOSE(area_of(&faces), views[i].area, 1e-12);
+    for (size_t f = 0; f < faces.triangle_count; f++) g_assert_cmpuint(faces.cells[f], <, mesh.tetrahedron_count);
+    spore_cell_faces_clear(&faces);
+  }
+  SporeCellFaces whole, apart;
+  SporeCellView one = {{0, 0, 0}, 0, 1 - 1e-12}, half = {{0, 0, 0}, 0, 0.5};
+  g_assert_true(spore_cell_faces(&mesh, &one, &whole, NULL) && spore_cell_faces(&mesh, &half, &apart, NULL));
+  CLOSE(area_of(&apart), 0.25 * area_of(&whole), 1e-9);
+  spore_cell_faces_clear(&whole);
+  spore_cell_faces_clear(&apart);
+  spore_tetrahedral_mesh_clear(&mesh);
+}
+
+/* Faces look out of what is left. */
+static void test_cell_faces_outward(void) {
+  SporeTetrahedralMesh mesh;
+  SporeCellFaces faces;
+  SporeCellView view = {spore_vec3(0, 1, 0), 1, 1};
+  double volume = 0;
+  shape_tetrahedral_box(&mesh, 3, 1);
+  g_assert_true(spore_cell_faces(&mesh, &view, &faces, NULL));
+  for (size_t i = 0; i < faces.triangle_count; i++) {
+    const double *p = faces.vertices + 9 * i;
+    volume += spore_vec3_dot(spore_vec3_load(p), spore_vec3_cross(spore_vec3_load(p + 3), spore_vec3_load(p + 6))) / 6;
+  }
+  CLOSE(volume, 9, 1e-12);
+  spore_cell_faces_clear(&faces);
+  spore_tetrahedral_mesh_clear(&mesh);
+}
+
 static void test_no_memory(void) {
   SporeTetrahedralMesh mesh;
   bool done = false;
@@ -101,6 +156,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/mesh/tetrahedral/quality-regular", test_quality_regular);
   g_test_add_func("/mesh/tetrahedral/quality-corner", test_quality_corner);
   g_test_add_func("/mesh/tetrahedral/validate", test_validate);
+  g_test_add_func("/mesh/tetrahedral/cell-faces", test_cell_faces);
+  g_test_add_func("/mesh/tetrahedral/cell-faces-outward", test_cell_faces_outward);
   g_test_add_func("/mesh/tetrahedral/no-memory", test_no_memory);
   return g_test_run();
 }

@@ -351,14 +351,19 @@ def regions_are_added_and_deleted():
         editor.find("push button", "^Regenerate$", showing=False)
 
 
-def yellow(editor):
-    """Pixels of the view in the colour of what is pointed out."""
+def picture_of_view(editor):
+    """(pixels, bytes a pixel, bytes a row, width, height) of the view, without its tools and figures."""
     import gi
     gi.require_version("Gdk", "3.0")
     from gi.repository import Gdk
     x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
-    picture = Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), x, y, width, height)
-    pixels, step, row = picture.get_pixels(), picture.get_n_channels(), picture.get_rowstride()
+    picture = Gdk.pixbuf_get_from_window(Gdk.get_default_root_window(), x, y + 60, width, height - 200)
+    return picture.get_pixels(), picture.get_n_channels(), picture.get_rowstride(), width, height - 200
+
+
+def yellow(editor):
+    """Pixels of the view in the colour of what is pointed out."""
+    pixels, step, row, width, height = picture_of_view(editor)
     return sum(pixels[at] > 160 and pixels[at + 1] > 150 and pixels[at] - pixels[at + 2] > 60
                for line in range(height) for at in range(line * row, line * row + width * step, step))
 
@@ -530,6 +535,80 @@ def mouse_takes_an_instrument_from_its_track():
     pressed = [int(sample[9]) & 1 for sample in samples]
     assert 1 in pressed and pressed[-1] == 0, "the right button presses and lets go"
     assert samples[0][4:8] != samples[-1][4:8], "Shift and a drag turn"
+
+
+def plays_until(editor, pattern, enough, seconds=120):
+    """As fast as it goes, until the figures over the view say so; paused then. The number that they said."""
+    editor.act("speed", "s", "0")
+    editor.act("play")
+    ui.wait(lambda: (editor.hud(pattern) or 0) >= enough, f"{pattern} to be {enough}", seconds)
+    editor.act("pause")
+    return editor.hud(pattern)
+
+
+@check
+def scissors_cut():
+    """scissors cut tissue: the ties that went are counted over the view, the picture opens, and Reset makes it whole."""
+    with start(SCENES / "cut-ovary.spore") as editor:
+        ui.wait(lambda: editor.row("ovary_right"), "the scene")
+        whole = picture_sum(editor)
+        cut = plays_until(editor, r"Cut (\d+)", 10)
+        assert cut >= 10 and editor.time_s() > 0
+        ui.wait(lambda: picture_sum(editor) != whole, "the picture to change")
+        assert not editor.look("table cell", "stopped|went back", showing=False)
+        editor.act("reset")
+        ui.wait(lambda: editor.time_s() == 0 and not editor.hud(r"Cut (\d+)"), "it to be whole")
+        ui.wait(lambda: picture_sum(editor) == whole, "the first picture")
+
+
+def picture_sum(editor):
+    """A number for the picture in the view: the same picture has the same."""
+    import zlib
+    return zlib.crc32(picture_of_view(editor)[0])
+
+
+@check
+def needle_stitches():
+    """a needle pierces the edges of a wound and its thread stays in the stitches; Reset takes them out."""
+    with start(SCENES / "suture.spore") as editor:
+        ui.wait(lambda: editor.row("thread"), "the scene")
+        assert plays_until(editor, r"Pierced (\d+)", 2) == 2
+        assert editor.hud(r"stitches (\d+)") == 2
+        before = editor.time_s()
+        editor.act("step")
+        ui.wait(lambda: editor.time_s() > before, "a step with the stitches")
+        editor.act("reset")
+        ui.wait(lambda: editor.time_s() == 0 and not editor.hud(r"Pierced (\d+)"), "the stitches to go")
+
+
+@check
+def levels_change_while_it_runs():
+    """an author changes how finely a body is made while it runs: time goes on, the view says the level, and undo goes back."""
+    with start(SCENES / "levels.spore") as editor:
+        ui.wait(lambda: editor.row("ovary_right"), "the scene")
+        editor.act("select", "s", "bodies/ovary_right")
+        editor.act("play")
+        ui.wait(lambda: (editor.time_s() or 0) > 0.05, "time to advance")
+
+        def level():
+            editor.application.clear_cache()
+            for node in editor.walk():
+                if node.get_role_name() == "label" and (node.get_name() or "").startswith("Time "):
+                    return re.search(r"ovary_right: (\w+)", node.get_name())[1]
+
+        assert level() == "Fine"
+        before = editor.time_s()
+        editor.choose(editor.find("combo box", "^Fine$", showing=False), "Coarse")
+        ui.wait(lambda: level() == "Coarse", "the coarse level")
+        assert editor.time_s() >= before, "it went on"
+        assert 'level="coarse"' in saved(editor, "levels")
+        editor.act("undo")
+        ui.wait(lambda: level() == "Fine", "the fine level")
+        editor.act("pause")
+        editor.act("set-property", "(sss)", ("bodies/ovary_right/fidelity", "level", "medium"))
+        editor.act("step")
+        ui.wait(lambda: level() == "Medium", "the medium level")
+        assert not editor.message()
 
 
 @check

@@ -1,6 +1,7 @@
 #include <glib/gi18n.h>
 
 #include "ui/document/edits.h"
+#include "ui/document/labels.h"
 #include "ui/render/colour_scale.h"
 #include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
@@ -9,6 +10,7 @@
 #define FIELD_OF_VIEW_RAD 0.61
 /* An empty scene shows about a hand's breadth. */
 #define EMPTY_DISTANCE_M 0.4
+#define MOST_LEVELS 4 /* bodies in the corner */
 #define LEGEND_WIDTH 200
 #define LEGEND_MARGIN 22
 #define LEGEND_HEIGHT 48
@@ -239,6 +241,32 @@ static void size_changed(GtkWidget *area, GdkRectangle *allocation, SporeViewpor
 
 /* Following the simulation. */
 
+/* What scissors and needles have done. */
+static void append_tools(GString *text, const SporeSnapshot *snapshot) {
+  const SporeToolCounts *tools = &snapshot->tools;
+  if (tools->cut > 0) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Cut %zu"), tools->cut);
+  }
+  if (tools->pierced > 0) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Pierced %zu, stitches %zu"), tools->pierced, tools->stitches);
+  }
+}
+
+/* The level of each body that has several, a line each. */
+static void append_levels(GString *text, const SporeWorld *world, const SporeSnapshot *snapshot) {
+  guint32 count = snapshot->level ? (guint32)spore_world_body_count(world) : 0;
+  for (guint32 body = 0, shown = 0; body < count && shown < MOST_LEVELS; body++) {
+    SporeLevelState state;
+    if (!spore_world_level_state(world, body, &state)) continue;
+    g_autofree char *level = spore_label_of_name(spore_level_names[snapshot->level[body]]);
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("%s: %s"), spore_world_body_name(world, body), _(level));
+    shown++;
+  }
+}
+
 static void update_hud(SporeViewport *self) {
   SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
   gtk_widget_set_visible(self->hud, session != NULL);
@@ -265,6 +293,8 @@ static void update_hud(SporeViewport *self) {
     g_string_append(text, "  ·  ");
     g_string_append_printf(text, _("Asleep %zu"), snapshot->counts.sleeping);
   }
+  append_tools(text, snapshot);
+  append_levels(text, spore_session_simulation(session)->world, snapshot);
   SporeVec3 tip, force;
   if (probe_force(self, &tip, &force)) {
     g_string_append_c(text, '\n');
