@@ -27,8 +27,8 @@ static SporeMat3 compose(SporeVec3 n, double along, double plane, double slide, 
 }
 
 SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactState *state, double stiffness_scale,
-                                 double damping_scale) {
-  const SporeVec3 none = {0, 0, 0};
+                                 double damping_scale, SporeVec3 *drag) {
+  const SporeVec3 none = *drag = (SporeVec3){0, 0, 0};
   SporeContactNormal normal = spore_contact_normal(law, state->depth, spore_vec3_dot(state->normal, state->velocity));
   double along = stiffness_scale * normal.stiffness + damping_scale * normal.damping;
   double damping, most = law->friction * normal.force;
@@ -37,8 +37,10 @@ SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactS
   double length = spore_vec3_length(hold), plane = stiffness_scale * law->stiffness + damping_scale * damping;
   if (!(length > most)) return compose(state->normal, along, plane, 0, none);
   /* Slipping: the force does not change along itself. */
+  SporeVec3 slip = spore_vec3_scale(1 / length, hold);
   plane *= most / length;
-  return compose(state->normal, along, plane, plane, spore_vec3_scale(1 / length, hold));
+  *drag = spore_vec3_scale(law->friction * along, slip);
+  return compose(state->normal, along, plane, plane, slip);
 }
 
 double spore_contact_potential(const SporeContactLaw *law, double depth, SporeVec3 stretch) {

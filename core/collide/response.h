@@ -102,9 +102,10 @@ static inline SporeVec3 spore_contact_force(const SporeContactLaw *law, const Sp
 }
 
 /* stiffness_scale (-df/d(xa - xb)) + damping_scale (-df/d(va - vb)) of that force with the normal held: symmetric
- * positive semi-definite. Left out because they are not symmetric: the change of friction with N. */
+ * positive semi-definite. What is not symmetric, the change with N of the friction that slips, is apart: with
+ * -*drag n^T added it is the whole. */
 SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactState *state, double stiffness_scale,
-                                 double damping_scale);
+                                 double damping_scale, SporeVec3 *drag);
 
 /* The stretch that is left of one where N presses: what is longer has slipped. */
 SporeVec3 spore_contact_slip(const SporeContactLaw *law, SporeVec3 stretch, double pressing);

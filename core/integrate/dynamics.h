@@ -41,7 +41,11 @@ typedef struct SporeDynamics {
   void (*linearise)(void *data, const double *q, const double *from, const double *v, double c, double c2);
   /* True when the A of an earlier step, made with the same c and c2, may be used again; it is then the current one. */
   bool (*reuse)(void *data, const double *q, const double *v, double c, double c2);
-  void (*multiply)(void *data, const double *x, double *y);     /* y = A x */
+  void (*multiply)(void *data, const double *x, double *y); /* y = A x */
+  /* Whether A leaves out part of the Jacobian, because that is not symmetric: how friction that slips changes with what
+   * presses; and y = A x with it. */
+  bool (*drags)(void *data);
+  void (*multiply_dragged)(void *data, const double *x, double *y);
   void (*precondition)(void *data, const double *r, double *z); /* z = P^-1 r, P near A */
   /* What linearise costs against a force, a precondition and the rest of a quasi-Newton iteration, where P is a factor
    * of the bodies' part of A; 0 where it is not meant to be one. */

@@ -16,7 +16,7 @@ typedef struct Stage {
   double *q, *v;        /* where the force is evaluated */
   double *from;         /* as q: of the linearisation before */
   double *force, *work; /* 3 block_count each */
-  double *linear;       /* SPORE_PCG_SCRATCH vectors */
+  double *linear;       /* SPORE_BICGSTAB_SCRATCH vectors, which is the more */
 } Stage;
 
 static void residual(void *data, const double *v, double *r) {
@@ -50,6 +50,23 @@ static SporeLinearResult solve(void *data, const double *r, double tolerance, do
   const SporeDynamics *dynamics = stage->dynamics;
   SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply, dynamics->precondition};
   return spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
+}
+
+/* Friction that slips is stiff across itself, along what presses, and nothing like that the other way: where contacts
+ * hold one another, as in a knot, Newton's method without that term creeps, or never arrives. By A alone where that is
+ * all, or where the whole cannot be solved. */
+static SporeLinearResult solve_whole(void *data, const double *r, double tolerance, double *dv) {
+  Stage *stage = data;
+  const SporeDynamics *dynamics = stage->dynamics;
+  if (!dynamics->drags(dynamics->data)) return solve(data, r, tolerance, dv);
+  SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply_dragged,
+                                 dynamics->precondition};
+  SporeLinearResult whole = spore_bicgstab(&operator, r, tolerance, stage->linear_iterations / 2, dv, stage->linear);
+  whole.iterations *= 2; /* products */
+  if (whole.status == SPORE_LINEAR_CONVERGED) return whole;
+  SporeLinearResult part = solve(data, r, tolerance, dv);
+  part.iterations += whole.iterations;
+  return part;
 }
 
 /* A factor of a linearisation that is not the present one: applied once, it serves a quasi-Newton method as well as the
@@ -111,6 +128,7 @@ static SporeSystem stage_system(Stage *stage) {
                        .linearise = linearise,
                        .reuse = reuse,
                        .solve = solve,
+                       .solve_whole = solve_whole,
                        .approximate = approximate,
                        .linearisation_cost = linearisation_cost,
                        .weigh = weigh,
@@ -176,7 +194,7 @@ SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolv
   stage.work = scratch + 4 * n;
   stage.from = scratch + 5 * n;
   stage.linear = scratch + 7 * n;
-  double *r = scratch + (7 + SPORE_PCG_SCRATCH) * n;
+  double *r = scratch + (7 + SPORE_BICGSTAB_SCRATCH) * n;
   SporeSystem system = stage_system(&stage);
   size_t evaluations = guess(&stage, change, system.scale_r, fields->tolerance * system.scale_x, v, r);
   SporeNonlinearResult result = solve_system(&system, fields, v, r, r + n);

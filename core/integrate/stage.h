@@ -6,10 +6,11 @@
 #define SPORE_INTEGRATE_STAGE_H
 
 #include "core/integrate/integrator.h"
+#include "core/linalg/bicgstab.h"
 #include "core/nonlinear/system.h"
 
 /* Vectors of 3 block_count: q and from, of at most 4/3 of one rounded up to 2; v, force, work; r. */
-#define SPORE_STAGE_SCRATCH (8 + SPORE_PCG_SCRATCH + SPORE_BROYDEN_SCRATCH)
+#define SPORE_STAGE_SCRATCH (8 + SPORE_BICGSTAB_SCRATCH + SPORE_BROYDEN_SCRATCH)
 
 /* v (written) is the velocity at qa; drift from there. qa and va are not changed. change: what v - va may be near, for
  * a better start than va; NULL: not known. */

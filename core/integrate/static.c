@@ -92,7 +92,7 @@ static bool balance_load(Balance *balance, const SporeSolverFields *fields, doub
     result->newton_iterations++;
     result->linear_iterations += solved.iterations;
     result->unsolved += solved.status != SPORE_LINEAR_CONVERGED;
-    double after = 0, length = spore_line_search(&system, rest, d, r, norm, false, trial, trial_r, &after,
+    double after = 0, length = spore_line_search(&system, rest, d, r, norm, false, 0, trial, trial_r, &after,
                                                  &result->force_evaluations);
     if (length == 0) break;
     move(balance, trial);

@@ -129,7 +129,7 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
     result.linearisations++;
   }
   if (spore_convergence_rounding(&test, system, x, &result)) return result;
-  double start = test.norm, target = test.tolerance * test.scale_r;
+  double near = spore_convergence_near(&test), start = test.norm, target = test.tolerance * test.scale_r;
   while (!result.converged && result.iterations < options->iterations) {
     if (!approximate(system, r, g, &result)) break;
     system->weigh(system->data, g, weights);
@@ -143,10 +143,11 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
     accelerate(&history, g, weights, d);
     double trial_norm = 0;
     double length =
-        spore_line_search(system, x, d, r, test.norm, false, trial, trial_r, &trial_norm, &result.evaluations);
+        spore_line_search(system, x, d, r, test.norm, false, near, trial, trial_r, &trial_norm, &result.evaluations);
     if (length == 0 && history.count > 0) {
       history.count = 0;
-      length = spore_line_search(system, x, g, r, test.norm, false, trial, trial_r, &trial_norm, &result.evaluations);
+      length =
+          spore_line_search(system, x, g, r, test.norm, false, near, trial, trial_r, &trial_norm, &result.evaluations);
       memcpy(d, g, n * sizeof *d);
     }
     if (fresh && since == 0 && length < SHORT) break;

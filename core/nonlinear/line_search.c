@@ -8,14 +8,14 @@
 #define TRIALS 12
 #define FLAT 0.5 /* of the slope at the start: along d nothing more is to be had */
 #define LONGER 4 /* at most, times the length before */
-#define NEAR 0.1 /* of the load: farther from the answer the residual is no gradient to go far by (bodies turn) */
 
 typedef struct Line {
   const SporeSystem *system;
   const double *x, *d;
   double *trial, *trial_r;
   double norm, slope; /* of the residual at the trial; slope: its part along d */
-  bool tried;         /* trial, trial_r and norm are those of the first length */
+  double near;
+  bool tried; /* trial, trial_r and norm are those of the first length */
   size_t *evaluations;
 } Line;
 
@@ -54,7 +54,7 @@ static double by_slope(Line *line, double norm, double start) {
     try_length(line, length);
     if (line->norm <= 0.5 * norm || fabs(line->slope) <= FLAT * start) return length;
     if (line->slope > 0) {
-      if (!isfinite(high) && line->norm > NEAR * line->system->scale_r) return length;
+      if (!isfinite(high) && line->norm > line->near) return length;
       double gain = low_slope > line->slope ? line->slope / (low_slope - line->slope) : LONGER;
       double step = fmin(gain, LONGER) * (length - low);
       low = length;
@@ -75,8 +75,9 @@ static double by_slope(Line *line, double norm, double start) {
 }
 
 double spore_line_search(const SporeSystem *system, const double *x, const double *d, const double *r, double norm,
-                         bool tried, double *trial, double *trial_r, double *trial_norm, size_t *evaluations) {
-  Line line = {system, x, d, trial, trial_r, *trial_norm, 0, tried, evaluations};
+                         bool tried, double near, double *trial, double *trial_r, double *trial_norm,
+                         size_t *evaluations) {
+  Line line = {system, x, d, trial, trial_r, *trial_norm, 0, near, tried, evaluations};
   double start = spore_vector_dot(system->count, r, d);
   double length = start > 0 ? by_slope(&line, norm, start) : by_norm(&line, norm);
   *trial_norm = line.norm;

@@ -6,6 +6,7 @@
 #include "core/nonlinear/line_search.h"
 
 #define LOOSEST 0.03
+#define CREEPS 0.3 /* an iteration that leaves more of the residual wants the whole Jacobian */
 
 /* Forcing term: how exactly the linear system needs solving. First roughly, then as the residual falls (Eisenstat and
  * Walker 1996, choice 2), never more exactly than the answer asks for. */
@@ -48,9 +49,10 @@ static void move(size_t n, const double *x, const double *d, double *to) {
 }
 
 static bool direction(const SporeSystem *system, const SporeConvergence *test, double previous, const double *r,
-                      double *d, SporeNonlinearResult *result) {
-  SporeLinearResult linear =
-      system->solve(system->data, r, forcing_term(test->norm, previous, test->tolerance * test->scale_r), d);
+                      bool whole, double *d, SporeNonlinearResult *result) {
+  double tolerance = forcing_term(test->norm, previous, test->tolerance * test->scale_r);
+  SporeLinearResult linear = whole && system->solve_whole ? system->solve_whole(system->data, r, tolerance, d)
+                                                          : system->solve(system->data, r, tolerance, d);
   result->linear_iterations += linear.iterations;
   result->unsolved += linear.status != SPORE_LINEAR_CONVERGED;
   result->indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
@@ -66,7 +68,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   SporeNonlinearResult result = {0};
   SporeConvergence test;
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
-  double previous = 0;
+  bool whole = false; /* A alone leads from afar to the answer that has gained no energy, but near it may creep */
+  double previous = 0, near = spore_convergence_near(&test);
   while (!result.converged && result.iterations < options->iterations) {
     if (result.iterations > 0 || !options->linearised) {
       system->linearise(system->data, x, result.iterations > 0 ? from : NULL);
@@ -75,13 +78,14 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     /* A residual no greater than rounding may still be more than that: one more iteration takes away what is left. */
     bool last = spore_convergence_rounding(&test, system, x, &result), solved = result.converged;
     if (last && result.iterations == 0) break;
-    if (!direction(system, &test, previous, r, d, &result)) break;
+    if (!direction(system, &test, previous, r, whole, d, &result)) break;
     double trial_norm, length = 1;
     move(n, x, d, trial);
     system->residual(system->data, trial, trial_r);
     result.evaluations++;
     trial_norm = system->norm(system->data, trial_r);
     bool good = trial_norm <= 0.5 * (trust.given ? trust.norm : test.norm);
+    whole |= !(trial_norm <= CREEPS * test.norm);
     double step = sqrt(system->dot(system->data, d, d));
     if (good) {
       trust.given = false;
@@ -93,7 +97,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
       memcpy(r, trust.r, n * sizeof *r);
       memcpy(d, trust.d, n * sizeof *d);
       test.norm = trust.norm;
-      length = spore_line_search(system, x, d, r, test.norm, false, trial, trial_r, &trial_norm, &result.evaluations);
+      length =
+          spore_line_search(system, x, d, r, test.norm, false, near, trial, trial_r, &trial_norm, &result.evaluations);
     } else if (!trust.given) {
       bool overshoots = spore_vector_dot(n, trial_r, d) < 0 && isfinite(trial_norm);
       if (!system->switches && overshoots && trust.failures < TRUST_FAILURES) {
@@ -105,7 +110,8 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
         memcpy(trust.r, r, n * sizeof *r);
         memcpy(trust.d, d, n * sizeof *d);
       } else {
-        length = spore_line_search(system, x, d, r, test.norm, true, trial, trial_r, &trial_norm, &result.evaluations);
+        length =
+            spore_line_search(system, x, d, r, test.norm, true, near, trial, trial_r, &trial_norm, &result.evaluations);
       }
     }
     if (length == 0) break;

@@ -1,8 +1,8 @@
 /* What a nonlinear solver sees: a system r(x) = 0 with an inner product, and nothing of what it stands for.
  *
- * The system linearises itself: A ~ -dr/dx, symmetric positive definite, is kept by the system until the next
- * `linearise`. `dot` is an inner product on x (kinetic energy's), `norm` the dual norm of a residual. A is no less than
- * the matrix of `dot`, so that |A^-1 r| <= norm(r), but where something buckles. */
+ * The system linearises itself: A ~ -dr/dx, symmetric positive definite but for what friction adds, is kept by the
+ * system until the next `linearise`. `dot` is an inner product on x (kinetic energy's), `norm` the dual norm of a
+ * residual. A is no less than the matrix of `dot`, so that |A^-1 r| <= norm(r), but where something buckles. */
 #ifndef SPORE_NONLINEAR_SYSTEM_H
 #define SPORE_NONLINEAR_SYSTEM_H
 
@@ -24,6 +24,8 @@ typedef struct SporeSystem {
   bool (*reuse)(void *data, const double *x);
   /* dx ~ A^-1 r to a relative residual. */
   SporeLinearResult (*solve)(void *data, const double *r, double tolerance, double *dx);
+  /* The same by the whole of -dr/dx, which need not be symmetric; NULL: A is. */
+  SporeLinearResult (*solve_whole)(void *data, const double *r, double tolerance, double *dx);
   /* dx ~ A^-1 r by an operator that is linear, or nearly, at the least cost: quasi-Newton methods mend what it lacks.
    */
   SporeLinearResult (*approximate)(void *data, const double *r, double *dx);

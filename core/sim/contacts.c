@@ -155,7 +155,7 @@ static void fill_term(const SporeWorld *world, const SporeFelt *felt, SporeConta
   turn_driven_end(world, &term->b, term->frame_arm_b, term->arm_b, term->field_b, term->normal);
   term->law = spore_contact_law(&a, &b, world->spheres.radius[contact->a], world->spheres.radius[contact->b]);
   term->softening = (SporeSoftening){0, 0, 0};
-  term->stretch = term->force = (SporeVec3){0, 0, 0};
+  term->stretch = term->drag = term->force = (SporeVec3){0, 0, 0};
   term->pressing = term->yield = INFINITY;
 }
 

@@ -325,6 +325,8 @@ SporeDynamics spore_group_dynamics(SporeGroup *group) {
                          .linearise = spore_group_linearise,
                          .reuse = spore_group_reuse,
                          .multiply = spore_group_multiply,
+                         .drags = spore_group_drags,
+                         .multiply_dragged = spore_group_multiply_dragged,
                          .precondition = spore_group_precondition,
                          .factor_cost = spore_group_factor_cost,
                          .factorised = spore_group_factorised,

@@ -115,6 +115,8 @@ void spore_group_soften_lanes(const SporeGroup *group);
 void spore_group_linearise(void *data, const double *q, const double *from, const double *v, double c, double c2);
 bool spore_group_reuse(void *data, const double *q, const double *v, double c, double c2);
 void spore_group_multiply(void *data, const double *x, double *y);
+void spore_group_multiply_dragged(void *data, const double *x, double *y);
+bool spore_group_drags(void *data);
 void spore_group_precondition(void *data, const double *r, double *z);
 double spore_group_factor_cost(void *data);
 bool spore_group_factorised(void *data);

@@ -30,16 +30,19 @@ static void multiply_bends(const SporeGroup *group, const double *x, double *y) 
   }
 }
 
+static bool drags(const SporeContactTerm *term) { return spore_vec3_dot(term->drag, term->drag) > 0; }
+
 /* Couplings are those terms that no body's matrix takes in; the others are added there, unless the matrices are kept
  * as they are. */
 static void linearise_terms(SporeGroup *group, const double *q, const double *v, double c, double c2, bool kept) {
   const SporeSite *sites = group->world->local_sites;
-  group->contact_couplings = group->spring_couplings = 0;
+  group->contact_couplings = group->spring_couplings = group->dragging = 0;
   for (size_t i = 0; i < group->island->contact_count; i++) {
     SporeContactTerm *term = spore_group_contact(group, i);
     uint32_t body = spore_group_folds(group, &term->a, &term->b);
     if (body != SPORE_NO_BODY && kept) continue;
     SporeMat3 k = spore_contact_term_jacobian(term, sites, q, v, group->now_s, c, c2);
+    group->dragging += drags(term);
     if (body != SPORE_NO_BODY) spore_body_fold(&group->world->bodies[body], &term->a, &term->b, &k);
     else contact_couplings(group)[group->contact_couplings++] = spore_coupling(&term->a, &term->b, &k, sites);
   }
@@ -216,7 +219,7 @@ bool spore_group_reuse(void *data, const double *q, const double *v, double c, d
     spore_group_body(group, b, &site)->choice.start = kept ? SPORE_START_KEPT : SPORE_START_NEW;
   }
   if (!kept) return false;
-  group->contact_couplings = group->spring_couplings = 0;
+  group->contact_couplings = group->spring_couplings = group->dragging = 0;
   if (has_factors_alone(group)) return true;
   linearise_terms(group, q, v, c, c2, true);
   make_preconditioner(group, q);
@@ -265,6 +268,18 @@ void spore_group_multiply(void *data, const double *x, double *y) {
   multiply_bends(group, x, y);
   spore_group_filter(group, y);
 }
+
+void spore_group_multiply_dragged(void *data, const double *x, double *y) {
+  const SporeGroup *group = data;
+  spore_group_multiply(data, x, y);
+  for (size_t i = 0; i < group->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_group_contact(group, i);
+    if (drags(term)) spore_contact_term_drag(term, group->world->local_sites, x, y);
+  }
+  spore_group_filter(group, y);
+}
+
+bool spore_group_drags(void *data) { return ((const SporeGroup *)data)->dragging > 0; }
 
 void spore_group_precondition(void *data, const double *r, double *z) {
   SporeGroup *group = data;

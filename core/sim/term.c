@@ -165,7 +165,12 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double elapsed_s, double c, double c2) {
   SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
-  return spore_contact_jacobian(&term->law, &state, c2, c);
+  return spore_contact_jacobian(&term->law, &state, c2, c, &term->drag);
+}
+
+void spore_contact_term_drag(const SporeContactTerm *term, const SporeSite *sites, const double *x, double *y) {
+  double apart = spore_vec3_dot(term->normal, own_motion(&term->a, &term->b, sites, x));
+  scatter_pair(&term->a, &term->b, sites, spore_vec3_scale(-apart, term->drag), y);
 }
 
 double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q) {

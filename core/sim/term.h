@@ -55,6 +55,7 @@ typedef struct SporeContactTerm {
   SporeVec3 stretch;                  /* of friction's spring, when the step began, m */
   SporeContactLaw law;
   SporeSoftening softening;
+  SporeVec3 drag;  /* at the last linearisation: see spore_contact_jacobian */
   SporeVec3 force; /* on a, at the last evaluation, N */
   double pressing; /* its normal part; infinite before the first */
   double yield; /* the longest stretch that this holds belongs to k stretch = mu yield; pressing, but where softened */
@@ -116,12 +117,16 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
                               double elapsed_s, double *f);
 void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                              double *f);
-/* c (-df/dv) + c2 (-df/dx) for the motion of end a relative to end b. */
+/* c (-df/dv) + c2 (-df/dx) for the motion of end a relative to end b; of a contact without what is not symmetric in it,
+ * which is kept as its drag. */
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double elapsed_s, double c, double c2);
 SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                                      double c, double c2);
-/* After that, of a term with a rail: what the path's bending adds, kept with the rail; and that times x, added to y. */
+/* What the drag adds to that times x, added to y. */
+void spore_contact_term_drag(const SporeContactTerm *term, const SporeSite *sites, const double *x, double *y);
+/* Of a term with a rail, after its Jacobian: what the path's bending adds, kept with the rail; and that times x, added
+ * to y. */
 void spore_rail_bend(SporeSpringTerm *term, const SporeSite *sites, const double *q, double c2);
 void spore_rail_bend_multiply(const SporeSpringTerm *term, const SporeSite *sites, const double *x, double *y);
 /* Its block between two of the path's four points. */

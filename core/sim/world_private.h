@@ -560,6 +560,7 @@ typedef struct SporeGroup {
   bool apart;            /* explicit bodies are masses alone: see mixed.c */
   double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
   size_t contact_couplings, spring_couplings; /* of the current A, first in their arrays: see fold.h */
+  size_t dragging;                            /* contacts that the current A does not know all of: see their drag */
   bool driven;                                /* some end is moved by a device */
   bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
   bool asked_couples, couples;                /* see spore_group_couples */

@@ -5,7 +5,7 @@
 
 #include "core/base/memory.h"
 #include "core/linalg/block_matrix.h"
-#include "core/linalg/pcg.h"
+#include "core/linalg/bicgstab.h"
 
 #define BLOCKS 20
 #define N (3 * BLOCKS)
@@ -132,6 +132,39 @@ static void test_pcg(void) {
   spore_block_matrix_clear(&matrix);
 }
 
+/* The matrix with what turns each entry against the next: far from symmetric. */
+static void multiply_turned(void *data, const double *x, double *y) {
+  multiply(data, x, y);
+  for (int i = 0; i + 1 < N; i++) y[i] += 20 * x[i + 1], y[i + 1] -= 20 * x[i];
+}
+
+static void test_bicgstab(void) {
+  static double dense[N][N];
+  SporeBlockMatrix matrix;
+  make(&matrix, dense, 0.01);
+  SporeLinearOperator operator= {&matrix, N, multiply_turned, by_diagonal};
+  double x[N], b[N], exact[N], scratch[SPORE_BICGSTAB_SCRATCH * N];
+  for (int i = 0; i < N; i++) exact[i] = cos(i * 0.9);
+  multiply_turned(&matrix, exact, b);
+  SporeLinearResult result = spore_bicgstab(&operator, b, 1e-12, 1000, x, scratch);
+  g_assert_cmpint(result.status, ==, SPORE_LINEAR_CONVERGED);
+  g_assert_cmpfloat(result.residual, <=, 1e-12);
+  for (int i = 0; i < N; i++) g_assert_cmpfloat_with_epsilon(x[i], exact[i], 1e-7);
+
+  SporeLinearResult few = spore_bicgstab(&operator, b, 1e-12, 3, x, scratch);
+  g_assert_cmpint(few.status, ==, SPORE_LINEAR_TOO_MANY);
+
+  memset(b, 0, sizeof b);
+  result = spore_bicgstab(&operator, b, 1e-12, 1000, x, scratch);
+  g_assert_cmpint(result.status, ==, SPORE_LINEAR_CONVERGED);
+  for (int i = 0; i < N; i++) g_assert_cmpfloat(x[i], ==, 0);
+
+  b[7] = NAN;
+  result = spore_bicgstab(&operator, b, 1e-12, 1000, x, scratch);
+  g_assert_cmpint(result.status, ==, SPORE_LINEAR_BREAKDOWN);
+  spore_block_matrix_clear(&matrix);
+}
+
 /* A matrix with a negative eigenvalue is found out, and what comes back still goes downhill: b.x > 0. */
 static void test_indefinite(void) {
   static double dense[N][N];
@@ -161,6 +194,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/linalg/matrix", test_matrix);
   g_test_add_func("/linalg/matrix-without-memory", test_matrix_without_memory);
   g_test_add_func("/linalg/pcg", test_pcg);
+  g_test_add_func("/linalg/bicgstab", test_bicgstab);
   g_test_add_func("/linalg/indefinite", test_indefinite);
   return g_test_run();
 }

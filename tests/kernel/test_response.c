@@ -146,8 +146,9 @@ static void test_semidefinite(void) {
   for (int i = 0; i < 20000; i++) {
     SporeContactState state = random_state(-5, 1);
     SporeMat3 stiffness, damping;
-    stiffness = spore_contact_jacobian(&law, &state, 1, 0);
-    damping = spore_contact_jacobian(&law, &state, 0, 1);
+    SporeVec3 drag;
+    stiffness = spore_contact_jacobian(&law, &state, 1, 0, &drag);
+    damping = spore_contact_jacobian(&law, &state, 0, 1, &drag);
     g_assert_true(is_positive_semidefinite(stiffness));
     g_assert_true(is_positive_semidefinite(damping));
   }
@@ -177,7 +178,7 @@ static gboolean at_border(const SporeContactState *state) {
   return fabs(hold - most) < 1e-3 * most;
 }
 
-/* Against differences of the force. Friction's change with N is left out: along the normal, without friction. */
+/* Against differences of the force; along the normal with what the drag adds. */
 static void test_jacobian(void) {
   SporeContactLaw frictionless = law;
   frictionless.friction = 0;
@@ -193,8 +194,9 @@ static void test_jacobian(void) {
     if (spore_vec3_length(across(state.normal, force)) < 0.999 * most) held++;
     else slipped++;
     SporeMat3 stiffness, damping;
-    stiffness = spore_contact_jacobian(&law, &state, 1, 0);
-    damping = spore_contact_jacobian(&law, &state, 0, 1);
+    SporeVec3 drag;
+    stiffness = spore_contact_jacobian(&law, &state, 1, 0, &drag);
+    damping = spore_contact_jacobian(&law, &state, 0, 1, &drag);
     for (int axis = 0; axis < 3; axis++) {
       SporeVec3 step = across(state.normal, (SporeVec3){axis == 0, axis == 1, axis == 2});
       SporeVec3 by_position = slope(&law, &state, step, 1e-9, FALSE),
@@ -202,8 +204,14 @@ static void test_jacobian(void) {
       g_assert_cmpfloat(spore_vec3_distance(by_position, spore_mat3_apply(stiffness, step)), <, 0.5);
       g_assert_cmpfloat(spore_vec3_distance(by_velocity, spore_mat3_apply(damping, step)), <, 1e-2);
     }
-    stiffness = spore_contact_jacobian(&frictionless, &state, 1, 0);
-    damping = spore_contact_jacobian(&frictionless, &state, 0, 1);
+    if (state.depth > law.damping_depth && spore_vec3_length(across(state.normal, force)) >= 0.999 * most) {
+      stiffness = spore_contact_jacobian(&law, &state, 1, 0, &drag);
+      SporeVec3 whole = spore_vec3_sub(spore_mat3_apply(stiffness, state.normal), drag);
+      g_assert_cmpfloat(spore_vec3_distance(slope(&law, &state, state.normal, 1e-9, FALSE), whole), <, 0.5);
+      g_assert_cmpfloat(spore_vec3_length(drag), >, 0);
+    }
+    stiffness = spore_contact_jacobian(&frictionless, &state, 1, 0, &drag);
+    damping = spore_contact_jacobian(&frictionless, &state, 0, 1, &drag);
     SporeVec3 by_position = slope(&frictionless, &state, state.normal, 1e-9, FALSE);
     SporeVec3 by_velocity = slope(&frictionless, &state, state.normal, 1e-7, TRUE);
     g_assert_cmpfloat(spore_vec3_distance(by_position, spore_mat3_apply(stiffness, state.normal)), <, 0.5);

@@ -165,7 +165,8 @@ static Measure run_for(SporeWorld *world, double time_s) {
   return now;
 }
 
-static void say(const SporeWorld *world, const char *when, double rest, const Measure *now) {
+/* unsolved: steps that may be: where the thread is pushed along itself and gives way aside, its matrix is too stiff. */
+static void say(const SporeWorld *world, const char *when, double rest, const Measure *now, unsigned unsolved) {
   const SporeMonitor *monitor = spore_world_monitor(world);
   g_test_message("%s: stretch %+.2f %%, never nearer than %.2f of its thickness, knot of %.1f radii; %u steps not "
                  "solved, %u contacts too deep; %s",
@@ -175,6 +176,7 @@ static void say(const SporeWorld *world, const char *when, double rest, const Me
   g_assert_cmpfloat(now->nearest, >, 0.8);
   g_assert_cmpfloat(now->knotted, >, 0);
   g_assert_cmpuint(monitor->deep_contacts, ==, 0);
+  g_assert_cmpuint(monitor->not_converged, <=, unsolved);
   g_assert_false(rig_any_frozen(world));
 }
 
@@ -185,12 +187,12 @@ static void knot(gconstpointer data) {
   Rig *tied = scene(of, TRUE, hands), *free = scene(of, FALSE, hands);
   double rest = measure(spore_world_q(tied->world, 0)).length;
   Measure tight = run_for(tied->world, 1.2);
-  say(tied->world, "pulled", rest, &tight);
+  say(tied->world, "pulled", rest, &tight, 0);
   g_assert_cmpfloat(tight.knotted, <, of->tight);
   double *still = g_new0(double, 3 * POINTS);
   spore_world_set_state(free->world, 0, spore_world_q(tied->world, 0), still);
   Measure loose = run_for(free->world, 0.5);
-  say(free->world, "let go of", rest, &loose);
+  say(free->world, "let go of", rest, &loose, 6);
   if (of->friction > 0) g_assert_cmpfloat(loose.knotted, <, 1.05 * tight.knotted);
   else g_assert_cmpfloat(loose.knotted, >, 1.5 * tight.knotted);
   g_free(still);
