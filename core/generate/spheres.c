@@ -194,23 +194,22 @@ static bool place_balls(SporeSolid *solid, size_t count, const SporeSpheresOptio
     SporeVec3 centre = spore_balls_centre(&start.ranked, which[i]);
     spore_balls_set(balls, i, spore_symmetry_bind(&solid->symmetry, bound[i], centre), start.ranked.r[which[i]]);
   }
-  done =
-      done && spore_spheres_fit(solid, &start.samples, &start.candidates, balls, bound, options->seed, &fitting, error);
+  done = done && spore_spheres_fit(solid, &start.samples, &start.candidates, balls, bound,
+                                   options->mode == SPORE_SPHERES_BOUNDING, options->seed, &fitting, error);
   spore_free(which);
   clear_start(&start);
   return done;
 }
 
-/* What the other modes make of a balanced start, which has no mirror images; *weights: the caller's to free. */
-static bool refine(const Work *work, SporeBalls *balls, double **weights, const SporeProgressPart *progress,
-                   SporeError *error) {
+/* What the other modes make of a balanced start; *weights: the caller's to free. */
+static bool refine(const Work *work, const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound, double **weights,
+                   const SporeProgressPart *progress, SporeError *error) {
   uint64_t seed = work->options->seed;
   if (work->options->mode == SPORE_SPHERES_BOUNDING)
-    return spore_spheres_bound(work->solid, balls, seed, progress, error);
+    return spore_spheres_bound(solid, balls, bound, seed, progress, error);
   if (work->options->mode == SPORE_SPHERES_BALANCED) return true;
   *weights = SPORE_NEW_ARRAY(double, balls->count);
-  return *weights ? spore_spheres_weigh(work->solid, balls, *weights, seed, progress, error)
-                  : spore_spheres_no_memory(error);
+  return *weights ? spore_spheres_weigh(solid, balls, *weights, seed, progress, error) : spore_spheres_no_memory(error);
 }
 
 /* Exactly `count` spheres in the solid, measured. */
@@ -226,7 +225,8 @@ static bool fill_solid(const Work *work, size_t count, SporeSphereSet *set, Spor
   *set = (SporeSphereSet){0};
   bool done = bound || spore_spheres_no_memory(error);
   done = done && place_balls(solid, count, work->options, &balls, bound, &placing, error) &&
-         refine(work, &balls, &weights, &refining, error) && store_balls(&solid->symmetry, &balls, bound, set, error);
+         refine(work, solid, &balls, bound, &weights, &refining, error) &&
+         store_balls(&solid->symmetry, &balls, bound, set, error);
   if (done) set->weights = weights;
   else spore_free(weights);
   done = done && spore_solid_measure(solid, set, report, &measuring, error);
@@ -298,7 +298,7 @@ static bool from_solid(Work *work, const SporeTriangleMesh *mesh, SporeSphereSet
   const SporeSpheresOptions *options = work->options;
   if (!spore_solid_create(&solid, mesh, error)) return false;
   solid.regions = options->regions, solid.region_count = options->region_count;
-  if (options->mode == SPORE_SPHERES_BALANCED && !options->asymmetric && !options->region_count)
+  if (options->mode != SPORE_SPHERES_WEIGHTED && !options->asymmetric && !options->region_count)
     spore_symmetry_find(&solid.symmetry, &solid.mesh, solid.bvh, solid.diagonal);
   work->solid = &solid;
   bool done = make_set(fill_solid, work, set, report, progress, error);

@@ -13,7 +13,8 @@ typedef struct SporePrices {
   double *volume; /* m^3, below 0 inside the solid and on its surface; 0 for the padding */
   uint16_t *held; /* how many balls hold the point */
 } SporePrices;
-/* Fine at the surface, coarser with the distance from it; `count`: of the balls that they are for. */
+/* Fine at the surface, coarser with the distance from it, folded by the solid's symmetry; `count`: of the balls that
+ * they are for. */
 bool spore_prices_create(SporePrices *prices, const SporeSolid *solid, size_t count, SporeRandom *random,
                          const SporeProgressPart *progress, SporeError *error);
 /* More points inside, each for the volume; all points are held by none then. False: no memory. */
@@ -32,8 +33,9 @@ bool spore_balls_gaps(const SporeSolid *solid, const SporeBalls *balls, double m
 /* Grows balls until they cover the solid, each by about as little as that takes. False: no memory. */
 bool spore_balls_grow_to_cover(const SporeSolid *solid, SporeBalls *balls);
 
-/* Moves and grows balls so that they hold all of the solid and little besides. */
-bool spore_spheres_bound(const SporeSolid *solid, SporeBalls *balls, uint64_t seed, const SporeProgressPart *progress,
-                         SporeError *error);
+/* Moves and grows balls so that they, with their images in the solid's mirror planes (bound: as for spore_spheres_fit),
+ * hold all of the solid and little besides. */
+bool spore_spheres_bound(const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound, uint64_t seed,
+                         const SporeProgressPart *progress, SporeError *error);
 
 #endif

@@ -220,8 +220,8 @@ static bool relocate(SporeFit *fit, const SporeProgressPart *progress, double fr
 }
 
 bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
-                       SporeBalls *balls, const uint8_t *bound, uint64_t seed, const SporeProgressPart *progress,
-                       SporeError *error) {
+                       SporeBalls *balls, const uint8_t *bound, bool rough, uint64_t seed,
+                       const SporeProgressPart *progress, SporeError *error) {
   SporeFit fit = {.solid = solid,
                   .samples = samples,
                   .candidates = candidates,
@@ -237,8 +237,9 @@ bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, con
     evaluate(&fit);
     keep_best(&fit);
   }
-  done = done && fill(&fit, progress, 0, 0.2, error) && relocate(&fit, progress, 0.2, 0.9, error) &&
-         settle(&fit, LAST_ROUNDS, progress, 0.9, 1, error);
+  done = done && fill(&fit, progress, 0, rough ? 1 : 0.2, error);
+  if (!rough)
+    done = done && relocate(&fit, progress, 0.2, 0.9, error) && settle(&fit, LAST_ROUNDS, progress, 0.9, 1, error);
   if (done) spore_balls_copy(balls, &fit.best);
   close_fit(&fit);
   return done;

@@ -4,7 +4,7 @@
 
 #include "core/generate/spheres_parts.h"
 
-#define LANES 16 /* of the widest set: what is known of so many points stays in registers */
+#define LANES SPORE_LOCAL_LANES /* of the widest set: what is known of so many points stays in registers */
 
 /* Single precision will do: lengths are relative to the block. */
 void SPORE_LEVEL_NAME(spore_field_block)(const SporeNearBalls *balls, const float *x, const float *y, const float *z,
@@ -24,5 +24,35 @@ void SPORE_LEVEL_NAME(spore_field_block)(const SporeNearBalls *balls, const floa
       }
     }
     for (int k = 0; k < LANES; k++) best[first + k] = most[k], second[first + k] = next[k], owner[first + k] = whose[k];
+  }
+}
+
+void SPORE_LEVEL_NAME(spore_local_distances)(const float *x, const float *y, const float *z, size_t count,
+                                             const float at[3], float *restrict distance) {
+  float cx = at[0], cy = at[1], cz = at[2];
+  for (size_t first = 0; first < count; first += LANES)
+    for (size_t k = first; k < first + LANES; k++) {
+      float dx = x[k] - cx, dy = y[k] - cy, dz = z[k] - cz;
+      distance[k] = sqrtf(dx * dx + dy * dy + dz * dz);
+    }
+}
+
+/* Two sums, so that what is cheap is not lost beside what is dear. */
+void SPORE_LEVEL_NAME(spore_local_cost)(const float *distance, const float *price, size_t count, float radius,
+                                        SporeLocalCost *cost) {
+  float outside[LANES] = {0}, inside[LANES] = {0}, farthest[LANES] = {0};
+  for (size_t first = 0; first < count; first += LANES)
+    for (int k = 0; k < LANES; k++) {
+      float d = distance[first + k], p = d <= radius ? price[first + k] : 0;
+      float needed = p < 0 ? d : 0;
+      outside[k] += p > 0 ? p : 0;
+      inside[k] += p < 0 ? p : 0;
+      farthest[k] = needed > farthest[k] ? needed : farthest[k];
+    }
+  *cost = (SporeLocalCost){0};
+  for (int k = 0; k < LANES; k++) {
+    cost->outside += outside[k];
+    cost->inside += inside[k];
+    cost->farthest = farthest[k] > cost->farthest ? farthest[k] : cost->farthest;
   }
 }

@@ -126,10 +126,12 @@ bool spore_candidates_cover(const SporeBalls *candidates, const SporeSamples *sa
                             const SporeProgressPart *progress, SporeError *error);
 
 /* Moves the balls so that their field meets the samples' depth. `candidates`: where balls may be put anew. `bound`: for
- * each ball the bits of the mirror planes that its centre stays on, NULL: none. */
+ * each ball the bits of the mirror planes that its centre stays on, NULL: none. `rough`: what another search starts
+ * from.
+ */
 bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
-                       SporeBalls *balls, const uint8_t *bound, uint64_t seed, const SporeProgressPart *progress,
-                       SporeError *error);
+                       SporeBalls *balls, const uint8_t *bound, bool rough, uint64_t seed,
+                       const SporeProgressPart *progress, SporeError *error);
 
 /* The balls and their images in the planes that they are not bound to (bound: as for spore_spheres_fit), x y z r each;
  * spheres: NULL to count alone. Returns how many. */

@@ -8,7 +8,7 @@
 #define CELLS_PER_BALL 100 /* at the surface, about */
 #define CELLS_LEAST 5000
 #define CELLS_MOST 60000
-#define GRADE 0.8         /* of the distance from the surface: edge of a cell there */
+#define GRADE 0.4         /* of the distance from the surface: edge of a cell there */
 #define PADDING 1.0       /* of the longest side: how far the points go beyond the solid */
 #define SURFACE_SHARE 2.0 /* points on the surface, of the cells there */
 #define REPORT_EVERY 4096
@@ -33,7 +33,7 @@ static bool add_point(Cells *cells, SporeVec3 p, double volume) {
     if (!xyz || !grown) return spore_spheres_no_memory(cells->error);
     cells->capacity = capacity;
   }
-  spore_vec3_store(cells->xyz + 3 * cells->count, p);
+  spore_vec3_store(cells->xyz + 3 * cells->count, spore_symmetry_fold(&cells->solid->symmetry, p));
   cells->volume[cells->count++] = volume;
   return true;
 }

@@ -1,6 +1,8 @@
 #include "sets.h"
 
 #include <glib.h>
+#include <math.h>
+#include <string.h>
 
 SporeSphereSet make_set(const SporeTriangleMesh *mesh, SporeSpheresOptions options, SporeSpheresReport *report) {
   SporeError error = SPORE_ERROR_INIT;
@@ -16,4 +18,28 @@ SporeSphereSet make_set(const SporeTriangleMesh *mesh, SporeSpheresOptions optio
       set.count, report->coverage, report->outside, 100 * report->distance_mean, report->depth_error, report->certified,
       report->weighted_depth_error, report->felt_outside, report->seconds);
   return set;
+}
+
+bool set_holds(const SporeSphereSet *set, const double sphere[4], const double *weight, double tolerance) {
+  for (size_t i = 0; i < set->count; i++) {
+    bool same = !weight || fabs(set->weights[i] - *weight) <= tolerance;
+    for (int k = 0; k < 4; k++) same &= fabs(set->spheres[4 * i + k] - sphere[k]) <= tolerance;
+    if (same) return true;
+  }
+  return false;
+}
+
+size_t count_mirrors(const SporeSphereSet *set, const double middle[3]) {
+  size_t mirrors = 0;
+  for (int k = 0; k < 3; k++) {
+    bool all = true;
+    for (size_t i = 0; i < set->count; i++) {
+      double image[4];
+      memcpy(image, set->spheres + 4 * i, sizeof image);
+      image[k] = 2 * middle[k] - image[k];
+      all &= set_holds(set, image, set->weights ? set->weights + i : NULL, 1e-12);
+    }
+    mirrors += all;
+  }
+  return mirrors;
 }

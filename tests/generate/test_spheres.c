@@ -135,16 +135,6 @@ static void test_seed(void) {
   spore_triangle_mesh_clear(&torus);
 }
 
-/* Whether the set holds a sphere there, to `tolerance`. */
-static bool holds(const SporeSphereSet *set, const double sphere[4], double tolerance) {
-  for (size_t i = 0; i < set->count; i++) {
-    bool same = true;
-    for (int k = 0; k < 4; k++) same &= fabs(set->spheres[4 * i + k] - sphere[k]) <= tolerance;
-    if (same) return true;
-  }
-  return false;
-}
-
 /* A box about (1, 2, 3) is its own image in three planes: so is the set, to rounding; in as many as go with its number.
  */
 static void test_symmetry(void) {
@@ -154,17 +144,7 @@ static void test_symmetry(void) {
   shape_box(&box, (double[3]){0.95, 1.97, 2.98}, (double[3]){1.05, 2.03, 3.02}, 4);
   for (size_t n = 0; n < G_N_ELEMENTS(counts); n++) {
     SporeSphereSet set = make(&box, counts[n], 1, &report);
-    size_t mirrors = 0;
-    for (int k = 0; k < 3; k++) {
-      bool all = true;
-      for (size_t i = 0; i < set.count; i++) {
-        double image[4];
-        memcpy(image, set.spheres + 4 * i, sizeof image);
-        image[k] = 2 * (k + 1) - image[k];
-        all &= holds(&set, image, 1e-12);
-      }
-      mirrors += all;
-    }
+    size_t mirrors = count_mirrors(&set, (double[3]){1, 2, 3});
     g_test_message("%zu spheres, %zu mirrors", counts[n], mirrors);
     g_assert_cmpuint(report.mirrors, >=, counts[n] % 2 ? 1 : 2);
     g_assert_cmpuint(mirrors, >=, report.mirrors);
@@ -230,7 +210,8 @@ static void test_curve_straight(void) {
   SporeSpheresReport report;
   g_assert_true(spore_spheres_from_source(&(SporeSpheresSource){.curve = &curve}, &options, &set, &report, NULL, NULL));
   double out = 0, held = 4. / 3 * M_PI * r * r * r, whole = held + M_PI * r * r * 0.12;
-  for (int i = 0; i < 13; i++) g_assert_true(holds(&set, (double[4]){h * i, 0, 0, i % 12 ? sqrt(grown) : r}, 1e-9));
+  for (int i = 0; i < 13; i++)
+    g_assert_true(set_holds(&set, (double[4]){h * i, 0, 0, i % 12 ? sqrt(grown) : r}, NULL, 1e-9));
   for (double x = 0.5e-5; x < 0.12; x += 1e-5) {
     double wall = 0;
     for (int i = 0; i < 13; i++) wall = fmax(wall, (i % 12 ? grown : r * r) - (x - h * i) * (x - h * i));
@@ -241,7 +222,7 @@ static void test_curve_straight(void) {
   spore_sphere_set_clear(&set);
   options.count = 1;
   g_assert_true(spore_spheres_from_source(&(SporeSpheresSource){.curve = &curve}, &options, &set, &report, NULL, NULL));
-  g_assert_true(holds(&set, (double[4]){0.06, 0, 0, 0.01}, 1e-12));
+  g_assert_true(set_holds(&set, (double[4]){0.06, 0, 0, 0.01}, NULL, 1e-12));
   spore_sphere_set_clear(&set);
 }
 

@@ -107,6 +107,19 @@ static void test_hollow(void) {
   spore_triangle_mesh_clear(&box);
 }
 
+/* A box is its own image in three planes, and so is its set. */
+static void test_symmetry(void) {
+  SporeTriangleMesh box;
+  SporeSpheresReport report;
+  shape_box(&box, (double[3]){0.95, 1.97, 2.98}, (double[3]){1.05, 2.03, 3.02}, 4);
+  SporeSphereSet set = make(&box, 20, &report);
+  g_assert_true(report.certified);
+  g_assert_cmpuint(report.mirrors, >=, 2);
+  g_assert_cmpuint(count_mirrors(&set, (double[3]){1, 2, 3}), >=, report.mirrors);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&box);
+}
+
 /* Of an open mesh nothing is proven. */
 static void test_open(void) {
   SporeTriangleMesh ball;
@@ -127,6 +140,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres-bounding/capsule-chain", test_capsule_chain);
   g_test_add_func("/generate/spheres-bounding/shell", test_shell);
   g_test_add_func("/generate/spheres-bounding/hollow", test_hollow);
+  g_test_add_func("/generate/spheres-bounding/symmetry", test_symmetry);
   g_test_add_func("/generate/spheres-bounding/open", test_open);
   return g_test_run();
 }

@@ -58,7 +58,7 @@ static bool cover_and_fit(Fixture *f, SporeError *error) {
   SporeBalls balls;
   if (!spore_balls_create(&balls, 2)) return spore_spheres_no_memory(error);
   bool done = spore_candidates_cover(&f->candidates, &f->samples, &balls, &quiet, error) &&
-              spore_spheres_fit(&f->solid, &f->samples, &f->candidates, &balls, NULL, 1, &quiet, error);
+              spore_spheres_fit(&f->solid, &f->samples, &f->candidates, &balls, NULL, false, 1, &quiet, error);
   spore_balls_clear(&balls);
   return done;
 }
