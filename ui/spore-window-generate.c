@@ -1,9 +1,15 @@
 #include <glib/gi18n.h>
 
+#include "core/mesh/common.h"
 #include "core/scene/generated.h"
 #include "ui/document/edits.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/spore-window-private.h"
+
+#define USUAL_LABEL_CELLS 5000
+#define MARK_PART 0.015 /* of the organ's diagonal: radius of what marks a picked end */
+
+static void show_candidate(SporeWindow *self);
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
 
@@ -22,22 +28,26 @@ static void show_panel(SporeWindow *self) {
   gtk_stack_set_visible_child(GTK_STACK(self->tabs), self->generator_panel);
 }
 
-static void begin(const Request *request) {
-  SporeWindow *self = request->window;
-  SporeObject *body = spore_window_body_to_work_on(self);
-  if (!body) return;
+static void preview(SporeWindow *self, SporeObject *body, const SporeGenerateOptions *options, gboolean apply) {
   g_autoptr(GError) error = NULL;
-  SporeGenerateOptions options = spore_generate_options_of(document_of(self), body, request->kind);
-  if (request->count) spore_generate_set_count(&options, request->count);
   if (self->job) {
     spore_window_complain(self, _("Something else is still being worked on; wait for it or cancel it"));
     return;
   }
   if (!spore_generator_is_active(self->generator)) spore_recovery_keep(self->recovery, self->document, NULL);
   g_action_group_change_action_state(G_ACTION_GROUP(self), "tool", g_variant_new_string("select"));
-  if (!spore_generator_preview(self->generator, body, &options, &error)) spore_window_failed(self, error);
-  else if (request->apply) spore_generator_apply_when_done(self->generator);
+  if (!spore_generator_preview(self->generator, body, options, &error)) spore_window_failed(self, error);
+  else if (apply) spore_generator_apply_when_done(self->generator);
   else show_panel(self);
+}
+
+static void begin(const Request *request) {
+  SporeWindow *self = request->window;
+  SporeObject *body = spore_window_body_to_work_on(self);
+  if (!body) return;
+  SporeGenerateOptions options = spore_generate_options_of(document_of(self), body, request->kind);
+  if (request->count) spore_generate_set_count(&options, request->count);
+  preview(self, body, &options, request->apply);
 }
 
 static void answered(GtkDialog *dialog, int response, Request *request) {
@@ -89,6 +99,94 @@ static void act_preview(GSimpleAction *action, GVariant *parameter, gpointer dat
   start(data, kind_of(action), g_variant_get_uint32(parameter), FALSE);
 }
 
+void spore_window_preview_labels(SporeWindow *self, const char *file) {
+  SporeLabelSource *source = spore_label_source_new(file);
+  SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS, .labels = source};
+  spore_parameters_set_initial(spore_generate_table(document_of(self), options.kind), &options.fields);
+  spore_generate_set_count(&options, USUAL_LABEL_CELLS);
+  preview(self, NULL, &options, FALSE);
+  spore_label_source_unref(source);
+}
+
+static void act_preview_labels(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  spore_window_preview_labels(data, g_variant_get_string(parameter, NULL));
+}
+
+static void act_preview_labels_dialog(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GtkFileChooserNative) native = gtk_file_chooser_native_new(
+      _("Choose a label map"), GTK_WINDOW(self), GTK_FILE_CHOOSER_ACTION_OPEN, _("_Open"), _("_Cancel"));
+  GtkFileFilter *filter = gtk_file_filter_new();
+  gtk_file_filter_set_name(filter, _("Label maps: NIfTI, NRRD"));
+  for (const char *const *pattern = (const char *const[]){"*.nii", "*.nii.gz", "*.nrrd", NULL}; *pattern; pattern++)
+    gtk_file_filter_add_pattern(filter, *pattern);
+  gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(native), filter);
+  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(native)) != GTK_RESPONSE_ACCEPT) return;
+  g_autofree char *file = gtk_file_chooser_get_filename(GTK_FILE_CHOOSER(native));
+  if (file) spore_window_preview_labels(self, file);
+}
+
+/* Ends picked by hand. */
+
+static gboolean picks_ends(SporeWindow *self) {
+  return spore_generator_get_body(self->generator) &&
+         spore_generate_type(spore_generator_get_options(self->generator)->kind)->picks_ends;
+}
+
+static gboolean is_picking(SporeWindow *self) {
+  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "pick-ends");
+  return g_variant_get_boolean(state);
+}
+
+static void change_pick_ends(GSimpleAction *action, GVariant *state, gpointer data) {
+  SporeWindow *self = data;
+  gboolean picking = g_variant_get_boolean(state) && picks_ends(self);
+  g_simple_action_set_state(action, g_variant_new_boolean(picking));
+  self->picked = 0;
+  spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), picking);
+  show_candidate(self);
+  spore_window_show_hint(self);
+}
+
+static void set_ends(SporeWindow *self, SporeVec3 first, SporeVec3 last) {
+  g_autoptr(GError) error = NULL;
+  SporeGenerateOptions options = *spore_generator_get_options(self->generator);
+  spore_vec3_store(options.fields.curve.first_place, first);
+  spore_vec3_store(options.fields.curve.last_place, last);
+  if (!spore_generator_preview(self->generator, spore_generator_get_body(self->generator), &options, &error))
+    spore_window_failed(self, error);
+}
+
+static void act_automatic_ends(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  if (picks_ends(data)) set_ends(data, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0));
+}
+
+static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
+  SporeObject *body = spore_generator_get_body(self->generator);
+  if (!is_picking(self) || !body) return;
+  if (spore_object_id(body) != id) {
+    g_autofree char *text = g_strdup_printf(_("That is another organ; click on “%s”"), spore_object_name(body));
+    spore_window_complain(self, text);
+    return;
+  }
+  SporePose pose = spore_body_pose(body);
+  SporeVec3 in_body = spore_quat_rotate(spore_quat_conjugate(pose.orientation), spore_vec3_sub(*place, pose.position));
+  if (self->picked++ == 0) {
+    self->first_end = in_body;
+    show_candidate(self);
+    spore_window_show_hint(self);
+    return;
+  }
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
+  set_ends(self, self->first_end, in_body);
+}
+
+const char *spore_window_picking_hint(SporeWindow *self) {
+  if (!is_picking(self)) return NULL;
+  return self->picked ? _("Click on the organ where its middle line ends; Escape picks no more")
+                      : _("Click on the organ where its middle line begins; Escape picks no more");
+}
+
 /* Ending. */
 
 static void act_apply_generated(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -115,14 +213,31 @@ static void applied(SporeWindow *self) {
 
 /* Showing. */
 
+/* While ends are picked the organ is seen, with the first of them. */
+static SporeStageCandidate *picking_candidate(SporeWindow *self) {
+  SporeObject *body = spore_generator_get_body(self->generator);
+  SporeObject *asset = spore_generate_source(document_of(self), body, SPORE_GENERATE_CURVE, NULL);
+  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document_of(self), asset, NULL) : NULL;
+  if (!self->picked || !mesh) return NULL;
+  SporeStageCandidate *candidate = g_new0(SporeStageCandidate, 1);
+  candidate->body = spore_object_id(body);
+  candidate->sphere_count = 1;
+  candidate->chosen = 0;
+  candidate->spheres = g_new0(double, 4);
+  spore_vec3_store(candidate->spheres, self->first_end);
+  candidate->spheres[3] = MARK_PART * spore_mesh_diagonal(mesh->vertices, mesh->vertex_count, 3);
+  return candidate;
+}
+
 /* Of what the work has come to, or what it gave. */
 static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *quality) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   SporeObject *body = spore_generator_get_body(self->generator);
   SporeJob *job = spore_generator_get_job(self->generator);
-  if (!body || (!work && !job)) return NULL;
+  if (is_picking(self)) return picking_candidate(self);
+  if (!spore_generator_is_active(self->generator) || (!work && !job)) return NULL;
   SporeStageCandidate *candidate = g_new0(SporeStageCandidate, 1);
-  candidate->body = spore_object_id(body);
+  candidate->body = body ? spore_object_id(body) : 0;
   candidate->chosen = G_MAXSIZE;
   if (!work) {
     candidate->spheres = spore_job_get_look(job, &candidate->sphere_count);
@@ -135,14 +250,24 @@ static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *qualit
   return candidate;
 }
 
+/* Where nothing was to be seen before, the view goes to it. */
+static void frame_first(SporeWindow *self, const SporeStageCandidate *candidate) {
+  gboolean apart = candidate && !candidate->body && candidate->vertex_count;
+  if (apart && !self->framed_apart) spore_viewport_frame(SPORE_VIEWPORT(self->viewport));
+  if (apart || !spore_generator_is_active(self->generator)) self->framed_apart = apart;
+}
+
 static void show_candidate(SporeWindow *self) {
   SporeQuality quality = {0};
   SporeStageCandidate *candidate = candidate_of(self, &quality);
   spore_viewport_set_candidate(SPORE_VIEWPORT(self->viewport), candidate, &quality);
+  frame_first(self, candidate);
   spore_quality_clear(&quality);
 }
 
 static void changed(SporeWindow *self) {
+  if (is_picking(self) && !picks_ends(self))
+    g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
   show_candidate(self);
   spore_window_show_job(self);
   spore_window_update_actions(self);
@@ -164,22 +289,28 @@ void spore_window_update_generator(SporeWindow *self, gboolean bodies) {
   for (SporeGenerateKind kind = 0; kind < SPORE_GENERATE_KIND_COUNT; kind++) {
     g_autofree char *generate = g_strconcat("generate-", spore_generate_type(kind)->name, NULL);
     g_autofree char *preview = g_strconcat("preview-", spore_generate_type(kind)->name, NULL);
-    spore_window_set_enabled(self, generate, idle && bodies);
-    spore_window_set_enabled(self, preview, !self->job && bodies);
+    if (kind != SPORE_GENERATE_LABELS) spore_window_set_enabled(self, generate, idle && bodies);
+    spore_window_set_enabled(self, preview, !self->job && (bodies || kind == SPORE_GENERATE_LABELS));
   }
+  spore_window_set_enabled(self, "preview-labels-dialog", !self->job);
+  spore_window_set_enabled(self, "pick-ends", picks_ends(self));
+  spore_window_set_enabled(self, "automatic-ends", picks_ends(self));
   spore_window_set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
   spore_window_set_enabled(self, "cancel-job", self->job || spore_generator_is_active(self->generator));
 }
 
 void spore_window_add_generator_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
-      {"generate-spheres", act_generate, "u"},  {"generate-tetrahedra", act_generate, "u"},
-      {"generate-curve", act_generate, "u"},    {"generate-surface", act_generate, "u"},
-      {"preview-spheres", act_preview, "u"},    {"preview-tetrahedra", act_preview, "u"},
-      {"preview-curve", act_preview, "u"},      {"preview-surface", act_preview, "u"},
-      {"apply-generated", act_apply_generated}, {"cancel-job", act_cancel_job},
+      {"generate-spheres", act_generate, "u"},     {"generate-tetrahedra", act_generate, "u"},
+      {"generate-curve", act_generate, "u"},       {"generate-surface", act_generate, "u"},
+      {"preview-spheres", act_preview, "u"},       {"preview-tetrahedra", act_preview, "u"},
+      {"preview-curve", act_preview, "u"},         {"preview-surface", act_preview, "u"},
+      {"apply-generated", act_apply_generated},    {"cancel-job", act_cancel_job},
+      {"preview-labels", act_preview_labels, "s"}, {"preview-labels-dialog", act_preview_labels_dialog},
+      {"automatic-ends", act_automatic_ends},      {"pick-ends", NULL, NULL, "false", change_pick_ends},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+  g_signal_connect_object(self->viewport, "picked", G_CALLBACK(picked), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->generator_panel, "shown-quality-changed", G_CALLBACK(show_candidate), self,
                           G_CONNECT_SWAPPED);
 }

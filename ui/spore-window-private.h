@@ -29,6 +29,9 @@ struct _SporeWindow {
   guint autosave, monitor;
   guint64 monitored_step, monitor_seen;
   GMenu *mesh_operations; /* in the menu */
+  guint picked;           /* ends of a middle line, so far */
+  SporeVec3 first_end;    /* in the body's axes */
+  gboolean framed_apart;  /* what a generator offers of no body has been looked at */
   gboolean fresh, sure;   /* sure: the user has answered about unsaved changes */
 };
 
@@ -51,6 +54,10 @@ void spore_window_set_enabled(SporeWindow *self, const char *action, gboolean en
 void spore_window_add_generator_actions(SporeWindow *self);
 /* A generator for the document of now, or none. */
 void spore_window_set_generator(SporeWindow *self);
+/* Tetrahedra of the organs of a label map. */
+void spore_window_preview_labels(SporeWindow *self, const char *file);
+/* What to click on, while ends are picked; else NULL. */
+const char *spore_window_picking_hint(SporeWindow *self);
 void spore_window_update_generator(SporeWindow *self, gboolean bodies);
 
 /* Files. */

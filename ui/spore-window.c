@@ -125,6 +125,7 @@ void spore_window_set_enabled(SporeWindow *self, const char *action, gboolean en
 }
 
 static const char *hint_for(SporeWindow *self) {
+  if (spore_window_picking_hint(self)) return spore_window_picking_hint(self);
   SporeDocument *document = spore_editor_document_get(self->document);
   if (spore_object_child_count(spore_document_section(document, "bodies")) == 0)
     return _("Import a mesh to begin, or open the demo");

@@ -46,7 +46,7 @@ void spore_import_free(SporeImport *import) {
 }
 
 /* Regular files alone: a pipe or a device would never end. */
-static GBytes *read_content(const char *file, GError **error) {
+GBytes *spore_import_read_content(const char *file, GError **error) {
   struct stat info;
   char *bytes = NULL;
   gsize size = 0;
@@ -116,6 +116,7 @@ static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *by
   SporeLabelMap map;
   if (!spore_label_map_decode(file->file, bytes, size, &map, &progress, error)) return FALSE;
   g_autoptr(GArray) labels = NULL, voxels = NULL;
+  g_autoptr(GHashTable) names = spore_label_map_names(bytes, size);
   g_autofree char *stem = stem_of(file->file);
   spore_label_map_list(&map, &labels, &voxels);
   gboolean done = labels->len > 0 && labels->len <= SPORE_IMPORT_BODIES_MAXIMUM;
@@ -126,7 +127,8 @@ static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *by
   for (guint i = 0; done && i < labels->len; i++) {
     guint16 label = g_array_index(labels, guint16, i);
     SporeTriangleMesh surface = {0};
-    g_autofree char *name = g_strdup_printf("%s-%u", stem, label);
+    const char *said = g_hash_table_lookup(names, GUINT_TO_POINTER((guint)label));
+    g_autofree char *name = said ? g_strdup(said) : g_strdup_printf("%s-%u", stem, label);
     done = (spore_label_surface(&map, label, &surface, &progress, &failure) &&
             spore_triangle_mesh_smooth(&surface, LABEL_ROUNDS, &progress, &failure)) ||
            spore_error_propagate(&failure, error);
@@ -145,7 +147,7 @@ static gboolean add_file(Intake *intake, const char *path, GError **error) {
   SporeImportFile *file = g_new0(SporeImportFile, 1);
   g_ptr_array_add(intake->import->files, file);
   file->file = g_strdup(path);
-  file->content = read_content(path, error);
+  file->content = spore_import_read_content(path, error);
   if (!file->content) return FALSE;
   gsize size;
   const void *bytes = g_bytes_get_data(file->content, &size);

@@ -56,6 +56,8 @@ typedef struct SporeImport {
  * surface, smoothed at the same volume). NULL with an error; cancelled by progress. Any thread. */
 SporeImport *spore_import_read(char *const *files, const SporeImportOptions *options, const SporeProgress *progress,
                                GError **error);
+/* Content of a regular file of at most 1 GiB; NULL with an error. */
+GBytes *spore_import_read_content(const char *file, GError **error);
 void spore_import_free(SporeImport *import);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeImport, spore_import_free)
 

@@ -26,6 +26,9 @@ void spore_label_map_clear(SporeLabelMap *map);
 
 /* The labels above 0 that there are, ascending: GArray of guint16, and of how many voxels each: GArray of guint64. */
 void spore_label_map_list(const SporeLabelMap *map, GArray **labels, GArray **voxels);
+/* Names of labels that a file tells of (NRRD as 3D Slicer writes it): label -> char *; empty where it tells of none.
+ * g_hash_table_unref. */
+GHashTable *spore_label_map_names(const void *content, gsize size);
 double spore_label_map_voxel_volume(const SporeLabelMap *map); /* m^3 */
 
 static inline SporeVec3 spore_label_map_place(const SporeLabelMap *map, double i, double j, double k) {

@@ -33,4 +33,17 @@ typedef enum SporeSurfaceUse { SPORE_SURFACE_MODEL, SPORE_SURFACE_SHOWN, SPORE_S
 gboolean spore_edit_use_surface(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
                                 const SporeTriangleMesh *mesh, SporeSurfaceUse use, GError **error);
 
+/* Tetrahedra of several organs. */
+typedef enum SporeLabelUse { SPORE_LABELS_BODIES, SPORE_LABELS_ONE_BODY, SPORE_LABELS_ASSET } SporeLabelUse;
+typedef struct SporeLabelBodies {
+  const char *file; /* they came from: names what is of all */
+  const SporeTetrahedralMesh *mesh;
+  const guint32 *labels; /* count, each of which some cell has */
+  char *const *names;    /* count */
+  gsize count;
+  SporeLabelUse use;
+} SporeLabelBodies;
+/* New assets, and bodies with their usual model, which show the tetrahedra's own surface. */
+gboolean spore_edit_use_labels(SporeDocument *document, const SporeLabelBodies *organs, GError **error);
+
 #endif

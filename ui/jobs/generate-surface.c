@@ -104,6 +104,7 @@ static char *facts(const SporeGenerateWork *work) {
 
 /* The edges, over what is coloured. */
 static void show_edges(const SporeTriangleMesh *mesh, SporeStageCandidate *candidate) {
+  candidate->are_edges = TRUE;
   candidate->line_count = 3 * mesh->triangle_count;
   candidate->lines = g_new(double, 6 * candidate->line_count);
   for (gsize i = 0; i < candidate->line_count; i++) {

@@ -4,10 +4,9 @@
 
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
   static const SporeGenerateType *const types[SPORE_GENERATE_KIND_COUNT] = {
-      [SPORE_GENERATE_SPHERES] = &spore_generate_spheres,
-      [SPORE_GENERATE_TETRAHEDRA] = &spore_generate_tetrahedra,
-      [SPORE_GENERATE_CURVE] = &spore_generate_curve,
-      [SPORE_GENERATE_SURFACE] = &spore_generate_surface,
+      [SPORE_GENERATE_SPHERES] = &spore_generate_spheres, [SPORE_GENERATE_TETRAHEDRA] = &spore_generate_tetrahedra,
+      [SPORE_GENERATE_CURVE] = &spore_generate_curve,     [SPORE_GENERATE_SURFACE] = &spore_generate_surface,
+      [SPORE_GENERATE_LABELS] = &spore_generate_labels,
   };
   return types[kind];
 }
@@ -37,6 +36,7 @@ static int64_t *count_of(SporeGenerateOptions *options) {
   case SPORE_GENERATE_SPHERES:
     return &options->fields.spheres.count;
   case SPORE_GENERATE_TETRAHEDRA:
+  case SPORE_GENERATE_LABELS:
     return &options->fields.tetrahedra.cells;
   case SPORE_GENERATE_CURVE:
     return &options->fields.curve.points;

@@ -21,6 +21,7 @@ typedef struct SporeGenerateType {
   const char *title, *working;    /* "Spheres of %s", "Generating spheres"; N_ */
   const char *count;              /* the option that says how many; NULL: none */
   const char *count_label;        /* N_ */
+  const char *const *only;        /* names of the options that there are; NULL: all of the asset's */
   const SporeParameter *purposes; /* a choice, what Apply makes of the result: SporeGenerateOptions.purpose; or NULL */
   gboolean picks_ends;            /* the options have a first and a last place, that can be picked by hand */
 
@@ -42,7 +43,7 @@ typedef struct SporeGenerateType {
 } SporeGenerateType;
 
 extern const SporeGenerateType spore_generate_spheres, spore_generate_tetrahedra, spore_generate_curve,
-    spore_generate_surface;
+    spore_generate_surface, spore_generate_labels;
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind);
 
 /* values x scale, without sign, every stride-th; g_free. */

@@ -14,6 +14,7 @@ struct _SporeGenerator {
   gboolean active, apply_when_done;
   guint32 body;
   SporeGenerateOptions options;
+  SporeLabelSource *labels; /* held for the options */
   guint timer;
   SporeJob *job;
   SporeGenerateWork *result;
@@ -98,18 +99,24 @@ static gboolean change_purpose(SporeGenerator *self, const SporeGenerateOptions 
 gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const SporeGenerateOptions *options,
                                  GError **error) {
   SporeDocument *document = spore_editor_document_get(self->document);
-  SporeObject *asset = spore_generate_target(document, body, options->kind);
-  if (!spore_generate_source(document, body, options->kind, error) ||
+  SporeObject *asset = body ? spore_generate_target(document, body, options->kind) : NULL;
+  guint32 id = body ? spore_object_id(body) : 0;
+  if ((body && !spore_generate_source(document, body, options->kind, error)) ||
       (asset && !spore_generated_may_change(asset, error)))
     return FALSE;
-  gboolean again = self->active && self->body == spore_object_id(body) && self->options.kind == options->kind;
+  gboolean again = self->active && self->body == id && self->options.kind == options->kind &&
+                   self->options.labels == options->labels;
   if (again && self->result && change_purpose(self, options)) return TRUE;
   if (!again) drop(self);
   drop_job(self);
   g_clear_pointer(&self->result, spore_generate_work_unref);
   self->active = TRUE;
-  self->body = spore_object_id(body);
+  self->body = id;
   self->options = *options;
+  if (options->labels && options->labels != self->labels) {
+    g_clear_pointer(&self->labels, spore_label_source_unref);
+    self->labels = spore_label_source_ref(options->labels);
+  }
   if (again) {
     self->timer = g_timeout_add(SETTLE_MS, settled, self);
     tell(self);
@@ -143,7 +150,8 @@ gboolean spore_generator_is_active(SporeGenerator *self) { return self->active; 
 gboolean spore_generator_is_working(SporeGenerator *self) { return self->job || self->timer; }
 
 SporeObject *spore_generator_get_body(SporeGenerator *self) {
-  return self->active ? spore_document_by_id(spore_editor_document_get(self->document), self->body) : NULL;
+  return self->active && self->body ? spore_document_by_id(spore_editor_document_get(self->document), self->body)
+                                    : NULL;
 }
 
 const SporeGenerateOptions *spore_generator_get_options(SporeGenerator *self) { return &self->options; }
@@ -154,7 +162,7 @@ SporeJob *spore_generator_get_job(SporeGenerator *self) { return self->job; }
 
 /* The body may have gone, or show another mesh: then it is generated from that one. */
 static void document_changed(SporeGenerator *self) {
-  if (!self->active) return;
+  if (!self->active || !self->body) return;
   SporeObject *body = spore_generator_get_body(self);
   if (!body) {
     spore_generator_cancel(self);
@@ -167,6 +175,7 @@ static void document_changed(SporeGenerator *self) {
 static void spore_generator_dispose(GObject *object) {
   SporeGenerator *self = SPORE_GENERATOR(object);
   drop(self);
+  g_clear_pointer(&self->labels, spore_label_source_unref);
   g_clear_object(&self->document);
   G_OBJECT_CLASS(spore_generator_parent_class)->dispose(object);
 }

@@ -19,7 +19,7 @@ G_DECLARE_FINAL_TYPE(SporeGenerator, spore_generator, SPORE, GENERATOR, GObject)
 
 SporeGenerator *spore_generator_new(SporeEditorDocument *document);
 /* Begins, or goes on with other options: what ran before is dropped, and several calls in a row make one run. FALSE:
- * the body shows no mesh, or what is there is frozen. */
+ * the body shows no mesh, or what is there is frozen. body NULL: the options name a file. */
 gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const SporeGenerateOptions *options,
                                  GError **error);
 /* Once there is a result it is applied. */
@@ -33,7 +33,7 @@ void spore_generator_cancel(SporeGenerator *self);
 SporeDocument *spore_generator_get_document(SporeGenerator *self);
 gboolean spore_generator_is_active(SporeGenerator *self);    /* working, or with a result that waits */
 gboolean spore_generator_is_working(SporeGenerator *self);   /* or about to */
-SporeObject *spore_generator_get_body(SporeGenerator *self); /* NULL: not active */
+SporeObject *spore_generator_get_body(SporeGenerator *self); /* NULL: not active, or of a file */
 const SporeGenerateOptions *spore_generator_get_options(SporeGenerator *self); /* when active */
 const SporeGenerateWork *spore_generator_get_result(SporeGenerator *self);     /* NULL: none with these options */
 SporeJob *spore_generator_get_job(SporeGenerator *self);                       /* NULL: does not run */

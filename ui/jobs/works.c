@@ -58,8 +58,17 @@ SporeObject *spore_generate_source(SporeDocument *document, SporeObject *body, S
   return mesh ? mesh : spore_edit_visual_mesh(document, body, error);
 }
 
+static SporeGenerateWork *new_of_labels(const SporeGenerateOptions *options) {
+  SporeGenerateWork *work = g_atomic_rc_box_new0(SporeGenerateWork);
+  work->options = *options;
+  work->source = g_strdup(spore_label_source_file(options->labels));
+  spore_label_source_ref(options->labels);
+  return work;
+}
+
 SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
                                            const SporeGenerateOptions *options, GError **error) {
+  if (options->kind == SPORE_GENERATE_LABELS) return new_of_labels(options);
   SporeObject *asset = spore_generate_source(document, body, options->kind, error);
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, error) : NULL;
   if (!mesh) return NULL;
@@ -83,6 +92,8 @@ static void clear_work(gpointer data) {
   spore_sphere_set_clear(&work->spheres);
   spore_spheres_quality_clear(&work->spheres_quality);
   spore_tetrahedral_mesh_clear(&work->tetrahedra);
+  g_clear_pointer(&work->label_report.labels, g_array_unref);
+  g_clear_pointer(&work->options.labels, spore_label_source_unref);
   spore_curve_clear(&work->curve);
   spore_triangle_mesh_clear(&work->surface);
   g_free(work->surface_distance);
@@ -112,10 +123,14 @@ SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocume
   return g_strcmp0(hash, work->source_hash) == 0 ? body : NULL;
 }
 
+gboolean spore_generate_work_holds(const SporeGenerateWork *work, SporeDocument *document) {
+  return work->options.kind == SPORE_GENERATE_LABELS || spore_generate_work_body(work, document);
+}
+
 gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument *document, GError **error) {
-  SporeObject *body = spore_generate_work_body(work, document);
-  if (!body)
+  if (!spore_generate_work_holds(work, document))
     return spore_error_raise(error, SPORE_ERROR_INPUT, work->source,
                              _("the mesh changed meanwhile and the result was dropped; generate it again"));
+  SporeObject *body = spore_document_by_id(document, work->body); /* none where it came from a file */
   return spore_generate_type(work->options.kind)->apply(work, document, body, error);
 }

@@ -4,6 +4,7 @@
 
 #include "core/base/progress.h"
 #include "core/generate/centreline.h"
+#include "core/generate/label_tetrahedra.h"
 #include "core/generate/spheres.h"
 #include "core/generate/spheres_quality.h"
 #include "core/generate/surface.h"
@@ -11,6 +12,7 @@
 #include "core/generate/wall.h"
 #include "core/scene/document.h"
 #include "core/scene/schema_fields.h"
+#include "ui/jobs/label-source.h"
 
 /* Reads a scene and decodes its assets. */
 typedef struct SporeOpenWork {
@@ -30,6 +32,7 @@ typedef enum SporeGenerateKind {
   SPORE_GENERATE_TETRAHEDRA,
   SPORE_GENERATE_CURVE,
   SPORE_GENERATE_SURFACE,
+  SPORE_GENERATE_LABELS, /* of a file instead of a body */
   SPORE_GENERATE_KIND_COUNT
 } SporeGenerateKind;
 
@@ -41,9 +44,14 @@ typedef struct SporeGenerateOptions {
     SporeTetrahedraFields tetrahedra;
     SporeCurveFields curve;
     SporeMeshFields surface;
-  } fields;    /* of the asset of that kind */
-  int purpose; /* what becomes of the result, of the kind's */
+  } fields;                                       /* of the asset of that kind */
+  int purpose;                                    /* what becomes of the result, of the kind's */
+  SporeLabelSource *labels;                       /* of LABELS; borrowed */
+  guint64 unwanted[SPORE_LABEL_SOURCE_MOST / 64]; /* bits: its labels that are left out */
 } SporeGenerateOptions;
+/* Whether the i-th label of the options is to be meshed. */
+gboolean spore_generate_wants_label(const SporeGenerateOptions *options, gsize i);
+void spore_generate_want_label(SporeGenerateOptions *options, gsize i, gboolean wanted);
 /* The asset of the body that a generator of this kind makes, or NULL. */
 SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
 /* The mesh asset that it is made from: what the body shows; where that is what was generated, or nothing, what the
@@ -69,6 +77,7 @@ typedef struct SporeGenerateWork {
   SporeSpheresQuality spheres_quality;     /* out */
   SporeTetrahedralMesh tetrahedra;         /* out */
   SporeTetrahedraReport tetrahedra_report; /* out */
+  SporeLabelTetrahedraReport label_report; /* out, with tetrahedra */
   SporeCurve curve;                        /* out */
   SporeCentrelineReport curve_report;      /* out */
   SporeTriangleMesh surface;               /* out: with a wall, all around it */
@@ -76,13 +85,15 @@ typedef struct SporeGenerateWork {
   SporeWallReport wall_report;             /* out; zero without a wall */
   double *surface_distance;                /* out: a vertex of the given mesh, to the outer surface made, m */
 } SporeGenerateWork;
-/* Copies the mesh that it is made from. NULL with an error when there is none. */
+/* Copies the mesh that it is made from, or holds the label map (body NULL). NULL with an error when there is none. */
 SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
                                            const SporeGenerateOptions *options, GError **error);
 gboolean spore_generate_work_run(gpointer work, const SporeProgress *progress, GError **error);
 gboolean spore_measure_work_run(gpointer work, const SporeProgress *progress, GError **error);
 SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work);
 void spore_generate_work_unref(gpointer work);
+/* Whether the document still is what the work began with. */
+gboolean spore_generate_work_holds(const SporeGenerateWork *work, SporeDocument *document);
 /* The body, where it still has the mesh that the work began with; NULL: the document moved on. */
 SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document);
 /* The result becomes the body's, as one undo step; the options are remembered. */

@@ -228,7 +228,7 @@ static void spore_count_plot_class_init(SporeCountPlotClass *class) {
 }
 
 static void spore_count_plot_init(SporeCountPlot *self) {
-  gtk_widget_set_size_request(GTK_WIDGET(self), 130, 110);
+  gtk_widget_set_size_request(GTK_WIDGET(self), 150, 110);
   gtk_widget_set_can_focus(GTK_WIDGET(self), TRUE);
   gtk_widget_add_events(GTK_WIDGET(self), GDK_BUTTON_PRESS_MASK | GDK_KEY_PRESS_MASK);
   describe(self);

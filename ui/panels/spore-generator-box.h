@@ -16,7 +16,8 @@ typedef struct SporeGeneratorState {
   gboolean generated, stale, frozen;
 } SporeGeneratorState;
 
-/* action: of the window, takes the count (u). label: "Spheres", translated. */
+/* action: of the window, takes the count (u). count: to begin with; 0 where that is one, "as many as it takes". label:
+ * "Spheres", translated. */
 GtkWidget *spore_generator_box_new(const char *action, const char *label, guint count, guint maximum);
 /* text: what is there, in words. */
 void spore_generator_box_set_result(SporeGeneratorBox *self, const char *text, SporeGeneratorState state);

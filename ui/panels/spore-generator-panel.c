@@ -7,11 +7,13 @@
 #include "ui/panels/report.h"
 #include "ui/panels/spore-count-plot.h"
 #include "ui/panels/spore-generator-rows.h"
+#include "ui/panels/spore-label-list.h"
 #include "ui/panels/spore-histogram.h"
 
 struct _SporeGeneratorPanel {
   GtkBox parent;
-  GtkWidget *empty, *content, *title, *rows, *shown, *facts, *apply, *cancel, *histogram, *numbers, *measure, *plot;
+  GtkWidget *empty, *content, *title, *rows, *shown, *facts, *apply, *cancel, *histogram, *numbers, *measure, *plot,
+      *ends, *organs, *labels;
   SporeGenerator *generator;
   SporeSeries *series;
   guint32 body; /* that the series is of */
@@ -30,13 +32,14 @@ static guint signals[SIGNAL_COUNT];
 static void preview(SporeGeneratorPanel *self, const SporeGenerateOptions *options) {
   g_autoptr(GError) error = NULL;
   SporeObject *body = spore_generator_get_body(self->generator);
-  if (body && !spore_generator_preview(self->generator, body, options, &error)) spore_report(GTK_WIDGET(self), error);
+  if (!spore_generator_preview(self->generator, body, options, &error)) spore_report(GTK_WIDGET(self), error);
 }
 
 static void options_changed(GtkWidget *widget, SporeGeneratorPanel *self) {
   if (!spore_generator_is_active(self->generator)) return;
   SporeGenerateOptions options = *spore_generator_get_options(self->generator);
   spore_generator_rows_get_options(SPORE_GENERATOR_ROWS(self->rows), &options);
+  if (options.labels) spore_label_list_get_options(SPORE_LABEL_LIST(self->labels), &options);
   preview(self, &options);
 }
 
@@ -45,6 +48,10 @@ static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *
   const SporeParameterTable *table = spore_generate_table(spore_generator_get_document(self->generator), options->kind);
   spore_generator_rows_set_options(SPORE_GENERATOR_ROWS(self->rows), table, options);
   gtk_widget_set_visible(self->numbers, type->counts != NULL);
+  gtk_widget_set_visible(self->ends, type->picks_ends);
+  /* Those of a label map are known once it was read. */
+  gtk_widget_set_visible(self->organs, options->labels && spore_generator_get_result(self->generator));
+  if (gtk_widget_get_visible(self->organs)) spore_label_list_set_options(SPORE_LABEL_LIST(self->labels), options);
   if (!type->counts) return;
   gsize last = 0;
   while (type->counts[last + 1]) last++;
@@ -103,6 +110,7 @@ static void show_result(SporeGeneratorPanel *self) {
   if (work) spore_quality_of(work, spore_generator_panel_get_quality(self), &quality);
   g_autofree char *facts = work ? spore_generate_type(work->options.kind)->facts(work) : g_strdup(_("Working…"));
   gtk_label_set_text(GTK_LABEL(self->facts), facts);
+  gtk_widget_set_visible(self->histogram, !quality.count || *quality.unit); /* else they are names */
   spore_histogram_set_quality(SPORE_HISTOGRAM(self->histogram), &quality);
   spore_quality_clear(&quality);
 }
@@ -113,15 +121,23 @@ static void quality_chosen(GtkComboBox *combo, SporeGeneratorPanel *self) {
   g_signal_emit(self, signals[SHOWN_QUALITY_CHANGED], 0);
 }
 
+/* Of whom it generates: the body, or the file. */
+static char *title_of(SporeGeneratorPanel *self, SporeObject *body, const SporeGenerateOptions *options) {
+  g_autofree char *base = options->labels ? g_path_get_basename(spore_label_source_file(options->labels)) : NULL;
+  return g_strdup_printf(_(spore_generate_type(options->kind)->title), base ? base : spore_object_name(body));
+}
+
 static void refresh(SporeGeneratorPanel *self) {
   SporeObject *body = spore_generator_get_body(self->generator);
-  gtk_widget_set_visible(self->empty, !body);
-  gtk_widget_set_visible(self->content, body != NULL);
-  follow_body(self, body);
-  if (!body) return;
   const SporeGenerateOptions *options = spore_generator_get_options(self->generator);
-  g_autofree char *title = g_strdup_printf(_(spore_generate_type(options->kind)->title), spore_object_name(body));
+  gboolean active = spore_generator_is_active(self->generator) && (body || options->labels);
+  gtk_widget_set_visible(self->empty, !active);
+  gtk_widget_set_visible(self->content, active);
+  follow_body(self, body);
+  if (!active) return;
+  g_autofree char *title = title_of(self, body, options);
   gtk_label_set_text(GTK_LABEL(self->title), title);
+  gtk_widget_set_tooltip_text(self->title, title);
   self->filling = TRUE;
   fill_qualities(self, options->kind);
   show_options(self, options);
@@ -165,6 +181,9 @@ static void bind(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, numbers);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, measure);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, plot);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, ends);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, organs);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, labels);
 }
 
 static void spore_generator_panel_class_init(SporeGeneratorPanelClass *class) {
@@ -173,6 +192,7 @@ static void spore_generator_panel_class_init(SporeGeneratorPanelClass *class) {
   g_type_ensure(SPORE_TYPE_HISTOGRAM);
   g_type_ensure(SPORE_TYPE_COUNT_PLOT);
   g_type_ensure(SPORE_TYPE_GENERATOR_ROWS);
+  g_type_ensure(SPORE_TYPE_LABEL_LIST);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-generator-panel.ui");
   bind(widget);
   gtk_widget_class_bind_template_callback(widget, options_changed);

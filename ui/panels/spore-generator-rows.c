@@ -98,7 +98,7 @@ static void build(SporeGeneratorRows *self, const SporeParameterTable *table, Sp
   self->kind = (int)kind;
   for (size_t i = 0; i < table->count; i++) {
     const SporeParameter *parameter = &table->parameters[i];
-    if (spore_generated_is_option(parameter))
+    if (spore_generated_is_option(parameter) && (!type->only || g_strv_contains(type->only, parameter->name)))
       add_row(self, parameter, g_str_equal(parameter->name, type->count) ? _(type->count_label) : NULL);
   }
   if (type->purposes) add_row(self, type->purposes, NULL);

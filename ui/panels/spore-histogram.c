@@ -18,11 +18,13 @@ struct _SporeHistogram {
 
 G_DEFINE_FINAL_TYPE(SporeHistogram, spore_histogram, GTK_TYPE_DRAWING_AREA)
 
-static void draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double align, const char *text) {
+/* Returns its width. */
+static int draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double align, const char *text) {
   int width, height;
   g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
   pango_layout_get_pixel_size(layout, &width, &height);
   gtk_render_layout(gtk_widget_get_style_context(widget), cr, x - align * width, y, layout);
+  return width;
 }
 
 static double place_of(const SporeHistogram *self, double value) {
@@ -70,8 +72,8 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   g_autofree char *low = g_strdup_printf("%g", self->low);
   g_autofree char *high = g_strdup_printf(_("%g %s and over"), self->high, self->unit);
   draw_text(widget, cr, left, 2, 0, title);
-  draw_text(widget, cr, left, top + up + 3, 0, low);
-  draw_text(widget, cr, left + across, top + up + 3, 1, high);
+  if (draw_text(widget, cr, left + across, top + up + 3, 1, high) < across - LINE)
+    draw_text(widget, cr, left, top + up + 3, 0, low);
   if (up <= 0 || across <= BINS) return FALSE;
   draw_bars(self, cr, left, top, across, up);
   draw_frame(self, cr, left, top, across, up);
@@ -127,7 +129,7 @@ static void spore_histogram_class_init(SporeHistogramClass *class) {
 }
 
 static void spore_histogram_init(SporeHistogram *self) {
-  gtk_widget_set_size_request(GTK_WIDGET(self), 130, 110);
+  gtk_widget_set_size_request(GTK_WIDGET(self), 150, 110);
   spore_histogram_set_quality(self, NULL);
 }
 

@@ -18,6 +18,7 @@
 
 #define DEFAULT_SPHERES 100
 #define DEFAULT_CELLS 1000
+#define DEFAULT_NODES 300
 #define MOST_CELLS 1000000
 #define WORST_PART 0.08 /* of the size: half of the cross at the worst place */
 
@@ -27,7 +28,8 @@ struct _SporeInspector {
   SporeEditorDocument *document;
   guint rebuild, refresh;
   GPtrArray *rows; /* SporePropertyRow *, borrowed from the widget tree */
-  GtkWidget *mesh_facts, *spheres_box, *tetrahedra_box, *model, *preset, *mapping_facts, *measure;
+  GtkWidget *mesh_facts, *spheres_box, *tetrahedra_box, *curve_box, *surface_box, *model, *preset, *mapping_facts,
+      *measure;
   gboolean filling;
   GHashTable *collapsed; /* set of section titles that the user closed */
 
@@ -122,7 +124,8 @@ static void append_state(SporeInspector *self, SporeObject *asset, GString *text
   if (generated == SPORE_GENERATED_SOURCE_CHANGED) g_string_append(text, _("\nStale: the mesh has changed since"));
   if (generated == SPORE_GENERATED_OPTIONS_CHANGED) g_string_append(text, _("\nStale: the options have changed since"));
   if (spore_generated_is(asset, "edited")) g_string_append(text, _("\nEdited by hand"));
-  if (spore_generated_is(asset, "frozen")) g_string_append(text, _("\nFrozen: nothing generates it again; it may be edited by hand"));
+  if (spore_generated_is(asset, "frozen"))
+    g_string_append(text, _("\nFrozen: nothing generates it again; it may be edited by hand"));
 }
 
 static guint last_count(SporeObject *asset, const char *property, guint otherwise) {
@@ -223,6 +226,36 @@ static void show_tetrahedra(SporeInspector *self, SporeObject *body) {
   g_string_free(text, TRUE);
 }
 
+static void show_curve(SporeInspector *self, SporeObject *body) {
+  SporeObject *asset = spore_edit_body_curve(document_of(self), body);
+  g_autoptr(GError) error = NULL;
+  const SporeCurve *curve = asset ? spore_document_curve(document_of(self), asset, &error) : NULL;
+  if (!curve) {
+    show_state(self, self->curve_box, error ? error->message : _("No middle line yet"), NULL, "points");
+    return;
+  }
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("%zu points, %.1f mm long"), curve->count, 1e3 * spore_curve_length(curve));
+  append_state(self, asset, text);
+  show_state(self, self->curve_box, text->str, asset, "points");
+  g_string_free(text, TRUE);
+}
+
+static void show_surface(SporeInspector *self, SporeObject *body) {
+  SporeObject *asset = spore_edit_body_surface(document_of(self), body);
+  g_autoptr(GError) error = NULL;
+  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document_of(self), asset, &error) : NULL;
+  if (!mesh) {
+    show_state(self, self->surface_box, error ? error->message : _("No generated surface yet"), NULL, "nodes");
+    return;
+  }
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("%zu nodes, %zu triangles"), mesh->vertex_count, mesh->triangle_count);
+  append_state(self, asset, text);
+  show_state(self, self->surface_box, text->str, asset, "nodes");
+  g_string_free(text, TRUE);
+}
+
 static void show_mapping(SporeInspector *self, SporeObject *body) {
   gboolean holds = spore_mapping_report_holds(&self->mapping, document_of(self), body);
   const char *why = self->mapping.body == spore_object_id(body)
@@ -268,6 +301,8 @@ static void show_facts(SporeInspector *self) {
   show_mesh_facts(self, body);
   show_spheres(self, body);
   show_tetrahedra(self, body);
+  show_curve(self, body);
+  show_surface(self, body);
   show_model(self, body);
   if (self->preset) show_preset(self, spore_edit_body_model(body));
   if (self->mapping_facts) show_mapping(self, body);
@@ -419,6 +454,13 @@ static void add_body(SporeInspector *self, SporeObject *body) {
   guint cells = last_count(spore_edit_body_tetrahedra(document, body), "cells", DEFAULT_CELLS);
   self->tetrahedra_box = spore_generator_box_new("preview-tetrahedra", _("Number of tetrahedra"), cells, MOST_CELLS);
   gtk_container_add(GTK_CONTAINER(mechanical), self->tetrahedra_box);
+  guint nodes = last_count(spore_edit_body_surface(document, body), "nodes", DEFAULT_NODES);
+  self->surface_box = spore_generator_box_new("preview-surface", _("Nodes of a surface"), nodes, MOST_CELLS);
+  gtk_container_add(GTK_CONTAINER(mechanical), self->surface_box);
+  guint points = last_count(spore_edit_body_curve(document, body), "points", 0);
+  self->curve_box =
+      spore_generator_box_new("preview-curve", _("Points of the middle line"), points, SPORE_CENTRELINE_MOST_POINTS);
+  gtk_container_add(GTK_CONTAINER(mechanical), self->curve_box);
   add_unit(self, mechanical, body, "mechanical");
   add_generator_regions(self, mechanical, spore_edit_body_tetrahedra(document, body),
                         _("Tetrahedra are as large everywhere: in a region they are of a size of their own"));
@@ -460,7 +502,8 @@ static gboolean rebuild(gpointer data) {
   self->rebuild = 0;
   g_clear_handle_id(&self->refresh, g_source_remove);
   g_ptr_array_set_size(self->rows, 0);
-  self->mesh_facts = self->spheres_box = self->tetrahedra_box = self->model = self->preset = NULL;
+  self->mesh_facts = self->spheres_box = self->tetrahedra_box = self->curve_box = self->surface_box = self->model =
+      self->preset = NULL;
   self->mapping_facts = self->measure = NULL;
   gtk_container_foreach(GTK_CONTAINER(self->sections), destroy_child, NULL);
   SporeObject *selected = spore_editor_document_selected(self->document);

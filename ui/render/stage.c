@@ -141,6 +141,9 @@ void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3
     for (gsize i = 0; body->solid && i < body->shown; i++)
       take_in(lower, upper, body->spheres + 4 * i, body->spheres[4 * i + 3]);
   }
+  const SporeStageCandidate *candidate = stage->candidate;
+  for (gsize i = 0; candidate && !candidate->body && i < candidate->vertex_count; i++)
+    take_in(lower, upper, candidate->vertices + 3 * i, 0);
   if (!(lower[0] <= upper[0])) /* an empty scene: a place the size of a hand */
     for (int i = 0; i < 3; i++) lower[i] = -0.05, upper[i] = 0.05;
 }

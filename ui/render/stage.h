@@ -14,7 +14,7 @@ typedef struct SporeStageOptions {
 /* What may come of a generator or of a hand: shown in place of what the body has of it. Arrays owned, in the body's
  * axes at the start, m; counts of 0: none of that kind. */
 typedef struct SporeStageCandidate {
-  guint32 body; /* object id */
+  guint32 body; /* object id; 0: of none, in the scene's axes */
   gsize sphere_count;
   double *spheres;      /* sphere_count x 4 */
   float *sphere_values; /* sphere_count, 0..1 of the scale of colours; NULL: plain */
@@ -24,7 +24,8 @@ typedef struct SporeStageCandidate {
   guint32 *triangles;   /* triangle_count x 3 */
   float *vertex_values; /* vertex_count, as sphere_values */
   gsize line_count;
-  double *lines; /* line_count x 2 points x 3 */
+  double *lines;      /* line_count x 2 points x 3 */
+  gboolean are_edges; /* the lines are those of triangles: thin, and hidden where something stands before them */
 } SporeStageCandidate;
 void spore_stage_candidate_free(SporeStageCandidate *candidate);
 

@@ -6,7 +6,8 @@
 #define MARK_GROWS 1.02 /* so that the mark lies over its sphere */
 
 static const float plain_colour[3] = {0.03f, 0.24f, 0.36f}, mark_colour[3] = {0.95f, 0.32f, 0.02f},
-                   line_colour[3] = {0.95f, 0.62f, 0.05f}, marks_colour[3] = {0.98f, 0.84f, 0.22f};
+                   line_colour[3] = {0.95f, 0.62f, 0.05f}, edge_colour[3] = {0.9f, 0.9f, 0.9f},
+                   marks_colour[3] = {0.98f, 0.84f, 0.22f};
 
 void spore_stage_candidate_free(SporeStageCandidate *candidate) {
   if (!candidate) return;
@@ -49,15 +50,18 @@ void spore_stage_place_candidate(SporeStage *stage) {
   for (guint i = 0; i < G_N_ELEMENTS(stage->candidate_handles); i++)
     if (stage->candidate_handles[i]) spore_renderer_remove(stage->renderer, stage->candidate_handles[i]);
   memset(stage->candidate_handles, 0, sizeof stage->candidate_handles);
-  const SporeObject *body = candidate ? spore_document_by_id(stage->document, candidate->body) : NULL;
-  if (!body) return;
-  SporePose pose = spore_body_pose(body);
+  const SporeObject *body =
+      candidate && candidate->body ? spore_document_by_id(stage->document, candidate->body) : NULL;
+  if (!candidate || (candidate->body && !body)) return;
+  SporePose pose = body ? spore_body_pose(body) : spore_pose_identity();
   if (candidate->sphere_count) add_spheres(stage, candidate, pose);
   if (candidate->triangle_count) add_surface(stage, candidate, pose);
   if (!candidate->line_count) return;
   g_autofree double *lines = posed(pose, candidate->lines, 2 * candidate->line_count, 3);
   stage->candidate_handles[3] =
-      spore_renderer_add_lines(stage->renderer, lines, candidate->line_count, line_colour, 2.5f);
+      spore_renderer_add_lines(stage->renderer, lines, candidate->line_count,
+                               candidate->are_edges ? edge_colour : line_colour, candidate->are_edges ? 1 : 2.5f);
+  if (candidate->are_edges) spore_renderer_see_lines_through(stage->renderer, stage->candidate_handles[3], 0);
 }
 
 void spore_stage_set_candidate(SporeStage *stage, const SporeStageCandidate *candidate) {

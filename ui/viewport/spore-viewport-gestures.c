@@ -181,6 +181,11 @@ static void begin_camera(SporeViewport *self, gboolean pan) {
 
 static void press_left(SporeViewport *self, const GdkEventButton *event) {
   SporeVec3 point;
+  if (self->picking) {
+    guint32 body = pick(self, event->x, event->y, &point);
+    if (body) spore_viewport_picked(self, body, point);
+    return;
+  }
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
   if (self->tool == SPORE_TOOL_PROBE && begin_probe(self)) return;
   if (self->tool == SPORE_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
@@ -264,7 +269,8 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
   switch (event->keyval) {
   case GDK_KEY_Escape:
     if (self->drag != DRAG_NONE) abort_drag(self);
-    else spore_activate(area, "cancel-job", NULL); /* a preview, if there is one */
+    else if (self->picking) spore_activate(area, "pick-ends", NULL); /* no more */
+    else spore_activate(area, "cancel-job", NULL);                   /* a preview, if there is one */
     break;
   case GDK_KEY_f:
     spore_viewport_frame(self);

@@ -14,6 +14,7 @@ struct _SporeViewport {
   SporeEditorDocument *document;
   SporePlayer *player;
   SporeTool tool;
+  gboolean picking;
   SporeStageOptions options;
 
   SporeHandEdit edit;    /* of the Edit tool */
@@ -50,6 +51,7 @@ struct _SporeViewport {
 };
 
 void spore_viewport_redraw(SporeViewport *self);
+void spore_viewport_picked(SporeViewport *self, guint32 body, SporeVec3 place);
 
 /* Signal handlers of the drawing area, named in the template. */
 gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self);

@@ -19,6 +19,9 @@
 
 G_DEFINE_FINAL_TYPE(SporeViewport, spore_viewport, GTK_TYPE_OVERLAY)
 
+enum { PICKED, SIGNAL_COUNT };
+static guint signals[SIGNAL_COUNT];
+
 void spore_viewport_redraw(SporeViewport *self) {
   self->stale = TRUE;
   gtk_widget_queue_draw(self->area);
@@ -47,6 +50,7 @@ static gboolean ensure_renderer(SporeViewport *self) {
 }
 
 static gboolean has_anything(SporeViewport *self) {
+  if (self->candidate && !self->candidate->body) return TRUE;
   return self->document &&
          spore_object_child_count(spore_document_section(spore_editor_document_get(self->document), "bodies")) > 0;
 }
@@ -373,6 +377,15 @@ void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting) {
   show_welcome(self);
 }
 
+void spore_viewport_set_picking(SporeViewport *self, gboolean picking) {
+  spore_viewport_end_drag(self);
+  self->picking = picking;
+}
+
+void spore_viewport_picked(SporeViewport *self, guint32 body, SporeVec3 place) {
+  g_signal_emit(self, signals[PICKED], 0, body, &place);
+}
+
 void spore_viewport_set_tool(SporeViewport *self, SporeTool tool) {
   spore_viewport_end_drag(self);
   spore_viewport_edit_end(self);
@@ -392,6 +405,7 @@ void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *cand
   if (self->stage) spore_stage_set_candidate(self->stage, candidate);
   spore_stage_candidate_free(self->candidate);
   self->candidate = candidate;
+  show_welcome(self);
   g_clear_pointer(&self->legend, g_free);
   g_clear_pointer(&self->legend_unit, g_free);
   if (candidate && legend->count) {
@@ -465,6 +479,8 @@ static void spore_viewport_dispose(GObject *object) {
 static void spore_viewport_class_init(SporeViewportClass *class) {
   GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
   G_OBJECT_CLASS(class)->dispose = spore_viewport_dispose;
+  signals[PICKED] = g_signal_new("picked", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+                                 G_TYPE_NONE, 2, G_TYPE_UINT, G_TYPE_POINTER);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-viewport.ui");
   gtk_widget_class_bind_template_child(widget, SporeViewport, area);
   gtk_widget_class_bind_template_child(widget, SporeViewport, hud);

@@ -1,0 +1,177 @@
+/* Tetrahedra of all organs of a label map at once, with shared faces where they touch. */
+#include <glib/gi18n.h>
+#include <math.h>
+
+#include "core/base/memory.h"
+#include "ui/document/generated-edits.h"
+#include "ui/jobs/generate-types.h"
+
+static const char *const purpose_names[] = {"bodies", "one_body", "asset", NULL}; /* as SporeLabelUse */
+static const SporeParameter purposes = {
+    .name = "make",
+    .type = SPORE_CHOICE,
+    .unit = "",
+    .minimum = -HUGE_VAL,
+    .maximum = HUGE_VAL,
+    .choices = purpose_names,
+    .offset = offsetof(SporeGenerateOptions, purpose),
+    .doc =
+        N_("What Apply makes: a body of each organ, one body of all that hangs together at shared faces, or an asset "
+           "alone.")};
+
+gboolean spore_generate_wants_label(const SporeGenerateOptions *options, gsize i) {
+  return !(options->unwanted[i / 64] >> (i % 64) & 1);
+}
+
+void spore_generate_want_label(SporeGenerateOptions *options, gsize i, gboolean wanted) {
+  guint64 bit = (guint64)1 << (i % 64);
+  options->unwanted[i / 64] = wanted ? options->unwanted[i / 64] & ~bit : options->unwanted[i / 64] | bit;
+}
+
+static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
+  const SporeTetrahedraFields *fields = &work->options.fields.tetrahedra;
+  const SporeLabelMap *map = spore_label_source_read(work->options.labels, progress, error);
+  if (!map) return FALSE;
+  g_autoptr(GArray) wanted = g_array_new(FALSE, FALSE, sizeof(guint16));
+  for (gsize i = 0; i < spore_label_source_count(work->options.labels); i++) {
+    guint16 label = spore_label_source_label(work->options.labels, i);
+    if (spore_generate_wants_label(&work->options, i)) g_array_append_val(wanted, label);
+  }
+  if (!wanted->len)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, work->source,
+                             _("no organ is chosen; at least one was expected; choose some of the list"));
+  SporeLabelTetrahedraOptions options = {.cells = fields->size > 0 ? 0 : (size_t)fields->cells,
+                                         .size = fields->size,
+                                         .labels = (const uint16_t *)(const void *)wanted->data,
+                                         .label_count = wanted->len};
+  return spore_label_tetrahedra(work->source, map, &options, &work->tetrahedra, &work->label_report, progress, error);
+}
+
+/* The name of a label in the list of those of the report. */
+static char *name_of(const SporeGenerateWork *work, guint16 label) {
+  for (gsize i = 0; i < spore_label_source_count(work->options.labels); i++)
+    if (spore_label_source_label(work->options.labels, i) == label)
+      return spore_label_source_name(work->options.labels, i);
+  return g_strdup("");
+}
+
+static const SporeLabelFigures *figures_of(const SporeGenerateWork *work, guint i) {
+  return &g_array_index(work->label_report.labels, SporeLabelFigures, i);
+}
+
+static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
+  g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
+  g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint32));
+  for (guint i = 0; i < work->label_report.labels->len; i++) {
+    const SporeLabelFigures *figures = figures_of(work, i);
+    guint32 label = figures->label;
+    if (!figures->cells) continue; /* finer than the cells */
+    g_ptr_array_add(names, name_of(work, figures->label));
+    g_array_append_val(labels, label);
+  }
+  const SporeLabelBodies bodies = {.file = work->source,
+                                   .mesh = &work->tetrahedra,
+                                   .labels = (const guint32 *)(const void *)labels->data,
+                                   .names = (char *const *)names->pdata,
+                                   .count = labels->len,
+                                   .use = (SporeLabelUse)work->options.purpose};
+  return spore_edit_use_labels(document, &bodies, error);
+}
+
+static char *facts(const SporeGenerateWork *work) {
+  const SporeLabelTetrahedraReport *report = &work->label_report;
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("%zu tetrahedra in %.1f s\nLeast angle %.1f°, mean %.1f°\nShared faces: %zu"),
+                         work->tetrahedra.tetrahedron_count, report->seconds, report->quality.min_dihedral_deg,
+                         report->quality.mean_dihedral_deg, report->shared_faces);
+  for (guint i = 0; i < report->labels->len; i++) {
+    const SporeLabelFigures *figures = figures_of(work, i);
+    g_autofree char *name = name_of(work, figures->label);
+    if (figures->cells)
+      g_string_append_printf(text, _("\n%s: %zu cells, %.4g ml (%+.2f %%)"), name, figures->cells,
+                             1e6 * figures->volume, 100 * (figures->volume / figures->voxel_volume - 1));
+    else g_string_append_printf(text, _("\n%s: finer than the cells"), name);
+  }
+  return g_string_free(text, FALSE);
+}
+
+/* Qualities. */
+
+/* Place of a label in the report. */
+static guint place_of(const SporeGenerateWork *work, guint32 label) {
+  guint i = 0;
+  while (i + 1 < work->label_report.labels->len && figures_of(work, i)->label != label) i++;
+  return i;
+}
+
+static void measure_organs(const SporeGenerateWork *work, SporeQuality *quality) {
+  quality->count = work->tetrahedra.tetrahedron_count;
+  quality->values = g_new(double, quality->count);
+  for (gsize i = 0; i < quality->count; i++) quality->values[i] = place_of(work, work->tetrahedra.labels[i]) + 1;
+}
+
+/* The cells of one organ as a mesh that borrows the vertices. */
+static SporeTetrahedralMesh cells_of(const SporeTetrahedralMesh *mesh, guint32 label) {
+  SporeTetrahedralMesh part = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
+  part.tetrahedra = g_new(uint32_t, 4 * mesh->tetrahedron_count);
+  for (gsize i = 0; i < mesh->tetrahedron_count; i++)
+    if (mesh->labels[i] == label)
+      memcpy(part.tetrahedra + 4 * part.tetrahedron_count++, mesh->tetrahedra + 4 * i, 4 * sizeof(uint32_t));
+  return part;
+}
+
+/* The place of its cells on the scale. */
+static float colour_of(const SporeGenerateWork *work, guint32 label, const float *places) {
+  gsize i = 0;
+  while (i + 1 < work->tetrahedra.tetrahedron_count && work->tetrahedra.labels[i] != label) i++;
+  return places[i];
+}
+
+/* The faces of each organ, with corners of its own, so that each has one colour. */
+static void show_organs(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
+  guint organs = work->label_report.labels->len;
+  GArray *vertices = g_array_new(FALSE, FALSE, sizeof(double)), *values = g_array_new(FALSE, FALSE, sizeof(float));
+  for (guint organ = 0; organ < organs; organ++) {
+    SporeTetrahedralMesh part = cells_of(&work->tetrahedra, figures_of(work, organ)->label);
+    uint32_t *faces = NULL;
+    gsize count = 0;
+    float value = colour_of(work, figures_of(work, organ)->label, places);
+    if (spore_tetrahedral_mesh_boundary(&part, &faces, &count))
+      for (gsize i = 0; i < 3 * count; i++) {
+        g_array_append_vals(vertices, part.vertices + 3 * (gsize)faces[i], 3);
+        g_array_append_val(values, value);
+      }
+    spore_free(faces);
+    g_free(part.tetrahedra);
+  }
+  candidate->vertex_count = values->len;
+  candidate->triangle_count = values->len / 3;
+  candidate->triangles = g_new(guint32, values->len);
+  for (guint i = 0; i < values->len; i++) candidate->triangles[i] = i;
+  candidate->vertices = (double *)(gpointer)g_array_free(vertices, FALSE);
+  candidate->vertex_values = (float *)(gpointer)g_array_free(values, FALSE);
+  g_free(places);
+}
+
+static const SporeGenerateQuality qualities[] = {
+    {N_("Organ"), "", measure_organs, show_organs},
+};
+
+static SporeObject *no_target(SporeDocument *document, SporeObject *body) { return NULL; }
+
+const SporeGenerateType spore_generate_labels = {
+    .name = "labels",
+    .element = "tetrahedra",
+    .title = N_("Organs of %s"),
+    .working = N_("Generating tetrahedra"),
+    .count = "cells",
+    .count_label = N_("Tetrahedra"),
+    .only = (const char *const[]){"cells", "size", NULL},
+    .purposes = &purposes,
+    .qualities = qualities,
+    .quality_count = G_N_ELEMENTS(qualities),
+    .target = no_target,
+    .run = run,
+    .apply = apply,
+    .facts = facts,
+};
