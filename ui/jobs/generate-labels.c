@@ -2,7 +2,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "core/base/memory.h"
+#include "core/mesh/cell_faces.h"
 #include "ui/document/generated-edits.h"
 #include "ui/jobs/generate-types.h"
 
@@ -110,51 +110,27 @@ static void measure_organs(const SporeGenerateWork *work, SporeQuality *quality)
   for (gsize i = 0; i < quality->count; i++) quality->values[i] = place_of(work, work->tetrahedra.labels[i]) + 1;
 }
 
-/* The cells of one organ as a mesh that borrows the vertices. */
-static SporeTetrahedralMesh cells_of(const SporeTetrahedralMesh *mesh, guint32 label) {
-  SporeTetrahedralMesh part = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
-  part.tetrahedra = g_new(uint32_t, 4 * mesh->tetrahedron_count);
-  for (gsize i = 0; i < mesh->tetrahedron_count; i++)
-    if (mesh->labels[i] == label)
-      memcpy(part.tetrahedra + 4 * part.tetrahedron_count++, mesh->tetrahedra + 4 * i, 4 * sizeof(uint32_t));
-  return part;
-}
-
-/* The place of its cells on the scale. */
-static float colour_of(const SporeGenerateWork *work, guint32 label, const float *places) {
-  gsize i = 0;
-  while (i + 1 < work->tetrahedra.tetrahedron_count && work->tetrahedra.labels[i] != label) i++;
-  return places[i];
-}
-
-/* The faces of each organ, with corners of its own, so that each has one colour. */
-static void show_organs(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
-  guint organs = work->label_report.labels->len;
-  GArray *vertices = g_array_new(FALSE, FALSE, sizeof(double)), *values = g_array_new(FALSE, FALSE, sizeof(float));
-  for (guint organ = 0; organ < organs; organ++) {
-    SporeTetrahedralMesh part = cells_of(&work->tetrahedra, figures_of(work, organ)->label);
-    uint32_t *faces = NULL;
-    gsize count = 0;
-    float value = colour_of(work, figures_of(work, organ)->label, places);
-    if (spore_tetrahedral_mesh_boundary(&part, &faces, &count))
-      for (gsize i = 0; i < 3 * count; i++) {
-        g_array_append_vals(vertices, part.vertices + 3 * (gsize)faces[i], 3);
-        g_array_append_val(values, value);
-      }
-    spore_free(faces);
-    g_free(part.tetrahedra);
+/* Faces between organs are inside, and seen where the mesh is cut open. */
+static void show_cells(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
+  const SporeCellView whole = {.shrink = 1};
+  SporeCellFaces faces;
+  if (spore_cell_faces(&work->tetrahedra, &whole, &faces, NULL)) {
+    gsize count = candidate->vertex_count = 3 * faces.triangle_count;
+    candidate->triangle_count = faces.triangle_count;
+    candidate->vertices = g_memdup2(faces.vertices, 3 * count * sizeof(double));
+    candidate->triangles = g_new(guint32, count);
+    candidate->vertex_values = g_new(float, count);
+    for (gsize i = 0; i < count; i++) {
+      candidate->triangles[i] = (guint32)i;
+      candidate->vertex_values[i] = places[faces.cells[i / 3]];
+    }
   }
-  candidate->vertex_count = values->len;
-  candidate->triangle_count = values->len / 3;
-  candidate->triangles = g_new(guint32, values->len);
-  for (guint i = 0; i < values->len; i++) candidate->triangles[i] = i;
-  candidate->vertices = (double *)(gpointer)g_array_free(vertices, FALSE);
-  candidate->vertex_values = (float *)(gpointer)g_array_free(values, FALSE);
+  spore_cell_faces_clear(&faces);
   g_free(places);
 }
 
 static const SporeGenerateQuality qualities[] = {
-    {N_("Organ"), "", measure_organs, show_organs},
+    {N_("Organ"), "", measure_organs, show_cells},
 };
 
 static SporeObject *no_target(SporeDocument *document, SporeObject *body) { return NULL; }
