@@ -9,8 +9,10 @@ typedef struct SporeConvergence {
 } SporeConvergence;
 
 /* Residual norm below which the residual is a gradient to go far by; farther from the answer it is none, since bodies
- * turn. */
-static inline double spore_convergence_near(const SporeConvergence *test) { return 0.1 * test->scale_r; }
+ * turn. By the load that the system names, where it names one. */
+static inline double spore_convergence_near(const SporeConvergence *test, const SporeSystem *system) {
+  return 0.1 * (system->scale_r > 0 ? system->scale_r : test->scale_r);
+}
 
 /* With the residual norm at the guess: fills the test; false, and result->finite with it, where it is not finite.
  * A guess as good as any answer is convergence already: a residual within tolerance of scale_r, and of scale_x. */

@@ -69,7 +69,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   SporeConvergence test;
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
   bool whole = false; /* A alone leads from afar to the answer that has gained no energy, but near it may creep */
-  double previous = 0, near = spore_convergence_near(&test);
+  double previous = 0, near = spore_convergence_near(&test, system);
   while (!result.converged && result.iterations < options->iterations) {
     if (result.iterations > 0 || !options->linearised) {
       system->linearise(system->data, x, result.iterations > 0 ? from : NULL);
