@@ -36,7 +36,7 @@ bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, si
   if (!done) spore_spheres_no_memory(error);
   if (done) {
     spore_solid_surface(solid, medial, random, points, normals);
-    spore_solid_interior(solid, count - medial, random, points + 3 * medial);
+    done = spore_solid_interior(solid, count - medial, random, points + 3 * medial, progress, error);
   }
   for (size_t i = 0; done && i < count; i++) {
     SporeVec3 centre = spore_vec3_load(points + 3 * i);

@@ -31,6 +31,12 @@ static bool go_on(Measure *m, size_t i, size_t count) {
   return !m->cancelled;
 }
 
+/* Points inside, into m->points. False: cancelled. */
+static bool draw_interior(Measure *m) {
+  m->cancelled = !spore_solid_interior(m->solid, MEASURE_SAMPLES, &m->random, m->points, &m->progress, m->error);
+  return !m->cancelled;
+}
+
 /* max_i (r_i - d_i), whose it is, and how many hold it; back in the order of `points`. Each output may be NULL. */
 static bool field_at(const Measure *m, const double *xyz, size_t count, double *best, uint32_t *owner, uint32_t *held) {
   SporePoints points = {0};
@@ -55,7 +61,7 @@ static bool field_at(const Measure *m, const double *xyz, size_t count, double *
 
 /* Coverage and depth error on interior points. */
 static bool measure_inside(Measure *m, SporeSpheresReport *report) {
-  spore_solid_interior(m->solid, MEASURE_SAMPLES, &m->random, m->points);
+  if (!draw_interior(m)) return false;
   if (!field_at(m, m->points, MEASURE_SAMPLES, m->value, NULL, NULL)) return false;
   double deepest = 0, error = 0;
   size_t covered = 0;
@@ -81,18 +87,20 @@ static double weighted_depth(const Measure *m, const double *weights, const doub
   return sum;
 }
 
-/* Depth error of the weighted sum, and where it is felt outside. */
-static void measure_weighted(Measure *m, const double *weights, SporeSpheresReport *report) {
+/* Depth error of the weighted sum, and where it is felt outside. False: cancelled. */
+static bool measure_weighted(Measure *m, const double *weights, SporeSpheresReport *report) {
   double deepest = 0, error = 0, near = SPORE_SPHERES_NEAR * m->solid->diagonal;
   size_t outside = 0, felt = 0;
-  spore_solid_interior(m->solid, MEASURE_SAMPLES, &m->random, m->points);
+  if (!draw_interior(m)) return false;
   for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
+    if (!go_on(m, i, 2 * MEASURE_SAMPLES)) return false;
     double depth = spore_bvh_distance(m->solid->bvh, spore_vec3_load(m->points + 3 * i), NULL, NULL);
     deepest = fmax(deepest, depth);
     error += fabs(depth - weighted_depth(m, weights, m->points + 3 * i));
   }
   spore_solid_surface(m->solid, MEASURE_SAMPLES, &m->random, m->points, NULL);
   for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
+    if (!go_on(m, MEASURE_SAMPLES + i, 2 * MEASURE_SAMPLES)) return false;
     double distance = near * spore_random_unit(&m->random), p[3];
     SporeVec3 place =
         spore_vec3_add_scaled(spore_vec3_load(m->points + 3 * i), distance, spore_random_direction(&m->random));
@@ -103,6 +111,7 @@ static void measure_weighted(Measure *m, const double *weights, SporeSpheresRepo
   }
   report->weighted_depth_error = deepest > 0 ? error / MEASURE_SAMPLES / deepest : 0;
   report->felt_outside = outside ? (double)felt / (double)outside : 0;
+  return true;
 }
 
 /* Volume of the union outside the solid, from points spread over the balls, each divided by how many hold it. */
@@ -270,11 +279,12 @@ bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, Spo
   done = done && go_on(&m, 0, 1) && measure_inside(&m, report);
   m.progress = part_at(progress, 0.4, 0.2);
   done = done && go_on(&m, 0, 1) && measure_outside(&m, report);
-  m.progress = part_at(progress, 0.6, 0.4);
+  m.progress = part_at(progress, 0.6, 0.2);
   done = done && go_on(&m, 0, 1) && measure_surfaces(&m, report, error);
+  m.progress = part_at(progress, 0.8, 0.2);
+  done = done && (!set->weights || measure_weighted(&m, set->weights, report));
   if (!done && !m.cancelled) spore_spheres_no_memory(error);
   if (done) report->certified = certify(&m, report);
-  if (done && set->weights) measure_weighted(&m, set->weights, report);
   spore_free(m.points);
   spore_free(m.value);
   spore_balls_clear(&m.balls);

@@ -51,8 +51,10 @@ double spore_solid_factor(const SporeSolid *solid, SporeVec3 p);
 
 bool spore_solid_create(SporeSolid *solid, const SporeTriangleMesh *mesh, SporeError *error);
 void spore_solid_clear(SporeSolid *solid);
-/* count points (x y z each) spread evenly over the volume or the surface. */
-void spore_solid_interior(const SporeSolid *solid, size_t count, SporeRandom *random, double *points);
+/* count points (x y z each) spread evenly over the volume. False: cancelled. */
+bool spore_solid_interior(const SporeSolid *solid, size_t count, SporeRandom *random, double *points,
+                          const SporeProgressPart *progress, SporeError *error);
+/* The same over the surface. */
 void spore_solid_surface(const SporeSolid *solid, size_t count, SporeRandom *random, double *points,
                          SporeVec3 *normals);
 

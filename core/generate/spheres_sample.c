@@ -42,25 +42,30 @@ static size_t thin_out(const SporeSolid *solid, double most, double *points, siz
   return kept;
 }
 
-/* `count` points of the inside or of the surface, closer by their factor, folded by the symmetry. */
-static void draw_points(const SporeSolid *solid, bool surface, size_t count, SporeRandom *random, double *points) {
+/* `count` points of the inside or of the surface, closer by their factor, folded by the symmetry. False: cancelled. */
+static bool draw_points(const SporeSolid *solid, bool surface, size_t count, SporeRandom *random, double *points,
+                        const SporeProgressPart *progress, SporeError *error) {
   double most = most_factor(solid);
   for (size_t have = 0; have < count;) {
     if (surface) spore_solid_surface(solid, count - have, random, points + 3 * have, NULL);
-    else spore_solid_interior(solid, count - have, random, points + 3 * have);
+    else if (!spore_solid_interior(solid, count - have, random, points + 3 * have, progress, error)) return false;
     have += solid->region_count ? thin_out(solid, most, points + 3 * have, count - have, random) : count - have;
   }
   for (size_t i = 0; i < count; i++)
     spore_vec3_store(points + 3 * i, spore_symmetry_fold(&solid->symmetry, spore_vec3_load(points + 3 * i)));
+  return true;
 }
 
-/* Points off the surface by a normal deviate of the band, kept where they are outside and not far. Returns how many. */
-static size_t outside_points(const SporeSolid *solid, const double *surface, size_t count, size_t wanted, double band,
-                             SporeRandom *random, double *points, double *depth) {
-  size_t found = 0;
+/* Points off the surface by a normal deviate of the band, kept where they are outside and not far;
+ * kinds->outside becomes how many those are. False: cancelled. */
+static bool outside_points(const SporeSolid *solid, const double *surface, Kinds *kinds, double band,
+                           SporeRandom *random, double *points, double *depth, const SporeProgressPart *progress,
+                           SporeError *error) {
+  size_t found = 0, wanted = kinds->outside;
   for (size_t i = 0; found < wanted && i < 3 * wanted; i++) {
+    if (i % REPORT_EVERY == 0 && !spore_progress_part(progress, 1, _("Sampling the solid"), error)) return false;
     double u = 1 - spore_random_unit(random), distance = band * sqrt(-2 * log(u));
-    SporeVec3 p = spore_vec3_add_scaled(spore_vec3_load(surface + 3 * (i % count)),
+    SporeVec3 p = spore_vec3_add_scaled(spore_vec3_load(surface + 3 * (i % kinds->surface)),
                                         distance * (1 - 2 * spore_random_unit(random)), spore_random_direction(random));
     p = spore_symmetry_fold(&solid->symmetry, p);
     double d = spore_bvh_depth(solid->bvh, p);
@@ -68,7 +73,8 @@ static size_t outside_points(const SporeSolid *solid, const double *surface, siz
     spore_vec3_store(points + 3 * found, p);
     depth[found++] = d;
   }
-  return found;
+  kinds->outside = found;
+  return true;
 }
 
 static bool measure_depths(const SporeSolid *solid, const double *points, size_t count, double *depth,
@@ -130,15 +136,13 @@ bool spore_samples_create(SporeSamples *samples, const SporeSolid *solid, size_t
   if (!done) spore_spheres_no_memory(error);
   if (done) {
     double *surface = points + 3 * kinds.interior;
-    draw_points(solid, false, kinds.interior, random, points);
-    draw_points(solid, true, kinds.surface, random, surface);
-    done = measure_depths(solid, points, kinds.interior, depth, progress, error);
-    if (done) {
-      size_t before = kinds.interior + kinds.surface;
-      kinds.outside = outside_points(solid, surface, kinds.surface, kinds.outside, samples->band, random,
-                                     points + 3 * before, depth + before);
-      done = arrange(samples, solid, points, depth, weight, kinds, error);
-    }
+    size_t before = kinds.interior + kinds.surface;
+    done = draw_points(solid, false, kinds.interior, random, points, progress, error) &&
+           draw_points(solid, true, kinds.surface, random, surface, progress, error) &&
+           measure_depths(solid, points, kinds.interior, depth, progress, error) &&
+           outside_points(solid, surface, &kinds, samples->band, random, points + 3 * before, depth + before, progress,
+                          error) &&
+           arrange(samples, solid, points, depth, weight, kinds, error);
   }
   spore_free(points);
   spore_free(depth);

@@ -8,6 +8,7 @@
 #define CELL_BUDGET 12000 /* cells are divided while fewer than this are on the boundary */
 #define CELL_LEVELS 12
 #define VOLUME_TRIES 32768 /* points that estimate the volume */
+#define REPORT_EVERY 4096  /* points tried */
 #define LEAST_FILLING 1e-3 /* of the cells, below which the surface is taken not to enclose anything */
 
 bool spore_spheres_no_memory(SporeError *error) {
@@ -204,16 +205,19 @@ void spore_solid_clear(SporeSolid *solid) {
   *solid = (SporeSolid){0};
 }
 
-void spore_solid_interior(const SporeSolid *solid, size_t count, SporeRandom *random, double *points) {
+bool spore_solid_interior(const SporeSolid *solid, size_t count, SporeRandom *random, double *points,
+                          const SporeProgressPart *progress, SporeError *error) {
   double filling = solid->volume / solid->cell_end[solid->cell_count - 1];
   size_t found = 0, round = (size_t)((double)count / filling * 1.02) + 64;
   while (found < count) {
     /* strata in a scrambled order, so that what is cut off at the end is spread over the solid */
     for (size_t i = 0; found < count && i < round; i++) {
       double golden = (double)i * 0.6180339887498949;
+      if (i % REPORT_EVERY == 0 && !spore_progress_part(progress, 0, _("Sampling the solid"), error)) return false;
       found += try_point(solid, golden - floor(golden), random, points + 3 * found);
     }
   }
+  return true;
 }
 
 void spore_solid_surface(const SporeSolid *solid, size_t count, SporeRandom *random, double *points,

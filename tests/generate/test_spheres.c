@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/generate/spheres_parts.h"
 #include "core/generate/spheres_series.h"
 #include "core/generate/spheres_quality.h"
 #include "sets.h"
@@ -483,6 +484,32 @@ static void test_cancel(void) {
   spore_triangle_mesh_clear(&torus);
 }
 
+/* Samples of thousands of spheres take seconds to draw, so that is asked about on the way, too. */
+static void test_cancel_samples(void) {
+  SporeTriangleMesh torus;
+  SporeSolid solid;
+  SporeSamples samples;
+  shape_torus(&torus, 0.06, 0.02, 12, 8);
+  g_assert_true(spore_solid_create(&solid, &torus, NULL));
+  Stop whole = {0};
+  SporeProgress progress = {report_progress, &whole};
+  SporeProgressPart part = {&progress, 0, 1};
+  SporeRandom random = {1};
+  g_assert_true(spore_samples_create(&samples, &solid, 3000, &random, &part, NULL));
+  g_assert_cmpint(whole.calls, >, (int)(samples.points.count / 4096));
+  spore_samples_clear(&samples);
+  for (int k = 0; k < 5; k++) {
+    Stop stop = {.stop_at = 1 + (whole.calls - 1) * k / 4};
+    SporeError error = SPORE_ERROR_INIT;
+    progress.data = &stop;
+    g_assert_false(spore_samples_create(&samples, &solid, 3000, &random, &part, &error));
+    g_assert_cmpint(error.code, ==, SPORE_ERROR_CANCELLED);
+    g_assert_cmpint(stop.calls, ==, stop.stop_at);
+  }
+  spore_solid_clear(&solid);
+  spore_triangle_mesh_clear(&torus);
+}
+
 /* Who looks on sees whole sets on the way, and the set that comes out is the same. */
 typedef struct {
   size_t looks, wanted;
@@ -560,6 +587,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres/measure-overlap", test_measure_overlap);
   g_test_add_func("/generate/spheres/tetrahedra", test_tetrahedra);
   g_test_add_func("/generate/spheres/cancel", test_cancel);
+  g_test_add_func("/generate/spheres/cancel-samples", test_cancel_samples);
   g_test_add_func("/generate/spheres/look", test_look);
   g_test_add_func("/generate/spheres/quality", test_quality);
   return g_test_run();
