@@ -158,7 +158,7 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
-  return spore_spline_line_map(&((const Intestine *)model)->line, NULL, points, count, model->map_slack, mapping,
+  return spore_spline_line_map(&((const Intestine *)model)->line, NULL, points, count, model->map_slack, false, mapping,
                                error);
 }
 

@@ -49,9 +49,11 @@ void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matri
 /* Rows of points by control points (in the body's frame): a point on the line by its section's four; one off the line
  * by the arms of its twist (ends at each knot, the nodes behind the control points; NULL: it has none), or by as few
  * more points around it as span its offset. Where the line is too straight to carry that, a point no further off than
- * slack (m) is put onto it, and any other refused. */
+ * slack (m) is put onto it, and any other refused. follows: the rows may be made anew for other knots. */
 bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
-                      size_t count, double slack, SporeMapping *mapping, SporeError *error);
+                      size_t count, double slack, bool follows, SporeMapping *mapping, SporeError *error);
+/* Makes them, for the same line and arms by other knots. Allocates nothing. */
+void spore_spline_map_follow(SporeSplineKnots knots, const double *control, const double *arms, SporeMapping *mapping);
 /* SPORE_SPLINE_SAMPLES points of the line a span, and its end; 3 each; room for `more` behind them, which are not
  * counted. NULL: no memory. */
 double *spore_spline_sample(SporeSplineKnots knots, const double *control, size_t more, size_t *count);

@@ -8,6 +8,7 @@
 #include "models/fields.h"
 #include "models/nodal.h"
 #include "models/registry.h"
+#include "models/spline_knots.h"
 #include "models/spline_line.h"
 #include "models/spline_twist.h"
 
@@ -21,16 +22,26 @@ typedef struct Spline1d {
   SporeModel base;
   SporeSplineLine line;
   SporeSplineTwist twist; /* of no spans: the line turns freely about itself */
+  SporeSplineChanges changes;
 } Spline1d;
+
+/* As it is led now. */
+static SporeSplineLine *line_of(Spline1d *body) { return body->changes.made ? &body->changes.now : &body->line; }
+static const SporeSplineLine *line_now(const SporeModel *model) { return line_of((Spline1d *)(uintptr_t)model); }
 
 static const SporeParameter parameters[] = {
     SPORE_INTEGER_FIELD(SplineFields, control_points, 4, 100000, 30, SPORE_CHANGE_REBUILD,
                         N_("How many points the line is led by, evenly along it; more of them bend more sharply.")),
     SPORE_REAL_FIELD(SplineFields, most_bend, "rad", 0, 3, 0, SPORE_CHANGE_REBUILD,
-                     N_("Where the curve turns by more than this from one knot to the next, control points are added "
-                        "between, again and again, until it does not; 0: they are even.")),
-    SPORE_INTEGER_FIELD(SplineFields, maximum_control_points, 4, 100000, 1000, SPORE_CHANGE_REBUILD,
-                        N_("How many control points there are at most, with those that most_bend adds.")),
+                     N_("Where the line turns by more than this from one knot to the next, control points are added "
+                        "between, again and again, until it does not, at the start and while it runs; those of while "
+                        "it runs go again where it has been straight for a quarter of a second, if that moves it by "
+                        "less than a twentieth of its radius. 0: they are even and stay. One that resists twist, or "
+                        "has levels, gets them at the start alone.")),
+    SPORE_INTEGER_FIELD(
+        SplineFields, maximum_control_points, 4, 100000, 1000, SPORE_CHANGE_REBUILD,
+        N_("How many control points there are at most, with those that most_bend adds: memory for them is "
+           "kept from the start.")),
     SPORE_REAL_FIELD(SplineFields, young_modulus, "Pa", 1e-3, 1e13, 1e6, SPORE_CHANGE_LIVE,
                      N_("Stiffness of the material: stretch takes it times the area of the section, bending times the "
                         "section's second moment.")),
@@ -64,6 +75,7 @@ static bool no_memory(SporeError *error) {
 
 static void destroy(SporeModel *model) {
   Spline1d *body = (Spline1d *)model;
+  spore_spline_changes_clear(&body->changes);
   spore_spline_twist_clear(&body->twist);
   spore_spline_line_clear(&body->line);
   spore_model_clear(&body->base);
@@ -71,9 +83,10 @@ static void destroy(SporeModel *model) {
 }
 
 static void tune(Spline1d *body, const SplineFields *fields) {
-  body->line.spline.young = fields->young_modulus;
-  body->line.spline.bending = fields->bending_scale;
-  body->line.spline.viscous = body->twist.viscous = fields->damping;
+  SporeSpline *spline = &line_of(body)->spline;
+  spline->young = fields->young_modulus;
+  spline->bending = fields->bending_scale;
+  spline->viscous = body->twist.viscous = fields->damping;
 }
 
 static bool make_twist(Spline1d *body, const SporeCurve *curve, const SporeSplineSection *section,
@@ -88,6 +101,57 @@ static bool make_twist(Spline1d *body, const SporeCurve *curve, const SporeSplin
                          fields->turns);
 }
 
+static size_t arm_count(const Spline1d *body) { return body->twist.span_count > 0 ? body->twist.span_count + 1 : 0; }
+
+/* The control points that there are now are the model's nodes, with the arms behind them. */
+static void use_points(Spline1d *body) {
+  const SporeSplineLine *line = line_of(body);
+  SporeModel *base = &body->base;
+  size_t count = line->control_count, arms = arm_count(body);
+  base->node_count = base->block_count = count + arms;
+  base->q_count = 3 * base->node_count;
+  memcpy(base->block_mass, line->mass, count * sizeof(double));
+  if (arms > 0) memcpy(base->block_mass + count, body->twist.mass, arms * sizeof(double));
+}
+
+static void settle(SporeModel *model, const SporeBlockMatrix *matrix) {
+  Spline1d *body = (Spline1d *)model;
+  spore_spline_find_blocks(&line_of(body)->spline, matrix);
+  spore_spline_twist_find_blocks(&body->twist, matrix);
+}
+
+static bool weigh_nodes(SporeModel *model, double h, const double *q, const uint8_t *held) {
+  return spore_spline_changes_weigh(&((Spline1d *)model)->changes, h, q, held);
+}
+
+static void change_nodes(SporeModel *model, double *q, double *v, uint8_t *held) {
+  Spline1d *body = (Spline1d *)model;
+  spore_spline_changes_make(&body->changes, q, v, held);
+  use_points(body);
+}
+
+static void mend(SporeModel *model) {
+  Spline1d *body = (Spline1d *)model;
+  if (!body->changes.made) return;
+  spore_spline_changes_undo(&body->changes);
+  use_points(body);
+}
+
+static bool follow(const SporeModel *model, SporeSplineKnots knots, SporeMapping *mapping) {
+  const Spline1d *body = (const Spline1d *)model;
+  if (!body->changes.made || !mapping->anchors) return true;
+  const SporeSplineLine *now = &body->changes.now;
+  if (knots.breaks == now->breaks) {
+    spore_spline_map_follow(now->knots, now->rest, NULL, mapping);
+    return true;
+  }
+  double *control = SPORE_NEW_ARRAY(double, 4 * (knots.span_count + 3)), *breaks = control + 3 * (knots.span_count + 3);
+  if (control) spore_spline_line_lead(&body->line, knots, control, breaks);
+  if (control) spore_spline_map_follow(knots, control, NULL, mapping);
+  spore_free(control);
+  return control;
+}
+
 static bool build(Spline1d *body, const SporeCurve *curve, const SplineFields *fields, SporeError *error) {
   SporeSplineDensity density = {.count = (size_t)fields->control_points, .most_bend = fields->most_bend};
   SporeSplineSection section = {.density = fields->density,
@@ -99,15 +163,16 @@ static bool build(Spline1d *body, const SporeCurve *curve, const SplineFields *f
       !make_twist(body, curve, &section, fields, error))
     return false;
   size_t count = body->line.control_count;
-  size_t arms = body->twist.span_count > 0 ? body->twist.span_count + 1 : 0;
-  if (!spore_model_init(&body->base, &spore_spline_1d, count + arms, false, error)) return false;
+  size_t arms = arm_count(body), room = arms > 0 ? count : density.most;
+  if (!spore_model_init(&body->base, &spore_spline_1d, room + arms, false, error)) return false;
+  body->base.pair_room = 3 * room;
+  if (room > count && !spore_spline_changes_init(&body->changes, &body->line, curve, &density, &section))
+    return no_memory(error);
+  use_points(body);
   SporeBlockMatrix matrix;
   if (!spore_model_matrix_create(&body->base, &matrix)) return no_memory(error);
-  spore_spline_find_blocks(&body->line.spline, &matrix);
-  spore_spline_twist_find_blocks(&body->twist, &matrix);
+  settle(&body->base, &matrix);
   spore_block_matrix_clear(&matrix);
-  memcpy(body->base.block_mass, body->line.mass, count * sizeof(double));
-  if (arms > 0) memcpy(body->base.block_mass + count, body->twist.mass, arms * sizeof(double));
   tune(body, fields);
   return true;
 }
@@ -127,33 +192,38 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   const Spline1d *body = (const Spline1d *)model;
   size_t count = body->line.control_count;
   spore_nodal_place(body->line.rest, count, pose, velocity, spin, q, v);
-  spore_nodal_place(body->twist.rest, model->node_count - count, pose, velocity, spin, q + 3 * count, v + 3 * count);
+  spore_nodal_place(body->twist.rest, arm_count(body), pose, velocity, spin, q + 3 * count, v + 3 * count);
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   const Spline1d *body = (const Spline1d *)model;
-  SPORE_KERNEL(spore_spline_force)(&body->line.spline, q, shape, v, f);
+  SPORE_KERNEL(spore_spline_force)(&line_now(model)->spline, q, shape, v, f);
   spore_spline_twist_force(&body->twist, q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
   const Spline1d *body = (const Spline1d *)model;
-  return SPORE_KERNEL(spore_spline_potential)(&body->line.spline, q) + spore_spline_twist_potential(&body->twist, q);
+  return SPORE_KERNEL(spore_spline_potential)(&line_now(model)->spline, q) +
+         spore_spline_twist_potential(&body->twist, q);
 }
 
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_pattern(&body->line.spline, blocks) && spore_spline_twist_pattern(&body->twist, blocks);
+  return spore_spline_pattern(&line_now(model)->spline, blocks) && spore_spline_twist_pattern(&body->twist, blocks);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const Spline1d *body = (const Spline1d *)model;
-  SPORE_KERNEL(spore_spline_jacobian)(&body->line.spline, q, shape, stiffness_scale, damping_scale, matrix);
+  SPORE_KERNEL(spore_spline_jacobian)(&line_now(model)->spline, q, shape, stiffness_scale, damping_scale, matrix);
   spore_spline_twist_jacobian(&body->twist, q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 static const char *notice(const SporeModel *model, const double *q) {
+  if (((const Spline1d *)model)->changes.spent)
+    return _(
+        "it turns by more than most_bend between control points, and all that maximum_control_points allows are in "
+        "use; raise that, or most_bend");
   if (spore_spline_twist_worst(&((const Spline1d *)model)->twist, q) < 0.5 * M_PI) return NULL;
   return _("it is twisted by more than a quarter of a turn between control points, and slips where that becomes half a "
            "turn; set more control points");
@@ -161,7 +231,8 @@ static const char *notice(const SporeModel *model, const double *q) {
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
   const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_line_map(&body->line, body->twist.rest, points, count, model->map_slack, mapping, error);
+  return spore_spline_line_map(&body->line, body->twist.rest, points, count, model->map_slack,
+                               body->changes.made != NULL, mapping, error);
 }
 
 static bool carry(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping,
@@ -172,15 +243,14 @@ static bool carry(const SporeModel *model, const double *points, size_t count, S
 
 static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
   const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_line_samples(&body->line, body->twist.rest, model->node_count - body->line.control_count, points,
-                                   count, seen);
+  return spore_spline_line_samples(&body->line, body->twist.rest, arm_count(body), points, count, seen);
 }
 
 static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *error) {
   return spore_spline_line_spheres(&((const Spline1d *)model)->line, set, error);
 }
 
-static SporeSplineKnots path(const SporeModel *model) { return ((const Spline1d *)model)->line.knots; }
+static SporeSplineKnots path(const SporeModel *model) { return line_now(model)->knots; }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   tune((Spline1d *)model, fields);
@@ -222,4 +292,9 @@ const SporeModelType spore_spline_1d = {
     .notice = notice,
     .doubt = doubt,
     .path = path,
+    .settle = settle,
+    .weigh_nodes = weigh_nodes,
+    .change_nodes = change_nodes,
+    .follow = follow,
+    .mend = mend,
 };

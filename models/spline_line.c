@@ -7,8 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 
-#define SAMPLES 16          /* a span, of the walk along the line that spaces spheres */
-#define NARROWEST (1. / 64) /* of an even span, that is still halved where the line bends */
+#define SAMPLES 16 /* a span, of the walk along the line that spaces spheres */
 
 static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a spline"));
@@ -22,6 +21,7 @@ void spore_spline_line_clear(SporeSplineLine *line) {
   spore_free(line->radius);
   spore_free(line->mass);
   spore_free(line->length);
+  spore_free(line->weights);
   *line = (SporeSplineLine){0};
 }
 
@@ -57,14 +57,65 @@ static double set_point(SporeSplineLine *line, const SporeCurve *curve, const Sp
   for (size_t k = 0; k < 4; k++) {
     gauss->first[k][lane] = inverse * basis.first[k];
     gauss->second[k][lane] = second[k] = inverse * inverse * (basis.second[k] - change * basis.first[k]);
-    line->length[span + k] += length * basis.value[k];
-    line->mass[span + k] += (section->density * area + section->content_density * lumen) * length * basis.value[k];
+  }
+  if (line->weights) {
+    line->weights[span].length[point] = speed;
+    line->weights[span].mass[point] = (section->density * area + section->content_density * lumen) * speed;
   }
   SporeVec3 curvature = combine(line->rest, span, second);
   gauss->area[lane] = area * length;
   gauss->inertia[lane] = 0.25 * area * (outer * outer + inner * inner) * length;
   gauss->rest[lane] = section->straight_at_rest ? 0 : spore_vec3_dot(curvature, curvature);
   return length;
+}
+
+/* What is straight but for rounding. */
+static void straighten(SporeSpline *spline) {
+  for (size_t i = 0; i < SPORE_SPLINE_POINTS * spline->group_count; i++)
+    for (size_t lane = 0; lane < SPORE_LANES; lane++)
+      if (spline->gauss[i].rest[lane] < 1e-10 * spline->straight) spline->gauss[i].rest[lane] = 0;
+}
+
+/* Between two Gauss points and beyond them, nowhere below 0; `part` of the span. */
+static double between(const double at[SPORE_SPLINE_POINTS], double part) {
+  double mean = 0.5 * (at[0] + at[1]), rise = sqrt(3) * (at[1] - at[0]);
+  return mean + fmin(fmax(rise, -2 * mean), 2 * mean) * (part - 0.5);
+}
+
+/* Gauss' rule of three points is exact for a linear weight times a cubic, so that what the functions of one set of
+ * knots weigh is what those of another do of which they are made. */
+static void weigh(SporeSplineLine *line, const SporeSplineLine *made) {
+  static const double share[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  memset(line->mass, 0, line->control_count * sizeof *line->mass);
+  memset(line->length, 0, line->control_count * sizeof *line->length);
+  for (size_t span = 0, of = 0; span < line->knots.span_count; span++) {
+    double from = spore_spline_break(line->knots, span), width = spore_spline_width(line->knots, span);
+    while (spore_spline_break(made->knots, of + 1) <= from) of++;
+    for (int g = 0; g < 3; g++) {
+      size_t at;
+      double u = from + (0.5 + 0.5 * sqrt(0.6) * (g - 1)) * width;
+      double part = (u - spore_spline_break(made->knots, of)) / spore_spline_width(made->knots, of);
+      SporeSplineBasis basis = spore_spline_basis(line->knots, u, &at);
+      double mass = share[g] * width * between(made->weights[of].mass, part);
+      double length = share[g] * width * between(made->weights[of].length, part);
+      for (size_t k = 0; k < 4; k++) line->mass[at + k] += mass * basis.value[k];
+      for (size_t k = 0; k < 4; k++) line->length[at + k] += length * basis.value[k];
+    }
+  }
+}
+
+void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *made, const SporeCurve *curve,
+                               const SporeSplineSection *section, double *lengths) {
+  SporeSpline *spline = &line->spline;
+  spline->span_count = line->knots.span_count;
+  spline->group_count = (spline->span_count + SPORE_LANES - 1) / SPORE_LANES;
+  spline->straight = made->spline.straight;
+  memset(spline->gauss, 0, SPORE_SPLINE_POINTS * spline->group_count * sizeof *spline->gauss);
+  for (size_t span = 0; span < spline->span_count; span++)
+    for (int point = 0; point < SPORE_SPLINE_POINTS; point++)
+      lengths[SPORE_SPLINE_POINTS * span + (size_t)point] = set_point(line, curve, section, span, point);
+  straighten(spline);
+  weigh(line, made);
 }
 
 static bool set_points(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section,
@@ -84,9 +135,8 @@ static bool set_points(SporeSplineLine *line, const SporeCurve *curve, const Spo
                                "was expected; smooth it or set another number of control points"));
     }
   spline->straight = 1e-2 / (whole * whole);
-  for (size_t i = 0; i < SPORE_SPLINE_POINTS * spline->group_count; i++)
-    for (size_t lane = 0; lane < SPORE_LANES; lane++)
-      if (spline->gauss[i].rest[lane] < 1e-10 * spline->straight) spline->gauss[i].rest[lane] = 0;
+  straighten(spline);
+  weigh(line, line);
   return true;
 }
 
@@ -147,7 +197,7 @@ static bool halve(SporeSplineLine *line, const SporeSplineDensity *density, doub
     double from = spore_spline_break(line->knots, span), width = spore_spline_width(line->knots, span);
     breaks[made++] = from;
     if (turn_of(line, span) <= density->most_bend) continue;
-    bool full = spans + added >= most || width <= NARROWEST;
+    bool full = spans + added >= most || width <= SPORE_SPLINE_NARROWEST;
     line->bends = line->bends || full;
     if (full) continue;
     breaks[made++] = from + 0.5 * width;
@@ -194,21 +244,22 @@ bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, cons
   if (!line->rest || !fit(line, curve, density)) return no_memory(error);
   line->mass = SPORE_NEW_ARRAY(double, line->control_count);
   line->length = SPORE_NEW_ARRAY(double, line->control_count);
-  if (!line->mass || !line->length || !set_radii(line, curve) ||
+  line->weights = SPORE_NEW_ARRAY(SporeSplineWeight, line->knots.span_count);
+  if (!line->mass || !line->length || !line->weights || !set_radii(line, curve) ||
       !spore_spline_allocate(&line->spline, line->knots.span_count))
     return no_memory(error);
   return set_points(line, curve, section, error) && set_spheres(line, curve, error);
 }
 
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
-                           double slack, SporeMapping *mapping, SporeError *error) {
-  return spore_spline_map(line->knots, line->rest, arms, points, count, slack, mapping, error);
+                           double slack, bool follows, SporeMapping *mapping, SporeError *error) {
+  return spore_spline_map(line->knots, line->rest, arms, points, count, slack, follows, mapping, error);
 }
 
 bool spore_spline_line_carry(const SporeSplineLine *line, const SporeModel *model, bool arms, const double *points,
                              size_t count, SporeMapping *mapping, SporeError *error) {
   const SporeVec3 none = {0, 0, 0};
-  double *q = SPORE_NEW_ARRAY(double, model->q_count), *v = SPORE_NEW_ARRAY(double, 3 * model->block_count);
+  double *q = SPORE_NEW_ARRAY(double, model->q_room), *v = SPORE_NEW_ARRAY(double, 3 * model->block_room);
   bool made = q && v;
   if (made) {
     model->type->place(model, spore_pose_identity(), none, none, q, v);

@@ -78,17 +78,29 @@ static bool fill_row(const Spline *spline, SporeVec3 p, const SporePathPlace *pl
   return true;
 }
 
-static bool map_point(const Spline *spline, const double *point, size_t index, Row *row, SporeError *error) {
-  SporeVec3 p = spore_vec3_load(point);
+/* A row for the point, whose place on the line is known; false: nothing carries it. */
+static bool find_row(const Spline *spline, SporeVec3 p, const SporePathPlace *place, Row *row) {
   size_t count = spline->knots.span_count + 3;
-  SporePathPlace place = spore_path_seek(spline->knots, spline->control, p);
   bool last = false;
   for (size_t more = 0; spline->arms && more < 2; more++)
-    if (fill_row(spline, p, &place, take_arms(spline, place.first, more, row), more > 0, row)) return true;
+    if (fill_row(spline, p, place, take_arms(spline, place->first, more, row), more > 0, row)) return true;
   for (size_t width = 4; !last; width += 4) {
     last = width + 4 > WIDTH || width >= count;
-    if (fill_row(spline, p, &place, take_points(spline, place.first, width, row), last, row)) return true;
+    if (fill_row(spline, p, place, take_points(spline, place->first, width, row), last, row)) return true;
   }
+  return false;
+}
+
+/* anchor: NULL, or what the mapping keeps of it. */
+static bool map_point(const Spline *spline, const double *point, size_t index, double *anchor, Row *row,
+                      SporeError *error) {
+  SporeVec3 p = spore_vec3_load(point);
+  SporePathPlace place = spore_path_seek(spline->knots, spline->control, p);
+  if (anchor) {
+    anchor[0] = place.parameter;
+    spore_vec3_store(anchor + 1, spore_vec3_sub(p, place.position));
+  }
+  if (find_row(spline, p, &place, row)) return true;
   char where[64];
   snprintf(where, sizeof where, "point %zu", index);
   return spore_error_set(
@@ -98,23 +110,59 @@ static bool map_point(const Spline *spline, const double *point, size_t index, R
       spore_vec3_distance(p, place.position));
 }
 
+static bool give_room(SporeMapping *mapping) {
+  uint32_t used = mapping->row_start[mapping->point_count];
+  uint32_t *block = spore_reallocate(mapping->block, used, WIDTH * mapping->point_count, sizeof *block);
+  if (block) mapping->block = block;
+  double *weight = spore_reallocate(mapping->weight, used, WIDTH * mapping->point_count, sizeof *weight);
+  if (weight) mapping->weight = weight;
+  return (block && weight) || mapping->point_count == 0;
+}
+
+void spore_spline_map_follow(SporeSplineKnots knots, const double *control, const double *arms, SporeMapping *mapping) {
+  double size = spore_carry_size(control, knots.span_count + 3);
+  Spline spline = {knots, control, arms, size, WRITTEN * size}, onto = spline;
+  onto.slack = HUGE_VAL;
+  uint32_t filled = 0;
+  for (size_t i = 0; i < mapping->point_count; i++) {
+    Row row;
+    const double *anchor = mapping->anchors + 4 * i;
+    SporePathPlace place = spore_path_at(knots, control, anchor[0]);
+    SporeVec3 p = spore_vec3_add(place.position, spore_vec3_load(anchor + 1));
+    if (!find_row(&spline, p, &place, &row)) find_row(&onto, p, &place, &row); /* what was carried stays somewhere */
+    for (size_t k = 0; k < row.used; k++) {
+      if (row.weight[k] == 0) continue;
+      mapping->block[filled] = row.block[k];
+      mapping->weight[filled++] = row.weight[k];
+    }
+    mapping->row_start[i + 1] = filled;
+  }
+}
+
 bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
-                      size_t count, double slack, SporeMapping *mapping, SporeError *error) {
+                      size_t count, double slack, bool follows, SporeMapping *mapping, SporeError *error) {
   Spline spline = {knots, control, arms, spore_carry_size(control, knots.span_count + 3), slack};
   spline.slack = fmax(slack, WRITTEN * spline.size);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);
-  bool good = blocks && weights;
+  double *anchors = follows ? SPORE_NEW_ARRAY(double, 4 * count) : NULL;
+  bool good = blocks && weights && (anchors || !follows);
   if (!good) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
   for (size_t i = 0; good && i < count; i++) {
     Row row;
-    good = map_point(&spline, points + 3 * i, i, &row, error);
+    good = map_point(&spline, points + 3 * i, i, anchors ? anchors + 4 * i : NULL, &row, error);
     memcpy(blocks + WIDTH * i, row.block, sizeof row.block);
     memcpy(weights + WIDTH * i, row.weight, sizeof row.weight);
   }
   good = good && spore_mapping_init_linear(mapping, count, WIDTH, blocks, weights, error);
   spore_free(blocks);
   spore_free(weights);
+  if (good && follows && !give_room(mapping)) {
+    spore_mapping_clear(mapping);
+    good = spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
+  }
+  if (good) mapping->anchors = anchors;
+  else spore_free(anchors);
   return good;
 }
 

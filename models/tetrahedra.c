@@ -246,8 +246,8 @@ static bool add_spares(Body *body, size_t count) {
     masses[i] = body->spare_mass;
     memcpy(rest + 3 * i, rest, 3 * sizeof *rest);
   }
-  base->node_count = base->block_count = n + count;
-  base->q_count = 3 * (n + count);
+  base->node_count = base->block_count = base->block_room = n + count;
+  base->q_count = base->q_room = 3 * (n + count);
   base->spare_count = count;
   return true;
 }

@@ -8,12 +8,14 @@
 
 #define NONE UINT32_MAX
 
-/* The half-bandwidth of the pattern when place[i] is where block i stands. */
+static uint32_t place_of(const uint32_t *place, uint32_t i) { return place ? place[i] : i; }
+
+/* The half-bandwidth of the pattern when place[i] is where block i stands; NULL: in its own order. */
 static size_t width_of(const SporeBlockMatrix *pattern, const uint32_t *place) {
   size_t width = 0;
   for (size_t i = 0; i < pattern->block_count; i++)
     for (uint32_t k = pattern->row_start[i]; k < pattern->row_start[i + 1]; k++) {
-      uint32_t a = place[i], b = place[pattern->column[k]];
+      uint32_t a = place_of(place, (uint32_t)i), b = place_of(place, pattern->column[k]);
       size_t apart = a > b ? a - b : b - a;
       if (apart > width) width = apart;
     }
@@ -75,33 +77,48 @@ static size_t column_of(const SporeBlockBand *band, size_t at) {
 
 static void fill_in(SporeBlockBand *band, const SporeBlockMatrix *pattern, const uint32_t *place) {
   size_t n = band->block_count, width = band->width;
-  for (uint32_t i = 0; i < n; i++) band->order[column_of(band, place[i])] = i;
+  for (uint32_t i = 0; i < n; i++) band->order[column_of(band, place_of(place, i))] = i;
   for (size_t e = 0; e < n * (width + 1); e++) band->entries[e] = (SporeBandEntry){NONE, band->order[e / (width + 1)]};
   for (uint32_t i = 0; i < n; i++)
     for (uint32_t k = pattern->row_start[i]; k < pattern->row_start[i + 1]; k++) {
       uint32_t row = pattern->column[k];
-      size_t column = column_of(band, place[i]);
-      if (column_of(band, place[row]) < column) continue;
-      size_t apart = place[row] > place[i] ? place[row] - place[i] : place[i] - place[row];
+      uint32_t a = place_of(place, i), b = place_of(place, row);
+      size_t column = column_of(band, a);
+      if (column_of(band, b) < column) continue;
+      size_t apart = b > a ? b - a : a - b;
       band->entries[column * (width + 1) + apart] = (SporeBandEntry){k, row};
     }
 }
 
-static bool build(SporeBlockBand *band, const SporeBlockMatrix *pattern, const uint32_t *place) {
+/* In arrays that are there. */
+static void lay_out(SporeBlockBand *band, const SporeBlockMatrix *pattern, const uint32_t *place) {
   size_t n = pattern->block_count, width = band->width, between = width < n ? width : n;
   band->block_count = n;
   band->top = (n - between + 1) / 2;
   band->bottom = n - between - band->top;
-  band->order = SPORE_NEW_ARRAY(uint32_t, n);
-  band->entries = SPORE_NEW_ARRAY(SporeBandEntry, n * (width + 1));
-  band->values = SPORE_NEW_ARRAY(double, 12 * n * (width + 1));
-  band->work = SPORE_NEW_ARRAY(double, 4 * n);
-  if (!band->order || !band->entries || !band->values || !band->work) return false;
   fill_in(band, pattern, place);
   double side = 3 * (double)(width + 1);
   band->factor_flops = 3 * side * side * (double)n;
   band->solve_flops = 4 * 3 * side * (double)n;
+}
+
+static bool build(SporeBlockBand *band, const SporeBlockMatrix *pattern, const uint32_t *place) {
+  size_t room = pattern->block_room, width = band->width;
+  band->block_room = room;
+  band->order = SPORE_NEW_ARRAY(uint32_t, room);
+  band->entries = SPORE_NEW_ARRAY(SporeBandEntry, room * (width + 1));
+  band->values = SPORE_NEW_ARRAY(double, 12 * room * (width + 1));
+  band->work = SPORE_NEW_ARRAY(double, 4 * room);
+  if (!band->order || !band->entries || !band->values || !band->work) return false;
+  lay_out(band, pattern, place);
   return true;
+}
+
+bool spore_block_band_lay_out(SporeBlockBand *band, const SporeBlockMatrix *pattern) {
+  bool fits = pattern->block_count <= band->block_room && width_of(pattern, NULL) == band->width;
+  band->block_count = 0;
+  if (fits) lay_out(band, pattern, NULL);
+  return fits;
 }
 
 bool spore_block_band_create(SporeBlockBand *band, const SporeBlockMatrix *pattern) {

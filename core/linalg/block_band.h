@@ -20,6 +20,7 @@ typedef struct SporeBandEntry {
 
 typedef struct SporeBlockBand {
   size_t block_count;      /* 0: there is no factor */
+  size_t block_room;       /* as the matrix's */
   size_t width;            /* blocks below the diagonal in a column, at most SPORE_BAND_WIDEST */
   size_t top, bottom;      /* columns eliminated from either end; at most `width` are left between them */
   uint32_t *order;         /* block_count: the matrix's block that is eliminated at each place: top, bottom, between */
@@ -32,6 +33,9 @@ typedef struct SporeBlockBand {
 /* Analyses the pattern: in its own order, or by Cuthill and McKee's reversed where that is not narrow enough. Where the
  * band is too wide either way there is no factor: true, and block_count 0. False: no memory. */
 bool spore_block_band_create(SporeBlockBand *band, const SporeBlockMatrix *pattern);
+/* The factor of another pattern, in its own order, with a band as wide, within the room of the matrix that the factor
+ * was made for; allocates nothing. False: it is none such, and there is no factor. */
+bool spore_block_band_lay_out(SporeBlockBand *band, const SporeBlockMatrix *pattern);
 void spore_block_band_clear(SporeBlockBand *band);
 /* As spore_block_cholesky_factorise and _solve. */
 bool spore_block_band_factorise(SporeBlockBand *band, const SporeBlockMatrix *matrix, const double *diagonal,

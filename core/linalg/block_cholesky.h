@@ -61,6 +61,8 @@ typedef struct SporeBlockCholesky {
  * about most_flops there is no factor: true, and block_count 0. False: no memory. */
 bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
                                  double most_flops);
+/* spore_block_band_lay_out, where the factor is a band; else there is none then. */
+bool spore_block_cholesky_lay_out(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern);
 void spore_block_cholesky_clear(SporeBlockCholesky *factor);
 /* Factorises the matrix, of the pattern analysed, with its diagonal blocks replaced by `diagonal` (9 a block) unless
  * that is NULL, and with rows and columns of held blocks (a flag a block, or NULL) replaced by those of the identity.

@@ -321,6 +321,12 @@ static bool create_sparse(SporeBlockCholesky *factor, const SporeBlockMatrix *pa
 /* A flop takes so much less in a band, where no supernode is begun and none is added to another. */
 #define BAND_FLOP 0.4
 
+static void count_band(SporeBlockCholesky *factor) {
+  factor->block_count = factor->band.block_count;
+  factor->factor_flops = BAND_FLOP * factor->band.factor_flops;
+  factor->solve_flops = BAND_FLOP * factor->band.solve_flops;
+}
+
 static bool create_blocks(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
                           double most_flops) {
   SporeBlockBand band = {0};
@@ -340,11 +346,16 @@ static bool create_blocks(SporeBlockCholesky *factor, const SporeBlockMatrix *pa
     return true;
   }
   spore_block_cholesky_clear(factor);
-  *factor = (SporeBlockCholesky){.block_count = band.block_count,
-                                 .factor_flops = BAND_FLOP * band.factor_flops,
-                                 .solve_flops = BAND_FLOP * band.solve_flops,
-                                 .band = band};
+  *factor = (SporeBlockCholesky){.band = band};
+  count_band(factor);
   return true;
+}
+
+bool spore_block_cholesky_lay_out(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern) {
+  bool fits = spore_block_band_lay_out(&factor->band, pattern);
+  if (fits) count_band(factor);
+  else factor->block_count = 0;
+  return fits;
 }
 
 bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,

@@ -10,16 +10,21 @@ void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count) {
   *pattern = (SporeBlockPattern){.block_count = block_count};
 }
 
+bool spore_block_pattern_reserve(SporeBlockPattern *pattern, size_t capacity) {
+  if (capacity <= pattern->pair_capacity) return true;
+  uint32_t *pairs = spore_reallocate(pattern->pairs, 2 * pattern->pair_capacity, 2 * capacity, sizeof *pairs);
+  if (!pairs) return false;
+  pattern->pairs = pairs;
+  pattern->pair_capacity = capacity;
+  return true;
+}
+
 bool spore_block_pattern_add(SporeBlockPattern *pattern, uint32_t i, uint32_t j) {
   if (i >= pattern->block_count || j >= pattern->block_count) return false;
   if (i == j) return true;
-  if (pattern->pair_count == pattern->pair_capacity) {
-    size_t capacity = pattern->pair_capacity ? 2 * pattern->pair_capacity : 256;
-    uint32_t *pairs = spore_reallocate(pattern->pairs, 2 * pattern->pair_capacity, 2 * capacity, sizeof *pairs);
-    if (!pairs) return false;
-    pattern->pairs = pairs;
-    pattern->pair_capacity = capacity;
-  }
+  bool full = pattern->pair_count == pattern->pair_capacity;
+  if (full && !spore_block_pattern_reserve(pattern, pattern->pair_capacity ? 2 * pattern->pair_capacity : 256))
+    return false;
   pattern->pairs[2 * pattern->pair_count] = i;
   pattern->pairs[2 * pattern->pair_count + 1] = j;
   pattern->pair_count++;
@@ -90,20 +95,21 @@ void spore_block_room_clear(SporeBlockRoom *room) {
 }
 
 /* All but the values. */
-static bool make_rows(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room) {
-  size_t n = pattern->block_count;
-  *matrix = (SporeBlockMatrix){.block_count = n};
-  if (!make_room(room, n, pattern->pair_count)) return false;
-  matrix->row_start = SPORE_NEW_ARRAY(uint32_t, n + 1);
-  matrix->column = SPORE_NEW_ARRAY(uint32_t, n + 2 * pattern->pair_count);
-  matrix->diagonal = SPORE_NEW_ARRAY(uint32_t, n);
-  if (pattern->direction) matrix->direction = spore_allocate(n, 3 * sizeof *matrix->direction);
+static bool make_rows(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, size_t blocks, size_t pairs,
+                      SporeBlockRoom *room) {
+  *matrix = (SporeBlockMatrix){.block_room = blocks};
+  if (!make_room(room, blocks, pairs)) return false;
+  matrix->row_start = SPORE_NEW_ARRAY(uint32_t, blocks + 1);
+  matrix->column = SPORE_NEW_ARRAY(uint32_t, blocks + 2 * pairs);
+  matrix->diagonal = SPORE_NEW_ARRAY(uint32_t, blocks);
+  if (pattern->direction) matrix->direction = spore_allocate(blocks, 3 * sizeof *matrix->direction);
   return matrix->row_start && matrix->column && matrix->diagonal && (matrix->direction || !pattern->direction) &&
          spore_block_matrix_lay_out(matrix, pattern, room);
 }
 
 bool spore_block_matrix_lay_out(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room) {
-  if (pattern->block_count != matrix->block_count || pattern->pair_count > room->pair_capacity) return false;
+  if (pattern->block_count > matrix->block_room || pattern->pair_count > room->pair_capacity) return false;
+  matrix->block_count = pattern->block_count;
   scatter_pairs(pattern, room->row_start, room->column, room->fill);
   sort_rows(pattern->block_count, room->row_start, room->column, room->sorted, room->fill);
   unique_rows(matrix, room->row_start, room->sorted);
@@ -112,16 +118,17 @@ bool spore_block_matrix_lay_out(SporeBlockMatrix *matrix, const SporeBlockPatter
 
 bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern) {
   SporeBlockRoom room;
-  bool made = make_rows(matrix, pattern, &room);
+  bool made = make_rows(matrix, pattern, pattern->block_count, pattern->pair_count, &room);
   if (made) matrix->values = spore_allocate(matrix->row_start[matrix->block_count], 9 * sizeof *matrix->values);
   spore_block_room_clear(&room);
   if (!matrix->values) spore_block_matrix_clear(matrix);
   return made && matrix->values;
 }
 
-bool spore_block_matrix_create_roomy(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room) {
-  bool made = make_rows(matrix, pattern, room);
-  if (made) matrix->values = spore_allocate(pattern->block_count + 2 * pattern->pair_count, 9 * sizeof *matrix->values);
+bool spore_block_matrix_create_roomy(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, size_t blocks,
+                                     size_t pairs, SporeBlockRoom *room) {
+  bool made = make_rows(matrix, pattern, blocks, pairs, room);
+  if (made) matrix->values = spore_allocate(blocks + 2 * pairs, 9 * sizeof *matrix->values);
   if (made && matrix->values) return true;
   spore_block_matrix_clear(matrix);
   spore_block_room_clear(room);

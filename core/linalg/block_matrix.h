@@ -20,10 +20,13 @@ void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count);
 bool spore_block_pattern_add(SporeBlockPattern *pattern, uint32_t i, uint32_t j);
 /* Without pairs; keeps its memory. */
 static inline void spore_block_pattern_empty(SporeBlockPattern *pattern) { pattern->pair_count = 0; }
+/* Memory for so many pairs, which adding them then does not take. False: no memory. */
+bool spore_block_pattern_reserve(SporeBlockPattern *pattern, size_t pairs);
 void spore_block_pattern_clear(SporeBlockPattern *pattern);
 
 typedef struct SporeBlockMatrix {
   size_t block_count;
+  size_t block_room;   /* blocks that there is memory for: more where the pattern may change */
   uint32_t *row_start; /* block_count + 1 */
   uint32_t *column;    /* row_start[block_count] */
   uint32_t *diagonal;  /* index of each row's diagonal block */
@@ -42,12 +45,13 @@ typedef struct SporeBlockRoom {
   size_t pair_capacity;
   uint32_t *row_start, *column, *sorted, *fill;
 } SporeBlockRoom;
-/* A matrix with room for any pattern of as many blocks and no more pairs, repeats and all. False: no memory; both are
+/* A matrix with room for any pattern of at most so many blocks and pairs, repeats and all. False: no memory; both are
  * then empty. */
-bool spore_block_matrix_create_roomy(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room);
+bool spore_block_matrix_create_roomy(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, size_t blocks,
+                                     size_t pairs, SporeBlockRoom *room);
 void spore_block_room_clear(SporeBlockRoom *room);
 /* Gives such a matrix another pattern; its values are left open. Allocates nothing. False, and nothing changed: the
- * pattern has more pairs. */
+ * pattern has more blocks or pairs. */
 bool spore_block_matrix_lay_out(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room);
 
 void spore_block_matrix_zero(SporeBlockMatrix *matrix);

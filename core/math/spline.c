@@ -50,3 +50,10 @@ SporeSplineBasis spore_spline_basis(SporeSplineKnots knots, double parameter, si
   derive(knots, *span, 3, slope, basis.second);
   return basis;
 }
+
+void spore_spline_insert(SporeSplineKnots knots, size_t span, double parameter, double ratio[3]) {
+  for (size_t i = 0; i < 3; i++) {
+    double from = knot(knots, span + 1 + i), to = knot(knots, span + 4 + i);
+    ratio[i] = (parameter - from) / (to - from);
+  }
+}

@@ -41,4 +41,9 @@ size_t spore_spline_span(SporeSplineKnots knots, double parameter);
 /* At `parameter` from 0 to the end; *span: control points span .. span + 3 have the weights. */
 SporeSplineBasis spore_spline_basis(SporeSplineKnots knots, double parameter, size_t *span);
 
+/* The same line with one knot more, inside a span (W. Boehm, "Inserting new knots into B-spline curves", 1980): its
+ * control points are those of before, but for number span + 1 + i, i = 0 .. 2, which is ratio[i] of the one that had
+ * that number and the rest of the one before; those behind have moved on by one. */
+void spore_spline_insert(SporeSplineKnots knots, size_t span, double parameter, double ratio[3]);
+
 #endif

@@ -713,6 +713,12 @@ static gboolean same_state(const SporeModel *a, const SporeModel *b) {
   return a->type == b->type && a->q_count == b->q_count && a->block_count == b->block_count;
 }
 
+/* The line has the knots of time 0. */
+static gboolean has_first_knots(const SporeWorld *world, guint32 body) {
+  SporeLineState line;
+  return !spore_world_line_state(world, body, &line) || line.points == line.made;
+}
+
 /* The same level, where there still is one. */
 static void carry_level(SporeWorld *to, guint32 body, const SporeWorld *from, guint32 old) {
   SporeLevelState state;
@@ -727,7 +733,8 @@ void spore_simulation_carry_over(SporeSimulation *to, const SporeSimulation *fro
     guint32 old = spore_world_find_body(from->world, spore_world_body_name(to->world, i));
     if (old == SPORE_NO_BODY || role == SPORE_UNMOVABLE || spore_world_body_role(from->world, old) != role) continue;
     carry_level(to->world, i, from->world, old);
-    if (same_state(spore_world_body_model(to->world, i), spore_world_body_model(from->world, old)))
+    if (has_first_knots(from->world, old) &&
+        same_state(spore_world_body_model(to->world, i), spore_world_body_model(from->world, old)))
       spore_world_set_state(to->world, i, spore_world_q(from->world, old), spore_world_v(from->world, old));
   }
 }

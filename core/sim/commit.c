@@ -55,6 +55,7 @@ void spore_world_commit(SporeWorld *world) {
     if (spore_tool_has_jaws(&world->tools[i])) spore_jaws_tear(world, &world->tools[i]);
   spore_world_watch_contacts(world);
   spore_world_report_islands(world);
+  spore_world_change_knots(world);
   world->step++;
   spore_snapshot_publish(world);
 }

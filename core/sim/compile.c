@@ -120,8 +120,11 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->name = spore_copy_text(from->name);
   if (!body->name) return no_memory(error);
   if (!spore_levels_make(world, body, from, error)) return false;
-  world->q_count += body->levels ? body->levels->q_room : body->q_count;
-  world->v_count += body->levels ? body->levels->v_room : 3 * body->block_count;
+  body->q_most = body->levels ? body->levels->q_room : body->q_count;
+  body->block_most = body->levels ? body->levels->v_room / 3 : body->block_count;
+  bool roomy = from->model && !body->levels;
+  world->q_count += roomy ? from->model->q_room : body->q_most;
+  world->v_count += 3 * (roomy ? from->model->block_room : body->block_most);
   return true;
 }
 

@@ -43,8 +43,7 @@ bool spore_world_reserve_division(const SporeWorldDescription *description, Spor
 
 static size_t nodes_in_use(const SporeBody *body) { return body->model->node_count - body->model->spare_count; }
 
-/* Pins first, then spares. */
-static void list_held(SporeBody *body) {
+void spore_body_list_held(SporeBody *body) {
   body->held_count = 0;
   for (size_t i = 0; i < nodes_in_use(body); i++)
     if (body->division.pinned[i]) body->held[body->held_count++] = (uint32_t)i;
@@ -61,7 +60,7 @@ static bool hold_spares(SporeWorld *world, SporeBody *body) {
   if (held) body->held = held;
   if (!held || !division->pinned) return false;
   for (size_t i = 0; i < body->held_count; i++) division->pinned[body->held[i]] = 1;
-  list_held(body);
+  spore_body_list_held(body);
   spore_pin_filter(body->held, body->held_count, world->rest_v + body->v_offset);
   world->dof -= 3 * body->model->spare_count;
   return true;
@@ -73,7 +72,8 @@ static bool make_roomy(SporeBody *body) {
   spore_block_matrix_clear(&body->matrix);
   spore_block_pattern_init(&division->pattern, body->block_count);
   return body->model->type->pattern(body->model, &division->pattern) &&
-         spore_block_matrix_create_roomy(&body->matrix, &division->pattern, &division->room);
+         spore_block_matrix_create_roomy(&body->matrix, &division->pattern, body->block_count,
+                                         division->pattern.pair_count, &division->room);
 }
 
 static bool add_hang(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
@@ -173,7 +173,7 @@ static void divide(SporeWorld *world, uint32_t index) {
       body->model->type->divide(body->model, world->next_q + body->q_offset, world->next_v + body->v_offset, &from);
   if (made == 0) return;
   for (size_t i = 0; i < made; i++) body->division.pinned[before + i] = body->division.pinned[from[i]];
-  list_held(body);
+  spore_body_list_held(body);
   follow(world, index);
   drop_factor(body);
   body->division.parted = body->division.untidy = true;
@@ -196,7 +196,7 @@ void spore_world_divide_bodies(SporeWorld *world) {
 
 bool spore_world_tidy(SporeWorld *world) {
   bool done = false;
-  for (uint32_t b = 0; world->cuts.corner_count > 0 && b < world->body_count; b++) {
+  for (uint32_t b = 0; world->cuts.corner_count + world->line_count > 0 && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!body->division.untidy || world->step < body->division.step + CALM_STEPS) continue;
     body->division.untidy = false;
@@ -214,7 +214,7 @@ void spore_world_mend_division(SporeWorld *world) {
     if (!body->division.parted) continue;
     size_t used = nodes_in_use(body);
     memset(body->division.pinned + used, 0, body->block_count - used);
-    list_held(body);
+    spore_body_list_held(body);
     follow(world, b);
     spore_body_compile_factor(world, body, NULL); /* without memory for it, by conjugate gradients */
     body->division.parted = body->division.untidy = false;

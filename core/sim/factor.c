@@ -57,7 +57,7 @@ bool spore_body_compile_factor(const SporeWorld *world, SporeBody *body, SporeEr
   /* Of a matrix without couplings the diagonal blocks are all. */
   if (body->matrix.block_count == 0 || body->matrix.row_start[body->matrix.block_count] == body->matrix.block_count)
     return true;
-  if (!body->held_flags) body->held_flags = SPORE_NEW_ARRAY(uint8_t, body->block_count);
+  if (!body->held_flags) body->held_flags = SPORE_NEW_ARRAY(uint8_t, body->matrix.block_room);
   if (!body->held_flags || !spore_block_cholesky_create(&body->factor, &body->matrix, layout_of(world->solver.linear),
                                                         WORTH_ITERATIONS * jacobi_work(body)))
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));

@@ -78,6 +78,7 @@ void spore_mapping_clear(SporeMapping *mapping) {
   spore_free(mapping->row_start);
   spore_free(mapping->block);
   spore_free(mapping->weight);
+  spore_free(mapping->anchors);
   *mapping = (SporeMapping){0};
 }
 

@@ -29,6 +29,8 @@ typedef struct SporeMapping {
   uint32_t *block;         /* linear: row_start[point_count] */
   double *weight;          /* linear: same length */
   SporeLineFrames *frames; /* frames: from spore_allocate */
+  double *anchors; /* of points on and about a line whose knots come and go: parameter of the place next to them, and
+                      from there to them in the body's frame at rest, 4 a point; rows have room then; NULL: none */
 } SporeMapping;
 
 /* Constructors copy; arrays from spore_allocate. */

@@ -11,6 +11,8 @@ bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node
   size_t block_count = node_count + framed;
   *model = (SporeModel){
       .type = type, .q_count = 3 * node_count + (framed ? 4 : 0), .block_count = block_count, .node_count = node_count};
+  model->q_room = model->q_count;
+  model->block_room = block_count;
   model->block_mass = SPORE_NEW_ARRAY(double, block_count);
   if (model->block_mass) return true;
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a model of %zu blocks"),

@@ -92,13 +92,15 @@ typedef struct SporeModel {
   size_t q_count, block_count, node_count;
   size_t spare_count; /* of the nodes, the last: of next to no mass and still, until a cut makes them one after the
                          other */
-  double *block_mass; /* kg, block_count; above 0 for nodes, 0 for the turning of a frame */
-  double buoyancy;    /* share of its weight that the air around bears: above 1 it rises */
-  double life_s;      /* of particles, after which they are taken out of the world, with the age of each, s, behind the
-                         nodes in q; 0: they last */
-  bool tears;         /* tear has to be called at each step */
-  double map_slack;   /* m: how far off the body a point may lie that map cannot carry, and be put onto it */
-  SporePool *pool;    /* for long loops of force and jacobian, given by the world; whatever it is, the same bits */
+  size_t q_room, block_room; /* what q_count and block_count may become: more where nodes come and go */
+  size_t pair_room;          /* pairs of blocks that its pattern may then have, repeats and all */
+  double *block_mass;        /* kg, block_room; above 0 for nodes, 0 for the turning of a frame */
+  double buoyancy;           /* share of its weight that the air around bears: above 1 it rises */
+  double life_s;    /* of particles, after which they are taken out of the world, with the age of each, s, behind the
+                       nodes in q; 0: they last */
+  bool tears;       /* tear has to be called at each step */
+  double map_slack; /* m: how far off the body a point may lie that map cannot carry, and be put onto it */
+  SporePool *pool;  /* for long loops of force and jacobian, given by the world; whatever it is, the same bits */
 } SporeModel;
 
 struct SporeModelType {
@@ -192,6 +194,16 @@ struct SporeModelType {
   size_t (*divide)(SporeModel *model, double *q, double *v, const uint32_t **from);
   /* Looks up its blocks in a matrix of its pattern of now. */
   void (*settle)(SporeModel *model, const SporeBlockMatrix *matrix);
+  /* Of a model whose nodes come and go as it bends, and who sees to it that there is room: whether they are to, at this
+   * state, after a step of h seconds; held: a flag a block, of what a pin holds. What it would do it keeps in mind. */
+  bool (*weigh_nodes)(SporeModel *model, double h, const double *q, const uint8_t *held);
+  /* Does it: the state and the flags become those of the nodes that there are then, first come first; what leads a line
+   * stays one run of blocks. Allocates nothing. The pattern is another then: until settle nothing is asked of it. */
+  void (*change_nodes)(SporeModel *model, double *q, double *v, uint8_t *held);
+  /* The rows of a mapping that `map` made, for these knots of the line through the body; place and map themselves speak
+   * of those that it was made with. Any thread may ask; it may allocate, but for those that path says now. Points that
+   * do not go with knots are left alone. False: no memory. */
+  bool (*follow)(const SporeModel *model, SporeSplineKnots knots, SporeMapping *mapping);
   /* The nodes of its tetrahedra now, 4 *count; NULL where it was made so that it cannot be parted. */
   const uint32_t *(*corners)(const SporeModel *model, size_t *count);
   /* Room for coagulate, and what mend needs after it, when the world has something that heats. False: no memory. */
@@ -199,7 +211,7 @@ struct SporeModelType {
   /* Coagulates, at q, until mend. How many ties or elements took some of the dose; allocates nothing, and the pattern
    * stays. NULL: heat does nothing. */
   size_t (*coagulate)(SporeModel *model, const double *q, const SporeHeat *heat);
-  /* As it was created: of a model that was prepared for either. */
+  /* As it was created: of a model that was prepared for either, or whose nodes come and go. */
   void (*mend)(SporeModel *model);
   /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. */
   void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);

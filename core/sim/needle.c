@@ -186,6 +186,12 @@ void spore_needle_clear(SporeNeedle *needle) {
   spore_free(needle);
 }
 
+void spore_needle_take_knots(SporeWorld *world, const SporeTool *tool, SporeSplineKnots knots) {
+  SporeNeedle *needle = tool->needle;
+  needle->thread_knots = knots;
+  if (needle->from_end) world->springs[tool->hold_start].a.point = (uint32_t)(knots.span_count + 2);
+}
+
 /* Stitches. */
 
 static size_t term_of(const SporeTool *tool, const SporeStitch *stitch, SporeStitchState state) {

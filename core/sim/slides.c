@@ -3,7 +3,8 @@
 #include "core/sim/world_private.h"
 
 #define OFF_LINE 0.01 /* of a line's length: what is farther from it would be pulled there with a jerk */
-#define SLIPPED 1e-3  /* of a span, that the end of a line may lie behind what slips off it */
+#define SHARP 0.5 /* rad: turning by more from knot to knot, a line slides half as well as it should, or not at all */
+#define SLIPPED 1e-3 /* of a span, that the end of a line may lie behind what slips off it */
 
 /* The body that the line of a slide or port belongs to. */
 static uint32_t line_body(const SporeLinkDescription *link) {
@@ -84,6 +85,30 @@ static void follow_line(SporeWorld *world, const SporeLink *link, SporeSpringTer
   spore_vec3_store(world->spring_mappings[2 * link->term_start + 1].points, point);
 }
 
+/* A cubic between two knots turns no more sharply than so: the line is caught there instead of sliding on. */
+static void watch_bend(SporeWorld *world, SporeLink *link, const SporePathPlace *place, uint32_t index) {
+  if (link->told_sharp) return;
+  double square = spore_vec3_dot(place->slope, place->slope),
+         width = spore_spline_width(link->rail.knots, place->first);
+  double turn = width * spore_vec3_length(spore_vec3_cross(place->slope, place->bend)) / square;
+  if (!(turn > SHARP)) return;
+  const SporeBody *body = &world->bodies[index];
+  link->told_sharp = true;
+  if (!body->line.changes)
+    spore_world_report(
+        world,
+        _("%s: %s turns by %.2g rad between two control points where it slides, more sharply than they can "
+          "follow: it sticks there; set its most_bend to 0.3, or more control_points"),
+        link->name, body->name, turn);
+  else if (body->line.state.points == body->line.state.reserve)
+    spore_world_report(
+        world,
+        _("%s: %s turns by %.2g rad between two control points where it slides, and sticks there: all %zu are "
+          "in use; raise its maximum_control_points"),
+        link->name, body->name, turn, body->line.state.reserve);
+  else link->told_sharp = false; /* it gets more, or is not asked to have them by its most_bend */
+}
+
 static void follow_rail(SporeWorld *world, SporeLink *link, SporeSpringTerm *term) {
   SporeRail *rail = &link->rail;
   const double *q = world->q + world->bodies[term->b.body].q_offset;
@@ -92,6 +117,7 @@ static void follow_rail(SporeWorld *world, SporeLink *link, SporeSpringTerm *ter
   SporePathPlace place = spore_rail_place(rail, q, at);
   rail->start = place.parameter;
   spore_rail_set(term, &place);
+  watch_bend(world, link, &place, term->b.body);
   if (rail->stops || spore_rail_overshoot(rail, &place, at) <= SLIPPED * spore_vec3_length(place.slope)) return;
   spore_link_release(world, link);
   spore_world_report(world, _("%s: slipped off the end of its line"), link->name);

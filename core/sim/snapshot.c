@@ -11,6 +11,13 @@
 
 #define CONTACTS_MAXIMUM 4096
 
+static bool init_lines(const SporeWorld *world, SporeLines *lines) {
+  lines->break_count = world->lines.break_count;
+  lines->breaks = SPORE_NEW_ARRAY(double, lines->break_count);
+  lines->span_count = SPORE_NEW_ARRAY(uint32_t, world->body_count);
+  return lines->breaks && lines->span_count;
+}
+
 static bool init_buffer(SporeWorld *world, int index) {
   SporeSnapshots *snapshots = &world->snapshots;
   SporeSnapshot *snapshot = &snapshots->buffers[index];
@@ -28,6 +35,7 @@ static bool init_buffer(SporeWorld *world, int index) {
   snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->cuts.capacity);
   snapshot->cuts.corner_count = world->cuts.corner_count;
   snapshot->cuts.corners = SPORE_NEW_ARRAY(uint32_t, 4 * world->cuts.corner_count);
+  if (world->line_count > 0 && !init_lines(world, &snapshot->lines)) return false;
   return snapshot->q && snapshot->v && snapshot->reaction && snapshot->contacts && snapshot->cuts.edges &&
          snapshot->cuts.corners;
 }
@@ -58,6 +66,8 @@ void spore_snapshots_clear(SporeSnapshots *snapshots) {
     spore_free(snapshots->buffers[i].contacts);
     spore_free(snapshots->buffers[i].cuts.edges);
     spore_free(snapshots->buffers[i].cuts.corners);
+    spore_free(snapshots->buffers[i].lines.breaks);
+    spore_free(snapshots->buffers[i].lines.span_count);
   }
 }
 
@@ -92,13 +102,21 @@ static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
   memcpy(cuts->corners, world->cuts.corners, 4 * cuts->corner_count * sizeof *cuts->corners);
 }
 
+/* The same. */
+static void copy_lines(const SporeWorld *world, SporeSnapshot *snapshot) {
+  SporeLines *lines = &snapshot->lines;
+  if (lines->number == world->lines.number) return;
+  lines->number = world->lines.number;
+  memcpy(lines->breaks, world->lines.breaks, lines->break_count * sizeof *lines->breaks);
+  memcpy(lines->span_count, world->lines.span_count, world->body_count * sizeof *lines->span_count);
+}
+
 void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) { body->changed = world->snapshots.newest + 1; }
 
-/* What a level leaves of a body's room. */
-static void clear_rest(SporeWorld *world, const SporeBody *body) {
+void spore_body_clear_rest(SporeWorld *world, const SporeBody *body) {
   size_t q = body->q_count, v = 3 * body->block_count;
-  memset(world->next_q + body->q_offset + q, 0, (body->levels->q_room - q) * sizeof(double));
-  memset(world->next_v + body->v_offset + v, 0, (body->levels->v_room - v) * sizeof(double));
+  memset(world->next_q + body->q_offset + q, 0, (body->q_most - q) * sizeof(double));
+  memset(world->next_v + body->v_offset + v, 0, (3 * body->block_most - v) * sizeof(double));
 }
 
 void spore_world_advance_state(SporeWorld *world) {
@@ -106,7 +124,7 @@ void spore_world_advance_state(SporeWorld *world) {
   uint64_t *there = &snapshots->number[snapshots->triple.writing];
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (body->levels) clear_rest(world, body);
+    if (body->q_most > body->q_count || body->block_most > body->block_count) spore_body_clear_rest(world, body);
     if (body->changed > snapshots->newest || body->changed <= *there) continue;
     memcpy(world->next_q + body->q_offset, world->q + body->q_offset, body->q_count * sizeof(double));
     memcpy(world->next_v + body->v_offset, world->v + body->v_offset, 3 * body->block_count * sizeof(double));
@@ -149,6 +167,7 @@ void spore_snapshot_publish(SporeWorld *world) {
   snapshot->energy = recent_energy(world);
   copy_messages(world, snapshot);
   copy_cuts(world, snapshot);
+  copy_lines(world, snapshot);
   snapshot->step_us = world->step_us;
   spore_triple_publish(&snapshots->triple);
   set_next(world);

@@ -44,6 +44,8 @@ static void free_arrays(SporeWorld *world) {
                     world->cuts.edges,
                     world->cuts.corners,
                     world->hangs,
+                    world->lines.breaks,
+                    world->lines.span_count,
                     world->emitters,
                     world->ports,
                     world->springs,
@@ -108,10 +110,14 @@ static SporeWorld *give_up(SporeWorld *world) {
 
 static void set_pool(SporeModel *model, void *pool) { model->pool = pool; }
 
+static bool no_memory(SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+}
+
 SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error) {
   SporeWorld *world = SPORE_NEW(SporeWorld);
   if (!world) {
-    spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+    no_memory(error);
     return NULL;
   }
   world->pool = pool;
@@ -121,7 +127,8 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   bool made =
       spore_world_compile_bodies(world, description, error) && spore_world_compile_spheres(world, description, error) &&
       spore_world_compile_links(world, description, error) && spore_world_compile_tools(world, description, error) &&
-      spore_world_compile_particles(world, description, error) && spore_world_compile_factors(world, error) &&
+      spore_world_compile_particles(world, description, error) &&
+      (spore_world_compile_knots(world) || no_memory(error)) && spore_world_compile_factors(world, error) &&
       spore_world_compile_levels(world, description, error) && spore_world_allocate_vectors(world, error) &&
       spore_world_check_step(world, error);
   if (!made) return give_up(world);
@@ -159,6 +166,7 @@ void spore_world_reset(SporeWorld *world) {
   spore_world_wake_all(world);
   spore_world_mend_bodies(world);
   spore_world_reset_levels(world);
+  spore_world_mend_knots(world);
   memcpy(world->next_q, world->rest_q, world->q_count * sizeof *world->q);
   memcpy(world->next_v, world->rest_v, world->v_count * sizeof *world->v);
   for (size_t b = 0; b < world->body_count; b++) spore_body_mark_changed(world, &world->bodies[b]);

@@ -297,6 +297,14 @@ bool spore_world_level_state(const SporeWorld *world, uint32_t body, SporeLevelS
 /* Bytes of the mappings, matrices and states that having levels takes, without models and factors. */
 size_t spore_world_level_memory(const SporeWorld *world, uint32_t body);
 
+/* Lines that get knots where they bend while it runs. */
+typedef struct SporeLineState {
+  size_t made, points, peak, reserve; /* control points: at time 0, now, at most so far, that there may be */
+  uint64_t inserted, removed;         /* since time 0 */
+} SporeLineState;
+/* False: the body is none such. */
+bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineState *state);
+
 /* Links, without the pins, in the order of the description: what they did in the last step. */
 typedef struct SporeLinkState {
   const char *name;
@@ -445,6 +453,13 @@ typedef struct SporeSnapshotContact {
 typedef struct SporeToolCounts {
   size_t cut, pierced, stitches;
 } SporeToolCounts;
+/* Knots of lines whose knots come and go: see spore_snapshot_knots. */
+typedef struct SporeLines {
+  uint64_t number; /* another one: some differ */
+  size_t break_count;
+  double *breaks;
+  uint32_t *span_count; /* a body; NULL: there is no such line */
+} SporeLines;
 typedef struct SporeSnapshot {
   uint64_t step;
   double time_s;
@@ -457,6 +472,7 @@ typedef struct SporeSnapshot {
   SporeSnapshotContact *contacts;
   SporeCuts cuts;   /* since time 0 */
   uint64_t cut_run; /* another number: they began anew */
+  SporeLines lines;
   SporeStepCounts counts;
   SporeToolCounts tools;
   SporeEnergy energy;     /* of this state, or of the first one after the snapshot before was acquired */
@@ -466,6 +482,10 @@ typedef struct SporeSnapshot {
 } SporeSnapshot;
 /* spore_world_hash of the state that is shown. */
 uint64_t spore_snapshot_hash(const SporeSnapshot *snapshot);
+/* Knots of the body's line in the snapshot, of which its q is; no spans: they never change. And the rows of a mapping
+ * of spore_world_map, which is of the knots of time 0, for others; false: no memory. */
+SporeSplineKnots spore_snapshot_knots(const SporeWorld *world, const SporeSnapshot *snapshot, uint32_t body);
+bool spore_world_follow_knots(const SporeWorld *world, uint32_t body, SporeSplineKnots knots, SporeMapping *mapping);
 /* The newest snapshot; stays valid until the next call. Never NULL: before the first step it is time 0. */
 const SporeSnapshot *spore_world_snapshot_acquire(SporeWorld *world);
 

@@ -74,6 +74,13 @@ typedef struct SporeDivision {
   uint8_t *pinned; /* block_count */
 } SporeDivision;
 
+/* Of a body whose knots come and go: see knots.c. */
+typedef struct SporeLineKnots {
+  bool changes;
+  size_t break_start; /* in the world's lines */
+  SporeLineState state;
+} SporeLineKnots;
+
 /* A mapping onto such a body, and where its blocks are found anew. */
 typedef struct SporeHang {
   uint32_t body;
@@ -95,14 +102,16 @@ typedef struct SporeBody {
   SporeContactFields contact;
   SporePose rest_pose;                             /* at time 0 */
   size_t q_offset, q_count, v_offset, block_count; /* v_offset in doubles */
+  size_t q_most, block_most;                       /* that it may have had: behind its own it is 0 up to there */
   SporeMapping spheres;
   size_t sphere_start;
   SporeDepthField field; /* empty: its spheres are felt one by one */
   double total_mass;     /* kg, of a model */
   uint32_t *held;        /* blocks that pins hold still; behind them particles that are out of the world */
   size_t held_count, pin_count;
-  double *whole_weight; /* of its spheres' mapping, before anything cut it; NULL: nothing does */
-  SporeDivision division;
+  double *whole_weight;   /* of its spheres' mapping, before anything cut it; NULL: nothing does */
+  SporeDivision division; /* its pattern, room and pins are also those of a line */
+  SporeLineKnots line;
   double parking_gap; /* m, between particles out of the world; 0: none ever are */
 
   bool frozen;
@@ -194,6 +203,7 @@ typedef struct SporeLink {
   bool broken;
   SporeVec3 base, along; /* slide, port: the line in the frame of the body at end b of its term */
   SporeRail rail;        /* the same, where that body deforms; without spans: none */
+  bool told_sharp;       /* that the line bends too sharply where it runs */
   bool lost;             /* the state was set from outside: where its point is on the line is not known */
 } SporeLink;
 
@@ -306,6 +316,8 @@ struct SporeWorld {
   uint64_t cut_run;
   size_t tearing_count; /* bodies that may tear */
   size_t hang_count;    /* on bodies that may be parted */
+  size_t line_count;    /* bodies whose knots come and go */
+  SporeLines lines;
   SporeHang *hangs;
   size_t tool_count, emitter_count;
   SporeTool *tools;
@@ -475,6 +487,14 @@ void spore_world_divide_bodies(SporeWorld *world);
 void spore_world_mend_division(SporeWorld *world);
 void spore_world_clear_division(SporeWorld *world);
 
+/* The blocks that are held, from division.pinned: pins first, then spares. */
+void spore_body_list_held(SporeBody *body);
+
+/* knots.c: room, once links and tools are made; at the end of a step; as it was, at a reset. */
+bool spore_world_compile_knots(SporeWorld *world);
+void spore_world_change_knots(SporeWorld *world);
+void spore_world_mend_knots(SporeWorld *world);
+
 /* cutting.c: the blades, half of the angle each, went with their body from the last state to its target, and closed
  * from one opening to another. */
 void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double to);
@@ -487,6 +507,8 @@ size_t spore_needle_term_count(const SporeToolDescription *from);
 const char *spore_needle_fault(const SporeWorld *world, const SporeToolDescription *from);
 bool spore_needle_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from);
 void spore_needle_clear(SporeNeedle *needle);
+/* The thread's line has other knots. */
+void spore_needle_take_knots(SporeWorld *world, const SporeTool *tool, SporeSplineKnots knots);
 void spore_needle_reset(SporeWorld *world, SporeTool *tool);
 void spore_needle_use(SporeWorld *world, SporeTool *tool);
 size_t spore_needle_stitch_count(const SporeNeedle *needle);
@@ -650,6 +672,8 @@ bool spore_island_energy_holds(SporeWorld *world, SporeIsland *island);
 bool spore_snapshots_init(SporeWorld *world);
 void spore_snapshots_clear(SporeSnapshots *snapshots);
 /* A body whose part of the next state was written: number it. */
+/* What the body leaves of its room in the next state. */
+void spore_body_clear_rest(SporeWorld *world, const SporeBody *body);
 void spore_body_mark_changed(const SporeWorld *world, SporeBody *body);
 /* Fills what was not written of the next state from the last one, and makes it the state. */
 void spore_world_advance_state(SporeWorld *world);

@@ -223,7 +223,8 @@ static void lone_init(Lone *lone, const SporeModelType *type, GRand *random) {
   }
   spore_block_pattern_init(&lone->pattern, lone->model->block_count);
   g_assert_true(type->pattern(lone->model, &lone->pattern) &&
-                spore_block_matrix_create_roomy(&lone->matrix, &lone->pattern, &lone->room));
+                spore_block_matrix_create_roomy(&lone->matrix, &lone->pattern, lone->pattern.block_count,
+                                                lone->pattern.pair_count, &lone->room));
 }
 
 static void lone_clear(Lone *lone) {

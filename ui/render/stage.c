@@ -93,6 +93,7 @@ void spore_stage_update(SporeStage *stage, const SporeSnapshot *snapshot) {
     SporeStageBody *body = body_of_level(stage, i, snapshot);
     if (!body->moves) continue;
     const double *q = snapshot->q + body->q_offset;
+    spore_stage_body_follow_knots(body, stage->simulation, snapshot);
     gboolean divided = body->cells && body->divided != snapshot->cuts.parted;
     if (!divided && memcmp(body->q, q, body->q_count * sizeof *q) == 0) continue;
     memcpy(body->q, q, body->q_count * sizeof *q);

@@ -29,10 +29,10 @@ static void init_configuration(SporeStageBody *body, const SporeObject *object, 
       body->q_offset = spore_world_q_offset(world, body->world_body);
     }
   }
-  body->q_count = model ? model->q_count : 7;
+  body->q_count = model ? model->q_room : 7;
   body->q = g_new0(double, body->q_count);
   if (model) {
-    double *v = g_new0(double, 3 * model->block_count);
+    double *v = g_new0(double, 3 * model->block_room);
     model->type->place(model, pose, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0), body->q, v);
     g_free(v);
   } else {
@@ -53,6 +53,16 @@ static gboolean map_points(const SporeStageBody *body, const SporeSimulation *si
   mapped->positions = g_new(double, 3 * count);
   spore_mapping_positions(&mapped->mapping, body->q, mapped->positions);
   return TRUE;
+}
+
+void spore_stage_body_follow_knots(SporeStageBody *body, const SporeSimulation *simulation,
+                                   const SporeSnapshot *snapshot) {
+  if (body->world_body == SPORE_NO_BODY || body->lines == snapshot->lines.number) return;
+  body->lines = snapshot->lines.number;
+  SporeSplineKnots knots = spore_snapshot_knots(simulation->world, snapshot, body->world_body);
+  SporeStagePoints *all[] = {&body->surface, &body->centres, &body->nodes, &body->axis};
+  for (guint i = 0; i < G_N_ELEMENTS(all); i++)
+    spore_world_follow_knots(simulation->world, body->world_body, knots, &all[i]->mapping);
 }
 
 static void clear_points(SporeStagePoints *points) {

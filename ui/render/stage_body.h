@@ -28,6 +28,7 @@ typedef struct SporeStageBody {
   SporeSurfaceStyle style;
   /* Of tetrahedra that may be divided: see stage_divide.c. */
   const SporeTetrahedralMesh *cells; /* borrowed from the document; NULL: they cannot be */
+  guint64 lines;                     /* number of the knots that its mappings are of, see SporeLines */
   gsize corner_start;                /* in the cuts of snapshots */
   guint64 divided;                   /* their `parted` that is shown */
   const double *rest;                /* of the visual mesh, borrowed; NULL: the surface is the tetrahedra's own */
@@ -80,6 +81,9 @@ struct SporeStage {
  * one of time 0. */
 SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
                                      const SporeLevelGrade *level);
+/* What hangs on a line whose knots came or went, by those of the snapshot. */
+void spore_stage_body_follow_knots(SporeStageBody *body, const SporeSimulation *simulation,
+                                   const SporeSnapshot *snapshot);
 void spore_stage_body_free(SporeStage *stage, SporeStageBody *body);
 /* Moves what the options show to configuration body->q. */
 void spore_stage_body_place(SporeStage *stage, SporeStageBody *body);

@@ -1,0 +1,180 @@
+/* Bodies whose nodes come and go while it runs: lines that get knots where they bend. At the end of a step, when the
+ * state is known, the model says whether any are to; then the state becomes that of the nodes that there are then, the
+ * matrix and a banded factor get their pattern, and spheres, links and rails go with the points of the line that they
+ * hang on, whose parameters stay. All of it lies in room made before, so that a step allocates nothing.
+ *
+ * Momentum of a free body is kept to rounding: what lumping the mass loses of it is given back as a rigid motion.
+ * Kinetic energy does not grow. What links hold keeps its velocity as it is, since what held it takes part. */
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/constraint/pin.h"
+#include "core/sim/levels.h"
+
+static bool changes_nodes(const SporeBody *body) {
+  return body->model && !body->levels && body->model->q_room > body->model->q_count;
+}
+
+/* The matrix again, with room; and which blocks pins hold, now and at time 0. */
+static bool make_room(SporeWorld *world, SporeBody *body) {
+  const SporeModel *model = body->model;
+  SporeDivision *division = &body->division;
+  division->pinned = SPORE_NEW_ARRAY(uint8_t, 2 * model->block_room);
+  uint32_t *held = spore_reallocate(body->held, body->held_count, model->block_room, sizeof *held);
+  if (held) body->held = held;
+  if (!held || !division->pinned) return false;
+  for (size_t i = 0; i < body->held_count; i++) division->pinned[held[i]] = 1;
+  memcpy(division->pinned + model->block_room, division->pinned, model->block_room);
+  spore_block_matrix_clear(&body->matrix);
+  spore_block_pattern_init(&division->pattern, body->block_count);
+  return spore_block_pattern_reserve(&division->pattern, model->pair_room) &&
+         model->type->pattern(model, &division->pattern) &&
+         spore_block_matrix_create_roomy(&body->matrix, &division->pattern, model->block_room, model->pair_room,
+                                         &division->room);
+}
+
+static void show_knots(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  SporeSplineKnots knots = body->model->type->path(body->model);
+  world->lines.span_count[index] = (uint32_t)knots.span_count;
+  memcpy(world->lines.breaks + body->line.break_start, knots.breaks, (knots.span_count + 1) * sizeof *knots.breaks);
+  world->lines.number++;
+  body->line.state.points = knots.span_count + 3;
+  if (body->line.state.points > body->line.state.peak) body->line.state.peak = body->line.state.points;
+}
+
+bool spore_world_compile_knots(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!changes_nodes(body)) continue;
+    body->line.changes = true;
+    body->line.break_start = world->lines.break_count;
+    body->line.state.reserve = body->model->block_room;
+    world->lines.break_count += body->model->block_room;
+    world->line_count++;
+    if (!make_room(world, body)) return false;
+  }
+  if (world->line_count == 0) return true;
+  world->lines.breaks = SPORE_NEW_ARRAY(double, world->lines.break_count);
+  world->lines.span_count = SPORE_NEW_ARRAY(uint32_t, world->body_count);
+  if (!world->lines.breaks || !world->lines.span_count) return false;
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].line.changes) show_knots(world, b);
+  return true;
+}
+
+/* Rails of links and stitches: the same place of the line, by the points that lead it now. */
+static void move_rails(SporeWorld *world, uint32_t index, const double *q) {
+  SporeSplineKnots knots = world->bodies[index].model->type->path(world->bodies[index].model);
+  for (size_t i = 0; i < world->link_term_count + world->hold_count; i++) {
+    SporeSpringTerm *term = &world->springs[i];
+    if (!term->rail || term->rail->points || term->b.body != index) continue;
+    term->rail->knots = knots;
+    SporePathPlace place = spore_path_at(knots, q, term->rail->start);
+    spore_rail_set(term, &place);
+  }
+  for (size_t i = 0; i < world->tool_count; i++)
+    if (world->tools[i].needle && world->tools[i].needle->thread == index)
+      spore_needle_take_knots(world, &world->tools[i], knots);
+}
+
+/* Points that are linked to the body. */
+static void move_ends(SporeWorld *world, uint32_t index) {
+  const SporeModel *model = world->bodies[index].model;
+  SporeSplineKnots knots = model->type->path(model);
+  model->type->follow(model, knots, &world->bodies[index].spheres);
+  for (size_t i = 0; i < world->link_term_count; i++)
+    for (size_t side = 0; side < 2; side++) {
+      const SporeEnd *end = side ? &world->springs[i].b : &world->springs[i].a;
+      if (end->body == index) model->type->follow(model, knots, &world->spring_mappings[2 * i + side]);
+    }
+}
+
+static void lay_out_matrix(SporeBody *body) {
+  SporeDivision *division = &body->division;
+  spore_block_pattern_empty(&division->pattern);
+  division->pattern.block_count = body->block_count;
+  body->model->type->pattern(body->model, &division->pattern);
+  spore_block_matrix_lay_out(&body->matrix, &division->pattern, &division->room);
+  body->model->type->settle(body->model, &body->matrix);
+  bool had = body->factor.block_count > 0 || division->untidy;
+  division->untidy = had && !spore_block_cholesky_lay_out(&body->factor, &body->matrix);
+}
+
+/* After its model changed its nodes; q: where they are. */
+static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
+  SporeBody *body = &world->bodies[index];
+  size_t free_before = body->block_count - body->held_count;
+  body->q_count = body->model->q_count;
+  body->block_count = body->model->block_count;
+  if (body->q_count > body->q_most) body->q_most = body->q_count;
+  if (body->block_count > body->block_most) body->block_most = body->block_count;
+  body->total_mass = spore_model_total_mass(body->model);
+  spore_body_list_held(body);
+  world->dof += 3 * (body->block_count - body->held_count - free_before);
+  lay_out_matrix(body);
+  body->division.step = world->step;
+  move_ends(world, index);
+  move_rails(world, index, q);
+  show_knots(world, index);
+}
+
+static void change(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  SporeModel *model = body->model;
+  double *q = world->next_q + body->q_offset, *v = world->next_v + body->v_offset;
+  size_t before_count = model->node_count;
+  SporeVec3 pulled;
+  bool pull = spore_world_pulled_point(world, index, &pulled);
+  SporeMotion before = spore_level_motion(model, q, v, NULL);
+  model->type->change_nodes(model, q, v, body->division.pinned);
+  take_nodes(world, index, q);
+  if (body->held_count == 0) spore_level_keep_momentum(model, q, &before, before.kinetic, v);
+  spore_pin_filter(body->held, body->held_count, v);
+  spore_body_clear_rest(world, body);
+  SporeLineState *state = &body->line.state;
+  if (model->node_count > before_count) state->inserted += model->node_count - before_count;
+  else state->removed += before_count - model->node_count;
+  spore_body_forget_steps(world, body);
+  spore_body_set_mass(world, body);
+  if (pull) spore_world_pull_by(world, index, pulled);
+}
+
+void spore_world_change_knots(SporeWorld *world) {
+  for (uint32_t b = 0; world->line_count > 0 && b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!body->line.changes || !spore_body_moves(body)) continue;
+    const double *q = world->next_q + body->q_offset;
+    if (body->model->type->weigh_nodes(body->model, world->solver.time_step, q, body->division.pinned))
+      change(world, b);
+  }
+}
+
+void spore_world_mend_knots(SporeWorld *world) {
+  for (uint32_t b = 0; world->line_count > 0 && b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!body->line.changes) continue;
+    memcpy(body->division.pinned, body->division.pinned + body->model->block_room, body->model->block_room);
+    take_nodes(world, b, world->rest_q + body->q_offset);
+    body->line.state = (SporeLineState){.points = body->line.state.points,
+                                        .made = body->line.state.points,
+                                        .peak = body->line.state.points,
+                                        .reserve = body->model->block_room};
+  }
+}
+
+bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineState *state) {
+  *state = world->bodies[body].line.state;
+  return world->bodies[body].line.changes;
+}
+
+SporeSplineKnots spore_snapshot_knots(const SporeWorld *world, const SporeSnapshot *snapshot, uint32_t body) {
+  const SporeBody *line = &world->bodies[body];
+  if (!line->line.changes) return (SporeSplineKnots){0};
+  return (SporeSplineKnots){snapshot->lines.span_count[body], snapshot->lines.breaks + line->line.break_start};
+}
+
+bool spore_world_follow_knots(const SporeWorld *world, uint32_t body, SporeSplineKnots knots, SporeMapping *mapping) {
+  const SporeModel *model = world->bodies[body].model;
+  return knots.span_count == 0 || model->type->follow(model, knots, mapping);
+}

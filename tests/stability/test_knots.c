@@ -1,0 +1,360 @@
+/* Threads whose control points come and go while they run. */
+#include <math.h>
+#include <string.h>
+
+#include "core/constraint/path.h"
+#include "core/base/memory.h"
+#include "core/sim/levels.h"
+#include "tests/stability/rig.h"
+
+#define DENSITY 1000.
+#define RADIUS 5e-4
+
+/* Straight, along x from 0. */
+static SporeCurve straight(double length) {
+  SporeCurve curve;
+  g_assert_true(spore_curve_allocate(&curve, 30, NULL));
+  for (int i = 0; i < 30; i++) memcpy(curve.points + 4 * i, (double[4]){length * i / 29, 0, 0, RADIUS}, 32);
+  return curve;
+}
+
+static SporeModel *thread(double points, double most_bend, double maximum, double young) {
+  SporeCurve curve = straight(0.1);
+  return rig_curve_model(&spore_spline_1d, &curve, "control_points", points, "most_bend", most_bend,
+                         "maximum_control_points", maximum, "young_modulus", young, "density", DENSITY, "damping",
+                         0.005, NULL);
+}
+
+/* A hook of this radius in the middle of so many control points that were straight, and a velocity that varies. */
+static void bend(const SporeModel *model, double radius, double *q, double *v) {
+  model->type->place(model, spore_pose_identity(), spore_vec3(0, 0, 0), spore_vec3(0, 0, 0), q, v);
+  double arc = G_PI * radius, start = 0.05 - 0.5 * arc;
+  for (size_t i = 0; i < model->node_count; i++) {
+    double s = q[3 * i], angle = fmin(fmax((s - start) / radius, 0), G_PI);
+    double behind = fmax(s - start - arc, 0);
+    q[3 * i] = fmin(s, start) + radius * sin(angle) - behind;
+    q[3 * i + 1] = radius * (1 - cos(angle));
+    q[3 * i + 2] = 0.002 * sin(90 * s);
+    spore_vec3_store(v + 3 * i, spore_vec3(0.3 + 2 * q[3 * i + 1], 0.2 * cos(60 * s), 1.5 * s));
+  }
+}
+
+typedef struct State {
+  SporeModel *model;
+  double *q, *v;
+} State;
+
+static State state_new(SporeModel *model, double radius) {
+  State state = {model, g_new0(double, model->q_room), g_new0(double, 3 * model->block_room)};
+  bend(model, radius, state.q, state.v);
+  return state;
+}
+
+static void state_free(State *state) {
+  state->model->type->destroy(state->model);
+  g_free(state->q);
+  g_free(state->v);
+}
+
+/* Places along the line, or speeds there. */
+#define PLACES 1001
+static double *along(const State *state, const double *x) {
+  SporeSplineKnots knots = state->model->type->path(state->model);
+  double *places = g_new(double, 3 * PLACES);
+  for (int i = 0; i < PLACES; i++)
+    spore_vec3_store(places + 3 * i, spore_path_at(knots, x, spore_spline_end(knots) * i / (PLACES - 1)).position);
+  return places;
+}
+
+static double apart(const double *a, const double *b) {
+  double most = 0;
+  for (int i = 0; i < PLACES; i++)
+    most = fmax(most, spore_vec3_distance(spore_vec3_load(a + 3 * i), spore_vec3_load(b + 3 * i)));
+  return most;
+}
+
+static SporeVec3 momentum(const State *state) {
+  SporeVec3 sum = {0, 0, 0};
+  for (size_t i = 0; i < state->model->node_count; i++)
+    sum = spore_vec3_add_scaled(sum, state->model->block_mass[i], spore_vec3_load(state->v + 3 * i));
+  return sum;
+}
+
+static double kinetic(const State *state) {
+  double sum = 0;
+  for (size_t i = 0; i < 3 * state->model->node_count; i++)
+    sum += 0.5 * state->model->block_mass[i / 3] * state->v[i] * state->v[i];
+  return sum;
+}
+
+/* Line, velocity, mass and momentum are the same to rounding when knots come; kinetic energy loses what lumping the
+ * mass added to it. They go again where it is straight, and then it is as it was made. */
+static void test_insertion(void) {
+  State state = state_new(thread(12, 0.4, 60, 1e6), 0.012);
+  SporeModel *model = state.model;
+  for (int round = 0; round < 8; round++) {
+    double *line = along(&state, state.q), *speed = along(&state, state.v);
+    double mass = spore_model_total_mass(model), before = kinetic(&state);
+    double strain = model->type->potential(model, state.q);
+    SporeVec3 p = momentum(&state);
+    size_t count = model->node_count;
+    bool changes = model->type->weigh_nodes(model, 1e-3, state.q, NULL);
+    if (changes) model->type->change_nodes(model, state.q, state.v, NULL);
+    double *line_now = along(&state, state.q), *speed_now = along(&state, state.v);
+    double moved = apart(line, line_now), turned = apart(speed, speed_now);
+    double missed = spore_vec3_distance(p, momentum(&state)) / spore_vec3_length(p);
+    double lost = 1 - kinetic(&state) / before, heavier = spore_model_total_mass(model) / mass - 1;
+    double strained = model->type->potential(model, state.q) - strain;
+    g_test_message(
+        "%zu to %zu control points: line %.0e m, velocity %.0e m/s, mass %.0e, momentum %.0e; kinetic energy "
+        "less by %.1e of it, strain energy more by %.1e of %.1e J",
+        count, model->node_count, moved, turned, heavier, missed, lost, strained, strain);
+    g_assert_cmpfloat(moved, <, 1e-16);
+    g_assert_cmpfloat(turned, <, 1e-15);
+    g_assert_cmpfloat(fabs(heavier), <, 1e-14);
+    g_assert_cmpfloat(missed, <, 1e-14);
+    g_assert_cmpfloat(lost, >, -1e-14);
+    g_assert_cmpfloat(lost, <, 0.01);
+    g_free(line), g_free(speed), g_free(line_now), g_free(speed_now);
+    if (!changes) break;
+    g_assert_cmpuint(round, <, 7);
+    g_assert_cmpuint(model->node_count, >, count);
+  }
+  g_assert_cmpuint(model->node_count, >, 16);
+  state_free(&state);
+}
+
+/* Where it is straight again, they go one by one, and the line moves by less than a twentieth of its radius each. */
+static void test_removal(void) {
+  State state = state_new(thread(12, 0.4, 60, 1e6), 0.012);
+  SporeModel *model = state.model;
+  while (model->type->weigh_nodes(model, 1e-3, state.q, NULL)) model->type->change_nodes(model, state.q, state.v, NULL);
+  size_t most = model->node_count;
+  double worst = 0, mass = spore_model_total_mass(model);
+  SporeSplineKnots knots = model->type->path(model);
+  for (size_t i = 0; i < most; i++) { /* a bow, no longer a hook */
+    double mean = 0;                  /* of the knots that the point is led by, where it stands on a straight line */
+    for (size_t k = 0; k < 3; k++)
+      mean += spore_spline_break(knots, MIN(i + k < 2 ? 0 : i + k - 2, knots.span_count)) / 3;
+    double s = 0.1 * mean / spore_spline_end(knots);
+    spore_vec3_store(state.q + 3 * i, spore_vec3(s, 2 * s * (0.1 - s), 2e-5 * sin(200 * s)));
+  }
+  for (int i = 0; i < 200 && model->node_count > 12; i++) {
+    double *line = along(&state, state.q);
+    if (model->type->weigh_nodes(model, 0.05, state.q, NULL)) {
+      g_assert_cmpint(i, >=, 4);
+      model->type->change_nodes(model, state.q, state.v, NULL);
+    }
+    double *now = along(&state, state.q);
+    worst = fmax(worst, apart(line, now));
+    g_free(line), g_free(now);
+  }
+  g_test_message("%zu to %zu control points; moved by %.1e m at most; mass %.0e", most, model->node_count, worst,
+                 spore_model_total_mass(model) / mass - 1);
+  g_assert_cmpuint(model->node_count, ==, 12);
+  g_assert_cmpfloat(worst, <, 0.05 * RADIUS);
+  g_assert_cmpfloat(worst, >, 0);
+  g_assert_cmpfloat(fabs(spore_model_total_mass(model) / mass - 1), <, 1e-14);
+  state_free(&state);
+}
+
+/* Half around a pulley, and down on either side. */
+#define LENGTH 0.12
+static double pulley_radius;
+
+static SporeVec3 over_pulley(double t) {
+  double arc = G_PI * pulley_radius, up = 0.5 * (LENGTH - arc), s = t * LENGTH;
+  if (s < up) return spore_vec3(-pulley_radius, s - up, 0);
+  if (s > up + arc) return spore_vec3(pulley_radius, up + arc - s, 0);
+  double angle = (s - up) / pulley_radius;
+  return spore_vec3(-pulley_radius * cos(angle), pulley_radius * sin(angle), 0);
+}
+
+static SporeModel *pulley_thread(double points, double most_bend, double maximum) {
+  SporeCurve curve;
+  g_assert_true(spore_curve_allocate(&curve, 400, NULL));
+  for (int i = 0; i < 400; i++) {
+    spore_vec3_store(curve.points + 4 * i, over_pulley(i / 399.));
+    curve.points[4 * i + 3] = RADIUS;
+  }
+  return rig_curve_model(&spore_spline_1d, &curve, "control_points", points, "most_bend", most_bend,
+                         "maximum_control_points", maximum, "young_modulus", 1e8, "density", 100., "bending_scale",
+                         0.005, "straight_at_rest", 1.0, "damping", 0.01, NULL);
+}
+
+static SporeModel *box(double mass) {
+  SporeTriangleMesh mesh;
+  shape_box(&mesh, spore_vec3(0, 0, 0), spore_vec3(0.002, 0.002, 0.002));
+  return rig_surface_model(&spore_rigid_body, &mesh, "mass", mass, NULL);
+}
+
+static void add(Rig *rig, const char *name, SporeLinkKind kind, uint32_t a, uint32_t b, SporeVec3 at) {
+  SporeLinkDescription link = {.name = name,
+                               .kind = kind,
+                               .body_a = a,
+                               .body_b = b,
+                               .point_a = at,
+                               .point_b = at,
+                               .direction = {0, 1, 0},
+                               .stiffness = 1e5,
+                               .damping = -1};
+  g_array_append_val(rig->links, link);
+}
+
+typedef struct Fall {
+  double fallen; /* of what a pulley without friction lets fall */
+  SporeLineState line;
+  uint64_t unsolved;
+  gboolean told;
+} Fall;
+
+/* Two weights on a thread through rings that stand around half a small pulley. */
+static Fall run_fall(double points, double most_bend, double maximum) {
+  const double heavy = 0.012, light = 0.008, time_s = 0.15;
+  Rig *rig = rig_new();
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.integrator = SPORE_INTEGRATOR_TR_BDF2;
+  rig->description.solver.time_step = 1e-3;
+  rig_passive(rig, "thread", pulley_thread(points, most_bend, maximum), NULL);
+  rig_passive(rig, "light", box(light), NULL)->pose.position = over_pulley(0);
+  rig_passive(rig, "heavy", box(heavy), NULL)->pose.position = over_pulley(1);
+  add(rig, "knot 1", SPORE_LINK_BALL, 1, 0, over_pulley(0));
+  add(rig, "knot 2", SPORE_LINK_BALL, 2, 0, over_pulley(1));
+  double share = G_PI * pulley_radius / LENGTH;
+  for (int i = 0; i < 7; i++)
+    add(rig, "ring", SPORE_LINK_PORT, 0, SPORE_NO_BODY, over_pulley(0.5 + share * (i / 6. - 0.5)));
+  SporeWorld *world = rig_build(rig);
+  rig_run(world, (unsigned)lround(time_s / 1e-3));
+  double mass = G_PI * RADIUS * RADIUS * LENGTH * 100;
+  double exact = 0.5 * time_s * time_s * (heavy - light) * 9.81 / (heavy + light + mass);
+  Fall fall = {.fallen = (over_pulley(1).y - spore_world_q(world, 2)[1]) / exact,
+               .unsolved = spore_world_monitor(world)->not_converged,
+               .told = rig_said(world, "ring: ")};
+  spore_world_line_state(world, 0, &fall.line);
+  g_test_message(
+      "%g control points, most_bend %g: falls %.4f of the way; %zu at the start, %zu at the end, %zu at most, "
+      "+%llu -%llu; %llu unsolved; %s",
+      points, most_bend, fall.fallen, fall.line.made, fall.line.points, fall.line.peak,
+      (unsigned long long)fall.line.inserted, (unsigned long long)fall.line.removed, (unsigned long long)fall.unsolved,
+      rig_last_message(world));
+  rig_free(rig);
+  return fall;
+}
+
+/* A thread that is too coarse for the pulley sticks, and that is said; with points that come where it bends, of which
+ * it has no more in all, it slides, and better than with as many that are even. Where there are to be no more, it says
+ * so. */
+static void test_pulley(void) {
+  pulley_radius = 0.004;
+  Fall coarse = run_fall(20, 0, 1000), even = run_fall(64, 0, 1000), fine = run_fall(96, 0, 1000);
+  Fall coming = run_fall(20, 0.35, 64), spent = run_fall(20, 0.35, 36);
+  g_assert_cmpfloat(coarse.fallen, <, 0.05);
+  g_assert_true(coarse.told);
+  g_assert_cmpfloat(fine.fallen, >, 0.9);
+  g_assert_false(fine.told);
+  g_assert_cmpuint(coming.line.peak, <=, 64);
+  g_assert_cmpuint(coming.line.inserted, >, 10);
+  g_assert_cmpfloat(coming.fallen, >, even.fallen + 0.1);
+  g_assert_false(coming.told);
+  g_assert_cmpuint(spent.line.peak, ==, 36);
+  g_assert_cmpfloat(spent.fallen, <, coming.fallen);
+  g_assert_true(spent.told);
+}
+
+/* A free thread, straight at rest, bent by hand and thrown. */
+static SporeWorld *thrown(Rig **rig, double most_bend) {
+  *rig = rig_new();
+  (*rig)->description.solver.time_step = 1e-3;
+  (*rig)->description.solver.integrator = SPORE_INTEGRATOR_TR_BDF2;
+  (*rig)->description.solver.tolerance = 1e-10;
+  rig_passive(*rig, "thread", thread(12, most_bend, 60, 1e6), NULL);
+  SporeWorld *world = rig_build(*rig);
+  const SporeModel *model = world->bodies[0].model;
+  double *q = g_new(double, model->q_count), *v = g_new(double, model->q_count);
+  bend(model, 0.008, q, v);
+  spore_world_set_state(world, 0, q, v);
+  g_free(q), g_free(v);
+  return world;
+}
+
+static SporeMotion motion(const SporeWorld *world) {
+  const SporeVec3 origin = {0, 0, 0};
+  const SporeBody *body = &world->bodies[0];
+  return spore_level_motion(body->model, world->q + body->q_offset, world->v + body->v_offset, &origin);
+}
+
+/* Beside a twin that takes the same step and keeps its points: both momenta are the same to rounding, and the kinetic
+ * energy is no more. It straightens, and then it has the points that it was made with. */
+static void test_momentum(void) {
+  Rig *rig, *twin_rig;
+  SporeWorld *world = thrown(&rig, 0.4), *twin = thrown(&twin_rig, 3);
+  SporeLineState line;
+  spore_world_step(world), spore_world_step(twin);
+  SporeMotion now = motion(world), whole = motion(twin);
+  spore_world_line_state(world, 0, &line);
+  double linear = spore_vec3_distance(now.momentum, whole.momentum) / spore_vec3_length(whole.momentum);
+  double angular = spore_vec3_distance(now.angular, whole.angular) / spore_vec3_length(whole.angular);
+  g_test_message("%zu to %zu points: momentum to %.0e, angular to %.0e; kinetic energy %.2e less", line.made,
+                 line.points, linear, angular, 1 - now.kinetic / whole.kinetic);
+  g_assert_cmpuint(line.inserted, >, 2);
+  g_assert_cmpfloat(linear, <, 1e-14);
+  g_assert_cmpfloat(angular, <, 1e-13);
+  g_assert_cmpfloat(now.kinetic, <=, whole.kinetic * (1 + 1e-14));
+  double energy = rig_energy(world), most = energy;
+  for (int i = 0; i < 12000 && line.points > line.made; i++) {
+    spore_world_step(world);
+    spore_world_line_state(world, 0, &line);
+    if (i % 50 == 0) most = fmax(most, rig_energy(world));
+  }
+  SporeMotion end = motion(world);
+  linear = spore_vec3_distance(end.momentum, whole.momentum) / spore_vec3_length(whole.momentum);
+  angular = spore_vec3_distance(end.angular, whole.angular) / spore_vec3_length(whole.angular);
+  g_test_message(
+      "after %.1f s: %zu points, %zu at most, +%llu -%llu; momentum to %.0e, angular to %.0e; energy %.4e to "
+      "%.4e J, %.4e at most; %llu unsolved",
+      spore_world_time_s(world), line.points, line.peak, (unsigned long long)line.inserted,
+      (unsigned long long)line.removed, linear, angular, energy, rig_energy(world), most,
+      (unsigned long long)spore_world_monitor(world)->not_converged);
+  g_assert_cmpuint(line.points, ==, line.made);
+  g_assert_cmpfloat(linear, <, 1e-10);
+  g_assert_cmpfloat(most, <, energy * 1.01);
+  g_assert_cmpuint(spore_world_monitor(world)->not_converged, ==, 0);
+  rig_free(rig), rig_free(twin_rig);
+}
+
+/* The same bits again after a reset; and what goes moves the line by no more than is said. */
+static void test_repeats(void) {
+  Rig *rig;
+  SporeWorld *world = thrown(&rig, 0.4);
+  uint64_t hash[2], steps = 2200;
+  const SporeModel *model = world->bodies[0].model;
+  double *q = g_new(double, model->q_count), *v = g_new(double, model->q_count);
+  bend(model, 0.008, q, v);
+  for (int run = 0; run < 2; run++) {
+    if (run > 0) {
+      spore_world_reset(world);
+      spore_world_set_state(world, 0, q, v);
+    }
+    uint64_t before = spore_allocation_count();
+    for (uint64_t i = 0; i < steps; i++) spore_world_step(world);
+    g_assert_cmpuint(spore_allocation_count(), ==, before);
+    hash[run] = spore_world_hash(world);
+    SporeLineState line;
+    spore_world_line_state(world, 0, &line);
+    g_test_message("+%llu -%llu", (unsigned long long)line.inserted, (unsigned long long)line.removed);
+    g_assert_cmpuint(line.removed, >, 0);
+  }
+  g_assert_cmpuint(hash[0], ==, hash[1]);
+  g_free(q), g_free(v);
+  rig_free(rig);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/knots/insertion", test_insertion);
+  g_test_add_func("/knots/removal", test_removal);
+  g_test_add_func("/knots/pulley", test_pulley);
+  g_test_add_func("/knots/momentum", test_momentum);
+  g_test_add_func("/knots/repeats", test_repeats);
+  return g_test_run();
+}
