@@ -162,9 +162,8 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
                                error);
 }
 
-static bool carry(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping,
-                  SporeError *error) {
-  return spore_spline_line_carry(&((const Intestine *)model)->line, model, false, points, count, mapping, error);
+static bool carry(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error) {
+  return spore_spline_line_carry(&((const Intestine *)model)->line, model, false, mesh, mapping, error);
 }
 
 static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {

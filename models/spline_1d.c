@@ -235,10 +235,9 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
                                body->changes.made != NULL, mapping, error);
 }
 
-static bool carry(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping,
-                  SporeError *error) {
+static bool carry(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error) {
   const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_line_carry(&body->line, model, body->twist.span_count > 0, points, count, mapping, error);
+  return spore_spline_line_carry(&body->line, model, body->twist.span_count > 0, mesh, mapping, error);
 }
 
 static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {

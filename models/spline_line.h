@@ -56,8 +56,8 @@ bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, cons
                            double slack, bool follows, SporeMapping *mapping, SporeError *error);
 /* The slot carry of a model that begins with the line; arms: it has them behind the control points, else a root if it
  * has a frame. */
-bool spore_spline_line_carry(const SporeSplineLine *line, const SporeModel *model, bool arms, const double *points,
-                             size_t count, SporeMapping *mapping, SporeError *error);
+bool spore_spline_line_carry(const SporeSplineLine *line, const SporeModel *model, bool arms,
+                             const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error);
 bool spore_spline_line_samples(const SporeSplineLine *line, const double *arms, size_t arm_count, double **points,
                                size_t *count, size_t *seen);
 bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error);

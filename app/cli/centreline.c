@@ -70,7 +70,7 @@ typedef struct Output {
   gint64 control_points;
 } Output;
 
-/* The mesh that the body shows: a tube carries the organ's own surface. */
+/* The mesh that the body shows: the organ's own surface. */
 static SporeObject *insert_mesh(SporeDocument *document, const char *name, const char *file, GBytes *content, int unit,
                                 int frame, GError **error) {
   SporeObject *shown = spore_organ_insert(document, name, file, content, unit, frame, error);
@@ -108,7 +108,7 @@ static gboolean write_scene(SporeCli *cli, const Input *input, const SporeCurve 
   SporeCentrelineBodyOptions options = {.body = (SporeCentrelineBody)kind,
                                         .control_points = (size_t)output->control_points,
                                         .loops_apart = figures->approach > APART};
-  bool carried = kind == SPORE_CENTRELINE_TUBE && spore_centreline_carries(curve, &input->mesh, options.loops_apart);
+  bool carried = spore_centreline_carries(curve, &input->mesh);
   SporeDocument *document = spore_document_new(cli->schema);
   spore_document_set_readers(document, &spore_io_readers);
   gboolean done = make_body(document, input, curve, &options, carried, error) &&
@@ -225,8 +225,8 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
       {"scene", 's', 0, G_OPTION_ARG_FILENAME, &output.scene, N_("Scene to write, with a body along the line"),
        "F.spore"},
       {"as", 'a', 0, G_OPTION_ARG_STRING, &output.as,
-       N_("What the body is: a solid thread, a tube with a wall that carries the mesh where that lies about the line, "
-          "or an intestine on its mesentery (default tube)"),
+       N_("What the body is: a solid thread, a tube with a wall, or an intestine on its mesentery (default tube); it "
+          "carries the mesh unless that joins loops of the line"),
        "thread, tube or intestine"},
       {"control-points", 0, 0, G_OPTION_ARG_INT64, &output.control_points,
        N_("Control points of the body (default: one each two radii)"), "N"},

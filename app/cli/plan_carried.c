@@ -22,6 +22,11 @@ static void report(SporeCli *cli, const SporeObject *body, const char *unit, con
   spore_cli_number(cli, "rigid_error_m", carried->error.rigid);
   spore_cli_number(cli, "affine_error_m", carried->error.affine);
   spore_cli_number(cli, "bend_error_m", carried->error.bend);
+  if (carried->framed) {
+    spore_cli_number(cli, "crowd", carried->error.crowd);
+    spore_cli_number(cli, "crowd_share", carried->error.crowd_share);
+    spore_cli_number(cli, "torn_share", carried->error.torn);
+  }
   spore_cli_close(cli);
   say(cli, spore_object_name(body), unit, carried);
 }

@@ -4,6 +4,8 @@
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
+#include "core/mesh/attach.h"
+#include "core/scene/carried.h"
 #include "core/scene/compile.h"
 
 const char *const spore_centreline_body_names[] = {"thread", "tube", "intestine", NULL};
@@ -14,7 +16,7 @@ const char *const spore_centreline_body_names[] = {"thread", "tube", "intestine"
 #define WALL 0.25         /* of the mean radius */
 #define BOWEL_WALL 0.002  /* m; what the intestine has by default, where it is thick enough for that */
 #define TUBE_YOUNG 3e5    /* Pa: bowel along its axis (Terry et al. 2014), as the intestine */
-#define CARRIED 3.0       /* radii from the line; the ends are a third as thick as what is before them */
+#define STEP 0.25         /* mean radii from one place to the next that vertices may go with */
 #define PIN 4.0           /* radii of an end: holds it from turning too */
 #define ROOT_PIN 0.5      /* mean radii: the root's place is reckoned from the line, not from the spline */
 #define WALL_DENSITY 1060 /* kg/m^3, both the intestine's by default */
@@ -35,20 +37,32 @@ size_t spore_centreline_control_points(const SporeCurve *curve) {
   return (size_t)fmin(fmax(wanted, LEAST_POINTS), MOST_POINTS);
 }
 
-bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *mesh, bool loops_apart) {
-  bool carries = loops_apart;
-  for (size_t v = 0; carries && v < mesh->vertex_count; v++) {
-    SporeVec3 p = spore_vec3_load(mesh->vertices + 3 * v);
-    double least = HUGE_VAL;
-    for (size_t i = 0; i + 1 < curve->count; i++) {
-      SporeVec3 a = point(curve, i), ab = spore_vec3_sub(point(curve, i + 1), a);
-      double part = fmin(fmax(spore_vec3_dot(spore_vec3_sub(p, a), ab) / spore_vec3_dot(ab, ab), 0), 1);
-      double radius = curve->points[4 * i + 3] + part * (curve->points[4 * i + 7] - curve->points[4 * i + 3]);
-      least = fmin(least, spore_vec3_distance(p, spore_vec3_add_scaled(a, part, ab)) / radius);
-    }
-    carries = least <= CARRIED;
+/* Points as dense as places are to be told apart. */
+static bool divide(const SporeCurve *curve, SporeCurve *fine) {
+  double step = STEP * mean_radius(curve);
+  size_t count = 1, made = 0;
+  for (size_t i = 1; i < curve->count; i++)
+    count += (size_t)ceil(spore_vec3_distance(point(curve, i - 1), point(curve, i)) / step);
+  if (!spore_curve_allocate(fine, count, NULL)) return false;
+  for (size_t i = 1; i < curve->count; i++) {
+    size_t parts = (size_t)ceil(spore_vec3_distance(point(curve, i - 1), point(curve, i)) / step);
+    for (size_t k = 0; k < parts; k++, made++)
+      for (size_t c = 0; c < 4; c++) {
+        const double *from = curve->points + 4 * (i - 1);
+        fine->points[4 * made + c] = from[c] + (double)k / (double)parts * (from[4 + c] - from[c]);
+      }
   }
-  return carries;
+  for (size_t c = 0; c < 4; c++) fine->points[4 * made + c] = curve->points[4 * (curve->count - 1) + c];
+  return true;
+}
+
+bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *mesh) {
+  SporeCurve fine = {0};
+  g_autofree guint32 *place = g_new(guint32, mesh->vertex_count);
+  double torn = 1;
+  bool known = divide(curve, &fine) && spore_curve_attach(&fine, mesh, place, &torn);
+  spore_curve_clear(&fine);
+  return known && torn <= SPORE_CARRIED_TORN;
 }
 
 static gboolean set_number(SporeDocument *document, SporeObject *object, const char *property, double value,

@@ -5,9 +5,8 @@
 #include "core/scene/document.h"
 
 typedef enum SporeCentrelineBody {
-  SPORE_CENTRELINE_THREAD, /* spline_1d, solid, held at both ends */
-  SPORE_CENTRELINE_TUBE, /* spline_1d with a wall, that resists twist, so that the organ's own surface is carried by it;
-                          * held at both ends */
+  SPORE_CENTRELINE_THREAD,    /* spline_1d, solid, held at both ends */
+  SPORE_CENTRELINE_TUBE,      /* spline_1d with a wall, that resists twist, held at both ends */
   SPORE_CENTRELINE_INTESTINE, /* intestine, held at its mesentery's root */
   SPORE_CENTRELINE_BODIES
 } SporeCentrelineBody;
@@ -22,9 +21,9 @@ typedef struct SporeCentrelineBodyOptions {
 /* Control points for a line: one each two radii, and as many as bends need. */
 size_t spore_centreline_control_points(const SporeCurve *curve);
 
-/* Whether a tube along the line carries the surface well: each vertex is near the line for its radius there, and no two
- * loops touch, so that none follows the wrong one. */
-bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *mesh, bool loops_apart);
+/* Whether a body along the line carries the surface: no more of its edges than SPORE_CARRIED_TORN lead from one loop to
+ * another. */
+bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *mesh);
 
 /* Makes a body that is there one along the curve asset `line`: its model, collision unit and holds take the place of
  * those it had. mesh as below. FALSE with a GError: what was changed by then stays. */
@@ -33,7 +32,7 @@ gboolean spore_centreline_body_fill(SporeDocument *document, SporeObject *body, 
                                     SporeObject *mesh, GError **error);
 
 /* Inserts a curve asset (its file waits as a blob), a body of that kind with collision spheres along the line (the
- * model's own) and what holds it. mesh: object of a mesh asset that the body shows (a tube alone), or NULL: its own
+ * model's own) and what holds it. mesh: object of a mesh asset that the body shows, or NULL: its own
  * skin. Returns the body; NULL with a GError: what was inserted by then stays, so call it inside a group where that
  * matters.
  */

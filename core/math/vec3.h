@@ -36,6 +36,11 @@ static inline SporeVec3 spore_vec3_normalise(SporeVec3 a, SporeVec3 fallback) {
   double length = spore_vec3_length(a);
   return length > 1e-300 ? spore_vec3_scale(1 / length, a) : fallback;
 }
+/* One of the unit vectors across a unit vector. */
+static inline SporeVec3 spore_vec3_any_across(SporeVec3 unit) {
+  SporeVec3 axis = fabs(unit.x) < 0.6 ? spore_vec3(1, 0, 0) : spore_vec3(0, 1, 0);
+  return spore_vec3_normalise(spore_vec3_cross(unit, axis), axis);
+}
 /* A vector across the unit vector `from`, turned by the least rotation that takes `from` to the unit vector `to`; as it
  * was where `to` is opposite to `from` and there are many. It keeps its length, and comes out across `to`. */
 static inline SporeVec3 spore_vec3_transport(SporeVec3 across, SporeVec3 from, SporeVec3 to) {

@@ -55,13 +55,8 @@ static SporeVec3 tangent(const SporeCurve *curve, size_t i) {
   return spore_vec3_normalise(across, spore_vec3(1, 0, 0));
 }
 
-static SporeVec3 any_across(SporeVec3 t) {
-  SporeVec3 axis = fabs(t.x) < 0.6 ? spore_vec3(1, 0, 0) : spore_vec3(0, 1, 0);
-  return spore_vec3_normalise(spore_vec3_cross(t, axis), axis);
-}
-
 static void put_rings(const SporeCurve *curve, size_t sectors, double *vertices) {
-  SporeVec3 before = tangent(curve, 0), side = any_across(before);
+  SporeVec3 before = tangent(curve, 0), side = spore_vec3_any_across(before);
   for (size_t i = 0; i < curve->count; i++) {
     SporeVec3 t = tangent(curve, i), other;
     side = spore_vec3_transport(side, before, t);

@@ -16,6 +16,7 @@ const char *const spore_carried_units[] = {"visual", "collision", NULL};
 typedef struct Points {
   const double *first;
   gsize count, stride;
+  const SporeTriangleMesh *mesh; /* that is drawn; NULL: spheres */
 } Points;
 
 static SporeVec3 point(const Points *points, gsize i) { return spore_vec3_load(points->first + points->stride * i); }
@@ -26,10 +27,10 @@ static gboolean find_points(SporeDocument *document, const SporeObject *body, Sp
   SporeObject *asset = object ? spore_object_reference(object, properties[unit]) : NULL;
   if (asset && unit == SPORE_CARRIED_VISUAL) {
     const SporeTriangleMesh *mesh = spore_document_mesh(document, asset, NULL);
-    if (mesh) *points = (Points){mesh->vertices, mesh->vertex_count, 3};
+    if (mesh) *points = (Points){mesh->vertices, mesh->vertex_count, 3, mesh};
   } else if (asset) {
     const SporeSphereSet *set = spore_document_spheres(document, asset, NULL);
-    if (set) *points = (Points){set->spheres, set->count, 4};
+    if (set) *points = (Points){set->spheres, set->count, 4, NULL};
   }
   return points->count > 0;
 }
@@ -104,14 +105,16 @@ static void measure_places(const Shape *shape, const Points *points, SporeCarrie
   }
 }
 
-static gboolean measure_motion(const SporeModel *model, const Points *points, SporeMappingError *measured,
-                               GError **error) {
+static gboolean measure_motion(const SporeModel *model, const Points *points, SporeCarried *carried, GError **error) {
   g_autofree double *places = g_new(double, 3 * points->count);
   SporeError fault = SPORE_ERROR_INIT;
   SporeMapping mapping = {0};
+  carried->framed = points->mesh && model->type->carry;
   for (gsize i = 0; i < points->count; i++) spore_vec3_store(places + 3 * i, point(points, i));
-  gboolean done = model->type->map(model, places, points->count, &mapping, &fault) &&
-                  spore_mapping_measure(model, &mapping, places, measured, &fault);
+  gboolean done = (carried->framed ? model->type->carry(model, points->mesh, &mapping, &fault)
+                                   : model->type->map(model, places, points->count, &mapping, &fault)) &&
+                  spore_mapping_measure(model, &mapping, places, &carried->error, &fault);
+  if (done && carried->framed) carried->crowd_place = point(points, carried->error.crowd_point);
   spore_mapping_clear(&mapping);
   return done || spore_error_propagate(&fault, error);
 }
@@ -126,7 +129,7 @@ gboolean spore_carried_measure(const SporeSimulation *simulation, SporeDocument 
   const SporeModel *model = spore_world_body_model(simulation->world, index);
   if (model->type->particles || !find_points(document, body, unit, &points)) return FALSE;
   carried->count = points.count;
-  if (!measure_motion(model, &points, &carried->error, error)) return FALSE;
+  if (!measure_motion(model, &points, carried, error)) return FALSE;
   if (take_shape(document, body, model->type->geometry, &shape)) measure_places(&shape, &points, carried);
   spore_bvh_free(shape.surface);
   return TRUE;

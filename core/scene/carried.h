@@ -5,6 +5,8 @@
 #include "core/scene/compile.h"
 #include "core/sim/mapping_error.h"
 
+#define SPORE_CARRIED_TORN 2e-2 /* of the edges drawn, that may lead from one loop of a line to another */
+
 typedef enum SporeCarriedUnit { SPORE_CARRIED_VISUAL, SPORE_CARRIED_COLLISION, SPORE_CARRIED_COUNT } SporeCarriedUnit;
 extern const char *const spore_carried_units[]; /* "visual", "collision", NULL: elements of a body */
 
@@ -18,6 +20,8 @@ typedef struct SporeCarried {
   size_t apart;            /* spheres that do not reach it: off by more than their radius */
   double farthest;         /* m: how far off the farthest lies */
   SporeVec3 place;         /* of that one, body's frame */
+  bool framed;             /* vertices go with frames along a line, however far off it they lie */
+  SporeVec3 crowd_place;   /* of error.crowd_point, body's frame */
 } SporeCarried;
 
 /* FALSE: the body has no such points of its own (those of its geometry follow it exactly), is not moved by physics, or

@@ -16,7 +16,28 @@ static void check_spheres(SporeCheck *check, const SporeObject *body, const Spor
                   carried->apart, carried->count, spore_object_name(body), carried->error.leverage);
 }
 
+static void check_frames(SporeCheck *check, const SporeObject *body, const SporeCarried *carried) {
+  const SporeObject *visual = spore_object_child_of(body, "visual");
+  if (carried->error.torn > SPORE_CARRIED_TORN)
+    spore_check_say(check, SPORE_WARNING, visual, _("draw a surface whose loops do not touch, or the body's own skin"),
+                    _("%.3g%% of the edges drawn for \"%s\" lead from one loop of its line to another, and are torn "
+                      "apart as these move"),
+                    100 * carried->error.torn, spore_object_name(body));
+  if (carried->error.crowd > 1)
+    spore_check_say(check, SPORE_NOTE, visual,
+                    _("draw a smoother surface or a smoother line; fewer control points make it smoother"),
+                    _("the line of \"%s\" bends more sharply than the distance of %.3g%% of the vertices drawn around "
+                      "it, up to %.3g times, near (%.3g %.3g %.3g) m: where it bends on, the surface folds on the "
+                      "inside"),
+                    spore_object_name(body), 100 * carried->error.crowd_share, carried->error.crowd,
+                    carried->crowd_place.x, carried->crowd_place.y, carried->crowd_place.z);
+}
+
 static void check_vertices(SporeCheck *check, const SporeObject *body, const SporeCarried *carried) {
+  if (carried->framed) {
+    check_frames(check, body, carried);
+    return;
+  }
   if (carried->farthest <= WARNED_DISTANCE * carried->size && carried->error.leverage <= WARNED_LEVERAGE) return;
   g_autofree char *length = spore_length_text(carried->farthest);
   spore_check_say(check, SPORE_WARNING, spore_object_child_of(body, "visual"),

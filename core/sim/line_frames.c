@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/constraint/path.h"
+#include "core/mesh/attach.h"
 
 #define REACH 4.0     /* mean radii, over which sections give way to one another */
 #define STRAIGHT 1e-6 /* of the moment along a line, across it: square of how far off straight it is */
@@ -74,7 +75,7 @@ static void set_normals(SporeLineFrames *frames, const SporeLine *line) {
     station->normal = normal = spore_vec3_normalise(spore_line_across(normal, next), normal);
     if (!frames->arms) continue;
     SporeVec3 foot = spore_line_sum(&station->row, station->row.value, line->q);
-    SporeVec3 arm = spore_line_across(spore_vec3_sub(spore_vec3_load(line->q + 3 * (frames->root + k)), foot), next);
+    SporeVec3 arm = spore_line_across(spore_vec3_sub(spore_vec3_load(line->q + 3 * station->arm), foot), next);
     station->angle = atan2(spore_vec3_dot(normal, spore_vec3_cross(next, arm)), spore_vec3_dot(normal, arm));
   }
 }
@@ -111,12 +112,30 @@ static double mean_radius(const SporeLine *line) {
   return sum;
 }
 
+/* The nodes of the stations and of what is behind the control points. */
+static void lead(SporeLineFrames *frames, SporeSplineKnots knots) {
+  size_t count = knots.span_count + 3;
+  frames->root = count;
+  frames->quaternion = 3 * (count + 1);
+  for (size_t k = 0; k < frames->station_count; k++) {
+    SporeLineStation *station = &frames->stations[k];
+    bool end = station->parameter >= spore_spline_end(knots);
+    station->row = row_at(knots, station->parameter);
+    station->arm = count + (end ? knots.span_count : spore_spline_span(knots, station->parameter));
+  }
+}
+
+void spore_line_frames_follow(SporeLineFrames *frames, SporeSplineKnots knots) {
+  lead(frames, knots);
+  for (size_t i = 0; i < frames->point_count; i++) frames->points[i].row = row_at(knots, frames->points[i].parameter);
+}
+
 static void set_stations(SporeLineFrames *frames, const SporeLine *line) {
   size_t parts = frames->arms ? 1 : 2;
   for (size_t k = 0; k < frames->station_count; k++) {
     frames->stations[k].parameter = spore_spline_part(line->knots, parts, k);
-    frames->stations[k].row = row_at(line->knots, frames->stations[k].parameter);
   }
+  lead(frames, line->knots);
   measure_stations(frames, line);
   set_normals(frames, line);
   find_chord(frames);
@@ -151,31 +170,20 @@ static SporeVec3 arm_of(const SporeLinePoint *point, const Section *section) {
   return spore_vec3_add_scaled(arm, point->place[2], side);
 }
 
-/* Places of the line that are searched for the nearest. */
-static double *sample(const SporeLine *line, size_t count) {
-  double *samples = SPORE_NEW_ARRAY(double, 4 * count);
-  for (size_t i = 0; samples && i < count; i++) {
-    double parameter = spore_spline_part(line->knots, SPORE_LINE_SAMPLES, i);
-    spore_vec3_store(samples + 4 * i, spore_path_at(line->knots, line->q, parameter).position);
-    samples[4 * i + 3] = line->radius[i] * line->radius[i];
+/* Places of the line that vertices are attached to. */
+static bool sample(const SporeLine *line, SporeCurve *samples, SporeError *error) {
+  if (!spore_curve_allocate(samples, SPORE_LINE_SAMPLES * line->knots.span_count + 1, error)) return false;
+  for (size_t i = 0; i < samples->count; i++) {
+    double parameter = spore_spline_part(line->knots, SPORE_LINE_SAMPLES, i), *sample = samples->points + 4 * i;
+    spore_vec3_store(sample, spore_path_at(line->knots, line->q, parameter).position);
+    sample[3] = line->radius[i];
   }
-  return samples;
+  return true;
 }
 
-static size_t nearest(const double *samples, size_t count, SporeVec3 p) {
-  size_t best = 0;
-  double least = HUGE_VAL;
-  for (size_t i = 0; i < count; i++) {
-    SporeVec3 off = spore_vec3_sub(p, spore_vec3_load(samples + 4 * i));
-    double power = spore_vec3_dot(off, off) - samples[4 * i + 3];
-    if (power < least) least = power, best = i;
-  }
-  return best;
-}
-
-static void set_point(SporeLineFrames *frames, const SporeLine *line, const double *samples, size_t count, SporeVec3 p,
+static void set_point(SporeLineFrames *frames, const SporeLine *line, uint32_t sample, SporeVec3 p,
                       SporeLinePoint *point) {
-  double start = spore_spline_part(line->knots, SPORE_LINE_SAMPLES, nearest(samples, count, p));
+  double start = spore_spline_part(line->knots, SPORE_LINE_SAMPLES, sample);
   SporePathPlace place = spore_path_follow(line->knots, line->q, start, p);
   size_t low = 0, high = frames->station_count - 1;
   while (high - low > 1) {
@@ -183,6 +191,7 @@ static void set_point(SporeLineFrames *frames, const SporeLine *line, const doub
     *(frames->stations[middle].parameter <= place.parameter ? &low : &high) = middle;
   }
   double from = frames->stations[low].parameter;
+  point->parameter = place.parameter;
   point->row = row_at(line->knots, place.parameter);
   point->station = (uint32_t)low;
   point->share = (place.parameter - from) / (frames->stations[low + 1].parameter - from);
@@ -195,24 +204,31 @@ static void set_point(SporeLineFrames *frames, const SporeLine *line, const doub
   point->crowd = spore_vec3_length(bend) * section.inverse * section.inverse * spore_vec3_length(off);
 }
 
-bool spore_line_frames_init(SporeLineFrames *frames, const SporeLine *line, const double *points, size_t count,
-                            SporeError *error) {
-  size_t control_count = line->knots.span_count + 3, sample_count = SPORE_LINE_SAMPLES * line->knots.span_count + 1;
-  size_t stations = (line->arms ? 1 : 2) * line->knots.span_count + 1;
-  *frames = (SporeLineFrames){.arms = line->arms, .rooted = line->rooted, .root = control_count};
-  frames->quaternion = 3 * (control_count + 1);
-  double *samples = sample(line, sample_count);
-  bool made = samples && allocate(frames, stations, count);
-  if (made) {
-    set_stations(frames, line);
-    spore_line_roll_place(frames, line->q);
-    for (size_t i = 0; i < count; i++)
-      set_point(frames, line, samples, sample_count, spore_vec3_load(points + 3 * i), &frames->points[i]);
-  } else {
-    spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
-  }
-  spore_free(samples);
+static bool no_memory(size_t count, SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
+}
+
+static bool attach(SporeLineFrames *frames, const SporeLine *line, const SporeTriangleMesh *mesh, SporeError *error) {
+  SporeCurve samples = {0};
+  uint32_t *place = SPORE_NEW_ARRAY(uint32_t, mesh->vertex_count);
+  bool made = sample(line, &samples, error);
+  if (made && !(place && spore_curve_attach(&samples, mesh, place, &frames->torn)))
+    made = no_memory(mesh->vertex_count, error);
+  for (size_t i = 0; made && i < mesh->vertex_count; i++)
+    set_point(frames, line, place[i], spore_vec3_load(mesh->vertices + 3 * i), &frames->points[i]);
+  spore_curve_clear(&samples);
+  spore_free(place);
   return made;
+}
+
+bool spore_line_frames_init(SporeLineFrames *frames, const SporeLine *line, const SporeTriangleMesh *mesh,
+                            SporeError *error) {
+  size_t stations = (line->arms ? 1 : 2) * line->knots.span_count + 1;
+  *frames = (SporeLineFrames){.arms = line->arms, .rooted = line->rooted};
+  if (!allocate(frames, stations, mesh->vertex_count)) return no_memory(mesh->vertex_count, error);
+  set_stations(frames, line);
+  spore_line_roll_place(frames, line->q);
+  return attach(frames, line, mesh, error);
 }
 
 static size_t first_of(size_t point) { return point == SPORE_LINE_ALL ? 0 : point; }

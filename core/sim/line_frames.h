@@ -23,6 +23,7 @@
 #include "core/base/error.h"
 #include "core/math/quat.h"
 #include "core/math/spline.h"
+#include "core/mesh/mesh.h"
 
 /* A line at rest. Its control points are the first nodes of a body; behind them are the ends of arms, one a knot, or a
  * root: a node with a frame, whose turning is the block behind it, and whose quaternion is behind all nodes. */
@@ -42,6 +43,7 @@ typedef struct SporeLineRow {
 
 typedef struct SporeLineStation {
   double parameter;
+  size_t arm; /* node */
   SporeLineRow row;
   SporeVec3 place, tangent, normal; /* at rest; place: from the middle of the stations */
   double angle;                     /* about the tangent, from the arm to the normal, rad */
@@ -62,6 +64,7 @@ typedef struct SporeLineFrame {
 } SporeLineFrame;
 
 typedef struct SporeLinePoint {
+  double parameter;
   SporeLineRow row;
   uint32_t station; /* before it */
   double share;     /* of the way to the next */
@@ -77,16 +80,20 @@ typedef struct SporeLineFrames {
   size_t station_count, point_count;
   SporeLineStation *stations;
   SporeLinePoint *points;
+  double torn; /* share of the mesh's edges that lead to another loop of the line */
   /* Room for one evaluation at a time. */
   SporeLineFrame *frames;
   double *tangent_rate, *roll_rate; /* of each station: 3 and 1; in forces what these are multiplied by */
   double *system;                   /* 2 each */
 } SporeLineFrames;
 
-/* points: 3 each, body's frame. Each belongs to the place of the line that is nearest for how thick the line is there
- * (least distance^2 - radius^2). False: no memory; clear it then too. */
-bool spore_line_frames_init(SporeLineFrames *frames, const SporeLine *line, const double *points, size_t count,
+/* The mesh's vertices, body's frame, each with the place of the line that spore_curve_attach tells. False: no memory;
+ * clear it then too. */
+bool spore_line_frames_init(SporeLineFrames *frames, const SporeLine *line, const SporeTriangleMesh *mesh,
                             SporeError *error);
+/* The same line led by other control points: parameters stay, and stations, whose knots are still there. Arms are in
+ * the order of the knots. */
+void spore_line_frames_follow(SporeLineFrames *frames, SporeSplineKnots knots);
 void spore_line_frames_clear(SporeLineFrames *frames);
 
 /* As those of a mapping (core/sim/mapping.h), of all points or, with `point`, of one. Not by two threads at once. */

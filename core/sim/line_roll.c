@@ -14,13 +14,8 @@ typedef struct Turn {
   double along;                /* 1 / length of what it is the direction of */
 } Turn;
 
-static SporeVec3 any_across(SporeVec3 tangent) {
-  SporeVec3 axis = fabs(tangent.x) < 0.6 ? spore_vec3(1, 0, 0) : spore_vec3(0, 1, 0);
-  return spore_vec3_normalise(spore_line_across(axis, tangent), spore_vec3(0, 0, 1));
-}
-
 static SporeMat3 least_turn(SporeVec3 from, SporeVec3 to) {
-  SporeVec3 normal = any_across(from), turned = spore_vec3_transport(normal, from, to);
+  SporeVec3 normal = spore_vec3_any_across(from), turned = spore_vec3_transport(normal, from, to);
   SporeMat3 before = spore_mat3_from_columns(from, normal, spore_vec3_cross(from, normal));
   SporeMat3 after = spore_mat3_from_columns(to, turned, spore_vec3_cross(to, turned));
   return spore_mat3_multiply(after, spore_mat3_transpose(before));
@@ -118,8 +113,9 @@ static void place_stations(const SporeLineFrames *frames, const double *q) {
 static void follow_arms(const SporeLineFrames *frames, const double *q) {
   for (size_t k = 0; k < frames->station_count; k++) {
     SporeLineFrame *frame = &frames->frames[k];
-    frame->arm = spore_vec3_sub(spore_vec3_load(q + 3 * (frames->root + k)), frame->position);
-    SporeVec3 flat = spore_vec3_normalise(spore_line_across(frame->arm, frame->tangent), any_across(frame->tangent));
+    frame->arm = spore_vec3_sub(spore_vec3_load(q + 3 * frames->stations[k].arm), frame->position);
+    SporeVec3 flat =
+        spore_vec3_normalise(spore_line_across(frame->arm, frame->tangent), spore_vec3_any_across(frame->tangent));
     SporeVec3 side = spore_vec3_cross(frame->tangent, flat);
     double angle = frames->stations[k].angle;
     frame->normal = spore_vec3_add_scaled(spore_vec3_scale(cos(angle), flat), sin(angle), side);
@@ -158,7 +154,7 @@ static void settle_rolls(const SporeLineFrames *frames, const double *q) {
     const SporeLineStation *station = &frames->stations[k];
     SporeLineFrame *frame = &frames->frames[k];
     SporeVec3 drawn = drawn_to(station, &turn.rotation, frame);
-    if (k == 0) frame->reference = spore_vec3_normalise(drawn, any_across(frame->tangent));
+    if (k == 0) frame->reference = spore_vec3_normalise(drawn, spore_vec3_any_across(frame->tangent));
     else frame->reference = spore_vec3_transport(frame[-1].reference, frame[-1].tangent, frame->tangent);
     frame->anchor[0] = spore_vec3_dot(drawn, frame->reference);
     frame->anchor[1] = spore_vec3_dot(drawn, spore_vec3_cross(frame->tangent, frame->reference));
@@ -203,7 +199,7 @@ static void rate_of_arms(const SporeLineFrames *frames, const double *v) {
   for (size_t k = 0; k < frames->station_count; k++) {
     const SporeLineRow *row = &frames->stations[k].row;
     const SporeLineFrame *frame = &frames->frames[k];
-    SporeVec3 turn = roll_of_arm(frame), end = spore_vec3_load(v + 3 * (frames->root + k));
+    SporeVec3 turn = roll_of_arm(frame), end = spore_vec3_load(v + 3 * frames->stations[k].arm);
     SporeVec3 speed = spore_vec3_sub(end, spore_line_sum(row, row->value, v));
     double lean = spore_vec3_dot(frame->arm, frame->tangent);
     frames->roll_rate[k] = spore_vec3_dot(turn, speed) - lean * spore_vec3_dot(turn, rate_of(frames, k));
@@ -260,7 +256,7 @@ static void pull_arms(const SporeLineFrames *frames, double *f) {
     const SporeLineRow *row = &frames->stations[k].row;
     const SporeLineFrame *frame = &frames->frames[k];
     SporeVec3 turn = spore_vec3_scale(frames->roll_rate[k], roll_of_arm(frame));
-    spore_vec3_accumulate(f + 3 * (frames->root + k), turn);
+    spore_vec3_accumulate(f + 3 * frames->stations[k].arm, turn);
     spore_line_spread(row, row->value, spore_vec3_scale(-1, turn), f);
     spore_vec3_accumulate(frames->tangent_rate + 3 * k,
                           spore_vec3_scale(-spore_vec3_dot(frame->arm, frame->tangent), turn));

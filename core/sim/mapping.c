@@ -61,12 +61,12 @@ bool spore_mapping_init_linear(SporeMapping *mapping, size_t count, size_t width
   return true;
 }
 
-bool spore_mapping_init_frames(SporeMapping *mapping, const SporeLine *line, const double *points, size_t count,
+bool spore_mapping_init_frames(SporeMapping *mapping, const SporeLine *line, const SporeTriangleMesh *mesh,
                                SporeError *error) {
-  *mapping = (SporeMapping){.kind = SPORE_MAPPING_FRAMES, .point_count = count};
+  *mapping = (SporeMapping){.kind = SPORE_MAPPING_FRAMES, .point_count = mesh->vertex_count};
   mapping->frames = SPORE_NEW(SporeLineFrames);
   if (!mapping->frames) return no_memory(mapping, error);
-  if (spore_line_frames_init(mapping->frames, line, points, count, error)) return true;
+  if (spore_line_frames_init(mapping->frames, line, mesh, error)) return true;
   spore_mapping_clear(mapping);
   return false;
 }

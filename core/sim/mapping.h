@@ -41,7 +41,7 @@ bool spore_mapping_init_identity(SporeMapping *mapping, size_t count);
 bool spore_mapping_init_linear(SporeMapping *mapping, size_t count, size_t width, const uint32_t *blocks,
                                const double *weights, SporeError *error);
 /* Not for two threads at once, here and below. */
-bool spore_mapping_init_frames(SporeMapping *mapping, const SporeLine *line, const double *points, size_t count,
+bool spore_mapping_init_frames(SporeMapping *mapping, const SporeLine *line, const SporeTriangleMesh *mesh,
                                SporeError *error);
 void spore_mapping_clear(SporeMapping *mapping);
 

@@ -126,6 +126,7 @@ static void run_trials(Trial *trial, SporeMappingError *measured) {
   measured->affine = follows_nodes ? after_field(trial, affine_field) : NAN;
   measured->bend = follows_nodes ? after_field(trial, bend_field) : framed ? after_field(trial, arc_field) : NAN;
   measured->leverage = 1;
+  if (framed) measured->torn = trial->mapping->frames->torn;
   if (framed)
     measured->crowd = spore_line_frames_crowd(trial->mapping->frames, &measured->crowd_point, &measured->crowd_share);
   for (size_t i = 0; i < trial->mapping->point_count; i++)

@@ -17,6 +17,7 @@ typedef struct SporeMappingError {
   double crowd;    /* of points on frames along a line: greatest curvature of the line at rest times distance from it;
                       above 1 what surrounds the line folds on the inside of that bend. 0 of others */
   size_t crowd_point;
+  double torn;        /* of a surface on such frames: share of its edges that lead to another loop of the line */
   double crowd_share; /* of the points, with more than 1 */
 } SporeMappingError;
 

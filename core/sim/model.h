@@ -133,8 +133,9 @@ struct SporeModelType {
   /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. */
   bool (*map)(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error);
 
-  /* The same of points that are only drawn, where sections of the body turn as a whole. NULL: map serves. */
-  bool (*carry)(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error);
+  /* The same of the vertices of a surface that is only drawn, where sections of the body turn as a whole. NULL: map
+   * serves. */
+  bool (*carry)(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error);
 
   /* Required of a model with a frame: its inertia at q, world axes, symmetric positive definite, kg m^2. */
   SporeMat3 (*inertia)(const SporeModel *model, const double *q);

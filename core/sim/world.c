@@ -286,12 +286,12 @@ bool spore_world_map_level(const SporeWorld *world, uint32_t index, SporeLevelGr
   return model->type->map(model, points, count, mapping, error);
 }
 
-bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const double *points,
-                           size_t count, SporeMapping *mapping, SporeError *error) {
+bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const SporeTriangleMesh *mesh,
+                           SporeMapping *mapping, SporeError *error) {
   const SporeModel *model = spore_world_level_model(world, body, level);
   if (world->bodies[body].role == SPORE_PASSIVE && model->type->carry)
-    return model->type->carry(model, points, count, mapping, error);
-  return spore_world_map_level(world, body, level, points, count, mapping, error);
+    return model->type->carry(model, mesh, mapping, error);
+  return spore_world_map_level(world, body, level, mesh->vertices, mesh->vertex_count, mapping, error);
 }
 
 bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,

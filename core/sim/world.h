@@ -282,8 +282,8 @@ const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t body
 bool spore_world_map_level(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const double *points,
                            size_t count, SporeMapping *mapping, SporeError *error);
 /* The same of what is drawn of the body (SporeModelType.carry). */
-bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const double *points,
-                           size_t count, SporeMapping *mapping, SporeError *error);
+bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const SporeTriangleMesh *mesh,
+                           SporeMapping *mapping, SporeError *error);
 typedef struct SporeLevelState {
   SporeLevelGrade level;     /* now */
   uint64_t changes, refused; /* since time 0 */

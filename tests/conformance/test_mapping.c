@@ -42,7 +42,9 @@ static double *points_of(const Specimen *specimen, Slot slot, GRand *random, int
 
 static bool try_map(const SporeModel *model, Slot slot, const double *points, size_t count, SporeMapping *mapping,
                     SporeError *error) {
-  return (slot == MAP ? model->type->map : model->type->carry)(model, points, count, mapping, error);
+  if (slot == MAP) return model->type->map(model, points, count, mapping, error);
+  const SporeTriangleMesh cloud = {.vertex_count = count, .vertices = (double *)points};
+  return model->type->carry(model, &cloud, mapping, error);
 }
 
 static void map(const SporeModel *model, Slot slot, const double *points, size_t count, SporeMapping *mapping) {

@@ -902,7 +902,7 @@ def centreline_scenes():
     for kind in ("thread", "tube", "intestine"):
         scene = f"along/{kind}.spore"
         answer = report("centreline", "tube.off", "--scene", scene, "--as", kind)
-        assert answer["skin"] == ("mesh" if kind == "tube" else "own")
+        assert answer["skin"] == "mesh"
         worse = [d for d in report("check", scene)["diagnostics"] if d["severity"] == "error"]
         assert not worse, worse
         answer = report("run", scene, "--time", 0.2)

@@ -132,8 +132,7 @@ gboolean spore_edit_use_curve(SporeDocument *document, SporeObject *body, const 
   SporeObject *source = spore_document_find(document, "mesh", from->source);
   const SporeTriangleMesh *mesh = source ? spore_document_mesh(document, source, error) : NULL;
   if (!mesh) return FALSE;
-  bool carried =
-      options && options->body == SPORE_CENTRELINE_TUBE && spore_centreline_carries(curve, mesh, options->loops_apart);
+  bool carried = options && spore_centreline_carries(curve, mesh);
   Content content = {.element = "curve", .suffix = "line", .extension = "curve"};
   content.text = spore_curve_format(curve, &content.size);
   spore_document_begin(document, _("Generate middle line"));

@@ -41,18 +41,20 @@ static void init_configuration(SporeStageBody *body, const SporeObject *object, 
   }
 }
 
-static gboolean map_points(const SporeStageBody *body, const SporeSimulation *simulation, const double *points,
-                           gsize count, SporeStagePoints *mapped) {
-  gboolean done, surface = mapped == &body->surface;
-  done = body->world_body != SPORE_NO_BODY
-             ? (surface ? spore_world_map_drawn : spore_world_map_level)(
-                   simulation->world, body->world_body, body->level, points, count, &mapped->mapping, NULL)
-             : spore_mapping_init_points(&mapped->mapping, SPORE_MAPPING_RIGID, points, count, NULL);
-  if (!done) return FALSE;
+static void keep_points(const SporeStageBody *body, gsize count, SporeStagePoints *mapped) {
   mapped->count = count;
   mapped->positions = g_new(double, 3 * count);
   spore_mapping_positions(&mapped->mapping, body->q, mapped->positions);
-  return TRUE;
+}
+
+static gboolean map_points(const SporeStageBody *body, const SporeSimulation *simulation, const double *points,
+                           gsize count, SporeStagePoints *mapped) {
+  gboolean done = body->world_body != SPORE_NO_BODY
+                      ? spore_world_map_level(simulation->world, body->world_body, body->level, points, count,
+                                              &mapped->mapping, NULL)
+                      : spore_mapping_init_points(&mapped->mapping, SPORE_MAPPING_RIGID, points, count, NULL);
+  if (done) keep_points(body, count, mapped);
+  return done;
 }
 
 void spore_stage_body_follow_knots(SporeStageBody *body, const SporeSimulation *simulation,
@@ -127,11 +129,20 @@ static void build_tube(SporeStage *stage, SporeStageBody *body, const SporeObjec
   g_free(points);
 }
 
-static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
-                        const double *vertices, gsize vertex_count) {
-  if (map_points(body, simulation, vertices, vertex_count, &body->surface))
-    body->surface_handle = spore_renderer_add_surface(stage->renderer, vertices, vertex_count, body->triangles,
-                                                      body->triangle_count, &body->style);
+/* With body->triangles. */
+static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation, double *vertices,
+                        gsize vertex_count) {
+  SporeStagePoints *surface = &body->surface;
+  const SporeTriangleMesh mesh = {vertex_count, body->triangle_count, vertices, (uint32_t *)body->triangles, false};
+  if (body->world_body == SPORE_NO_BODY) {
+    if (!map_points(body, simulation, vertices, vertex_count, surface)) return;
+  } else {
+    if (!spore_world_map_drawn(simulation->world, body->world_body, body->level, &mesh, &surface->mapping, NULL))
+      return;
+    keep_points(body, vertex_count, surface);
+  }
+  body->surface_handle = spore_renderer_add_surface(stage->renderer, vertices, vertex_count, body->triangles,
+                                                    body->triangle_count, &body->style);
 }
 
 /* Puffs instead of a surface and spheres. */
