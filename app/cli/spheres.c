@@ -28,7 +28,7 @@ static void say_solid(SporeCli *cli, const SporeSphereSet *set, const SporeSpher
                 _("%zu spheres: coverage %.1f %%, outside %.1f %%, distance %.3f %% (largest %.2f %%) of the diagonal, "
                   "depth error %.3f, %.2f s\n"),
                 set->count, 100 * report->coverage, 100 * report->outside, 100 * report->distance_mean,
-                100 * report->distance_max, report->depth_error, report->seconds);
+                100 * report->distance_max, spore_spheres_felt_error(report), report->seconds);
   if (report->mirrors)
     spore_cli_say(cli,
                   ngettext("The mesh is its own image in %zu plane; so is the set.\n",

@@ -65,7 +65,7 @@ typedef struct Series {
 static void tell_point(void *data, size_t point, const SporeSpheresReport *report) {
   const Series *series = data;
   spore_cli_say(series->cli, "%7zu %9.4f %9.4f %10.4f %11.4f %8.2f\n", series->counts[point], report->coverage,
-                report->outside, 100 * report->distance_mean, report->depth_error, report->seconds);
+                report->outside, 100 * report->distance_mean, spore_spheres_felt_error(report), report->seconds);
 }
 
 static void append_number(GString *text, double value) {
@@ -76,10 +76,12 @@ static void append_number(GString *text, double value) {
 
 static gboolean write_csv(const char *csv, const size_t *counts, const SporeSpheresReport *reports, size_t count,
                           GError **error) {
-  g_autoptr(GString) text = g_string_new("count,coverage,outside,distance_mean,distance_max,depth_error,seconds\n");
+  g_autoptr(GString) text = g_string_new("count,coverage,outside,distance_mean,distance_max,depth_error,seconds,"
+                                         "weighted_depth_error\n");
   for (size_t i = 0; i < count; i++) {
     const SporeSpheresReport *r = &reports[i];
-    const double row[] = {r->coverage, r->outside, r->distance_mean, r->distance_max, r->depth_error, r->seconds};
+    const double row[] = {r->coverage,    r->outside, r->distance_mean,       r->distance_max,
+                          r->depth_error, r->seconds, r->weighted_depth_error};
     g_string_append_printf(text, "%zu", counts[i]);
     for (guint k = 0; k < G_N_ELEMENTS(row); k++) append_number(text, row[k]);
     g_string_append_c(text, '\n');
@@ -98,7 +100,8 @@ static char *draw(const char *file, const size_t *counts, const SporeSpheresRepo
   SporePlotLine lines[2][LINES];
   for (size_t i = 0; i < count; i++) {
     number[i] = (double)counts[i], seconds[i] = reports[i].seconds;
-    y[DEPTH * count + i] = 100 * reports[i].depth_error, y[MISSING * count + i] = 100 * (1 - reports[i].coverage);
+    y[DEPTH * count + i] = 100 * spore_spheres_felt_error(&reports[i]),
+                      y[MISSING * count + i] = 100 * (1 - reports[i].coverage);
     y[OUTSIDE * count + i] = 100 * reports[i].outside, y[DISTANCE * count + i] = 100 * reports[i].distance_mean;
   }
   for (int l = 0; l < LINES; l++) {
@@ -171,7 +174,7 @@ gboolean spore_cli_spheres_series(SporeCli *cli, const char *file, const SporeSp
     return spore_error_propagate(&fault, error);
   }
   g_autofree double *errors = g_new(double, count);
-  for (size_t i = 0; i < count; i++) errors[i] = reports[i].depth_error;
+  for (size_t i = 0; i < count; i++) errors[i] = spore_spheres_felt_error(&reports[i]);
   size_t enough = spore_enough(numbers, errors, count, worth);
   if (svg && !write_svg(svg, file, numbers, reports, count, enough, worth, error)) return FALSE;
   if (csv && !write_csv(csv, numbers, reports, count, error)) return FALSE;

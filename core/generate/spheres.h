@@ -33,7 +33,7 @@ typedef struct SporeSpheresOptions {
   uint64_t seed;
   const SporeSpheresRegion *regions; /* region_count; of solids alone */
   size_t region_count;
-  bool asymmetric;  /* do not look whether the solid is its own mirror image; only balanced sets follow it */
+  bool asymmetric;  /* do not look whether the solid is its own mirror image */
   double thickness; /* m, of a sheet: all spheres are as wide; 0: each as wide as it takes to leave no gap */
 } SporeSpheresOptions;
 
@@ -50,6 +50,10 @@ typedef struct SporeSpheresReport {
   double seconds;
   size_t mirrors; /* planes that the solid and the set are symmetric about: 0 to 3 */
 } SporeSpheresReport;
+/* Depth error of what is felt: of the weighted sum where the set has weights, of the deepest sphere else. */
+static inline double spore_spheres_felt_error(const SporeSpheresReport *report) {
+  return report->weighted_depth_error > 0 ? report->weighted_depth_error : report->depth_error;
+}
 
 /* What spheres are made from; the first that is not NULL counts. */
 typedef struct SporeSpheresSource {

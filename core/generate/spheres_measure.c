@@ -77,18 +77,18 @@ static bool measure_inside(Measure *m, SporeSpheresReport *report) {
   return true;
 }
 
-/* The weighted sum at a point. */
-static double weighted_depth(const Measure *m, const double *weights, const double p[3]) {
+double spore_spheres_weighted_depth(const SporeSphereSet *set, const double p[3]) {
   double sum = 0;
-  for (size_t i = 0; i < m->balls.count; i++) {
-    double dx = m->balls.x[i] - p[0], dy = m->balls.y[i] - p[1], dz = m->balls.z[i] - p[2];
-    sum += weights[i] * fmax(0, m->balls.r[i] - sqrt(dx * dx + dy * dy + dz * dz));
+  for (size_t i = 0; i < set->count; i++) {
+    const double *s = set->spheres + 4 * i;
+    double dx = s[0] - p[0], dy = s[1] - p[1], dz = s[2] - p[2];
+    sum += set->weights[i] * fmax(0, s[3] - sqrt(dx * dx + dy * dy + dz * dz));
   }
   return sum;
 }
 
 /* Depth error of the weighted sum, and where it is felt outside. False: cancelled. */
-static bool measure_weighted(Measure *m, const double *weights, SporeSpheresReport *report) {
+static bool measure_weighted(Measure *m, const SporeSphereSet *set, SporeSpheresReport *report) {
   double deepest = 0, error = 0, near = SPORE_SPHERES_NEAR * m->solid->diagonal;
   size_t outside = 0, felt = 0;
   if (!draw_interior(m)) return false;
@@ -96,7 +96,7 @@ static bool measure_weighted(Measure *m, const double *weights, SporeSpheresRepo
     if (!go_on(m, i, 2 * MEASURE_SAMPLES)) return false;
     double depth = spore_bvh_distance(m->solid->bvh, spore_vec3_load(m->points + 3 * i), NULL, NULL);
     deepest = fmax(deepest, depth);
-    error += fabs(depth - weighted_depth(m, weights, m->points + 3 * i));
+    error += fabs(depth - spore_spheres_weighted_depth(set, m->points + 3 * i));
   }
   spore_solid_surface(m->solid, MEASURE_SAMPLES, &m->random, m->points, NULL);
   for (size_t i = 0; i < MEASURE_SAMPLES; i++) {
@@ -107,7 +107,7 @@ static bool measure_weighted(Measure *m, const double *weights, SporeSpheresRepo
     if (spore_bvh_winding(m->solid->bvh, place) > 0.5) continue;
     spore_vec3_store(p, place);
     outside++;
-    felt += weighted_depth(m, weights, p) > 0;
+    felt += spore_spheres_weighted_depth(set, p) > 0;
   }
   report->weighted_depth_error = deepest > 0 ? error / MEASURE_SAMPLES / deepest : 0;
   report->felt_outside = outside ? (double)felt / (double)outside : 0;
@@ -282,7 +282,7 @@ bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, Spo
   m.progress = part_at(progress, 0.6, 0.2);
   done = done && go_on(&m, 0, 1) && measure_surfaces(&m, report, error);
   m.progress = part_at(progress, 0.8, 0.2);
-  done = done && (!set->weights || measure_weighted(&m, set->weights, report));
+  done = done && (!set->weights || measure_weighted(&m, set, report));
   if (!done && !m.cancelled) spore_spheres_no_memory(error);
   if (done) report->certified = certify(&m, report);
   spore_free(m.points);

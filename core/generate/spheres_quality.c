@@ -30,7 +30,8 @@ static bool judge_spheres(const SporeSolid *solid, const SporeSphereSet *set, Sp
     if (i % 16 == 0 && !spore_progress_part(progress, (double)i / (double)set->count, _("Measuring"), error))
       return false;
     quality->outside[i] = outside_share(solid->bvh, sphere);
-    quality->depth_error[i] = fabs(sphere[3] - spore_bvh_depth(solid->bvh, spore_vec3_load(sphere)));
+    double felt = set->weights ? spore_spheres_weighted_depth(set, sphere) : sphere[3];
+    quality->depth_error[i] = fabs(felt - spore_bvh_depth(solid->bvh, spore_vec3_load(sphere)));
   }
   return true;
 }

@@ -8,7 +8,7 @@
 typedef struct SporeSpheresQuality {
   size_t sphere_count, vertex_count;
   double *outside;     /* sphere_count: share of the sphere's volume outside the solid, 0..1, from points inside it */
-  double *depth_error; /* sphere_count: |radius - depth of the centre|, m */
+  double *depth_error; /* sphere_count: |radius, or the weighted sum at the centre - depth of the centre|, m */
   double *distance;    /* vertex_count: from the mesh's vertex out to the union of spheres, m; below 0: inside it, the
                           shortest way straight out of one of them; to single precision */
   double *area;        /* vertex_count: share of the surface that is nearest to the vertex; together 1 */

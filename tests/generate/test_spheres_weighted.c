@@ -2,6 +2,7 @@
 #include <glib.h>
 #include <math.h>
 
+#include "core/generate/spheres_quality.h"
 #include "core/generate/spheres.h"
 #include "sets.h"
 #include "tests/mesh/shapes.h"
@@ -26,6 +27,11 @@ static void test_ball(void) {
   g_assert_true(spore_spheres_measure(&ball, &set, &report, NULL));
   g_assert_cmpfloat(report.weighted_depth_error, >, 0.124);
   g_assert_cmpfloat(report.weighted_depth_error, <, 0.132);
+  SporeSpheresQuality quality; /* judged by the sum, not by the sphere */
+  g_assert_true(spore_spheres_quality(&ball, &set, &quality, NULL, NULL));
+  g_assert_cmpfloat_with_epsilon(quality.depth_error[0], 0.5 * 0.05, 1e-2 * 0.05);
+  spore_spheres_quality_clear(&quality);
+  g_assert_cmpfloat(spore_spheres_felt_error(&report), ==, report.weighted_depth_error);
   set.spheres[3] += 0.02 * 2 * sqrt(3) * 0.05; /* all places near it are felt */
   g_assert_true(spore_spheres_measure(&ball, &set, &report, NULL));
   g_assert_cmpfloat(report.felt_outside, ==, 1);
@@ -42,6 +48,7 @@ static void test_box(void) {
   SporeSphereSet set = make(&box, SPORE_SPHERES_WEIGHTED, 16, &report),
                  again = make(&box, SPORE_SPHERES_WEIGHTED, 16, &report);
   g_assert_null(plain.weights);
+  g_assert_cmpfloat(spore_spheres_felt_error(&balanced), ==, balanced.depth_error);
   g_assert_cmpfloat(balanced.weighted_depth_error, ==, 0);
   g_assert_cmpfloat(report.weighted_depth_error, <, 0.8 * balanced.depth_error);
   g_assert_cmpfloat(report.felt_outside, <, 0.45);

@@ -37,7 +37,7 @@ static gboolean price(const SporeGenerateWork *work, size_t count, double *error
   if (!spore_spheres_from_mesh(&work->mesh, &options, &set, &report, progress, &failure))
     return spore_error_propagate(&failure, error);
   spore_sphere_set_clear(&set);
-  *error_percent = 100 * report.depth_error;
+  *error_percent = 100 * spore_spheres_felt_error(&report);
   return TRUE;
 }
 
@@ -51,7 +51,7 @@ static char *facts(const SporeGenerateWork *work) {
   return g_strdup_printf(_("%zu spheres in %.1f s\nCoverage %.1f %%, outside %.1f %%\n"
                            "Depth error %.1f %%, distance %.2f %%"),
                          work->spheres.count, spheres->seconds, 100 * spheres->coverage, 100 * spheres->outside,
-                         100 * spheres->depth_error, 100 * spheres->distance_mean);
+                         100 * spore_spheres_felt_error(spheres), 100 * spheres->distance_mean);
 }
 
 /* Qualities. */

@@ -200,7 +200,7 @@ static void show_spheres(SporeInspector *self, SporeObject *body) {
   const SporeSpheresReport *report = report_of(self, body, asset, set);
   if (report && report->coverage > 0)
     g_string_append_printf(text, _("\nCoverage %.1f %%, outside %.1f %%\nDepth error %.1f %%, distance %.2f %%"),
-                           100 * report->coverage, 100 * report->outside, 100 * report->depth_error,
+                           100 * report->coverage, 100 * report->outside, 100 * spore_spheres_felt_error(report),
                            100 * report->distance_mean);
   else if (self->measured_key) g_string_append(text, _(", measuring…"));
   append_state(self, asset, text);
