@@ -405,6 +405,185 @@ def mapping_is_measured():
         editor.find("label", "The scene has changed since it was measured", showing=False)
 
 
+def import_tube(editor):
+    """A tube of 80 mm along x, 10 mm thick."""
+    path = folder("meshes") / "tube.off"
+    path.write_bytes(shapes.off(*shapes.tube()))
+    editor.act("import", "(sss)", (str(path), "m", "Y_UP"))
+    ui.wait(lambda: editor.row("tube") and editor.enabled("preview-curve"), "the tube")
+    editor.act("select", "s", "bodies/tube")
+
+
+def line_length(editor):
+    """mm, of the middle line that the panel tells of."""
+    label = editor.find("label", r"(?s)points in .* mm long", 60)
+    return float(re.search(r"([\d.]+) mm long", label.get_name())[1])
+
+
+@check
+def middle_line_of_a_tube():
+    """the middle line of a tube is shown before it is applied, becomes a body with what holds it as one step, and is stale when the tube changes."""
+    with start() as editor:
+        import_tube(editor)
+        before = saved(editor, "line")
+        editor.act("preview-curve", "u", 0)
+        assert abs(line_length(editor) - 80) < 3
+        editor.find("drawing area", "Histogram of Radius: mean .* mm")
+        editor.choose(editor.find("combo box", "^Show$"), "Bend")
+        editor.find("drawing area", "Histogram of Bend: mean .* °")
+        assert saved(editor, "line") == before
+        editor.choose(editor.find("combo box", "^Make$"), "Tube")
+        editor.press(editor.find("push button", "^Apply$"))
+        ui.wait(lambda: editor.row("tube_line"), "the line")
+        text = saved(editor, "line")
+        assert "<spline_1d" in text and 'geometry="tube_line"' in text and text.count("<pin ") == 2 and "wall_thickness" in text, text
+        editor.act("undo")
+        assert saved(editor, "line") == before
+        editor.act("redo")
+        editor.act("select", "s", "assets/tube")
+        editor.act("change-mesh", "(sd)", ("smooth", 3.0))
+        ui.wait(lambda: editor.enabled("change-mesh"), "the smoothing to end")
+        editor.act("select", "s", "bodies/tube")
+        editor.find("label", r"(?s)points, .* mm long.*Stale: the mesh has changed", showing=False)
+        editor.act("set-property", "(sss)", ("assets/tube_line", "frozen", "true"))
+        editor.act("preview-curve", "u", 0)
+        ui.wait(lambda: "is frozen" in (editor.message() or ""), "the refusal")
+
+
+@check
+def ends_picked_by_hand():
+    """the ends of a middle line are picked by two clicks on the organ, remembered, and given back; a click beside it is none."""
+    with start() as editor:
+        import_tube(editor)
+        editor.act("view", "s", "front")
+        editor.act("preview-curve", "u", 0)
+        whole = line_length(editor)
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.press(editor.find("toggle button|check box", "^Pick ends$", showing=False))
+        editor.find("label", "where its middle line begins")
+        editor.mouse("mousemove", x + 20, y + height - 20, "click", 1)
+        editor.mouse("mousemove", x + width // 2 - 100, y + height // 2, "click", 1)
+        editor.find("label", "where its middle line ends")
+        editor.mouse("mousemove", x + width // 2 + 100, y + height // 2, "click", 1)
+        ui.wait(lambda: 10 < line_length(editor) < whole - 20, "a shorter line", 60)
+        picked = line_length(editor)
+        editor.press(editor.find("push button", "^Apply$"))
+        ui.wait(lambda: editor.row("tube_line"), "the line")
+        text = saved(editor, "picked")
+        first, last = (float(re.search(rf'{end}_place="(\S+) ', text)[1]) for end in ("first", "last"))
+        assert abs(abs(last - first) - 1e-3 * picked) < 6e-3, (first, last, picked)
+        editor.act("preview-curve", "u", 0)
+        assert abs(line_length(editor) - picked) < 1e-6
+        editor.act("automatic-ends")
+        ui.wait(lambda: abs(line_length(editor) - whole) < 1, "the whole line", 60)
+        editor.act("pick-ends")
+        editor.focus()
+        editor.keys("Escape")
+        ui.wait(lambda: not editor.state("pick-ends"), "Escape to end the picking")
+        assert editor.enabled("apply-generated")
+
+
+@check
+def curve_by_hand():
+    """a point of a middle line is moved by hand as one step, and generating again asks first."""
+    with start() as editor:
+        import_tube(editor)
+        editor.act("preview-curve", "u", 5)
+        line_length(editor)
+        editor.choose(editor.find("combo box", "^Make$"), "Thread")
+        editor.act("apply-generated")
+        ui.wait(lambda: editor.row("tube_line"), "the line")
+        editor.act("select", "s", "assets/tube_line")
+        editor.act("view", "s", "front")
+        editor.act("tool", "s", "edit")
+
+        def points():
+            text = saved(editor, "curve_by_hand")
+            file = re.search(r'file="(tube_line[^"]*)"', text)[1]
+            lines = (folder("saved") / "curve_by_hand" / file).read_text().splitlines()
+            return [[float(n) for n in line.split()] for line in lines if not line.startswith("#")], 'edited="true"' in text
+
+        before, edited = points()
+        assert len(before) == 5 and not edited
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        editor.mouse("mousemove", x + width // 2, y + height // 2, "mousedown", 1, "mousemove_relative", "--", 0, -30, "sleep", 0.2,
+                     "mouseup", 1)
+        ui.wait(lambda: points()[1], "the edit")
+        after, _ = points()
+        moved = [i for i in range(5) if before[i] != after[i]]
+        assert moved == [2] and after[2][1] > before[2][1] + 1e-3, (before, after)
+        editor.act("select", "s", "bodies/tube")
+        editor.act("preview-curve", "u", 5)
+        editor.press(editor.find("push button", "^Keep the edits$"))
+        editor.act("undo")
+        assert points() == (before, False)
+
+
+@check
+def surface_of_fewer_nodes():
+    """a surface of few nodes is shown with its distance, its error against their number measured, and becomes the body's model; a wall becomes what is shown."""
+    with start() as editor:
+        import_ball(editor)
+        editor.act("preview-surface", "u", 60)
+        editor.find("label", r"(?s)60 nodes, 116 triangles.*Distance .* %.*Least angle", 60)
+        editor.find("drawing area", "Histogram of Surface distance: mean .* mm")
+        editor.choose(editor.find("combo box", "^Show$"), "Least angle")
+        editor.find("drawing area", "Histogram of Least angle: mean .* °")
+        editor.act("apply-generated")
+        ui.wait(lambda: editor.row("ball_surface"), "the surface")
+        text = saved(editor, "surface")
+        assert 'nodes="60"' in text and 'source="ball"' in text and 'geometry="ball_surface"' in text, text
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("ball_surface"), "the surface to go")
+        editor.act("preview-surface", "u", 60)
+        editor.set_number(editor.find("spin button", "^Wall, mm$", showing=False), 8)
+        editor.choose(editor.find("combo box", "^Make$", showing=False), "Visual mesh")
+        editor.find("label", r"(?s)Wall \d+.* mm .*Lumen", 60)
+        editor.act("apply-generated")
+        ui.wait(lambda: editor.row("ball_surface"), "the wall")
+        text = saved(editor, "wall")
+        assert 'wall="0.008"' in text and 'visual mesh="ball_surface"' in text and "<mechanical" not in text, text
+
+
+@check
+def organs_of_a_label_map():
+    """the organs of a label map are listed by name with their volumes, meshed together, left out by a click, and become bodies as one step."""
+    size = (24, 12, 12)
+    here = lambda i, j, k: (3 if i < 12 else 7) if 2 <= i < 22 and 2 <= j < 10 and 2 <= k < 10 else 0
+    content = shapes.nrrd(size, shapes.labels(size, here), spacing=(2, 2, 2))
+    path = folder("meshes") / "organs.nrrd"
+    path.write_bytes(content.replace(b"test\n", b"test\nSegment0_Name:=liver\nSegment0_LabelValue:=3\n"))
+    with start() as editor:
+        editor.act("preview-labels", "s", str(ball()))
+        ui.wait(lambda: "no label map" in (editor.message() or ""), "the refusal")
+        editor.act("preview-labels", "s", str(path))
+        if "volumes" not in FEATURES:
+            ui.wait(lambda: "this build of SPORE reads none" in (editor.message() or ""), "what is missing")
+            return
+        editor.find("label", r"(?s)Shared faces: [1-9].*liver: \d+ cells, 5\.\d+ ml.*label 7: \d+ cells", 60)
+        check_box = editor.find("check box", r"^label 7, 5\.12 ml$", showing=False)
+        editor.find("check box", r"^liver, 5\.12 ml$", showing=False)
+        editor.press(check_box)
+        ui.wait(lambda: not editor.look("label", r"(?s)tetrahedra in.*label 7: "), "the organ to be left out", 60)
+        editor.find("label", r"(?s)tetrahedra in.*Shared faces: 0.*liver", 60)
+        editor.press(check_box)
+        editor.find("label", r"(?s)tetrahedra in.*label 7: ", 60)
+        assert not editor.row("liver")
+        editor.act("apply-generated")
+        ui.wait(lambda: editor.row("liver") and editor.row("label_7"), "the bodies")
+        text = saved(editor, "organs")
+        assert text.count("<tetrahedra ") == 2 and text.count("<neo_hookean_tetrahedra") == 2, text
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("liver") and not editor.row("label_7"), "both to go")
+        assert not editor.enabled("undo")
+        editor.act("preview-labels", "s", str(path))
+        editor.find("label", r"(?s)tetrahedra in.*label 7: ", 60)
+        editor.choose(editor.find("combo box", "^Make$", showing=False), "One body")
+        editor.act("apply-generated")
+        ui.wait(lambda: editor.row("organs"), "one body")
+        assert saved(editor, "one").count("<tetrahedra ") == 1
+
+
 @check
 def inspector_sets_a_property():
     """a parameter set in the inspector is saved; a bad value is refused where it stands; reset takes it back."""

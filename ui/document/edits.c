@@ -77,6 +77,7 @@ SporeObject *spore_edit_body_model(SporeObject *body) {
 /* The geometry that a model asks for, where the body has it; NULL: leave what is there. */
 static const char *geometry_for(SporeDocument *document, SporeObject *body, SporeGeometryKind kind) {
   if (kind == SPORE_GEOMETRY_SURFACE || kind == SPORE_GEOMETRY_SOLID) {
+    if (spore_edit_used_asset(document, body, "mechanical", "geometry", "mesh")) return NULL;
     SporeObject *mesh = spore_edit_used_asset(document, body, "visual", "mesh", "mesh");
     return mesh ? spore_object_name(mesh) : NULL;
   }

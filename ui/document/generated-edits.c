@@ -150,8 +150,8 @@ gboolean spore_edit_use_surface(SporeDocument *document, SporeObject *body, cons
   SporeObject *asset = keep(document, body, spore_edit_body_surface(document, body), from, &content, error);
   gboolean done = asset != NULL;
   if (done && where == SPORE_SURFACE_MODEL)
-    done = use(document, body, "mechanical", "geometry", asset, error) &&
-           spore_edit_give_usual_model(document, body, SPORE_GEOMETRY_SURFACE, error);
+    done = spore_edit_give_usual_model(document, body, SPORE_GEOMETRY_SURFACE, error) &&
+           use(document, body, "mechanical", "geometry", asset, error);
   if (done && where == SPORE_SURFACE_SHOWN) done = use(document, body, "visual", "mesh", asset, error);
   return spore_edit_finish(document, done);
 }
