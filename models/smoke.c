@@ -84,7 +84,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *data, Spore
   smoke->spacing = cbrt(volume / (double)count);
   smoke->wave = 6.283185307179586 / fields->eddy;
   smoke->now = *fields;
-  smoke->base.q_count += count; /* ages */
+  smoke->base.q_count = smoke->base.q_room += count; /* ages */
   smoke->base.life_s = fields->life;
   smoke->base.buoyancy = fields->buoyancy;
   for (size_t i = 0; i < count; i++) smoke->base.block_mass[i] = fields->density * volume / (double)count;
