@@ -239,7 +239,7 @@ static void make_safer(SporeWorld *world, SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->island_bodies[island->body_start + i]];
     body->watch.started = false;
-    if (spore_integrator(body->integrator)->damping > SPORE_DAMPING_NEUTRAL || body->model->type->rates) continue;
+    if (spore_integrator(body->integrator)->damping == SPORE_DAMPING_FULL || body->model->type->rates) continue;
     body->integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;
     island->made_safer = true;
   }
