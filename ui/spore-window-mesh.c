@@ -37,8 +37,12 @@ static void import_answered(GtkDialog *dialog, int response, SporeWindow *self) 
   int unit = 0;
   g_autoptr(SporeImport) import =
       response == GTK_RESPONSE_ACCEPT ? spore_import_dialog_take(SPORE_IMPORT_DIALOG(dialog), &unit) : NULL;
+  g_autofree char *labels = response == SPORE_RESPONSE_TOGETHER
+                                ? g_strdup(spore_import_dialog_get_label_map(SPORE_IMPORT_DIALOG(dialog)))
+                                : NULL;
   gtk_widget_destroy(GTK_WIDGET(dialog));
   if (import) take_import(self, import, unit);
+  if (labels) spore_window_preview_labels(self, labels);
 }
 
 void spore_window_show_import_dialog(SporeWindow *self, const char *const *files) {

@@ -4,17 +4,20 @@
  * /org/spore/Editor/window/N). Parameters in brackets, s: text, u: number.
  *
  *   files       new, open [s path], open-dialog, open-demo, import [s path, s unit, s frame], import-dialog,
- *               import-dialog-with [as paths], save,
- *               save-as [s path], save-as-dialog, save-recording [s path], save-recording-dialog, close
- *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete,
- *               set-property [s path, s name, s value], unset-property [s path, s name], set-model [s element],
- * use-preset [s name], generate-spheres [u count], generate-tetrahedra [u cells] (at once),
- *               preview-spheres [u count], preview-tetrahedra [u cells] (0: as before), apply-generated, add-probe,
- * add-region [s path of what holds it], remove-region [s path], add-pin, cancel-job mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the
- * selected mesh or body simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes;
- * state] view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
- * show-contacts (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector, show-problems
- * (state), filter others      report [s message]
+ *               import-dialog-with [as paths], save, save-as [s path], save-as-dialog, save-recording [s path],
+ *               save-recording-dialog, close
+ *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
+ *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name], add-probe,
+ *               add-pin, add-region [s path of what holds it], remove-region [s path]
+ *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
+ *               surface; preview-labels [s path], preview-labels-dialog; pick-ends (state), automatic-ends;
+ *               apply-generated, cancel-job
+ *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body
+ *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state]
+ *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
+ *               show-contacts (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector,
+ *               show-problems (state), filter
+ *   others      report [s message]
  *
  * Paths are those of objects: "bodies/liver/collision". */
 #ifndef SPORE_UI_SPORE_WINDOW_H

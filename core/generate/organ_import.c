@@ -152,6 +152,7 @@ static gboolean add_file(Intake *intake, const char *path, GError **error) {
   gsize size;
   const void *bytes = g_bytes_get_data(file->content, &size);
   if (spore_label_map_is(path, bytes, size)) {
+    file->label_map = true;
     file->frame_said = -1;
     file->overruled = intake->options->frame > 0;
     return add_labels(intake, file, bytes, size, error);

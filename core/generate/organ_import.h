@@ -32,6 +32,7 @@ typedef struct SporeImportFile {
   int frame_said; /* by the file itself, or -1 */
   guint parts;    /* that the file names */
   bool joined;    /* the parts, without being asked to */
+  bool label_map; /* each label became a body */
   bool overruled; /* a label map, whose header says unit and axes: others were given */
 } SporeImportFile;
 

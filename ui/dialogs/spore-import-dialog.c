@@ -23,7 +23,7 @@ enum {
 
 struct _SporeImportDialog {
   GtkDialog parent;
-  GtkWidget *bodies, *unit, *frame, *division, *operations, *spinner, *state, *warning, *accept;
+  GtkWidget *bodies, *unit, *frame, *division, *operations, *spinner, *state, *warning, *accept, *together;
   GtkWidget *wanted[SPORE_MESH_OPERATIONS], *argument[SPORE_MESH_OPERATIONS]; /* argument: NULL where it takes none */
   GtkListStore *rows;
   GPtrArray *files; /* char *, NULL at the end */
@@ -109,6 +109,7 @@ static void show_import(SporeImportDialog *self) {
   gtk_label_set_text(GTK_LABEL(self->state), text);
   show_warnings(self);
   gtk_widget_set_sensitive(self->accept, TRUE);
+  gtk_widget_set_visible(self->together, spore_import_dialog_get_label_map(self) != NULL);
   gtk_widget_grab_default(self->accept);
 }
 
@@ -120,6 +121,7 @@ static void drop_work(SporeImportDialog *self) {
   g_clear_handle_id(&self->settling, g_source_remove);
   g_clear_pointer(&self->import, spore_import_free);
   gtk_widget_set_sensitive(self->accept, FALSE);
+  gtk_widget_hide(self->together);
   gtk_widget_hide(self->warning);
 }
 
@@ -239,6 +241,7 @@ static void spore_import_dialog_class_init(SporeImportDialogClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, state);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, warning);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, accept);
+  gtk_widget_class_bind_template_child(widget, SporeImportDialog, together);
   gtk_widget_class_bind_template_child(widget, SporeImportDialog, rows);
   gtk_widget_class_bind_template_callback(widget, add_files);
   gtk_widget_class_bind_template_callback(widget, clear_files);
@@ -303,6 +306,12 @@ GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *const *files) 
   for (; files && *files; files++) add_file(self, *files);
   read_soon(self);
   return GTK_WIDGET(self);
+}
+
+const char *spore_import_dialog_get_label_map(SporeImportDialog *self) {
+  const GPtrArray *files = self->import ? self->import->files : NULL;
+  const SporeImportFile *file = files && files->len == 1 ? files->pdata[0] : NULL;
+  return file && file->label_map ? file->file : NULL;
 }
 
 SporeImport *spore_import_dialog_take(SporeImportDialog *self, int *unit) {
