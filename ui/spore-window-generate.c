@@ -246,6 +246,7 @@ static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *qualit
   gsize which = spore_generator_panel_get_quality(SPORE_GENERATOR_PANEL(self->generator_panel));
   spore_quality_of(work, which, quality);
   const SporeGenerateQuality *shown = &spore_generate_type(work->options.kind)->qualities[which];
+  candidate->view = spore_generator_panel_get_view(SPORE_GENERATOR_PANEL(self->generator_panel), &work->tetrahedra);
   if (quality->count) shown->show(work, spore_quality_places(quality), candidate);
   return candidate;
 }

@@ -198,6 +198,7 @@ def numbers_that_pay():
     with start() as editor:
         import_ball(editor)
         editor.act("preview-spheres", "u", 10)
+        editor.press(editor.find("radio button", "^Numbers$"))
         editor.press(editor.find("push button", "^Measure numbers$"))
         plot = editor.find("drawing area", r"Error against number: 8: .* %; 16: ", 60)
         editor.press(editor.find("push button", "^Stop measuring$"))
@@ -586,6 +587,62 @@ def organs_of_a_label_map():
         editor.act("apply-generated")
         ui.wait(lambda: editor.row("organs"), "one body")
         assert saved(editor, "one").count("<tetrahedra ") == 1
+
+
+@check
+def tetrahedra_as_asked_for():
+    """tetrahedra by size and method, coloured by a quality that is chosen, cut open and drawn apart before they are applied."""
+    if "cgal" not in FEATURES:
+        raise Skip("built without CGAL")
+    with start() as editor:
+        import_ball(editor)
+        editor.act("preview-tetrahedra", "u", 300)
+        editor.find("label", r"(?s)\d+ tetrahedra in .* of the mesh as it is.*Least angle.*Volume .*surface", 120)
+        editor.find("drawing area", "Histogram of Least angle: mean .* °")
+        whole = picture_sum(editor)
+        editor.choose(editor.find("combo box", "^Show$"), "Radius ratio")
+        editor.find("drawing area", r"Histogram of Radius ratio: mean [1-9.]+,")
+        ui.wait(lambda: picture_sum(editor) != whole, "other colours")
+        before = picture_sum(editor)
+        editor.set_number(editor.find("slider", "^Cut$"), 50)
+        ui.wait(lambda: picture_sum(editor) != before, "the cut")
+        before = picture_sum(editor)
+        editor.press(editor.find("check box", "^Apart$"))
+        ui.wait(lambda: picture_sum(editor) != before, "the cells apart")
+        editor.choose(editor.find("combo box", "^Method$"), "Voxels")
+        editor.set_number(editor.find("spin button", "^Size, mm$", showing=False), 12)
+        editor.find("label", "(?s)tetrahedra in .* of a lattice cut at the mesh", 120)
+        editor.press(editor.find("push button", "^Apply$"))
+        ui.wait(lambda: editor.row("ball_tetrahedra"), "the tetrahedra", 60)
+        text = saved(editor, "asked_for")
+        assert re.search('<tetrahedra [^>]*method="voxels"[^>]*size="0.012"', text), text
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("ball_tetrahedra"), "the tetrahedra to go")
+
+
+@check
+def spheres_by_tolerance_and_region():
+    """as few spheres as keep to a tolerance; a region makes them stale and denser there, and the scene keeps how they were made."""
+    with start() as editor:
+        import_ball(editor)
+        editor.act("preview-spheres", "u", 30)
+        editor.find("label", "(?s)^30 spheres in .*Coverage", 60)
+        editor.set_number(editor.find("spin button", "^Tolerance$", showing=False), 0.03)
+        label = editor.find("label", r"(?s)^(?!30 )\d+ spheres in .*Coverage", 60)
+        count = int(editor.name_of(label).split()[0])
+        assert 0 < count < 30, count
+        editor.act("apply-generated")
+        ui.wait(lambda: editor.row("ball_spheres"), "the spheres")
+        assert 'tolerance="0.03"' in saved(editor, "tolerance")
+        editor.act("select", "s", "bodies/ball")
+        editor.act("add-region", "s", "assets/ball_spheres")
+        editor.find("label", "(?s)Stale: the options have changed", showing=False)
+        editor.act("set-property", "(sss)", ("assets/ball_spheres/region", "density", "16"))
+        editor.act("generate-spheres", "u", 40)
+        ui.wait(lambda: not editor.look("label", "Stale", showing=False), "the spheres to be fresh", 60)
+        text = saved(editor, "density")
+        assert re.search('<spheres [^>]*count="40"', text) and "tolerance" not in text, text
+        assert '<sphere_region name="region"' in text and 'density="16"' in text, text
 
 
 @check

@@ -2,7 +2,6 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "core/mesh/cell_faces.h"
 #include "ui/document/generated-edits.h"
 #include "ui/jobs/generate-types.h"
 
@@ -112,21 +111,7 @@ static void measure_organs(const SporeGenerateWork *work, SporeQuality *quality)
 
 /* Faces between organs are inside, and seen where the mesh is cut open. */
 static void show_cells(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
-  const SporeCellView whole = {.shrink = 1};
-  SporeCellFaces faces;
-  if (spore_cell_faces(&work->tetrahedra, &whole, &faces, NULL)) {
-    gsize count = candidate->vertex_count = 3 * faces.triangle_count;
-    candidate->triangle_count = faces.triangle_count;
-    candidate->vertices = g_memdup2(faces.vertices, 3 * count * sizeof(double));
-    candidate->triangles = g_new(guint32, count);
-    candidate->vertex_values = g_new(float, count);
-    for (gsize i = 0; i < count; i++) {
-      candidate->triangles[i] = (guint32)i;
-      candidate->vertex_values[i] = places[faces.cells[i / 3]];
-    }
-  }
-  spore_cell_faces_clear(&faces);
-  g_free(places);
+  spore_generate_show_cells(&work->tetrahedra, places, candidate);
 }
 
 static const SporeGenerateQuality qualities[] = {
@@ -144,6 +129,7 @@ const SporeGenerateType spore_generate_labels = {
     .count_label = N_("Tetrahedra"),
     .only = (const char *const[]){"cells", "size", NULL},
     .purposes = &purposes,
+    .cells = TRUE,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
     .target = no_target,

@@ -11,17 +11,27 @@ static SporeSpheresMode mode_named(const char *name) {
   return SPORE_SPHERES_BALANCED;
 }
 
-static SporeSpheresOptions options_of(const SporeGenerateWork *work) {
+/* regions: gets those of the work. */
+static SporeSpheresOptions options_of(const SporeGenerateWork *work,
+                                      SporeSpheresRegion regions[SPORE_GENERATE_REGIONS]) {
+  for (gsize i = 0; i < work->region_count; i++) {
+    const SporeGenerateRegion *region = &work->regions[i];
+    regions[i] =
+        (SporeSpheresRegion){{region->centre[0], region->centre[1], region->centre[2]}, region->radius, region->value};
+  }
   const SporeSpheresFields *fields = &work->options.fields.spheres;
   return (SporeSpheresOptions){.mode = mode_named(spore_sphere_methods[fields->method]),
                                .count = fields->tolerance > 0 ? 0 : (size_t)fields->count,
                                .tolerance = fields->tolerance,
-                               .seed = (uint64_t)fields->seed};
+                               .seed = (uint64_t)fields->seed,
+                               .regions = regions,
+                               .region_count = work->region_count};
 }
 
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  SporeSpheresOptions options = options_of(work);
+  SporeSpheresRegion regions[SPORE_GENERATE_REGIONS];
+  SporeSpheresOptions options = options_of(work, regions);
   return (spore_spheres_from_mesh(&work->mesh, &options, &work->spheres, &work->spheres_report, progress, &failure) &&
           spore_spheres_quality(&work->mesh, &work->spheres, &work->spheres_quality, progress, &failure)) ||
          spore_error_propagate(&failure, error);
@@ -30,7 +40,8 @@ static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GErr
 static gboolean price(const SporeGenerateWork *work, size_t count, double *error_percent, const SporeProgress *progress,
                       GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  SporeSpheresOptions options = options_of(work);
+  SporeSpheresRegion regions[SPORE_GENERATE_REGIONS];
+  SporeSpheresOptions options = options_of(work, regions);
   SporeSpheresReport report;
   SporeSphereSet set;
   options.count = count;

@@ -4,7 +4,16 @@
 #include "ui/document/generated-edits.h"
 #include "ui/jobs/generate-types.h"
 
-static SporeTetrahedraOptions options_of(const SporeGenerateWork *work) {
+G_STATIC_ASSERT(SPORE_GENERATE_REGIONS <= SPORE_TETRAHEDRA_REGIONS);
+
+/* regions: gets those of the work. */
+static SporeTetrahedraOptions options_of(const SporeGenerateWork *work,
+                                         SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS]) {
+  for (gsize i = 0; i < work->region_count; i++) {
+    const SporeGenerateRegion *region = &work->regions[i];
+    regions[i] = (SporeTetrahedraRegion){
+        {region->centre[0], region->centre[1], region->centre[2]}, region->radius, region->value};
+  }
   const SporeTetrahedraFields *fields = &work->options.fields.tetrahedra;
   return (SporeTetrahedraOptions){.method = fields->method ? (SporeTetrahedraMethod)(fields->method - 1)
                                                            : SPORE_TETRAHEDRA_METHODS,
@@ -13,18 +22,22 @@ static SporeTetrahedraOptions options_of(const SporeGenerateWork *work) {
                                   .tolerance = fields->tolerance,
                                   .curvature = fields->curvature,
                                   .fill = fields->fill,
-                                  .gap = fields->gap};
+                                  .gap = fields->gap,
+                                  .regions = regions,
+                                  .region_count = work->region_count};
 }
 
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
-  SporeTetrahedraOptions options = options_of(work);
+  SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS];
+  SporeTetrahedraOptions options = options_of(work, regions);
   return spore_tetrahedra_from_mesh(work->source, &work->mesh, &options, &work->tetrahedra, &work->tetrahedra_report,
                                     progress, error);
 }
 
 static gboolean price(const SporeGenerateWork *work, size_t count, double *error_percent, const SporeProgress *progress,
                       GError **error) {
-  SporeTetrahedraOptions options = options_of(work);
+  SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS];
+  SporeTetrahedraOptions options = options_of(work, regions);
   SporeTetrahedralMesh mesh = {0};
   SporeTetrahedraReport report;
   options.cells = count;
@@ -39,14 +52,36 @@ static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, Sp
   return spore_edit_use_tetrahedra(document, body, &from, &work->tetrahedra, error);
 }
 
-static char *facts(const SporeGenerateWork *work) {
-  const SporeTetrahedraReport *tetrahedra = &work->tetrahedra_report;
-  return g_strdup_printf(_("%zu tetrahedra in %.1f s\nLeast angle %.1f°, mean %.1f°\nError %.2f %%"),
-                         work->tetrahedra.tetrahedron_count, tetrahedra->seconds, tetrahedra->quality.min_dihedral_deg,
-                         tetrahedra->quality.mean_dihedral_deg, 100 * tetrahedra->hausdorff);
+/* What the mesh needed, and what of it that changed. */
+static const char *method_text(SporeTetrahedraMethod method) {
+  static const char *const texts[] = {N_("the mesh as it is"), N_("the mesh repaired"), N_("a wrap around the mesh"),
+                                      N_("a lattice cut at the mesh")};
+  return _(texts[method]);
 }
 
-static void measure_angles(const SporeGenerateWork *work, SporeQuality *quality) {
+static char *facts(const SporeGenerateWork *work) {
+  const SporeTetrahedraReport *report = &work->tetrahedra_report;
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("%zu tetrahedra in %.1f s, of %s"), work->tetrahedra.tetrahedron_count,
+                         report->seconds, method_text(report->method));
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Least angle %.1f°, mean %.1f°, error %.2f %%"), report->quality.min_dihedral_deg,
+                         report->quality.mean_dihedral_deg, 100 * report->hausdorff);
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Volume %+.1f %%, surface %+.1f %%"), 100 * report->volume_change,
+                         100 * report->area_change);
+  for (int i = 0; i < SPORE_TETRAHEDRA_METHODS; i++)
+    if (*report->refused[i]) {
+      g_string_append_c(text, '\n');
+      g_string_append_printf(text, _("Not %s: %s"), method_text((SporeTetrahedraMethod)i), report->refused[i]);
+    }
+  return g_string_free(text, FALSE);
+}
+
+/* Qualities. */
+
+static void measure_cells(const SporeGenerateWork *work, SporeQuality *quality,
+                          double (*figure)(const SporeTetrahedraQuality *found)) {
   quality->count = work->tetrahedra.tetrahedron_count;
   quality->values = g_new(double, quality->count);
   for (gsize i = 0; i < quality->count; i++) {
@@ -54,16 +89,33 @@ static void measure_angles(const SporeGenerateWork *work, SporeQuality *quality)
                                 work->tetrahedra.tetrahedra + 4 * i};
     SporeTetrahedraQuality found;
     spore_tetrahedral_mesh_quality(&one, &found);
-    quality->values[i] = found.min_dihedral_deg;
+    quality->values[i] = figure(&found);
   }
 }
 
-/* In the histogram alone. */
-static void show_nothing(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
-  g_free(places);
+static double angle(const SporeTetrahedraQuality *found) { return found->min_dihedral_deg; }
+static double radius_ratio(const SporeTetrahedraQuality *found) { return found->worst_radius_ratio; }
+static double volume(const SporeTetrahedraQuality *found) { return 1e9 * found->volume; }
+
+static void measure_angles(const SporeGenerateWork *work, SporeQuality *quality) {
+  measure_cells(work, quality, angle);
+}
+static void measure_ratios(const SporeGenerateWork *work, SporeQuality *quality) {
+  measure_cells(work, quality, radius_ratio);
+}
+static void measure_volumes(const SporeGenerateWork *work, SporeQuality *quality) {
+  measure_cells(work, quality, volume);
 }
 
-static const SporeGenerateQuality qualities[] = {{N_("Least angle"), "°", measure_angles, show_nothing}};
+static void show_cells(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
+  spore_generate_show_cells(&work->tetrahedra, places, candidate);
+}
+
+static const SporeGenerateQuality qualities[] = {
+    {N_("Least angle"), "°", measure_angles, show_cells},
+    {N_("Radius ratio"), "", measure_ratios, show_cells},
+    {N_("Volume"), "mm³", measure_volumes, show_cells},
+};
 
 const SporeGenerateType spore_generate_tetrahedra = {
     .name = "tetrahedra",
@@ -76,6 +128,7 @@ const SporeGenerateType spore_generate_tetrahedra = {
     .error_label = N_("Distance"),
     .worth = 0.1,
     .price = price,
+    .cells = TRUE,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
     .target = spore_edit_body_tetrahedra,

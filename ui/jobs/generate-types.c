@@ -55,7 +55,10 @@ size_t spore_generate_get_count(const SporeGenerateOptions *options) {
 
 void spore_generate_set_count(SporeGenerateOptions *options, size_t count) {
   int64_t *place = count_of(options);
-  if (place) *place = (int64_t)count;
+  if (!place || *place == (int64_t)count) return;
+  *place = (int64_t)count;
+  if (options->kind == SPORE_GENERATE_SPHERES) options->fields.spheres.tolerance = 0;
+  if (options->kind == SPORE_GENERATE_TETRAHEDRA) options->fields.tetrahedra.size = 0;
 }
 
 /* Services for the kinds. */
@@ -78,4 +81,21 @@ void spore_generate_show_spheres(const SporeSphereSet *set, float *places, Spore
   candidate->sphere_count = set->count;
   candidate->spheres = g_memdup2(set->spheres, 4 * set->count * sizeof(double));
   candidate->sphere_values = places;
+}
+
+void spore_generate_show_cells(const SporeTetrahedralMesh *mesh, float *places, SporeStageCandidate *candidate) {
+  SporeCellFaces faces;
+  if (spore_cell_faces(mesh, &candidate->view, &faces, NULL)) {
+    gsize count = candidate->vertex_count = 3 * faces.triangle_count;
+    candidate->triangle_count = faces.triangle_count;
+    candidate->vertices = g_memdup2(faces.vertices, 3 * count * sizeof(double));
+    candidate->triangles = g_new(guint32, count);
+    candidate->vertex_values = g_new(float, count);
+    for (gsize i = 0; i < count; i++) {
+      candidate->triangles[i] = (guint32)i;
+      candidate->vertex_values[i] = places[faces.cells[i / 3]];
+    }
+  }
+  spore_cell_faces_clear(&faces);
+  g_free(places);
 }

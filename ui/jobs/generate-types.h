@@ -23,6 +23,7 @@ typedef struct SporeGenerateType {
   const char *count_label;        /* N_ */
   const char *const *only;        /* names of the options that there are; NULL: all of the asset's */
   const SporeParameter *purposes; /* a choice, what Apply makes of the result: SporeGenerateOptions.purpose; or NULL */
+  gboolean cells;                 /* the result is of cells, and can be seen cut open */
   gboolean picks_ends;            /* the options have a first and a last place, that can be picked by hand */
 
   /* Error against number: for these numbers, ended by 0; NULL: no plot. */
@@ -50,6 +51,8 @@ const SporeGenerateType *spore_generate_type(SporeGenerateKind kind);
 double *spore_generate_scaled(const double *values, gsize count, gsize stride, double scale);
 /* Copies a surface into a candidate, with a place on the scale a vertex (taken) or none. */
 void spore_generate_show_surface(const SporeTriangleMesh *mesh, float *places, SporeStageCandidate *candidate);
+/* The outside of cells, each face in the colour of its cell, as the candidate's view wants them. */
+void spore_generate_show_cells(const SporeTetrahedralMesh *mesh, float *places, SporeStageCandidate *candidate);
 void spore_generate_show_spheres(const SporeSphereSet *set, float *places, SporeStageCandidate *candidate);
 
 #endif

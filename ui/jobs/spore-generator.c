@@ -48,6 +48,8 @@ static void fail(SporeGenerator *self, const GError *error) {
   tell(self);
 }
 
+static void start(SporeGenerator *self);
+
 /* A job that was dropped comes here too, and is nobody's any more. */
 static void done(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeGenerator *self = owner;
@@ -56,6 +58,10 @@ static void done(SporeJob *job, gpointer data, const GError *error, gpointer own
   g_clear_object(&self->job);
   if (error) {
     fail(self, error);
+    return;
+  }
+  if (!spore_generate_work_holds(data, spore_editor_document_get(self->document))) {
+    start(self); /* the mesh or the regions changed meanwhile */
     return;
   }
   self->result = spore_generate_work_ref(data);

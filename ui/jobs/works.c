@@ -1,6 +1,7 @@
 #include "ui/jobs/works.h"
 
 #include <glib/gi18n.h>
+#include <string.h>
 
 #include "core/io/scene_xml.h"
 #include "ui/document/asset-readers.h"
@@ -66,6 +67,39 @@ static SporeGenerateWork *new_of_labels(const SporeGenerateOptions *options) {
   return work;
 }
 
+/* The last of a region's own parameters is what shall be there. */
+static void read_region(const SporeObject *object, SporeGenerateRegion *region) {
+  const SporeParameterTable *table = spore_object_type(object)->table;
+  const SporeValue *centre = spore_object_value(object, (guint)spore_parameter_find(table, "centre"));
+  memcpy(region->centre, centre->number, sizeof region->centre);
+  region->radius = spore_object_number(object, "radius");
+  region->value = spore_object_value(object, (guint)table->count - 1)->number[0];
+}
+
+/* FALSE: there are more. */
+static gboolean read_regions(const SporeObject *asset, SporeGenerateRegion *regions, gsize *count) {
+  *count = 0;
+  for (guint i = 0; asset && i < spore_object_child_count(asset); i++) {
+    if (*count == SPORE_GENERATE_REGIONS) return FALSE;
+    read_region(spore_object_child(asset, i), &regions[(*count)++]);
+  }
+  return TRUE;
+}
+
+static gboolean take_regions(SporeGenerateWork *work, const SporeObject *asset, GError **error) {
+  return read_regions(asset, work->regions, &work->region_count) ||
+         spore_error_raise(error, SPORE_ERROR_INPUT, spore_object_name(asset),
+                           _("it has more than %d regions; a generator takes no more; delete some"),
+                           SPORE_GENERATE_REGIONS);
+}
+
+static gboolean same_regions(const SporeGenerateWork *work, const SporeObject *asset) {
+  SporeGenerateRegion regions[SPORE_GENERATE_REGIONS];
+  gsize count;
+  return read_regions(asset, regions, &count) && count == work->region_count &&
+         memcmp(regions, work->regions, count * sizeof *regions) == 0;
+}
+
 SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
                                            const SporeGenerateOptions *options, GError **error) {
   if (options->kind == SPORE_GENERATE_LABELS) return new_of_labels(options);
@@ -78,8 +112,11 @@ SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject 
   work->body = spore_object_id(body);
   work->source = g_strdup(spore_object_name(asset));
   work->source_hash = spore_document_asset_hash(document, asset);
-  if (spore_triangle_mesh_copy(&work->mesh, mesh, &failure)) return work;
-  spore_error_propagate(&failure, error);
+  SporeObject *target = spore_generate_target(document, body, options->kind);
+  if (take_regions(work, target, error)) {
+    if (spore_triangle_mesh_copy(&work->mesh, mesh, &failure)) return work;
+    spore_error_propagate(&failure, error);
+  }
   spore_generate_work_unref(work);
   return NULL;
 }
@@ -118,7 +155,9 @@ gboolean spore_measure_work_run(gpointer data, const SporeProgress *progress, GE
 SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document) {
   SporeObject *body = spore_document_by_id(document, work->body);
   SporeObject *asset = body ? spore_generate_source(document, body, work->options.kind, NULL) : NULL;
-  if (!asset || g_strcmp0(spore_object_name(asset), work->source) != 0) return NULL;
+  if (!asset || g_strcmp0(spore_object_name(asset), work->source) != 0 ||
+      !same_regions(work, spore_generate_target(document, body, work->options.kind)))
+    return NULL;
   g_autofree char *hash = spore_document_asset_hash(document, asset);
   return g_strcmp0(hash, work->source_hash) == 0 ? body : NULL;
 }
@@ -129,8 +168,9 @@ gboolean spore_generate_work_holds(const SporeGenerateWork *work, SporeDocument 
 
 gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument *document, GError **error) {
   if (!spore_generate_work_holds(work, document))
-    return spore_error_raise(error, SPORE_ERROR_INPUT, work->source,
-                             _("the mesh changed meanwhile and the result was dropped; generate it again"));
+    return spore_error_raise(
+        error, SPORE_ERROR_INPUT, work->source,
+        _("the mesh or its regions changed meanwhile and the result was dropped; generate it again"));
   SporeObject *body = spore_document_by_id(document, work->body); /* none where it came from a file */
   return spore_generate_type(work->options.kind)->apply(work, document, body, error);
 }

@@ -63,7 +63,15 @@ const SporeParameterTable *spore_generate_table(SporeDocument *document, SporeGe
 SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
 /* How many to make; nothing where the kind does not ask. */
 size_t spore_generate_get_count(const SporeGenerateOptions *options);
+/* By number from now on, where it is another number. */
 void spore_generate_set_count(SporeGenerateOptions *options, size_t count);
+
+/* A region of the generated asset: a ball, and what shall be there. */
+typedef struct SporeGenerateRegion {
+  double centre[3], radius; /* m */
+  double value;             /* density of spheres, edge length of cells (m) */
+} SporeGenerateRegion;
+#define SPORE_GENERATE_REGIONS 64 /* at most */
 
 /* What generators share: where they started from, to be compared when they are through. Counted references. */
 typedef struct SporeGenerateWork {
@@ -71,6 +79,8 @@ typedef struct SporeGenerateWork {
   guint32 body; /* object id */
   char *source; /* name of the mesh asset */
   char *source_hash;
+  gsize region_count;
+  SporeGenerateRegion regions[SPORE_GENERATE_REGIONS];
   SporeTriangleMesh mesh;
   SporeSphereSet spheres;                  /* out, or in for measuring */
   SporeSpheresReport spheres_report;       /* out */
@@ -85,7 +95,8 @@ typedef struct SporeGenerateWork {
   SporeWallReport wall_report;             /* out; zero without a wall */
   double *surface_distance;                /* out: a vertex of the given mesh, to the outer surface made, m */
 } SporeGenerateWork;
-/* Copies the mesh that it is made from, or holds the label map (body NULL). NULL with an error when there is none. */
+/* Copies the mesh that it is made from, and the regions of the asset; or holds the label map (body NULL). NULL with an
+ * error: there is no mesh, or there are too many regions. */
 SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
                                            const SporeGenerateOptions *options, GError **error);
 gboolean spore_generate_work_run(gpointer work, const SporeProgress *progress, GError **error);
@@ -94,7 +105,7 @@ SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work);
 void spore_generate_work_unref(gpointer work);
 /* Whether the document still is what the work began with. */
 gboolean spore_generate_work_holds(const SporeGenerateWork *work, SporeDocument *document);
-/* The body, where it still has the mesh that the work began with; NULL: the document moved on. */
+/* The body, where it still has the mesh and the regions that the work began with; NULL: the document moved on. */
 SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document);
 /* The result becomes the body's, as one undo step; the options are remembered. */
 gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument *document, GError **error);

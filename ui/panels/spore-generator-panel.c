@@ -2,6 +2,7 @@
 
 #include <glib/gi18n.h>
 
+#include "core/mesh/common.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/jobs/spore-series.h"
 #include "ui/panels/report.h"
@@ -10,10 +11,12 @@
 #include "ui/panels/spore-label-list.h"
 #include "ui/panels/spore-histogram.h"
 
+#define APART 0.75 /* of their size, so that the eye gets in between */
+
 struct _SporeGeneratorPanel {
   GtkBox parent;
-  GtkWidget *empty, *content, *title, *rows, *shown, *facts, *apply, *cancel, *histogram, *numbers, *measure, *plot,
-      *ends, *organs, *labels;
+  GtkWidget *empty, *content, *title, *rows, *shown, *inside, *cut, *axis, *apart, *facts, *apply, *cancel, *histogram,
+      *numbers, *measure, *plot, *ends, *organs, *labels;
   SporeGenerator *generator;
   SporeSeries *series;
   guint32 body; /* that the series is of */
@@ -110,7 +113,8 @@ static void show_result(SporeGeneratorPanel *self) {
   if (work) spore_quality_of(work, spore_generator_panel_get_quality(self), &quality);
   g_autofree char *facts = work ? spore_generate_type(work->options.kind)->facts(work) : g_strdup(_("Working…"));
   gtk_label_set_text(GTK_LABEL(self->facts), facts);
-  gtk_widget_set_visible(self->histogram, !quality.count || *quality.unit); /* else they are names */
+  gboolean names = spore_generator_get_options(self->generator)->labels != NULL; /* the values are no figures */
+  gtk_widget_set_visible(self->histogram, !names);
   spore_histogram_set_quality(SPORE_HISTOGRAM(self->histogram), &quality);
   spore_quality_clear(&quality);
 }
@@ -138,11 +142,28 @@ static void refresh(SporeGeneratorPanel *self) {
   g_autofree char *title = title_of(self, body, options);
   gtk_label_set_text(GTK_LABEL(self->title), title);
   gtk_widget_set_tooltip_text(self->title, title);
+  gtk_widget_set_visible(self->inside, spore_generate_type(options->kind)->cells);
   self->filling = TRUE;
   fill_qualities(self, options->kind);
   show_options(self, options);
   self->filling = FALSE;
   show_result(self);
+}
+
+static void view_changed(GtkWidget *widget, SporeGeneratorPanel *self) {
+  if (!self->filling) g_signal_emit(self, signals[SHOWN_QUALITY_CHANGED], 0);
+}
+
+SporeCellView spore_generator_panel_get_view(SporeGeneratorPanel *self, const SporeTetrahedralMesh *mesh) {
+  double share = gtk_range_get_value(GTK_RANGE(self->cut)) / 100, lower[3], upper[3], direction[3] = {0, 0, 0};
+  int axis = MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(self->axis)), 0);
+  SporeCellView view = {.shrink = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(self->apart)) ? APART : 1};
+  if (!(share > 0) || !mesh->vertex_count) return view;
+  spore_mesh_bounds(mesh->vertices, mesh->vertex_count, 3, lower, upper);
+  direction[axis] = 1;
+  view.direction = spore_vec3_load(direction);
+  view.beyond = upper[axis] - share * (upper[axis] - lower[axis]);
+  return view;
 }
 
 gsize spore_generator_panel_get_quality(SporeGeneratorPanel *self) {
@@ -174,6 +195,10 @@ static void bind(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, title);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, rows);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, shown);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, inside);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, cut);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, axis);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, apart);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, facts);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, apply);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, cancel);
@@ -197,6 +222,7 @@ static void spore_generator_panel_class_init(SporeGeneratorPanelClass *class) {
   bind(widget);
   gtk_widget_class_bind_template_callback(widget, options_changed);
   gtk_widget_class_bind_template_callback(widget, quality_chosen);
+  gtk_widget_class_bind_template_callback(widget, view_changed);
   gtk_widget_class_bind_template_callback(widget, measure_clicked);
   gtk_widget_class_bind_template_callback(widget, count_chosen);
   signals[SHOWN_QUALITY_CHANGED] = g_signal_new("shown-quality-changed", G_TYPE_FROM_CLASS(class), G_SIGNAL_RUN_LAST, 0,
@@ -209,4 +235,6 @@ static void spore_generator_panel_init(SporeGeneratorPanel *self) {
   g_signal_connect_object(self->series, "changed", G_CALLBACK(show_series), self, G_CONNECT_SWAPPED);
   gtk_widget_init_template(GTK_WIDGET(self));
   spore_ignore_wheel(self->shown);
+  spore_ignore_wheel(self->cut);
+  spore_ignore_wheel(self->axis);
 }

@@ -7,6 +7,7 @@
 
 #include <gtk/gtk.h>
 
+#include "core/mesh/cell_faces.h"
 #include "ui/jobs/spore-generator.h"
 
 G_BEGIN_DECLS
@@ -17,6 +18,8 @@ G_DECLARE_FINAL_TYPE(SporeGeneratorPanel, spore_generator_panel, SPORE, GENERATO
 void spore_generator_panel_set_generator(SporeGeneratorPanel *self, SporeGenerator *generator);
 /* Which of the qualities of the result's kind (quality.h). */
 gsize spore_generator_panel_get_quality(SporeGeneratorPanel *self);
+/* How the cells of this mesh are to be seen: whole, cut open, drawn apart. */
+SporeCellView spore_generator_panel_get_view(SporeGeneratorPanel *self, const SporeTetrahedralMesh *mesh);
 
 G_END_DECLS
 #endif

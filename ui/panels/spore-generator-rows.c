@@ -42,6 +42,7 @@ static GtkWidget *new_number(const SporeParameter *parameter, double scale) {
   gtk_spin_button_set_increments(GTK_SPIN_BUTTON(spin), step, 10 * step);
   gtk_spin_button_set_numeric(GTK_SPIN_BUTTON(spin), TRUE);
   gtk_entry_set_width_chars(GTK_ENTRY(spin), 5);
+  gtk_entry_set_max_width_chars(GTK_ENTRY(spin), 5);
   return spin;
 }
 

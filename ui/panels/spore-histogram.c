@@ -81,10 +81,11 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
 }
 
 static void describe(SporeHistogram *self, const SporeQuality *quality) {
-  g_autofree char *text =
-      quality ? g_strdup_printf(_("Histogram of %s: mean %.3g %s, 95 %% below %.3g %s"), quality->label, self->mean,
-                                quality->unit, spore_quality_quantile(quality, 0.95), quality->unit)
-              : g_strdup(_("Histogram: nothing to show yet"));
+  g_autofree char *unit = quality && *quality->unit ? g_strconcat(" ", quality->unit, NULL) : g_strdup("");
+  g_autofree char *text = quality
+                              ? g_strdup_printf(_("Histogram of %s: mean %.3g%s, 95 %% below %.3g%s"), quality->label,
+                                                self->mean, unit, spore_quality_quantile(quality, 0.95), unit)
+                              : g_strdup(_("Histogram: nothing to show yet"));
   atk_object_set_name(gtk_widget_get_accessible(GTK_WIDGET(self)), text);
   gtk_widget_set_tooltip_text(GTK_WIDGET(self), text);
 }

@@ -2,6 +2,7 @@
 #ifndef SPORE_UI_RENDER_STAGE_H
 #define SPORE_UI_RENDER_STAGE_H
 
+#include "core/mesh/cell_faces.h"
 #include "core/scene/compile.h"
 #include "ui/render/renderer.h"
 
@@ -23,6 +24,7 @@ typedef struct SporeStageCandidate {
   double *vertices;     /* vertex_count x 3 */
   guint32 *triangles;   /* triangle_count x 3 */
   float *vertex_values; /* vertex_count, as sphere_values */
+  SporeCellView view;   /* how cells are to be seen: told to who fills the candidate */
   gsize line_count;
   double *lines;      /* line_count x 2 points x 3 */
   gboolean are_edges; /* the lines are those of triangles: thin, and hidden where something stands before them */
