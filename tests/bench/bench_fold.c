@@ -1,8 +1,9 @@
 /* Would spheres that follow where a net bends pay? A net of 20 x 20 nodes, 90 mm wide, is folded by 180 degrees about
  * its middle, and holds still; about 500 spheres of 2 mm lie on its facets, spread evenly, or a part of them moved into
- * the fold. A ball is pressed on it along the facets' normals, until it feels 0.05 N: how far it is below where it
- * touches the true surface, which is what spheres apart from each other leave open, in the fold and where the net is
- * flat; and what a step costs there, in thread time. */
+ * the fold, or as many more put there from a reserve, or as many more spread evenly. A ball is pressed on it along the
+ * facets' normals, until it feels 0.05 N: how far it is below where it touches the true surface, which is what spheres
+ * apart from each other leave open, in the fold and where the net is flat; and what a step costs there, in thread time.
+ */
 #include <glib.h>
 #include <math.h>
 #include <stdio.h>
@@ -126,11 +127,17 @@ static double cost(SporeWorld *world, Hand *hand, double fold, double ball) {
   return best;
 }
 
-static void compare(double fold, double ball, double moved) {
-  double points[3 * (SPHERES + 1)], bend = 0.5 * G_PI * fold;
+/* Where spheres in the fold come from. */
+typedef enum Source { MOVED, RESERVE, MORE, SOURCES } Source;
+static const char *const sources[] = {"moved", "reserve", "more"};
+
+/* share: of SPHERES, that are moved, in reserve, or more everywhere. */
+static void compare(double fold, double ball, double share, Source source) {
+  double points[3 * (2 * SPHERES + 1)], bend = 0.5 * G_PI * fold;
   double from = 0.5 * WIDTH - bend, to = 0.5 * WIDTH + bend;
-  size_t even = spread_count((size_t)((1 - moved) * SPHERES), 0, WIDTH, fold, points), count = even;
-  if (moved > 0) count += spread_count(SPHERES - even, from, to, fold, points + 3 * even);
+  const double evenly[SOURCES] = {1 - share, 1, 1 + share};
+  size_t even = spread_count((size_t)(evenly[source] * SPHERES), 0, WIDTH, fold, points), count = even;
+  if (share > 0 && source != MORE) count += spread_count((size_t)(share * SPHERES), from, to, fold, points + 3 * even);
   Rig *rig = rig_new();
   Hand hand = {{&hand_type}, spore_vec3(0, 0, 1)};
   SporeBodyDescription *net = rig_unmovable(rig, "net", rig_spheres(rig, points, count, RADIUS));
@@ -141,7 +148,7 @@ static void compare(double fold, double ball, double moved) {
   tool->pose.position = hand.at;
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, 1, &hand.base);
-  printf("%3.0f mm %4.1f mm %3.0f %% %4zu", 1e3 * fold, 1e3 * ball, 100 * moved, count);
+  printf("%3.0f mm %4.1f mm %3.0f %% %s %4zu", 1e3 * fold, 1e3 * ball, 100 * share, sources[source], count);
   measure(world, &hand, from, to, fold, ball);
   measure(world, &hand, 0.05 * WIDTH, 0.25 * WIDTH, fold, ball);
   printf("  %.2f\n", cost(world, &hand, fold, ball));
@@ -149,10 +156,13 @@ static void compare(double fold, double ball, double moved) {
 }
 
 int main(void) {
-  printf("radius of the fold, of the ball; spheres moved, all; gap in the fold: mean, 95th percentile, most, mm; gap "
+  printf("radius of the fold, of the ball; spheres moved, in reserve or more, all; gap in the fold: mean, 95th "
+         "percentile, most, mm; gap "
          "where it is flat: the same; us a step\n");
   const double folds[] = {0.003, 0.006, 0.012}, parts[] = {0, 0.1, 0.2, 0.4};
   for (size_t f = 0; f < G_N_ELEMENTS(folds); f++)
-    for (size_t p = 0; p < G_N_ELEMENTS(parts); p++) compare(folds[f], 0.0025, parts[p]);
+    for (size_t p = 0; p < G_N_ELEMENTS(parts); p++)
+      for (Source source = MOVED; source < (p > 0 ? SOURCES : RESERVE); source++)
+        compare(folds[f], 0.0025, parts[p], source);
   return 0;
 }

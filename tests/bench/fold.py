@@ -1,5 +1,6 @@
 """Whether spheres that follow where a net bends pay: how deep a ball sinks between spheres that are spread evenly over a folded
-net, or of which a part is moved into the fold, in the fold and where the net is flat, by bench_fold."""
+net, or of which a part is moved into the fold, or more come there from a reserve, or more are spread evenly, in the fold and where
+the net is flat, and what a step costs then, by bench_fold."""
 import re
 import subprocess
 
@@ -7,17 +8,20 @@ from table import row
 
 
 def bench_fold(build, work):
-    """A line a fold and part moved; the peer is the even spread."""
+    """A line a fold and share of the spheres; the peer is the even spread, of a reserve the even spread of as many."""
     done = subprocess.run([build / "tests/bench/bench_fold"], capture_output=True, text=True, check=True)
-    even = {}
-    for fold, moved, rest in re.findall(r"^ *(\d+) mm +\S+ mm +(\d+) %(.+)$", done.stdout, re.M):
+    found = {}
+    for fold, share, source, rest in re.findall(r"^ *(\d+) mm +\S+ mm +(\d+) % (\w+)(.+)$", done.stdout, re.M):
         numbers = [float(number) for number in rest.split()]
-        found = {"gap in the fold": numbers[2], "gap where it is flat": numbers[5]}
-        if moved == "0":
-            even[fold] = found
+        found[fold, share, source] = {"gap in the fold, 95 % are less": (numbers[2], "mm"), "gap where it is flat, 95 % are less": (numbers[5], "mm"),
+                                      "a step": (numbers[7], "us")}
+    peers = {"moved": lambda fold, share: ("even", found[fold, "0", "moved"]), "reserve": lambda fold, share: ("as many, even", found[fold, share, "more"])}
+    for (fold, share, source), figures in found.items():
+        if share == "0" or source not in peers:
             continue
-        for name, gap in found.items():
-            yield row("fold", f"fold of {fold} mm, {moved} % moved: {name}, 95 % are less", gap, "mm", peer_name="even", peer=even[fold][name])
+        peer_name, peer = peers[source](fold, share)
+        for name, (value, unit) in figures.items():
+            yield row("fold", f"fold of {fold} mm, {share} % {source}: {name}", value, unit, peer_name=peer_name, peer=peer[name][0])
 
 
 BENCHES = {"fold": bench_fold}
