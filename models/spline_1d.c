@@ -139,6 +139,10 @@ static void mend(SporeModel *model) {
 
 static bool follow(const SporeModel *model, SporeSplineKnots knots, SporeMapping *mapping) {
   const Spline1d *body = (const Spline1d *)model;
+  if (mapping->kind == SPORE_MAPPING_FRAMES) {
+    spore_line_frames_follow(mapping->frames, knots);
+    return true;
+  }
   if (!body->changes.made || !mapping->anchors) return true;
   const SporeSplineLine *now = &body->changes.now;
   if (knots.breaks == now->breaks) {

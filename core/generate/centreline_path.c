@@ -12,6 +12,8 @@ static const double powers[] = {3, 6, 12};
 #define POWERS (sizeof powers / sizeof *powers)
 #define MUCH 0.85    /* of the volume that a way may hold: with more than that it is compared by length */
 #define ENOUGH 0.995 /* share covered, with which no other power is tried */
+#define LONGER 2.0   /* mean radii by which a branch is longer than the end that it replaces: a diameter */
+#define MOST_CHANGES 4
 
 static void set_costs(SporeVoxelSearch *search, double power) {
   double deepest = 0;
@@ -73,6 +75,82 @@ static bool find_way(SporeVoxelSearch *search, const uint32_t *ends, SporeVoxelP
   return trace(search, ends ? ends[1] : farthest(search), path) || spore_centreline_no_memory(error);
 }
 
+static double length_of(const SporeVoxelTube *tube, const SporeVoxelPath *path, size_t from, size_t to) {
+  double length = 0;
+  for (size_t i = from; i < to; i++)
+    length +=
+        spore_vec3_distance(spore_voxel_middle(tube, path->voxel[i]), spore_voxel_middle(tube, path->voxel[i + 1]));
+  return length;
+}
+
+static double mean_depth(const SporeVoxelTube *tube, const SporeVoxelPath *path) {
+  double sum = 0;
+  for (size_t i = 0; i < path->count; i++) sum += tube->depth[path->voxel[i]];
+  return sum / (double)path->count;
+}
+
+/* Length of the way from the joint to its front or its other end, without the corner of a wide end into which it goes:
+ * as far as the outer half is deep. */
+static double length_to_end(const SporeVoxelTube *tube, const SporeVoxelPath *path, size_t joint, bool front) {
+  size_t from = front ? 0 : joint, to = front ? joint : path->count - 1, half = (to - from) / 2;
+  double corner = 0;
+  for (size_t i = 0; i <= half; i++) corner = fmax(corner, tube->depth[path->voxel[front ? from + i : to - i]]);
+  return length_of(tube, path, from, to) - corner;
+}
+
+/* The way with a branch, from where that leaves it, in place of the end that is nearer to there. */
+static bool join_branch(const SporeVoxelPath *way, const SporeVoxelPath *branch, size_t joint, bool front,
+                        SporeVoxelPath *joined) {
+  size_t kept = front ? way->count - joint : joint + 1, count = kept + branch->count - 1;
+  *joined = (SporeVoxelPath){count, SPORE_NEW_ARRAY(uint32_t, count)};
+  if (!joined->voxel) return false;
+  for (size_t i = 0; i < kept; i++) joined->voxel[i] = way->voxel[front ? way->count - 1 - i : i];
+  memcpy(joined->voxel + kept, branch->voxel + 1, (branch->count - 1) * sizeof *branch->voxel);
+  return true;
+}
+
+/* Lets the way end in this branch where that is longer than what the way has from there to its nearer end. */
+static bool take_branch(SporeVoxelSearch *search, double power, const SporeCentrelineBranch *branch,
+                        SporeVoxelPath *path, bool *taken, SporeError *error) {
+  SporeVoxelPath side, joined;
+  uint32_t end = spore_voxel_nearest(search->tube, spore_vec3_load(branch->end));
+  size_t joint = 0;
+  set_costs(search, power);
+  if (!spore_voxel_search_spread(search, path->voxel, path->count, error)) return false;
+  if (!trace(search, end, &side)) return spore_centreline_no_memory(error);
+  while (path->voxel[joint] != side.voxel[0]) joint++;
+  double before = length_to_end(search->tube, path, joint, true);
+  double behind = length_to_end(search->tube, path, joint, false);
+  bool done = true;
+  *taken =
+      length_to_end(search->tube, &side, 0, false) > fmin(before, behind) + LONGER * mean_depth(search->tube, path);
+  if (*taken) {
+    done = join_branch(path, &side, joint, before < behind, &joined) || spore_centreline_no_memory(error);
+    if (done) {
+      spore_voxel_path_clear(path);
+      *path = joined;
+    }
+  }
+  spore_voxel_path_clear(&side);
+  return done;
+}
+
+/* The cheapest way to a far end is not always the longest: what leaves it may be longer than the end itself. */
+static bool take_longer_ends(SporeVoxelSearch *search, double power, SporeVoxelPath *path,
+                             SporeCentrelineReport *report, const SporeCentrelineReport *clean, double *cover,
+                             SporeError *error) {
+  for (int change = 0; change < MOST_CHANGES; change++) {
+    bool taken = false;
+    for (size_t i = 0; !taken && i < SPORE_CENTRELINE_NAMED && i < report->branches; i++)
+      if (!report->branch[i].returns && !take_branch(search, power, &report->branch[i], path, &taken, error))
+        return false;
+    if (!taken) return true;
+    *report = *clean;
+    if (!spore_voxel_search_leftovers(search, path, report, cover, error)) return false;
+  }
+  return true;
+}
+
 bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, const uint32_t *ends,
                            SporeCentrelineReport *report, const SporeProgressPart *progress, SporeError *error) {
   SporeVoxelSearch search;
@@ -86,7 +164,8 @@ bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, con
     SporeCentrelineReport left = clean;
     double cover = 0;
     set_costs(&search, powers[i]);
-    done = find_way(&search, ends, &way, error) && spore_voxel_search_leftovers(&search, &way, &left, &cover, error);
+    done = find_way(&search, ends, &way, error) && spore_voxel_search_leftovers(&search, &way, &left, &cover, error) &&
+           (ends || take_longer_ends(&search, powers[i], &way, &left, &clean, &cover, error));
     if (done && cover > best) {
       spore_voxel_path_clear(path);
       *path = way, *report = left, best = cover;

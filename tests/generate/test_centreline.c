@@ -186,6 +186,26 @@ static void test_branch(void) {
   spore_triangle_mesh_clear(&mesh);
 }
 
+static SporeVec3 near_end(double u) { return spore_vec3(0.145, 0.01 + 0.12 * u, -0.02); }
+static double thin(double u) { return 0.35 * RADIUS; }
+static double pouch(double u) { return RADIUS * (1 + 1.5 / (1 + exp(100 * (0.83 - u)))); }
+
+/* A pouch at the end holds more than the thin tube that leaves it, as of the caecum and the ileum; that is longer. */
+static void test_thin_end(void) {
+  SporeTriangleMesh mesh = tube_of(straight, pouch), branch = tube_of(near_end, thin);
+  SporeCentrelineReport report;
+  shape_append(&mesh, &branch);
+  SporeCurve curve = find(&mesh, NULL, &report);
+  g_test_message("%.3g m, %zu branches, the longest %.3g m from %.3g m%s", report.length, report.branches,
+                 report.branch[0].length, report.branch[0].from, report.branch[0].returns ? ", back" : "");
+  const double *last = curve.points + 4 * (curve.count - 1), *end = last[1] > curve.points[1] ? last : curve.points;
+  g_assert_cmpfloat(spore_vec3_distance(spore_vec3_load(end), near_end(1)), <, 0.6 * RADIUS);
+  g_assert_cmpfloat_with_epsilon(report.length, 0.145 + 0.12, 0.012);
+  spore_curve_clear(&curve);
+  spore_triangle_mesh_clear(&branch);
+  spore_triangle_mesh_clear(&mesh);
+}
+
 static void test_pieces(void) {
   SporeTriangleMesh mesh = tube_of(straight, taper), other = tube_of(arc, inside);
   SporeCentrelineReport report;
@@ -298,6 +318,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/centreline/inside_out", test_inside_out);
   g_test_add_func("/centreline/double_wall", test_double_wall);
   g_test_add_func("/centreline/branch", test_branch);
+  g_test_add_func("/centreline/thin_end", test_thin_end);
   g_test_add_func("/centreline/pieces", test_pieces);
   g_test_add_func("/centreline/options", test_options);
   g_test_add_func("/centreline/refusals", test_refusals);
