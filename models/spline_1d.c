@@ -27,6 +27,8 @@ typedef struct Spline1d {
 
 /* As it is led now. */
 static SporeSplineLine *line_of(Spline1d *body) { return body->changes.made ? &body->changes.now : &body->line; }
+static SporeSplineTwist *twist_of(Spline1d *body) { return body->changes.made ? &body->changes.twist : &body->twist; }
+static const SporeSplineTwist *twist_now(const SporeModel *model) { return twist_of((Spline1d *)(uintptr_t)model); }
 static const SporeSplineLine *line_now(const SporeModel *model) { return line_of((Spline1d *)(uintptr_t)model); }
 
 static const SporeParameter parameters[] = {
@@ -36,8 +38,8 @@ static const SporeParameter parameters[] = {
                      N_("Where the line turns by more than this from one knot to the next, control points are added "
                         "between, again and again, until it does not, at the start and while it runs; those of while "
                         "it runs go again where it has been straight for a quarter of a second, if that moves it by "
-                        "less than a twentieth of its radius. 0: they are even and stay. One that resists twist, or "
-                        "has levels, gets them at the start alone.")),
+                        "less than a twentieth of its radius. 0: they are even and stay. One with levels gets "
+                        "them at the start alone.")),
     SPORE_INTEGER_FIELD(
         SplineFields, maximum_control_points, 4, 100000, 1000, SPORE_CHANGE_REBUILD,
         N_("How many control points there are at most, with those that most_bend adds: memory for them is "
@@ -86,7 +88,7 @@ static void tune(Spline1d *body, const SplineFields *fields) {
   SporeSpline *spline = &line_of(body)->spline;
   spline->young = fields->young_modulus;
   spline->bending = fields->bending_scale;
-  spline->viscous = body->twist.viscous = fields->damping;
+  spline->viscous = twist_of(body)->viscous = fields->damping;
 }
 
 static bool make_twist(Spline1d *body, const SporeCurve *curve, const SporeSplineSection *section,
@@ -101,23 +103,24 @@ static bool make_twist(Spline1d *body, const SporeCurve *curve, const SporeSplin
                          fields->turns);
 }
 
-static size_t arm_count(const Spline1d *body) { return body->twist.span_count > 0 ? body->twist.span_count + 1 : 0; }
+static size_t arm_count(const SporeSplineTwist *twist) { return twist->span_count > 0 ? twist->span_count + 1 : 0; }
 
 /* The control points that there are now are the model's nodes, with the arms behind them. */
 static void use_points(Spline1d *body) {
   const SporeSplineLine *line = line_of(body);
   SporeModel *base = &body->base;
-  size_t count = line->control_count, arms = arm_count(body);
+  const SporeSplineTwist *twist = twist_of(body);
+  size_t count = line->control_count, arms = arm_count(twist);
   base->node_count = base->block_count = count + arms;
   base->q_count = 3 * base->node_count;
   memcpy(base->block_mass, line->mass, count * sizeof(double));
-  if (arms > 0) memcpy(base->block_mass + count, body->twist.mass, arms * sizeof(double));
+  if (arms > 0) memcpy(base->block_mass + count, twist->mass, arms * sizeof(double));
 }
 
 static void settle(SporeModel *model, const SporeBlockMatrix *matrix) {
   Spline1d *body = (Spline1d *)model;
   spore_spline_find_blocks(&line_of(body)->spline, matrix);
-  spore_spline_twist_find_blocks(&body->twist, matrix);
+  spore_spline_twist_find_blocks(twist_of(body), matrix);
 }
 
 static bool weigh_nodes(SporeModel *model, double h, const double *q, const uint8_t *held) {
@@ -146,12 +149,17 @@ static bool follow(const SporeModel *model, SporeSplineKnots knots, SporeMapping
   if (!body->changes.made || !mapping->anchors) return true;
   const SporeSplineLine *now = &body->changes.now;
   if (knots.breaks == now->breaks) {
-    spore_spline_map_follow(now->knots, now->rest, NULL, mapping);
+    spore_spline_map_follow(now->knots, now->rest, body->changes.twist.rest, mapping);
     return true;
   }
-  double *control = SPORE_NEW_ARRAY(double, 4 * (knots.span_count + 3)), *breaks = control + 3 * (knots.span_count + 3);
-  if (control) spore_spline_line_lead(&body->line, knots, control, breaks);
-  if (control) spore_spline_map_follow(knots, control, NULL, mapping);
+  size_t count = knots.span_count + 3;
+  double *control = SPORE_NEW_ARRAY(double, 7 * count), *arms = control + 3 * count, *breaks = arms + 3 * count;
+  bool twisted = body->twist.span_count > 0;
+  if (control) {
+    spore_spline_line_lead(&body->line, knots, control, breaks);
+    if (twisted) spore_spline_twist_lead(&body->twist, &body->line, knots, arms);
+    spore_spline_map_follow(knots, control, twisted ? arms : NULL, mapping);
+  }
   spore_free(control);
   return control;
 }
@@ -166,11 +174,12 @@ static bool build(Spline1d *body, const SporeCurve *curve, const SplineFields *f
   if (!spore_spline_line_init(&body->line, curve, &density, &section, error) ||
       !make_twist(body, curve, &section, fields, error))
     return false;
-  size_t count = body->line.control_count;
-  size_t arms = arm_count(body), room = arms > 0 ? count : density.most;
-  if (!spore_model_init(&body->base, &spore_spline_1d, room + arms, false, error)) return false;
-  body->base.pair_room = 3 * room;
-  if (room > count && !spore_spline_changes_init(&body->changes, &body->line, curve, &density, &section))
+  size_t count = body->line.control_count, room = density.most;
+  bool twisted = body->twist.span_count > 0;
+  if (!spore_model_init(&body->base, &spore_spline_1d, twisted ? 2 * room - 2 : room, false, error)) return false;
+  body->base.line_room = room;
+  body->base.pair_room = (twisted ? 12 : 3) * room; /* a span: 3 of its control points, and 9 of the arm behind it */
+  if (room > count && !spore_spline_changes_init(&body->changes, &body->line, &body->twist, curve, &density, &section))
     return no_memory(error);
   use_points(body);
   SporeBlockMatrix matrix;
@@ -196,31 +205,27 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
   const Spline1d *body = (const Spline1d *)model;
   size_t count = body->line.control_count;
   spore_nodal_place(body->line.rest, count, pose, velocity, spin, q, v);
-  spore_nodal_place(body->twist.rest, arm_count(body), pose, velocity, spin, q + 3 * count, v + 3 * count);
+  spore_nodal_place(body->twist.rest, arm_count(&body->twist), pose, velocity, spin, q + 3 * count, v + 3 * count);
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
-  const Spline1d *body = (const Spline1d *)model;
   SPORE_KERNEL(spore_spline_force)(&line_now(model)->spline, q, shape, v, f);
-  spore_spline_twist_force(&body->twist, q, shape, v, f);
+  spore_spline_twist_force(twist_now(model), q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
-  const Spline1d *body = (const Spline1d *)model;
   return SPORE_KERNEL(spore_spline_potential)(&line_now(model)->spline, q) +
-         spore_spline_twist_potential(&body->twist, q);
+         spore_spline_twist_potential(twist_now(model), q);
 }
 
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
-  const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_pattern(&line_now(model)->spline, blocks) && spore_spline_twist_pattern(&body->twist, blocks);
+  return spore_spline_pattern(&line_now(model)->spline, blocks) && spore_spline_twist_pattern(twist_now(model), blocks);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  const Spline1d *body = (const Spline1d *)model;
   SPORE_KERNEL(spore_spline_jacobian)(&line_now(model)->spline, q, shape, stiffness_scale, damping_scale, matrix);
-  spore_spline_twist_jacobian(&body->twist, q, shape, stiffness_scale, damping_scale, matrix);
+  spore_spline_twist_jacobian(twist_now(model), q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 static const char *notice(const SporeModel *model, const double *q) {
@@ -228,7 +233,7 @@ static const char *notice(const SporeModel *model, const double *q) {
     return _(
         "it turns by more than most_bend between control points, and all that maximum_control_points allows are in "
         "use; raise that, or most_bend");
-  if (spore_spline_twist_worst(&((const Spline1d *)model)->twist, q) < 0.5 * M_PI) return NULL;
+  if (spore_spline_twist_worst(twist_now(model), q) < 0.5 * M_PI) return NULL;
   return _("it is twisted by more than a quarter of a turn between control points, and slips where that becomes half a "
            "turn; set more control points");
 }
@@ -246,7 +251,7 @@ static bool carry(const SporeModel *model, const SporeTriangleMesh *mesh, SporeM
 
 static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
   const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_line_samples(&body->line, body->twist.rest, arm_count(body), points, count, seen);
+  return spore_spline_line_samples(&body->line, body->twist.rest, arm_count(&body->twist), points, count, seen);
 }
 
 static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *error) {

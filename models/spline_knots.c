@@ -7,10 +7,12 @@
 
 #define STRAIGHT (1. / 3) /* of most_bend: what the halves turn by together before they become one again */
 
-bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLine *made, const SporeCurve *curve,
-                               const SporeSplineDensity *density, const SporeSplineSection *section) {
+bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLine *made, const SporeSplineTwist *twist,
+                               const SporeCurve *curve, const SporeSplineDensity *density,
+                               const SporeSplineSection *section) {
   size_t most = density->most;
-  *changes = (SporeSplineChanges){.made = made, .most = most, .most_bend = density->most_bend, .section = *section};
+  *changes = (SporeSplineChanges){
+      .made = made, .made_twist = twist, .most = most, .most_bend = density->most_bend, .section = *section};
   SporeSplineLine *now = &changes->now;
   now->breaks = SPORE_NEW_ARRAY(double, most);
   now->rest = SPORE_NEW_ARRAY(double, 3 * most);
@@ -23,6 +25,7 @@ bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLin
   changes->halve = SPORE_NEW_ARRAY(uint8_t, most);
   bool room = now->breaks && now->rest && now->mass && now->length && changes->lengths && changes->turn &&
               changes->calm && changes->work && changes->halve && spore_spline_allocate(&now->spline, most - 3);
+  if (twist->span_count > 0) room = room && spore_spline_twist_reserve(&changes->twist, twist, most - 3);
   if (!room || !spore_curve_allocate(&changes->curve, curve->count, NULL)) return false;
   memcpy(changes->curve.points, curve->points, 4 * curve->count * sizeof *curve->points);
   now->spline.young = made->spline.young;
@@ -32,6 +35,7 @@ bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLin
 
 void spore_spline_changes_clear(SporeSplineChanges *changes) {
   spore_spline_line_clear(&changes->now);
+  spore_spline_twist_clear(&changes->twist);
   spore_curve_clear(&changes->curve);
   spore_free(changes->lengths);
   spore_free(changes->turn);
@@ -45,6 +49,9 @@ static void measure(SporeSplineChanges *changes) {
   SporeSplineLine *now = &changes->now;
   now->control_count = now->knots.span_count + 3;
   spore_spline_line_measure(now, changes->made, &changes->curve, &changes->section, changes->lengths);
+  if (changes->made_twist->span_count > 0)
+    spore_spline_twist_measure(&changes->twist, changes->made_twist, now, changes->made, &changes->curve,
+                               &changes->section);
 }
 
 void spore_spline_changes_undo(SporeSplineChanges *changes) {
@@ -104,6 +111,8 @@ static bool may_halve(const uint8_t *held, size_t span) {
   return after >= before;
 }
 
+static bool is_twisted(const SporeSplineChanges *changes) { return changes->made_twist->span_count > 0; }
+
 static bool is_made(const SporeSplineLine *made, double at) {
   return spore_spline_break(made->knots, spore_spline_span(made->knots, at)) == at;
 }
@@ -146,6 +155,7 @@ static bool may_drop(SporeSplineChanges *changes, const double *q, const uint8_t
   double ratio[3], two[6], at = changes->now.breaks[knot];
   for (size_t i = knot; held && i < knot + 3; i++)
     if (held[i]) return false;
+  if (held && is_twisted(changes) && held[changes->now.control_count + knot]) return false;
   spore_spline_insert(knots_without(changes, knot), knot - 1, at, ratio);
   double radius = spore_spline_radius(&changes->curve, changes->now.knots, at);
   return merge_points(q, knot - 1, ratio, two) <= SPORE_KNOTS_SLACK * radius;
@@ -218,19 +228,42 @@ bool spore_spline_changes_weigh(SporeSplineChanges *changes, double h, const dou
   return changes->insert_count > 0 || changes->drop > 0;
 }
 
+/* Behind the control points, of which there are to be one more (or one less), room for another arm (or none for it). */
+static void open_arms(void *nodes, size_t size, size_t spans, size_t arm) {
+  uint8_t *arms = (uint8_t *)nodes + (spans + 3) * size;
+  memmove(arms + (arm + 2) * size, arms + arm * size, (spans + 1 - arm) * size);
+  memmove(arms + size, arms, arm * size);
+}
+
+static void close_arms(void *nodes, size_t size, size_t spans, size_t arm) {
+  uint8_t *arms = (uint8_t *)nodes + (spans + 3) * size;
+  memmove(arms - size, arms, arm * size);
+  memmove(arms + (arm - 1) * size, arms + (arm + 1) * size, (spans - arm) * size);
+}
+
+static void hold_halves(uint8_t *held, size_t spans, size_t span, bool twisted) {
+  uint8_t five[5];
+  const uint8_t *arms = held + spans + 3;
+  hold_five(held + span, five);
+  uint8_t arm = twisted && arms[span] && arms[span + 1] && five[1] && five[2] && five[3];
+  if (twisted) open_arms(held, 1, spans, span + 1);
+  memmove(held + span + 5, held + span + 4, spans - span - 1);
+  memcpy(held + span, five, sizeof five);
+  if (twisted) held[spans + 4 + span + 1] = arm;
+}
+
 static void halve(SporeSplineChanges *changes, size_t span, double *q, double *v, uint8_t *held) {
   SporeSplineLine *now = &changes->now;
-  double ratio[3], at = now->breaks[span] + 0.5 * spore_spline_width(now->knots, span);
-  size_t spans = now->knots.span_count;
+  double ratio[3], at = now->breaks[span] + 0.5 * spore_spline_width(now->knots, span), arm_q[3], arm_v[3];
+  size_t spans = now->knots.span_count, arm = 3 * (spans + 4 + span + 1), node = 3 * sizeof *q;
   spore_spline_insert(now->knots, span, at, ratio);
-  insert_points(q, spans + 3, span, ratio);
-  insert_points(v, spans + 3, span, ratio);
-  if (held) {
-    uint8_t five[5];
-    hold_five(held + span, five);
-    memmove(held + span + 5, held + span + 4, spans - span - 1);
-    memcpy(held + span, five, sizeof five);
+  if (is_twisted(changes)) {
+    spore_spline_twist_insert(&changes->twist, now->knots, span, at, q, v, arm_q, arm_v);
+    open_arms(q, node, spans, span + 1), open_arms(v, node, spans, span + 1);
+    memcpy(q + arm, arm_q, node), memcpy(v + arm, arm_v, node);
   }
+  insert_points(q, spans + 3, span, ratio), insert_points(v, spans + 3, span, ratio);
+  if (held) hold_halves(held, spans, span, is_twisted(changes));
   insert_number(now->breaks, spans + 1, span + 1, at);
   insert_number(changes->calm, spans + 1, span + 1, 0);
   now->knots.span_count++;
@@ -245,12 +278,14 @@ static void merge(double *x, size_t count, size_t span, const double ratio[3]) {
 
 static void drop(SporeSplineChanges *changes, double *q, double *v, uint8_t *held) {
   SporeSplineLine *now = &changes->now;
-  size_t knot = changes->drop, spans = now->knots.span_count;
+  size_t knot = changes->drop, spans = now->knots.span_count, node = 3 * sizeof *q;
+  bool twisted = is_twisted(changes);
   double ratio[3];
   spore_spline_insert(knots_without(changes, knot), knot - 1, now->breaks[knot], ratio);
-  merge(q, spans + 3, knot - 1, ratio);
-  merge(v, spans + 3, knot - 1, ratio);
+  merge(q, spans + 3, knot - 1, ratio), merge(v, spans + 3, knot - 1, ratio);
+  if (twisted) close_arms(q, node, spans, knot), close_arms(v, node, spans, knot);
   if (held) memmove(held + knot, held + knot + 1, spans + 2 - knot);
+  if (held && twisted) close_arms(held, 1, spans, knot);
   memmove(now->breaks + knot, now->breaks + knot + 1, (spans - knot) * sizeof *now->breaks);
   memmove(changes->calm + knot, changes->calm + knot + 1, (spans - knot) * sizeof *changes->calm);
   now->knots.span_count--;

@@ -8,14 +8,16 @@
 #ifndef SPORE_MODELS_SPLINE_KNOTS_H
 #define SPORE_MODELS_SPLINE_KNOTS_H
 
-#include "models/spline_line.h"
+#include "models/spline_twist.h"
 
 #define SPORE_KNOTS_CALM 0.25  /* s */
 #define SPORE_KNOTS_SLACK 0.05 /* of the line's radius */
 
 typedef struct SporeSplineChanges {
   const SporeSplineLine *made; /* NULL: knots never change, and nothing below is there */
-  SporeSplineLine now;         /* without spheres and weights; room for `most` control points */
+  const SporeSplineTwist *made_twist;
+  SporeSplineLine now;    /* without spheres and weights; room for `most` control points */
+  SporeSplineTwist twist; /* of no spans: the line turns freely about itself */
   size_t most;
   double most_bend; /* rad */
   SporeSplineSection section;
@@ -31,13 +33,14 @@ typedef struct SporeSplineChanges {
   double *work; /* breaks: most */
 } SporeSplineChanges;
 
-/* The line as it was made is borrowed. False: no memory. Clear it in either case. */
-bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLine *made, const SporeCurve *curve,
-                               const SporeSplineDensity *density, const SporeSplineSection *section);
+/* The line and twist as they were made are borrowed. False: no memory. Clear it in either case. */
+bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLine *made, const SporeSplineTwist *twist,
+                               const SporeCurve *curve, const SporeSplineDensity *density,
+                               const SporeSplineSection *section);
 void spore_spline_changes_clear(SporeSplineChanges *changes);
 /* As it was made. */
 void spore_spline_changes_undo(SporeSplineChanges *changes);
-/* The slots weigh_nodes and change_nodes of SporeModelType; of control points alone. */
+/* The slots weigh_nodes and change_nodes of SporeModelType: control points, and arms behind them. */
 bool spore_spline_changes_weigh(SporeSplineChanges *changes, double h, const double *q, const uint8_t *held);
 void spore_spline_changes_make(SporeSplineChanges *changes, double *q, double *v, uint8_t *held);
 

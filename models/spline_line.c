@@ -60,6 +60,7 @@ static double set_point(SporeSplineLine *line, const SporeCurve *curve, const Sp
   }
   if (line->weights) {
     line->weights[span].length[point] = speed;
+    line->weights[span].polar[point] = section->density * 0.5 * M_PI * (pow(outer, 4) - pow(inner, 4)) * speed;
     line->weights[span].mass[point] = (section->density * area + section->content_density * lumen) * speed;
   }
   SporeVec3 curvature = combine(line->rest, span, second);
@@ -80,6 +81,13 @@ static void straighten(SporeSpline *spline) {
 static double between(const double at[SPORE_SPLINE_POINTS], double part) {
   double mean = 0.5 * (at[0] + at[1]), rise = sqrt(3) * (at[1] - at[0]);
   return mean + fmin(fmax(rise, -2 * mean), 2 * mean) * (part - 0.5);
+}
+
+double spore_spline_line_polar(const SporeSplineLine *line, const SporeSplineLine *made, size_t span) {
+  double width = spore_spline_width(line->knots, span), middle = spore_spline_break(line->knots, span) + 0.5 * width;
+  size_t of = spore_spline_span(made->knots, middle);
+  double part = (middle - spore_spline_break(made->knots, of)) / spore_spline_width(made->knots, of);
+  return width * between(made->weights[of].polar, part);
 }
 
 /* Gauss' rule of three points is exact for a linear weight times a cubic, so that what the functions of one set of

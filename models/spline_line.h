@@ -26,7 +26,8 @@ double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSec
 
 /* How a span weighs by the parameter, at both Gauss points, between and beyond which it is linear. */
 typedef struct SporeSplineWeight {
-  double mass[SPORE_SPLINE_POINTS], length[SPORE_SPLINE_POINTS]; /* kg and m by the parameter */
+  /* kg, m and, about the line, kg m^2, by the parameter */
+  double mass[SPORE_SPLINE_POINTS], length[SPORE_SPLINE_POINTS], polar[SPORE_SPLINE_POINTS];
 } SporeSplineWeight;
 
 typedef struct SporeSplineLine {
@@ -51,6 +52,8 @@ void spore_spline_line_clear(SporeSplineLine *line);
  * to each other, m. */
 void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *made, const SporeCurve *curve,
                                const SporeSplineSection *section, double *lengths);
+/* Polar inertia of a span of the line about itself, as `made` weighs, kg m^2. */
+double spore_spline_line_polar(const SporeSplineLine *line, const SporeSplineLine *made, size_t span);
 /* The slots map, samples and spheres of SporeModelType; arms as for spore_spline_map. */
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
                            double slack, bool follows, SporeMapping *mapping, SporeError *error);

@@ -43,6 +43,25 @@ bool spore_spline_twist_pattern(const SporeSplineTwist *twist, SporeBlockPattern
 /* In a matrix of the model's whole pattern. */
 void spore_spline_twist_find_blocks(SporeSplineTwist *twist, const SporeBlockMatrix *matrix);
 
+/* What follows from the knots of the line but the rest angles: where the spans' nodes are and how they resist, and what
+ * arms weigh, as `made` weighs, of which the mass of the line's control points is relieved. */
+void spore_spline_twist_set_spans(SporeSplineTwist *twist, SporeSplineLine *line, const SporeSplineLine *made,
+                                  const SporeCurve *curve, const SporeSplineSection *section);
+
+/* spline_twist_knots.c: of a line whose knots come and go, whose twist as it was made is `made`. Room for so many
+ * spans; false: no memory, clear it in either case. */
+bool spore_spline_twist_reserve(SporeSplineTwist *now, const SporeSplineTwist *made, size_t most);
+/* Arms at rest at these knots, of the line as it was made: three each. */
+void spore_spline_twist_lead(const SporeSplineTwist *made, const SporeSplineLine *line, SporeSplineKnots knots,
+                             double *arms);
+/* All that follows from the knots that the line has now. */
+void spore_spline_twist_measure(SporeSplineTwist *now, const SporeSplineTwist *made, SporeSplineLine *line,
+                                const SporeSplineLine *made_line, const SporeCurve *curve,
+                                const SporeSplineSection *section);
+/* The arm at a new knot in a span of these knots: halfway between the arms of its ends, in angle, length and spin. */
+void spore_spline_twist_insert(const SporeSplineTwist *now, SporeSplineKnots knots, size_t span, double parameter,
+                               const double *q, const double *v, double arm_q[3], double arm_v[3]);
+
 /* What twist adds, as SporeModelType says; the matrix leaves out how a twist that is there turns as the line bends. */
 void spore_spline_twist_force(const SporeSplineTwist *twist, const double *q, const double *shape, const double *v,
                               double *f);

@@ -38,9 +38,9 @@ static void set_knot(const SporeSplineTwist *twist, SporeSplineKnots knots, size
   }
 }
 
-/* Both Gauss points: how the span resists twist, and the polar inertia of both its halves (kg m^2, in mass). */
-static void add_sections(SporeSplineTwist *twist, const SporeSplineLine *line, const SporeCurve *curve,
-                         const SporeSplineSection *section, size_t index, double *length, double *radius) {
+/* How the span resists twist, by both Gauss points. */
+static void set_polar(SporeSplineTwist *twist, const SporeSplineLine *line, const SporeCurve *curve,
+                      const SporeSplineSection *section, size_t index) {
   double soft = 0;
   for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
     size_t span;
@@ -49,32 +49,39 @@ static void add_sections(SporeSplineTwist *twist, const SporeSplineLine *line, c
     SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
     double part = spore_spline_width(line->knots, index) * spore_vec3_length(combine(line->rest, span, basis.first)) /
                   SPORE_SPLINE_POINTS;
-    double polar = 0.5 * M_PI * (pow(outer, 4) - pow(inner, 4));
-    soft += part / polar;
-    for (size_t end = 0; end < 2; end++) twist->mass[index + end] += 0.5 * section->density * polar * part;
-    *length += part;
-    *radius = fmax(*radius, outer);
+    soft += part / (0.5 * M_PI * (pow(outer, 4) - pow(inner, 4)));
   }
   twist->spans[index].polar = 1 / soft;
 }
 
-static void set_spans(SporeSplineTwist *twist, SporeSplineLine *line, const SporeCurve *curve,
-                      const SporeSplineSection *section) {
-  double length = 0, radius = 0;
+void spore_spline_twist_set_spans(SporeSplineTwist *twist, SporeSplineLine *line, const SporeSplineLine *made,
+                                  const SporeCurve *curve, const SporeSplineSection *section) {
+  memset(twist->mass, 0, (twist->span_count + 1) * sizeof *twist->mass);
   for (size_t index = 0; index < twist->span_count; index++) {
     SporeTwistSpan *span = &twist->spans[index];
     for (int end = 0; end < 2; end++) set_knot(twist, line->knots, index, end);
     for (size_t k = 0; k < 4; k++) span->node[k] = (uint32_t)(index + k);
     for (size_t end = 0; end < 2; end++) span->node[4 + end] = (uint32_t)(twist->span_count + 3 + index + end);
-    span->rest = 0.5 * M_PI;
-    add_sections(twist, line, curve, section, index, &length, &radius);
+    set_polar(twist, line, curve, section, index);
+    double inertia = spore_spline_line_polar(line, made, index);
+    for (size_t end = 0; end < 2; end++) twist->mass[index + end] += 0.5 * inertia / (twist->arm * twist->arm);
   }
-  twist->arm = fmax(length / (double)twist->span_count, RADII * radius);
   for (size_t knot = 0; knot <= twist->span_count; knot++) {
     size_t index = knot < twist->span_count ? knot : knot - 1, end = knot - index;
-    twist->mass[knot] /= twist->arm * twist->arm;
     for (size_t k = 0; k < 4; k++) line->mass[index + k] -= twist->spans[index].value[end][k] * twist->mass[knot];
   }
+}
+
+/* As long as a span, and so long that it weighs little beside the line. */
+static double arm_length(const SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section) {
+  double length = 0, radius = 0, inner;
+  for (size_t i = 0; i < line->control_count; i++) length += line->length[i];
+  for (size_t index = 0; index < line->knots.span_count; index++)
+    for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
+      double u = spore_spline_gauss_parameter(line->knots, index, point);
+      radius = fmax(radius, spore_spline_section_radius(curve, section, line->knots, u, &inner));
+    }
+  return fmax(length / (double)line->knots.span_count, RADII * radius);
 }
 
 /* Any vector across a unit vector. */
@@ -130,7 +137,9 @@ bool spore_spline_twist_init(SporeSplineTwist *twist, SporeSplineLine *line, con
                               .rest = SPORE_NEW_ARRAY(double, 3 * (spans + 1)),
                               .mass = SPORE_NEW_ARRAY(double, spans + 1)};
   if (!twist->spans || !twist->rest || !twist->mass) return no_memory(error);
-  set_spans(twist, line, curve, section);
+  twist->arm = arm_length(line, curve, section);
+  spore_spline_twist_set_spans(twist, line, line, curve, section);
+  for (size_t index = 0; index < spans; index++) twist->spans[index].rest = 0.5 * M_PI;
   if (!check_turns(twist, turns, error)) return false;
   set_arms(twist, line, turns);
   return true;

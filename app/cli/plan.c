@@ -5,6 +5,7 @@
 #include "app/cli/cli.h"
 #include "app/cli/plan_carried.h"
 #include "app/cli/plan_levels.h"
+#include "app/cli/plan_lines.h"
 #include "app/cli/scene.h"
 
 #define MEASURED_STEPS 200
@@ -127,6 +128,10 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
        N_("where bodies have levels: each one's name, memory_bytes (of mappings, matrices and states that having "
           "levels takes), levels: level, active, dof, spheres, and with --measure measured_us, the median of a "
           "step of the scene with the body at it from the start")},
+      {"lines",
+       N_("where control points come and go as a line bends (most_bend): each one's name, control points made (at the "
+          "start), reserve (that there may be), dof_most (of the body with all of them), memory_bytes (that keeping "
+          "them takes), and with --measure look_us (to look at its bends once a step) and change_us (when some come)")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "plan",
@@ -152,6 +157,7 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
     spore_world_step(run->simulation->world);
   report(cli, run->simulation->world, measure);
   spore_plan_report_carried(cli, run);
+  spore_plan_report_lines(cli, run->simulation->world, measure);
   if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);
   return spore_cli_finish(cli, spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : SPORE_EXIT_DONE);
 }

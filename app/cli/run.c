@@ -128,6 +128,9 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
        N_("where bodies have levels: each one's name, level (at the end), changes and refused (how many), error_m "
           "(how far they moved a point of it at most), energy_J (its own, that one added at most), "
           "momentum_Ns (that one missed at most)")},
+      {"lines",
+       N_("where control points come and go as a line bends (most_bend): each one's name, control points made (at the "
+          "start), points (at the end), peak (at most) and reserve (that there may be), inserted and removed")},
       {"monitor",
        N_("what went wrong, counted in steps: recoveries (taken again), substeps (that this cost), "
           "not_finite, too_fast, energy (made without bound), not_converged (above the tolerance), "

@@ -164,6 +164,31 @@ static void report_levels(SporeCli *cli, const SporeWorld *world) {
   if (any) spore_cli_close_array(cli);
 }
 
+/* Where control points come and go. */
+static void report_lines(SporeCli *cli, const SporeWorld *world) {
+  SporeLineState line;
+  gboolean any = FALSE;
+  for (guint body = 0; body < spore_world_body_count(world); body++) {
+    if (!spore_world_line_state(world, body, &line)) continue;
+    if (!any) spore_cli_open_array(cli, "lines");
+    any = TRUE;
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "name", spore_world_body_name(world, body));
+    spore_cli_count(cli, "made", (gint64)line.made);
+    spore_cli_count(cli, "points", (gint64)line.points);
+    spore_cli_count(cli, "peak", (gint64)line.peak);
+    spore_cli_count(cli, "reserve", (gint64)line.reserve);
+    spore_cli_count(cli, "inserted", (gint64)line.inserted);
+    spore_cli_count(cli, "removed", (gint64)line.removed);
+    spore_cli_close(cli);
+    spore_cli_say(cli,
+                  _("%s: %zu control points at the start, %zu at the end, %zu at most, of %zu; %llu came, %llu went\n"),
+                  spore_world_body_name(world, body), line.made, line.points, line.peak, line.reserve,
+                  (unsigned long long)line.inserted, (unsigned long long)line.removed);
+  }
+  if (any) spore_cli_close_array(cli);
+}
+
 /* Whether it kept pace. */
 static gboolean report_pace(SporeCli *cli, const SporeWorld *world, const SporePace *pace) {
   if (!pace) return TRUE;
@@ -235,6 +260,7 @@ int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, 
   report_links(cli, world);
   report_tools(cli, world);
   report_levels(cli, world);
+  report_lines(cli, world);
   gboolean held = report_monitor(cli, world);
   held &= report_pace(cli, world, pace);
   spore_cli_text(cli, "state_hash", hash);

@@ -49,7 +49,7 @@ bool spore_world_compile_knots(SporeWorld *world) {
     if (!changes_nodes(body)) continue;
     body->line.changes = true;
     body->line.break_start = world->lines.break_count;
-    body->line.state.reserve = body->model->block_room;
+    body->line.state.reserve = body->model->line_room;
     world->lines.break_count += body->model->block_room;
     world->line_count++;
     if (!make_room(world, body)) return false;
@@ -123,7 +123,7 @@ static void change(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
   SporeModel *model = body->model;
   double *q = world->next_q + body->q_offset, *v = world->next_v + body->v_offset;
-  size_t before_count = model->node_count;
+  size_t points = body->line.state.points;
   SporeVec3 pulled;
   bool pull = spore_world_pulled_point(world, index, &pulled);
   SporeMotion before = spore_level_motion(model, q, v, NULL);
@@ -133,8 +133,8 @@ static void change(SporeWorld *world, uint32_t index) {
   spore_pin_filter(body->held, body->held_count, v);
   spore_body_clear_rest(world, body);
   SporeLineState *state = &body->line.state;
-  if (model->node_count > before_count) state->inserted += model->node_count - before_count;
-  else state->removed += before_count - model->node_count;
+  if (state->points > points) state->inserted += state->points - points;
+  else state->removed += points - state->points;
   spore_body_forget_steps(world, body);
   spore_body_set_mass(world, body);
   if (pull) spore_world_pull_by(world, index, pulled);
@@ -145,27 +145,46 @@ void spore_world_change_knots(SporeWorld *world) {
     SporeBody *body = &world->bodies[b];
     if (!body->line.changes || !spore_body_moves(body)) continue;
     const double *q = world->next_q + body->q_offset;
-    if (body->model->type->weigh_nodes(body->model, world->solver.time_step, q, body->division.pinned))
-      change(world, b);
+    SporeLineKnots *line = &body->line;
+    uint64_t start = spore_clock_ns();
+    bool changes = body->model->type->weigh_nodes(body->model, world->solver.time_step, q, body->division.pinned);
+    uint64_t looked = spore_clock_ns();
+    line->looks++, line->look_ns += looked - start;
+    if (!changes) continue;
+    change(world, b);
+    line->changed++, line->change_ns += spore_clock_ns() - looked;
   }
 }
 
 void spore_world_mend_knots(SporeWorld *world) {
   for (uint32_t b = 0; world->line_count > 0 && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
-    if (!body->line.changes) continue;
+    SporeLineState *state = &body->line.state;
+    if (!body->line.changes || (state->made > 0 && state->inserted == 0)) continue;
     memcpy(body->division.pinned, body->division.pinned + body->model->block_room, body->model->block_room);
     take_nodes(world, b, world->rest_q + body->q_offset);
-    body->line.state = (SporeLineState){.points = body->line.state.points,
-                                        .made = body->line.state.points,
-                                        .peak = body->line.state.points,
-                                        .reserve = body->model->block_room};
+    if (body->division.untidy) spore_body_compile_factor(world, body, NULL); /* without memory: conjugate gradients */
+    body->division.untidy = false;
+    size_t points = state->points;
+    *state = (SporeLineState){.points = points, .made = points, .peak = points, .reserve = state->reserve};
   }
 }
 
+/* State, scratch and matrix of the blocks that are kept back at time 0. */
+static size_t reserved_memory(const SporeWorld *world, const SporeBody *body) {
+  size_t spare = body->model->block_room - body->line.state.made, pairs = body->model->pair_room;
+  size_t a_block = 8 * 3 + 12 * 3 + 3 * 9 + world->scratch_per_block; /* doubles: as q, as v, as mass */
+  return spare * a_block * sizeof(double) + (body->model->block_room + 2 * pairs) * (9 * sizeof(double) + 16);
+}
+
 bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineState *state) {
-  *state = world->bodies[body].line.state;
-  return world->bodies[body].line.changes;
+  const SporeLineKnots *line = &world->bodies[body].line;
+  *state = line->state;
+  if (!line->changes) return false;
+  state->memory_bytes = reserved_memory(world, &world->bodies[body]);
+  if (line->looks > 0) state->look_us = 1e-3 * (double)line->look_ns / (double)line->looks;
+  if (line->changed > 0) state->change_us = 1e-3 * (double)line->change_ns / (double)line->changed;
+  return true;
 }
 
 SporeSplineKnots spore_snapshot_knots(const SporeWorld *world, const SporeSnapshot *snapshot, uint32_t body) {

@@ -93,6 +93,7 @@ typedef struct SporeModel {
   size_t spare_count; /* of the nodes, the last: of next to no mass and still, until a cut makes them one after the
                          other */
   size_t q_room, block_room; /* what q_count and block_count may become: more where nodes come and go */
+  size_t line_room;          /* points that may lead its line then */
   size_t pair_room;          /* pairs of blocks that its pattern may then have, repeats and all */
   double *block_mass;        /* kg, block_room; above 0 for nodes, 0 for the turning of a frame */
   double buoyancy;           /* share of its weight that the air around bears: above 1 it rises */

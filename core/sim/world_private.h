@@ -79,6 +79,7 @@ typedef struct SporeLineKnots {
   bool changes;
   size_t break_start; /* in the world's lines */
   SporeLineState state;
+  uint64_t looks, look_ns, changed, change_ns; /* of what was timed */
 } SporeLineKnots;
 
 /* A mapping onto such a body, and where its blocks are found anew. */

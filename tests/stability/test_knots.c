@@ -18,23 +18,25 @@ static SporeCurve straight(double length) {
   return curve;
 }
 
-static SporeModel *thread(double points, double most_bend, double maximum, double young) {
+static SporeModel *thread(double points, double most_bend, double maximum, double twist, double turns) {
   SporeCurve curve = straight(0.1);
   return rig_curve_model(&spore_spline_1d, &curve, "control_points", points, "most_bend", most_bend,
-                         "maximum_control_points", maximum, "young_modulus", young, "density", DENSITY, "damping",
-                         0.005, NULL);
+                         "maximum_control_points", maximum, "young_modulus", 1e6, "density", DENSITY, "damping", 0.005,
+                         "twist_modulus", twist, "turns", turns, NULL);
 }
 
 /* A hook of this radius in the middle of so many control points that were straight, and a velocity that varies. */
 static void bend(const SporeModel *model, double radius, double *q, double *v) {
   model->type->place(model, spore_pose_identity(), spore_vec3(0, 0, 0), spore_vec3(0, 0, 0), q, v);
   double arc = G_PI * radius, start = 0.05 - 0.5 * arc;
-  for (size_t i = 0; i < model->node_count; i++) {
+  for (size_t i = 0; i < model->node_count; i++) { /* arms go with what they stand on, and turn a little on the way */
     double s = q[3 * i], angle = fmin(fmax((s - start) / radius, 0), G_PI);
     double behind = fmax(s - start - arc, 0);
-    q[3 * i] = fmin(s, start) + radius * sin(angle) - behind;
-    q[3 * i + 1] = radius * (1 - cos(angle));
-    q[3 * i + 2] = 0.002 * sin(90 * s);
+    SporeVec3 aside = spore_vec3(0, q[3 * i + 1], q[3 * i + 2]);
+    double near = aside.y; /* the inner side of the bend */
+    q[3 * i] = fmin(s, start) + (radius - near) * sin(angle) - behind;
+    q[3 * i + 1] = radius - (radius - near) * cos(angle);
+    q[3 * i + 2] = 0.002 * sin(90 * s) + aside.z;
     spore_vec3_store(v + 3 * i, spore_vec3(0.3 + 2 * q[3 * i + 1], 0.2 * cos(60 * s), 1.5 * s));
   }
 }
@@ -89,8 +91,8 @@ static double kinetic(const State *state) {
 
 /* Line, velocity, mass and momentum are the same to rounding when knots come; kinetic energy loses what lumping the
  * mass added to it. They go again where it is straight, and then it is as it was made. */
-static void test_insertion(void) {
-  State state = state_new(thread(12, 0.4, 60, 1e6), 0.012);
+static void insert(double twist, double turns) {
+  State state = state_new(thread(12, 0.4, 60, twist, turns), 0.012);
   SporeModel *model = state.model;
   for (int round = 0; round < 8; round++) {
     double *line = along(&state, state.q), *speed = along(&state, state.v);
@@ -112,7 +114,8 @@ static void test_insertion(void) {
     g_assert_cmpfloat(moved, <, 1e-16);
     g_assert_cmpfloat(turned, <, 1e-15);
     g_assert_cmpfloat(fabs(heavier), <, 1e-14);
-    g_assert_cmpfloat(missed, <, 1e-14);
+    /* A new arm takes mass from its neighbours that moves with it: the world makes up for what that misses. */
+    g_assert_cmpfloat(missed, <, twist> 0 ? 1e-5 : 1e-14);
     g_assert_cmpfloat(lost, >, -1e-14);
     g_assert_cmpfloat(lost, <, 0.01);
     g_free(line), g_free(speed), g_free(line_now), g_free(speed_now);
@@ -124,9 +127,13 @@ static void test_insertion(void) {
   state_free(&state);
 }
 
+static void test_insertion(void) { insert(0, 0); }
+static void test_twisted(void) { insert(3e5, 0.7); }
+
 /* Where it is straight again, they go one by one, and the line moves by less than a twentieth of its radius each. */
 static void test_removal(void) {
-  State state = state_new(thread(12, 0.4, 60, 1e6), 0.012);
+  const double twist = 0, turns = 0;
+  State state = state_new(thread(12, 0.4, 60, twist, turns), 0.012);
   SporeModel *model = state.model;
   while (model->type->weigh_nodes(model, 1e-3, state.q, NULL)) model->type->change_nodes(model, state.q, state.v, NULL);
   size_t most = model->node_count;
@@ -262,12 +269,12 @@ static void test_pulley(void) {
 }
 
 /* A free thread, straight at rest, bent by hand and thrown. */
-static SporeWorld *thrown(Rig **rig, double most_bend) {
+static SporeWorld *thrown(Rig **rig, double most_bend, double twist) {
   *rig = rig_new();
   (*rig)->description.solver.time_step = 1e-3;
   (*rig)->description.solver.integrator = SPORE_INTEGRATOR_TR_BDF2;
   (*rig)->description.solver.tolerance = 1e-10;
-  rig_passive(*rig, "thread", thread(12, most_bend, 60, 1e6), NULL);
+  rig_passive(*rig, "thread", thread(12, most_bend, 60, twist, twist > 0 ? 0.5 : 0), NULL);
   SporeWorld *world = rig_build(*rig);
   const SporeModel *model = world->bodies[0].model;
   double *q = g_new(double, model->q_count), *v = g_new(double, model->q_count);
@@ -285,9 +292,9 @@ static SporeMotion motion(const SporeWorld *world) {
 
 /* Beside a twin that takes the same step and keeps its points: both momenta are the same to rounding, and the kinetic
  * energy is no more. It straightens, and then it has the points that it was made with. */
-static void test_momentum(void) {
+static void fly(double twist) {
   Rig *rig, *twin_rig;
-  SporeWorld *world = thrown(&rig, 0.4), *twin = thrown(&twin_rig, 3);
+  SporeWorld *world = thrown(&rig, 0.4, twist), *twin = thrown(&twin_rig, 3, twist);
   SporeLineState line;
   spore_world_step(world), spore_world_step(twin);
   SporeMotion now = motion(world), whole = motion(twin);
@@ -303,6 +310,7 @@ static void test_momentum(void) {
   double energy = rig_energy(world), most = energy;
   for (int i = 0; i < 12000 && line.points > line.made; i++) {
     spore_world_step(world);
+    spore_world_tidy(world);
     spore_world_line_state(world, 0, &line);
     if (i % 50 == 0) most = fmax(most, rig_energy(world));
   }
@@ -316,16 +324,20 @@ static void test_momentum(void) {
       (unsigned long long)line.removed, linear, angular, energy, rig_energy(world), most,
       (unsigned long long)spore_world_monitor(world)->not_converged);
   g_assert_cmpuint(line.points, ==, line.made);
-  g_assert_cmpfloat(linear, <, 1e-10);
+  g_assert_cmpfloat(linear, <, 1e-9); /* what the equations are solved to, over thousands of steps */
   g_assert_cmpfloat(most, <, energy * 1.01);
   g_assert_cmpuint(spore_world_monitor(world)->not_converged, ==, 0);
   rig_free(rig), rig_free(twin_rig);
 }
 
+static void test_momentum(void) { fly(0); }
+static void test_twisted_momentum(void) { fly(3e5); }
+
 /* The same bits again after a reset; and what goes moves the line by no more than is said. */
 static void test_repeats(void) {
+  const double twist = 0;
   Rig *rig;
-  SporeWorld *world = thrown(&rig, 0.4);
+  SporeWorld *world = thrown(&rig, 0.4, twist);
   uint64_t hash[2], steps = 2200;
   const SporeModel *model = world->bodies[0].model;
   double *q = g_new(double, model->q_count), *v = g_new(double, model->q_count);
@@ -352,9 +364,11 @@ static void test_repeats(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/knots/insertion", test_insertion);
+  g_test_add_func("/knots/twisted", test_twisted);
   g_test_add_func("/knots/removal", test_removal);
   g_test_add_func("/knots/pulley", test_pulley);
   g_test_add_func("/knots/momentum", test_momentum);
+  g_test_add_func("/knots/twisted-momentum", test_twisted_momentum);
   g_test_add_func("/knots/repeats", test_repeats);
   return g_test_run();
 }
