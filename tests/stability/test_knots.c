@@ -361,6 +361,106 @@ static void test_repeats(void) {
   rig_free(rig);
 }
 
+/* A thread lies over a thin bar, held at one end; a bead runs on it, and a weight hangs at its other end. */
+static Rig *draped(double twist) {
+  Rig *rig = rig_new();
+  rig->description.gravity = spore_vec3(0, -9.81, 0);
+  rig->description.solver.time_step = 2e-3;
+  SporeModel *model = thread(12, 0.3, 50, twist, 0);
+  SporeSphereSet own;
+  g_assert_true(model->type->spheres(model, &own, NULL));
+  double *points = g_new(double, 3 * own.count);
+  for (size_t i = 0; i < own.count; i++) memcpy(points + 3 * i, own.spheres + 4 * i, 3 * sizeof *points);
+  rig_passive(rig, "thread", model, rig_spheres(rig, points, own.count, RADIUS))->contact.stiffness = 500;
+  double bar[3 * 41];
+  for (int i = 0; i < 41; i++) spore_vec3_store(bar + 3 * i, spore_vec3(0.03, -0.0026, 5e-4 * (i - 20)));
+  rig_unmovable(rig, "bar", rig_spheres(rig, bar, 41, 0.002))->contact.stiffness = 500;
+  rig_passive(rig, "bead", box(1e-5), NULL)->pose.position = spore_vec3(0.06, 0, 0);
+  rig_passive(rig, "weight", box(2e-4), NULL)->pose.position = spore_vec3(0.1, 0, 0);
+  rig_pin(rig, 0, spore_vec3(0, 0, 0), 1e-4);
+  add(rig, "bead", SPORE_LINK_SLIDE, 2, 0, spore_vec3(0.06, 0, 0));
+  add(rig, "weight", SPORE_LINK_BALL, 3, 0, spore_vec3(0.1, 0, 0));
+  spore_sphere_set_clear(&own);
+  g_free(points);
+  return rig;
+}
+
+/* Spheres, links, a slide, a pin and what a viewer maps go with the line, whose knots come and go. */
+static void follow(double twist) {
+  Rig *rig = draped(twist);
+  SporeWorld *world = rig_build(rig);
+  const SporeBody *body = &world->bodies[0];
+  SporeMapping seen;
+  size_t count = body->spheres.point_count;
+  double *parameter = g_new(double, count), *shown = g_new(double, 3 * count), most = 0, beside = 0, drift = 0;
+  double *rest = g_new(double, 3 * count);
+  SporeSplineKnots knots = body->model->type->path(body->model);
+  for (size_t i = 0; i < count; i++) {
+    SporeVec3 at = spore_mapping_position(&body->spheres, i, world->q + body->q_offset);
+    parameter[i] = spore_path_seek(knots, world->q + body->q_offset, at).parameter;
+    spore_vec3_store(rest + 3 * i, at);
+  }
+  g_assert_true(spore_world_map(world, 0, rest, count, &seen, NULL));
+  for (int step = 0; step < 400; step++) {
+    spore_world_step(world);
+    spore_world_tidy(world);
+    const double *q = world->q + body->q_offset;
+    const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
+    g_assert_true(spore_world_follow_knots(world, 0, spore_snapshot_knots(world, snapshot, 0), &seen));
+    spore_mapping_positions(&seen, snapshot->q + spore_world_q_offset(world, 0), shown);
+    knots = body->model->type->path(body->model);
+    for (size_t i = 0; i < count; i++) {
+      SporeVec3 at = spore_mapping_position(&body->spheres, i, q),
+                line = spore_path_at(knots, q, parameter[i]).position;
+      most = fmax(most, spore_vec3_distance(at, line));
+      beside = fmax(beside, spore_vec3_distance(at, spore_vec3_load(shown + 3 * i)));
+    }
+    for (size_t i = 0; i < 2; i++) drift = fmax(drift, spore_world_link_state(world, i).drift);
+    g_assert_cmpfloat(spore_vec3_length(spore_vec3_load(q)), <, 1e-16); /* the pin */
+    g_assert_cmpfloat(spore_world_link_state(world, 0).along, >, 0.3);
+  }
+  SporeLineState line;
+  spore_world_line_state(world, 0, &line);
+  g_test_message(
+      "%zu to %zu control points, %zu at most, +%llu -%llu: spheres %.0e m off the line, what is shown %.0e m "
+      "off them; links drift by %.1e m; %llu unsolved",
+      line.made, line.points, line.peak, (unsigned long long)line.inserted, (unsigned long long)line.removed, most,
+      beside, drift, (unsigned long long)spore_world_monitor(world)->not_converged);
+  g_assert_cmpuint(line.inserted, >, 4);
+  g_assert_cmpfloat(most, <, 1e-15);
+  g_assert_cmpfloat(beside, <, 1e-15);
+  g_assert_cmpfloat(drift, <, 1e-4);
+  spore_mapping_clear(&seen);
+  g_free(parameter), g_free(shown), g_free(rest);
+  rig_free(rig);
+}
+
+static void test_follow(void) { follow(0); }
+static void test_follow_twisted(void) { follow(3e5); }
+
+/* With one thread and with three. */
+static void test_threads(void) {
+  uint64_t hash[2];
+  for (int i = 0; i < 2; i++) {
+    Rig *rig = draped(0);
+    SporePool *pool = spore_pool_create(i ? 3 : 1);
+    rig->description.bodies = (const SporeBodyDescription *)(const void *)rig->bodies->data;
+    rig->description.body_count = rig->bodies->len;
+    rig->description.links = (const SporeLinkDescription *)(const void *)rig->links->data;
+    rig->description.link_count = rig->links->len;
+    rig->world = spore_world_create(&rig->description, pool, NULL);
+    g_assert_nonnull(rig->world);
+    for (int step = 0; step < 300; step++) spore_world_step(rig->world);
+    hash[i] = spore_world_hash(rig->world);
+    SporeLineState line;
+    g_assert_true(spore_world_line_state(rig->world, 0, &line));
+    g_assert_cmpuint(line.inserted, >, 4);
+    rig_free(rig);
+    spore_pool_free(pool);
+  }
+  g_assert_cmpuint(hash[0], ==, hash[1]);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/knots/insertion", test_insertion);
@@ -370,5 +470,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/knots/momentum", test_momentum);
   g_test_add_func("/knots/twisted-momentum", test_twisted_momentum);
   g_test_add_func("/knots/repeats", test_repeats);
+  g_test_add_func("/knots/follow", test_follow);
+  g_test_add_func("/knots/follow-twisted", test_follow_twisted);
+  g_test_add_func("/knots/threads", test_threads);
   return g_test_run();
 }
