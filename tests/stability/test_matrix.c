@@ -183,10 +183,7 @@ static void check_model(gconstpointer data) {
                      spore_integrator_names[kind], line->str);
       g_string_free(line, TRUE);
     }
-  /* Not mended yet: a twisted spline by the static method in steps of 1e-5 s. */
-  unsigned known = type == &spore_spline_1d && of->variant ? 1 : 0;
-  g_assert_cmpuint(failed, <=, known);
-  if (failed > 0) g_test_incomplete("cells fail as said above: energy from nothing");
+  g_assert_cmpuint(failed, ==, 0);
 }
 
 int main(int argc, char **argv) {
