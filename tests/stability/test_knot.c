@@ -192,7 +192,7 @@ static void knot(gconstpointer data) {
   double *still = g_new0(double, 3 * POINTS);
   spore_world_set_state(free->world, 0, spore_world_q(tied->world, 0), still);
   Measure loose = run_for(free->world, 0.5);
-  say(free->world, "let go of", rest, &loose, 6);
+  say(free->world, "let go of", rest, &loose, 16);
   if (of->friction > 0) g_assert_cmpfloat(loose.knotted, <, 1.05 * tight.knotted);
   else g_assert_cmpfloat(loose.knotted, >, 1.5 * tight.knotted);
   g_free(still);
