@@ -291,6 +291,15 @@ def spheres_by_hand():
         editor.act("preview-spheres", "u", 3)
         editor.press(editor.find("push button", "^Keep the edits$"))
         assert spheres()[0] == [moved] and not editor.enabled("apply-generated")
+        editor.act("set-property", "(sss)", ("assets/ball_spheres", "frozen", "true"))
+        editor.find("label", "(?s)Edited by hand.*Frozen: nothing generates it again; it may be edited by hand", showing=False)
+        editor.act("preview-spheres", "u", 3)
+        ui.wait(lambda: "is frozen" in (editor.message() or ""), "the refusal")
+        editor.act("tool", "s", "edit")
+        editor.mouse("mousemove", middle[0] + 30, middle[1], "click", 1)
+        editor.focus()
+        editor.keys("Insert")
+        ui.wait(lambda: len(spheres()[0]) == 2, "a sphere by hand in what is frozen")
 
 
 @check

@@ -238,9 +238,22 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   return FALSE;
 }
 
+/* What is shown is chosen beside the tools, or below them where there is no room. */
+static gboolean place_overlays(gpointer data) {
+  g_autoptr(SporeViewport) self = data;
+  int tools, overlays, height, margin = gtk_widget_get_margin_start(self->tools);
+  gtk_widget_get_preferred_width(self->tools, NULL, &tools);
+  gtk_widget_get_preferred_width(self->overlays, NULL, &overlays);
+  gtk_widget_get_preferred_height(self->tools, NULL, &height);
+  gboolean room = tools + overlays + margin <= gtk_widget_get_allocated_width(self->area);
+  gtk_widget_set_margin_top(self->overlays, room ? margin : height - margin / 2); /* its margins are in it */
+  return G_SOURCE_REMOVE;
+}
+
 static void size_changed(GtkWidget *area, GdkRectangle *allocation, SporeViewport *self) {
   follow_camera(self);
   self->stale = TRUE;
+  g_idle_add(place_overlays, g_object_ref(self));
 }
 
 /* Following the simulation. */
@@ -484,6 +497,8 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-viewport.ui");
   gtk_widget_class_bind_template_child(widget, SporeViewport, area);
   gtk_widget_class_bind_template_child(widget, SporeViewport, hud);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, tools);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, overlays);
   gtk_widget_class_bind_template_child(widget, SporeViewport, welcome);
   gtk_widget_class_bind_template_child(widget, SporeViewport, failure);
   gtk_widget_class_bind_template_callback(widget, draw_area);
