@@ -606,7 +606,7 @@ def tetrahedra_as_asked_for():
     with start() as editor:
         import_ball(editor)
         editor.act("preview-tetrahedra", "u", 300)
-        editor.find("label", r"(?s)\d+ tetrahedra in .* of the mesh as it is.*Least angle.*Volume .*surface", 120)
+        editor.find("label", r"(?s)\d+ tetrahedra in .* of the mesh\n.*Least angle.*Error .*volume .*Surface", 120)
         editor.find("drawing area", "Histogram of Least angle: mean .* °")
         whole = picture_sum(editor)
         editor.choose(editor.find("combo box", "^Show$"), "Radius ratio")
@@ -620,7 +620,7 @@ def tetrahedra_as_asked_for():
         ui.wait(lambda: picture_sum(editor) != before, "the cells apart")
         editor.choose(editor.find("combo box", "^Method$"), "Voxels")
         editor.set_number(editor.find("spin button", "^Size, mm$", showing=False), 12)
-        editor.find("label", "(?s)tetrahedra in .* of a lattice cut at the mesh", 120)
+        editor.find("label", "(?s)tetrahedra in .* of a lattice", 120)
         editor.press(editor.find("push button", "^Apply$"))
         ui.wait(lambda: editor.row("ball_tetrahedra"), "the tetrahedra", 60)
         text = saved(editor, "asked_for")

@@ -54,8 +54,7 @@ static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, Sp
 
 /* What the mesh needed, and what of it that changed. */
 static const char *method_text(SporeTetrahedraMethod method) {
-  static const char *const texts[] = {N_("the mesh as it is"), N_("the mesh repaired"), N_("a wrap around the mesh"),
-                                      N_("a lattice cut at the mesh")};
+  static const char *const texts[] = {N_("the mesh"), N_("the mesh repaired"), N_("a wrap of it"), N_("a lattice")};
   return _(texts[method]);
 }
 
@@ -65,11 +64,13 @@ static char *facts(const SporeGenerateWork *work) {
   g_string_append_printf(text, _("%zu tetrahedra in %.1f s, of %s"), work->tetrahedra.tetrahedron_count,
                          report->seconds, method_text(report->method));
   g_string_append_c(text, '\n');
-  g_string_append_printf(text, _("Least angle %.1f°, mean %.1f°, error %.2f %%"), report->quality.min_dihedral_deg,
-                         report->quality.mean_dihedral_deg, 100 * report->hausdorff);
+  g_string_append_printf(text, _("Least angle %.1f°, mean %.1f°"), report->quality.min_dihedral_deg,
+                         report->quality.mean_dihedral_deg);
   g_string_append_c(text, '\n');
-  g_string_append_printf(text, _("Volume %+.1f %%, surface %+.1f %%"), 100 * report->volume_change,
-                         100 * report->area_change);
+  g_string_append_printf(text, _("Error %.2f %%, volume %+.1f %%"), 100 * report->hausdorff,
+                         100 * report->volume_change);
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Surface %+.1f %%"), 100 * report->area_change);
   for (int i = 0; i < SPORE_TETRAHEDRA_METHODS; i++)
     if (*report->refused[i]) {
       g_string_append_c(text, '\n');
