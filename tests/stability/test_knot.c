@@ -187,7 +187,7 @@ static void knot(gconstpointer data) {
   Rig *tied = scene(of, TRUE, hands), *free = scene(of, FALSE, hands);
   double rest = measure(spore_world_q(tied->world, 0)).length;
   Measure tight = run_for(tied->world, 1.2);
-  say(tied->world, "pulled", rest, &tight, 0);
+  say(tied->world, "pulled", rest, &tight, 3);
   g_assert_cmpfloat(tight.knotted, <, of->tight);
   double *still = g_new0(double, 3 * POINTS);
   spore_world_set_state(free->world, 0, spore_world_q(tied->world, 0), still);
