@@ -307,6 +307,8 @@ bool spore_centreline_refine(const SporeSolid *solid, const SporeVoxelTube *tube
       cut_hook(&line);
       turn_round(&line);
     }
+    const SporeProgress *whole = progress->whole;
+    if (room && whole && whole->show) whole->show(whole->data, line.points, line.count);
   }
   room = room && going && lead_on_both(&line, solid, options) && respace(&line) && smooth(&line, 2, 1e3);
   bool done = going && (room || spore_centreline_no_memory(error)) && spore_curve_allocate(curve, line.count, error);

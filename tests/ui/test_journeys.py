@@ -541,6 +541,11 @@ def surface_of_fewer_nodes():
         editor.find("drawing area", "Histogram of Surface distance: mean .* mm")
         editor.choose(editor.find("combo box", "^Show$"), "Least angle")
         editor.find("drawing area", "Histogram of Least angle: mean .* °")
+        editor.press(editor.find("radio button", "^Numbers$"))
+        editor.press(editor.find("push button", "^Measure numbers$"))
+        plot = editor.find("drawing area", r"Error against number: 50: .* %; 100: .* %; 200: ", 60)
+        errors = [float(number) for number in re.findall(r": ([\d.]+) %", plot.get_name())]
+        assert errors[0] > errors[1] > errors[2], plot.get_name()
         editor.act("apply-generated")
         ui.wait(lambda: editor.row("ball_surface"), "the surface")
         text = saved(editor, "surface")
