@@ -585,6 +585,8 @@ def organs_of_a_label_map():
         editor.find("label", r"(?s)tetrahedra in.*Shared faces: 0.*liver", 60)
         editor.press(check_box)
         editor.find("label", r"(?s)tetrahedra in.*label 7: ", 60)
+        editor.choose(editor.find("combo box", "^Show$"), "Least angle")
+        editor.find("drawing area", "Histogram of Least angle: mean .* °")
         assert not editor.row("liver")
         editor.act("apply-generated")
         ui.wait(lambda: editor.row("liver") and editor.row("label_7"), "the bodies")

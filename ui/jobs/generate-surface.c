@@ -142,20 +142,12 @@ static void measure_angles(const SporeGenerateWork *work, SporeQuality *quality)
   for (gsize t = 0; t < quality->count; t++) quality->values[t] = least_angle(&work->surface, t);
 }
 
-/* One value a triangle: each has corners of its own. */
 static void show_triangles(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
   const SporeTriangleMesh *mesh = &work->surface;
-  gsize count = candidate->vertex_count = 3 * mesh->triangle_count;
-  candidate->triangle_count = mesh->triangle_count;
-  candidate->vertices = g_new(double, 3 * count);
-  candidate->triangles = g_new(guint32, count);
-  candidate->vertex_values = g_new(float, count);
-  for (gsize i = 0; i < count; i++) {
-    memcpy(candidate->vertices + 3 * i, mesh->vertices + 3 * mesh->triangles[i], 3 * sizeof(double));
-    candidate->triangles[i] = (guint32)i;
-    candidate->vertex_values[i] = places[i / 3];
-  }
-  g_free(places);
+  double *corners = g_new(double, 9 * mesh->triangle_count);
+  for (gsize i = 0; i < 3 * mesh->triangle_count; i++)
+    memcpy(corners + 3 * i, mesh->vertices + 3 * (gsize)mesh->triangles[i], 3 * sizeof(double));
+  spore_generate_show_triangles(corners, mesh->triangle_count, places, candidate);
   show_edges(mesh, candidate);
 }
 

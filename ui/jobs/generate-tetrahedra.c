@@ -98,7 +98,7 @@ static double angle(const SporeTetrahedraQuality *found) { return found->min_dih
 static double radius_ratio(const SporeTetrahedraQuality *found) { return found->worst_radius_ratio; }
 static double volume(const SporeTetrahedraQuality *found) { return 1e9 * found->volume; }
 
-static void measure_angles(const SporeGenerateWork *work, SporeQuality *quality) {
+void spore_generate_measure_angles(const SporeGenerateWork *work, SporeQuality *quality) {
   measure_cells(work, quality, angle);
 }
 static void measure_ratios(const SporeGenerateWork *work, SporeQuality *quality) {
@@ -113,7 +113,7 @@ static void show_cells(const SporeGenerateWork *work, float *places, SporeStageC
 }
 
 static const SporeGenerateQuality qualities[] = {
-    {N_("Least angle"), "°", measure_angles, show_cells},
+    {N_("Least angle"), "°", spore_generate_measure_angles, show_cells},
     {N_("Radius ratio"), "", measure_ratios, show_cells},
     {N_("Volume"), "mm³", measure_volumes, show_cells},
 };

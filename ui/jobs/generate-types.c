@@ -83,18 +83,26 @@ void spore_generate_show_spheres(const SporeSphereSet *set, float *places, Spore
   candidate->sphere_values = places;
 }
 
+void spore_generate_show_triangles(double *corners, gsize count, float *places, SporeStageCandidate *candidate) {
+  candidate->vertex_count = 3 * count;
+  candidate->triangle_count = count;
+  candidate->vertices = corners;
+  candidate->triangles = g_new(guint32, 3 * count);
+  candidate->vertex_values = g_new(float, 3 * count);
+  for (gsize i = 0; i < 3 * count; i++) {
+    candidate->triangles[i] = (guint32)i;
+    candidate->vertex_values[i] = places[i / 3];
+  }
+  g_free(places);
+}
+
 void spore_generate_show_cells(const SporeTetrahedralMesh *mesh, float *places, SporeStageCandidate *candidate) {
   SporeCellFaces faces;
   if (spore_cell_faces(mesh, &candidate->view, &faces, NULL)) {
-    gsize count = candidate->vertex_count = 3 * faces.triangle_count;
-    candidate->triangle_count = faces.triangle_count;
-    candidate->vertices = g_memdup2(faces.vertices, 3 * count * sizeof(double));
-    candidate->triangles = g_new(guint32, count);
-    candidate->vertex_values = g_new(float, count);
-    for (gsize i = 0; i < count; i++) {
-      candidate->triangles[i] = (guint32)i;
-      candidate->vertex_values[i] = places[faces.cells[i / 3]];
-    }
+    float *of_faces = g_new(float, faces.triangle_count);
+    for (gsize i = 0; i < faces.triangle_count; i++) of_faces[i] = places[faces.cells[i]];
+    double *corners = g_memdup2(faces.vertices, 9 * faces.triangle_count * sizeof(double));
+    spore_generate_show_triangles(corners, faces.triangle_count, of_faces, candidate);
   }
   spore_cell_faces_clear(&faces);
   g_free(places);

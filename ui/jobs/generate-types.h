@@ -51,6 +51,10 @@ const SporeGenerateType *spore_generate_type(SporeGenerateKind kind);
 double *spore_generate_scaled(const double *values, gsize count, gsize stride, double scale);
 /* Copies a surface into a candidate, with a place on the scale a vertex (taken) or none. */
 void spore_generate_show_surface(const SporeTriangleMesh *mesh, float *places, SporeStageCandidate *candidate);
+/* Triangles of three corners each (count x 3 x 3, m) with one place on the scale each; takes both. */
+void spore_generate_show_triangles(double *corners, gsize count, float *places, SporeStageCandidate *candidate);
+/* Least angle between faces of each tetrahedron, degrees. */
+void spore_generate_measure_angles(const SporeGenerateWork *work, SporeQuality *quality);
 /* The outside of cells, each face in the colour of its cell, as the candidate's view wants them. */
 void spore_generate_show_cells(const SporeTetrahedralMesh *mesh, float *places, SporeStageCandidate *candidate);
 void spore_generate_show_spheres(const SporeSphereSet *set, float *places, SporeStageCandidate *candidate);
