@@ -67,25 +67,6 @@ static bool remove_spikes(SporeTetrahedralMesh *mesh, SporeError *error) {
   return true;
 }
 
-/* Vertices that no cell has any more go. */
-static bool drop_unused(SporeTetrahedralMesh *mesh, SporeError *error) {
-  uint32_t *number = SPORE_NEW_ARRAY(uint32_t, mesh->vertex_count);
-  size_t kept = 0;
-  if (!number)
-    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
-                           _("there is not enough memory for the cells; close other programs"));
-  for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++) number[mesh->tetrahedra[i]] = 1;
-  for (size_t v = 0; v < mesh->vertex_count; v++)
-    if (number[v]) {
-      memmove(mesh->vertices + 3 * kept, mesh->vertices + 3 * v, 3 * sizeof(double));
-      number[v] = (uint32_t)kept++;
-    }
-  for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++) mesh->tetrahedra[i] = number[mesh->tetrahedra[i]];
-  mesh->vertex_count = kept;
-  spore_free(number);
-  return true;
-}
-
 /* Box (of the wanted voxels' box in the indices' space) and volumes; false: there are none. */
 static bool measure_map(Meshing *m, const SporeLabelMap *map) {
   size_t low[3] = {SIZE_MAX, SIZE_MAX, SIZE_MAX}, high[3] = {0, 0, 0}, index = 0;
@@ -131,7 +112,7 @@ static bool make_cells(Meshing *m, SporeTetrahedralMesh *mesh, SporeError *error
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("that makes %zu cells; expected at most %u; ask for fewer or larger ones"), count,
                            MOST_CELLS);
-  return remove_spikes(mesh, error) && drop_unused(mesh, error);
+  return remove_spikes(mesh, error) && spore_tetrahedral_mesh_drop_unused(mesh, error);
 }
 
 static void measure_label(const SporeTetrahedralMesh *mesh, SporeLabelFigures *figures) {

@@ -15,7 +15,10 @@
 #define MOST_WRAPPED 40000.0 /* triangles: half the alpha makes four times as many */
 #define WRAPPED_NEAR 0.8     /* of the tolerance */
 #define PREPARED_SAMPLES 10000
-#define CLOSING 0.3 /* of one half: winding numbers in a hole of the surface */
+#define SURE 0.9        /* of the tolerance */
+#define BETTER 0.8      /* of what a mesher is off: a lattice no nearer is not worth its shapes */
+#define MOST_CHANGE 0.1 /* of the volume */
+#define CLOSING 0.3     /* of one half: winding numbers in a hole of the surface */
 
 const char *const spore_tetrahedra_method_names[] = {"direct", "repaired", "wrapped", "voxels", NULL};
 
@@ -162,7 +165,10 @@ static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GErr
     if (work->options.gap > 0 || room < 4 || distance_to(work, surface) < WRAPPED_NEAR * work->options.tolerance) break;
     alpha *= 0.5;
   }
-  return TRUE;
+  if (work->options.gap > 0) return TRUE;
+  double distance = distance_to(work, surface);
+  if (distance <= work->options.tolerance) return TRUE;
+  return fail(error, _("the wrap is %.1f %% of the diagonal away from what was given"), 100 * distance);
 }
 
 /* The surface that a method meshes. */
@@ -202,9 +208,47 @@ static gboolean attempt(SporeTetrahedraWork *work, SporeTetrahedraMethod method,
   return done;
 }
 
+/* How far a mesh is from the surface and its volume from the solid's, of what is allowed; below 0: it failed. */
+static double misfit_of(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double *distance,
+                        double *change, SporeError *error) {
+  SporeTetrahedraQuality quality;
+  double inner, area;
+  spore_tetrahedral_mesh_quality(mesh, &quality);
+  *change = quality.volume / work->volume - 1;
+  if (!spore_tetrahedra_distances(work, mesh, distance, &inner, &area, error)) return -1;
+  double over = log((double)mesh->tetrahedron_count / (double)work->options.cells) / (2 * SPORE_TETRAHEDRA_COUNT);
+  bool flat = quality.min_dihedral_deg < SPORE_TETRAHEDRA_ANGLE;
+  return fmax(fmax(*distance / (SURE * work->options.tolerance), fabs(*change) / MOST_CHANGE), fmax(over, 0)) + flat;
+}
+
+/* Where a mesher's cells are farther from the solid than they shall be, those of a coarsened lattice may be nearer: the
+ * better of the two are kept. */
+static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeTetrahedraReport *report,
+                                GError **error) {
+  SporeTetrahedralMesh other = {0};
+  SporeError failure = SPORE_ERROR_INIT;
+  double far, lost, near, change, before = misfit_of(work, mesh, &far, &lost, &failure);
+  if (before < 0) return spore_error_propagate(&failure, error);
+  if (before <= 1) return TRUE;
+  if (!spore_tetrahedra_voxels(work, &other, &failure))
+    return failure.code != SPORE_ERROR_CANCELLED || spore_error_propagate(&failure, error);
+  double after = misfit_of(work, &other, &near, &change, &failure);
+  if (after >= 0 && after < BETTER * before) {
+    g_snprintf(report->refused[report->method], sizeof report->refused[report->method],
+               _("its cells are %.2f %% of the diagonal away from what was given and change the volume by %+.1f %%; "
+                 "those of %s %.2f %% and %+.1f %%"),
+               100 * far, 100 * lost, spore_tetrahedra_method_names[SPORE_TETRAHEDRA_VOXELS], 100 * near, 100 * change);
+    report->method = SPORE_TETRAHEDRA_VOXELS;
+    SporeTetrahedralMesh kept = *mesh;
+    *mesh = other, other = kept;
+  }
+  spore_tetrahedral_mesh_clear(&other);
+  return after >= 0 || spore_error_propagate(&failure, error);
+}
+
 /* The first method that works, or the one that is asked for. */
-static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
-                          SporeTetrahedraReport *report, GError **error) {
+static gboolean run_methods(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
+                            SporeTetrahedraReport *report, GError **error) {
   const SporeTetrahedraMethod asked = work->options.method;
   const gboolean all = asked == SPORE_TETRAHEDRA_METHODS;
   GString *tried = g_string_new(NULL);
@@ -231,6 +275,19 @@ static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTet
                       tried->str);
   g_string_free(tried, TRUE);
   return done;
+}
+
+/* The methods, and a second look at what came of them. */
+static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
+                          SporeTetrahedraReport *report, GError **error) {
+  const SporeTetrahedraOptions *options = &work->options;
+  const double from = work->fraction, share = work->share;
+  const gboolean looks = options->method == SPORE_TETRAHEDRA_METHODS && options->cells && !(options->gap > 0);
+  if (looks) work->share = 0.6 * share;
+  if (!run_methods(work, place, mesh, report, error)) return FALSE;
+  work->fraction = from + 0.6 * share, work->share = 0.4 * share;
+  if (!looks || report->method == SPORE_TETRAHEDRA_VOXELS) return TRUE;
+  return look_at_lattice(work, mesh, report, error);
 }
 
 /* The figures, still in diagonals. */

@@ -13,6 +13,7 @@
 #define MOST_REFINEMENTS 5
 #define AIM 0.7 /* of the tolerance: what is measured of rough meshes */
 #define SAMPLES 10000
+#define TURNS 4           /* of moving the boundary */
 #define GOAL 14           /* degrees, for the least angle */
 #define LEAST_VOLUME 0.75 /* of the surface's: a mesh below lost a part that is thinner than its cells */
 #define USUAL_SLOPE 2.8   /* by which the logarithm of the number falls with that of the size */
@@ -167,10 +168,9 @@ static bool report(void *data, double fraction, const char *stage) {
 /* What the mesher left. */
 static bool better(Fit *fit, SporeTetrahedralMesh *mesh, SporeError *error) {
   const SporeProgress progress = {report, fit->work};
-  return spore_tetrahedra_improve(mesh, NULL, fit->tree, GOAL, &progress, error) &&
-         spore_tetrahedra_pull(mesh, fit->tree, fit->points, SAMPLES, AIM * fit->work->options.tolerance,
-                               SPORE_TETRAHEDRA_ANGLE + 0.75, &progress, error) &&
-         spore_tetrahedra_balance(mesh, fit->tree, fit->points, SAMPLES, SPORE_TETRAHEDRA_ANGLE + 0.75, error);
+  return spore_tetrahedra_mend(mesh, error) &&
+         spore_tetrahedra_improve(mesh, NULL, fit->tree, GOAL, &progress, error) &&
+         spore_tetrahedra_near(fit->work, fit->tree, TURNS, mesh, error);
 }
 
 static gboolean finish(Fit *fit, SporeTetrahedralMesh *mesh, GError **error) {

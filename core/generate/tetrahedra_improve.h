@@ -3,7 +3,8 @@
 #define SPORE_GENERATE_TETRAHEDRA_IMPROVE_H
 
 #include "core/base/progress.h"
-#include "core/mesh/bvh.h"
+#include "core/generate/sizing.h"
+#include "core/generate/tetrahedra_skin.h"
 
 /* Raises the least quality of a cell (spore_tetrahedron_quality) as long as it is below `goal` and that helps: vertices
  * move to where the worst cell around them is best, edges and faces inside are exchanged, slivers on the boundary go.
@@ -14,17 +15,21 @@
 bool spore_tetrahedra_improve(SporeTetrahedralMesh *mesh, uint32_t **labels, const SporeBvh *surface, double goal,
                               const SporeProgress *progress, SporeError *error);
 
-/* Moves vertices of the boundary to points of the surface (count x 3) that lie farther than `tolerance` from the mesh,
- * as far as no cell's quality falls below `least` (or below what it is); repeats while the largest distance gets less.
- */
-bool spore_tetrahedra_pull(SporeTetrahedralMesh *mesh, const SporeBvh *surface, const double *points, size_t count,
-                           double tolerance, double least, const SporeProgress *progress, SporeError *error);
+/* Draws edges together until `cells` are left, or fewer cannot be: the shortest first, by the edges that are wanted,
+ * and those that keep the skin nearest to its points. No cell's quality falls below `least`. mesh->labels are kept.
+ * Vertices keep their numbers; some are in no cell any more. */
+bool spore_tetrahedra_coarsen(SporeTetrahedralMesh *mesh, const SporeBvh *surface, SporeSkinPoints *points,
+                              const SporeSizing *sizing, size_t cells, double least, const SporeProgress *progress,
+                              SporeError *error);
 
-/* Vertices on a surface leave the faces between them on one side of it, all within what bends outward: moves those of
- * the boundary along their normals until the surface runs through the faces' middle, where no quality falls below
- * `least` (or below what it is). The volume comes near that of the surface, and the largest distance halves where the
- * surface is smooth; points (count x 3) of the surface say whether it is worth it: else nothing changes. */
-bool spore_tetrahedra_balance(SporeTetrahedralMesh *mesh, const SporeBvh *surface, const double *points, size_t count,
-                              double least, SporeError *error);
+/* Moves vertices of the skin to where its faces are nearest to their points (and their middles to `surface`, unless it
+ * is NULL), be that off the surface; distances beyond `usual` count more than by their squares. No cell's quality falls
+ * below `least` (or below what it is). Points keep their hosts. */
+bool spore_tetrahedra_approach(SporeTetrahedralMesh *mesh, const SporeBvh *surface, SporeSkinPoints *points, int rounds,
+                               double usual, double least, SporeError *error);
+
+/* Parts cells that hold together at an edge or a vertex of the boundary alone: by further vertices in the same place,
+ * or where the cells hold together elsewhere too, by cells at the edge that go. The boundary is a surface then. */
+bool spore_tetrahedra_mend(SporeTetrahedralMesh *mesh, SporeError *error);
 
 #endif

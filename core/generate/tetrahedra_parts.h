@@ -7,8 +7,9 @@
 #include "core/generate/tetrahedra_wire.h"
 #include "core/mesh/bvh.h"
 
-#define SPORE_TETRAHEDRA_ANGLE 10  /* degrees: the least dihedral angle wanted */
-#define SPORE_TETRAHEDRA_COUNT 0.1 /* by which the number of cells may differ, logarithm */
+#define SPORE_TETRAHEDRA_ANGLE 10                             /* degrees: the least dihedral angle wanted */
+#define SPORE_TETRAHEDRA_KEPT (SPORE_TETRAHEDRA_ANGLE + 0.75) /* that moves for another end leave */
+#define SPORE_TETRAHEDRA_COUNT 0.1                            /* by which the number of cells may differ, logarithm */
 
 typedef struct SporeTetrahedraWork {
   SporeTetrahedraOptions options; /* lengths in diagonals; tolerance set */
@@ -32,6 +33,11 @@ bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error);
 bool spore_tetrahedra_distances(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double *hausdorff,
                                 double *inner, double *area, SporeError *error);
 
+/* Brings the skin near what bounds the solid by spore_tetrahedra_approach, in as many turns as help; `surface`: the
+ * solid's, or a closed one near it. */
+bool spore_tetrahedra_near(const SporeTetrahedraWork *work, const SporeBvh *surface, int turns,
+                           SporeTetrahedralMesh *mesh, SporeError *error);
+
 /* By the helper. A surface that can be meshed; alpha: of a wrap. */
 gboolean spore_tetrahedra_prepare(SporeTetrahedraWork *work, SporeTetrahedraTask task, double alpha,
                                   SporeTriangleMesh *surface, GError **error);
@@ -46,7 +52,10 @@ bool spore_tetrahedra_fill(SporeTriangleMesh *surface, SporeError *error);
 gboolean spore_tetrahedra_fit(SporeTetrahedraWork *work, const SporeTriangleMesh *surface, SporeTetrahedralMesh *mesh,
                               GError **error);
 
-/* Cells of a lattice, cut where the solid ends. */
+/* Cells of a lattice whose cubes have that edge, cut where the solid ends. None where it misses the solid. */
+bool spore_tetrahedra_stuff(const SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh,
+                            SporeError *error);
+/* Such a lattice, finer than the cells that are asked for, made coarser where that costs the least. */
 bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error);
 
 /* Plan of sizes: a relative one at each node, times a scale, under absolute bounds. */

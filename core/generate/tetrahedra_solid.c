@@ -11,6 +11,7 @@
 #define SAMPLES 20000     /* of a surface */
 #define BESIDE 1e-4       /* of the diagonal: how far from the surface its two sides are looked at */
 #define VOLUME_ROWS 96    /* across the diagonal */
+#define THIN 8            /* walls that are met, of the distance of rows */
 #define LEAST_VOLUME 1e-6 /* of the diagonal's cube */
 #define SAMPLES_A_REPORT 512
 
@@ -45,15 +46,14 @@ static bool sort_samples(SporeTetrahedraWork *work, SporeError *error) {
   return done;
 }
 
-/* Sum along a row of nodes `h` apart of the share of each that is inside; runs of nodes far from the surface are
- * decided by one distance. */
-static double row_inside(const SporeBvh *tree, SporeVec3 p, double h, size_t count) {
-  double sum = 0;
-  for (size_t i = 0; i < count;) {
-    double depth = spore_bvh_depth(tree, spore_vec3(p.x + (double)i * h, p.y, p.z)) / h;
-    size_t run = (size_t)fmax(fmin(fabs(depth) - 0.5, (double)(count - i - 1)), 0);
-    sum += fmin(fmax(0.5 + depth, 0), 1) + (depth > 0 ? (double)run : 0);
-    i += 1 + run;
+/* Length of the solid along a row: steps as long as the surface is away, or `least`, so that no wall of that thickness
+ * is passed over; where it enters and where it leaves err by as much to either side. */
+static double row_inside(const SporeBvh *tree, SporeVec3 p, double length, double least) {
+  double sum = 0, step;
+  for (double x = 0; x < length; x += step) {
+    double depth = spore_bvh_depth(tree, spore_vec3(p.x + x, p.y, p.z));
+    step = fmax(fabs(depth), least);
+    if (depth > 0) sum += step;
   }
   return sum;
 }
@@ -75,11 +75,11 @@ static bool measure_volume(SporeTetrahedraWork *work, const SporeMeshReport *giv
       sum += row_inside(work->tree,
                         spore_vec3(report.lower[0] - 0.5 * h, report.lower[1] + ((double)y - 0.5) * h,
                                    report.lower[2] + ((double)z - 0.5) * h),
-                        h, count[0]);
+                        (double)count[0] * h, h / THIN);
     if (!spore_tetrahedra_progress(work, 0.5 + 0.5 * (double)z / (double)count[2], _("looking at the surface")))
       return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
   }
-  work->volume = sum * h * h * h;
+  work->volume = sum * h * h;
   return true;
 }
 

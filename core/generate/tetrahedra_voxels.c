@@ -3,17 +3,10 @@
  * solid ends. With the snapping shares of tetrahedra_lattice.c the paper proves dihedral angles of 10.7 to 164.8
  * degrees whatever the solid, so this needs nothing of the surface but its winding number. Diagonals of four-sided
  * faces are chosen by what both cells at the face know: its edges' lengths, and the parity of nodes. */
-#include <math.h>
-
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "core/generate/tetrahedra_improve.h"
 #include "core/generate/tetrahedra_lattice.h"
 #include "core/mesh/common.h"
-
-#define MOST_TRIES 8
-#define CELLS_A_CUBE 12   /* of the lattice */
-#define REGULAR_EDGE 0.95 /* mean edge of its cells, in edges of its cubes: 6 of sqrt(3)/2, 1 along an axis each */
 
 typedef struct {
   SporeBcc *lattice;
@@ -204,7 +197,9 @@ static bool stuff(Stuffing *stuffing, const SporeTetrahedraWork *work, SporeErro
   return true;
 }
 
-static bool mesh_at(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh, SporeError *error) {
+bool spore_tetrahedra_stuff(const SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh,
+                            SporeError *error) {
+  *mesh = (SporeTetrahedralMesh){0};
   SporeBcc lattice;
   if (!spore_bcc_create(&lattice, work, edge, error)) return false;
   Stuffing stuffing = {.lattice = &lattice, .tree = work->tree, .mesh = mesh};
@@ -212,43 +207,4 @@ static bool mesh_at(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh
   spore_bcc_clear(&lattice);
   if (!done) spore_tetrahedral_mesh_clear(mesh);
   return done;
-}
-
-static bool report(void *data, double fraction, const char *stage) {
-  return spore_tetrahedra_progress(data, fraction, stage);
-}
-
-bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error) {
-  const double wanted = (double)work->options.cells, from = work->fraction, share = work->share;
-  double edge = wanted > 0 ? cbrt(CELLS_A_CUBE * work->volume / wanted) : work->options.size / REGULAR_EDGE;
-  double best_gap = HUGE_VAL;
-  bool done = true;
-  *mesh = (SporeTetrahedralMesh){0};
-  for (int i = 0; i < MOST_TRIES && done && best_gap > 0.5 * SPORE_TETRAHEDRA_COUNT; i++) {
-    SporeTetrahedralMesh made = {0};
-    work->fraction = from + share * i / MOST_TRIES, work->share = share / MOST_TRIES;
-    done = mesh_at(work, edge, &made, error);
-    double count = (double)made.tetrahedron_count;
-    double gap = !wanted && count > 0 ? 0 : count > 0 ? fabs(log(count / wanted)) : HUGE_VAL;
-    edge *= count > 0 && wanted > 0 ? exp(fmin(fmax(log(count / wanted) / 2.7, -0.7), 0.7)) : 0.7;
-    if (gap < best_gap) {
-      best_gap = gap;
-      spore_tetrahedral_mesh_clear(mesh);
-      *mesh = made;
-    } else spore_tetrahedral_mesh_clear(&made);
-  }
-  work->fraction = from, work->share = share;
-  if (done && mesh->tetrahedron_count) {
-    const SporeProgress progress = {report, work};
-    return spore_tetrahedra_pull(mesh, work->tree, work->bounding, work->bounding_count, 0.5 * work->options.tolerance,
-                                 SPORE_TETRAHEDRA_ANGLE + 0.75, &progress, error) &&
-           spore_tetrahedra_balance(mesh, work->tree, work->bounding, work->bounding_count,
-                                    SPORE_TETRAHEDRA_ANGLE + 0.75, error) &&
-           spore_tetrahedral_mesh_validate(mesh, error);
-  }
-  spore_tetrahedral_mesh_clear(mesh);
-  return done ? spore_error_set(error, SPORE_ERROR_NUMERICAL, NULL,
-                                _("no node of a lattice lies inside; expected walls no thinner than the cells; ask for "
-                                  "more cells or a smaller size"))
-              : false;
 }

@@ -10,6 +10,8 @@ typedef struct SporeBvh SporeBvh;
 SporeBvh *spore_bvh_create(const SporeTriangleMesh *mesh, SporeError *error);
 void spore_bvh_free(SporeBvh *bvh);
 
+/* Point of a triangle (3 x 3) nearest to p. */
+SporeVec3 spore_triangle_nearest(SporeVec3 p, const double *corners);
 /* Distance (m) from p to the surface, exact; *nearest and *triangle may be NULL. */
 double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, uint32_t *triangle);
 /* Generalised winding number (about 1 inside, 0 outside), near triangles exactly, far ones by their

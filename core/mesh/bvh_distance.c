@@ -2,8 +2,8 @@
 
 #include "core/mesh/bvh_node.h"
 
-/* Point of the triangle nearest to p (Ericson 2005, Real-Time Collision Detection, 5.1.5: by Voronoi regions). */
-static SporeVec3 nearest_on_triangle(SporeVec3 p, const double *corners) {
+/* Ericson 2005, Real-Time Collision Detection, 5.1.5: by Voronoi regions. */
+SporeVec3 spore_triangle_nearest(SporeVec3 p, const double *corners) {
   SporeVec3 a = spore_vec3_load(corners), b = spore_vec3_load(corners + 3), c = spore_vec3_load(corners + 6);
   SporeVec3 ab = spore_vec3_sub(b, a), ac = spore_vec3_sub(c, a), ap = spore_vec3_sub(p, a);
   double d1 = spore_vec3_dot(ab, ap), d2 = spore_vec3_dot(ac, ap);
@@ -60,7 +60,7 @@ double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, 
       }
     }
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
-      SporeVec3 q = nearest_on_triangle(p, bvh->corners + 9 * (size_t)i), gap = spore_vec3_sub(p, q);
+      SporeVec3 q = spore_triangle_nearest(p, bvh->corners + 9 * (size_t)i), gap = spore_vec3_sub(p, q);
       double d = spore_vec3_dot(gap, gap);
       if (d < best) best = d, best_point = q, best_triangle = bvh->triangles[i];
     }

@@ -114,6 +114,9 @@ bool spore_tetrahedral_mesh_boundary(const SporeTetrahedralMesh *mesh, uint32_t 
  * tetrahedron_count x 4, from spore_allocate. */
 bool spore_tetrahedral_mesh_neighbours(const SporeTetrahedralMesh *mesh, uint32_t **neighbours);
 
+/* Vertices that are in no tetrahedron go, the order of the others is kept. False only without memory. */
+bool spore_tetrahedral_mesh_drop_unused(SporeTetrahedralMesh *mesh, SporeError *error);
+
 typedef struct SporeTetrahedraQuality {
   double volume;                              /* m^3 */
   double min_dihedral_deg, mean_dihedral_deg; /* least of all; mean of each tetrahedron's least */

@@ -1,6 +1,8 @@
 #include <math.h>
 
 #include "core/base/text.h"
+#include <string.h>
+
 #include "core/mesh/common.h"
 #include "core/mesh/sort.h"
 
@@ -143,4 +145,20 @@ bool spore_tetrahedral_mesh_neighbours(const SporeTetrahedralMesh *mesh, uint32_
   if (!done) spore_free(result);
   *neighbours = done ? result : NULL;
   return done;
+}
+
+bool spore_tetrahedral_mesh_drop_unused(SporeTetrahedralMesh *mesh, SporeError *error) {
+  uint32_t *number = SPORE_NEW_ARRAY(uint32_t, mesh->vertex_count);
+  size_t kept = 0;
+  if (!number) return spore_mesh_no_memory(error);
+  for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++) number[mesh->tetrahedra[i]] = 1;
+  for (size_t v = 0; v < mesh->vertex_count; v++)
+    if (number[v]) {
+      memmove(mesh->vertices + 3 * kept, mesh->vertices + 3 * v, 3 * sizeof(double));
+      number[v] = (uint32_t)kept++;
+    }
+  for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++) mesh->tetrahedra[i] = number[mesh->tetrahedra[i]];
+  mesh->vertex_count = kept;
+  spore_free(number);
+  return true;
 }
