@@ -586,6 +586,7 @@ def organs_of_a_label_map():
         editor.press(check_box)
         editor.find("label", r"(?s)tetrahedra in.*label 7: ", 60)
         editor.choose(editor.find("combo box", "^Show$"), "Least angle")
+        editor.press(editor.find("radio button", "^Histogram$"))
         editor.find("drawing area", "Histogram of Least angle: mean .* °")
         assert not editor.row("liver")
         editor.act("apply-generated")
