@@ -1,6 +1,7 @@
 """Whether spheres that follow where a net bends pay: how deep a ball sinks between spheres that are spread evenly over a folded
 net, or of which a part is moved into the fold, or more come there from a reserve, or more are spread evenly, in the fold and where
-the net is flat, and what a step costs then, by bench_fold."""
+the net is flat, and what a step costs then, by bench_fold; and how sharply the nets of the scenes bend, by bench_bends."""
+import pathlib
 import re
 import subprocess
 
@@ -22,6 +23,13 @@ def bench_fold(build, work):
         peer_name, peer = peers[source](fold, share)
         for name, (value, unit) in figures.items():
             yield row("fold", f"fold of {fold} mm, {share} % {source}: {name}", value, unit, peer_name=peer_name, peer=peer[name][0])
+    scenes = pathlib.Path(__file__).resolve().parents[2] / "resources/scenes"
+    for scene, time in {"plate2-tissue": "8", "table1-mass-spring": "5", "bag": "8"}.items():
+        done = subprocess.run([build / "tests/bench/bench_bends", scenes / f"{scene}.spore", time], capture_output=True, text=True, check=True)
+        for line in done.stdout.splitlines():
+            name, *_, sharpest, share = line.split()
+            yield row("fold", f"{scene}, {name}: sharpest crease", float(sharpest), "degrees")
+            yield row("fold", f"{scene}, {name}: creases above 60 degrees at once, most", float(share), "%")
 
 
 BENCHES = {"fold": bench_fold}
