@@ -13,7 +13,8 @@
 #define FIRST_ROUNDS 60
 #define FILL_EVERY 6
 #define LAST_ROUNDS 24
-#define SETTLED 1e-5 /* relative change of the loss in a round below which the last rounds end */
+#define POLISHED_MOST 1000 /* balls: for more the samples of a polish are too few */
+#define SETTLED 1e-5       /* relative change of the loss in a round below which the last rounds end */
 
 static double loss_of(const SporeFit *fit, const SporeField *field) {
   const SporeSamples *s = fit->samples;
@@ -239,8 +240,10 @@ bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, con
   }
   done = done && fill(&fit, progress, 0, rough ? 1 : 0.2, error);
   if (!rough)
-    done = done && relocate(&fit, progress, 0.2, 0.9, error) && settle(&fit, LAST_ROUNDS, progress, 0.9, 1, error);
+    done = done && relocate(&fit, progress, 0.2, 0.7, error) && settle(&fit, LAST_ROUNDS, progress, 0.7, 0.75, error);
   if (done) spore_balls_copy(balls, &fit.best);
   close_fit(&fit);
-  return done;
+  SporeProgressPart last = {progress->whole, progress->first + 0.75 * progress->share, 0.25 * progress->share};
+  if (rough || balls->count > POLISHED_MOST) return done;
+  return done && spore_spheres_polish(solid, balls, bound, samples->typical, seed, &last, error);
 }

@@ -11,7 +11,7 @@
 #define SPLIT_SHARE 0.5 /* of a ball's burden: what a split is taken to save */
 #define MOST_ACTIVE 40  /* balls refitted in a trial */
 #define TRIAL_ROUNDS 8
-#define WORK 60000  /* groups of samples evaluated, after which no more trials are made */
+#define WORK 32000  /* groups of samples evaluated, after which no more trials are made */
 #define PATIENCE 12 /* passes in vain, after which no more are made */
 
 typedef struct Local {

@@ -118,6 +118,10 @@ typedef struct SporeSamples {
 } SporeSamples;
 bool spore_samples_create(SporeSamples *samples, const SporeSolid *solid, size_t count, SporeRandom *random,
                           const SporeProgressPart *progress, SporeError *error);
+/* Others for the same: one in each of small cells, closest at the surface, down to samples->band outside; their weights
+ * are the cells' volumes (m^3). count: of the balls they are for; typical: as in SporeSamples. */
+bool spore_samples_create_graded(SporeSamples *samples, const SporeSolid *solid, size_t count, double typical,
+                                 SporeRandom *random, const SporeProgressPart *progress, SporeError *error);
 void spore_samples_clear(SporeSamples *samples);
 
 /* Balls inside the solid that touch its surface, most about its medial axis. */
@@ -134,6 +138,11 @@ bool spore_candidates_cover(const SporeBalls *candidates, const SporeSamples *sa
 bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
                        SporeBalls *balls, const uint8_t *bound, bool rough, uint64_t seed,
                        const SporeProgressPart *progress, SporeError *error);
+
+/* Moves the balls of a fit on, all together, by the volumes and the depth that a set is judged by. typical: as in
+ * SporeSamples; bound: as above. */
+bool spore_spheres_polish(const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound, double typical,
+                          uint64_t seed, const SporeProgressPart *progress, SporeError *error);
 
 /* The balls and their images in the planes that they are not bound to (bound: as for spore_spheres_fit), x y z r each;
  * spheres: NULL to count alone. Returns how many. */

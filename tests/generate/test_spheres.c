@@ -510,6 +510,47 @@ static void test_cancel_samples(void) {
   spore_triangle_mesh_clear(&torus);
 }
 
+/* Cells of a ball: inside they add up to its volume, none is farther out than the band, and depths are the ball's. */
+static void test_graded(void) {
+  SporeTriangleMesh ball;
+  SporeSolid solid;
+  SporeSamples samples;
+  SporeRandom random = {1};
+  SporeProgressPart part = {NULL, 0, 1};
+  shape_ball(&ball, 0.05, 48);
+  g_assert_true(spore_solid_create(&solid, &ball, NULL));
+  g_assert_true(spore_samples_create_graded(&samples, &solid, 8, 0.025, &random, &part, NULL));
+  double inside = 0;
+  for (size_t i = 0; i < samples.points.count; i++) {
+    SporeVec3 p = spore_vec3(samples.points.x[i], samples.points.y[i], samples.points.z[i]);
+    CLOSE(samples.depth[i], 0.05 - spore_vec3_length(p), 3e-4);
+    g_assert_cmpfloat(samples.depth[i], >, -2 * samples.band);
+    if (samples.depth[i] >= 0) inside += samples.weight[i];
+  }
+  CLOSE(inside / solid.volume, 1, 0.005);
+  spore_samples_clear(&samples);
+  spore_solid_clear(&solid);
+  spore_triangle_mesh_clear(&ball);
+}
+
+/* One ball that is too small and off the middle of a ball comes to be that. */
+static void test_polish(void) {
+  SporeTriangleMesh mesh;
+  SporeSolid solid;
+  SporeBalls balls;
+  SporeProgressPart part = {NULL, 0, 1};
+  shape_ball(&mesh, 0.05, 48);
+  g_assert_true(spore_solid_create(&solid, &mesh, NULL));
+  g_assert_true(spore_balls_create(&balls, 1));
+  spore_balls_set(&balls, 0, spore_vec3(0.004, -0.003, 0.002), 0.045);
+  g_assert_true(spore_spheres_polish(&solid, &balls, NULL, 0.05, 1, &part, NULL));
+  g_assert_cmpfloat(spore_vec3_length(spore_balls_centre(&balls, 0)), <, 2e-4);
+  CLOSE(balls.r[0], 0.05, 2e-4);
+  spore_balls_clear(&balls);
+  spore_solid_clear(&solid);
+  spore_triangle_mesh_clear(&mesh);
+}
+
 /* Who looks on sees whole sets on the way, and the set that comes out is the same. */
 typedef struct {
   size_t looks, wanted;
@@ -586,6 +627,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres/measure-concentric", test_measure_concentric);
   g_test_add_func("/generate/spheres/measure-overlap", test_measure_overlap);
   g_test_add_func("/generate/spheres/tetrahedra", test_tetrahedra);
+  g_test_add_func("/generate/spheres/graded", test_graded);
+  g_test_add_func("/generate/spheres/polish", test_polish);
   g_test_add_func("/generate/spheres/cancel", test_cancel);
   g_test_add_func("/generate/spheres/cancel-samples", test_cancel_samples);
   g_test_add_func("/generate/spheres/look", test_look);
