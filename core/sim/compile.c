@@ -35,6 +35,8 @@ static bool check_body(const SporeBodyDescription *body, SporeError *error) {
     return fail(error, name, _("pose or velocity is not finite; expected numbers; correct the body's pose"));
   if (body->model && body->model->q_count > 6 * body->model->block_count)
     return fail(error, name, _("the model has more than 6 configuration values a block; this is a fault of the model"));
+  if (body->model && (body->model->q_room < body->model->q_count || body->model->block_room < body->model->block_count))
+    return fail(error, name, _("the model has less room than state; this is a fault of the model"));
   if (body->substeps > SPORE_SUBSTEPS_MAXIMUM)
     return fail(error, name, _("more than 1000 substeps; take a smaller time_step"));
   if (body->model && !spore_model_is_nodal(body->model) && !body->model->type->inertia)

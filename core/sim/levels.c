@@ -42,8 +42,8 @@ static bool check_model(const SporeBody *body, int grade, SporeError *error) {
 }
 
 static bool make_room(SporeLevels *levels, const SporeModel *model) {
-  if (model->q_count > levels->q_room) levels->q_room = model->q_count;
-  if (3 * model->block_count > levels->v_room) levels->v_room = 3 * model->block_count;
+  if (model->q_room > levels->q_room) levels->q_room = model->q_room;
+  if (3 * model->block_room > levels->v_room) levels->v_room = 3 * model->block_room;
   return true;
 }
 
