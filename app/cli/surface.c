@@ -38,6 +38,8 @@ static void report(SporeCli *cli, const SporeTriangleMesh *mesh, const SporeSurf
   report_edges(cli, report);
   spore_cli_number(cli, "area_change", report->area_change);
   spore_cli_number(cli, "volume_change", report->volume_change);
+  spore_cli_count(cli, "crossings_before", (gint64)simplify->crossings_before);
+  spore_cli_count(cli, "crossings", (gint64)simplify->crossings);
   spore_cli_count(cli, "creases", (gint64)simplify->creases);
   report_flag(cli, "creases_kept", simplify->creases_kept);
   report_flag(cli, "reached", simplify->reached);
@@ -48,6 +50,9 @@ static void report(SporeCli *cli, const SporeTriangleMesh *mesh, const SporeSurf
                 mesh->vertex_count, mesh->triangle_count, 100 * report->hausdorff, 100 * report->outline,
                 report->min_angle_deg, report->mean_angle_deg, report->edge_mean, report->edge_min, report->edge_max,
                 report->seconds);
+  if (simplify->crossings + simplify->crossings_before > 0)
+    spore_cli_say(cli, _("%zu pairs of triangles go through each other (%zu of the given surface)\n"),
+                  simplify->crossings, simplify->crossings_before);
   if (!simplify->creases_kept)
     spore_cli_say(
         cli,
@@ -123,6 +128,8 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
       {"triangles", N_("number of triangles")},
       {"pieces", N_("that do not hang together: as many as before")},
       {"open_edges", N_("that only one triangle has")},
+      {"crossings_before", N_("pairs of triangles of the given surface that go through each other")},
+      {"crossings", N_("of the result: more where so few nodes cannot be had otherwise; ask for more nodes")},
       {"hausdorff", N_("largest distance to the surface, both ways, of the diagonal")},
       {"outline", N_("largest distance between the open edges of both, of the diagonal")},
       {"min_angle_deg", N_("least angle of any triangle, degrees")},

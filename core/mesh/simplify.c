@@ -17,7 +17,6 @@
 #define LEAST_TURN 0.3      /* cosine by which a triangle may turn in a collapse */
 #define SMALL 0.05          /* of the length wanted of edges: what of features is smaller is none of them */
 #define SLIVER 0.1          /* quality of a triangle whose own normal says nothing */
-#define DEAR 1.2            /* how much farther off the surface creases may lead than doing without */
 #define STEPS_A_REPORT 1024 /* collapses */
 
 typedef struct Candidate {
@@ -33,6 +32,8 @@ typedef struct Collapser {
   Candidate *heap;
   size_t count, capacity;
   double edge; /* length wanted */
+  SporeShellNeighbours near;
+  bool crossing; /* what goes through something is let be */
 } Collapser;
 
 /* Quadrics. */
@@ -262,7 +263,9 @@ static bool collapse(Collapser *work, const Candidate *candidate) {
     later.cost *= pow(GOOD_QUALITY / quality, 3);
     return push(work, later);
   }
+  if (!work->crossing && spore_shell_would_cross(&work->near, shell, a, b, x)) return true;
   spore_shell_collapse(shell, a, b, x);
+  if (!work->crossing && !spore_shell_neighbours_add_ring(&work->near, shell, a)) return false;
   work->quadric[a] = both;
   work->stamp[a]++;
   work->stamp[b]++;
@@ -286,89 +289,24 @@ static bool collapse_to(Collapser *work, size_t vertices, const SporeProgress *p
   return true;
 }
 
-static size_t wanted(const SporeTriangleMesh *mesh, const SporeSimplifyOptions *options) {
-  if (options->vertices > 0) return options->vertices < 4 ? 4 : options->vertices;
-  double area = 0, one = sqrt(3) / 2 * options->size * options->size; /* of a vertex among equilateral triangles */
-  for (size_t t = 0; t < mesh->triangle_count; t++) {
-    const uint32_t *n = mesh->triangles + 3 * t;
-    area += spore_vec3_length(spore_mesh_area_vector(spore_mesh_vertex(mesh->vertices, n[0]),
-                                                     spore_mesh_vertex(mesh->vertices, n[1]),
-                                                     spore_mesh_vertex(mesh->vertices, n[2])));
+bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeProgress *progress, SporeError *error) {
+  Collapser work = {.shell = shell,
+                    .quadric = SPORE_NEW_ARRAY(SporeQuadric, shell->vertex_count),
+                    .stamp = SPORE_NEW_ARRAY(uint32_t, shell->vertex_count)};
+  bool done = (work.quadric && work.stamp) || spore_mesh_no_memory(error);
+  if (done) work.edge = sqrt(make_quadrics(&work) / (sqrt(3) / 2 * (double)vertices));
+  /* Cells between the triangles there are and those there will be. */
+  double cell = work.edge * pow((double)vertices / (double)(shell->live + 1), 0.25);
+  if (done && shell->live > vertices) {
+    done = spore_shell_neighbours_create(&work.near, shell, cell) || spore_mesh_no_memory(error);
+    done = done && collapse_to(&work, vertices, progress, error);
+    work.crossing = true; /* so many vertices are wanted all the same */
+    done = done && (shell->live <= vertices || collapse_to(&work, vertices, progress, error));
+    spore_shell_neighbours_clear(&work.near);
   }
-  double count = area / one;
-  return count < 4 ? 4 : count > 1e9 ? 1000000000 : (size_t)count;
-}
-
-/* One simplified surface, from the original, keeping what turns more than `angle`. */
-typedef struct Attempt {
-  SporeTriangleMesh mesh;
-  SporeShellFeatures features;
-  double farthest; /* m: vertex of the original from it */
-  bool reached;
-} Attempt;
-
-static bool measure(const SporeTriangleMesh *original, Attempt *attempt, SporeError *error) {
-  SporeBvh *bvh = spore_bvh_create(&attempt->mesh, error);
-  for (size_t i = 0; bvh && i < original->vertex_count; i++)
-    attempt->farthest =
-        fmax(attempt->farthest, spore_bvh_distance(bvh, spore_vec3_load(original->vertices + 3 * i), NULL, NULL));
-  spore_bvh_free(bvh);
-  return bvh != NULL;
-}
-
-static bool attempt(Collapser *work, const SporeTriangleMesh *original, double angle, size_t vertices, Attempt *made,
-                    const SporeProgress *progress, SporeError *error) {
-  SporeShell *shell = work->shell;
-  *made = (Attempt){.farthest = 0};
-  if (!spore_shell_create(shell, original)) return spore_mesh_no_memory(error);
-  bool done = spore_shell_find_features(shell, angle, &made->features);
-  if (!done) spore_mesh_no_memory(error);
-  double area = done ? make_quadrics(work) : 0;
-  work->edge = sqrt(area / (sqrt(3) / 2 * (double)vertices));
-  done = done && (shell->live <= vertices || collapse_to(work, vertices, progress, error)) &&
-         spore_shell_improve(shell, work->quadric, progress, error) && spore_shell_mesh(shell, &made->mesh, error);
-  made->reached = shell->live <= vertices;
-  spore_shell_clear(shell);
-  return done && measure(original, made, error);
-}
-
-/* Whether creases cost too many of the vertices. */
-static bool is_worse(const Attempt *with, const Attempt *without) {
-  return with->reached != without->reached ? without->reached : with->farthest > DEAR * without->farthest;
-}
-
-static bool simplify(Collapser *work, const SporeTriangleMesh *original, const SporeSimplifyOptions *options,
-                     Attempt *best, SporeSimplifyReport *report, const SporeProgress *progress, SporeError *error) {
-  double angle = options->keep_angle > 0 ? options->keep_angle : SPORE_SIMPLIFY_KEEP_ANGLE;
-  size_t vertices = wanted(original, options);
-  Attempt other = {0};
-  if (!attempt(work, original, angle, vertices, best, progress, error)) return false;
-  *report = (SporeSimplifyReport){
-      .creases = best->features.creases, .locked_edges = best->features.locked, .creases_kept = true};
-  bool done = report->creases == 0 || attempt(work, original, 2 * M_PI, vertices, &other, progress, error);
-  if (done && report->creases > 0 && is_worse(best, &other)) {
-    Attempt swap = *best;
-    *best = other, other = swap;
-    report->creases_kept = false;
-  }
-  spore_triangle_mesh_clear(&other.mesh);
-  report->reached = best->reached;
-  return done;
-}
-
-bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimplifyOptions *options,
-                                  SporeTriangleMesh *result, SporeSimplifyReport *report, const SporeProgress *progress,
-                                  SporeError *error) {
-  SporeShell shell = {0};
-  Attempt best = {0};
-  Collapser work = {.shell = &shell,
-                    .quadric = SPORE_NEW_ARRAY(SporeQuadric, mesh->vertex_count),
-                    .stamp = SPORE_NEW_ARRAY(uint32_t, mesh->vertex_count)};
-  bool done = work.quadric && work.stamp;
-  if (done) done = simplify(&work, mesh, options, &best, report, progress, error);
-  else spore_mesh_no_memory(error);
-  if (!done) spore_triangle_mesh_clear(&best.mesh);
-  *result = best.mesh;
+  done = done && (spore_shell_neighbours_create(&work.near, shell, work.edge) || spore_mesh_no_memory(error)) &&
+         spore_shell_improve(shell, work.quadric, &work.near, progress, error);
+  spore_shell_neighbours_clear(&work.near);
   spore_free(work.quadric);
   spore_free(work.stamp);
   spore_free(work.heap);

@@ -18,6 +18,7 @@ typedef struct SporeSimplifyReport {
   bool creases_kept;   /* false: so few vertices come nearer to the surface without; kept are the open edges alone */
   bool reached;        /* false: fewer vertices would change what the surface hangs together like */
   size_t locked_edges; /* where more than two triangles meet: stay as they are */
+  size_t crossings_before, crossings; /* pairs of triangles that go through each other, of the given surface and now */
 } SporeSimplifyReport;
 
 /* Collapses edges, the cheapest first, by the squared distance from the planes around (Garland and Heckbert 1997) at
@@ -25,7 +26,9 @@ typedef struct SporeSimplifyReport {
  * the surface is plain. Open edges and creases give up points along themselves only; each piece stays in one piece with
  * its holes and handles; no triangle turns over. Then edges are turned and points moved along the surface where that
  * makes the narrowest angle wider. Valid mesh; the result is a new one, oriented as it was. The same mesh gives the
- * same result. False: no memory, or cancelled. */
+ * same result. No collapse makes what went through nothing go
+ * through something, unless so few vertices cannot be had otherwise. False: no
+ * memory, or cancelled. */
 bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimplifyOptions *options,
                                   SporeTriangleMesh *result, SporeSimplifyReport *report, const SporeProgress *progress,
                                   SporeError *error);

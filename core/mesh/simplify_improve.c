@@ -48,28 +48,38 @@ static bool is_flat(SporeVec3 a, SporeVec3 b, SporeVec3 c, SporeVec3 d, double f
          spore_vec3_dot(second, before) > 0.5 * length * spore_vec3_length(second);
 }
 
-static void flip_edge(SporeShell *shell, uint32_t a, uint32_t b, double far) {
+/* False: no memory. */
+static bool flip_edge(SporeShell *shell, SporeShellNeighbours *near, uint32_t a, uint32_t b, double far) {
   uint32_t corners[2], between[2];
-  if (spore_shell_between(shell, a, b, corners) != 2 || spore_shell_is_feature(shell, a, b)) return;
+  if (spore_shell_between(shell, a, b, corners) != 2 || spore_shell_is_feature(shell, a, b)) return true;
   if (shell->corner[spore_shell_after(corners[0])] != b) {
     uint32_t swap = corners[0];
     corners[0] = corners[1], corners[1] = swap;
   }
-  if (shell->corner[spore_shell_after(corners[0])] != b || shell->corner[spore_shell_before(corners[1])] != b) return;
+  if (shell->corner[spore_shell_after(corners[0])] != b || shell->corner[spore_shell_before(corners[1])] != b)
+    return true;
   uint32_t c = shell->corner[spore_shell_before(corners[0])], d = shell->corner[spore_shell_after(corners[1])];
-  if (c == d || spore_shell_between(shell, c, d, between) > 0) return;
-  if (spore_shell_count(shell, a) <= 3 || spore_shell_count(shell, b) <= 3) return;
+  if (c == d || spore_shell_between(shell, c, d, between) > 0) return true;
+  if (spore_shell_count(shell, a) <= 3 || spore_shell_count(shell, b) <= 3) return true;
   SporeVec3 p = spore_shell_at(shell, a), q = spore_shell_at(shell, b), r = spore_shell_at(shell, c),
             s = spore_shell_at(shell, d);
   double now = fmin(least_angle(p, q, r), least_angle(q, p, s)),
          then = fmin(least_angle(r, s, q), least_angle(s, r, p));
-  if (then > BETTER * now && is_flat(p, q, r, s, far)) spore_shell_flip(shell, corners);
+  const uint32_t made[2][3] = {{c, d, b}, {d, c, a}};
+  if (!(then > BETTER * now) || !is_flat(p, q, r, s, far) || spore_shell_triangle_crosses(near, shell, made[0]) ||
+      spore_shell_triangle_crosses(near, shell, made[1]))
+    return true;
+  spore_shell_flip(shell, corners);
+  return spore_shell_neighbours_add(near, shell, corners[0] / 3) &&
+         spore_shell_neighbours_add(near, shell, corners[1] / 3);
 }
 
-static void flip_edges(SporeShell *shell, double far) {
+static bool flip_edges(SporeShell *shell, SporeShellNeighbours *near, double far) {
   for (uint32_t h = 0; h < 3 * shell->triangle_count; h++)
-    if (shell->corner[3 * (size_t)(h / 3)] != SPORE_SHELL_NONE)
-      flip_edge(shell, shell->corner[h], shell->corner[spore_shell_after(h)], far);
+    if (shell->corner[3 * (size_t)(h / 3)] != SPORE_SHELL_NONE &&
+        !flip_edge(shell, near, shell->corner[h], shell->corner[spore_shell_after(h)], far))
+      return false;
+  return true;
 }
 
 /* Moving points. */
@@ -90,8 +100,10 @@ static SporeVec3 centre_around(const SporeShell *shell, uint32_t vertex, SporeVe
   return weight > 0 ? spore_vec3_scale(1 / weight, sum) : at;
 }
 
-/* Along the surface towards the middle of what is around, then across it to where its planes have it. */
-static void move_point(SporeShell *shell, const SporeQuadric *quadric, uint32_t vertex, double far) {
+/* Along the surface towards the middle of what is around, then across it to where its planes have it. False: no
+ * memory. */
+static bool move_point(SporeShell *shell, SporeShellNeighbours *near, const SporeQuadric *quadric, uint32_t vertex,
+                       double far) {
   SporeVec3 normal, at = spore_shell_at(shell, vertex), to = centre_around(shell, vertex, &normal);
   SporeVec3 unit = spore_vec3_normalise(normal, spore_vec3(0, 0, 0)), step = spore_vec3_sub(to, at);
   step = spore_vec3_add_scaled(step, -spore_vec3_dot(step, unit), unit);
@@ -99,9 +111,12 @@ static void move_point(SporeShell *shell, const SporeQuadric *quadric, uint32_t 
   double stiff = spore_vec3_dot(unit, spore_mat3_apply(quadric->a, unit)), now = spore_quadric_at(quadric, at);
   SporeVec3 slope = spore_vec3_add(spore_mat3_apply(quadric->a, moved), quadric->b);
   if (stiff > 1e-3 * quadric->weight) moved = spore_vec3_add_scaled(moved, -spore_vec3_dot(unit, slope) / stiff, unit);
-  if (spore_quadric_at(quadric, moved) > fmax(now, quadric->weight * far * far)) return;
-  if (spore_shell_moved_quality(shell, vertex, moved, SPORE_SHELL_NONE) >= GOOD)
-    spore_vec3_store(shell->x + 3 * (size_t)vertex, moved);
+  if (spore_quadric_at(quadric, moved) > fmax(now, quadric->weight * far * far)) return true;
+  if (spore_shell_moved_quality(shell, vertex, moved, SPORE_SHELL_NONE) < GOOD ||
+      spore_shell_move_crosses(near, shell, vertex, moved))
+    return true;
+  spore_vec3_store(shell->x + 3 * (size_t)vertex, moved);
+  return spore_shell_neighbours_add_ring(near, shell, vertex);
 }
 
 /* Root of the mean square of how far points lie off the planes that they stand for. */
@@ -115,16 +130,17 @@ static double typical_distance(const SporeShell *shell, const SporeQuadric *quad
   return weight > 0 ? sqrt(sum / weight) : 0;
 }
 
-bool spore_shell_improve(SporeShell *shell, const SporeQuadric *quadric, const SporeProgress *progress,
-                         SporeError *error) {
+bool spore_shell_improve(SporeShell *shell, const SporeQuadric *quadric, SporeShellNeighbours *near,
+                         const SporeProgress *progress, SporeError *error) {
   double far = FAR * typical_distance(shell, quadric);
-  for (int round = 0; round < ROUNDS; round++) {
+  bool room = true;
+  for (int round = 0; room && round < ROUNDS; round++) {
     if (!spore_progress(progress, 0.5 + 0.5 * round / ROUNDS, _("widening angles")))
       return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
-    flip_edges(shell, far);
-    for (uint32_t i = 0; i < shell->vertex_count; i++)
+    room = flip_edges(shell, near, far);
+    for (uint32_t i = 0; room && i < shell->vertex_count; i++)
       if (shell->head[i] != SPORE_SHELL_NONE && shell->kind[i] == SPORE_SHELL_SMOOTH)
-        move_point(shell, &quadric[i], i, far);
+        room = move_point(shell, near, &quadric[i], i, far);
   }
-  return true;
+  return room || spore_mesh_no_memory(error);
 }

@@ -22,9 +22,35 @@ static inline double spore_quadric_at(const SporeQuadric *quadric, SporeVec3 x) 
  * is moved to x; 1: none does; 0: one turns over. */
 double spore_shell_moved_quality(const SporeShell *shell, uint32_t vertex, SporeVec3 x, uint32_t except);
 
+/* Triangles of a shell by the cells of a grid that they reach into, so that those near another are found. */
+typedef struct SporeShellNeighbours {
+  size_t side;    /* cells a side, over the shell's box */
+  uint32_t *head; /* first entry of each cell */
+  size_t count, capacity;
+  uint32_t *entries;     /* triangle, next entry: also those of before a triangle moved, or went */
+  uint32_t *seen, asked; /* of each triangle: the last question that met it */
+} SporeShellNeighbours;
+
+/* edge: length of an edge, as of most of the work. Clear it in either case. False: no memory. */
+bool spore_shell_neighbours_create(SporeShellNeighbours *near, const SporeShell *shell, double edge);
+void spore_shell_neighbours_clear(SporeShellNeighbours *near);
+/* A triangle that moved. */
+bool spore_shell_neighbours_add(SporeShellNeighbours *near, const SporeShell *shell, uint32_t triangle);
+/* Whether triangles around the edge a b would go through others once it is collapsed to x, and go through none now. */
+bool spore_shell_would_cross(SporeShellNeighbours *near, const SporeShell *shell, uint32_t a, uint32_t b, SporeVec3 x);
+/* The same of a vertex that is moved to x, and of a new triangle. */
+bool spore_shell_move_crosses(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex, SporeVec3 x);
+bool spore_shell_triangle_crosses(SporeShellNeighbours *near, const SporeShell *shell, const uint32_t corner[3]);
+/* All triangles around a vertex. */
+bool spore_shell_neighbours_add_ring(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex);
+
+/* Collapses edges of a shell whose features are found, down to so many vertices, and betters it. False: no memory, or
+ * cancelled. */
+bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeProgress *progress, SporeError *error);
 /* Turns edges and moves points along the surface, to widen angles, as long as the quadrics (one a vertex, of the planes
- * that it stands for) say that the surface stays as near as it is. False: cancelled. */
-bool spore_shell_improve(SporeShell *shell, const SporeQuadric *quadric, const SporeProgress *progress,
-                         SporeError *error);
+ * that it stands for) say that the surface stays as near as it is, and
+ * nothing goes through what it did not. near: of the shell now. False: cancelled, or no memory. */
+bool spore_shell_improve(SporeShell *shell, const SporeQuadric *quadric, SporeShellNeighbours *near,
+                         const SporeProgress *progress, SporeError *error);
 
 #endif

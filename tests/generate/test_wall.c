@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/generate/wall.h"
 #include "core/mesh/bvh.h"
+#include "core/mesh/crossings.h"
 #include "tests/mesh/shapes.h"
 
 static SporeMeshReport report_of(const SporeTriangleMesh *mesh) {
@@ -15,22 +16,10 @@ static SporeMeshReport report_of(const SporeTriangleMesh *mesh) {
   return report;
 }
 
-/* Whether an edge of one triangle goes through another of the same mesh. */
 static gboolean cuts_itself(const SporeTriangleMesh *mesh) {
-  for (size_t s = 0; s < mesh->triangle_count; s++)
-    for (size_t t = 0; t < mesh->triangle_count; t++) {
-      const uint32_t *n = mesh->triangles + 3 * s, *m = mesh->triangles + 3 * t;
-      SporeVec3 p[3], q[3];
-      gboolean joined = FALSE;
-      for (int k = 0; k < 3; k++) {
-        p[k] = spore_vec3_load(mesh->vertices + 3 * (size_t)n[k]);
-        q[k] = spore_vec3_load(mesh->vertices + 3 * (size_t)m[k]);
-        for (int l = 0; l < 3; l++) joined |= n[k] == m[l];
-      }
-      for (int k = 0; k < 3 && !joined; k++)
-        if (spore_vec3_crosses(p[k], p[(k + 1) % 3], q[0], q[1], q[2])) return TRUE;
-    }
-  return FALSE;
+  size_t count;
+  g_assert_true(spore_triangle_mesh_crossings(mesh, &count, NULL));
+  return count > 0;
 }
 
 /* The lumen of a box is a box; of a ball a ball. */

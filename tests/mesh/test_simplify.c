@@ -6,6 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/mesh/bvh.h"
+#include "core/mesh/crossings.h"
 #include "core/mesh/simplify.h"
 #include "tests/mesh/shapes.h"
 
@@ -202,6 +203,60 @@ static void test_size(void) {
 
 static bool refuse(void *data, double fraction, const char *stage) { return ++*(int *)data < 2; }
 
+/* Pairs of triangles without a common corner, the slow way. */
+static size_t crossings_of(const SporeTriangleMesh *mesh) {
+  size_t count = 0;
+  for (size_t s = 0; s < mesh->triangle_count; s++)
+    for (size_t t = s + 1; t < mesh->triangle_count; t++) {
+      const uint32_t *n = mesh->triangles + 3 * s, *m = mesh->triangles + 3 * t;
+      SporeVec3 p[3], q[3];
+      gboolean joined = FALSE, crossing = FALSE;
+      for (int k = 0; k < 3; k++) {
+        p[k] = spore_vec3_load(mesh->vertices + 3 * (size_t)n[k]);
+        q[k] = spore_vec3_load(mesh->vertices + 3 * (size_t)m[k]);
+        for (int l = 0; l < 3; l++) joined |= n[k] == m[l];
+      }
+      for (int k = 0; k < 3 && !joined; k++)
+        crossing |= spore_vec3_crosses(p[k], p[(k + 1) % 3], q[0], q[1], q[2]) ||
+                    spore_vec3_crosses(q[k], q[(k + 1) % 3], p[0], p[1], p[2]);
+      count += crossing;
+    }
+  return count;
+}
+
+/* Two balls one in the other, so near that with so few vertices their faces go through each other unless that is seen
+ * to; and two that overlap, which stay so. */
+static void test_crossings(void) {
+  SporeTriangleMesh balls, other, result;
+  SporeSimplifyReport report;
+  const double radius[2] = {0.048, 0.05}, shift[2] = {0, 0.06};
+  for (int overlap = 0; overlap < 2; overlap++) {
+    shape_ball(&balls, 0.05, 16);
+    shape_ball(&other, radius[overlap], 16);
+    shape_move(&other, shift[overlap], 0.001, 0.0007);
+    shape_append(&balls, &other);
+    size_t count;
+    g_autofree bool *crossing = g_new(bool, balls.triangle_count);
+    g_assert_true(spore_triangle_mesh_crossings(&balls, &count, crossing));
+    g_assert_cmpuint(count, ==, crossings_of(&balls));
+    g_assert_cmpint(count > 0, ==, overlap);
+    size_t marked = 0;
+    for (size_t t = 0; t < balls.triangle_count; t++) marked += crossing[t];
+    g_assert_cmpuint(marked, <=, 2 * count);
+    g_assert_cmpint(marked > 1, ==, overlap);
+    const SporeSimplifyOptions options = {.vertices = 120};
+    g_assert_true(spore_triangle_mesh_simplify(&balls, &options, &result, &report, NULL, NULL));
+    g_test_message("%zu vertices: %zu crossings, before %zu", result.vertex_count, report.crossings,
+                   report.crossings_before);
+    g_assert_cmpuint(report.crossings_before, ==, count);
+    g_assert_cmpuint(report.crossings, ==, crossings_of(&result));
+    g_assert_cmpuint(report.crossings, <=, report.crossings_before);
+    spore_triangle_mesh_clear(&result);
+    spore_triangle_mesh_clear(&balls);
+    spore_triangle_mesh_clear(&other);
+  }
+}
+
 static void test_without_memory(void) {
   SporeTriangleMesh box, few;
   SporeSimplifyReport report;
@@ -233,6 +288,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/simplify/thin", test_thin);
   g_test_add_func("/simplify/sheet", test_sheet);
   g_test_add_func("/simplify/size", test_size);
+  g_test_add_func("/simplify/crossings", test_crossings);
   g_test_add_func("/simplify/without-memory", test_without_memory);
   return g_test_run();
 }

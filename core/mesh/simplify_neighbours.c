@@ -1,0 +1,160 @@
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/mesh/simplify_parts.h"
+
+#define MOST_CELLS 64 /* a side */
+#define NONE UINT32_MAX
+
+bool spore_shell_neighbours_create(SporeShellNeighbours *near, const SporeShell *shell, double edge) {
+  size_t side = (size_t)fmin(fmax(ceil(1 / edge), 1), MOST_CELLS);
+  *near = (SporeShellNeighbours){.side = side};
+  near->head = SPORE_NEW_ARRAY(uint32_t, side * side * side);
+  near->seen = SPORE_NEW_ARRAY(uint32_t, shell->triangle_count);
+  if (!near->head || !near->seen) return false;
+  memset(near->head, 0xff, side * side * side * sizeof *near->head);
+  for (uint32_t t = 0; t < shell->triangle_count; t++)
+    if (shell->corner[3 * (size_t)t] != SPORE_SHELL_NONE && !spore_shell_neighbours_add(near, shell, t)) return false;
+  return true;
+}
+
+void spore_shell_neighbours_clear(SporeShellNeighbours *near) {
+  spore_free(near->head);
+  spore_free(near->seen);
+  spore_free(near->entries);
+  *near = (SporeShellNeighbours){0};
+}
+
+typedef struct Box {
+  double lower[3], upper[3];
+} Box;
+
+static Box box_of(const SporeVec3 p[3]) {
+  Box box;
+  for (size_t k = 0; k < 3; k++) {
+    double x[3];
+    spore_vec3_store(x, p[k]);
+    for (size_t e = 0; e < 3; e++) {
+      box.lower[e] = k ? fmin(box.lower[e], x[e]) : x[e];
+      box.upper[e] = k ? fmax(box.upper[e], x[e]) : x[e];
+    }
+  }
+  return box;
+}
+
+static bool boxes_meet(const Box *a, const Box *b) {
+  for (size_t e = 0; e < 3; e++)
+    if (a->lower[e] > b->upper[e] || b->lower[e] > a->upper[e]) return false;
+  return true;
+}
+
+/* Cells that a box reaches into: from[e] .. to[e]. */
+static void cells_of(const SporeShellNeighbours *near, const Box *box, size_t from[3], size_t to[3]) {
+  double most = (double)near->side - 1;
+  for (size_t e = 0; e < 3; e++) {
+    from[e] = (size_t)fmin(fmax((box->lower[e] + 0.5) * (double)near->side, 0), most);
+    to[e] = (size_t)fmin(fmax((box->upper[e] + 0.5) * (double)near->side, 0), most);
+  }
+}
+
+static void corners_of(const SporeShell *shell, uint32_t triangle, SporeVec3 p[3]) {
+  for (size_t k = 0; k < 3; k++) p[k] = spore_shell_at(shell, shell->corner[3 * (size_t)triangle + k]);
+}
+
+static bool add_to_cell(SporeShellNeighbours *near, size_t cell, uint32_t triangle) {
+  if (near->count == near->capacity) {
+    size_t capacity = near->capacity ? 2 * near->capacity : 4096;
+    uint32_t *grown = spore_reallocate(near->entries, 2 * near->capacity, 2 * capacity, sizeof *grown);
+    if (!grown) return false;
+    near->entries = grown, near->capacity = capacity;
+  }
+  near->entries[2 * near->count] = triangle;
+  near->entries[2 * near->count + 1] = near->head[cell];
+  near->head[cell] = (uint32_t)near->count++;
+  return true;
+}
+
+bool spore_shell_neighbours_add(SporeShellNeighbours *near, const SporeShell *shell, uint32_t triangle) {
+  SporeVec3 p[3];
+  size_t from[3], to[3];
+  corners_of(shell, triangle, p);
+  Box box = box_of(p);
+  cells_of(near, &box, from, to);
+  for (size_t x = from[0]; x <= to[0]; x++)
+    for (size_t y = from[1]; y <= to[1]; y++)
+      for (size_t z = from[2]; z <= to[2]; z++)
+        if (!add_to_cell(near, (x * near->side + y) * near->side + z, triangle)) return false;
+  return true;
+}
+
+static bool has(const uint32_t n[3], uint32_t vertex) { return n[0] == vertex || n[1] == vertex || n[2] == vertex; }
+
+/* An edge of one, both of whose ends the other lacks, goes through the other. */
+static bool edge_through(const uint32_t n[3], const SporeVec3 p[3], const uint32_t m[3], const SporeVec3 q[3]) {
+  for (size_t k = 0; k < 3; k++) {
+    size_t next = (k + 1) % 3;
+    if (!has(m, n[k]) && !has(m, n[next]) && spore_vec3_crosses(p[k], p[next], q[0], q[1], q[2])) return true;
+  }
+  return false;
+}
+
+/* One triangle against all that have neither a nor b. */
+static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, const uint32_t n[3], const SporeVec3 p[3],
+                         uint32_t a, uint32_t b) {
+  Box box = box_of(p);
+  size_t from[3], to[3];
+  cells_of(near, &box, from, to);
+  near->asked++;
+  for (size_t x = from[0]; x <= to[0]; x++)
+    for (size_t y = from[1]; y <= to[1]; y++)
+      for (size_t z = from[2]; z <= to[2]; z++)
+        for (uint32_t i = near->head[(x * near->side + y) * near->side + z]; i != NONE; i = near->entries[2 * i + 1]) {
+          uint32_t other = near->entries[2 * i];
+          const uint32_t *m = shell->corner + 3 * (size_t)other;
+          if (near->seen[other] == near->asked || m[0] == SPORE_SHELL_NONE || has(m, a) || has(m, b)) continue;
+          near->seen[other] = near->asked;
+          SporeVec3 q[3];
+          corners_of(shell, other, q);
+          Box its = box_of(q);
+          if (boxes_meet(&box, &its) && (edge_through(n, p, m, q) || edge_through(m, q, n, p))) return true;
+        }
+  return false;
+}
+
+/* The triangles around a vertex, with it at x; those that have `except` too are left out. */
+static bool ring_goes_through(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex, SporeVec3 x,
+                              uint32_t except) {
+  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c]) {
+    const uint32_t *n = shell->corner + 3 * (size_t)(c / 3);
+    if (has(n, except)) continue;
+    SporeVec3 p[3];
+    corners_of(shell, c / 3, p);
+    p[c % 3] = x;
+    if (goes_through(near, shell, n, p, vertex, except)) return true;
+  }
+  return false;
+}
+
+bool spore_shell_would_cross(SporeShellNeighbours *near, const SporeShell *shell, uint32_t a, uint32_t b, SporeVec3 x) {
+  if (!ring_goes_through(near, shell, a, x, b) && !ring_goes_through(near, shell, b, x, a)) return false;
+  return !ring_goes_through(near, shell, a, spore_shell_at(shell, a), SPORE_SHELL_NONE) &&
+         !ring_goes_through(near, shell, b, spore_shell_at(shell, b), SPORE_SHELL_NONE);
+}
+
+bool spore_shell_move_crosses(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex, SporeVec3 x) {
+  return ring_goes_through(near, shell, vertex, x, SPORE_SHELL_NONE) &&
+         !ring_goes_through(near, shell, vertex, spore_shell_at(shell, vertex), SPORE_SHELL_NONE);
+}
+
+bool spore_shell_triangle_crosses(SporeShellNeighbours *near, const SporeShell *shell, const uint32_t corner[3]) {
+  SporeVec3 p[3];
+  for (size_t k = 0; k < 3; k++) p[k] = spore_shell_at(shell, corner[k]);
+  return goes_through(near, shell, corner, p, SPORE_SHELL_NONE, SPORE_SHELL_NONE);
+}
+
+bool spore_shell_neighbours_add_ring(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex) {
+  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c])
+    if (!spore_shell_neighbours_add(near, shell, c / 3)) return false;
+  return true;
+}
