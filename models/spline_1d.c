@@ -38,8 +38,8 @@ static const SporeParameter parameters[] = {
                      N_("Where the line turns by more than this from one knot to the next, control points are added "
                         "between, again and again, until it does not, at the start and while it runs; those of while "
                         "it runs go again where it has been straight for a quarter of a second, if that moves it by "
-                        "less than a twentieth of its radius. 0: they are even and stay. One with levels gets "
-                        "them at the start alone.")),
+                        "less than a twentieth of its radius. 0: they are even and stay. One with levels, or moved "
+                        "by explicit steps, gets them at the start alone.")),
     SPORE_INTEGER_FIELD(
         SplineFields, maximum_control_points, 4, 100000, 1000, SPORE_CHANGE_REBUILD,
         N_("How many control points there are at most, with those that most_bend adds: memory for them is "

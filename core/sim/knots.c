@@ -144,6 +144,8 @@ void spore_world_change_knots(SporeWorld *world) {
   for (uint32_t b = 0; world->line_count > 0 && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!body->line.changes || !spore_body_moves(body)) continue;
+    /* The step was found short enough for the points that there were at the start. */
+    if (!spore_integrator(body->integrator)->implicit) continue;
     const double *q = world->next_q + body->q_offset;
     SporeLineKnots *line = &body->line;
     uint64_t start = spore_clock_ns();

@@ -438,6 +438,37 @@ static void follow(double twist) {
 static void test_follow(void) { follow(0); }
 static void test_follow_twisted(void) { follow(3e5); }
 
+/* Somebody pulls at a thread whose points come and go: the pull keeps to where it took hold, and lets go. */
+static void test_pulled(void) {
+  Rig *rig = draped(0);
+  SporeWorld *world = rig_build(rig);
+  SporeCommand pull = {.kind = SPORE_COMMAND_PULL, .body = 0, .point = {0.06, 0, 0}, .number = 5};
+  SporeLineState line, before = {0};
+  double moved = 0;
+  for (int step = 0; step < 400; step++) {
+    SporeVec3 now, then;
+    pull.vector = spore_vec3(0.06 - 5e-5 * step, 1e-4 * step, 0.01);
+    g_assert_true(spore_world_post(world, &pull));
+    bool held = spore_world_pulled_point(world, 0, &then);
+    spore_world_step(world);
+    g_assert_true(spore_world_pulled_point(world, 0, &now));
+    spore_world_line_state(world, 0, &line);
+    bool changed = line.inserted + line.removed > before.inserted + before.removed;
+    if (held && changed) moved = fmax(moved, spore_vec3_distance(now, then));
+    before = line;
+  }
+  pull.kind = SPORE_COMMAND_RELEASE;
+  g_assert_true(spore_world_post(world, &pull));
+  rig_run(world, 50);
+  g_test_message("%zu to %zu control points, +%llu -%llu; the pull moves by %.1e m at most where they change",
+                 line.made, line.points, (unsigned long long)line.inserted, (unsigned long long)line.removed, moved);
+  g_assert_cmpuint(line.inserted, >, 4);
+  g_assert_cmpfloat(moved, <, 0.1 / 9); /* a span of the line as it was made */
+  g_assert_true(rig_finite(world));
+  g_assert_cmpuint(world->pull_count, ==, 0);
+  rig_free(rig);
+}
+
 /* With one thread and with three. */
 static void test_threads(void) {
   uint64_t hash[2];
@@ -472,6 +503,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/knots/repeats", test_repeats);
   g_test_add_func("/knots/follow", test_follow);
   g_test_add_func("/knots/follow-twisted", test_follow_twisted);
+  g_test_add_func("/knots/pulled", test_pulled);
   g_test_add_func("/knots/threads", test_threads);
   return g_test_run();
 }
