@@ -83,10 +83,15 @@ static size_t images_of(const SporeSymmetry *symmetry, unsigned bound) {
   return (size_t)1 << (symmetry->count - count_bits(bound));
 }
 
+/* weights: of the balls, or NULL. */
 static bool store_balls(const SporeSymmetry *symmetry, const SporeBalls *balls, const uint8_t *bound,
-                        SporeSphereSet *set, SporeError *error) {
+                        const double *weights, SporeSphereSet *set, SporeError *error) {
   if (!spore_sphere_set_allocate(set, spore_balls_images(symmetry, balls, bound, NULL), error)) return false;
   spore_balls_images(symmetry, balls, bound, set->spheres);
+  if (!weights) return true;
+  if (!spore_sphere_set_add_weights(set, error)) return false;
+  for (size_t i = 0, image = 0; i < balls->count; i++)
+    for (size_t k = images_of(symmetry, bound[i]); k > 0; k--) set->weights[image++] = weights[i];
   return true;
 }
 
@@ -195,7 +200,7 @@ static bool place_balls(SporeSolid *solid, size_t count, const SporeSpheresOptio
     spore_balls_set(balls, i, spore_symmetry_bind(&solid->symmetry, bound[i], centre), start.ranked.r[which[i]]);
   }
   done = done && spore_spheres_fit(solid, &start.samples, &start.candidates, balls, bound,
-                                   options->mode == SPORE_SPHERES_BOUNDING, options->seed, &fitting, error);
+                                   options->mode != SPORE_SPHERES_BALANCED, options->seed, &fitting, error);
   spore_free(which);
   clear_start(&start);
   return done;
@@ -209,7 +214,8 @@ static bool refine(const Work *work, const SporeSolid *solid, SporeBalls *balls,
     return spore_spheres_bound(solid, balls, bound, seed, progress, error);
   if (work->options->mode == SPORE_SPHERES_BALANCED) return true;
   *weights = SPORE_NEW_ARRAY(double, balls->count);
-  return *weights ? spore_spheres_weigh(solid, balls, *weights, seed, progress, error) : spore_spheres_no_memory(error);
+  return *weights ? spore_spheres_weigh(solid, balls, bound, *weights, seed, progress, error)
+                  : spore_spheres_no_memory(error);
 }
 
 /* Exactly `count` spheres in the solid, measured. */
@@ -226,12 +232,11 @@ static bool fill_solid(const Work *work, size_t count, SporeSphereSet *set, Spor
   bool done = bound || spore_spheres_no_memory(error);
   done = done && place_balls(solid, count, work->options, &balls, bound, &placing, error) &&
          refine(work, solid, &balls, bound, &weights, &refining, error) &&
-         store_balls(&solid->symmetry, &balls, bound, set, error);
-  if (done) set->weights = weights;
-  else spore_free(weights);
-  done = done && spore_solid_measure(solid, set, report, &measuring, error);
+         store_balls(&solid->symmetry, &balls, bound, weights, set, error) &&
+         spore_solid_measure(solid, set, report, &measuring, error);
   report->mirrors = solid->symmetry.count;
   spore_balls_clear(&balls);
+  spore_free(weights);
   spore_free(bound);
   if (!done) spore_sphere_set_clear(set);
   return done;
@@ -298,7 +303,7 @@ static bool from_solid(Work *work, const SporeTriangleMesh *mesh, SporeSphereSet
   const SporeSpheresOptions *options = work->options;
   if (!spore_solid_create(&solid, mesh, error)) return false;
   solid.regions = options->regions, solid.region_count = options->region_count;
-  if (options->mode != SPORE_SPHERES_WEIGHTED && !options->asymmetric && !options->region_count)
+  if (!options->asymmetric && !options->region_count)
     spore_symmetry_find(&solid.symmetry, &solid.mesh, solid.bvh, solid.diagonal);
   work->solid = &solid;
   bool done = make_set(fill_solid, work, set, report, progress, error);

@@ -55,39 +55,14 @@ static bool add_points(SporeBoundingSearch *search, const Stage *stage) {
   return done;
 }
 
-// TELL
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
-static double cpu(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-static void tell(SporeBoundingSearch *search, const char *what) {
-  if (!getenv("TELL")) return;
-  double out = 0, un = 0;
-  for (size_t k = 0; k < search->prices.points.count; k++) {
-    double v = search->prices.volume[k];
-    if (v > 0 && search->prices.held[k]) out += v;
-    if (v < 0 && !search->prices.held[k]) un -= v;
-  }
-  fprintf(stderr, "%s: %.2f s points %zu outside %.4f uncovered %.5f\n", what, cpu(), search->prices.points.count,
-          out / search->solid->volume, un / search->solid->volume);
-}
-// END
 static bool run_stage(SporeBoundingSearch *search, const Stage *stage, const SporeProgressPart *progress,
                       SporeError *error) {
   SporeProgressPart relocating = {progress->whole, progress->first, 0.7 * progress->share};
   double first = stage->relocations ? 0.7 : 0;
   search->price = stage->price;
   if (stage->finest > 0 && !add_points(search, stage)) return spore_spheres_no_memory(error);
-  char label[80];
-  snprintf(label, 80, "price %g", stage->price);
-  tell(search, label); // TELL1
   size_t trials = stage->relocations, most = TRIALS_PER_BALL * search->balls->count;
   if (!spore_bounding_relocate(search, trials < most ? trials : most, &relocating, error)) return false;
-  tell(search, "relocated"); // TELL1
   spore_bounding_set_steps(search, stage->step);
   int sweeps = stage->sweeps * (1 + (int)fmin(2, FEW / (double)search->balls->count));
   for (int sweep = 0; sweep < sweeps; sweep++) {
@@ -103,7 +78,7 @@ static bool run_stages(SporeBoundingSearch *search, const SporeProgressPart *pro
   static const Stage stages[] = {{2, 0, 0, 0.2, 12, 0},
                                  {4, 0, 0, 0.2, 12, 0},
                                  {8, 0, 0, 0.2, 12, 0},
-                                 {16, 4e-3, 6e-3, 0.2, 12, 150},
+                                 {16, 4e-3, 6e-3, 0.2, 12, 250},
                                  {32, 0, 0, 0.2, 12, 0},
                                  {128, 0, 0, 0.2, 12, 0},
                                  {2048, 0, 0, 0.2, 12, 0},
@@ -142,7 +117,6 @@ bool spore_spheres_bound(const SporeSolid *solid, SporeBalls *balls, const uint8
   if (!spore_prices_create(&search.prices, solid, balls->count, &search.random, &sampling, error)) return false;
   bool done = spore_bounding_open(&search) || spore_spheres_no_memory(error);
   done = done && run_stages(&search, &searching, error);
-  tell(&search, "end"); // TELL1
   spore_bounding_close(&search);
   spore_prices_clear(&search.prices);
   return done && (grow(solid, balls, bound) || spore_spheres_no_memory(error));

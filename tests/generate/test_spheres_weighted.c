@@ -60,9 +60,23 @@ static void test_box(void) {
   spore_triangle_mesh_clear(&box);
 }
 
+/* A box is its own image in three planes, and so is its set, weights too. */
+static void test_symmetry(void) {
+  SporeTriangleMesh box;
+  SporeSpheresReport report;
+  shape_box(&box, (double[3]){0.95, 1.97, 2.98}, (double[3]){1.05, 2.03, 3.02}, 4);
+  SporeSphereSet set = make(&box, SPORE_SPHERES_WEIGHTED, 20, &report);
+  g_assert_cmpuint(report.mirrors, >=, 2);
+  g_assert_cmpuint(count_mirrors(&set, (double[3]){1, 2, 3}), >=, report.mirrors);
+  g_assert_cmpfloat(report.weighted_depth_error, <, 0.08);
+  spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&box);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/generate/spheres-weighted/ball", test_ball);
   g_test_add_func("/generate/spheres-weighted/box", test_box);
+  g_test_add_func("/generate/spheres-weighted/symmetry", test_symmetry);
   return g_test_run();
 }
