@@ -212,6 +212,7 @@ void spore_world_mend_links(SporeWorld *world) {
   for (size_t i = 0; i < world->link_count; i++) {
     SporeLink *link = &world->links[i];
     link->broken = link->told_sharp = false;
+    link->sharp_steps = 0;
     for (size_t t = 0; t < link->term_count; t++) world->spring_active[link->term_start + t] = true;
   }
 }

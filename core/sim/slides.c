@@ -3,7 +3,8 @@
 #include "core/sim/world_private.h"
 
 #define OFF_LINE 0.01 /* of a line's length: what is farther from it would be pulled there with a jerk */
-#define SHARP 0.5 /* rad: turning by more from knot to knot, a line slides half as well as it should, or not at all */
+#define SHARP 0.5   /* rad: turning by more from knot to knot, a line slides half as well as it should, or not at all */
+#define PATIENCE 20 /* steps in which points may come to where it is sharp, before it is said */
 #define SLIPPED 1e-3 /* of a span, that the end of a line may lie behind what slips off it */
 
 /* The body that the line of a slide or port belongs to. */
@@ -91,8 +92,10 @@ static void watch_bend(SporeWorld *world, SporeLink *link, const SporePathPlace 
   double square = spore_vec3_dot(place->slope, place->slope),
          width = spore_spline_width(link->rail.knots, place->first);
   double turn = width * spore_vec3_length(spore_vec3_cross(place->slope, place->bend)) / square;
-  if (!(turn > SHARP)) return;
+  link->sharp_steps = turn > SHARP ? link->sharp_steps + 1 : 0;
   const SporeBody *body = &world->bodies[index];
+  bool spent = body->line.state.points == body->line.state.reserve, waits = body->line.changes && !spent;
+  if (link->sharp_steps < (waits ? PATIENCE : 1)) return;
   link->told_sharp = true;
   if (!body->line.changes)
     spore_world_report(
@@ -100,13 +103,18 @@ static void watch_bend(SporeWorld *world, SporeLink *link, const SporePathPlace 
         _("%s: %s turns by %.2g rad between two control points where it slides, more sharply than they can "
           "follow: it sticks there; set its most_bend to 0.3, or more control_points"),
         link->name, body->name, turn);
-  else if (body->line.state.points == body->line.state.reserve)
+  else if (spent)
     spore_world_report(
         world,
         _("%s: %s turns by %.2g rad between two control points where it slides, and sticks there: all %zu are "
           "in use; raise its maximum_control_points"),
         link->name, body->name, turn, body->line.state.reserve);
-  else link->told_sharp = false; /* it gets more, or is not asked to have them by its most_bend */
+  else
+    spore_world_report(
+        world,
+        _("%s: %s turns by %.2g rad between two control points where it slides, and sticks there: its most_bend asks "
+          "for no more of them; set that to 0.3"),
+        link->name, body->name, turn);
 }
 
 static void follow_rail(SporeWorld *world, SporeLink *link, SporeSpringTerm *term) {

@@ -205,6 +205,7 @@ typedef struct SporeLink {
   SporeVec3 base, along; /* slide, port: the line in the frame of the body at end b of its term */
   SporeRail rail;        /* the same, where that body deforms; without spans: none */
   bool told_sharp;       /* that the line bends too sharply where it runs */
+  uint32_t sharp_steps;  /* in a row that it did */
   bool lost;             /* the state was set from outside: where its point is on the line is not known */
 } SporeLink;
 
