@@ -1,6 +1,7 @@
 /* What an author does in one gesture is one step that undoes exactly, and unsaved work survives its owner. No display.
  */
 #include <glib/gstdio.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include "models/registry.h"
 #include "ui/document/asset-readers.h"
 #include "core/scene/generated.h"
+#include "ui/document/body-marks.h"
 #include "ui/document/edits.h"
 #include "ui/document/generated-edits.h"
 #include "ui/document/hand-edit.h"
@@ -298,6 +300,10 @@ static void test_regions_of_generated(Fixture *fixture, gconstpointer data) {
   spore_document_rename(fixture->document, region, "neck", NULL);
   g_autofree char *renamed = spore_generated_options_hash(asset);
   g_assert_cmpstr(other, ==, renamed);
+  use_tetrahedron(fixture, body);
+  SporeObject *finer = spore_edit_add_region(fixture->document, body, "assets/my_organ_tetrahedra", NULL);
+  g_assert_cmpstr(spore_object_type(finer)->element, ==, "cell_region");
+  g_assert_cmpfloat_with_epsilon(spore_object_number(finer, "size"), 0.5 * cbrt(sqrt(2) * 0.04 * 0.04 * 0.04), 1e-5);
   g_assert_true(spore_edit_remove_region(fixture->document, "assets/my_organ_spheres/neck", NULL));
   g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_FRESH);
 }
@@ -320,6 +326,13 @@ static void test_mapping_report(Fixture *fixture, gconstpointer data) {
   g_assert_nonnull(strstr(text, "extrapolated"));
   g_assert_cmpuint(carried->off, >, 0);
   g_assert_cmpfloat(spore_vec3_distance(place, carried->place), ==, 0);
+  gsize count;
+  spore_edit_add_region(fixture->document, body, "bodies/my_organ/regions", NULL);
+  g_autofree double *rings = spore_body_marks(fixture->document, body, &report, &count);
+  g_assert_cmpuint(count, ==, 3 * 48); /* the report is of before the region */
+  spore_mapping_report_measure(&report, fixture->document, body);
+  g_autofree double *marks = spore_body_marks(fixture->document, body, &report, &count);
+  g_assert_cmpuint(count, ==, 3 * 48 + 3);
   spore_document_set_text(fixture->document, body, "position", "0 1 0", NULL);
   g_assert_false(spore_mapping_report_holds(&report, fixture->document, body));
   spore_edit_set_model(fixture->document, body, "", NULL);

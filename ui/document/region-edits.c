@@ -81,6 +81,17 @@ static gboolean find_middle(SporeDocument *document, SporeObject *body, SporeObj
   return TRUE;
 }
 
+/* A region of finer cells starts with half the edges that they have; others have no size. */
+static gboolean set_size(SporeDocument *document, SporeObject *region, GError **error) {
+  if (spore_parameter_find(spore_object_type(region)->table, "size") < 0) return TRUE;
+  const SporeTetrahedralMesh *cells = spore_document_tetrahedra(document, spore_object_parent(region), NULL);
+  if (!cells || !cells->tetrahedron_count) return TRUE;
+  SporeTetrahedraQuality quality;
+  spore_tetrahedral_mesh_quality(cells, &quality);
+  double half = 0.5 * cbrt(6 * sqrt(2) * quality.volume / (double)cells->tetrahedron_count); /* regular ones */
+  return !(half > 0) || set_numbers(document, region, "size", &half, 1, error);
+}
+
 static SporeObject *add_region(SporeDocument *document, SporeObject *body, const char *path, GError **error) {
   double centre[3], radius;
   SporeVec3 middle;
@@ -96,7 +107,7 @@ static SporeObject *add_region(SporeDocument *document, SporeObject *body, const
   spore_vec3_store(centre, middle);
   SporeObject *region = spore_document_insert(document, holder, element, "region", G_MAXUINT, error);
   gboolean done = region && set_numbers(document, region, "centre", centre, 3, error) &&
-                  set_numbers(document, region, "radius", &radius, 1, error);
+                  set_numbers(document, region, "radius", &radius, 1, error) && set_size(document, region, error);
   return done ? region : NULL;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/scene/compile.h"
 #include "core/scene/generated.h"
+#include "ui/document/body-marks.h"
 #include "ui/document/edits.h"
 #include "ui/document/generated-edits.h"
 #include "ui/document/mapping-report.h"
@@ -20,7 +21,6 @@
 #define DEFAULT_CELLS 1000
 #define DEFAULT_NODES 300
 #define MOST_CELLS 1000000
-#define WORST_PART 0.08 /* of the size: half of the cross at the worst place */
 
 struct _SporeInspector {
   GtkBox parent;
@@ -308,41 +308,12 @@ static void show_facts(SporeInspector *self) {
   if (self->mapping_facts) show_mapping(self, body);
 }
 
-/* What is pointed out in the view. */
-
-static void append_segments(GArray *all, const double *segments, gsize count) {
-  g_array_append_vals(all, segments, (guint)(6 * count));
-}
-
-static void append_rings(GArray *all, const SporeObject *holder) {
-  gsize count = 0;
-  g_autofree double *segments = holder ? spore_region_rings(holder, &count) : NULL;
-  append_segments(all, segments, count);
-}
-
-/* A cross of three lines where what is carried along lies farthest off. */
-static void append_worst(GArray *all, const SporeMappingReport *report) {
-  SporeVec3 place;
-  double size;
-  if (!spore_mapping_report_worst(report, &place, &size)) return;
-  for (int axis = 0; axis < 3; axis++) {
-    double segment[6] = {place.x, place.y, place.z, place.x, place.y, place.z};
-    segment[axis] -= WORST_PART * size;
-    segment[3 + axis] += WORST_PART * size;
-    append_segments(all, segment, 1);
-  }
-}
-
 SporeStageMarks spore_inspector_get_marks(SporeInspector *self) {
   SporeObject *body = self->document ? spore_editor_document_selected_body(self->document) : NULL;
   if (!body) return (SporeStageMarks){0};
-  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(double));
-  append_rings(all, spore_object_child_of(body, "regions"));
-  append_rings(all, spore_edit_body_spheres(document_of(self), body));
-  append_rings(all, spore_edit_body_tetrahedra(document_of(self), body));
-  if (spore_mapping_report_holds(&self->mapping, document_of(self), body)) append_worst(all, &self->mapping);
-  gsize count = all->len / 6;
-  return (SporeStageMarks){spore_object_id(body), count, (double *)g_array_free(g_steal_pointer(&all), FALSE)};
+  SporeStageMarks marks = {.body = spore_object_id(body)};
+  marks.segments = spore_body_marks(document_of(self), body, &self->mapping, &marks.count);
+  return marks;
 }
 
 static void measure_mapping(SporeInspector *self) {
@@ -416,7 +387,8 @@ static void add_regions(SporeInspector *self, SporeObject *body, SporeObject *mo
 
 /* Of what a generator made: where it shall be finer. */
 static void add_generator_regions(SporeInspector *self, GtkBox *box, SporeObject *asset, const char *empty) {
-  if (!asset || !spore_region_element(spore_object_type(asset))) return;
+  const char *source = asset ? spore_object_text(asset, "source") : NULL;
+  if (!asset || (!source && !spore_object_child_count(asset))) return;
   g_autofree char *path = spore_object_path(asset);
   spore_fill_region_list(box, self->document, path, spore_object_type(asset), empty, self->rows);
 }
