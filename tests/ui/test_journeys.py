@@ -204,7 +204,7 @@ def numbers_that_pay():
         editor.press(editor.find("push button", "^Stop measuring$"))
         editor.find("push button", "^Measure numbers$")
         x, y, width, height = editor.place(plot)
-        editor.mouse("mousemove", x + 44, y + height // 2, "click", 1)
+        editor.mouse("mousemove", x + 54, y + height // 2, "click", 1)
         editor.mouse("mousemove", 5, 5)  # no tooltip takes the keyboard
         editor.find("label", "(?s)8 spheres.*Coverage", 60)
         editor.focus()

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #define MOST_POINTS 16
-#define LEFT 44
+#define LEFT 54
 #define RIGHT 12
 #define TOP 22
 #define BOTTOM 22
