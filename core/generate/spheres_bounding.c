@@ -84,9 +84,9 @@ static bool run_stages(SporeBoundingSearch *search, const SporeProgressPart *pro
                                  {2048, 0, 0, 0.2, 12, 0},
                                  {SPORE_BOUNDING_HARD, 1.5e-3, 1.5e-3, 0.06, 8, 0},
                                  {SPORE_BOUNDING_HARD, 3e-4, 7e-4, 0.06, 8, 0},
-                                 {SPORE_BOUNDING_HARD, 1e-4, 5e-4, 0.06, 8, 0},
-                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 8, 0},
-                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 8, 0}};
+                                 {SPORE_BOUNDING_HARD, 1e-4, 5e-4, 0.06, 5, 0},
+                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, 0},
+                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, 0}};
   const size_t count = sizeof stages / sizeof *stages;
   for (size_t s = 0; s < count; s++) {
     SporeProgressPart part = {progress->whole, progress->first + progress->share * (double)s / (double)count,
