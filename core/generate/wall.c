@@ -6,6 +6,7 @@
 #include "core/base/memory.h"
 #include "core/base/profile.h"
 #include "core/base/text.h"
+#include "core/generate/wall_parts.h"
 #include "core/mesh/bvh.h"
 #include "core/mesh/isosurface.h"
 
@@ -102,6 +103,8 @@ bool spore_wall_inner(const SporeTriangleMesh *outer, double thickness, double d
   report->step = step;
   bool made = spore_isosurface(lower, upper, step, beyond_wall, &depth, inner, progress, error);
   if (made && inner->triangle_count == 0) made = refuse(bvh, &box, thickness, error);
+  if (made && !spore_wall_fit(bvh, thickness, step, inner))
+    made = spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the inner surface of a wall"));
   made = made && report_wall(outer, bvh, &box, inner, report, error);
   spore_bvh_free(bvh);
   if (!made) spore_triangle_mesh_clear(inner);

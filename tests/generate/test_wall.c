@@ -32,7 +32,7 @@ static void test_box_and_ball(void) {
   shape_box(&outer[0], lower, upper, 4);
   shape_ball(&outer[1], 0.05, 24);
   for (int shape = 0; shape < 2; shape++) {
-    if (!spore_wall_inner(&outer[shape], 0.005, 6, &inner, &report, NULL, &error)) g_error("%s", error.message);
+    if (!spore_wall_inner(&outer[shape], 0.005, 4, &inner, &report, NULL, &error)) g_error("%s", error.message);
     SporeMeshReport lumen = report_of(&inner);
     g_test_message("lumen %+.2f %%, %zu pieces, from it %.3f to %.3f mm, from outside %.3f to %.3f mm",
                    100 * (lumen.volume / volume[shape] - 1), report.pieces, 1e3 * report.inner_min,
@@ -95,7 +95,7 @@ static void test_refused(void) {
   g_assert_nonnull(strstr(error.message, "leaves no lumen: the deepest place found lies 0.01"));
   g_assert_false(spore_wall_inner(&ball, 0.004, 0, &inner, &report, &progress, &stopped));
   g_assert_cmpint(stopped.code, ==, SPORE_ERROR_CANCELLED);
-  for (uint64_t n = 1;; n++) {
+  for (uint64_t n = 1;; n += 1 + n / 3) {
     SporeError fault = SPORE_ERROR_INIT;
     spore_allocation_fail_at(n);
     bool made = spore_wall_inner(&ball, 0.008, 1, &inner, &report, NULL, &fault);
