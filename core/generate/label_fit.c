@@ -14,6 +14,8 @@
 #define ALONG 0.4 /* of the way to the middle of its neighbours on the border */
 #define MOST_SIDES 4
 #define MOST_GROWTH 0.3 /* edges: how far a border gives way for the volume */
+#define GRADIENT 0.25   /* edges */
+#define MEETINGS 3      /* turns on the way to where three labels meet */
 #define FEEDBACK 0.7    /* of what a border's area says */
 
 /* What a vertex lies between: labels, 0 for outside, ascending. */
@@ -185,12 +187,34 @@ static void move(Fit *f, uint32_t v, SporeVec3 to, bool strict) {
   spore_vec3_store(f->mesh->vertices + 3 * (size_t)v, from);
 }
 
+/* Steepest way from the lower label to the higher one, unit length; 0: they are not near. */
+static SporeVec3 way_between(const Fit *f, const Border *pair, SporeVec3 p) {
+  const double h = GRADIENT * f->edge;
+  const SporeVec3 step[3] = {{h, 0, 0}, {0, h, 0}, {0, 0, h}};
+  double d[3];
+  for (int k = 0; k < 3; k++)
+    d[k] = balance(f, pair, spore_vec3_add(p, step[k])) - balance(f, pair, spore_vec3_sub(p, step[k]));
+  return spore_vec3_normalise(spore_vec3_load(d), spore_vec3(0, 0, 0));
+}
+
+/* Toward the line or the corner where all of a vertex's labels meet: to the border of each two of them in turn. */
+static SporeVec3 meeting_place(const Fit *f, const Border *border, SporeVec3 p) {
+  for (int turn = 0; turn < MEETINGS; turn++)
+    for (int i = 0; i < border->count; i++)
+      for (int j = 0; j < i; j++) {
+        const Border pair = {.label = {border->label[j], border->label[i]}, .count = 2};
+        SporeVec3 n = way_between(f, &pair, p);
+        p = spore_vec3_add_scaled(p, 0.5 * way_to_border(f, &pair, p, n), n);
+      }
+  return p;
+}
+
 static void move_on_border(Fit *f, uint32_t v, const Border *border) {
   SporeVec3 p = vertex(f, v), along = {0, 0, 0}, n = spore_vec3_normalise(border->normal, spore_vec3(0, 0, 0));
   if (border->neighbours > 0)
     along = spore_vec3_scale(ALONG, spore_vec3_sub(spore_vec3_scale(1 / border->neighbours, border->sum), p));
-  if (border->count > 2) { /* the line where three organs meet, or their common corner: kept smooth */
-    move(f, v, spore_vec3_add(p, along), false);
+  if (border->count > 2) { /* the line where three organs meet, or their common corner */
+    move(f, v, meeting_place(f, border, spore_vec3_add(p, along)), false);
     return;
   }
   SporeVec3 q = spore_vec3_add(p, spore_vec3_add_scaled(along, -spore_vec3_dot(along, n), n));

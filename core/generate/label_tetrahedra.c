@@ -7,11 +7,19 @@
 #include "core/base/memory.h"
 #include "core/base/profile.h"
 #include "core/generate/label_parts.h"
+#include "core/generate/tetrahedra_improve.h"
 
 #define MOST_CELLS 2000000u
 #define CELLS_A_VOLUME 12 /* in a cube of the lattice */
 #define ATTEMPTS 3        /* at the number of cells that was asked for */
 #define NEAR_ENOUGH 0.03
+#define FINE 24.0 /* cells of the lattice, of those that are asked for: of 5000 or fewer */
+#define USUAL 5000.0
+#define LEAST_FINE 2.0
+#define CELL 0.12        /* volume of a cell whose edges have length 1 */
+#define LEAST_ANGLE 11.0 /* degrees */
+#define ROUNDS 8         /* of moving the borders of the coarser cells */
+#define NEAR 0.02        /* edges: distances beyond count more than by their squares */
 #define SPIKE_ROUNDS 3
 #define MOST_SPIKES 20 /* an organ of fewer cells keeps them all */
 
@@ -96,6 +104,7 @@ static bool measure_map(Meshing *m, const SporeLabelMap *map) {
 static bool make_cells(Meshing *m, SporeTetrahedralMesh *mesh, SporeError *error) {
   SporeProgress progress = {.report = report_share, .data = m};
   double wanted = (double)m->options->cells;
+  wanted *= fmin(fmax(FINE * sqrt(USUAL / fmax(wanted, 1)), LEAST_FINE), FINE);
   size_t count = 0;
   m->edge = m->options->cells ? cbrt(CELLS_A_VOLUME * m->volume / wanted) : m->options->size;
   for (int attempt = 0; m->options->cells && attempt < ATTEMPTS; attempt++) {
@@ -175,6 +184,20 @@ static bool check(Meshing *m, const SporeLabelMap *map, SporeError *error) {
   return true;
 }
 
+/* Makes the cells as few as were asked for, the borders staying near those of the fine ones. */
+static bool coarsen(Meshing *m, SporeTetrahedralMesh *mesh, const SporeProgress *progress, SporeError *error) {
+  const size_t cells = m->options->cells;
+  double size = cbrt(m->volume / (CELL * (double)cells));
+  const SporeSizing sizing = {.count = {1, 1, 1}, .spacing = 1, .size = &size};
+  SporeSkinPoints points = {0};
+  bool done = spore_skin_points_of(&points, mesh, error) &&
+              spore_tetrahedra_coarsen(mesh, NULL, &points, &sizing, cells, LEAST_ANGLE, progress, error) &&
+              spore_tetrahedra_approach(mesh, NULL, &points, ROUNDS, NEAR * size, LEAST_ANGLE, error) &&
+              spore_tetrahedral_mesh_drop_unused(mesh, error);
+  spore_skin_points_clear(&points);
+  return done;
+}
+
 gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, const SporeLabelTetrahedraOptions *options,
                                 SporeTetrahedralMesh *result, SporeLabelTetrahedraReport *report,
                                 const SporeProgress *progress, GError **error) {
@@ -195,6 +218,7 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
   SporeProgress fitting = {.report = report_share, .data = m};
   m->share = 1 - m->done;
   done = done && spore_label_fit(&m->field, result, m->edge, m->volumes, &fitting, &failure) &&
+         (!options->cells || coarsen(m, result, &fitting, &failure)) &&
          spore_tetrahedral_mesh_validate(result, &failure) && measure(m, result, report, &failure);
   report->seconds = 1e-9 * (double)(spore_clock_ns() - started);
   if (done) return TRUE;

@@ -10,6 +10,7 @@
 #include "core/mesh/common.h"
 
 #define HALVINGS 2
+#define RELAX 1.5        /* times the least quality: what vertices inside make room for */
 #define ROUNDS 4         /* of moving, a turn */
 #define BEYOND 0.3       /* of the tolerance: distances that count more than by their squares */
 #define LEAST_SHARE 1e-3 /* of the sum of squared weights: a vertex that hardly moves its points stays */
@@ -113,11 +114,10 @@ bool spore_tetrahedra_approach(SporeTetrahedralMesh *mesh, const SporeBvh *surfa
     if (!(done = spore_skin_create(&skin, mesh, points, error))) break;
     Approach approach = {&stars, &skin, points, surface, usual * usual};
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-      uint32_t sides[SPORE_SKIN_SIDES];
-      if (skin.first[v + 1] > skin.first[v] && spore_skin_sides(&skin, v, UINT32_MAX, sides) == 2)
-        move(&approach, &stars, v, least);
+      if (skin.first[v + 1] > skin.first[v]) move(&approach, &stars, v, least);
     }
     spore_skin_clear(&skin);
+    spore_stars_smooth(&stars, NULL, RELAX * least);
   }
   spore_stars_clear(&stars);
   return done;

@@ -295,7 +295,7 @@ def tetrahedra_of_a_label_map():
     size, voxels = two_boxes()
     file("boxes.nii.gz", gzip.compress(shapes.nifti(size, voxels, spacing=(1, 2, 0.5), origin=(10, 20, 30))))
     answer = report("tetrahedra", "boxes.nii.gz", "--cells", 2000, "-o", "boxes.mesh")
-    assert answer["min_dihedral_deg"] > 14.9 and abs(answer["tetrahedra"] / 2000 - 1) < 0.25 and answer["method"] == "labels"
+    assert answer["min_dihedral_deg"] >= 10 and abs(answer["tetrahedra"] / 2000 - 1) < 0.05 and answer["method"] == "labels"
     vertices, cells = medit("boxes.mesh")
     faces = {}
     for corners, label in cells:
