@@ -302,7 +302,7 @@ typedef struct SporeLineState {
   size_t made, points, peak, reserve; /* control points: at time 0, now, at most so far, that there may be */
   uint64_t inserted, removed;         /* since time 0 */
   size_t memory_bytes;                /* that the reserve takes in the world */
-  double look_us, change_us;          /* that looking at its bends takes a step in the mean, and a change of its points */
+  double look_us, change_us; /* that looking at its bends takes a step in the mean, and a change of its points */
 } SporeLineState;
 /* False: the body is none such. */
 bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineState *state);
