@@ -16,7 +16,7 @@
 #define WRAPPED_NEAR 0.8     /* of the tolerance */
 #define PREPARED_SAMPLES 10000
 #define SURE 0.9        /* of the tolerance */
-#define BETTER 0.8      /* of what a mesher is off: a lattice no nearer is not worth its shapes */
+#define BETTER 0.95     /* of what a mesher is off: a lattice no nearer is not worth its shapes */
 #define MOST_CHANGE 0.1 /* of the volume */
 #define CLOSING 0.3     /* of one half: winding numbers in a hole of the surface */
 
