@@ -13,15 +13,18 @@ static void face_normals(const SporeVec3 p[4], SporeVec3 normal[4]) {
                                  spore_vec3_sub(p[faces[f][2]], p[faces[f][0]]));
 }
 
-/* Least angle between two faces, seen from inside (rad). */
+/* Least angle between two faces, seen from inside (rad); a face without area: 0. The six are compared by their sines
+ * and cosines, and one alone is worked out. */
 static double least_dihedral(const SporeVec3 normal[4]) {
-  double least = M_PI;
+  double least_sine = 0, least_cosine = -1;
   for (int i = 0; i < 4; i++)
     for (int j = i + 1; j < 4; j++) {
       double sine = spore_vec3_length(spore_vec3_cross(normal[i], normal[j]));
-      least = fmin(least, atan2(sine, -spore_vec3_dot(normal[i], normal[j])));
+      double cosine = 0 - spore_vec3_dot(normal[i], normal[j]);
+      if (cosine * least_sine > sine * least_cosine || (sine == 0 && cosine == 0))
+        least_sine = sine, least_cosine = cosine;
     }
-  return least;
+  return atan2(least_sine, least_cosine);
 }
 
 /* Circumradius over three inradii. With a, b, c the sides from one corner:
