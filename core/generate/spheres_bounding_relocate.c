@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/generate/spheres_bounding_search.h"
 
-#define ACTIVE_MOST 30   /* balls that settle in a trial */
+#define ACTIVE_MOST 20   /* balls that settle in a trial */
 #define TRIAL_SWEEPS 5   /* of them */
 #define TRIAL_STEP 0.2   /* of a radius: of the first sweep */
 #define PAIR_SWEEPS 3    /* of the two alone, before */

@@ -39,9 +39,11 @@ void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double radiu
     size_t end = (g + 1) * SPORE_GROUP < points->block_count ? (g + 1) * SPORE_GROUP : points->block_count;
     for (size_t b = g * SPORE_GROUP; b < end; b++) {
       if (!reaches(points->block + 4 * b, c, radius)) continue;
-      for (size_t k = b * SPORE_BLOCK; k < (b + 1) * SPORE_BLOCK; k++) {
-        search->reached[count] = (uint32_t)k;
-        count += square_distance(points, k, c) <= radius * radius;
+      double square[SPORE_BLOCK];
+      for (size_t k = 0; k < SPORE_BLOCK; k++) square[k] = square_distance(points, b * SPORE_BLOCK + k, c);
+      for (size_t k = 0; k < SPORE_BLOCK; k++) {
+        search->reached[count] = (uint32_t)(b * SPORE_BLOCK + k);
+        count += square[k] <= radius * radius;
       }
     }
   }
