@@ -8,17 +8,10 @@
 #define APART 1.2 /* radii from loop to loop, over their sum: the body may touch itself */
 
 static const char *const purpose_names[] = {"curve", "thread", "tube", "intestine", NULL};
-static const SporeParameter purposes = {
-    .name = "make",
-    .type = SPORE_CHOICE,
-    .unit = "",
-    .minimum = -HUGE_VAL,
-    .maximum = HUGE_VAL,
-    .choices = purpose_names,
-    .offset = offsetof(SporeGenerateOptions, purpose),
-    .doc =
-        N_("What Apply makes: the curve alone, or of the body a solid thread, a tube with a wall, or an intestine on "
-           "its mesentery.")};
+static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
+    purpose_names,
+    N_("What Apply makes: the curve alone, or of the body a solid thread, a tube with a wall, or an intestine on "
+       "its mesentery."));
 
 static SporeCentrelineOptions options_of(const SporeGenerateWork *work) {
   const SporeCurveFields *fields = &work->options.fields.curve;

@@ -6,17 +6,10 @@
 #include "ui/jobs/generate-types.h"
 
 static const char *const purpose_names[] = {"bodies", "one_body", "asset", NULL}; /* as SporeLabelUse */
-static const SporeParameter purposes = {
-    .name = "make",
-    .type = SPORE_CHOICE,
-    .unit = "",
-    .minimum = -HUGE_VAL,
-    .maximum = HUGE_VAL,
-    .choices = purpose_names,
-    .offset = offsetof(SporeGenerateOptions, purpose),
-    .doc =
-        N_("What Apply makes: a body of each organ, one body of all that hangs together at shared faces, or an asset "
-           "alone.")};
+static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
+    purpose_names,
+    N_("What Apply makes: a body of each organ, one body of all that hangs together at shared faces, or an asset "
+       "alone."));
 
 gboolean spore_generate_wants_label(const SporeGenerateOptions *options, gsize i) {
   return !(options->unwanted[i / 64] >> (i % 64) & 1);

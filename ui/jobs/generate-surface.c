@@ -7,17 +7,10 @@
 #include "ui/jobs/generate-types.h"
 
 static const char *const purpose_names[] = {"model", "visual_mesh", "asset", NULL}; /* as SporeSurfaceUse */
-static const SporeParameter purposes = {
-    .name = "make",
-    .type = SPORE_CHOICE,
-    .unit = "",
-    .minimum = -HUGE_VAL,
-    .maximum = HUGE_VAL,
-    .choices = purpose_names,
-    .offset = offsetof(SporeGenerateOptions, purpose),
-    .doc =
-        N_("What Apply makes: what the body's model is built from, the mesh that the body shows and generators start "
-           "from (a wall, to be filled with tetrahedra), or an asset alone.")};
+static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
+    purpose_names,
+    N_("What Apply makes: what the body's model is built from, the mesh that the body shows and generators start "
+       "from (a wall, to be filled with tetrahedra), or an asset alone."));
 
 static SporeSimplifyOptions options_of(const SporeGenerateWork *work) {
   const SporeMeshFields *fields = &work->options.fields.surface;

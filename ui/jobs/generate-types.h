@@ -43,6 +43,13 @@ typedef struct SporeGenerateType {
   char *(*facts)(const SporeGenerateWork *work); /* a line each; g_free */
 } SporeGenerateType;
 
+/* What Apply makes, as a choice that the panel shows as a row; of names ended by NULL, and what they mean (N_). */
+#define SPORE_GENERATE_PURPOSES(names, meaning)                                                                        \
+  {                                                                                                                    \
+    .name = "make", .type = SPORE_CHOICE, .unit = "", .minimum = -HUGE_VAL, .maximum = HUGE_VAL, .choices = (names),   \
+    .offset = offsetof(SporeGenerateOptions, purpose), .doc = (meaning)                                                \
+  }
+
 extern const SporeGenerateType spore_generate_spheres, spore_generate_tetrahedra, spore_generate_curve,
     spore_generate_surface, spore_generate_labels;
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind);
