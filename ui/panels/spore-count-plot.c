@@ -59,7 +59,7 @@ static void draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double
   int width;
   g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
   pango_layout_get_pixel_size(layout, &width, NULL);
-  gtk_render_layout(gtk_widget_get_style_context(widget), cr, x - align * width, y, layout);
+  gtk_render_layout(gtk_widget_get_style_context(widget), cr, fmax(0, x - align * width), y, layout);
   cairo_new_path(cr); /* the text leaves a point there, that a line would begin at */
 }
 
