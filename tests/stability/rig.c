@@ -207,18 +207,36 @@ const SporeSphereSet *rig_floor(Rig *rig, unsigned columns, unsigned rows, doubl
   return set;
 }
 
-SporeWorld *rig_try_build(Rig *rig, SporeError *error) {
+static SporeWorld *build(Rig *rig, SporePool *pool, SporeError *error) {
   rig->description.bodies = (const SporeBodyDescription *)(const void *)rig->bodies->data;
   rig->description.body_count = rig->bodies->len;
   rig->description.links = (const SporeLinkDescription *)(const void *)rig->links->data;
   rig->description.link_count = rig->links->len;
-  return rig->world = spore_world_create(&rig->description, NULL, error);
+  return rig->world = spore_world_create(&rig->description, pool, error);
 }
 
-SporeWorld *rig_build(Rig *rig) {
+SporeWorld *rig_try_build(Rig *rig, SporeError *error) { return build(rig, NULL, error); }
+
+SporeWorld *rig_build_on(Rig *rig, SporePool *pool) {
   SporeError error = SPORE_ERROR_INIT;
-  if (!rig_try_build(rig, &error)) g_error("%s: %s", error.place, error.message);
+  if (!build(rig, pool, &error)) g_error("%s: %s", error.place, error.message);
   return rig->world;
+}
+
+SporeWorld *rig_build(Rig *rig) { return rig_build_on(rig, NULL); }
+
+SporeLinkDescription *rig_link(Rig *rig, const char *name, SporeLinkKind kind, uint32_t a, uint32_t b, SporeVec3 at) {
+  SporeLinkDescription link = {.name = name,
+                               .kind = kind,
+                               .body_a = a,
+                               .body_b = b,
+                               .point_a = at,
+                               .point_b = at,
+                               .direction = {0, 1, 0},
+                               .stiffness = 1e5,
+                               .damping = -1};
+  g_array_append_val(rig->links, link);
+  return &g_array_index(rig->links, SporeLinkDescription, rig->links->len - 1);
 }
 
 gboolean rig_finite(const SporeWorld *world) {

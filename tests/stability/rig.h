@@ -47,7 +47,10 @@ const SporeSphereSet *rig_sphere(Rig *rig, double radius);
 /* columns x rows spheres in the plane y = 0 about the origin, tops at y = 0. */
 const SporeSphereSet *rig_floor(Rig *rig, unsigned columns, unsigned rows, double spacing, double radius);
 
-SporeWorld *rig_build(Rig *rig); /* never NULL */
+SporeWorld *rig_build(Rig *rig);                     /* never NULL */
+SporeWorld *rig_build_on(Rig *rig, SporePool *pool); /* likewise, on the pool's threads */
+/* At one point of the world, 1e5 N/m, along y where the kind has a direction; the caller may change it. */
+SporeLinkDescription *rig_link(Rig *rig, const char *name, SporeLinkKind kind, uint32_t a, uint32_t b, SporeVec3 at);
 SporeWorld *rig_try_build(Rig *rig, SporeError *error);
 
 /* Sum of all but gravity's reference; NAN where a state is not finite. */

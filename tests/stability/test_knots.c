@@ -195,19 +195,6 @@ static SporeModel *box(double mass) {
   return rig_surface_model(&spore_rigid_body, &mesh, "mass", mass, NULL);
 }
 
-static void add(Rig *rig, const char *name, SporeLinkKind kind, uint32_t a, uint32_t b, SporeVec3 at) {
-  SporeLinkDescription link = {.name = name,
-                               .kind = kind,
-                               .body_a = a,
-                               .body_b = b,
-                               .point_a = at,
-                               .point_b = at,
-                               .direction = {0, 1, 0},
-                               .stiffness = 1e5,
-                               .damping = -1};
-  g_array_append_val(rig->links, link);
-}
-
 typedef struct Fall {
   double fallen; /* of what a pulley without friction lets fall */
   SporeLineState line;
@@ -225,11 +212,11 @@ static Fall run_fall(double points, double most_bend, double maximum) {
   rig_passive(rig, "thread", pulley_thread(points, most_bend, maximum), NULL);
   rig_passive(rig, "light", box(light), NULL)->pose.position = over_pulley(0);
   rig_passive(rig, "heavy", box(heavy), NULL)->pose.position = over_pulley(1);
-  add(rig, "knot 1", SPORE_LINK_BALL, 1, 0, over_pulley(0));
-  add(rig, "knot 2", SPORE_LINK_BALL, 2, 0, over_pulley(1));
+  rig_link(rig, "knot 1", SPORE_LINK_BALL, 1, 0, over_pulley(0));
+  rig_link(rig, "knot 2", SPORE_LINK_BALL, 2, 0, over_pulley(1));
   double share = G_PI * pulley_radius / LENGTH;
   for (int i = 0; i < 7; i++)
-    add(rig, "ring", SPORE_LINK_PORT, 0, SPORE_NO_BODY, over_pulley(0.5 + share * (i / 6. - 0.5)));
+    rig_link(rig, "ring", SPORE_LINK_PORT, 0, SPORE_NO_BODY, over_pulley(0.5 + share * (i / 6. - 0.5)));
   SporeWorld *world = rig_build(rig);
   rig_run(world, (unsigned)lround(time_s / 1e-3));
   double mass = G_PI * RADIUS * RADIUS * LENGTH * 100;
@@ -379,8 +366,8 @@ static Rig *draped(double twist) {
   rig_passive(rig, "bead", box(1e-5), NULL)->pose.position = spore_vec3(0.06, 0, 0);
   rig_passive(rig, "weight", box(2e-4), NULL)->pose.position = spore_vec3(0.1, 0, 0);
   rig_pin(rig, 0, spore_vec3(0, 0, 0), 1e-4);
-  add(rig, "bead", SPORE_LINK_SLIDE, 2, 0, spore_vec3(0.06, 0, 0));
-  add(rig, "weight", SPORE_LINK_BALL, 3, 0, spore_vec3(0.1, 0, 0));
+  rig_link(rig, "bead", SPORE_LINK_SLIDE, 2, 0, spore_vec3(0.06, 0, 0));
+  rig_link(rig, "weight", SPORE_LINK_BALL, 3, 0, spore_vec3(0.1, 0, 0));
   spore_sphere_set_clear(&own);
   g_free(points);
   return rig;
@@ -476,12 +463,7 @@ static void test_threads(void) {
   for (int i = 0; i < 2; i++) {
     Rig *rig = draped(0);
     SporePool *pool = spore_pool_create(i ? 3 : 1);
-    rig->description.bodies = (const SporeBodyDescription *)(const void *)rig->bodies->data;
-    rig->description.body_count = rig->bodies->len;
-    rig->description.links = (const SporeLinkDescription *)(const void *)rig->links->data;
-    rig->description.link_count = rig->links->len;
-    rig->world = spore_world_create(&rig->description, pool, NULL);
-    g_assert_nonnull(rig->world);
+    rig_build_on(rig, pool);
     for (int step = 0; step < 300; step++) spore_world_step(rig->world);
     hash[i] = spore_world_hash(rig->world);
     SporeLineState line;

@@ -5,15 +5,6 @@
 #define NETS 30 /* enough work for the pool to be called, whatever integrates them */
 #define THREADS 4
 
-static void build(Rig *rig, SporePool *pool) {
-  rig->description.bodies = (const SporeBodyDescription *)(const void *)rig->bodies->data;
-  rig->description.body_count = rig->bodies->len;
-  rig->description.links = (const SporeLinkDescription *)(const void *)rig->links->data;
-  rig->description.link_count = rig->links->len;
-  rig->world = spore_world_create(&rig->description, pool, NULL);
-  g_assert_nonnull(rig->world);
-}
-
 static Rig *new_rig(SporeIntegratorKind integrator, double time_step) {
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, -9.81, 0);
@@ -39,7 +30,7 @@ static void test_integrator(gconstpointer data) {
     Rig *rig = new_rig((SporeIntegratorKind)GPOINTER_TO_INT(data), 1e-4);
     for (guint i = 0; i < NETS; i++) add_net(rig, i);
     SporePool *pool = spore_pool_create(threads);
-    build(rig, pool);
+    rig_build_on(rig, pool);
     rig_run(rig->world, 10);
     g_assert_cmpuint(spore_world_counts(rig->world).islands, ==, NETS);
     if (threads == 1) expected = spore_world_hash(rig->world);
@@ -87,7 +78,7 @@ static uint64_t hash_of(const Large *large, int threads) {
     rig_pin(rig, i, spore_vec3(i, 0, 0), 0.015);
   }
   SporePool *pool = threads > 0 ? spore_pool_create(threads) : NULL;
-  build(rig, pool);
+  rig_build_on(rig, pool);
   uint64_t start = spore_world_hash(rig->world);
   rig_run(rig->world, implicit ? 3 : 10);
   uint64_t hash = spore_world_hash(rig->world);
