@@ -80,11 +80,11 @@ static void collect_files(SporeObject *object, GHashTable *files) {
   for (guint i = 0; i < object->children->len; i++) collect_files(spore_object_child(object, i), files);
 }
 
-static gboolean same_folder(const SporeDocument *document, int directory) {
+static gboolean same_folder(const SporeDocument *document, const char *scene) {
   if (!document->file) return FALSE;
-  g_autofree char *folder = g_path_get_dirname(document->file);
+  g_autofree char *folder = g_path_get_dirname(document->file), *new_folder = g_path_get_dirname(scene);
   struct stat one, other;
-  return stat(folder, &one) == 0 && fstat(directory, &other) == 0 && one.st_dev == other.st_dev &&
+  return stat(folder, &one) == 0 && stat(new_folder, &other) == 0 && one.st_dev == other.st_dev &&
          one.st_ino == other.st_ino;
 }
 
@@ -126,7 +126,7 @@ static gboolean save_assets(SporeDocument *document, SporeFileBatch *batch, cons
                             GError **error) {
   int directory = open_folder_of(scene, error);
   if (directory < 0) return FALSE;
-  gboolean stays = same_folder(document, directory), done = TRUE;
+  gboolean stays = same_folder(document, scene), done = TRUE;
   GHashTableIter iterator;
   gpointer file;
   g_hash_table_iter_init(&iterator, files);
@@ -161,6 +161,7 @@ static void settle(SporeDocument *document, const char *file, GHashTable *files,
   gpointer asset;
   g_hash_table_iter_init(&iterator, files);
   while (g_hash_table_iter_next(&iterator, &asset, NULL)) g_hash_table_remove(document->blobs, asset);
+  if (!same_folder(document, file)) spore_document_keep_assets(document, files);
   for (guint i = 0; i < places->len; i++) {
     const SporeObjectPlace *place = &g_array_index(places, SporeObjectPlace, i);
     place->object->line = place->line, place->object->column = place->column;

@@ -153,6 +153,41 @@ GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GEr
   return read_asset(document, NULL, file, error);
 }
 
+/* Moving. */
+
+/* What cannot be read is as broken in the new place as in the old one. */
+static void keep_asset(SporeDocument *document, const char *file, GHashTable *moved) {
+  if (!file || g_hash_table_contains(moved, file) || g_hash_table_contains(document->blobs, file)) return;
+  g_autoptr(GBytes) content = read_asset(document, NULL, file, NULL);
+  if (content) spore_document_put_blob(document, file, content);
+}
+
+static void keep_assets_of_steps(SporeDocument *document, const GPtrArray *steps, GHashTable *moved) {
+  for (guint i = 0; i < steps->len; i++) {
+    const SporeUndoStep *step = g_ptr_array_index(steps, i);
+    for (guint k = 0; k < step->edits->len; k++) {
+      const SporeEdit *edit = &g_array_index(step->edits, SporeEdit, k);
+      if (edit->kind == SPORE_EDIT_SET && edit->slot.set && edit->slot.value.type == SPORE_FILE)
+        keep_asset(document, edit->slot.value.text, moved);
+    }
+  }
+}
+
+void spore_document_keep_assets(SporeDocument *document, GHashTable *moved) {
+  GHashTableIter iterator;
+  gpointer value;
+  g_hash_table_iter_init(&iterator, document->objects); /* detached ones too */
+  while (g_hash_table_iter_next(&iterator, NULL, &value)) {
+    const SporeObject *object = value;
+    const SporeParameterTable *table = object->type->table;
+    for (size_t i = 0; i < table->count; i++)
+      if (table->parameters[i].type == SPORE_FILE && object->slots[i].set)
+        keep_asset(document, object->slots[i].value.text, moved);
+  }
+  keep_assets_of_steps(document, document->undo, moved);
+  keep_assets_of_steps(document, document->redo, moved);
+}
+
 /* Decoding. */
 
 /* Says the same as before as long as the content is the same. g_free. */

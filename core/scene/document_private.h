@@ -121,6 +121,9 @@ gboolean spore_element_in_list(const char *elements, const char *element);
 /* Opens a regular file inside the document's folder for reading. -1 with a GError. */
 int spore_document_open_asset(const SporeDocument *document, const char *place, const char *file, GError **error);
 void spore_assets_init(SporeDocument *document);
+/* Before the document moves to another folder: of the files that its history still names, those not in `moved` (set of
+ * names, which lie there too) wait as blobs from now on, so that undo and redo never name what is not there. */
+void spore_document_keep_assets(SporeDocument *document, GHashTable *moved);
 void spore_assets_free(SporeDocument *document);
 
 #endif

@@ -132,6 +132,39 @@ static void test_save_elsewhere_copies_assets(void) {
   fixture_folder_free(other);
 }
 
+/* What history alone names goes along to another folder: taken back before, or replaced by another file. */
+static void test_save_elsewhere_keeps_history(void) {
+  char *folder = fixture_folder_new(), *other = fixture_folder_new(), *third = fixture_folder_new();
+  GError *error = NULL;
+  SporeDocument *document = scene_with_blob(10);
+  save(document, folder, "a.spore");
+  g_autoptr(GBytes) newer = g_bytes_new_static("newer", 5);
+  spore_document_put_blob(document, "newer.off", newer);
+  spore_document_set_text(document, spore_document_by_path(document, "assets/liver"), "file", "newer.off", &error);
+  g_assert_no_error(error);
+  save(document, folder, "a.spore");
+  for (int i = 0; i < 3; i++) spore_document_undo(document); /* the second file, the first, the mesh */
+  g_assert_null(spore_document_by_path(document, "assets/liver"));
+  save(document, other, "b.spore");
+  assert_list(other, "b.spore");
+  g_free(fixture_write(folder, "meshes/liver.off", "changed there since"));
+  spore_document_redo(document);
+  spore_document_redo(document);
+  save(document, other, "b.spore");
+  g_autofree char *mesh = fixture_read(other, "meshes/liver.off");
+  g_assert_cmpstr(mesh, ==, "xxxxxxxxxx");
+  spore_document_redo(document);
+  save(document, third, "c.spore");
+  assert_list(third, "c.spore newer.off");
+  spore_document_undo(document);
+  save(document, third, "c.spore");
+  assert_list(third, "c.spore meshes newer.off");
+  spore_document_free(document);
+  fixture_folder_free(folder);
+  fixture_folder_free(other);
+  fixture_folder_free(third);
+}
+
 static void test_changed_blob_replaces(void) {
   char *folder = fixture_folder_new();
   SporeDocument *document = scene_with_blob(10);
@@ -297,6 +330,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/save/places-are-those-of-the-file", test_places_are_those_of_the_file);
   g_test_add_func("/save/keeps-permissions-and-links", test_keeps_permissions_and_links);
   g_test_add_func("/save/elsewhere-copies-assets", test_save_elsewhere_copies_assets);
+  g_test_add_func("/save/elsewhere-keeps-history", test_save_elsewhere_keeps_history);
   g_test_add_func("/save/changed-blob-replaces", test_changed_blob_replaces);
   g_test_add_func("/save/missing-folder-and-directory-target", test_missing_folder_and_directory_target);
   g_test_add_func("/save/unset-required", test_unset_required);
