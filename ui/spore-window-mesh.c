@@ -1,4 +1,4 @@
-/* Meshes: importing them, and the operations on those that are in the scene. */
+/* Meshes: importing them, the operations on those that are in the scene, and how well they follow what moves them. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -7,6 +7,7 @@
 #include "ui/dialogs/spore-mesh-dialog.h"
 #include "ui/document/edits.h"
 #include "ui/document/mesh-edits.h"
+#include "ui/jobs/mapping-work.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/spore-window-private.h"
 
@@ -181,6 +182,27 @@ static void act_change_mesh_dialog(GSimpleAction *action, GVariant *parameter, g
   gtk_window_present(GTK_WINDOW(dialog));
 }
 
+/* Mappings. */
+
+static void mapping_measured(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeWindow *self = owner;
+  SporeMappingWork *work = data;
+  if (spore_window_failed(self, error) || !self->document) return;
+  spore_inspector_set_mapping(SPORE_INSPECTOR(self->inspector), &work->report);
+}
+
+static void act_measure_mapping(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  SporeObject *body = spore_window_body_to_work_on(self);
+  g_autoptr(GError) error = NULL;
+  SporeMappingWork *work =
+      body ? spore_mapping_work_new(spore_editor_document_get(self->document), body, &error) : NULL;
+  if (work)
+    spore_window_start_job(self, _("Measuring the mapping"), spore_mapping_work_run, work, spore_mapping_work_free,
+                           mapping_measured);
+  else spore_window_failed(self, error);
+}
+
 /* An entry for each operation. */
 static void fill_menu(GMenu *menu) {
   for (int kind = 0; kind < SPORE_MESH_OPERATIONS; kind++) {
@@ -198,6 +220,7 @@ void spore_window_add_mesh_actions(SporeWindow *self) {
       {"import-dialog-with", act_import_dialog_with, "as"},
       {"change-mesh", act_change_mesh, "(sd)"},
       {"change-mesh-dialog", act_change_mesh_dialog, "s"},
+      {"measure-mapping", act_measure_mapping},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
   fill_menu(self->mesh_operations);

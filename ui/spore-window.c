@@ -174,6 +174,7 @@ void spore_window_update_actions(SporeWindow *self) {
   spore_window_set_enabled(self, "import-dialog-with", idle);
   spore_window_set_enabled(self, "change-mesh", idle && bodies);
   spore_window_set_enabled(self, "change-mesh-dialog", idle && bodies);
+  spore_window_set_enabled(self, "measure-mapping", idle && bodies);
   spore_window_set_enabled(self, "play", bodies && !playing);
   spore_window_set_enabled(self, "pause", playing);
   spore_window_set_enabled(self, "play-pause", bodies);

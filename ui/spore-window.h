@@ -12,7 +12,8 @@
  *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
  *               surface; preview-labels [s path], preview-labels-dialog; pick-ends (state), automatic-ends;
  *               apply-generated, cancel-job
- *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body
+ *   mesh        change-mesh [s operation, d argument], change-mesh-dialog [s operation]: of the selected mesh or body;
+ *               measure-mapping: of the selected body
  *   simulation  play, pause, play-pause, step, reset, speed [s factor, "0": as fast as it goes; state]
  *   view        tool [s "select", "probe" or "edit"; state], show-surfaces, show-spheres, show-tetrahedra,
  *               show-contacts (state), frame, view [s "front", "right" or "top"], show-outliner, show-inspector,

@@ -12,6 +12,7 @@
 
 #define LARGEST_ASSET (G_GUINT64_CONSTANT(1) << 30) /* bytes */
 
+/* Counted references: copies of a document share them. */
 typedef struct Decoded {
   SporeTriangleMesh mesh;
   SporeSphereSet spheres;
@@ -27,14 +28,15 @@ typedef struct Located {
   GError *fault; /* instead of decoded: content that cannot be read is not tried again and again */
 } Located;
 
-static void free_decoded(gpointer data) {
+static void clear_decoded(gpointer data) {
   Decoded *decoded = data;
   spore_triangle_mesh_clear(&decoded->mesh);
   spore_sphere_set_clear(&decoded->spheres);
   spore_tetrahedral_mesh_clear(&decoded->tetrahedra);
   spore_curve_clear(&decoded->curve);
-  g_free(decoded);
 }
+
+static void unref_decoded(gpointer data) { g_atomic_rc_box_release_full(data, clear_decoded); }
 
 static void free_located(gpointer data) {
   Located *located = data;
@@ -52,7 +54,7 @@ static void free_blob(gpointer data) {
 void spore_assets_init(SporeDocument *document) {
   document->blobs = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, free_blob);
   document->located = g_hash_table_new_full(NULL, NULL, NULL, free_located);
-  document->decoded = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, free_decoded);
+  document->decoded = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, unref_decoded);
 }
 
 void spore_assets_free(SporeDocument *document) {
@@ -188,6 +190,18 @@ void spore_document_keep_assets(SporeDocument *document, GHashTable *moved) {
   keep_assets_of_steps(document, document->redo, moved);
 }
 
+void spore_document_share_assets(SporeDocument *to, const SporeDocument *from) {
+  GHashTableIter iterator;
+  gpointer key, value;
+  to->readers = from->readers;
+  g_hash_table_iter_init(&iterator, from->blobs);
+  while (g_hash_table_iter_next(&iterator, &key, &value))
+    spore_document_put_blob(to, key, ((const SporeBlob *)value)->content);
+  g_hash_table_iter_init(&iterator, from->decoded);
+  while (g_hash_table_iter_next(&iterator, &key, &value))
+    g_hash_table_insert(to->decoded, g_strdup(key), g_atomic_rc_box_acquire(value));
+}
+
 /* Decoding. */
 
 /* Says the same as before as long as the content is the same. g_free. */
@@ -228,7 +242,7 @@ static Decoded *decode(SporeDocument *document, const SporeObject *asset, GBytes
   const SporeAssetReaders *readers = &document->readers;
   const char *element = asset->type->element, *file = spore_object_text(asset, "file");
   g_autofree char *place = path_of(document, file);
-  Decoded *decoded = g_new0(Decoded, 1);
+  Decoded *decoded = g_atomic_rc_box_new0(Decoded);
   gboolean done;
   if (strcmp(element, "mesh") == 0 && readers->mesh)
     done = readers->mesh(place, file, content, (int)spore_object_number(asset, "unit"),
@@ -248,7 +262,7 @@ static Decoded *decode(SporeDocument *document, const SporeObject *asset, GBytes
     write_hash(decoded);
     return decoded;
   }
-  free_decoded(decoded);
+  unref_decoded(decoded);
   return NULL;
 }
 

@@ -164,6 +164,35 @@ static void test_cache(void) {
   fixture_folder_free(folder);
 }
 
+/* A copy for another thread shares what is decoded and waits, and goes its own way from there. */
+static void test_copy(void) {
+  GError *error = NULL;
+  char *folder = fixture_scene_folder_new(
+      "<spore version=\"1.0\"><assets><mesh name=\"cube\" file=\"cube.off\"/></assets></spore>");
+  SporeDocument *document = fixture_load(folder);
+  SporeObject *assets = spore_document_section(document, "assets");
+  SporeObject *ball = spore_document_insert(document, assets, "spheres", "ball", G_MAXUINT, &error);
+  spore_document_set_text(document, ball, "file", "one.spheres", &error);
+  g_autoptr(GBytes) content = g_bytes_new_static("0 0 0 1\n", 8);
+  spore_document_put_blob(document, "one.spheres", content);
+  const SporeTriangleMesh *mesh = spore_document_mesh(document, spore_object_child(assets, 0), &error);
+  g_assert_no_error(error);
+  SporeDocument *copy = spore_scene_copy(document, &error);
+  g_assert_no_error(error);
+  g_assert_false(spore_document_can_undo(copy));
+  SporeObject *cube = spore_document_by_path(copy, "assets/cube");
+  g_assert_true(spore_document_mesh(copy, cube, &error) == mesh);
+  g_autofree char *where = spore_object_where(cube);
+  g_assert_cmpstr(where, ==, "assets/cube");
+  spore_document_remove(document, ball, &error);
+  spore_document_free(document);
+  g_assert_cmpuint(mesh->triangle_count, ==, 12);
+  g_assert_cmpuint(spore_document_spheres(copy, spore_document_by_path(copy, "assets/ball"), &error)->count, ==, 1);
+  g_assert_no_error(error);
+  spore_document_free(copy);
+  fixture_folder_free(folder);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/asset/missing-and-irregular", test_missing_and_irregular);
@@ -172,5 +201,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/asset/no-folder", test_no_folder);
   g_test_add_func("/asset/too-large", test_too_large);
   g_test_add_func("/asset/cache", test_cache);
+  g_test_add_func("/asset/copy", test_copy);
   return g_test_run();
 }

@@ -19,6 +19,7 @@
 #include "ui/document/mesh-edits.h"
 #include "ui/document/region-edits.h"
 #include "ui/document/recovery.h"
+#include "ui/jobs/mapping-work.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/jobs/works.h"
@@ -308,6 +309,31 @@ static void test_regions_of_generated(Fixture *fixture, gconstpointer data) {
   g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_FRESH);
 }
 
+/* As the editor does it: on a copy of the scene. */
+static void measure_mapping(Fixture *fixture, SporeObject *body, SporeMappingReport *report) {
+  GError *error = NULL;
+  SporeMappingWork *work = spore_mapping_work_new(fixture->document, body, &error);
+  g_assert_no_error(error);
+  g_assert_true(spore_mapping_work_run(work, NULL, &error));
+  spore_mapping_report_clear(report);
+  *report = work->report;
+  work->report = (SporeMappingReport){0};
+  spore_mapping_work_free(work);
+}
+
+static bool refuse(void *data, double fraction, const char *stage) { return false; }
+
+static void test_mapping_is_cancelled(Fixture *fixture, gconstpointer data) {
+  GError *error = NULL;
+  SporeObject *body = add_organ(fixture);
+  use_tetrahedron(fixture, body);
+  SporeMappingWork *work = spore_mapping_work_new(fixture->document, body, &error);
+  g_assert_false(spore_mapping_work_run(work, &(SporeProgress){.report = refuse}, &error));
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_CANCELLED);
+  g_clear_error(&error);
+  spore_mapping_work_free(work);
+}
+
 /* The mesh around a tetrahedron is extrapolated where it lies outside; the report is of the document as it was. */
 static void test_mapping_report(Fixture *fixture, gconstpointer data) {
   SporeMappingReport report = {0};
@@ -316,7 +342,7 @@ static void test_mapping_report(Fixture *fixture, gconstpointer data) {
   SporeObject *body = add_organ(fixture);
   use_tetrahedron(fixture, body);
   g_assert_false(spore_mapping_report_holds(&report, fixture->document, body));
-  spore_mapping_report_measure(&report, fixture->document, body);
+  measure_mapping(fixture, body, &report);
   g_assert_true(spore_mapping_report_holds(&report, fixture->document, body));
   g_autofree char *text = spore_mapping_report_text(&report);
   g_assert_cmpstr(report.trouble, ==, NULL);
@@ -330,14 +356,14 @@ static void test_mapping_report(Fixture *fixture, gconstpointer data) {
   spore_edit_add_region(fixture->document, body, "bodies/my_organ/regions", NULL);
   g_autofree double *rings = spore_body_marks(fixture->document, body, &report, &count);
   g_assert_cmpuint(count, ==, 3 * 48); /* the report is of before the region */
-  spore_mapping_report_measure(&report, fixture->document, body);
+  measure_mapping(fixture, body, &report);
   g_autofree double *marks = spore_body_marks(fixture->document, body, &report, &count);
   g_assert_cmpuint(count, ==, 3 * 48 + 3);
   spore_document_set_text(fixture->document, body, "position", "0 1 0", NULL);
   g_assert_false(spore_mapping_report_holds(&report, fixture->document, body));
   spore_edit_set_model(fixture->document, body, "", NULL);
   spore_document_set_text(fixture->document, body, "role", "passive", NULL);
-  spore_mapping_report_measure(&report, fixture->document, body);
+  measure_mapping(fixture, body, &report);
   g_autofree char *trouble = spore_mapping_report_text(&report);
   g_assert_nonnull(strstr(trouble, "no mechanical model"));
   g_assert_false(spore_mapping_report_worst(&report, &place, &size));
@@ -437,6 +463,15 @@ static gboolean work_at_once(gpointer data, const SporeProgress *progress, GErro
   return TRUE;
 }
 
+static int deaf_released, deaf_ended;
+
+/* Does not ask whether it was cancelled. */
+static gboolean work_deaf(gpointer data, const SporeProgress *progress, GError **error) {
+  for (int i = 0; i < 5000 && !g_atomic_int_get(&deaf_released); i++) g_usleep(1000);
+  g_atomic_int_set(&deaf_ended, TRUE);
+  return TRUE;
+}
+
 typedef struct {
   GMainLoop *loop;
   int code, value;
@@ -445,7 +480,7 @@ typedef struct {
 static void work_done(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   Outcome *outcome = g_object_get_data(owner, "outcome");
   outcome->code = error ? error->code : 0;
-  outcome->value = *(int *)data;
+  outcome->value = data ? *(int *)data : 0;
   g_main_loop_quit(outcome->loop);
 }
 
@@ -466,8 +501,11 @@ static void test_jobs(Fixture *fixture, gconstpointer data) {
   g_assert_cmpint(done.code, ==, 0);
   g_assert_cmpint(done.value, ==, 42);
   g_assert_cmpint(run_job(work_until_cancelled, TRUE).code, ==, SPORE_ERROR_CANCELLED);
-  /* Also where the work does not listen. */
+  /* Also where the work is through, or does not listen: nobody waits for it. */
   g_assert_cmpint(run_job(work_at_once, TRUE).code, ==, SPORE_ERROR_CANCELLED);
+  g_assert_cmpint(run_job(work_deaf, TRUE).code, ==, SPORE_ERROR_CANCELLED);
+  g_assert_false(g_atomic_int_get(&deaf_ended));
+  g_atomic_int_set(&deaf_released, TRUE);
 }
 
 static void test_result_of_another_scene(Fixture *fixture, gconstpointer data) {
@@ -645,6 +683,7 @@ int main(int argc, char **argv) {
       {"set-property", test_set_property},
       {"selection", test_selection},
       {"jobs", test_jobs},
+      {"mapping-is-cancelled", test_mapping_is_cancelled},
       {"result-of-another-scene", test_result_of_another_scene},
       {"import-refuses", test_import_refuses},
       {"player-follows-edits", test_player_follows_edits},

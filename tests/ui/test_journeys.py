@@ -415,6 +415,26 @@ def mapping_is_measured():
         editor.find("label", "The scene has changed since it was measured", showing=False)
 
 
+@check
+def mapping_is_measured_apart():
+    """measuring a mapping leaves the window free, and is cancelled within half a second."""
+    path = folder("meshes") / "fine.off"
+    path.write_bytes(shapes.off(*shapes.sphere(rings=120, sectors=240)))
+    with start() as editor:
+        editor.act("import", "(sss)", (str(path), "m", "Y_UP"))
+        ui.wait(lambda: editor.row("fine") and editor.enabled("generate-spheres"), "the organ", 60)
+        editor.act("set-model", "s", "mass_spring_net")
+        editor.find("label", "not measured yet", showing=False)
+        editor.act("measure-mapping")
+        assert editor.enabled("cancel-job") and not editor.enabled("import"), "it works apart from the window"
+        began = time.monotonic()
+        editor.act("cancel-job")
+        ui.wait(lambda: editor.enabled("import"), "it to end", 2)
+        assert time.monotonic() - began < 0.5, time.monotonic() - began
+        editor.find("label", "not measured yet", showing=False)
+        assert not editor.message()
+
+
 def import_tube(editor):
     """A tube of 80 mm along x, 10 mm thick."""
     path = folder("meshes") / "tube.off"

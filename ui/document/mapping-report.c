@@ -8,17 +8,36 @@ void spore_mapping_report_clear(SporeMappingReport *report) {
   *report = (SporeMappingReport){0};
 }
 
-void spore_mapping_report_measure(SporeMappingReport *report, SporeDocument *document, SporeObject *body) {
-  g_autoptr(GError) error = NULL;
-  spore_mapping_report_clear(report);
-  report->body = spore_object_id(body);
-  report->revision = spore_document_revision(document);
-  SporeSimulation *simulation = spore_simulation_new(document, NULL, NULL, &error);
-  for (int unit = 0; simulation && !error && unit < SPORE_CARRIED_COUNT; unit++)
+static gboolean goes_on(const SporeProgress *progress, double fraction, const char *stage, GError **error) {
+  return spore_progress(progress, fraction, stage) ||
+         spore_error_raise(error, SPORE_ERROR_CANCELLED, NULL, "%s", _("cancelled"));
+}
+
+static gboolean measure_units(SporeMappingReport *report, const SporeSimulation *simulation, SporeDocument *document,
+                              SporeObject *body, const SporeProgress *progress, GError **error) {
+  static const char *const stages[] = {N_("Measuring the visual mesh"), N_("Measuring the spheres")};
+  g_autoptr(GError) trouble = NULL;
+  for (int unit = 0; !trouble && unit < SPORE_CARRIED_COUNT; unit++) {
+    if (!goes_on(progress, 0.5 + 0.25 * unit, _(stages[unit]), error)) return FALSE;
     report->known[unit] =
-        spore_carried_measure(simulation, document, body, (SporeCarriedUnit)unit, &report->carried[unit], &error);
-  if (error) report->trouble = g_strdup(error->message);
-  if (simulation) spore_simulation_free(simulation);
+        spore_carried_measure(simulation, document, body, (SporeCarriedUnit)unit, &report->carried[unit], &trouble);
+  }
+  if (trouble) report->trouble = g_strdup(trouble->message);
+  return TRUE;
+}
+
+gboolean spore_mapping_report_measure(SporeMappingReport *report, SporeDocument *document, SporeObject *body,
+                                      const SporeProgress *progress, GError **error) {
+  g_autoptr(GError) trouble = NULL;
+  if (!goes_on(progress, 0, _("Compiling the scene"), error)) return FALSE;
+  SporeSimulation *simulation = spore_simulation_new(document, NULL, NULL, &trouble);
+  if (!simulation) {
+    report->trouble = g_strdup(trouble->message);
+    return TRUE;
+  }
+  gboolean done = measure_units(report, simulation, document, body, progress, error);
+  spore_simulation_free(simulation);
+  return done;
 }
 
 gboolean spore_mapping_report_holds(const SporeMappingReport *report, const SporeDocument *document,

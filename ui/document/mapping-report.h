@@ -2,6 +2,7 @@
 #ifndef SPORE_UI_DOCUMENT_MAPPING_REPORT_H
 #define SPORE_UI_DOCUMENT_MAPPING_REPORT_H
 
+#include "core/base/progress.h"
 #include "core/scene/carried.h"
 
 typedef struct SporeMappingReport {
@@ -12,8 +13,10 @@ typedef struct SporeMappingReport {
   char *trouble; /* why nothing could be; NULL: it was */
 } SporeMappingReport;
 
-/* Compiles a copy of the scene of its own: as long as that takes, this does. */
-void spore_mapping_report_measure(SporeMappingReport *report, SporeDocument *document, SporeObject *body);
+/* Compiles the scene, which takes as long as it takes: what is found goes into a report that says already of what it
+ * is. Any thread that owns the document. FALSE: cancelled. */
+gboolean spore_mapping_report_measure(SporeMappingReport *report, SporeDocument *document, SporeObject *body,
+                                      const SporeProgress *progress, GError **error);
 void spore_mapping_report_clear(SporeMappingReport *report);
 /* Of this body, as the document is now. */
 gboolean spore_mapping_report_holds(const SporeMappingReport *report, const SporeDocument *document,

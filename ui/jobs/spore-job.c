@@ -74,18 +74,28 @@ static void run(GTask *task, gpointer source, gpointer data, GCancellable *cance
   else g_task_return_error(task, error);
 }
 
+static void finish(SporeJob *self, gpointer data, const GError *error) {
+  self->running = FALSE;
+  g_clear_handle_id(&self->timer, g_source_remove);
+  self->done(self, data, error, self->owner);
+  g_signal_emit(self, signals[FINISHED], 0);
+  g_clear_object(&self->owner);
+}
+
 static void ended(GObject *source, GAsyncResult *result, gpointer user_data) {
   SporeJob *self = SPORE_JOB(source);
   g_autoptr(GError) error = NULL;
   g_task_propagate_boolean(G_TASK(result), &error);
-  /* Too late to stop it is still a stop: nobody wants the result. */
-  if (!error && g_cancellable_is_cancelled(self->cancellable))
-    spore_error_raise(&error, SPORE_ERROR_CANCELLED, "", "cancelled");
-  self->running = FALSE;
-  g_clear_handle_id(&self->timer, g_source_remove);
-  self->done(self, g_task_get_task_data(G_TASK(result)), error, self->owner);
-  g_signal_emit(self, signals[FINISHED], 0);
-  g_clear_object(&self->owner);
+  /* Where it was cancelled nobody wants the result any more. */
+  if (!g_cancellable_is_cancelled(self->cancellable)) finish(self, g_task_get_task_data(G_TASK(result)), error);
+}
+
+static gboolean cancelled(gpointer data) {
+  SporeJob *self = data;
+  g_autoptr(GError) error = NULL;
+  spore_error_raise(&error, SPORE_ERROR_CANCELLED, "", "cancelled");
+  finish(self, NULL, error);
+  return G_SOURCE_REMOVE;
 }
 
 static gboolean tick(gpointer data) {
@@ -109,7 +119,12 @@ SporeJob *spore_job_start(const char *title, SporeJobWork work, gpointer work_da
   return self;
 }
 
-void spore_job_cancel(SporeJob *self) { g_cancellable_cancel(self->cancellable); }
+/* Whoever waits for it need not wait until the worker notices. */
+void spore_job_cancel(SporeJob *self) {
+  if (!self->running || g_cancellable_is_cancelled(self->cancellable)) return;
+  g_cancellable_cancel(self->cancellable);
+  g_idle_add_full(G_PRIORITY_HIGH_IDLE, cancelled, g_object_ref(self), g_object_unref);
+}
 
 gboolean spore_job_is_running(SporeJob *self) { return self->running; }
 

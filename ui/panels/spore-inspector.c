@@ -263,7 +263,6 @@ static void show_mapping(SporeInspector *self, SporeObject *body) {
                         : _("How well what is drawn and felt follows what moves it: not measured yet");
   g_autofree char *text = holds ? spore_mapping_report_text(&self->mapping) : g_strdup(why);
   gtk_label_set_text(GTK_LABEL(self->mapping_facts), text);
-  gtk_widget_set_sensitive(self->measure, !holds);
 }
 
 static void show_model(SporeInspector *self, SporeObject *body) {
@@ -316,11 +315,12 @@ SporeStageMarks spore_inspector_get_marks(SporeInspector *self) {
   return marks;
 }
 
-static void measure_mapping(SporeInspector *self) {
+void spore_inspector_set_mapping(SporeInspector *self, SporeMappingReport *report) {
+  spore_mapping_report_clear(&self->mapping);
+  self->mapping = *report;
+  *report = (SporeMappingReport){0};
   SporeObject *body = spore_editor_document_selected_body(self->document);
-  if (!body) return;
-  spore_mapping_report_measure(&self->mapping, document_of(self), body);
-  show_mapping(self, body);
+  if (body && self->mapping_facts) show_mapping(self, body);
   g_signal_emit(self, signals[MARKS_CHANGED], 0);
 }
 
@@ -400,7 +400,7 @@ static void add_mapping(SporeInspector *self) {
   gtk_widget_set_halign(self->measure, GTK_ALIGN_START);
   gtk_widget_set_tooltip_text(self->measure,
                               _("Compile the scene and measure how far vertices and spheres are carried wrong"));
-  g_signal_connect_swapped(self->measure, "clicked", G_CALLBACK(measure_mapping), self);
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(self->measure), "win.measure-mapping");
   gtk_container_add(GTK_CONTAINER(box), self->measure);
 }
 

@@ -7,6 +7,7 @@
 
 #include <gtk/gtk.h>
 
+#include "ui/document/mapping-report.h"
 #include "ui/document/spore-editor-document.h"
 #include "ui/render/stage.h"
 
@@ -16,6 +17,8 @@ G_BEGIN_DECLS
 G_DECLARE_FINAL_TYPE(SporeInspector, spore_inspector, SPORE, INSPECTOR, GtkBox)
 
 void spore_inspector_set_document(SporeInspector *self, SporeEditorDocument *document);
+/* Shows how good a body's mapping is; takes what the report holds. */
+void spore_inspector_set_mapping(SporeInspector *self, SporeMappingReport *report);
 /* Of the selected body: its regions, and the worst place of its mapping where that was measured. The caller's. */
 SporeStageMarks spore_inspector_get_marks(SporeInspector *self);
 
