@@ -22,6 +22,7 @@ ALLOWED = {
     "scene": KERNEL,
     "io": KERNEL | {"scene"},
     "generate": KERNEL | {"scene", "io"},
+    "author": KERNEL | {"scene", "io", "generate"},
 }
 FOREIGN = re.compile(r"glib|gio|gtk|libxml|json-glib|epoxy|png|assimp|CGAL")
 

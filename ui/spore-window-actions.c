@@ -1,7 +1,7 @@
 #include <glib/gi18n.h>
 
-#include "ui/document/edits.h"
-#include "ui/document/region-edits.h"
+#include "core/author/edits.h"
+#include "core/author/region_edits.h"
 #include "ui/spore-window-private.h"
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }

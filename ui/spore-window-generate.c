@@ -2,7 +2,7 @@
 
 #include "core/mesh/common.h"
 #include "core/scene/generated.h"
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/spore-window-private.h"
 

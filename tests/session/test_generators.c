@@ -9,8 +9,8 @@
 #include "core/scene/generated.h"
 #include "models/registry.h"
 #include "ui/document/asset-readers.h"
-#include "ui/document/edits.h"
-#include "ui/document/generated-edits.h"
+#include "core/author/edits.h"
+#include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/jobs/spore-series.h"
 

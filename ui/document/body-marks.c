@@ -1,7 +1,7 @@
 #include "ui/document/body-marks.h"
 
-#include "ui/document/generated-edits.h"
-#include "ui/document/region-edits.h"
+#include "core/author/generated_edits.h"
+#include "core/author/region_edits.h"
 
 #define WORST_PART 0.08 /* of the size: half of the cross at the worst place */
 

@@ -6,7 +6,7 @@
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 
 static gboolean is_of(SporeObject *object, const char *element) {
   return object && g_str_equal(spore_object_type(object)->element, element);

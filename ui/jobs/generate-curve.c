@@ -2,7 +2,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "ui/document/generated-edits.h"
+#include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
 #define APART 1.2 /* radii from loop to loop, over their sum: the body may touch itself */

@@ -2,7 +2,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "ui/document/generated-edits.h"
+#include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
 static const char *const purpose_names[] = {"bodies", "one_body", "asset", NULL}; /* as SporeLabelUse */

@@ -1,7 +1,7 @@
 /* Sphere sets from a surface. */
 #include <glib/gi18n.h>
 
-#include "ui/document/generated-edits.h"
+#include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
 /* Spheres from tetrahedra are those of their surface, balanced. */

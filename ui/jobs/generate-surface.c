@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "core/mesh/bvh.h"
-#include "ui/document/generated-edits.h"
+#include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
 static const char *const purpose_names[] = {"model", "visual_mesh", "asset", NULL}; /* as SporeSurfaceUse */

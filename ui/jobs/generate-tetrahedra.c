@@ -1,7 +1,7 @@
 /* Tetrahedra in a surface. */
 #include <glib/gi18n.h>
 
-#include "ui/document/generated-edits.h"
+#include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
 G_STATIC_ASSERT(SPORE_GENERATE_REGIONS <= SPORE_TETRAHEDRA_REGIONS);

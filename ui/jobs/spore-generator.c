@@ -3,7 +3,7 @@
 #include <glib/gi18n.h>
 
 #include "core/scene/generated.h"
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 #include "ui/jobs/generate-types.h"
 
 #define SETTLE_MS 250 /* options that change faster make one run */

@@ -5,7 +5,7 @@
 
 #include "core/io/scene_xml.h"
 #include "ui/document/asset-readers.h"
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 #include "ui/jobs/generate-types.h"
 
 /* Open. */

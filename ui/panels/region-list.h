@@ -4,7 +4,7 @@
 
 #include <gtk/gtk.h>
 
-#include "ui/document/region-edits.h"
+#include "core/author/region_edits.h"
 #include "ui/document/spore-editor-document.h"
 
 /* Fills the box. holder: path of what the regions are children of, there or not, of that type. rows: gets each

@@ -3,7 +3,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 #include "ui/panels/report.h"
 
 #define NUMBER_CHARS 9

@@ -1,4 +1,4 @@
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 #include "ui/panels/report.h"
 #include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"

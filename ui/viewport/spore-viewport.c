@@ -1,6 +1,6 @@
 #include <glib/gi18n.h>
 
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 #include "ui/document/labels.h"
 #include "ui/render/colour_scale.h"
 #include "ui/viewport/camera-moves.h"

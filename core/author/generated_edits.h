@@ -1,6 +1,6 @@
 /* What generators made, taken into the scene: each one undo step. No GTK. */
-#ifndef SPORE_UI_DOCUMENT_GENERATED_EDITS_H
-#define SPORE_UI_DOCUMENT_GENERATED_EDITS_H
+#ifndef SPORE_AUTHOR_GENERATED_EDITS_H
+#define SPORE_AUTHOR_GENERATED_EDITS_H
 
 #include "core/generate/centreline_scene.h"
 #include "core/scene/document.h"

@@ -1,12 +1,12 @@
-#include "ui/document/region-edits.h"
+#include "core/author/region_edits.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
 #include "core/mesh/common.h"
-#include "ui/document/edits.h"
-#include "ui/document/generated-edits.h"
+#include "core/author/edits.h"
+#include "core/author/generated_edits.h"
 
 #define PART 0.125 /* of the diagonal: radius of a new region */
 #define LEAST_M 1e-4

@@ -1,7 +1,7 @@
 /* Regions: balls in which a body is of another stiffness, or a generator makes it finer. Each change is one undo step.
  * No GTK. */
-#ifndef SPORE_UI_DOCUMENT_REGION_EDITS_H
-#define SPORE_UI_DOCUMENT_REGION_EDITS_H
+#ifndef SPORE_AUTHOR_REGION_EDITS_H
+#define SPORE_AUTHOR_REGION_EDITS_H
 
 #include "core/scene/document.h"
 

@@ -1,10 +1,10 @@
-#include "ui/document/mesh-edits.h"
+#include "core/author/mesh_edits.h"
 
 #include <glib/gi18n.h>
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 
 SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, int unit, GError **error) {
   g_autoptr(GPtrArray) bodies = NULL;

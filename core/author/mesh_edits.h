@@ -1,6 +1,6 @@
 /* What an author does to the meshes of a scene, each one undo step. No GTK. */
-#ifndef SPORE_UI_DOCUMENT_MESH_EDITS_H
-#define SPORE_UI_DOCUMENT_MESH_EDITS_H
+#ifndef SPORE_AUTHOR_MESH_EDITS_H
+#define SPORE_AUTHOR_MESH_EDITS_H
 
 #include "core/generate/organ_import.h"
 

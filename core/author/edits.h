@@ -1,6 +1,6 @@
 /* What an author does in one gesture, each one undo step made of document commands. No GTK. */
-#ifndef SPORE_UI_DOCUMENT_EDITS_H
-#define SPORE_UI_DOCUMENT_EDITS_H
+#ifndef SPORE_AUTHOR_EDITS_H
+#define SPORE_AUTHOR_EDITS_H
 
 #include "core/scene/document.h"
 

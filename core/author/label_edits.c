@@ -2,8 +2,8 @@
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
-#include "ui/document/edits.h"
-#include "ui/document/generated-edits.h"
+#include "core/author/edits.h"
+#include "core/author/generated_edits.h"
 
 /* An asset of these tetrahedra, and where it is wanted a body made of them. */
 static gboolean add(SporeDocument *document, const char *name, const SporeTetrahedralMesh *mesh, gboolean body_too,

@@ -1,4 +1,4 @@
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -1,11 +1,11 @@
-#include "ui/document/generated-edits.h"
+#include "core/author/generated_edits.h"
 
 #include <glib/gi18n.h>
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/scene/generated.h"
-#include "ui/document/edits.h"
+#include "core/author/edits.h"
 
 /* What a body uses. */
 
