@@ -34,7 +34,12 @@ gboolean spore_edit_use_surface(SporeDocument *document, SporeObject *body, cons
                                 const SporeTriangleMesh *mesh, SporeSurfaceUse use, GError **error);
 
 /* Tetrahedra of several organs. */
-typedef enum SporeLabelUse { SPORE_LABELS_BODIES, SPORE_LABELS_ONE_BODY, SPORE_LABELS_ASSET } SporeLabelUse;
+typedef enum SporeLabelUse {
+  SPORE_LABELS_LINKED, /* bodies, with a seam between each two that share faces */
+  SPORE_LABELS_BODIES,
+  SPORE_LABELS_ONE_BODY,
+  SPORE_LABELS_ASSET
+} SporeLabelUse;
 typedef struct SporeLabelBodies {
   const char *file; /* they came from: names what is of all */
   const SporeTetrahedralMesh *mesh;

@@ -7,7 +7,7 @@
 #include "core/scene/length_unit.h"
 
 /* Elements of the links that can hold a body where it is. */
-#define SPORE_HOLDING_LINKS "pin|spring|ball|hinge|weld|slide"
+#define SPORE_HOLDING_LINKS "pin|spring|ball|hinge|weld|seam|slide"
 
 typedef struct SporeCheck {
   SporeDocument *document;

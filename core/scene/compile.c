@@ -7,6 +7,7 @@
 #include "core/base/name.h"
 #include "core/scene/level_settings.h"
 #include "core/scene/schema_fields.h"
+#include "core/scene/seam.h"
 
 /* What is being put together. */
 typedef struct Compiler {
@@ -413,9 +414,43 @@ static gboolean add_joint(Compiler *compiler, const SporeObject *object) {
   return TRUE;
 }
 
+/* What it holds at each point is a ball joint; all of them together have its stiffness and strength. */
+static gboolean add_seam(Compiler *compiler, const SporeObject *object) {
+  SporeLinkFields fields = {0};
+  SporeSeamSide sides[2];
+  spore_object_fields(object, &fields);
+  SporeLinkDescription link = {.name = fields.name, .kind = SPORE_LINK_BALL, .damping = fields.joint.damping};
+  if (!body_index(compiler, object, "body_a", &link.body_a) || !body_index(compiler, object, "body_b", &link.body_b))
+    return FALSE;
+  if (link.body_a == SPORE_NO_BODY || link.body_b == SPORE_NO_BODY)
+    return refuse(compiler, object, _("the seam \"%s\" joins two bodies, and names fewer; set body_a and body_b"),
+                  fields.name);
+  for (int i = 0; i < 2; i++) {
+    const SporeBodyDescription *body =
+        &g_array_index(compiler->bodies, SporeBodyDescription, i ? link.body_b : link.body_a);
+    sides[i] = (SporeSeamSide){body->model, body->pose};
+  }
+  g_autoptr(GArray) points = g_array_new(FALSE, FALSE, sizeof(SporeVec3));
+  spore_seam_find(&sides[0], &sides[1], fields.distance, points);
+  if (!points->len)
+    return refuse(compiler, object,
+                  _("the seam \"%s\" holds nothing: no node of \"%s\" lies within %g m of one of \"%s\"; move them "
+                    "together, or make its distance larger"),
+                  fields.name, fields.body_a, fields.distance, fields.body_b);
+  link.stiffness = fields.joint.stiffness / points->len;
+  link.strength = fields.joint.strength / points->len;
+  if (link.damping > 0) link.damping /= points->len;
+  for (guint i = 0; i < points->len; i++) {
+    link.point_a = g_array_index(points, SporeVec3, i);
+    g_array_append_val(compiler->links, link);
+  }
+  return TRUE;
+}
+
 static gboolean add_link(Compiler *compiler, const SporeObject *object) {
   const char *element = spore_object_type(object)->element;
   if (strcmp(element, "pin") == 0) return add_pin(compiler, object);
+  if (strcmp(element, "seam") == 0) return add_seam(compiler, object);
   return strcmp(element, "spring") == 0 ? add_spring(compiler, object) : add_joint(compiler, object);
 }
 

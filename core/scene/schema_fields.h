@@ -118,10 +118,10 @@ typedef struct SporeSpringFields {
   double point_a[3], point_b[3], stiffness, damping, rest_length, strength;
 } SporeSpringFields;
 
-/* Of a ball, hinge, weld, slide or port; each has a part of the parameters. */
+/* Of a ball, hinge, weld, seam, slide or port; each has a part of the parameters. */
 typedef struct SporeLinkFields {
   const char *name, *body_a, *body_b;
-  double point[3], direction[3], length, friction;
+  double point[3], direction[3], length, friction, distance;
   int ends; /* SporeEnds */
   SporeJointFields joint;
 } SporeLinkFields;

@@ -784,6 +784,22 @@ static const SporeParameter weld_parameters[] = {
     LINK_LENGTH(N_("Distance between the points that are held: the longer, the stiffer against turning.")),
 };
 
+static const SporeParameter seam_parameters[] = {
+    NAME(SporeLinkFields, N_("Name of the seam.")),
+    LINK_BODY(body_a, N_("Body that is held, with nodes of its own.")),
+    LINK_BODY(body_b, N_("Body that it is held at, with nodes of its own.")),
+    {.name = "distance",
+     .type = SPORE_REAL,
+     .unit = "m",
+     .minimum = 1e-9,
+     .maximum = 1,
+     .initial = {1e-6},
+     FIELD(SporeLinkFields, distance),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("A node of one body and one of the other are held together where they lie no farther apart than this "
+               "at the start.")},
+};
+
 static const SporeParameter slide_parameters[] = {
     NAME(SporeLinkFields, N_("Name of the slide.")),
     LINK_BODY(body_a, N_("Body whose point slides.")),
@@ -990,7 +1006,7 @@ const SporeElement spore_scene_elements[] = {
     {"medium", N_("Medium level"), N_("The body made with fewer degrees of freedom."),
      TABLE(level_parameters, SporeLevelFields)},
     {"links", N_("Links"), N_("What ties bodies to each other and to the scene."),
-     .children = CHILDREN("pin", "spring", "ball", "hinge", "weld", "slide", "port")},
+     .children = CHILDREN("pin", "spring", "ball", "hinge", "weld", "seam", "slide", "port")},
     {"pin", N_("Pin"), N_("Holds part of a body still."), TABLE(pin_parameters, SporePinFields)},
     {"spring", N_("Spring"), N_("A damped spring between two bodies, or a body and the scene."),
      TABLE(spring_parameters, SporeSpringFields)},
@@ -1000,6 +1016,8 @@ const SporeElement spore_scene_elements[] = {
      TABLE(hinge_parameters, SporeLinkFields), JOINT},
     {"weld", N_("Weld"), N_("Joins two bodies, or a body and the scene, as if they were one."),
      TABLE(weld_parameters, SporeLinkFields), JOINT},
+    {"seam", N_("Seam"), N_("Joins two bodies that deform wherever their nodes meet, as organs that share faces."),
+     TABLE(seam_parameters, SporeLinkFields), JOINT},
     {"slide", N_("Slide"),
      N_("Leaves a point of a body free to run along a line, straight or that of a thread, and holds it there."),
      TABLE(slide_parameters, SporeLinkFields), JOINT},

@@ -87,6 +87,9 @@ typedef struct Bad {
 #define MODEL(geometry, model) BODIES("<body name=\"b\"><mechanical" geometry "><" model "/></mechanical></body>")
 #define PROBE "<body name=\"p\" role=\"active\"/>"
 
+#define CUBE(name)                                                                                                     \
+  "<body name=\"" name "\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra/></mechanical></body>\n"
+
 #define LEVEL(fidelity)                                                                                                \
   BODIES("<body name=\"b\"><mechanical geometry=\"cube\"><finite_differences/></mechanical>\n" fidelity "</body>")
 
@@ -125,6 +128,9 @@ static const Bad bad[] = {
      "1:30", "there is no file \"gone.off\""},
     {"pin-without-body", WITH(PROBE, "<links><pin name=\"l\"/></links>"), "6:8", "the pin \"l\" has no body"},
     {"pin-body-missing", WITH(PROBE, "<links><pin name=\"l\" body=\"q\"/></links>"), "6:8", "body=\"q\" names nothing"},
+    {"seam-of-one", WITH(PROBE, "<links><seam name=\"l\" body_a=\"p\"/></links>"), "6:8", "names fewer"},
+    {"seam-without-nodes", WITH(PROBE CUBE("q"), "<links><seam name=\"l\" body_a=\"p\" body_b=\"q\"/></links>"), "7:8",
+     "no node of \"p\" lies within 1e-06 m of one of \"q\""},
     {"spring-without-body", WITH(PROBE, "<links><spring name=\"l\" body_b=\"p\"/></links>"), "6:8", "has no body_a"},
     {"pin-holds-nothing",
      WITH("<body name=\"b\"><mechanical geometry=\"cells\"><corotational_tetrahedra/></mechanical></body>\n",
@@ -192,6 +198,42 @@ static void add_sample(SporeTrack *track, const char *name, double x) {
   SporeTrackChannel *channel = spore_track_add_channel(track, name);
   SporeDeviceState state = {.position = {x, 0, 0}, .orientation = {1, 0, 0, 0}};
   g_assert_true(spore_track_append(channel, 0, &state));
+}
+
+/* A cube that hangs from another, half a turn about the upright apart: on each of the four nodes that meet, and the
+ * weight comes apart what it holds as far as the stiffness of all of them says. */
+static void test_seam(void) {
+  static const char text[] =
+      ASSETS "<bodies>\n"
+             "<body name=\"upper\"><mechanical geometry=\"cells\"><neo_hookean_tetrahedra young_modulus=\"1e5\"/>"
+             "</mechanical></body>\n"
+             "<body name=\"lower\" position=\"0 -0.1 0\" rotation=\"0 3.14159265358979 0\"><mechanical "
+             "geometry=\"cells\"><neo_hookean_tetrahedra young_modulus=\"1e5\" density=\"1000\"/></mechanical></body>\n"
+             "</bodies>\n<links><pin name=\"p\" body=\"upper\" point=\"0 0.05 0\" radius=\"0.09\"/>\n"
+             "<seam name=\"s\" body_a=\"upper\" body_b=\"lower\" stiffness=\"20000\"/></links></spore>";
+  g_autofree char *folder = fixture_scene_folder_new(text);
+  SporeDocument *document = fixture_load(folder);
+  SporeSimulation *simulation = compile(document, NULL);
+  const SporeWorld *world = simulation->world;
+  g_assert_cmpuint(spore_world_link_count(world), ==, 4);
+  run(simulation, 3000);
+  const double *upper = spore_world_q(world, 0), *lower = spore_world_q(world, 1);
+  double apart = 0;
+  int met = 0;
+  for (int i = 0; i < 8; i++)
+    for (int k = 0; k < 8; k++) {
+      if (fabs(upper[3 * i] - lower[3 * k]) > 0.04 || fabs(upper[3 * i + 2] - lower[3 * k + 2]) > 0.04) continue;
+      double gap = upper[3 * i + 1] - lower[3 * k + 1];
+      if (fabs(gap) > 0.01) continue;
+      apart += gap / 4;
+      met++;
+    }
+  g_assert_cmpint(met, ==, 4);
+  g_assert_cmpfloat_with_epsilon(apart, 9.81 / 20000, 1e-6); /* 1 kg */
+  g_assert_cmpuint(spore_world_monitor(world)->recoveries, ==, 0);
+  spore_simulation_free(simulation);
+  spore_document_free(document);
+  fixture_folder_free(g_steal_pointer(&folder));
 }
 
 static void test_input_replaces(void) {
@@ -410,6 +452,7 @@ int main(int argc, char **argv) {
     g_test_add_data_func(path, &bad[i], test_bad);
   }
   g_test_add_func("/compile/broken-asset", test_broken_asset);
+  g_test_add_func("/compile/seam", test_seam);
   g_test_add_func("/compile/input-replaces", test_input_replaces);
   g_test_add_func("/compile/no-input", test_no_input);
   g_test_add_func("/compile/empty", test_empty);

@@ -196,6 +196,29 @@ static void test_labels(Fixture *fixture, gconstpointer data) {
   g_assert_cmpuint(spore_object_child_count(spore_document_section(fixture->document, "bodies")), ==, bodies);
 }
 
+/* Organs hang together at the face that they share, and not where they share an edge alone. */
+static void test_linked_labels(Fixture *fixture, gconstpointer data) {
+  double vertices[21] = {0,    0,    0,    0.01, 0,    0,    0,    0.01, 0,    0,   0,
+                         0.01, 0.01, 0.01, 0.01, 0.02, 0.01, 0.03, 0.01, 0.02, 0.03};
+  uint32_t cells[12] = {0, 1, 2, 3, 1, 2, 3, 4, 3, 4, 5, 6}, labels[3] = {3, 7, 9};
+  SporeTetrahedralMesh mesh = {7, 3, vertices, cells, labels};
+  char *names[] = {(char *)"left lobe", (char *)"right lobe", (char *)"other"};
+  SporeLabelBodies organs = {"/tmp/three.nii.gz", &mesh, labels, names, 3, SPORE_LABELS_LINKED};
+  g_autofree char *before = text_of(fixture);
+  GError *error = NULL;
+  spore_edit_use_labels(fixture->document, &organs, &error);
+  g_assert_no_error(error);
+  SporeObject *links = spore_document_section(fixture->document, "links");
+  g_assert_cmpuint(spore_object_child_count(links), ==, 1);
+  SporeObject *seam = spore_document_by_path(fixture->document, "links/left_lobe_right_lobe");
+  g_assert_cmpstr(spore_object_type(seam)->element, ==, "seam");
+  SporeSimulation *simulation = spore_simulation_new(fixture->document, NULL, NULL, &error);
+  g_assert_no_error(error);
+  g_assert_cmpuint(spore_world_link_count(simulation->world), ==, 3);
+  spore_simulation_free(simulation);
+  assert_one_step(fixture, before);
+}
+
 static void test_wanted_labels(Fixture *fixture, gconstpointer data) {
   SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS};
   spore_generate_want_label(&options, 511, FALSE);
@@ -243,6 +266,7 @@ int main(int argc, char **argv) {
       {"pins-follow-pose", test_pins_follow_pose},
       {"surface", test_surface},
       {"labels", test_labels},
+      {"linked-labels", test_linked_labels},
       {"wanted-labels", test_wanted_labels},
       {"label-names", test_label_names},
   };

@@ -613,6 +613,9 @@ def organs_of_a_label_map():
         ui.wait(lambda: editor.row("liver") and editor.row("label_7"), "the bodies")
         text = saved(editor, "organs")
         assert text.count("<tetrahedra ") == 2 and text.count("<neo_hookean_tetrahedra") == 2, text
+        assert '<seam name="liver_label_7" body_a="liver" body_b="label_7"/>' in text, text
+        editor.act("step")
+        ui.wait(lambda: editor.time_s(), "time to advance with the seam")
         editor.act("undo")
         ui.wait(lambda: not editor.row("liver") and not editor.row("label_7"), "both to go")
         assert not editor.enabled("undo")

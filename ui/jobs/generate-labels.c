@@ -5,11 +5,11 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-static const char *const purpose_names[] = {"bodies", "one_body", "asset", NULL}; /* as SporeLabelUse */
+static const char *const purpose_names[] = {"linked_bodies", "bodies", "one_body", "asset", NULL}; /* as SporeLabelUse */
 static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
     purpose_names,
-    N_("What Apply makes: a body of each organ, one body of all that hangs together at shared faces, or an asset "
-       "alone."));
+    N_("What Apply makes: a body of each organ, linked where they share faces or free of each other, one body of all "
+       "that hangs together at shared faces, or an asset alone."));
 
 gboolean spore_generate_wants_label(const SporeGenerateOptions *options, gsize i) {
   return !(options->unwanted[i / 64] >> (i % 64) & 1);
