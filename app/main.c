@@ -22,6 +22,7 @@ static const Command commands[] = {
     {"render", spore_command_render, N_("Make a picture of a scene")},
 #endif
     {"import", spore_command_import, N_("Make a scene from organ meshes")},
+    {"edit", spore_command_edit, N_("Change a scene: properties, what holds an organ, a probe")},
     {"centreline", spore_command_centreline, N_("Find the middle line of a tubular organ")},
     {"spheres", spore_command_spheres, N_("Fit collision spheres to a mesh")},
     {"surface", spore_command_surface, N_("Make the surface of a net: fewer, well-shaped triangles")},

@@ -81,6 +81,7 @@ int spore_cli_choice(const char *option, const char *text, const char *const *ch
 
 int spore_command_centreline(SporeCli *cli, int argc, char **argv);
 int spore_command_check(SporeCli *cli, int argc, char **argv);
+int spore_command_edit(SporeCli *cli, int argc, char **argv);
 int spore_command_import(SporeCli *cli, int argc, char **argv);
 int spore_command_models(SporeCli *cli, int argc, char **argv);
 int spore_command_plan(SporeCli *cli, int argc, char **argv);

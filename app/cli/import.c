@@ -2,11 +2,10 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "app/cli/cli.h"
+#include "app/cli/scene.h"
 #include "core/generate/organ_import.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
-#include "core/scene/check.h"
 
 static void report_figures(SporeCli *cli, const char *member, const SporeMeshFigures *figures) {
   spore_cli_open(cli, member);
@@ -64,15 +63,6 @@ static void report_mesh(SporeCli *cli, const SporeImportBody *body, const char *
   spore_cli_close(cli);
 }
 
-static void report_diagnostic(SporeCli *cli, const char *place, const char *message, const char *remedy) {
-  spore_cli_open(cli, NULL);
-  spore_cli_text(cli, "place", place);
-  spore_cli_text(cli, "message", message);
-  spore_cli_text(cli, "remedy", remedy);
-  spore_cli_close(cli);
-  spore_cli_say(cli, "%s: %s; %s\n", place, message, remedy);
-}
-
 static void report_diagnostics(SporeCli *cli, SporeDocument *document, const SporeImport *import) {
   spore_cli_open_array(cli, "diagnostics");
   for (guint i = 0; i < import->files->len; i++) {
@@ -81,13 +71,9 @@ static void report_diagnostics(SporeCli *cli, SporeDocument *document, const Spo
     if (!remedy) continue;
     remedy = g_strdup(remedy + 2);
     *strstr(remark, "; ") = '\0';
-    report_diagnostic(cli, file->file, remark, remedy);
+    spore_cli_diagnostic(cli, file->file, remark, remedy);
   }
-  g_autoptr(GPtrArray) diagnostics = spore_document_check(document);
-  for (guint i = 0; i < diagnostics->len; i++) {
-    const SporeDiagnostic *diagnostic = g_ptr_array_index(diagnostics, i);
-    report_diagnostic(cli, diagnostic->place, diagnostic->message, diagnostic->remedy);
-  }
+  spore_cli_diagnostics(cli, document);
   spore_cli_close_array(cli);
 }
 
@@ -105,28 +91,38 @@ static void report(SporeCli *cli, SporeDocument *document, const SporeImport *im
   report_diagnostics(cli, document, import);
 }
 
-static int import(SporeCli *cli, char **meshes, const SporeImportOptions *options, const char *output) {
+/* What the bodies are added to. */
+static SporeDocument *open_scene(SporeCli *cli, const char *output, gboolean add, GError **error) {
+  if (add) return spore_scene_load(cli->schema, output, error);
+  SporeDocument *document = spore_document_new(cli->schema);
+  spore_document_set_readers(document, &spore_io_readers);
+  if (g_file_test(output, G_FILE_TEST_EXISTS))
+    spore_cli_say(cli, _("%s: a new scene takes the place of the one that was there; --add would have kept it\n"),
+                  output);
+  return document;
+}
+
+static int import(SporeCli *cli, char **meshes, const SporeImportOptions *options, const char *output, gboolean add) {
   GError *error = NULL;
   gboolean done = TRUE;
   for (char **mesh = meshes; *mesh && done; mesh++) done = spore_cli_keeps(output, *mesh, &error);
   g_autoptr(SporeImport) found = done ? spore_import_read(meshes, options, spore_cli_progress(cli), &error) : NULL;
   g_autoptr(GPtrArray) bodies = NULL;
-  SporeDocument *document = spore_document_new(cli->schema);
-  spore_document_set_readers(document, &spore_io_readers);
-  done = found && spore_import_insert(document, found, options->unit, &bodies, &error) &&
+  SporeDocument *document = found ? open_scene(cli, output, add, &error) : NULL;
+  done = document && spore_import_insert(document, found, options->unit, &bodies, &error) &&
          spore_cli_make_folder_of(output, &error) && spore_scene_save(document, output, &error);
   if (done) {
     spore_cli_say(cli, _("%s: written\n"), output);
     report(cli, document, found, bodies, spore_length_units[options->unit]);
   }
-  spore_document_free(document);
+  if (document) spore_document_free(document);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
 /* What the options say, before it is understood. */
 typedef struct Request {
   char *unit, *frame, *output;
-  gboolean merge;
+  gboolean merge, add;
   SporeImportOptions options;
 } Request;
 
@@ -167,6 +163,8 @@ static GOptionEntry *make_entries(Request *request) {
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &request->frame,
        N_("Axes of the meshes: Y_UP, RAS, LPS (default: what the file says)"), "FRAME"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request->output, N_("Scene to write"), "F.spore"},
+      {"add", 0, 0, G_OPTION_ARG_NONE, &request->add,
+       N_("Add to the scene that is there, and keep what is in it: meshes of another unit, for instance"), NULL},
       {"merge", 0, 0, G_OPTION_ARG_NONE, &request->merge, N_("Make one body of all meshes"), NULL},
       {"split", 0, G_OPTION_FLAG_OPTIONAL_ARG, G_OPTION_ARG_CALLBACK, (gpointer)read_split,
        N_("Make a body of each part that a file names (parts), or of each connected piece (pieces); default: parts "
@@ -225,7 +223,7 @@ int spore_command_import(SporeCli *cli, int argc, char **argv) {
   g_autofree GOptionEntry *entries = make_entries(&request);
   int status = spore_cli_parse_with(cli, &info, entries, &request, &argc, &argv);
   if (status == SPORE_EXIT_DONE) status = understand(&request);
-  if (status == SPORE_EXIT_DONE) status = import(cli, argv + 1, &request.options, request.output);
+  if (status == SPORE_EXIT_DONE) status = import(cli, argv + 1, &request.options, request.output, request.add);
   g_free(request.unit);
   g_free(request.frame);
   g_free(request.output);

@@ -3,8 +3,10 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/author/edits.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
+#include "core/scene/check.h"
 
 void spore_scene_options_clear(SporeSceneOptions *options) {
   g_strfreev(options->set);
@@ -14,8 +16,7 @@ void spore_scene_options_clear(SporeSceneOptions *options) {
   *options = (SporeSceneOptions){0};
 }
 
-/* PATH/PROPERTY=VALUE */
-static gboolean set_property(SporeDocument *document, const char *setting, GError **error) {
+gboolean spore_cli_set(SporeDocument *document, const char *setting, GError **error) {
   const char *equals = strchr(setting, '=');
   g_autofree char *path = equals ? g_strndup(setting, (gsize)(equals - setting)) : NULL;
   char *slash = path ? strrchr(path, '/') : NULL;
@@ -24,7 +25,7 @@ static gboolean set_property(SporeDocument *document, const char *setting, GErro
                              _("'%s' names no property; expected PATH/PROPERTY=VALUE, such as solver/time_step=0.001"),
                              setting);
   *slash = '\0';
-  SporeObject *object = spore_document_by_path(document, path);
+  SporeObject *object = spore_edit_object_or_unit(document, path, NULL);
   if (!object)
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--set",
                              _("the scene has no object '%s'; expected a path such as bodies/NAME/collision"), path);
@@ -37,8 +38,25 @@ static gboolean apply(SporeDocument *document, const SporeSceneOptions *options,
   if (options->integrator && !spore_document_set_text(document, solver, "integrator", options->integrator, error))
     return FALSE;
   for (char **setting = options->set; setting && *setting; setting++)
-    if (!set_property(document, *setting, error)) return FALSE;
+    if (!spore_cli_set(document, *setting, error)) return FALSE;
   return TRUE;
+}
+
+void spore_cli_diagnostic(SporeCli *cli, const char *place, const char *message, const char *remedy) {
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "place", place);
+  spore_cli_text(cli, "message", message);
+  spore_cli_text(cli, "remedy", remedy);
+  spore_cli_close(cli);
+  spore_cli_say(cli, "%s: %s; %s\n", place, message, remedy);
+}
+
+void spore_cli_diagnostics(SporeCli *cli, SporeDocument *document) {
+  g_autoptr(GPtrArray) diagnostics = spore_document_check(document);
+  for (guint i = 0; i < diagnostics->len; i++) {
+    const SporeDiagnostic *diagnostic = g_ptr_array_index(diagnostics, i);
+    spore_cli_diagnostic(cli, diagnostic->place, diagnostic->message, diagnostic->remedy);
+  }
 }
 
 SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneOptions *options, GError **error) {

@@ -26,6 +26,13 @@ typedef struct SporeSceneOptions {
 
 void spore_scene_options_clear(SporeSceneOptions *options);
 
+/* PATH/PROPERTY=VALUE; a unit of a body that is not there yet is made. */
+gboolean spore_cli_set(SporeDocument *document, const char *setting, GError **error);
+/* One thing to mend: a member of the open array of the report, and a line for people. */
+void spore_cli_diagnostic(SporeCli *cli, const char *place, const char *message, const char *remedy);
+/* What there is to mend in a scene, into the open array of the report and for people. */
+void spore_cli_diagnostics(SporeCli *cli, SporeDocument *document);
+
 /* Loads a scene and applies --set, --dt and --integrator. */
 SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneOptions *options, GError **error);
 

@@ -2,23 +2,25 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "app/cli/scene_body.h"
 #include "app/cli/spheres_series.h"
+#include "core/author/generated_edits.h"
 #include "core/base/number.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
 /* What the command line says. */
 typedef struct Request {
-  char *unit, *frame, *output, *mode, *counts, *svg, *csv;
+  char *unit, *frame, *output, *mode, *counts, *svg, *csv, *body;
   char **regions;
   gint64 count, seed;
-  double tolerance, worth, thickness; /* thickness: < 0 where not given */
+  double tolerance, worth, thickness; /* thickness: < 0 where not given; seed too */
   gboolean asymmetric;
 } Request;
 
 static void clear_request(Request *request) {
   char *const texts[] = {request->unit,   request->frame, request->output, request->mode,
-                         request->counts, request->svg,   request->csv};
+                         request->counts, request->svg,   request->csv,    request->body};
   for (guint i = 0; i < G_N_ELEMENTS(texts); i++) g_free(texts[i]);
   g_strfreev(request->regions);
 }
@@ -83,29 +85,36 @@ static gboolean read_source(SporeCli *cli, const char *file, const Request *requ
                : spore_curve_parse(file, text, size, &read->curve, error);
 }
 
+static gboolean make_set(SporeCli *cli, const char *file, const SporeSpheresSource *source,
+                         const SporeSpheresOptions *options, SporeSphereSet *set, SporeSpheresReport *report,
+                         GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  if (spore_spheres_from_source(source, options, set, report, spore_cli_progress(cli), &fault)) return TRUE;
+  spore_error_at(&fault, file);
+  return spore_error_propagate(&fault, error);
+}
+
+static void report_set(SporeCli *cli, const SporeSpheresSource *source, const SporeSpheresOptions *options,
+                       const SporeSphereSet *set, const SporeSpheresReport *report) {
+  spore_cli_spheres_members(cli, set->count, report);
+  if (source->sheet) say_sheet(cli, set, report, options->thickness > 0);
+  else say_solid(cli, set, report);
+  if (set->weights)
+    spore_cli_say(cli, _("weighted sum: depth error %.4f, felt at %.1f %% of the places just outside\n"),
+                  report->weighted_depth_error, 100 * report->felt_outside);
+}
+
 static gboolean write_set(SporeCli *cli, const char *file, const Request *request, const SporeSpheresSource *source,
                           const SporeSpheresOptions *options, GError **error) {
-  SporeError fault = SPORE_ERROR_INIT;
   SporeSphereSet set = {0};
   SporeSpheresReport report = {0};
-  gboolean done = TRUE;
-  if (!spore_spheres_from_source(source, options, &set, &report, spore_cli_progress(cli), &fault)) {
-    spore_error_at(&fault, file);
-    done = spore_error_propagate(&fault, error);
-  }
+  gboolean done = make_set(cli, file, source, options, &set, &report, error);
   if (done && request->output) {
     gsize size = 0;
     g_autofree char *text = spore_spheres_format(&set, &size);
     done = spore_write_file(request->output, text, size, error);
   }
-  if (done) {
-    spore_cli_spheres_members(cli, set.count, &report);
-    if (source->sheet) say_sheet(cli, &set, &report, options->thickness > 0);
-    else say_solid(cli, &set, &report);
-    if (set.weights)
-      spore_cli_say(cli, _("weighted sum: depth error %.4f, felt at %.1f %% of the places just outside\n"),
-                    report.weighted_depth_error, 100 * report.felt_outside);
-  }
+  if (done) report_set(cli, source, options, &set, &report);
   spore_sphere_set_clear(&set);
   return done;
 }
@@ -156,7 +165,7 @@ static gboolean generate(SporeCli *cli, const char *file, const Request *request
   SporeSpheresOptions options = {.mode = (SporeSpheresMode)mode,
                                  .count = (size_t)request->count,
                                  .tolerance = request->tolerance,
-                                 .seed = (uint64_t)request->seed,
+                                 .seed = request->seed < 0 ? 1 : (uint64_t)request->seed,
                                  .regions = (const SporeSpheresRegion *)(gconstpointer)regions->data,
                                  .region_count = regions->len,
                                  .asymmetric = request->asymmetric,
@@ -170,10 +179,75 @@ static gboolean generate(SporeCli *cli, const char *file, const Request *request
   return done;
 }
 
+/* What the command line says goes before what the asset asks for. */
+static gboolean override_fields(const Request *request, SporeSpheresFields *fields, GError **error) {
+  int mode = request->mode ? spore_cli_choice("--mode", request->mode, spore_spheres_mode_names, error) : -1;
+  if (request->mode && mode < 0) return FALSE;
+  if (request->mode) fields->method = spore_edit_spheres_method((SporeSpheresMode)mode);
+  if (request->count) fields->count = request->count;
+  if (request->count || request->tolerance != 0) fields->tolerance = request->tolerance;
+  if (request->seed >= 0) fields->seed = request->seed;
+  return TRUE;
+}
+
+static gboolean add_regions(SporeSceneBody *scene, char **texts, GError **error) {
+  g_autoptr(GArray) regions = parse_regions(texts, error);
+  for (guint i = 0; regions && i < regions->len; i++) {
+    const SporeSpheresRegion *region = &g_array_index(regions, SporeSpheresRegion, i);
+    if (!spore_cli_add_region(scene, region->centre, region->radius, region->factor, error)) return FALSE;
+  }
+  return regions != NULL;
+}
+
+static gboolean generate_in(SporeCli *cli, const char *file, const Request *request, SporeSceneBody *scene,
+                            GError **error) {
+  SporeSpheresFields fields;
+  SporeSpheresRegion room[SPORE_GENERATE_REGIONS];
+  SporeSphereSet set = {0};
+  SporeSpheresReport report = {0};
+  if (!spore_cli_open_body(cli, file, request->body, "spheres", spore_edit_body_spheres, scene, &fields, error) ||
+      !override_fields(request, &fields, error) || !add_regions(scene, request->regions, error))
+    return FALSE;
+  const SporeSpheresOptions options = spore_edit_spheres_options(&fields, scene->regions, scene->region_count, room);
+  const SporeSpheresSource source = {.solid = scene->mesh};
+  const SporeGeneratedFrom from = {spore_object_name(scene->source), scene->source_hash, &fields,
+                                   scene->regions + scene->own_count, scene->region_count - scene->own_count};
+  gboolean done = make_set(cli, file, &source, &options, &set, &report, error) &&
+                  spore_edit_use_spheres(scene->document, scene->body, &from, &set, error);
+  if (done) {
+    report_set(cli, &source, &options, &set, &report);
+    done = spore_cli_save_body(cli, scene, file, error);
+  }
+  spore_sphere_set_clear(&set);
+  return done;
+}
+
+static gboolean generate_any(SporeCli *cli, const char *file, const Request *request, GError **error) {
+  if (!spore_cli_is_scene(file)) return generate(cli, file, request, error);
+  SporeSceneBody scene = {0};
+  gboolean done = generate_in(cli, file, request, &scene, error);
+  spore_cli_close_body(&scene);
+  return done;
+}
+
+/* Options that a scene's asset has no place for. */
+static int check_scene(const Request *request) {
+  if (request->unit || request->frame || request->output || request->counts || request->asymmetric ||
+      request->thickness >= 0)
+    return spore_cli_usage(
+        _("spore spheres: a scene says unit and axes, and takes the spheres itself; expected none of "
+          "--unit, --frame, --output, --counts, --asymmetric and --thickness with it; leave them "
+          "out, or give the mesh's file"));
+  return SPORE_EXIT_DONE;
+}
+
 /* SPORE_EXIT_DONE to go on. */
-static int check_request(const Request *request) {
+static int check_request(const Request *request, gboolean scene) {
+  if (!scene && request->body)
+    return spore_cli_usage(_("spore spheres: --body is for scenes; expected a file F.spore with it; leave it out"));
+  if (scene && check_scene(request) != SPORE_EXIT_DONE) return SPORE_EXIT_INPUT;
   int ways = (request->count != 0) + (request->tolerance != 0) + (request->counts != NULL);
-  if (request->count < 0 || request->count > SPORE_SPHERES_MAXIMUM || ways != 1 ||
+  if (request->count < 0 || request->count > SPORE_SPHERES_MAXIMUM || (scene ? ways > 1 : ways != 1) ||
       (request->tolerance != 0 && !(request->tolerance >= 1e-4 && request->tolerance < 1)))
     return spore_cli_usage(_("spore spheres: neither number of spheres nor tolerance is one; expected either "
                              "--count 1 to %d, --counts with several of those, or --tolerance "
@@ -208,15 +282,17 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"points", N_("with --counts, instead of all above: each number with the members above")},
       {"enough", N_("with --counts: the number from which on more spheres do not pay; null: all pay")},
       {"worth", N_("with --counts: as given")},
+      {"scene", N_("that was given: as written, and the name of the body that has the spheres: body")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {"spheres",
                                         "FILE",
                                         N_("Fits collision spheres to a mesh, to the tetrahedra of a .mesh file, or "
-                                           "along a .curve file."),
+                                           "along a .curve file; or, of a scene (F.spore), to the mesh that a body of "
+                                           "it shows, and gives them to that body."),
                                         1,
                                         1,
                                         members};
-  Request r = {.seed = 1, .thickness = -1, .worth = SPORE_SPHERES_WORTH};
+  Request r = {.seed = -1, .thickness = -1, .worth = SPORE_SPHERES_WORTH};
   const GOptionEntry entries[] = {
       {"count", 'n', 0, G_OPTION_ARG_INT64, &r.count, N_("Number of spheres"), "N"},
       {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &r.tolerance,
@@ -243,14 +319,15 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &r.unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &r.frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"seed", 0, 0, G_OPTION_ARG_INT64, &r.seed, N_("Seed: the same one gives the same spheres (default 1)"), "N"},
+      SPORE_SCENE_BODY_ENTRY(&r.body),
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &r.output, N_("File to write, x y z r a line, with weights x y z r w"),
        "F.spheres"},
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  if (status == SPORE_EXIT_DONE) status = check_request(&r);
+  if (status == SPORE_EXIT_DONE) status = check_request(&r, spore_cli_is_scene(argv[1]));
   if (status == SPORE_EXIT_DONE)
-    status = generate(cli, argv[1], &r, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+    status = generate_any(cli, argv[1], &r, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
   clear_request(&r);
   return status;
 }

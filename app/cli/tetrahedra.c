@@ -2,8 +2,9 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "app/cli/cli.h"
+#include "app/cli/scene_body.h"
 #include "app/cli/tetrahedra_labels.h"
+#include "core/author/generated_edits.h"
 #include "core/generate/tetrahedra.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
@@ -115,6 +116,50 @@ static int parse_regions(char **texts, SporeTetrahedraRegion *regions, SporeTetr
   return SPORE_EXIT_DONE;
 }
 
+/* What the command line says goes before what the asset asks for. */
+static void override_fields(const SporeTetrahedraOptions *options, SporeTetrahedraFields *fields) {
+  if (options->cells > 0) fields->cells = (int64_t)options->cells;
+  if (options->cells > 0 || options->size > 0) fields->size = options->size;
+  if (options->tolerance > 0) fields->tolerance = options->tolerance;
+  if (options->curvature > 0) fields->curvature = options->curvature;
+  if (options->gap > 0) fields->gap = options->gap;
+  if (options->method != SPORE_TETRAHEDRA_METHODS) fields->method = (int)options->method + 1;
+  fields->fill = fields->fill || options->fill;
+}
+
+static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeTetrahedraOptions *asked,
+                        SporeSceneBody *scene, GError **error) {
+  SporeTetrahedraFields fields;
+  SporeTetrahedraRegion room[SPORE_GENERATE_REGIONS];
+  SporeTetrahedralMesh mesh = {0};
+  SporeTetrahedraReport figures = {0};
+  gboolean done = spore_cli_open_body(cli, file, body, "tetrahedra", spore_edit_body_tetrahedra, scene, &fields, error);
+  for (gsize i = 0; done && i < asked->region_count; i++)
+    done =
+        spore_cli_add_region(scene, asked->regions[i].centre, asked->regions[i].radius, asked->regions[i].size, error);
+  if (!done) return FALSE;
+  override_fields(asked, &fields);
+  const SporeTetrahedraOptions options =
+      spore_edit_tetrahedra_options(&fields, scene->regions, scene->region_count, room);
+  const SporeGeneratedFrom from = {spore_object_name(scene->source), scene->source_hash, &fields,
+                                   scene->regions + scene->own_count, scene->region_count - scene->own_count};
+  done =
+      spore_tetrahedra_from_mesh(from.source, scene->mesh, &options, &mesh, &figures, spore_cli_progress(cli), error) &&
+      spore_edit_use_tetrahedra(scene->document, scene->body, &from, &mesh, error);
+  if (done) report(cli, &mesh, &figures);
+  spore_tetrahedral_mesh_clear(&mesh);
+  return done && spore_cli_save_body(cli, scene, file, error);
+}
+
+/* Of what a body of a scene shows, and for it. */
+static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeTetrahedraOptions *options) {
+  GError *error = NULL;
+  SporeSceneBody scene = {0};
+  gboolean done = make_in(cli, file, body, options, &scene, &error);
+  spore_cli_close_body(&scene);
+  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
 /* Of a label map, which says its own unit and axes. */
 static int generate_labels(SporeCli *cli, const char *file, GBytes *content, const SporeTetrahedraOptions *options,
                            const char *labels, const char *output) {
@@ -157,9 +202,10 @@ static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOp
   return generate(cli, file, options, unit, frame, output);
 }
 
-/* What the options must be; prints its own message. */
-static int check(const SporeTetrahedraOptions *options, gint64 cells, const char *output) {
-  if (cells < 0 || cells > SPORE_TETRAHEDRA_CELLS || (cells == 0) == !(options->size > 0))
+/* What the options must be; prints its own message. scene: the asset says what is not given. */
+static int check(const SporeTetrahedraOptions *options, gint64 cells, const char *output, gboolean scene) {
+  gboolean both = cells != 0 && options->size != 0, none = cells == 0 && !(options->size > 0);
+  if (cells < 0 || cells > SPORE_TETRAHEDRA_CELLS || both || (none && (!scene || options->size != 0)))
     return spore_cli_usage(_("spore tetrahedra: neither number of cells nor size is one; expected either --cells 1 to "
                              "%u or --size in metres above 0; give one of them"),
                            SPORE_TETRAHEDRA_CELLS);
@@ -192,17 +238,30 @@ static const SporeReportMember members[] = {
     {"shared_faces", N_("of a label map: between two organs")},
     {"labels", N_("of a label map, of each organ: label, cells, volume_m3, voxel_volume_m3, volume_change, "
                   "min_dihedral_deg")},
+    {"scene", N_("that was given: as written, and the name of the body that has the tetrahedra: body")},
     {NULL, NULL}};
+
+/* A scene says unit and axes, and takes the result itself. */
+static int check_scene(gboolean scene, const char *body, gboolean others) {
+  if (!scene && body)
+    return spore_cli_usage(_("spore tetrahedra: --body is for scenes; expected a file F.spore with it; leave it out"));
+  if (scene && others)
+    return spore_cli_usage(_("spore tetrahedra: a scene says unit and axes, and takes the tetrahedra itself; expected "
+                             "none of --unit, --frame, --labels and --output with it; leave them out, or give the "
+                             "mesh's file"));
+  return SPORE_EXIT_DONE;
+}
 
 int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
   static const SporeCommandInfo info = {"tetrahedra",
-                                        "MESH|LABELS",
+                                        "MESH|LABELS|SCENE",
                                         N_("Fills a mesh, or all organs of a label map (NIfTI-1, NRRD), with "
-                                           "tetrahedra; organs share the faces where they touch."),
+                                           "tetrahedra; organs share the faces where they touch. Of a scene (F.spore): "
+                                           "the mesh that a body of it shows, which becomes soft."),
                                         1,
                                         1,
                                         members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *method = NULL, *labels = NULL, **regions = NULL;
+  char *unit = NULL, *frame = NULL, *output = NULL, *method = NULL, *labels = NULL, *body = NULL, **regions = NULL;
   gint64 cells = 0;
   SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_METHODS};
   const GOptionEntry entries[] = {
@@ -225,6 +284,7 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"labels", 'l', 0, G_OPTION_ARG_STRING, &labels, N_("Labels wanted of a label map (default: all above 0)"),
        "1,2,5"},
+      SPORE_SCENE_BODY_ENTRY(&body),
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write: .vtu, .msh or .mesh"), "F"},
       G_OPTION_ENTRY_NULL};
   SporeTetrahedraRegion balls[SPORE_TETRAHEDRA_REGIONS];
@@ -236,9 +296,14 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
   if (error) status = spore_cli_fail(error);
   options.method = (SporeTetrahedraMethod)chosen;
   if (status == SPORE_EXIT_DONE) status = parse_regions(regions, balls, &options);
-  if (status == SPORE_EXIT_DONE) status = check(&options, cells, output);
+  gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
+  if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, unit || frame || labels || output);
+  if (status == SPORE_EXIT_DONE) status = check(&options, cells, output, scene);
   options.cells = (size_t)MAX(cells, 0);
-  if (status == SPORE_EXIT_DONE) status = generate_any(cli, argv[1], &options, unit, frame, labels, output);
+  if (status == SPORE_EXIT_DONE)
+    status = scene ? generate_in(cli, argv[1], body, &options)
+                   : generate_any(cli, argv[1], &options, unit, frame, labels, output);
+  g_free(body);
   g_free(unit);
   g_free(frame);
   g_free(output);

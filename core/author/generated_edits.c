@@ -6,6 +6,7 @@
 #include "core/io/organ.h"
 #include "core/scene/generated.h"
 #include "core/author/edits.h"
+#include "core/author/region_edits.h"
 
 /* What a body uses. */
 
@@ -64,6 +65,28 @@ static gboolean remember_options(SporeDocument *document, SporeObject *asset, co
   return done;
 }
 
+/* The last of a region's own parameters is what shall be there. */
+static gboolean add_region(SporeDocument *document, SporeObject *asset, const SporeGenerateRegion *given,
+                           GError **error) {
+  const char *element = spore_region_element(spore_object_type(asset));
+  SporeObject *region = spore_document_insert(document, asset, element, "region", G_MAXUINT, error);
+  if (!region) return FALSE;
+  const SporeParameterTable *table = spore_object_type(region)->table;
+  const SporeValue centre = {.type = SPORE_VECTOR, .number = {given->centre[0], given->centre[1], given->centre[2]}};
+  const SporeValue radius = {.type = SPORE_REAL, .number = {given->radius}};
+  const SporeValue value = {.type = SPORE_REAL, .number = {given->value}};
+  return spore_document_set(document, region, (guint)spore_parameter_find(table, "centre"), &centre, error) &&
+         spore_document_set(document, region, (guint)spore_parameter_find(table, "radius"), &radius, error) &&
+         spore_document_set(document, region, (guint)table->count - 1, &value, error);
+}
+
+static gboolean add_regions(SporeDocument *document, SporeObject *asset, const SporeGeneratedFrom *from,
+                            GError **error) {
+  for (gsize i = 0; i < from->region_count; i++)
+    if (!add_region(document, asset, &from->regions[i], error)) return FALSE;
+  return TRUE;
+}
+
 static gboolean unset(SporeDocument *document, SporeObject *object, const char *property, GError **error) {
   int index = spore_parameter_find(spore_object_type(object)->table, property);
   return spore_document_unset(document, object, (guint)index, error);
@@ -85,7 +108,8 @@ static SporeObject *keep(SporeDocument *document, SporeObject *body, SporeObject
   if (!asset)
     asset = spore_document_insert(document, spore_document_section(document, "assets"), content->element, name,
                                   G_MAXUINT, error);
-  if (!asset || !spore_generated_may_change(asset, error) || !remember_options(document, asset, from->fields, error))
+  if (!asset || !spore_generated_may_change(asset, error) || !remember_options(document, asset, from->fields, error) ||
+      !add_regions(document, asset, from, error))
     return NULL;
   g_autofree char *file =
       spore_content_file_name(spore_object_name(asset), content->extension, content->text, content->size);

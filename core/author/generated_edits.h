@@ -2,14 +2,17 @@
 #ifndef SPORE_AUTHOR_GENERATED_EDITS_H
 #define SPORE_AUTHOR_GENERATED_EDITS_H
 
+#include "core/author/generated_options.h"
 #include "core/generate/centreline_scene.h"
 #include "core/scene/document.h"
 #include "core/scene/schema_fields.h"
 
 /* Where generated data come from. */
 typedef struct SporeGeneratedFrom {
-  const char *source, *source_hash; /* name of the mesh asset, and its hash then */
-  const void *fields;               /* of the asset's table: those that say how to generate are remembered */
+  const char *source, *source_hash;   /* name of the mesh asset, and its hash then */
+  const void *fields;                 /* of the asset's table: those that say how to generate are remembered */
+  const SporeGenerateRegion *regions; /* region_count, which become the asset's besides those that it has */
+  gsize region_count;
 } SporeGeneratedFrom;
 
 /* Sphere, tetrahedra or curve asset in use by the body, or NULL. */

@@ -104,7 +104,7 @@ def soft_ball():
 def help_lists_commands():
     """help lists every command; no command and unknown ones are usage errors."""
     text = spore("--help").stdout
-    for name in ("run", "check", "plan", "import", "centreline", "spheres", "surface", "tetrahedra", "models", "schema"):
+    for name in ("run", "check", "plan", "import", "edit", "centreline", "spheres", "surface", "tetrahedra", "models", "schema"):
         assert f"\n  {name} " in text
         assert "--json" in spore(name, "--help").stdout
     spore(status=2)
@@ -172,6 +172,55 @@ def surface_makes_nets():
     refuses("surface", "ball.off", "-n", 60, "--keep-angle", -5, says=["--keep-angle -5"])
     refuses("surface", "ball.off", "-n", 60, "-o", "ball.stl", says=["ball.stl", ".off or .obj"])
     refuses("surface", "gone.off", "-n", 60, says=["gone.off"])
+
+
+@check
+def a_scene_is_authored_by_commands():
+    """Organs of two units in one scene; a body becomes soft and felt, of a tissue, held, and is touched: it runs."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    file("egg.off", shapes.off(*shapes.sphere(radius=30)))
+    scene = WORK / "authored" / "two.spore"
+    spore("import", "ball.off", "-o", scene)
+    assert report("import", "egg.off", "--unit", "mm", "--add", "-o", scene)["bodies"] == ["ball", "egg"]
+    made = report("tetrahedra", scene, "--body", "egg", "--cells", "300", "--region", "0,0.03,0,0.01,0.004")
+    assert made["body"] == "egg" and made["tetrahedra"] > 100
+    made = report("spheres", scene, "--body", "egg", "--count", "12", "--region", "0,0.03,0,0.01,2")
+    assert made["count"] == 12 and made["scene"] == str(scene)
+    first = scene.read_text()
+    again = report("spheres", scene, "--body", "egg")
+    assert again["count"] == 12 and scene.read_text() == first, "the asset says number and regions, and no second set is made"
+    spore("edit", scene, "--set", "bodies/egg/mechanical/material=liver", "--set", "bodies/egg/collision/stiffness=300",
+          "--hold", "egg", "--probe")
+    tree = xml.etree.ElementTree.parse(scene).getroot()
+    body = tree.find("bodies/body[@name='egg']")
+    assert body.get("role") is None and body.find("mechanical").get("material") == "liver"
+    assert tree.find(f"assets/tetrahedra[@name='{body.find('mechanical').get('geometry')}']").get("source") == "egg"
+    assert body.find("collision").get("stiffness") == "300" and len(tree.findall("assets/spheres/sphere_region")) == 1
+    assert tree.find("links/pin").get("body") == "egg" and tree.find("tools/probe").get("body") == "probe"
+    assert report("run", scene, "--steps", "20")["dof"] > 100
+    assert not [d for d in report("check", scene)["diagnostics"] if d["severity"] == "error"]
+
+
+@check
+def authoring_commands_refuse_what_they_cannot_do():
+    """No body, an unknown one, options that a scene says itself, a frozen asset, nothing to do: words, and no change."""
+    scene = WORK / "authored" / "refused.spore"
+    file("ball.off", shapes.off(*shapes.sphere()))
+    spore("import", "ball.off", "ball.off", "-o", scene)
+    spore("spheres", scene, "--body", "ball", "--count", "3")
+    scene.write_text(scene.read_text().replace("<spheres ", '<spheres frozen="true" '))
+    before = scene.read_text()
+    refuses("spheres", scene, "--count", "3", says=("no body is named", "ball, ball-2"))
+    refuses("tetrahedra", scene, "--body", "bal", "--cells", "100", says=('no body "bal"', "ball, ball-2"))
+    refuses("spheres", scene, "--body", "ball", "--count", "4", says=("frozen",))
+    refuses("spheres", scene, "--body", "ball", "--count", "3", "-o", "x.spheres", says=("--output",))
+    refuses("tetrahedra", scene, "--body", "ball", "--unit", "mm", says=("--unit",))
+    refuses("spheres", "ball.off", "--body", "ball", "--count", "3", says=("--body", ".spore"))
+    refuses("edit", scene, says=("nothing is asked for",))
+    refuses("edit", scene, "--hold", "none", says=('no body "none"',))
+    refuses("edit", scene, "--set", "bodies/ball/collision/stifness=3", says=("did you mean",))
+    refuses("import", "ball.off", "--add", "-o", WORK / "authored" / "absent.spore", says=("absent.spore", "no such file"))
+    assert scene.read_text() == before
 
 
 @check

@@ -4,28 +4,10 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-/* Spheres from tetrahedra are those of their surface, balanced. */
-static SporeSpheresMode mode_named(const char *name) {
-  for (int i = 0; i < SPORE_SPHERES_MODE_COUNT; i++)
-    if (g_strcmp0(name, spore_spheres_mode_names[i]) == 0) return (SporeSpheresMode)i;
-  return SPORE_SPHERES_BALANCED;
-}
-
 /* regions: gets those of the work. */
 static SporeSpheresOptions options_of(const SporeGenerateWork *work,
                                       SporeSpheresRegion regions[SPORE_GENERATE_REGIONS]) {
-  for (gsize i = 0; i < work->region_count; i++) {
-    const SporeGenerateRegion *region = &work->regions[i];
-    regions[i] =
-        (SporeSpheresRegion){{region->centre[0], region->centre[1], region->centre[2]}, region->radius, region->value};
-  }
-  const SporeSpheresFields *fields = &work->options.fields.spheres;
-  return (SporeSpheresOptions){.mode = mode_named(spore_sphere_methods[fields->method]),
-                               .count = fields->tolerance > 0 ? 0 : (size_t)fields->count,
-                               .tolerance = fields->tolerance,
-                               .seed = (uint64_t)fields->seed,
-                               .regions = regions,
-                               .region_count = work->region_count};
+  return spore_edit_spheres_options(&work->options.fields.spheres, work->regions, work->region_count, regions);
 }
 
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {

@@ -4,27 +4,10 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-G_STATIC_ASSERT(SPORE_GENERATE_REGIONS <= SPORE_TETRAHEDRA_REGIONS);
-
 /* regions: gets those of the work. */
 static SporeTetrahedraOptions options_of(const SporeGenerateWork *work,
                                          SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS]) {
-  for (gsize i = 0; i < work->region_count; i++) {
-    const SporeGenerateRegion *region = &work->regions[i];
-    regions[i] = (SporeTetrahedraRegion){
-        {region->centre[0], region->centre[1], region->centre[2]}, region->radius, region->value};
-  }
-  const SporeTetrahedraFields *fields = &work->options.fields.tetrahedra;
-  return (SporeTetrahedraOptions){.method = fields->method ? (SporeTetrahedraMethod)(fields->method - 1)
-                                                           : SPORE_TETRAHEDRA_METHODS,
-                                  .cells = fields->size > 0 ? 0 : (size_t)fields->cells,
-                                  .size = fields->size,
-                                  .tolerance = fields->tolerance,
-                                  .curvature = fields->curvature,
-                                  .fill = fields->fill,
-                                  .gap = fields->gap,
-                                  .regions = regions,
-                                  .region_count = work->region_count};
+  return spore_edit_tetrahedra_options(&work->options.fields.tetrahedra, work->regions, work->region_count, regions);
 }
 
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {

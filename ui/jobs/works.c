@@ -51,12 +51,7 @@ gboolean spore_open_work_run(gpointer data, const SporeProgress *progress, GErro
 /* Generate. */
 
 SporeObject *spore_generate_source(SporeDocument *document, SporeObject *body, SporeGenerateKind kind, GError **error) {
-  SporeObject *shown = spore_edit_visual_mesh(document, body, NULL);
-  SporeObject *target = spore_generate_target(document, body, kind);
-  if (shown && shown != target) return shown;
-  const char *source = target ? spore_object_text(target, "source") : NULL;
-  SporeObject *mesh = source ? spore_document_find(document, "mesh", source) : NULL;
-  return mesh ? mesh : spore_edit_visual_mesh(document, body, error);
+  return spore_edit_generator_source(document, body, spore_generate_target(document, body, kind), error);
 }
 
 static SporeGenerateWork *new_of_labels(const SporeGenerateOptions *options) {
@@ -67,36 +62,10 @@ static SporeGenerateWork *new_of_labels(const SporeGenerateOptions *options) {
   return work;
 }
 
-/* The last of a region's own parameters is what shall be there. */
-static void read_region(const SporeObject *object, SporeGenerateRegion *region) {
-  const SporeParameterTable *table = spore_object_type(object)->table;
-  const SporeValue *centre = spore_object_value(object, (guint)spore_parameter_find(table, "centre"));
-  memcpy(region->centre, centre->number, sizeof region->centre);
-  region->radius = spore_object_number(object, "radius");
-  region->value = spore_object_value(object, (guint)table->count - 1)->number[0];
-}
-
-/* FALSE: there are more. */
-static gboolean read_regions(const SporeObject *asset, SporeGenerateRegion *regions, gsize *count) {
-  *count = 0;
-  for (guint i = 0; asset && i < spore_object_child_count(asset); i++) {
-    if (*count == SPORE_GENERATE_REGIONS) return FALSE;
-    read_region(spore_object_child(asset, i), &regions[(*count)++]);
-  }
-  return TRUE;
-}
-
-static gboolean take_regions(SporeGenerateWork *work, const SporeObject *asset, GError **error) {
-  return read_regions(asset, work->regions, &work->region_count) ||
-         spore_error_raise(error, SPORE_ERROR_INPUT, spore_object_name(asset),
-                           _("it has more than %d regions; a generator takes no more; delete some"),
-                           SPORE_GENERATE_REGIONS);
-}
-
 static gboolean same_regions(const SporeGenerateWork *work, const SporeObject *asset) {
   SporeGenerateRegion regions[SPORE_GENERATE_REGIONS];
   gsize count;
-  return read_regions(asset, regions, &count) && count == work->region_count &&
+  return spore_edit_generator_regions(asset, regions, &count, NULL) && count == work->region_count &&
          memcmp(regions, work->regions, count * sizeof *regions) == 0;
 }
 
@@ -113,7 +82,7 @@ SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject 
   work->source = g_strdup(spore_object_name(asset));
   work->source_hash = spore_document_asset_hash(document, asset);
   SporeObject *target = spore_generate_target(document, body, options->kind);
-  if (take_regions(work, target, error)) {
+  if (spore_edit_generator_regions(target, work->regions, &work->region_count, error)) {
     if (spore_triangle_mesh_copy(&work->mesh, mesh, &failure)) return work;
     spore_error_propagate(&failure, error);
   }

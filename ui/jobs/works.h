@@ -3,6 +3,7 @@
 #define SPORE_UI_JOBS_WORKS_H
 
 #include "core/base/progress.h"
+#include "core/author/generated_options.h"
 #include "core/generate/centreline.h"
 #include "core/generate/label_tetrahedra.h"
 #include "core/generate/spheres.h"
@@ -54,8 +55,7 @@ gboolean spore_generate_wants_label(const SporeGenerateOptions *options, gsize i
 void spore_generate_want_label(SporeGenerateOptions *options, gsize i, gboolean wanted);
 /* The asset of the body that a generator of this kind makes, or NULL. */
 SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
-/* The mesh asset that it is made from: what the body shows; where that is what was generated, or nothing, what the
- * generated asset came from. NULL with an error: there is none. */
+/* As spore_edit_generator_source says. */
 SporeObject *spore_generate_source(SporeDocument *document, SporeObject *body, SporeGenerateKind kind, GError **error);
 /* What describes the fields. */
 const SporeParameterTable *spore_generate_table(SporeDocument *document, SporeGenerateKind kind);
@@ -65,13 +65,6 @@ SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObj
 size_t spore_generate_get_count(const SporeGenerateOptions *options);
 /* By number from now on, where it is another number. */
 void spore_generate_set_count(SporeGenerateOptions *options, size_t count);
-
-/* A region of the generated asset: a ball, and what shall be there. */
-typedef struct SporeGenerateRegion {
-  double centre[3], radius; /* m */
-  double value;             /* density of spheres, edge length of cells (m) */
-} SporeGenerateRegion;
-#define SPORE_GENERATE_REGIONS 64 /* at most */
 
 /* What generators share: where they started from, to be compared when they are through. Counted references. */
 typedef struct SporeGenerateWork {

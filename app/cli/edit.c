@@ -1,0 +1,75 @@
+/* spore edit: what an author changes in a scene, from the command line. */
+#include <glib/gi18n.h>
+
+#include "app/cli/scene.h"
+#include "core/author/edits.h"
+#include "core/io/scene_xml.h"
+#include "core/scene/check.h"
+
+/* What the command line says. */
+typedef struct Request {
+  char **set, **hold, *output;
+  gboolean probe;
+} Request;
+
+static gboolean hold(SporeDocument *document, const char *name, GError **error) {
+  SporeObject *body = spore_document_find(document, "body", name);
+  if (!body)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--hold",
+                             _("there is no body \"%s\"; expected one of the scene's; correct the name"), name);
+  return spore_edit_add_pin(document, body, error) != NULL;
+}
+
+static gboolean apply(SporeDocument *document, const Request *request, GError **error) {
+  for (char **setting = request->set; setting && *setting; setting++)
+    if (!spore_cli_set(document, *setting, error)) return FALSE;
+  for (char **name = request->hold; name && *name; name++)
+    if (!hold(document, *name, error)) return FALSE;
+  return !request->probe || spore_edit_add_probe(document, error);
+}
+
+static gboolean edit(SporeCli *cli, const char *file, const Request *request, GError **error) {
+  const char *output = request->output ? request->output : file;
+  SporeDocument *document = spore_scene_load(cli->schema, file, error);
+  gboolean done = document && apply(document, request, error) && spore_cli_make_folder_of(output, error) &&
+                  spore_scene_save(document, output, error);
+  if (done) {
+    spore_cli_text(cli, "scene", output);
+    spore_cli_say(cli, _("%s: written\n"), output);
+    spore_cli_open_array(cli, "diagnostics");
+    spore_cli_diagnostics(cli, document);
+    spore_cli_close_array(cli);
+  }
+  if (document) spore_document_free(document);
+  return done;
+}
+
+int spore_command_edit(SporeCli *cli, int argc, char **argv) {
+  static const SporeReportMember members[] = {
+      {"scene", N_("file that was written")},
+      {"diagnostics", N_("what there is to mend in it: place, message, remedy")},
+      {NULL, NULL}};
+  static const SporeCommandInfo info = {
+      "edit", "SCENE", N_("Changes a scene and saves it; then says what there is to mend in it."), 1, 1, members};
+  Request request = {0};
+  const GOptionEntry entries[] = {
+      {"set", 's', 0, G_OPTION_ARG_STRING_ARRAY, &request.set,
+       N_("Set a property, and keep it: bodies/liver/mechanical/material=liver (may be repeated)"), "PATH=VALUE"},
+      {"hold", 0, 0, G_OPTION_ARG_STRING_ARRAY, &request.hold,
+       N_("Pin a body where it lies lowest and farthest behind, so that it does not fall (may be repeated)"), "BODY"},
+      {"probe", 0, 0, G_OPTION_ARG_NONE, &request.probe, N_("Add a probe that the mouse moves, above the organs"),
+       NULL},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request.output, N_("Scene to write (default: the same)"), "F.spore"},
+      G_OPTION_ENTRY_NULL};
+  GError *error = NULL;
+  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  if (status == SPORE_EXIT_DONE && !request.set && !request.hold && !request.probe)
+    status =
+        spore_cli_usage(_("spore edit: nothing is asked for; expected --set, --hold or --probe; give one of them"));
+  if (status == SPORE_EXIT_DONE)
+    status = edit(cli, argv[1], &request, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+  g_strfreev(request.set);
+  g_strfreev(request.hold);
+  g_free(request.output);
+  return status;
+}

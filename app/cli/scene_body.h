@@ -1,0 +1,39 @@
+/* A body of a scene that a generator works for, in place of a mesh file: what it makes becomes the body's. */
+#ifndef SPORE_APP_CLI_SCENE_BODY_H
+#define SPORE_APP_CLI_SCENE_BODY_H
+
+#include "app/cli/cli.h"
+#include "core/author/generated_options.h"
+
+typedef struct SporeSceneBody {
+  SporeDocument *document;
+  SporeObject *body, *target;    /* target: asset that the body uses already, or NULL */
+  const SporeTriangleMesh *mesh; /* that it is made from; the document's */
+  SporeObject *source;           /* asset of the mesh */
+  char *source_hash;
+  SporeGenerateRegion regions[SPORE_GENERATE_REGIONS]; /* the asset's, then those of the command line */
+  gsize region_count, own_count;                       /* own: of the asset */
+} SporeSceneBody;
+
+#define SPORE_SCENE_BODY_ENTRY(name)                                                                                   \
+  {                                                                                                                    \
+    "body", 'b', 0, G_OPTION_ARG_STRING, (name),                                                                       \
+        N_("Body of the scene that gets the result (default: the only one); what is not given here is as its asset "   \
+           "says"),                                                                                                    \
+        "NAME"                                                                                                         \
+  }
+
+/* Whether the file is a scene, by its name. */
+gboolean spore_cli_is_scene(const char *file);
+/* find: the asset of the body. fields: filled with what the asset asks for, or the usual. */
+gboolean spore_cli_open_body(SporeCli *cli, const char *file, const char *name, const char *element,
+                             SporeObject *(*find)(SporeDocument *document, SporeObject *body), SporeSceneBody *scene,
+                             void *fields, GError **error);
+/* A region of the command line; FALSE with an error: there are too many. */
+gboolean spore_cli_add_region(SporeSceneBody *scene, const double centre[3], double radius, double value,
+                              GError **error);
+/* Saves the scene where it was, and says so. */
+gboolean spore_cli_save_body(SporeCli *cli, SporeSceneBody *scene, const char *file, GError **error);
+void spore_cli_close_body(SporeSceneBody *scene);
+
+#endif
