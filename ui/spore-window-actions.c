@@ -90,12 +90,31 @@ static void act_use_preset(GSimpleAction *action, GVariant *parameter, gpointer 
     spore_window_failed(self, error);
 }
 
+/* What is edited is where it is at the start. */
+static gboolean may_edit(SporeWindow *self) {
+  SporeSession *session = spore_player_get_session(self->player);
+  if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
+  spore_window_complain(self, _("Editing by hand needs the scene at its start; go back to it first (Shift+F5)"));
+  return FALSE;
+}
+
 static void act_add_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   SporeObject *body = spore_window_body_to_work_on(self);
   g_autoptr(GError) error = NULL;
   if (body && !spore_edit_add_region(document_of(self), body, g_variant_get_string(parameter, NULL), &error))
     spore_window_failed(self, error);
+}
+
+/* By its handles in the view. */
+static void act_place_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  SporeWindow *self = data;
+  g_autoptr(GError) error = NULL;
+  SporeObject *region = spore_edit_find_region(document_of(self), g_variant_get_string(parameter, NULL), &error);
+  if (spore_window_failed(self, error) || !may_edit(self)) return;
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "tool", g_variant_new_string("edit"));
+  spore_viewport_edit_region(SPORE_VIEWPORT(self->viewport), region);
+  spore_window_show_hint(self);
 }
 
 static void act_remove_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -160,14 +179,6 @@ static void change_speed(GSimpleAction *action, GVariant *state, gpointer data) 
 }
 
 /* View. */
-
-/* What is edited is where it is at the start. */
-static gboolean may_edit(SporeWindow *self) {
-  SporeSession *session = spore_player_get_session(self->player);
-  if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
-  spore_window_complain(self, _("Editing by hand needs the scene at its start; go back to it first (Shift+F5)"));
-  return FALSE;
-}
 
 static void change_tool(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
@@ -237,6 +248,7 @@ void spore_window_add_scene_actions(SporeWindow *self) {
       {"set-model", act_set_model, "s"},
       {"use-preset", act_use_preset, "s"},
       {"add-region", act_add_region, "s"},
+      {"place-region", act_place_region, "s"},
       {"remove-region", act_remove_region, "s"},
       {"add-probe", act_add_probe},
       {"add-pin", act_add_pin},

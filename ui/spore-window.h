@@ -8,7 +8,8 @@
  *               save-recording-dialog, close
  *   edit        undo, redo, select [s path], rename [s name], rename-dialog, delete, set-property [s path, s name,
  *               s value], unset-property [s path, s name], set-model [s element], use-preset [s name], add-probe,
- *               add-pin, add-region [s path of what holds it], remove-region [s path]
+ *               add-pin, add-region [s path of what holds it], place-region [s path] (in the view),
+ *               remove-region [s path]
  *   generators  generate-K [u count] (at once), preview-K [u count] (0: as before) for K of spheres, tetrahedra, curve,
  *               surface; preview-labels [s path], preview-labels-dialog; pick-ends (state), automatic-ends;
  *               apply-generated, cancel-job

@@ -11,6 +11,7 @@
 #define PART 0.125 /* of the diagonal: radius of a new region */
 #define LEAST_M 1e-4
 #define RING_SEGMENTS 48
+#define NOTHING_M 1e-7 /* what is smaller is rounding */
 
 const char *spore_region_element(const SporeObjectType *holder) {
   for (guint i = 0; i < holder->children->len; i++) {
@@ -26,10 +27,16 @@ static gboolean set_numbers(SporeDocument *document, SporeObject *object, const 
   g_autoptr(GString) text = g_string_new(NULL);
   for (gsize i = 0; i < count; i++) {
     char number[G_ASCII_DTOSTR_BUF_SIZE];
-    g_ascii_formatd(number, sizeof number, "%.4g", numbers[i]);
+    g_ascii_formatd(number, sizeof number, "%.4g", fabs(numbers[i]) < NOTHING_M ? 0 : numbers[i]);
     g_string_append_printf(text, i ? " %s" : "%s", number);
   }
   return spore_document_set_text(document, object, property, text->str, error);
+}
+
+static gboolean set_ball(SporeDocument *document, SporeObject *region, const double centre[3], double radius,
+                         GError **error) {
+  return set_numbers(document, region, "centre", centre, 3, error) &&
+         set_numbers(document, region, "radius", &radius, 1, error);
 }
 
 /* Points of an organ, `stride` doubles apart. */
@@ -106,8 +113,7 @@ static SporeObject *add_region(SporeDocument *document, SporeObject *body, const
   if (!find_middle(document, body, holder, &middle, &radius, error)) return NULL;
   spore_vec3_store(centre, middle);
   SporeObject *region = spore_document_insert(document, holder, element, "region", G_MAXUINT, error);
-  gboolean done = region && set_numbers(document, region, "centre", centre, 3, error) &&
-                  set_numbers(document, region, "radius", &radius, 1, error) && set_size(document, region, error);
+  gboolean done = region && set_ball(document, region, centre, radius, error) && set_size(document, region, error);
   return done ? region : NULL;
 }
 
@@ -124,14 +130,36 @@ static gboolean remove_region(SporeDocument *document, SporeObject *region, GErr
          (!unit || spore_object_child_count(holder) || spore_document_remove(document, holder, error));
 }
 
-gboolean spore_edit_remove_region(SporeDocument *document, const char *path, GError **error) {
-  SporeObject *region = spore_document_by_path(document, path);
-  SporeObject *holder = region ? spore_object_parent(region) : NULL;
+gboolean spore_region_is(const SporeObject *object) {
+  SporeObject *holder = spore_object_parent(object);
   const char *element = holder ? spore_region_element(spore_object_type(holder)) : NULL;
-  if (!element || strcmp(spore_object_type(region)->element, element) != 0)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, path, _("there is no such region; choose one of the list"));
+  return element && strcmp(spore_object_type(object)->element, element) == 0;
+}
+
+SporeObject *spore_edit_find_region(SporeDocument *document, const char *path, GError **error) {
+  SporeObject *region = spore_document_by_path(document, path);
+  if (region && spore_region_is(region)) return region;
+  spore_error_raise(error, SPORE_ERROR_INPUT, path, _("there is no such region; choose one of the list"));
+  return NULL;
+}
+
+gboolean spore_edit_remove_region(SporeDocument *document, const char *path, GError **error) {
+  SporeObject *region = spore_edit_find_region(document, path, error);
+  if (!region) return FALSE;
   spore_document_begin(document, _("Delete region"));
   return spore_edit_finish(document, remove_region(document, region, error));
+}
+
+gboolean spore_edit_place_region(SporeDocument *document, SporeObject *region, const double centre[3], double radius,
+                                 GError **error) {
+  spore_document_begin(document, _("Place region"));
+  return spore_edit_finish(document, set_ball(document, region, centre, radius, error));
+}
+
+void spore_region_ball(const SporeObject *region, double ball[4]) {
+  int centre = spore_parameter_find(spore_object_type(region)->table, "centre");
+  memcpy(ball, spore_object_value(region, (guint)centre)->number, 3 * sizeof *ball);
+  ball[3] = spore_object_number(region, "radius");
 }
 
 static void add_ring(double *segments, SporeVec3 centre, double radius, int axis) {
@@ -149,12 +177,10 @@ double *spore_region_rings(const SporeObject *holder, gsize *count) {
   *count = 3 * (gsize)regions * RING_SEGMENTS;
   double *segments = g_new(double, 6 * *count);
   for (guint i = 0; i < regions; i++) {
-    const SporeObject *region = spore_object_child(holder, i);
-    int centre = spore_parameter_find(spore_object_type(region)->table, "centre");
-    const SporeValue *value = spore_object_value(region, (guint)centre);
+    double ball[4];
+    spore_region_ball(spore_object_child(holder, i), ball);
     for (int axis = 0; axis < 3; axis++)
-      add_ring(segments + 6 * RING_SEGMENTS * (3 * i + (guint)axis), spore_vec3_load(value->number),
-               spore_object_number(region, "radius"), axis);
+      add_ring(segments + 6 * RING_SEGMENTS * (3 * i + (guint)axis), spore_vec3_load(ball), ball[3], axis);
   }
   return segments;
 }

@@ -309,6 +309,50 @@ static void test_regions_of_generated(Fixture *fixture, gconstpointer data) {
   g_assert_cmpint(spore_generated_state(fixture->document, asset), ==, SPORE_GENERATED_FRESH);
 }
 
+/* A gesture on a region changes the scene as it goes, and is one step; aborted, it leaves nothing. */
+static void test_hand_edit_region(Fixture *fixture, gconstpointer data) {
+  SporeHandEdit edit = {0};
+  SporeObject *body = add_organ(fixture);
+  use_tetrahedron(fixture, body);
+  GError *error = NULL;
+  SporeObject *one = spore_edit_add_region(fixture->document, body, "bodies/my_organ/regions", &error);
+  SporeObject *two = spore_edit_add_region(fixture->document, body, "bodies/my_organ/regions", &error);
+  g_assert_no_error(error);
+  g_autofree char *before = text_of(fixture);
+  g_assert_true(spore_hand_edit_open_regions(&edit, fixture->document, spore_object_parent(one)));
+  g_assert_cmpint(edit.kind, ==, SPORE_HAND_REGIONS);
+  g_assert_cmpuint(edit.count, ==, 2);
+  g_assert_cmpuint(edit.body, ==, spore_object_id(body));
+  edit.chosen = 1;
+  for (int way = 0; way < 2; way++) {
+    spore_document_begin(fixture->document, "drag");
+    for (int i = 1; i < 4; i++) {
+      edit.points[4] = 0.01 * i;
+      edit.points[7] = 0.02 * i;
+      g_assert_true(spore_hand_edit_write_region(&edit, fixture->document, &error));
+      double ball[4];
+      spore_region_ball(two, ball);
+      g_assert_cmpfloat_with_epsilon(ball[0], 0.01 * i, 1e-12);
+      g_assert_cmpfloat_with_epsilon(ball[3], 0.02 * i, 1e-12);
+    }
+    if (way == 0) spore_document_abort(fixture->document);
+    else spore_document_end(fixture->document);
+    if (way == 0) {
+      g_autofree char *after = text_of(fixture);
+      g_assert_cmpstr(before, ==, after);
+    }
+  }
+  assert_one_step(fixture, before);
+  edit.points[7] = -1; /* no radius */
+  g_assert_false(spore_hand_edit_write_region(&edit, fixture->document, &error));
+  g_assert_nonnull(error);
+  g_clear_error(&error);
+  g_assert_cmpfloat(edit.points[7], >, 0);
+  spore_document_remove(fixture->document, spore_object_parent(one), NULL);
+  g_assert_false(spore_hand_edit_write_region(&edit, fixture->document, &error));
+  spore_hand_edit_close(&edit);
+}
+
 /* As the editor does it: on a copy of the scene. */
 static void measure_mapping(Fixture *fixture, SporeObject *body, SporeMappingReport *report) {
   GError *error = NULL;
@@ -673,6 +717,7 @@ int main(int argc, char **argv) {
       {"add-twice", test_add_twice},
       {"use-spheres", test_use_spheres},
       {"hand-edit", test_hand_edit},
+      {"hand-edit-region", test_hand_edit_region},
       {"hand-edit-weights", test_hand_edit_weights},
       {"usual-model", test_usual_model},
       {"regions", test_regions},

@@ -361,6 +361,60 @@ def regions_are_added_and_deleted():
         editor.find("push button", "^Regenerate$", showing=False)
 
 
+@check
+def region_placed_in_the_view():
+    """a region is put on the organ by a click, dragged by its middle and by its rim, a step each, and its numbers follow the hand."""
+    with start() as editor:
+        import_ball(editor)
+        editor.act("set-model", "s", "mass_spring_net")
+        editor.act("generate-spheres", "u", 20)
+        ui.wait(lambda: editor.row("ball_spheres"), "the spheres")
+        editor.act("select", "s", "bodies/ball")
+        editor.act("view", "s", "front")
+        editor.act("add-region", "s", "assets/ball_spheres")
+        before = saved(editor, "placed")
+        editor.press(editor.find("push button", "^Place region region in the view$", showing=False))
+        editor.find("label", "Click puts the region there")
+        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+        middle = x + width // 2, y + height // 2
+
+        def numbers():
+            centre = editor.text_of(editor.find("text", "^Centre$", showing=False)).split()
+            return [float(n) for n in centre] + [float(editor.text_of(editor.find("text", "^Radius$", showing=False)))]
+
+        first = numbers()
+        editor.mouse("mousemove", 5, 5)  # no tooltip takes the keyboard
+        editor.focus()
+        # The middle, held: the numbers follow before it is let go, and Escape takes it back.
+        editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", 40, 0, "sleep", 0.2)
+        ui.wait(lambda: numbers()[0] > first[0] + 1e-3, "the centre to follow")
+        editor.mouse("key", "Escape")  # which lets the button alone
+        ui.wait(lambda: numbers() == first, "the drag to be taken back")
+        editor.mouse("mouseup", 1)
+        assert saved(editor, "placed") == before
+        editor.mouse("mousemove", *middle, "mousedown", 1, "mousemove_relative", "--", 40, 0, "sleep", 0.2, "mouseup", 1)
+        moved = ui.wait(lambda: numbers() if numbers()[0] > first[0] + 1e-3 else None, "the centre to move")
+        assert moved[3] == first[3]
+        pixel = (moved[0] - first[0]) / 40
+        rim = round(40 + first[3] / pixel)
+        editor.mouse("mousemove", middle[0] + rim, middle[1], "mousedown", 1, "mousemove_relative", "--", 30, 0, "sleep", 0.2)
+        ui.wait(lambda: numbers()[3] > first[3] + 1e-3, "the radius to follow")
+        editor.mouse("mouseup", 1)
+        sized = numbers()
+        assert sized[:3] == moved[:3] and abs(sized[3] - first[3] - 30 * pixel) < 0.1 * 30 * pixel, (moved, sized, pixel)
+        # A click on the organ beside its handles: its middle goes to the surface, which is nearer.
+        editor.mouse("mousemove", middle[0] - 30, middle[1] + 30, "click", 1)
+        ui.wait(lambda: numbers()[2] > first[2] + 0.01, "the region to come to the surface")
+        placed = numbers()
+        assert placed[0] < first[0] and placed[1] < first[1] and placed[3] == sized[3], placed
+        assert abs(sum(n * n for n in placed[:3]) ** 0.5 - 0.03) < 1e-3, placed
+        for text in (placed, sized, moved):
+            assert numbers() == text, (numbers(), text)
+            editor.act("undo")
+        ui.wait(lambda: numbers() == first, "all three to be undone")
+        assert saved(editor, "placed") == before
+
+
 def picture_of_view(editor):
     """(pixels, bytes a pixel, bytes a row, width, height) of the view, without its tools and figures."""
     import gi

@@ -7,6 +7,7 @@
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/author/edits.h"
+#include "core/author/region_edits.h"
 
 static gboolean is_of(SporeObject *object, const char *element) {
   return object && g_str_equal(spore_object_type(object)->element, element);
@@ -17,13 +18,16 @@ static SporeObject *asset_of_body(SporeDocument *document, SporeObject *body) {
   return spheres ? spheres : spore_edit_used_asset(document, body, "mechanical", "geometry", "curve");
 }
 
+static gboolean uses(SporeDocument *document, SporeObject *body, const SporeObject *asset) {
+  return spore_edit_used_asset(document, body, "collision", "spheres", "spheres") == asset ||
+         spore_edit_used_asset(document, body, "mechanical", "geometry", "curve|tetrahedra") == asset;
+}
+
 static SporeObject *body_of_asset(SporeDocument *document, SporeObject *asset) {
   SporeObject *bodies = spore_document_section(document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
-    if (spore_edit_used_asset(document, body, "collision", "spheres", "spheres") == asset ||
-        spore_edit_used_asset(document, body, "mechanical", "geometry", "curve") == asset)
-      return body;
+    if (uses(document, body, asset)) return body;
   }
   return NULL;
 }
@@ -37,10 +41,20 @@ static void copy_points(SporeHandEdit *edit, const double *points, const double 
   if (edit->chosen >= count) edit->chosen = G_MAXSIZE;
 }
 
+static gboolean load_regions(SporeHandEdit *edit, SporeObject *holder) {
+  gsize count = spore_object_child_count(holder);
+  g_autofree double *balls = g_new(double, MAX(4 * count, 1));
+  for (guint i = 0; i < count; i++) spore_region_ball(spore_object_child(holder, i), balls + 4 * i);
+  edit->kind = SPORE_HAND_REGIONS;
+  copy_points(edit, balls, NULL, count);
+  return TRUE;
+}
+
 static gboolean load(SporeHandEdit *edit, SporeDocument *document, SporeObject *asset) {
-  edit->curve = is_of(asset, "curve");
-  const SporeCurve *curve = edit->curve ? spore_document_curve(document, asset, NULL) : NULL;
-  const SporeSphereSet *set = edit->curve ? NULL : spore_document_spheres(document, asset, NULL);
+  gboolean is_curve = is_of(asset, "curve");
+  edit->kind = is_curve ? SPORE_HAND_CURVE : SPORE_HAND_SPHERES;
+  const SporeCurve *curve = is_curve ? spore_document_curve(document, asset, NULL) : NULL;
+  const SporeSphereSet *set = is_curve ? NULL : spore_document_spheres(document, asset, NULL);
   if (curve) copy_points(edit, curve->points, NULL, curve->count);
   if (set) copy_points(edit, set->spheres, set->weights, set->count);
   return curve || set;
@@ -51,9 +65,20 @@ gboolean spore_hand_edit_open(SporeHandEdit *edit, SporeDocument *document, Spor
   SporeObject *body = itself ? body_of_asset(document, selected) : selected;
   while (body && !is_of(body, "body")) body = spore_object_parent(body);
   SporeObject *asset = itself ? selected : body ? asset_of_body(document, body) : NULL;
-  if (!asset || !body || spore_object_id(asset) != edit->asset) spore_hand_edit_close(edit);
+  if (!asset || !body || spore_object_id(asset) != edit->asset || edit->kind == SPORE_HAND_REGIONS)
+    spore_hand_edit_close(edit);
   if (!asset || !body || !load(edit, document, asset)) return FALSE;
   edit->asset = spore_object_id(asset);
+  edit->body = spore_object_id(body);
+  return TRUE;
+}
+
+gboolean spore_hand_edit_open_regions(SporeHandEdit *edit, SporeDocument *document, SporeObject *holder) {
+  SporeObject *body = spore_object_parent(holder);
+  if (!is_of(body, "body")) body = body_of_asset(document, holder);
+  if (!body || spore_object_id(holder) != edit->asset || edit->kind != SPORE_HAND_REGIONS) spore_hand_edit_close(edit);
+  if (!body || !load_regions(edit, holder)) return FALSE;
+  edit->asset = spore_object_id(holder);
   edit->body = spore_object_id(body);
   return TRUE;
 }
@@ -86,7 +111,7 @@ static double usual_radius(const SporeHandEdit *edit) {
 }
 
 void spore_hand_edit_add(SporeHandEdit *edit, SporeVec3 place, double r) {
-  gsize at = edit->curve && edit->chosen < edit->count ? edit->chosen + 1 : edit->count;
+  gsize at = edit->kind == SPORE_HAND_CURVE && edit->chosen < edit->count ? edit->chosen + 1 : edit->count;
   const double sphere[4] = {place.x, place.y, place.z, r > 0 ? r : usual_radius(edit)};
   edit->points = g_renew(double, edit->points, 4 * (edit->count + 1));
   memmove(edit->points + 4 * (at + 1), edit->points + 4 * at, 4 * (edit->count - at) * sizeof(double));
@@ -100,7 +125,7 @@ void spore_hand_edit_add(SporeHandEdit *edit, SporeVec3 place, double r) {
 }
 
 gboolean spore_hand_edit_remove(SporeHandEdit *edit) {
-  if (edit->chosen >= edit->count || edit->count <= (edit->curve ? 2 : 1)) return FALSE;
+  if (edit->chosen >= edit->count || edit->count <= (edit->kind == SPORE_HAND_CURVE ? 2 : 1)) return FALSE;
   gsize after = edit->count - edit->chosen - 1;
   memmove(edit->points + 4 * edit->chosen, edit->points + 4 * (edit->chosen + 1), 4 * after * sizeof(double));
   if (edit->weights) memmove(edit->weights + edit->chosen, edit->weights + edit->chosen + 1, after * sizeof(double));
@@ -112,7 +137,8 @@ gboolean spore_hand_edit_remove(SporeHandEdit *edit) {
 static char *format(const SporeHandEdit *edit, gsize *size, SporeError *error) {
   SporeCurve curve = {.count = edit->count, .points = edit->points};
   SporeSphereSet set = {.count = edit->count, .spheres = edit->points, .weights = edit->weights};
-  if (edit->curve) return spore_curve_validate(&curve, error) ? spore_curve_format(&curve, size) : NULL;
+  if (edit->kind == SPORE_HAND_CURVE)
+    return spore_curve_validate(&curve, error) ? spore_curve_format(&curve, size) : NULL;
   return spore_sphere_set_validate(&set, error) ? spore_spheres_format(&set, size) : NULL;
 }
 
@@ -122,15 +148,26 @@ static gboolean write_points(SporeHandEdit *edit, SporeDocument *document, Spore
   char *text = format(edit, &size, &failure);
   if (!text) return spore_error_propagate(&failure, error);
   g_autoptr(GBytes) content = g_bytes_new_take(text, size);
-  g_autofree char *file =
-      spore_content_file_name(spore_object_name(asset), edit->curve ? "curve" : "spheres", text, size);
+  g_autofree char *file = spore_content_file_name(spore_object_name(asset),
+                                                  edit->kind == SPORE_HAND_CURVE ? "curve" : "spheres", text, size);
   const char *source = spore_object_text(asset, "source");
   spore_document_put_blob(document, file, content);
   return spore_document_set_text(document, asset, "file", file, error) &&
          (!source || !*source || spore_document_set_text(document, asset, "edited", "true", error));
 }
 
+gboolean spore_hand_edit_write_region(SporeHandEdit *edit, SporeDocument *document, GError **error) {
+  SporeObject *holder = spore_document_by_id(document, edit->asset);
+  if (!holder || edit->chosen >= MIN(edit->count, spore_object_child_count(holder))) return FALSE;
+  const double *ball = edit->points + 4 * edit->chosen;
+  if (spore_edit_place_region(document, spore_object_child(holder, (guint)edit->chosen), ball, ball[3], error))
+    return TRUE;
+  load_regions(edit, holder);
+  return FALSE;
+}
+
 gboolean spore_hand_edit_commit(SporeHandEdit *edit, SporeDocument *document, const char *label, GError **error) {
+  if (edit->kind == SPORE_HAND_REGIONS) return spore_hand_edit_write_region(edit, document, error);
   SporeObject *asset = spore_document_by_id(document, edit->asset);
   if (!asset) return FALSE;
   spore_document_begin(document, label);

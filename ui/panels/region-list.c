@@ -16,20 +16,26 @@ static GtkWidget *new_button(GtkWidget *button, const char *action, const char *
   return button;
 }
 
+static GtkWidget *new_icon(const char *icon, const char *text, const char *action, const char *path) {
+  GtkWidget *button = gtk_button_new_from_icon_name(icon, GTK_ICON_SIZE_BUTTON);
+  gtk_style_context_add_class(gtk_widget_get_style_context(button), "row-button");
+  gtk_button_set_relief(GTK_BUTTON(button), GTK_RELIEF_NONE);
+  gtk_widget_set_tooltip_text(button, text);
+  atk_object_set_name(gtk_widget_get_accessible(button), text);
+  return new_button(button, action, path);
+}
+
 static GtkWidget *new_head(SporeObject *region, const char *path) {
   GtkWidget *head = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *name = gtk_label_new(spore_object_name(region));
-  GtkWidget *button = gtk_button_new_from_icon_name("edit-delete-symbolic", GTK_ICON_SIZE_BUTTON);
-  g_autofree char *tooltip = g_strdup_printf(_("Delete region %s"), spore_object_name(region));
+  g_autofree char *place = g_strdup_printf(_("Place region %s in the view"), spore_object_name(region));
+  g_autofree char *delete = g_strdup_printf(_("Delete region %s"), spore_object_name(region));
   gtk_label_set_xalign(GTK_LABEL(name), 0);
   gtk_label_set_ellipsize(GTK_LABEL(name), PANGO_ELLIPSIZE_END);
   gtk_widget_set_hexpand(name, TRUE);
   gtk_style_context_add_class(gtk_widget_get_style_context(name), "heading");
-  gtk_style_context_add_class(gtk_widget_get_style_context(button), "row-button");
-  gtk_button_set_relief(GTK_BUTTON(button), GTK_RELIEF_NONE);
-  gtk_widget_set_tooltip_text(button, tooltip);
-  atk_object_set_name(gtk_widget_get_accessible(button), tooltip);
   gtk_container_add(GTK_CONTAINER(head), name);
-  gtk_container_add(GTK_CONTAINER(head), new_button(button, "remove-region", path));
+  gtk_container_add(GTK_CONTAINER(head), new_icon("find-location-symbolic", place, "place-region", path));
+  gtk_container_add(GTK_CONTAINER(head), new_icon("edit-delete-symbolic", delete, "remove-region", path));
   return head;
 }
 
@@ -65,7 +71,8 @@ void spore_fill_region_list(GtkBox *box, SporeEditorDocument *document, const ch
     gtk_container_add(GTK_CONTAINER(box), label);
   }
   GtkWidget *button = new_button(gtk_button_new_with_label(_("Add region")), "add-region", holder);
-  gtk_widget_set_tooltip_text(button, _("A ball in the middle of the body, to be placed and sized by its rows"));
+  gtk_widget_set_tooltip_text(button,
+                              _("A ball in the middle of the body, to be placed and sized in the view or by its rows"));
   gtk_widget_set_halign(button, GTK_ALIGN_START);
   gtk_container_add(GTK_CONTAINER(box), button);
 }

@@ -1,6 +1,7 @@
-/* The Edit tool: spheres and points of curves by hand. Each gesture is one undo step. */
+/* The Edit tool: spheres, points of curves and regions by hand. Each gesture is one undo step. */
 #include <glib/gi18n.h>
 
+#include "core/author/region_edits.h"
 #include "ui/panels/report.h"
 #include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
@@ -8,6 +9,9 @@
 #define RADIUS_A_NOTCH 1.05
 #define NOTCHES_REST_MS 400 /* wheel notches that come faster are one step */
 #define STEP_PART 0.1       /* of the radius, that an arrow key moves by */
+#define HANDLE_PIXELS 6.0   /* radius as drawn */
+#define REACH_PIXELS 11.0   /* of it, that a click meets it in */
+#define LEAST_M 1e-5        /* radius */
 
 static SporeDocument *document_of(SporeViewport *self) { return spore_editor_document_get(self->document); }
 
@@ -29,6 +33,50 @@ static double *chosen(SporeViewport *self) {
   return self->edit.chosen < self->edit.count ? self->edit.points + 4 * self->edit.chosen : NULL;
 }
 
+static int width_of(SporeViewport *self) { return gtk_widget_get_allocated_width(self->area); }
+static int height_of(SporeViewport *self) { return gtk_widget_get_allocated_height(self->area); }
+
+static gboolean edits_regions(const SporeViewport *self) { return self->edit.kind == SPORE_HAND_REGIONS; }
+
+/* Handles: of regions, which nothing solid shows, one in the middle of each; of what is chosen one on its rim. */
+
+static SporeVec3 middle_of(SporeViewport *self, const double *ball) {
+  return spore_pose_apply(pose_of(self), spore_vec3_load(ball));
+}
+
+static SporeVec3 rim_of(SporeViewport *self, const double *ball) {
+  SporeVec3 eye, right, up, forward;
+  spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
+  return spore_vec3_add_scaled(middle_of(self, ball), ball[3], right);
+}
+
+static gboolean is_at(SporeViewport *self, SporeVec3 handle, double x, double y) {
+  double at_x, at_y;
+  return spore_camera_project(&self->camera, handle, width_of(self), height_of(self), &at_x, &at_y) &&
+         hypot(at_x - x, at_y - y) <= REACH_PIXELS;
+}
+
+static void draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboolean filled) {
+  double x, y;
+  if (!spore_camera_project(&self->camera, handle, width_of(self), height_of(self), &x, &y)) return;
+  cairo_new_path(cr);
+  cairo_arc(cr, x, y, HANDLE_PIXELS, 0, 2 * G_PI);
+  if (filled) cairo_set_source_rgb(cr, 1, 0.85, 0.3);
+  else cairo_set_source_rgba(cr, 1, 1, 1, 0.75);
+  cairo_fill_preserve(cr);
+  cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+  cairo_set_line_width(cr, 1.5);
+  cairo_stroke(cr);
+}
+
+void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr) {
+  const double *ball = chosen(self);
+  if (self->tool != SPORE_TOOL_EDIT) return;
+  for (gsize i = 0; edits_regions(self) && i < self->edit.count; i++)
+    draw_handle(self, cr, middle_of(self, self->edit.points + 4 * i), i == self->edit.chosen);
+  if (ball) draw_handle(self, cr, rim_of(self, ball), TRUE);
+}
+
 /* Showing. */
 
 static void add_lines(SporeStageCandidate *candidate, const SporeHandEdit *edit) {
@@ -43,22 +91,37 @@ static void add_lines(SporeStageCandidate *candidate, const SporeHandEdit *edit)
 static void show(SporeViewport *self) {
   static const SporeQuality none = {0};
   const SporeHandEdit *edit = &self->edit;
-  SporeStageCandidate *candidate = edit->count ? g_new0(SporeStageCandidate, 1) : NULL;
+  gboolean solid = edit->count && !edits_regions(self); /* rings show regions */
+  SporeStageCandidate *candidate = solid ? g_new0(SporeStageCandidate, 1) : NULL;
   if (candidate) {
     candidate->body = edit->body;
     candidate->sphere_count = edit->count;
     candidate->spheres = g_memdup2(edit->points, 4 * edit->count * sizeof(double));
     candidate->chosen = edit->chosen;
-    if (edit->curve) add_lines(candidate, edit);
+    if (edit->kind == SPORE_HAND_CURVE) add_lines(candidate, edit);
   }
   spore_viewport_set_candidate(self, candidate, &none);
+  spore_viewport_redraw(self);
 }
 
 void spore_viewport_edit_refresh(SporeViewport *self) {
   if (self->tool != SPORE_TOOL_EDIT || !self->document || self->drag == DRAG_EDIT || self->edit_timer) return;
-  spore_hand_edit_open(&self->edit, document_of(self), spore_editor_document_selected(self->document));
+  SporeObject *holder = self->regions ? spore_document_by_id(document_of(self), self->regions) : NULL;
+  if (holder) spore_hand_edit_open_regions(&self->edit, document_of(self), holder);
+  else spore_hand_edit_open(&self->edit, document_of(self), spore_editor_document_selected(self->document));
   show(self);
 }
+
+void spore_viewport_edit_region(SporeViewport *self, SporeObject *region) {
+  SporeObject *holder = spore_object_parent(region);
+  self->regions = spore_object_id(holder);
+  spore_viewport_edit_refresh(self);
+  for (guint i = 0; i < spore_object_child_count(holder); i++)
+    if (spore_object_child(holder, i) == region) self->edit.chosen = i;
+  show(self);
+}
+
+gboolean spore_viewport_edits_regions(SporeViewport *self) { return self->tool == SPORE_TOOL_EDIT && self->regions; }
 
 static void commit(SporeViewport *self, const char *label) {
   g_autoptr(GError) error = NULL;
@@ -84,46 +147,94 @@ static gboolean notches_rest(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
+/* TRUE: a handle was there. */
+static gboolean pick_handle(SporeViewport *self, double x, double y) {
+  const double *ball = chosen(self);
+  self->edit_resizes = ball && is_at(self, rim_of(self, ball), x, y);
+  if (self->edit_resizes) return TRUE;
+  if (edits_regions(self) && ball && is_at(self, middle_of(self, ball), x, y)) return TRUE;
+  for (gsize i = 0; edits_regions(self) && i < self->edit.count; i++) {
+    if (!is_at(self, middle_of(self, self->edit.points + 4 * i), x, y)) continue;
+    self->edit.chosen = i;
+    return TRUE;
+  }
+  return FALSE;
+}
+
 static void pick(SporeViewport *self, double x, double y) {
   SporeVec3 origin, direction;
-  spore_camera_ray(&self->camera, x, y, gtk_widget_get_allocated_width(self->area),
-                   gtk_widget_get_allocated_height(self->area), &origin, &direction);
+  spore_camera_ray(&self->camera, x, y, width_of(self), height_of(self), &origin, &direction);
   self->edit.chosen = spore_hand_edit_pick(&self->edit, to_body(self, origin), turned_to_body(self, direction));
 }
 
 static SporeVec3 under_cursor(SporeViewport *self, SporeVec3 through) {
-  return spore_camera_unproject(&self->camera, through, self->last_x, self->last_y,
-                                gtk_widget_get_allocated_width(self->area),
-                                gtk_widget_get_allocated_height(self->area));
+  return spore_camera_unproject(&self->camera, through, self->last_x, self->last_y, width_of(self), height_of(self));
+}
+
+/* Regions follow the drag in the scene, so that their numbers do. */
+static void write_region(SporeViewport *self) {
+  g_autoptr(GError) error = NULL;
+  if (edits_regions(self) && !spore_hand_edit_write_region(&self->edit, document_of(self), &error) && error)
+    spore_report(GTK_WIDGET(self), error);
+}
+
+static void begin_drag(SporeViewport *self) {
+  const double *ball = chosen(self);
+  memcpy(self->edit_before, ball, sizeof self->edit_before);
+  SporeVec3 held = self->edit_resizes ? rim_of(self, ball) : middle_of(self, ball);
+  self->offset = spore_vec3_sub(held, under_cursor(self, held));
+  self->drag = DRAG_EDIT;
+  if (edits_regions(self)) spore_document_begin(document_of(self), _("Place region"));
 }
 
 /* Where there is one under the cursor, a drag begins. FALSE: select another body instead. */
 gboolean spore_viewport_edit_press(SporeViewport *self, double x, double y) {
   if (!self->edit.count) return FALSE;
   if (self->edit_timer) commit(self, _("Resize by hand"));
-  pick(self, x, y);
+  if (!pick_handle(self, x, y)) {
+    if (edits_regions(self)) return FALSE;
+    pick(self, x, y);
+  }
   show(self);
-  double *sphere = chosen(self);
-  if (!sphere) return FALSE;
-  memcpy(self->edit_before, sphere, sizeof self->edit_before);
-  SporeVec3 place = spore_pose_apply(pose_of(self), spore_vec3_load(sphere));
-  self->offset = spore_vec3_sub(place, under_cursor(self, place));
-  self->drag = DRAG_EDIT;
+  if (!chosen(self)) return FALSE;
+  begin_drag(self);
+  return TRUE;
+}
+
+gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place) {
+  double *ball = chosen(self);
+  if (!spore_viewport_edits_regions(self) || !ball || body != self->edit.body) return FALSE;
+  self->edit_resizes = FALSE;
+  begin_drag(self);
+  self->offset = (SporeVec3){0, 0, 0};
+  spore_vec3_store(ball, to_body(self, place));
+  write_region(self);
+  show(self);
   return TRUE;
 }
 
 void spore_viewport_edit_motion(SporeViewport *self) {
-  double *sphere = chosen(self);
-  SporeVec3 place = spore_pose_apply(pose_of(self), spore_vec3_load(sphere));
-  spore_vec3_store(sphere, to_body(self, spore_vec3_add(under_cursor(self, place), self->offset)));
+  double *ball = chosen(self);
+  if (!ball) return;
+  SporeVec3 middle = middle_of(self, ball), held = self->edit_resizes ? rim_of(self, ball) : middle;
+  SporeVec3 led = spore_vec3_add(under_cursor(self, held), self->offset);
+  if (self->edit_resizes) ball[3] = fmax(spore_vec3_distance(led, middle), LEAST_M);
+  else spore_vec3_store(ball, to_body(self, led));
+  write_region(self);
   show(self);
 }
 
 void spore_viewport_edit_release(SporeViewport *self, gboolean keep) {
-  double *sphere = chosen(self);
-  if (!sphere || memcmp(sphere, self->edit_before, sizeof self->edit_before) == 0) return;
-  if (keep) commit(self, _("Move by hand"));
-  else memcpy(sphere, self->edit_before, sizeof self->edit_before);
+  double *ball = chosen(self);
+  if (edits_regions(self)) {
+    if (keep) spore_document_end(document_of(self));
+    else spore_document_abort(document_of(self));
+    spore_viewport_edit_refresh(self);
+    return;
+  }
+  if (!ball || memcmp(ball, self->edit_before, sizeof self->edit_before) == 0) return;
+  if (keep) commit(self, self->edit_resizes ? _("Resize by hand") : _("Move by hand"));
+  else memcpy(ball, self->edit_before, sizeof self->edit_before);
   show(self);
 }
 
@@ -139,6 +250,14 @@ gboolean spore_viewport_edit_scroll(SporeViewport *self, double notches) {
 
 /* Beside the chosen one, to its right on the screen. */
 static void add(SporeViewport *self) {
+  if (edits_regions(self)) {
+    SporeObject *holder = spore_document_by_id(document_of(self), self->edit.asset);
+    g_autofree char *path = spore_object_path(holder);
+    spore_activate(GTK_WIDGET(self), "add-region", g_variant_new_string(path));
+    self->edit.chosen = self->edit.count - 1; /* the document has told of it */
+    show(self);
+    return;
+  }
   SporeVec3 eye, right, up, forward;
   const double *sphere = chosen(self);
   spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
@@ -146,6 +265,17 @@ static void add(SporeViewport *self) {
                            : to_body(self, self->camera.target);
   spore_hand_edit_add(&self->edit, place, 0);
   commit(self, _("Add by hand"));
+}
+
+static void delete_chosen(SporeViewport *self) {
+  SporeObject *holder = edits_regions(self) ? spore_document_by_id(document_of(self), self->edit.asset) : NULL;
+  if (holder && chosen(self)) {
+    g_autofree char *path = spore_object_path(spore_object_child(holder, (guint)self->edit.chosen));
+    self->edit.chosen = G_MAXSIZE;
+    spore_activate(GTK_WIDGET(self), "remove-region", g_variant_new_string(path));
+  } else if (!holder && spore_hand_edit_remove(&self->edit)) {
+    commit(self, _("Delete by hand"));
+  }
 }
 
 static void nudge(SporeViewport *self, double dx, double dy) {
@@ -175,7 +305,7 @@ gboolean spore_viewport_edit_key(SporeViewport *self, guint key) {
   if (self->tool != SPORE_TOOL_EDIT || !self->edit.count || self->drag != DRAG_NONE) return FALSE;
   switch (key) {
   case GDK_KEY_Delete:
-    if (spore_hand_edit_remove(&self->edit)) commit(self, _("Delete by hand"));
+    delete_chosen(self);
     return TRUE;
   case GDK_KEY_Insert:
   case GDK_KEY_a:

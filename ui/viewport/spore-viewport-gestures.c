@@ -156,7 +156,7 @@ static void release_pull(SporeViewport *self) {
 /* Drags. */
 
 void spore_viewport_end_drag(SporeViewport *self) {
-  gboolean edits = self->drag == DRAG_EDIT;
+  gboolean edits = self->drag == DRAG_EDIT && self->document;
   if (self->drag == DRAG_PULL) release_pull(self);
   self->drag = DRAG_NONE;
   if (edits) spore_viewport_edit_release(self, TRUE);
@@ -168,7 +168,10 @@ static void abort_drag(SporeViewport *self) {
     self->hand = self->hand_before;
     lead_probe(self);
   }
-  if (self->drag == DRAG_EDIT) spore_viewport_edit_release(self, FALSE);
+  if (self->drag == DRAG_EDIT) {
+    self->drag = DRAG_NONE;
+    spore_viewport_edit_release(self, FALSE);
+  }
   spore_viewport_end_drag(self);
   spore_viewport_redraw(self);
 }
@@ -189,7 +192,9 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
   if (self->tool == SPORE_TOOL_PROBE && begin_probe(self)) return;
   if (self->tool == SPORE_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
-  spore_editor_document_select(self->document, pick(self, event->x, event->y, &point));
+  guint32 body = pick(self, event->x, event->y, &point);
+  if (body && spore_viewport_edit_place(self, body, point)) return;
+  if (body || !spore_viewport_edits_regions(self)) spore_editor_document_select(self->document, body);
 }
 
 gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {

@@ -18,6 +18,8 @@ struct _SporeViewport {
   SporeStageOptions options;
 
   SporeHandEdit edit;    /* of the Edit tool */
+  guint32 regions;       /* id of what holds the regions that it edits; 0: it edits spheres or a curve */
+  gboolean edit_resizes; /* the drag has the handle on the rim, else the middle */
   double edit_before[4]; /* the chosen one when the drag began */
   guint edit_timer;      /* wheel notches that are not committed yet */
   SporeStageCandidate *candidate;
@@ -70,6 +72,9 @@ void spore_viewport_edit_motion(SporeViewport *self);
 void spore_viewport_edit_release(SporeViewport *self, gboolean keep);
 gboolean spore_viewport_edit_scroll(SporeViewport *self, double notches); /* FALSE: nothing is chosen */
 gboolean spore_viewport_edit_key(SporeViewport *self, guint key);         /* FALSE: not its key */
+void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr);          /* the handles */
+/* Of a click on the surface of that body, where no handle is: the chosen region goes there. FALSE: none does. */
+gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place);
 
 /* What moves the view by hand comes after this: it looks through no camera of the scene any more. */
 void spore_viewport_leave_scene_camera(SporeViewport *self);

@@ -1,6 +1,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
+#include "core/author/region_edits.h"
 #include "ui/document/labels.h"
 #include "ui/render/colour_scale.h"
 #include "ui/viewport/camera-moves.h"
@@ -235,6 +236,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   draw_force(self, cr, width, height);
   draw_pull(self, cr, width, height);
   draw_legend(self, cr, width, height);
+  spore_viewport_edit_draw(self, cr);
   return FALSE;
 }
 
@@ -351,8 +353,16 @@ static void player_replaced(SporeViewport *self) {
 
 static void selection_changed(SporeViewport *self) {
   if (self->stage) spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
+  self->regions = 0;
   spore_viewport_edit_refresh(self);
   spore_viewport_redraw(self);
+}
+
+static void document_changed(SporeViewport *self, int kind, guint id, guint property) {
+  SporeObject *object = spore_document_by_id(spore_editor_document_get(self->document), id);
+  /* Regions only show where something is: the bodies look as before. */
+  if (object && spore_region_is(object)) spore_viewport_edit_refresh(self);
+  else queue_rebuild(self);
 }
 
 /* Life. */
@@ -374,7 +384,7 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
   self->document = g_object_ref(document);
   self->player = g_object_ref(player);
   self->framed = FALSE;
-  g_signal_connect_object(document, "changed", G_CALLBACK(queue_rebuild), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(selection_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(player, "replaced", G_CALLBACK(player_replaced), self, G_CONNECT_SWAPPED);
@@ -403,6 +413,7 @@ void spore_viewport_set_tool(SporeViewport *self, SporeTool tool) {
   spore_viewport_end_drag(self);
   spore_viewport_edit_end(self);
   self->tool = tool;
+  self->regions = 0;
   spore_viewport_edit_refresh(self);
   spore_viewport_redraw(self);
 }

@@ -4,7 +4,8 @@
  * 3, 7 look along the axes, 0 through the scene's camera and with it, Escape takes a drag back. With the Probe tool,
  * left moves the probe and takes it from its track, Shift+left turns it, the wheel moves it in depth, right closes its
  * jaws and presses its pedal; with Shift let go, they stay so. With the Edit tool, left picks and moves spheres and
- * points of curves, the wheel and +, - resize, arrows move, N and P go on, Insert adds, Delete deletes.
+ * points of curves, and the chosen one's handle resizes it; the wheel and +, - resize, arrows move, N and P go on,
+ * Insert adds, Delete deletes. So it does with regions, by their handles; left on the organ puts the chosen one there.
  *
  * Signals
  *   picked (u body, p place)   where a click met that body while picking: const SporeVec3 *, world, m */
@@ -28,6 +29,9 @@ void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *docum
 /* A scene is on its way: do not offer to begin with another. */
 void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
 void spore_viewport_set_tool(SporeViewport *self, SporeTool tool);
+/* The Edit tool, for the regions that the object holds, this one first. */
+void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
+gboolean spore_viewport_edits_regions(SporeViewport *self);
 /* The next click of the left button on a body does not select it: it is told by "picked". */
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
