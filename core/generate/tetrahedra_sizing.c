@@ -100,32 +100,57 @@ static double region_bound(const SporeTetrahedraRegion *region, SporeVec3 p, dou
   return EDGE_SCALE * region->size + SPORE_SIZING_GRADATION * fmax(beyond, 0);
 }
 
+/* The nodes before a node in the order in which they lie, those after it mirrored: steps, and by how much the size may
+ * grow on the way. */
+typedef struct Neighbour {
+  int step[3];
+  ptrdiff_t offset;
+  double growth; /* m */
+} Neighbour;
+
+enum { NEIGHBOURS = 13 };
+
+static void list_neighbours(const SporeSizing *grid, Neighbour neighbours[NEIGHBOURS]) {
+  const ptrdiff_t row = (ptrdiff_t)grid->count[0], slice = row * (ptrdiff_t)grid->count[1];
+  for (int n = 0; n < NEIGHBOURS; n++) {
+    const int dx = n % 3 - 1, dy = n / 3 % 3 - 1, dz = n / 9 - 1;
+    const double way = grid->spacing * sqrt((double)(dx * dx + dy * dy + dz * dz));
+    neighbours[n] = (Neighbour){{dx, dy, dz}, dx + dy * row + dz * slice, SPORE_SIZING_GRADATION * way};
+  }
+}
+
+/* Whether there is a node at `at` plus sign times step. */
+static bool is_node(const SporeSizing *grid, const size_t at[3], ptrdiff_t sign, const int step[3]) {
+  for (int k = 0; k < 3; k++) {
+    const ptrdiff_t to = (ptrdiff_t)at[k] + sign * step[k];
+    if (to < 0 || to >= (ptrdiff_t)grid->count[k]) return false;
+  }
+  return true;
+}
+
 /* No size is larger than a neighbour's and what the way between lets it grow. One sweep along the order of the nodes,
  * or against it. */
-static void limit_growth(SporeSizing *grid, bool forth) {
-  size_t count = node_count(grid), row = grid->count[0], slice = row * grid->count[1];
+static void limit_growth(SporeSizing *grid, const Neighbour neighbours[NEIGHBOURS], bool forth) {
+  const size_t count = node_count(grid), *sides = grid->count;
+  const ptrdiff_t sign = forth ? 1 : -1;
   for (size_t n = 0; n < count; n++) {
-    size_t i = forth ? n : count - 1 - n;
-    const size_t at[3] = {i % row, i / row % grid->count[1], i / slice};
-    for (int dz = -1; dz <= 0; dz++)
-      for (int dy = -1; dy <= 1; dy++)
-        for (int dx = -1; dx <= 1; dx++) {
-          if (dz * 9 + dy * 3 + dx >= 0) continue; /* the neighbours that this sweep has met */
-          const int sign = forth ? 1 : -1;
-          const int step[3] = {sign * dx, sign * dy, sign * dz};
-          bool inside = true;
-          for (int k = 0; k < 3; k++)
-            inside = inside && (step[k] >= 0 || at[k] > 0) && (step[k] <= 0 || at[k] + 1 < grid->count[k]);
-          if (!inside) continue;
-          ptrdiff_t other = (ptrdiff_t)i + step[0] + step[1] * (ptrdiff_t)row + step[2] * (ptrdiff_t)slice;
-          double way = grid->spacing * sqrt((double)(dx * dx + dy * dy + dz * dz));
-          grid->size[i] = fmin(grid->size[i], grid->size[other] + SPORE_SIZING_GRADATION * way);
-        }
+    const size_t i = forth ? n : count - 1 - n;
+    const size_t at[3] = {i % sides[0], i / sides[0] % sides[1], i / (sides[0] * sides[1])};
+    bool inner = true;
+    for (int k = 0; k < 3; k++) inner = inner && at[k] > 0 && at[k] + 1 < sides[k];
+    double size = grid->size[i];
+    for (int m = 0; m < NEIGHBOURS; m++) {
+      if (!inner && !is_node(grid, at, sign, neighbours[m].step)) continue;
+      const double most = grid->size[(ptrdiff_t)i + sign * neighbours[m].offset] + neighbours[m].growth;
+      if (most < size) size = most;
+    }
+    grid->size[i] = size;
   }
 }
 
 void spore_sizing_plan_scale(SporeSizingPlan *plan, const SporeTetrahedraWork *work, double scale) {
   SporeSizing *grid = &plan->grid;
+  double least = HUGE_VAL, most = 0;
   size_t i = 0;
   for (size_t z = 0; z < grid->count[2]; z++)
     for (size_t y = 0; y < grid->count[1]; y++)
@@ -134,9 +159,10 @@ void spore_sizing_plan_scale(SporeSizingPlan *plan, const SporeTetrahedraWork *w
         for (size_t r = 0; r < work->options.region_count; r++)
           size = fmin(size, region_bound(work->options.regions + r, node_at(grid, x, y, z), grid->spacing));
         grid->size[i] = size;
+        least = size < least ? size : least, most = size > most ? size : most;
       }
-  for (int sweep = 0; sweep < 2; sweep++) {
-    limit_growth(grid, true);
-    limit_growth(grid, false);
-  }
+  if (!(most > least)) return; /* nothing to limit */
+  Neighbour neighbours[NEIGHBOURS];
+  list_neighbours(grid, neighbours);
+  for (int sweep = 0; sweep < 4; sweep++) limit_growth(grid, neighbours, sweep % 2 == 0);
 }

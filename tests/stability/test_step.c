@@ -41,6 +41,8 @@ static Rig *fall(const SporeModelType *type, SporeIntegratorKind integrator) {
     if (!fluid) spheres = rig_spheres(rig, mesh.vertices, mesh.vertex_count, 0.004);
     if (fluid) model = rig_fluid_model(&mesh, 60, NULL);
     else if (type == &spore_finite_differences) model = rig_surface_model(type, &mesh, "cells", 6.0, NULL);
+    else if (type == &spore_spline_2d)
+      model = rig_surface_model(type, &mesh, "control_points_u", 7.0, "control_points_v", 6.0, NULL);
     else model = rig_surface_model(type, &mesh, NULL);
     if (fluid) spheres = particle_spheres(rig, model, 0.0022);
   }
