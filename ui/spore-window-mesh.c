@@ -194,13 +194,10 @@ static void mapping_measured(SporeJob *job, gpointer data, const GError *error, 
 static void act_measure_mapping(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   SporeObject *body = spore_window_body_to_work_on(self);
-  g_autoptr(GError) error = NULL;
-  SporeMappingWork *work =
-      body ? spore_mapping_work_new(spore_editor_document_get(self->document), body, &error) : NULL;
-  if (work)
-    spore_window_start_job(self, _("Measuring the mapping"), spore_mapping_work_run, work, spore_mapping_work_free,
-                           mapping_measured);
-  else spore_window_failed(self, error);
+  if (body)
+    spore_window_start_job(self, _("Measuring the mapping"), spore_mapping_work_run,
+                           spore_mapping_work_new(spore_editor_document_get(self->document), body),
+                           spore_mapping_work_free, mapping_measured);
 }
 
 /* An entry for each operation. */

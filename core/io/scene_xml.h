@@ -12,10 +12,6 @@ SporeDocument *spore_scene_load(const SporeSchema *schema, const char *file, GEr
 /* The same from memory; `file` names it in messages and gives the folder (may be NULL). */
 SporeDocument *spore_scene_parse(const SporeSchema *schema, const char *file, const char *text, gsize size,
                                  GError **error);
-/* The scene as it is now as a document of its own, for another thread: no history, ids of its own, and messages that say
- * paths, since its lines are in no file. What is decoded already is shared. NULL with an error: something required is
- * not set. */
-SporeDocument *spore_scene_copy(const SporeDocument *document, GError **error);
 /* Text of the scene: only what the author set, comments and order kept. g_free. */
 char *spore_scene_format(const SporeDocument *document, gsize *size);
 /* Saves scene and waiting blobs, each by temporary file, fsync and rename; blobs first, the scene last. Saving into

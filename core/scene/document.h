@@ -16,6 +16,9 @@ typedef struct SporeDocument SporeDocument;
 typedef struct SporeObject SporeObject;
 
 SporeDocument *spore_document_new(const SporeSchema *schema); /* schema borrowed; holds the root and its sections */
+/* The scene as it is now, for another thread: with the same ids, without history and comments. What is decoded already,
+ * and what waits in no file yet, is shared. */
+SporeDocument *spore_document_copy(const SporeDocument *document);
 void spore_document_free(SporeDocument *document);
 const SporeSchema *spore_document_schema(const SporeDocument *document);
 

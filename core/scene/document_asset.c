@@ -190,16 +190,32 @@ void spore_document_keep_assets(SporeDocument *document, GHashTable *moved) {
   keep_assets_of_steps(document, document->redo, moved);
 }
 
+static void share_blob(SporeDocument *to, const char *file, const SporeBlob *blob) {
+  SporeBlob *shared = g_memdup2(blob, sizeof *blob);
+  g_bytes_ref(shared->content);
+  g_hash_table_insert(to->blobs, g_strdup(file), shared);
+}
+
+static void share_located(SporeDocument *to, gpointer id, const Located *located) {
+  Located *shared = g_new0(Located, 1);
+  shared->place = g_strdup(located->place);
+  shared->decoded = located->decoded;
+  shared->fault = located->fault ? g_error_copy(located->fault) : NULL;
+  g_hash_table_insert(to->located, id, shared);
+}
+
 void spore_document_share_assets(SporeDocument *to, const SporeDocument *from) {
   GHashTableIter iterator;
   gpointer key, value;
   to->readers = from->readers;
+  to->last_blob = from->last_blob;
   g_hash_table_iter_init(&iterator, from->blobs);
-  while (g_hash_table_iter_next(&iterator, &key, &value))
-    spore_document_put_blob(to, key, ((const SporeBlob *)value)->content);
+  while (g_hash_table_iter_next(&iterator, &key, &value)) share_blob(to, key, value);
   g_hash_table_iter_init(&iterator, from->decoded);
   while (g_hash_table_iter_next(&iterator, &key, &value))
     g_hash_table_insert(to->decoded, g_strdup(key), g_atomic_rc_box_acquire(value));
+  g_hash_table_iter_init(&iterator, from->located);
+  while (g_hash_table_iter_next(&iterator, &key, &value)) share_located(to, key, value);
 }
 
 /* Decoding. */

@@ -124,7 +124,7 @@ void spore_assets_init(SporeDocument *document);
 /* Before the document moves to another folder: of the files that its history still names, those not in `moved` (set of
  * names, which lie there too) wait as blobs from now on, so that undo and redo never name what is not there. */
 void spore_document_keep_assets(SporeDocument *document, GHashTable *moved);
-/* Readers, blobs and what is decoded already of a document that holds the same assets. */
+/* Readers, blobs and what is decoded already of a document whose assets have the same ids. */
 void spore_document_share_assets(SporeDocument *to, const SporeDocument *from);
 void spore_assets_free(SporeDocument *document);
 

@@ -356,8 +356,7 @@ static void test_hand_edit_region(Fixture *fixture, gconstpointer data) {
 /* As the editor does it: on a copy of the scene. */
 static void measure_mapping(Fixture *fixture, SporeObject *body, SporeMappingReport *report) {
   GError *error = NULL;
-  SporeMappingWork *work = spore_mapping_work_new(fixture->document, body, &error);
-  g_assert_no_error(error);
+  SporeMappingWork *work = spore_mapping_work_new(fixture->document, body);
   g_assert_true(spore_mapping_work_run(work, NULL, &error));
   spore_mapping_report_clear(report);
   *report = work->report;
@@ -371,7 +370,7 @@ static void test_mapping_is_cancelled(Fixture *fixture, gconstpointer data) {
   GError *error = NULL;
   SporeObject *body = add_organ(fixture);
   use_tetrahedron(fixture, body);
-  SporeMappingWork *work = spore_mapping_work_new(fixture->document, body, &error);
+  SporeMappingWork *work = spore_mapping_work_new(fixture->document, body);
   g_assert_false(spore_mapping_work_run(work, &(SporeProgress){.report = refuse}, &error));
   g_assert_error(error, SPORE_ERROR, SPORE_ERROR_CANCELLED);
   g_clear_error(&error);

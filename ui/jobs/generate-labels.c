@@ -5,7 +5,8 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-static const char *const purpose_names[] = {"linked_bodies", "bodies", "one_body", "asset", NULL}; /* as SporeLabelUse */
+static const char *const purpose_names[] = {"linked_bodies", "bodies", "one_body", "asset",
+                                            NULL}; /* as SporeLabelUse */
 static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
     purpose_names,
     N_("What Apply makes: a body of each organ, linked where they share faces or free of each other, one body of all "

@@ -7,11 +7,9 @@
 
 typedef struct SporeMappingWork {
   SporeDocument *document;   /* a copy of the scene, the worker's own */
-  char *body;                /* name */
   SporeMappingReport report; /* out, of the body and the revision that it began with; taken by setting it to zero */
 } SporeMappingWork;
-/* NULL with an error: the scene is not whole. */
-SporeMappingWork *spore_mapping_work_new(const SporeDocument *document, const SporeObject *body, GError **error);
+SporeMappingWork *spore_mapping_work_new(const SporeDocument *document, const SporeObject *body);
 gboolean spore_mapping_work_run(gpointer work, const SporeProgress *progress, GError **error);
 void spore_mapping_work_free(gpointer work);
 

@@ -3,6 +3,9 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "ui/jobs/check-work.h"
+#include "ui/jobs/spore-job.h"
+
 /* After the last change, so that typing is not held up. */
 #define CHECK_DELAY_MS 400
 
@@ -12,6 +15,7 @@ struct _SporeProblems {
   GtkWidget *tree;
   SporeEditorDocument *document;
   guint timer;
+  SporeJob *job;    /* checks; NULL: none does */
   GPtrArray *found; /* of SporeDiagnostic *: run_count of the run, then those of the scene */
   guint run_count;
 };
@@ -36,13 +40,31 @@ static void show(SporeProblems *self) {
   g_signal_emit(self, checked, 0, self->found);
 }
 
+static gboolean check(gpointer data);
+
+static void checked_through(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
+  SporeProblems *self = owner;
+  SporeCheckWork *work = data;
+  if (self->job != job) return; /* of another scene */
+  g_clear_object(&self->job);
+  if (self->timer) return; /* the scene has changed since, and is checked again */
+  if (spore_document_revision(spore_editor_document_get(self->document)) != work->revision) {
+    check(self);
+    return;
+  }
+  g_ptr_array_set_size(self->found, (gint)self->run_count);
+  g_ptr_array_extend_and_steal(self->found, g_steal_pointer(&work->found));
+  show(self);
+}
+
+/* One at a time: what changes meanwhile is seen when it is through. */
 static gboolean check(gpointer data) {
   SporeProblems *self = data;
   self->timer = 0;
-  GPtrArray *scene = spore_document_check(spore_editor_document_get(self->document));
-  g_ptr_array_set_size(self->found, (gint)self->run_count);
-  g_ptr_array_extend_and_steal(self->found, scene);
-  show(self);
+  if (!self->job)
+    self->job = spore_job_start(_("Checking the scene"), spore_check_work_run,
+                                spore_check_work_new(spore_editor_document_get(self->document)), spore_check_work_free,
+                                checked_through, G_OBJECT(self));
   return G_SOURCE_REMOVE;
 }
 
@@ -82,6 +104,8 @@ static void row_activated(GtkTreeView *tree, GtkTreePath *path, GtkTreeViewColum
 
 static void release_document(SporeProblems *self) {
   g_clear_handle_id(&self->timer, g_source_remove);
+  if (self->job) spore_job_cancel(self->job);
+  g_clear_object(&self->job);
   if (self->document) g_signal_handlers_disconnect_by_data(self->document, self);
   g_clear_object(&self->document);
 }
