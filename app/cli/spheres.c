@@ -14,9 +14,15 @@ typedef struct Request {
   char *unit, *frame, *output, *mode, *counts, *svg, *csv, *body;
   char **regions;
   gint64 count, seed;
-  double tolerance, worth, thickness; /* thickness: < 0 where not given; seed too */
+  SporeSpheresAims aims;
+  double worth, thickness; /* thickness: < 0 where not given; seed too */
   gboolean asymmetric;
 } Request;
+
+static gboolean is_aimed(const Request *request) {
+  const SporeSpheresAims *aims = &request->aims;
+  return aims->coverage != 0 || aims->outside != 0 || aims->distance != 0 || aims->depth_error != 0;
+}
 
 static void clear_request(Request *request) {
   char *const texts[] = {request->unit,   request->frame, request->output, request->mode,
@@ -96,9 +102,12 @@ static gboolean make_set(SporeCli *cli, const char *file, const SporeSpheresSour
 
 static void report_set(SporeCli *cli, const SporeSpheresSource *source, const SporeSpheresOptions *options,
                        const SporeSphereSet *set, const SporeSpheresReport *report) {
+  const char *hardest = options->count ? NULL : spore_spheres_hardest_aim(&options->aims, report, NULL);
   spore_cli_spheres_members(cli, set->count, report);
+  spore_cli_text(cli, "hardest", hardest);
   if (source->sheet) say_sheet(cli, set, report, options->thickness > 0);
   else say_solid(cli, set, report);
+  if (hardest) spore_cli_say(cli, _("Hardest to reach of what was asked for: %s.\n"), hardest);
   if (set->weights)
     spore_cli_say(cli, _("weighted sum: depth error %.4f, felt at %.1f %% of the places just outside\n"),
                   report->weighted_depth_error, 100 * report->felt_outside);
@@ -164,7 +173,7 @@ static gboolean generate(SporeCli *cli, const char *file, const Request *request
   if (request->counts && !(counts = spore_cli_counts(request->counts, error))) return FALSE;
   SporeSpheresOptions options = {.mode = (SporeSpheresMode)mode,
                                  .count = (size_t)request->count,
-                                 .tolerance = request->tolerance,
+                                 .aims = request->aims,
                                  .seed = request->seed < 0 ? 1 : (uint64_t)request->seed,
                                  .regions = (const SporeSpheresRegion *)(gconstpointer)regions->data,
                                  .region_count = regions->len,
@@ -185,7 +194,10 @@ static gboolean override_fields(const Request *request, SporeSpheresFields *fiel
   if (request->mode && mode < 0) return FALSE;
   if (request->mode) fields->method = spore_edit_spheres_method((SporeSpheresMode)mode);
   if (request->count) fields->count = request->count;
-  if (request->count || request->tolerance != 0) fields->tolerance = request->tolerance;
+  if (request->count || is_aimed(request)) {
+    fields->coverage = request->aims.coverage, fields->outside = request->aims.outside;
+    fields->tolerance = request->aims.distance, fields->depth_error = request->aims.depth_error;
+  }
   if (request->seed >= 0) fields->seed = request->seed;
   return TRUE;
 }
@@ -246,20 +258,19 @@ static int check_request(const Request *request, gboolean scene) {
   if (!scene && request->body)
     return spore_cli_usage(_("spore spheres: --body is for scenes; expected a file F.spore with it; leave it out"));
   if (scene && check_scene(request) != SPORE_EXIT_DONE) return SPORE_EXIT_INPUT;
-  int ways = (request->count != 0) + (request->tolerance != 0) + (request->counts != NULL);
-  if (request->count < 0 || request->count > SPORE_SPHERES_MAXIMUM || (scene ? ways > 1 : ways != 1) ||
-      (request->tolerance != 0 && !(request->tolerance >= 1e-4 && request->tolerance < 1)))
-    return spore_cli_usage(_("spore spheres: neither number of spheres nor tolerance is one; expected either "
-                             "--count 1 to %d, --counts with several of those, or --tolerance "
-                             "0.0001 to 1; give one of them"),
+  int ways = (request->count != 0) + is_aimed(request) + (request->counts != NULL);
+  if (request->count < 0 || request->count > SPORE_SPHERES_MAXIMUM || (scene ? ways > 1 : ways != 1))
+    return spore_cli_usage(_("spore spheres: neither a number of spheres nor what they are to reach is given, or both; "
+                             "expected either --count 1 to %d, --counts with several of those, or one or several of "
+                             "--coverage, --outside, --tolerance and --depth-error; give one of them"),
                            SPORE_SPHERES_MAXIMUM);
   if (!request->counts && (request->svg || request->csv))
     return spore_cli_usage(_("spore spheres: --svg and --csv show several numbers of spheres; expected --counts with "
                              "them; give it"));
   if (request->counts && request->output)
     return spore_cli_usage(
-        _("spore spheres: --output holds one set; expected --count or --tolerance with it; leave out "
-          "--counts"));
+        _("spore spheres: --output holds one set; expected --count or what they are to reach with it; "
+          "leave out --counts"));
   if (!(request->worth > 0 && request->worth < 1))
     return spore_cli_usage(_("spore spheres: --worth is %g; expected a share of the largest depth between 0 and 1; "
                              "correct it"),
@@ -279,6 +290,8 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"certified", N_("whether it is proven that all of the inside lies in a sphere")},
       {"seconds", N_("that it took")},
       {"mirrors", N_("planes that mesh and spheres are symmetric about")},
+      {"hardest", N_("of what was asked for, what takes so many: coverage, outside, distance or depth_error; null: "
+                     "nothing was but a number")},
       {"points", N_("with --counts, instead of all above: each number with the members above")},
       {"enough", N_("with --counts: the number from which on more spheres do not pay; null: all pay")},
       {"worth", N_("with --counts: as given")},
@@ -295,8 +308,16 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
   Request r = {.seed = -1, .thickness = -1, .worth = SPORE_SPHERES_WORTH};
   const GOptionEntry entries[] = {
       {"count", 'n', 0, G_OPTION_ARG_INT64, &r.count, N_("Number of spheres"), "N"},
-      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &r.tolerance,
-       N_("Mean distance allowed, of the diagonal: as many spheres as that takes"), "D"},
+      {"coverage", 0, 0, G_OPTION_ARG_DOUBLE, &r.aims.coverage,
+       N_("Instead of a number: share of the inside that has to lie in spheres, below 1. As few spheres are made as "
+          "reach that and what the next three ask for; each may be left out"),
+       "C"},
+      {"outside", 0, 0, G_OPTION_ARG_DOUBLE, &r.aims.outside,
+       N_("Most volume of the spheres outside, of the mesh's volume"), "V"},
+      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &r.aims.distance, N_("Most distance on average, of the diagonal"),
+       "D"},
+      {"depth-error", 0, 0, G_OPTION_ARG_DOUBLE, &r.aims.depth_error,
+       N_("Most error of the depth, of the largest depth"), "E"},
       {"counts", 0, 0, G_OPTION_ARG_STRING, &r.counts, N_("Measure sets of several numbers of spheres"), "N,N,..."},
       {"svg", 0, 0, G_OPTION_ARG_FILENAME, &r.svg, N_("With --counts: plot of error against number and time"), "F.svg"},
       {"csv", 0, 0, G_OPTION_ARG_FILENAME, &r.csv, N_("With --counts: table of the same"), "F.csv"},

@@ -58,12 +58,14 @@ SporeSpheresOptions spore_edit_spheres_options(const SporeSpheresFields *fields,
     room[i] =
         (SporeSpheresRegion){{region->centre[0], region->centre[1], region->centre[2]}, region->radius, region->value};
   }
-  return (SporeSpheresOptions){.mode = mode_named(spore_sphere_methods[fields->method]),
-                               .count = fields->tolerance > 0 ? 0 : (size_t)fields->count,
-                               .tolerance = fields->tolerance,
-                               .seed = (uint64_t)fields->seed,
-                               .regions = room,
-                               .region_count = count};
+  const SporeSpheresAims aims = {fields->coverage, fields->outside, fields->tolerance, fields->depth_error};
+  return (SporeSpheresOptions){
+      .mode = mode_named(spore_sphere_methods[fields->method]),
+      .count = spore_spheres_hardest_aim(&aims, &(SporeSpheresReport){0}, NULL) ? 0 : (size_t)fields->count,
+      .aims = aims,
+      .seed = (uint64_t)fields->seed,
+      .regions = room,
+      .region_count = count};
 }
 
 SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields *fields,

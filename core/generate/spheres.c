@@ -50,12 +50,7 @@ static bool check_options(const SporeSpheresOptions *options, SporeError *error)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("%zu spheres are too many; 1 to %u were expected; ask for fewer"), options->count,
                            SPORE_SPHERES_MAXIMUM);
-  if (!options->count && !(options->tolerance > 0 && options->tolerance <= 1))
-    return spore_error_set(
-        error, SPORE_ERROR_INPUT, NULL,
-        _("neither a count nor a tolerance in (0, 1] is given (the tolerance is %g); a fraction of the "
-          "diagonal such as 0.003 was expected; give one of them"),
-        options->tolerance);
+  if (!options->count && !spore_aims_check(&options->aims, error)) return false;
   if (!(options->thickness >= 0 && options->thickness <= 1e9))
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("the thickness is %g; a length of 0 m or more was expected; correct it"),
@@ -63,9 +58,16 @@ static bool check_options(const SporeSpheresOptions *options, SporeError *error)
   return check_regions(options, error);
 }
 
-/* Only what has an inside can be covered. */
+/* Only what has an inside can be covered, and has an outside and a depth. */
 static bool check_mode(const SporeSpheresSource *source, const SporeSpheresOptions *options, SporeError *error) {
-  if (options->mode == SPORE_SPHERES_BALANCED || source->solid || source->tetrahedra) return true;
+  const SporeSpheresAims *aims = &options->aims;
+  if (source->solid || source->tetrahedra) return true;
+  if (!source->curve && !options->count && (aims->outside > 0 || aims->depth_error > 0))
+    return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                           _("a sheet has neither a volume nor a depth, of which at most %g and %g are asked for; a "
+                             "coverage or a tolerance was expected; ask for those alone"),
+                           aims->outside, aims->depth_error);
+  if (options->mode == SPORE_SPHERES_BALANCED) return true;
   return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                          _("the mode \"%s\" needs an inside, and a curve or a sheet has none; a closed mesh was "
                            "expected; use the mode \"%s\""),
@@ -252,41 +254,21 @@ static bool cover_sheet(const Work *work, size_t count, SporeSphereSet *set, Spo
   return spore_spheres_over(work->source->sheet, count, work->options, set, report, progress, error);
 }
 
-/* The smallest set found that meets the tolerance: the error falls about as a power of the count, so each trial goes
- * where a line through the last two in logarithms says, between the counts known to be too few and enough. */
+/* The smallest set found that reaches the aims. */
 static bool search(Maker *make, const Work *work, SporeSphereSet *set, SporeSpheresReport *report,
                    const SporeProgress *progress, SporeError *error) {
-  double tolerance = work->options->tolerance;
-  size_t few = 0, enough = 0, count = 16;
-  double few_error = 0, enough_error = 0;
+  SporeAimSearch found = {0};
   for (int trial = 0;; trial++) {
     SporeProgressPart part = {progress, 1 - pow(0.8, trial), 0.2 * pow(0.8, trial)};
     SporeSphereSet tried;
     SporeSpheresReport measured;
-    if (!make(work, count, &tried, &measured, &part, error)) return false;
-    if (measured.distance_mean <= tolerance) {
+    if (!make(work, spore_aim_search_next(&found), &tried, &measured, &part, error)) return false;
+    if (spore_aim_search_add(&found, tried.count, &work->options->aims, &measured)) {
       spore_sphere_set_clear(set);
       *set = tried, *report = measured;
-      enough = count, enough_error = measured.distance_mean;
-    } else {
-      spore_sphere_set_clear(&tried);
-      few = count, few_error = measured.distance_mean;
-    }
-    if (enough && enough - few <= 1 + enough / 50) return true;
-    if (!enough && few >= SPORE_SPHERES_MAXIMUM)
-      return spore_error_set(
-          error, SPORE_ERROR_NUMERICAL, NULL,
-          _("%u spheres still are %g of the diagonal away on average, over the tolerance of %g; give a "
-            "larger tolerance"),
-          SPORE_SPHERES_MAXIMUM, few_error, tolerance);
-    double slope = few && enough ? log(enough_error / few_error) / log((double)enough / (double)few) : -0.6;
-    double known = few ? (double)few : (double)enough, known_error = few ? few_error : enough_error;
-    double guess = known * pow(tolerance / known_error, 1 / fmin(slope, -0.2));
-    size_t low = few + 1, high = enough ? enough - 1 : SPORE_SPHERES_MAXIMUM;
-    if (!few && guess > (double)enough / 2) guess = (double)enough / 2;
-    if (few && enough && trial > 6) guess = sqrt((double)few * (double)enough);
-    if (!enough) guess = fmax(guess, 1.2 * (double)few);
-    count = guess < (double)low ? low : guess > (double)high ? high : (size_t)guess;
+    } else spore_sphere_set_clear(&tried);
+    if (spore_aim_search_done(&found)) return true;
+    if (spore_aim_search_failed(&found)) return spore_aims_out_of_reach(&work->options->aims, &measured, error);
   }
 }
 

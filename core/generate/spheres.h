@@ -26,10 +26,18 @@ typedef struct SporeSpheresRegion {
 #define SPORE_SPHERES_FACTOR_LEAST 0.0625
 #define SPORE_SPHERES_FACTOR_MOST 16.0
 
+/* What a set is asked to reach, in the terms of the report; 0: not asked for. */
+typedef struct SporeSpheresAims {
+  double coverage;    /* at least, in (0, 1) */
+  double outside;     /* at most, > 0; not of a sheet, as the next but one */
+  double distance;    /* the mean at most, in (0, 1] */
+  double depth_error; /* what is felt, at most, in (0, 1] */
+} SporeSpheresAims;
+
 typedef struct SporeSpheresOptions {
   SporeSpheresMode mode;
-  size_t count;     /* wanted; > 0, or 0 to go by tolerance */
-  double tolerance; /* largest mean two-sided distance, as a fraction of the diagonal, when count is 0 */
+  size_t count;          /* wanted; > 0, or 0 to go by the aims */
+  SporeSpheresAims aims; /* all that are asked for hold, when count is 0 */
   uint64_t seed;
   const SporeSpheresRegion *regions; /* region_count; of solids alone */
   size_t region_count;
@@ -55,6 +63,11 @@ static inline double spore_spheres_felt_error(const SporeSpheresReport *report) 
   return report->weighted_depth_error > 0 ? report->weighted_depth_error : report->depth_error;
 }
 
+/* Of what is asked for, the one that the set is farthest from reaching, or the nearest to missing: "coverage",
+ * "outside", "distance" or "depth_error"; NULL: none is asked for. *excess (may be NULL): its error over what is
+ * allowed, at most 1 where all are reached. */
+const char *spore_spheres_hardest_aim(const SporeSpheresAims *aims, const SporeSpheresReport *report, double *excess);
+
 /* What spheres are made from; the first that is not NULL counts. */
 typedef struct SporeSpheresSource {
   /* Valid; need not be watertight (winding number > 0.5 is inside; one that is inside out is turned), but must enclose
@@ -73,7 +86,7 @@ typedef struct SporeSpheresSource {
 } SporeSpheresSource;
 
 /* The same input and options give the same spheres, on any number of threads. By count: exactly that many. By
- * tolerance: the fewest found, to about 2 %. *set is empty on failure. */
+ * aims: the fewest found, to about 4 %. *set is empty on failure. */
 bool spore_spheres_from_source(const SporeSpheresSource *source, const SporeSpheresOptions *options,
                                SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
                                SporeError *error);

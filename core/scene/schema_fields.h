@@ -36,8 +36,8 @@ extern const char *const spore_sphere_methods[]; /* that `method` counts; NULL-t
 typedef struct SporeSpheresFields {
   const char *name, *file, *source, *source_hash, *options_hash;
   bool frozen, edited;
-  int method;       /* index in the table's choices */
-  double tolerance; /* 0: by count */
+  int method;                                       /* index in the table's choices */
+  double coverage, outside, tolerance, depth_error; /* aims; all 0: by count */
   int64_t count, seed;
 } SporeSpheresFields;
 

@@ -176,6 +176,13 @@ static const SporeParameter mesh_parameters[] = {
     GENERATED(SporeMeshFields),
 };
 
+/* What generated spheres are to reach; 0: it is not asked for. */
+#define SPHERES_AIM(aim, most, words)                                                                                  \
+  {                                                                                                                    \
+    .name = #aim, .type = SPORE_REAL, .unit = "", 0, most, .initial = {0}, FIELD(SporeSpheresFields, aim),             \
+    .change = SPORE_CHANGE_LIVE, .doc = words                                                                          \
+  }
+
 static const SporeParameter spheres_parameters[] = {
     NAME(SporeSpheresFields, N_("Name by which collision units refer to the spheres.")),
     {.name = "file",
@@ -211,17 +218,16 @@ static const SporeParameter spheres_parameters[] = {
      .initial = {100},
      FIELD(SporeSpheresFields, count),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Number of spheres to generate; counts where the tolerance is 0.")},
-    {.name = "tolerance",
-     .type = SPORE_REAL,
-     .unit = "",
-     0,
-     0.5,
-     .initial = {0},
-     FIELD(SporeSpheresFields, tolerance),
-     .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Mean distance between mesh and spheres that is let pass, as a share of the diagonal: as few spheres as "
-               "keep to it are generated; 0: by their number.")},
+     .doc = N_("Number of spheres to generate; counts where coverage, outside, tolerance and depth error are 0.")},
+    SPHERES_AIM(coverage, 0.9999,
+                N_("Share of the inside that has to lie in spheres: as few spheres as reach it, and "
+                   "what else is asked for, are generated; 0: not asked for.")),
+    SPHERES_AIM(outside, 100,
+                N_("Volume of the spheres outside that is let pass, as a share of the mesh's volume; 0: any.")),
+    SPHERES_AIM(tolerance, 0.5,
+                N_("Mean distance between mesh and spheres that is let pass, as a share of the diagonal; 0: any.")),
+    SPHERES_AIM(depth_error, 1,
+                N_("Mean error of the depth inside that is let pass, as a share of the largest depth; 0: any.")),
     {.name = "seed",
      .type = SPORE_INTEGER,
      .unit = "",

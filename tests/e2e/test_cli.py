@@ -880,6 +880,12 @@ def spheres_command():
     assert (WORK / "a.spheres").read_bytes() == (WORK / "b.spheres").read_bytes()
     refuses("spheres", "ball.off", says=["--count"])
     refuses("spheres", "ball.off", "--count", 0, says=["--count"])
+    refuses("spheres", "ball.off", "--count", 5, "--coverage", 0.9, says=["--count", "--coverage"])
+    refuses("spheres", "ball.off", "--coverage", 1.5, says=["ball.off", "coverage 1.5", "0.95"])
+    refuses("spheres", "ball.off", "--outside", 0.1, "--thickness", 0, says=["ball.off", "sheet", "tolerance"])
+    aimed = report("spheres", "ball.off", "--coverage", 0.9, "--depth-error", 0.2)
+    assert aimed["coverage"] >= 0.9 and aimed["depth_error"] <= 0.2 and aimed["hardest"] == "coverage", aimed
+    assert report("spheres", "ball.off", "--count", 5)["hardest"] is None
     refuses("spheres", "ball.off", "--count", 5, "--unit", "parsec", says=["parsec", "mm"])
     refuses("spheres", "ball.off", "--count", 5, "-o", "no/such/x.spheres", says=["no/such"])
     refuses("spheres", "ball.off", "--count", 5, "--mode", "balancd", says=["balancd", "balanced"])

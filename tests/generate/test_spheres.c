@@ -235,7 +235,7 @@ static void test_curve_bent(void) {
     double angle = 1.5 * M_PI * i / 60, radius = 0.008 - 0.006 * i / 60;
     memcpy(numbers + 4 * i, (double[4]){0.05 * cos(angle), 0.05 * sin(angle), 0, radius}, 4 * sizeof(double));
   }
-  SporeSpheresOptions options = {.tolerance = 0.001, .seed = 1};
+  SporeSpheresOptions options = {.aims.distance = 0.001, .seed = 1};
   SporeSphereSet set;
   SporeSpheresReport report;
   g_assert_true(spore_spheres_from_source(&(SporeSpheresSource){.curve = &curve}, &options, &set, &report, NULL, NULL));
@@ -331,7 +331,7 @@ static void test_tolerance(void) {
   SporeTriangleMesh torus;
   SporeSpheresReport report, fewer;
   SporeSphereSet set;
-  SporeSpheresOptions options = {.tolerance = 0.004, .seed = 1};
+  SporeSpheresOptions options = {.aims.distance = 0.004, .seed = 1};
   shape_torus(&torus, 0.06, 0.02, 24, 12);
   g_assert_true(spore_spheres_from_mesh(&torus, &options, &set, &report, NULL, NULL));
   g_assert_cmpfloat(report.distance_mean, <=, 0.004);
@@ -339,6 +339,27 @@ static void test_tolerance(void) {
   g_assert_cmpfloat(fewer.distance_mean, >, 0.004);
   spore_sphere_set_clear(&less);
   spore_sphere_set_clear(&set);
+  spore_triangle_mesh_clear(&torus);
+}
+
+/* Of several aims all are reached, and it is told which takes the spheres. */
+static void test_aims(void) {
+  SporeTriangleMesh torus;
+  SporeSpheresReport report, fewer;
+  SporeSphereSet set;
+  SporeSpheresOptions options = {.aims = {.coverage = 0.95, .outside = 0.07, .depth_error = 0.5}, .seed = 1};
+  double excess;
+  shape_torus(&torus, 0.06, 0.02, 24, 12);
+  g_assert_true(spore_spheres_from_mesh(&torus, &options, &set, &report, NULL, NULL));
+  g_assert_cmpfloat(report.coverage, >=, 0.95);
+  g_assert_cmpfloat(report.outside, <=, 0.07);
+  g_assert_cmpstr(spore_spheres_hardest_aim(&options.aims, &report, &excess), !=, "depth_error");
+  CLOSE(excess, fmax((1 - report.coverage) / 0.05, report.outside / 0.07), 1e-12);
+  SporeSphereSet less = make(&torus, set.count * 4 / 5, 1, &fewer);
+  g_assert_true(fewer.coverage < 0.95 || fewer.outside > 0.07);
+  spore_sphere_set_clear(&less);
+  spore_sphere_set_clear(&set);
+  g_assert_null(spore_spheres_hardest_aim(&(SporeSpheresAims){0}, &report, NULL));
   spore_triangle_mesh_clear(&torus);
 }
 
@@ -374,7 +395,9 @@ static void test_refused(void) {
   refuse(&(SporeTriangleMesh){4, 1, vertices, wrong}, ten, "triangle 0 uses vertex 9");
   refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.count = 5001}, "too many");
   refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){0}, "tolerance");
-  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.tolerance = NAN}, "tolerance");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.aims.distance = NAN}, "tolerance");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.aims.coverage = 1}, "coverage 1,");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.aims.outside = -1}, "outside -1,");
 }
 
 /* A ball with a hole in it still has an inside. */
@@ -621,6 +644,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres/enough", test_enough);
   g_test_add_func("/generate/spheres/series", test_series);
   g_test_add_func("/generate/spheres/tolerance", test_tolerance);
+  g_test_add_func("/generate/spheres/aims", test_aims);
   g_test_add_func("/generate/spheres/tetrahedron", test_tetrahedron);
   g_test_add_func("/generate/spheres/refused", test_refused);
   g_test_add_func("/generate/spheres/open", test_open);

@@ -53,11 +53,15 @@ size_t spore_generate_get_count(const SporeGenerateOptions *options) {
   return count ? (size_t)*count : 0;
 }
 
+static void forget_aims(SporeSpheresFields *spheres) {
+  spheres->coverage = spheres->outside = spheres->tolerance = spheres->depth_error = 0;
+}
+
 void spore_generate_set_count(SporeGenerateOptions *options, size_t count) {
   int64_t *place = count_of(options);
   if (!place || *place == (int64_t)count) return;
   *place = (int64_t)count;
-  if (options->kind == SPORE_GENERATE_SPHERES) options->fields.spheres.tolerance = 0;
+  if (options->kind == SPORE_GENERATE_SPHERES) forget_aims(&options->fields.spheres);
   if (options->kind == SPORE_GENERATE_TETRAHEDRA) options->fields.tetrahedra.size = 0;
 }
 
