@@ -576,9 +576,9 @@ def shipped_scenes_run():
         subprocess.run(["xmllint", "--noout", "--relaxng", schema, scene], check=True, capture_output=True)
         bad = [d for d in report("check", scene)["diagnostics"] if d["severity"] != "note"]
         assert not bad, bad
-        hashes = {report("run", scene, "--steps", 300, "--threads", n)["state_hash"] for n in (1, 1, 2)}
-        hashes |= {report("run", scene, "--steps", 300, env={**os.environ, "SPORE_CPU": level})["state_hash"]
-                   for level in ("baseline", "avx2", "avx512")}
+        hashes = {report("run", scene, "--steps", 300, "--threads", 1)["state_hash"]}
+        hashes |= {report("run", scene, "--steps", 300, "--threads", 2, env={**os.environ, "SPORE_CPU": level})["state_hash"]
+                   for level in ("baseline", "avx2", "avx512")} # one of them is the level of the first
         assert len(hashes) == 1, scene
 
 

@@ -29,10 +29,11 @@ static void test_ball(void) {
   spore_triangle_mesh_clear(&ball);
 }
 
-/* Proven to cover, and no longer when one ball shrinks. */
-static void check(SporeTriangleMesh *mesh, size_t count, double outside) {
+/* Proven to cover, and no longer when one ball shrinks; the same again where `again` is not NULL. */
+static void check(SporeTriangleMesh *mesh, size_t count, double outside, const SporeSphereSet *again) {
   SporeSpheresReport report;
   SporeSphereSet set = make(mesh, count, &report);
+  if (again) g_assert_cmpmem(set.spheres, 32 * set.count, again->spheres, 32 * again->count);
   g_assert_true(report.certified);
   g_assert_cmpfloat(report.coverage, ==, 1);
   g_assert_cmpfloat(report.outside, <, outside);
@@ -49,11 +50,9 @@ static void test_torus(void) {
   SporeTriangleMesh torus;
   SporeSpheresReport report;
   shape_torus(&torus, 0.06, 0.02, 24, 12);
-  SporeSphereSet set = make(&torus, 12, &report), again = make(&torus, 12, &report);
-  g_assert_cmpmem(set.spheres, 32 * set.count, again.spheres, 32 * again.count);
-  spore_sphere_set_clear(&set);
+  SporeSphereSet again = make(&torus, 12, &report);
+  check(&torus, 12, 0.6, &again);
   spore_sphere_set_clear(&again);
-  check(&torus, 12, 0.6);
 }
 
 static void test_capsule_chain(void) {
@@ -65,7 +64,7 @@ static void test_capsule_chain(void) {
     shape_append(&chain, &next);
     spore_triangle_mesh_clear(&next);
   }
-  check(&chain, 12, 0.6);
+  check(&chain, 12, 0.6, NULL);
 }
 
 static void test_shell(void) {
@@ -76,7 +75,7 @@ static void test_shell(void) {
   shape_turn(&inner);
   shape_append(&shell, &inner);
   spore_triangle_mesh_clear(&inner);
-  check(&shell, 26, 1);
+  check(&shell, 26, 1, NULL);
 }
 
 static void set_ball(SporeBalls *balls, size_t i, double x, double y, double z, double r) {
@@ -124,8 +123,8 @@ static void test_symmetry(void) {
 static void test_open(void) {
   SporeTriangleMesh ball;
   SporeSpheresReport report;
-  shape_ball(&ball, 0.05, 12);
-  ball.triangle_count -= 8;
+  shape_ball(&ball, 0.05, 8);
+  ball.triangle_count -= 4;
   SporeSphereSet set = make(&ball, 2, &report);
   g_assert_cmpfloat(report.coverage, >, 0.9996);
   g_assert_false(report.certified);

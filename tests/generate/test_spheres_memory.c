@@ -18,7 +18,7 @@ typedef struct Fixture {
 
 static void set_up(Fixture *f, gconstpointer data) {
   SporeRandom random = {1};
-  shape_torus(&f->mesh, 0.06, 0.02, 12, 8);
+  shape_torus(&f->mesh, 0.06, 0.02, 8, 5);
   g_assert_true(spore_solid_create(&f->solid, &f->mesh, NULL));
   g_assert_true(spore_samples_create(&f->samples, &f->solid, 2, &random, &quiet, NULL));
   g_assert_true(spore_candidates_create(&f->candidates, &f->solid, 64, &random, &quiet, NULL));
