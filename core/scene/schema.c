@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/base/name.h"
-#include "core/scene/schema_fields.h"
+#include "core/scene/schema_tables.h"
 
 /* A type with what it owns. */
 typedef struct SchemaType {
@@ -84,19 +84,24 @@ static const char **integrator_choices(void) {
   return choices;
 }
 
+static void add_children(SporeSchema *schema, const SporeElement *element) {
+  SchemaType *entry = g_hash_table_lookup(schema->by_element, element->element);
+  for (const char *const *child = element->children; child && *child; child++)
+    g_ptr_array_add(entry->type.children, (gpointer)spore_schema_find(schema, *child));
+}
+
 SporeSchema *spore_schema_new(SporeModelRegistry registry) {
+  static const SporeElement *const parts[] = {spore_scene_elements, spore_asset_elements, spore_body_elements,
+                                              spore_link_elements, spore_tool_elements};
   SporeSchema *schema = g_new0(SporeSchema, 1);
   schema->registry = registry;
   schema->types = g_ptr_array_new_with_free_func(free_type);
   schema->by_element = g_hash_table_new(g_str_hash, g_str_equal);
   schema->integrators = integrator_choices();
-  for (size_t i = 0; i < spore_scene_element_count; i++) add_element(schema, &spore_scene_elements[i]);
-  for (size_t i = 0; i < spore_scene_element_count; i++) {
-    const SporeElement *element = &spore_scene_elements[i];
-    SchemaType *entry = g_hash_table_lookup(schema->by_element, element->element);
-    for (const char *const *child = element->children; child && *child; child++)
-      g_ptr_array_add(entry->type.children, (gpointer)spore_schema_find(schema, *child));
-  }
+  for (gsize p = 0; p < G_N_ELEMENTS(parts); p++)
+    for (const SporeElement *element = parts[p]; element->element; element++) add_element(schema, element);
+  for (gsize p = 0; p < G_N_ELEMENTS(parts); p++)
+    for (const SporeElement *element = parts[p]; element->element; element++) add_children(schema, element);
   ((SchemaType *)g_hash_table_lookup(schema->by_element, "collision"))->type.defaults = "contact";
   SchemaType *mechanical = g_hash_table_lookup(schema->by_element, "mechanical");
   for (SporeModelRegistry model = registry; *model; model++) add_model(schema, *model, mechanical);

@@ -185,7 +185,4 @@ typedef struct SporeElement {
   size_t extra_offset;              /* of its structure in this one */
 } SporeElement;
 
-extern const SporeElement spore_scene_elements[]; /* root first */
-extern const size_t spore_scene_element_count;
-
 #endif
