@@ -1,0 +1,275 @@
+#include "core/scene/compile_private.h"
+
+#include <glib/gi18n.h>
+#include <string.h>
+
+#include "core/scene/level_settings.h"
+
+static gboolean is_solid(SporeCompiler *compiler, const SporeObject *mechanical, const SporeObject *asset,
+                         const SporeTriangleMesh *mesh) {
+  SporeMeshReport report;
+  SporeError fault = SPORE_ERROR_INIT;
+  return spore_triangle_mesh_report_solid(mesh, &report, &fault) ||
+         spore_compiler_refuse(compiler, mechanical, "\"%s\": %s", spore_object_name(asset), fault.message);
+}
+
+/* The kind of asset that each kind of geometry asks for, and how messages tell of it. */
+typedef struct GeometryWords {
+  const char *element, *missing, *wrong;
+} GeometryWords;
+
+static const GeometryWords *geometry_words(SporeGeometryKind kind) {
+  static const GeometryWords mesh = {
+      "mesh", N_("%s has no geometry; expected a mesh; name one here"),
+      N_("geometry=\"%s\" is a <%s>; %s needs a mesh; name the one that it was made from")};
+  static const GeometryWords tetrahedra = {
+      "tetrahedra", N_("%s has no geometry; expected tetrahedra; generate them and name them here"),
+      N_("geometry=\"%s\" is a <%s>; %s needs tetrahedra; generate them from the mesh and name those here")};
+  static const GeometryWords curve = {
+      "curve", N_("%s has no geometry; expected a curve; make one and name it here"),
+      N_("geometry=\"%s\" is a <%s>; %s needs a curve; make one along it and name that here")};
+  return kind == SPORE_GEOMETRY_TETRAHEDRA ? &tetrahedra : kind == SPORE_GEOMETRY_CURVE ? &curve : &mesh;
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+static gboolean refuse_geometry(SporeCompiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
+                                const SporeObject *asset) {
+  const GeometryWords *words = geometry_words(type->geometry);
+  if (!asset) return spore_compiler_refuse(compiler, mechanical, _(words->missing), type->name);
+  return spore_compiler_refuse(compiler, mechanical, _(words->wrong), spore_object_name(asset),
+                               spore_object_type(asset)->element, type->name);
+}
+#pragma GCC diagnostic pop
+
+/* What the model is to be built from, as `mechanical`, or a level of it, says. Fails with a message when the asset is
+ * missing or of the wrong kind. */
+static gboolean find_geometry(SporeCompiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
+                              SporeGeometry *geometry) {
+  SporeObject *asset;
+  if (type->geometry == SPORE_GEOMETRY_NONE) return TRUE;
+  if (!spore_compiler_resolve(compiler, mechanical, "geometry", &asset)) return FALSE;
+  const char *element = geometry_words(type->geometry)->element;
+  if (!asset || strcmp(spore_object_type(asset)->element, element) != 0)
+    return refuse_geometry(compiler, mechanical, type, asset);
+  switch (type->geometry) {
+  case SPORE_GEOMETRY_TETRAHEDRA:
+    geometry->tetrahedra = spore_document_tetrahedra(compiler->document, asset, compiler->error);
+    return geometry->tetrahedra != NULL;
+  case SPORE_GEOMETRY_CURVE:
+    geometry->curve = spore_document_curve(compiler->document, asset, compiler->error);
+    return geometry->curve != NULL;
+  default:
+    geometry->surface = spore_document_mesh(compiler->document, asset, compiler->error);
+  }
+  if (!geometry->surface) return FALSE;
+  return type->geometry != SPORE_GEOMETRY_SOLID || is_solid(compiler, mechanical, asset, geometry->surface);
+}
+
+/* The object of a body's model, or NULL. */
+static SporeObject *model_object(const SporeObject *body) {
+  const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
+  return mechanical && spore_object_child_count(mechanical) > 0 ? spore_object_child(mechanical, 0) : NULL;
+}
+
+/* Regions. */
+
+/* By how much the region's tissue differs from what the model has of a parameter. */
+static gboolean scale_by_tissue(SporeCompiler *compiler, const SporeObject *region, const SporeObject *model,
+                                const SporeTissue *tissue, const char *name, double *scale) {
+  const SporeTissueQuantity *quantity = spore_tissue_find(tissue, name);
+  if (!quantity || spore_parameter_find(spore_object_type(model)->table, name) < 0)
+    return spore_compiler_refuse(
+        compiler, region,
+        _("material=\"%s\" does not tell the region its %s; expected a tissue of which that is known; choose "
+          "another or set a factor"),
+        tissue->name, name);
+  *scale *= quantity->typical.number[0] / spore_object_number(model, name);
+  return TRUE;
+}
+
+static gboolean describe_region(SporeCompiler *compiler, const SporeObject *object, const SporeObject *model,
+                                SporeRegion *region) {
+  SporeRegionFields fields;
+  spore_object_fields(object, &fields);
+  *region = (SporeRegion){.centre = spore_vec3_load(fields.centre),
+                          .radius = fields.radius,
+                          .stiffness = fields.stiffness_scale,
+                          .density = fields.density_scale};
+  const SporeTissue *tissue = fields.material > 0 ? &spore_tissues[fields.material - 1] : NULL;
+  return !tissue || (scale_by_tissue(compiler, object, model, tissue, "young_modulus", &region->stiffness) &&
+                     scale_by_tissue(compiler, object, model, tissue, "density", &region->density));
+}
+
+/* *regions: what `model` is to be given; free its regions. */
+static gboolean find_regions(SporeCompiler *compiler, const SporeObject *body, const SporeObject *model,
+                             SporeRegions *regions) {
+  const SporeObject *unit = spore_object_child_of(body, "regions");
+  guint count = unit ? spore_object_child_count(unit) : 0;
+  if (count == 0) return TRUE;
+  if (!spore_object_type(model)->model->regions)
+    return spore_compiler_refuse(
+        compiler, unit,
+        _("%s has no regions; expected tetrahedra or finite differences; choose one of those or take the "
+          "regions out"),
+        spore_object_type(model)->element);
+  *regions = (SporeRegions){count, g_new0(SporeRegion, count)};
+  for (guint i = 0; i < count; i++)
+    if (!describe_region(compiler, spore_object_child(unit, i), model, &regions->regions[i])) return FALSE;
+  return TRUE;
+}
+
+/* A region that the finest model has nothing in is a mistake. */
+static gboolean check_regions(SporeCompiler *compiler, const SporeObject *body, const SporeRegions *regions) {
+  for (guint i = 0; i < regions->count; i++) {
+    const SporeObject *region = spore_object_child(spore_object_child_of(body, "regions"), i);
+    if (regions->regions[i].elements == 0)
+      return spore_compiler_refuse(
+          compiler, region,
+          _("the region \"%s\" holds the middle of no element; expected one within %g m of its centre, in the "
+            "body's frame; move it or make it larger"),
+          spore_object_name(region), regions->regions[i].radius);
+  }
+  return TRUE;
+}
+
+static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  const SporeObject *object = model_object(body);
+  if (!object)
+    return spore_compiler_refuse(
+        compiler, body,
+        _("the passive body \"%s\" has no mechanical model; expected one to move it; choose a model "
+          "or make its role unmovable"),
+        spore_object_name(body));
+  const SporeObject *mechanical = spore_object_parent(object);
+  const SporeModelType *type = spore_object_type(object)->model;
+  SporeRegions regions = {0};
+  SporeGeometry geometry = {.regions = &regions};
+  gboolean described =
+      find_geometry(compiler, mechanical, type, &geometry) && find_regions(compiler, body, object, &regions);
+  g_autofree SporeRegion *owned = regions.regions;
+  if (!described) return FALSE;
+  SporeError fault = SPORE_ERROR_INIT;
+  g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
+  spore_object_fields(object, fields);
+  description->model = type->create(&geometry, fields, &fault);
+  description->integrator = (SporeIntegratorKind)((int)spore_object_number(mechanical, "integrator") - 1);
+  description->substeps = (size_t)spore_object_number(mechanical, "substeps");
+  if (description->model && check_regions(compiler, body, &regions)) return TRUE;
+  if (description->model) {
+    type->destroy(description->model);
+    description->model = NULL;
+    return FALSE;
+  }
+  return spore_compiler_refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
+}
+
+/* One level: the body's model with what differs. */
+static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, SporeObject *level, SporeModel **made) {
+  const SporeModelType *type = spore_object_type(model)->model;
+  SporeRegions regions = {0};
+  SporeGeometry geometry = {.regions = &regions};
+  SporeLevelFields level_fields;
+  SporeError fault = SPORE_ERROR_INIT;
+  spore_object_fields(level, &level_fields);
+  const SporeObject *from = level_fields.geometry ? level : spore_object_parent(model);
+  const SporeObject *body = spore_object_parent(spore_object_parent(model));
+  gboolean described = find_geometry(compiler, from, type, &geometry) && find_regions(compiler, body, model, &regions);
+  g_autofree SporeRegion *owned = regions.regions;
+  if (!described) return FALSE;
+  g_autofree void *fields = g_malloc0(MAX(type->parameters.size, 1));
+  spore_object_fields(model, fields);
+  if (spore_level_settings_apply(&type->parameters, level_fields.settings, fields, &fault))
+    *made = type->create(&geometry, fields, &fault);
+  return *made ||
+         spore_compiler_refuse(compiler, level, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
+}
+
+/* Points of the body that are seen. */
+static gboolean find_surface(SporeCompiler *compiler, const SporeObject *body, SporeLevelsDescription *levels) {
+  const SporeObject *visual = spore_object_child_of(body, "visual");
+  SporeObject *asset = NULL;
+  if (!visual) return TRUE;
+  if (!spore_compiler_resolve(compiler, visual, "mesh", &asset)) return FALSE;
+  const SporeTriangleMesh *mesh = asset ? spore_document_mesh(compiler->document, asset, compiler->error) : NULL;
+  if (mesh) levels->surface = mesh->vertices, levels->surface_count = mesh->vertex_count;
+  return mesh || !asset;
+}
+
+static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *model = model_object(body);
+  SporeLevelsDescription *levels = &description->levels;
+  SporeFidelityFields fields;
+  if (!fidelity) return TRUE;
+  spore_object_fields(fidelity, &fields);
+  levels->first = (SporeLevelGrade)fields.level;
+  levels->tolerance = fields.level_tolerance;
+  for (int k = 0; k < SPORE_LEVEL_FINE; k++) {
+    SporeObject *level = spore_object_child_of(fidelity, spore_level_names[k]);
+    if (level && !model)
+      return spore_compiler_refuse(compiler, level,
+                                   _("the body does not move by physics, so that it has no levels; take them out"));
+    if (level && !make_level(compiler, model, level, &levels->model[k])) return FALSE;
+  }
+  if (levels->first != SPORE_LEVEL_FINE && !levels->model[levels->first])
+    return spore_compiler_refuse(compiler, fidelity,
+                                 _("level=\"%s\", and there is no such level; expected <%s> in it; add it, or take "
+                                   "level fine"),
+                                 spore_level_names[levels->first], spore_level_names[levels->first]);
+  gboolean any = levels->model[SPORE_LEVEL_COARSE] || levels->model[SPORE_LEVEL_MEDIUM];
+  return !any || find_surface(compiler, body, levels);
+}
+
+gboolean spore_body_has_own_spheres(const SporeObject *body) {
+  const SporeObject *collision = spore_object_child_of(body, "collision"), *model = model_object(body);
+  return (int)spore_object_number(body, "role") == SPORE_PASSIVE && collision && model &&
+         !spore_object_text(collision, "spheres") && spore_object_type(model)->model->spheres;
+}
+
+SporePose spore_body_pose(const SporeObject *body) {
+  SporeBodyFields fields;
+  spore_object_fields(body, &fields);
+  return (SporePose){spore_vec3_load(fields.position),
+                     spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))};
+}
+
+static gboolean add_own_spheres(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  if (!spore_body_has_own_spheres(body)) return TRUE;
+  SporeSphereSet *set = g_new0(SporeSphereSet, 1);
+  SporeError fault = SPORE_ERROR_INIT;
+  g_ptr_array_add(compiler->spheres, set);
+  description->spheres = set;
+  return description->model->type->spheres(description->model, set, &fault) ||
+         spore_compiler_refuse(compiler, body, "%s", fault.message);
+}
+
+static gboolean add_collision(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
+  const SporeObject *collision = spore_object_child_of(body, "collision");
+  spore_parameters_set_initial(&spore_contact_parameters, &description->contact);
+  if (!collision) return TRUE;
+  SporeCollisionFields fields;
+  SporeObject *spheres;
+  spore_object_fields(collision, &fields);
+  description->contact = fields.contact;
+  if (!spore_compiler_resolve(compiler, collision, "spheres", &spheres)) return FALSE;
+  if (spheres) description->spheres = spore_document_spheres(compiler->document, spheres, compiler->error);
+  return !spheres || description->spheres;
+}
+
+gboolean spore_compiler_add_body(SporeCompiler *compiler, SporeObject *body) {
+  SporeBodyFields fields;
+  spore_object_fields(body, &fields);
+  SporeBodyDescription description = {
+      .name = fields.name,
+      .role = (SporeRole)fields.role,
+      .integrator = SPORE_INTEGRATOR_DEFAULT,
+      .pose = {spore_vec3_load(fields.position), spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation))},
+      .velocity = spore_vec3_load(fields.velocity),
+      .spin = spore_vec3_load(fields.spin)};
+  if (!add_collision(compiler, body, &description)) return FALSE;
+  if (description.role == SPORE_PASSIVE && !make_model(compiler, body, &description)) return FALSE;
+  gboolean added = add_own_spheres(compiler, body, &description) && add_levels(compiler, body, &description);
+  g_ptr_array_add(compiler->objects, body);
+  g_array_append_val(compiler->bodies, description);
+  return added;
+}
