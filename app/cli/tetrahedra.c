@@ -40,6 +40,21 @@ static void report_refused(SporeCli *cli, const SporeTetrahedraReport *report) {
   spore_cli_close_array(cli);
 }
 
+/* Pieces that the surface does not have: nothing holds one to the other. */
+static void report_pieces(SporeCli *cli, const SporeTetrahedraReport *report) {
+  spore_cli_count(cli, "pieces", (gint64)report->pieces);
+  spore_cli_count(cli, "pieces_given", (gint64)report->pieces_given);
+  spore_cli_number(cli, "crumbs", report->crumbs);
+  if (report->crumbs > 0)
+    spore_cli_say(cli, _("left out: crumbs that hung together with nothing, %.2g %% of the volume\n"),
+                  100 * report->crumbs);
+  if (report->pieces > report->pieces_given)
+    spore_cli_say(cli,
+                  _("the cells fall into %zu pieces, the surface into %zu: parts are thinner than a cell; ask for more "
+                    "cells, or smaller ones there (--region)\n"),
+                  report->pieces, report->pieces_given);
+}
+
 static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeTetrahedraReport *report) {
   const char *method = spore_tetrahedra_method_names[report->method];
   spore_cli_count(cli, "nodes", (gint64)mesh->vertex_count);
@@ -60,6 +75,7 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
         "the diagonal, volume %+.1f %%, surface %+.1f %%, %s, %.1f s\n"),
       mesh->tetrahedron_count, mesh->vertex_count, report->quality.min_dihedral_deg, report->quality.mean_dihedral_deg,
       100 * report->hausdorff, 100 * report->volume_change, 100 * report->area_change, method, report->seconds);
+  report_pieces(cli, report);
   if (report->inner_distance > 0)
     spore_cli_say(cli, _("the surface has walls inside the solid, up to %.2f %% of the diagonal from its outside\n"),
                   100 * report->inner_distance);
@@ -232,6 +248,10 @@ static const SporeReportMember members[] = {
     {"volume_change", N_("share of the volume that was gained")},
     {"volume", N_("m^3: given (where the winding number is over one half), result, change")},
     {"area", N_("of what bounds it, m^2: given, result, change")},
+    {"pieces", N_("that do not hang together")},
+    {"pieces_given", N_("the same of the surface; with more of them than that nothing holds one to the other")},
+    {"crumbs",
+     N_("share of the volume that was left out: small pieces that came off where a part is thinner than a cell")},
     {"method", N_("direct, repaired, wrapped or voxels: what the surface needed; labels: of a label map")},
     {"refused", N_("methods that were tried before: method, reason")},
     {"seconds", N_("that it took")},

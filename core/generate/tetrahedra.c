@@ -320,7 +320,7 @@ static gboolean generate(SporeTetrahedraWork *work, const char *place, SporeTetr
     work->fraction = LOOKING, work->share = 1 - 2 * LOOKING;
     if (!check_count(place, work, error) || !run_chain(work, place, result, report, error)) return FALSE;
     work->fraction = 1 - LOOKING, work->share = LOOKING;
-    done = measure(work, result, report, &failure);
+    done = spore_tetrahedra_drop_crumbs(work, result, report, &failure) && measure(work, result, report, &failure);
   }
   if (done) return TRUE;
   spore_error_at(&failure, place);

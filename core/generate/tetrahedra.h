@@ -52,6 +52,8 @@ typedef struct SporeTetrahedraReport {
   double volume, volume_given,
       volume_change;                    /* m^3, m^3, fraction; given: of the solid, winding number over one half */
   double area, area_given, area_change; /* of what bounds them, m^2, m^2, fraction */
+  size_t pieces, pieces_given;          /* that hang together by vertices: of the cells; by edges: of the surface */
+  double crumbs; /* volume of small pieces that came of one of the surface's, and were left out: share */
   double seconds;
 } SporeTetrahedraReport;
 

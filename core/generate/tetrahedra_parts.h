@@ -58,6 +58,11 @@ bool spore_tetrahedra_stuff(const SporeTetrahedraWork *work, double edge, SporeT
 /* Such a lattice, finer than the cells that are asked for, made coarser where that costs the least. */
 bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error);
 
+/* Small pieces of the cells that hang together with nothing, where their piece of the surface has a larger one, go:
+ * what broke off at a part thinner than a cell. Fills pieces, pieces_given and crumbs of the report. */
+bool spore_tetrahedra_drop_crumbs(const SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh,
+                                  SporeTetrahedraReport *report, SporeError *error);
+
 /* Plan of sizes: a relative one at each node, times a scale, under absolute bounds. */
 typedef struct SporeSizingPlan {
   SporeSizing grid; /* size: scratch of the last scale */

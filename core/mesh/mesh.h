@@ -114,6 +114,11 @@ bool spore_tetrahedral_mesh_boundary(const SporeTetrahedralMesh *mesh, uint32_t 
  * tetrahedron_count x 4, from spore_allocate. */
 bool spore_tetrahedral_mesh_neighbours(const SporeTetrahedralMesh *mesh, uint32_t **neighbours);
 
+/* Which piece each tetrahedron belongs to, from 0 in the order of their first one: those of a piece hang together by
+ * common vertices. *pieces from spore_allocate. False only without memory. */
+bool spore_tetrahedral_mesh_pieces(const SporeTetrahedralMesh *mesh, uint32_t **pieces, size_t *count,
+                                   SporeError *error);
+
 /* Vertices that are in no tetrahedron go, the order of the others is kept. False only without memory. */
 bool spore_tetrahedral_mesh_drop_unused(SporeTetrahedralMesh *mesh, SporeError *error);
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/base/memory.h"
 #include "core/mesh/common.h"
 #include "core/scene/check_private.h"
 #include "core/scene/generated.h"
@@ -37,6 +38,26 @@ static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error
   return TRUE;
 }
 
+/* What the surface holds together, or may: a piece by itself is held by nothing but its own pins, and what is drawn
+ * tears where it goes. */
+static gboolean check_pieces(SporeCheck *check, SporeObject *asset, const SporeTetrahedralMesh *mesh, GError **error) {
+  uint32_t *pieces;
+  size_t count;
+  SporeError fault = SPORE_ERROR_INIT;
+  if (!spore_tetrahedral_mesh_pieces(mesh, &pieces, &count, &fault)) return spore_error_propagate(&fault, error);
+  spore_free(pieces);
+  SporeObject *source = spore_object_reference(asset, "source");
+  const SporeTriangleMesh *surface = count > 1 && source ? spore_document_mesh(check->document, source, NULL) : NULL;
+  SporeMeshReport report;
+  gboolean fewer = surface && spore_triangle_mesh_report(surface, &report, &fault) && report.components < count;
+  if (count > 1 && !mesh->labels)
+    spore_check_say(check, fewer ? SPORE_WARNING : SPORE_NOTE, asset,
+                    fewer ? _("generate them again with more cells") : _("pin each of them, or tie them together"),
+                    _("\"%s\" is in %zu pieces that share no node: those that nothing holds move by themselves"),
+                    spore_object_name(asset), count);
+  return TRUE;
+}
+
 static gboolean check_tetrahedra(SporeCheck *check, SporeObject *asset, GError **error) {
   const SporeTetrahedralMesh *mesh = spore_document_tetrahedra(check->document, asset, error);
   if (!mesh) return FALSE;
@@ -47,7 +68,7 @@ static gboolean check_tetrahedra(SporeCheck *check, SporeObject *asset, GError *
     spore_check_say(check, SPORE_WARNING, asset, _("generate them again with another number of cells"),
                     _("\"%s\" has slivers: the flattest tetrahedron has an angle of %.2g degrees; expected over %g"),
                     spore_object_name(asset), quality.min_dihedral_deg, SLIVER_DEG);
-  return TRUE;
+  return check_pieces(check, asset, mesh, error);
 }
 
 static gboolean check_spheres(SporeCheck *check, SporeObject *asset, GError **error) {

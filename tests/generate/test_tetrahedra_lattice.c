@@ -129,6 +129,39 @@ static void test_open_shapes(void) {
   spore_tetrahedral_mesh_clear(&result.mesh);
 }
 
+/* A ball with a small one beside it at a neck that no cell is as thin as: what breaks off goes, and is said. One by
+ * itself stays. */
+static void test_crumbs(void) {
+  SporeTriangleMesh organ = {0}, other = {0};
+  shape_ball(&organ, 0.03, 24);
+  for (gsize i = 0; i < organ.vertex_count; i++) {
+    double *p = organ.vertices + 3 * i, z = p[2] / 0.03, wide = z > 0 ? 1 : z > -0.7 ? 0.01 : 0.4;
+    p[0] *= wide, p[1] *= wide, p[2] *= 2;
+  }
+  Result result = fill(&organ, (SporeTetrahedraOptions){.method = SPORE_TETRAHEDRA_VOXELS, .cells = 600}, "voxels");
+  uint32_t *pieces;
+  size_t count;
+  g_assert_true(spore_tetrahedral_mesh_pieces(&result.mesh, &pieces, &count, NULL));
+  spore_free(pieces);
+  g_assert_cmpuint(count, ==, 1);
+  g_assert_cmpuint(result.report.pieces, ==, 1);
+  g_assert_cmpuint(result.report.pieces_given, ==, 1);
+  g_assert_cmpfloat(result.report.crumbs, >, 0.001);
+  g_assert_cmpfloat(result.report.crumbs, <, 0.02);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  shape_ball(&organ, 0.03, 8);
+  shape_ball(&other, 0.006, 8);
+  shape_move(&other, 0.05, 0, 0);
+  shape_append(&organ, &other);
+  spore_triangle_mesh_clear(&other);
+  result = fill(&organ, (SporeTetrahedraOptions){.method = SPORE_TETRAHEDRA_VOXELS, .cells = 1500}, "voxels");
+  g_assert_cmpuint(result.report.pieces, ==, 2);
+  g_assert_cmpuint(result.report.pieces_given, ==, 2);
+  g_assert_cmpfloat(result.report.crumbs, ==, 0);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tetrahedra/thin-wall", test_thin_wall);
@@ -136,5 +169,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/tetrahedra/voxel-angles", test_voxel_angles);
   g_test_add_func("/tetrahedra/fill", test_fill);
   g_test_add_func("/tetrahedra/open-shapes", test_open_shapes);
+  g_test_add_func("/tetrahedra/crumbs", test_crumbs);
   return g_test_run();
 }

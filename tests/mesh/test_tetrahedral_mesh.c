@@ -149,6 +149,23 @@ static void test_no_memory(void) {
   spore_tetrahedral_mesh_clear(&mesh);
 }
 
+/* Two that share a vertex are one piece, one by itself another. */
+static void test_pieces(void) {
+  SporeTetrahedralMesh mesh;
+  g_assert_true(spore_tetrahedral_mesh_allocate(&mesh, 11, 3, NULL));
+  const uint32_t corners[] = {0, 1, 2, 3, 7, 8, 9, 10, 3, 4, 5, 6};
+  memcpy(mesh.tetrahedra, corners, sizeof corners);
+  uint32_t *pieces;
+  size_t count;
+  g_assert_true(spore_tetrahedral_mesh_pieces(&mesh, &pieces, &count, NULL));
+  g_assert_cmpuint(count, ==, 2);
+  g_assert_cmpuint(pieces[0], ==, 0);
+  g_assert_cmpuint(pieces[1], ==, 1);
+  g_assert_cmpuint(pieces[2], ==, 0);
+  spore_free(pieces);
+  spore_tetrahedral_mesh_clear(&mesh);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/mesh/tetrahedral/boundary", test_boundary);
@@ -159,5 +176,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/mesh/tetrahedral/cell-faces", test_cell_faces);
   g_test_add_func("/mesh/tetrahedral/cell-faces-outward", test_cell_faces_outward);
   g_test_add_func("/mesh/tetrahedral/no-memory", test_no_memory);
+  g_test_add_func("/tetrahedral-mesh/pieces", test_pieces);
   return g_test_run();
 }

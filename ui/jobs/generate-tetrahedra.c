@@ -54,6 +54,10 @@ static char *facts(const SporeGenerateWork *work) {
                          100 * report->volume_change);
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Surface %+.1f %%"), 100 * report->area_change);
+  if (report->pieces > report->pieces_given) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("In %zu pieces, the surface in %zu"), report->pieces, report->pieces_given);
+  }
   for (int i = 0; i < SPORE_TETRAHEDRA_METHODS; i++)
     if (*report->refused[i]) {
       g_string_append_c(text, '\n');
