@@ -54,6 +54,13 @@ void *spore_reallocate(void *memory, size_t old_count, size_t count, size_t size
   return moved;
 }
 
+void *spore_grow(void *memory, size_t *capacity, size_t first, size_t size) {
+  size_t larger = *capacity ? 2 * *capacity : first;
+  void *grown = spore_reallocate(memory, *capacity, larger, size);
+  if (grown) *capacity = larger;
+  return grown;
+}
+
 void spore_free(void *memory) {
 #ifdef _WIN32
   _aligned_free(memory);

@@ -13,6 +13,14 @@ void *spore_allocate(size_t count, size_t size);
 void *spore_reallocate(void *memory, size_t old_count, size_t count, size_t size);
 void spore_free(void *memory);
 
+void *spore_grow(void *memory, size_t *capacity, size_t first, size_t size);
+
+/* `memory` with room for one more than `count` elements: itself, or in its place one of twice *capacity elements, or of
+ * `first`, what is new zeroed. NULL: no memory; the old block stays valid. */
+static inline void *spore_room_for_one(void *memory, size_t count, size_t *capacity, size_t first, size_t size) {
+  return count < *capacity ? memory : spore_grow(memory, capacity, first, size);
+}
+
 #define SPORE_NEW(Type) ((Type *)spore_allocate(1, sizeof(Type)))
 #define SPORE_NEW_ARRAY(Type, count) ((Type *)spore_allocate((count), sizeof(Type)))
 

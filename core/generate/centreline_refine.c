@@ -29,12 +29,9 @@ typedef struct Line {
 } Line;
 
 static bool line_add(Line *line, SporeVec3 p, double radius) {
-  if (line->count == line->capacity) {
-    size_t capacity = line->capacity ? 2 * line->capacity : 256;
-    double *grown = spore_reallocate(line->points, 4 * line->capacity, 4 * capacity, sizeof *grown);
-    if (!grown) return false;
-    line->points = grown, line->capacity = capacity;
-  }
+  double *points = spore_room_for_one(line->points, line->count, &line->capacity, 256, 4 * sizeof *points);
+  if (!points) return false;
+  line->points = points;
   double *point = line->points + 4 * line->count++;
   spore_vec3_store(point, p);
   point[3] = radius;

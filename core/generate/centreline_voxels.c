@@ -44,12 +44,9 @@ typedef struct Filling {
 } Filling;
 
 static bool add_voxel(Filling *filling, uint64_t key, double depth) {
-  if (filling->count == filling->capacity) {
-    size_t capacity = filling->capacity ? 2 * filling->capacity : 1 << 16;
-    Voxel *grown = spore_reallocate(filling->voxels, filling->capacity, capacity, sizeof *grown);
-    if (!grown) return false;
-    filling->voxels = grown, filling->capacity = capacity;
-  }
+  Voxel *voxels = spore_room_for_one(filling->voxels, filling->count, &filling->capacity, 1 << 16, sizeof *voxels);
+  if (!voxels) return false;
+  filling->voxels = voxels;
   filling->voxels[filling->count++] = (Voxel){key, depth};
   return true;
 }

@@ -63,14 +63,10 @@ static double longest_edge(Piece *p) {
 
 static bool add_gap(Cover *cover, const Piece *piece) {
   if (cover->gap_count == GAPS_MOST) return false;
-  if (cover->gap_count == cover->gap_capacity) {
-    size_t capacity = cover->gap_capacity ? 2 * cover->gap_capacity : 1024;
-    double *grown = spore_reallocate(cover->gaps, 3 * cover->gap_capacity, 3 * capacity, sizeof *grown);
-    cover->failed = !grown;
-    if (!grown) return false;
-    cover->gaps = grown;
-    cover->gap_capacity = capacity;
-  }
+  double *gaps = spore_room_for_one(cover->gaps, cover->gap_count, &cover->gap_capacity, 1024, 3 * sizeof *gaps);
+  cover->failed |= !gaps;
+  if (!gaps) return false;
+  cover->gaps = gaps;
   SporeVec3 sum = spore_vec3_add(piece->a, spore_vec3_add(piece->b, piece->c));
   spore_vec3_store(cover->gaps + 3 * cover->gap_count++, spore_vec3_scale(1. / 3, sum));
   return true;
@@ -153,14 +149,10 @@ typedef struct Corners {
 } Corners;
 
 static void add_corner(Corners *corners, SporeVec3 place, size_t i, size_t j, size_t k) {
-  if (corners->count == corners->capacity) {
-    size_t capacity = corners->capacity ? 2 * corners->capacity : 64;
-    Corner *grown = spore_reallocate(corners->corner, corners->capacity, capacity, sizeof *grown);
-    corners->failed |= !grown;
-    if (!grown) return;
-    corners->corner = grown;
-    corners->capacity = capacity;
-  }
+  Corner *corner = spore_room_for_one(corners->corner, corners->count, &corners->capacity, 64, sizeof *corner);
+  corners->failed |= !corner;
+  if (!corner) return;
+  corners->corner = corner;
   corners->corner[corners->count] = (Corner){place, {(uint32_t)i, (uint32_t)j, (uint32_t)k}, (uint32_t)corners->count};
   corners->count++;
 }

@@ -24,15 +24,13 @@ typedef struct Cells {
 } Cells;
 
 static bool add_point(Cells *cells, SporeVec3 p, double volume) {
-  if (cells->count == cells->capacity) {
-    size_t capacity = cells->capacity ? 2 * cells->capacity : 65536;
-    double *xyz = spore_reallocate(cells->xyz, 3 * cells->capacity, 3 * capacity, sizeof *xyz);
-    if (xyz) cells->xyz = xyz;
-    double *grown = spore_reallocate(cells->volume, cells->capacity, capacity, sizeof *grown);
-    if (grown) cells->volume = grown;
-    if (!xyz || !grown) return spore_spheres_no_memory(cells->error);
-    cells->capacity = capacity;
-  }
+  size_t capacity = cells->capacity; /* of both arrays */
+  double *xyz = spore_room_for_one(cells->xyz, cells->count, &capacity, 65536, 3 * sizeof *xyz);
+  if (xyz) cells->xyz = xyz;
+  double *volumes =
+      xyz ? spore_room_for_one(cells->volume, cells->count, &cells->capacity, 65536, sizeof *volumes) : NULL;
+  if (!volumes) return spore_spheres_no_memory(cells->error);
+  cells->volume = volumes;
   spore_vec3_store(cells->xyz + 3 * cells->count, spore_symmetry_fold(&cells->solid->symmetry, p));
   cells->volume[cells->count++] = volume;
   return true;

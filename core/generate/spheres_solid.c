@@ -38,15 +38,12 @@ typedef struct Cells {
 } Cells;
 
 static bool cells_add(Cells *cells, const double lower[3], double edge, bool inside) {
-  if (cells->count == cells->capacity) {
-    size_t capacity = cells->capacity ? 2 * cells->capacity : 4096;
-    double *grown = spore_reallocate(cells->cells, 4 * cells->capacity, 4 * capacity, sizeof *grown);
-    if (grown) cells->cells = grown;
-    bool *grown_inside = spore_reallocate(cells->inside, cells->capacity, capacity, sizeof *grown_inside);
-    if (grown_inside) cells->inside = grown_inside;
-    if (!grown || !grown_inside) return false;
-    cells->capacity = capacity;
-  }
+  size_t capacity = cells->capacity; /* of both arrays */
+  double *places = spore_room_for_one(cells->cells, cells->count, &capacity, 4096, 4 * sizeof *places);
+  if (places) cells->cells = places;
+  bool *sides = places ? spore_room_for_one(cells->inside, cells->count, &cells->capacity, 4096, sizeof *sides) : NULL;
+  if (!sides) return false;
+  cells->inside = sides;
   double *cell = cells->cells + 4 * cells->count;
   memcpy(cell, lower, 3 * sizeof *cell);
   cell[3] = edge;

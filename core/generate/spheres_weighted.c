@@ -30,13 +30,10 @@
 
 static bool add_pair(SporeWeightedFit *fit, size_t sample, size_t ball, SporeVec3 offset, double distance,
                      double radius) {
-  if (fit->pair_count == fit->pair_capacity) {
-    size_t capacity = fit->pair_capacity ? 2 * fit->pair_capacity : 262144;
-    SporeWeightedPair *grown = spore_reallocate(fit->pairs, fit->pair_capacity, capacity, sizeof *grown);
-    if (!grown) return false;
-    fit->pairs = grown;
-    fit->pair_capacity = capacity;
-  }
+  SporeWeightedPair *pairs =
+      spore_room_for_one(fit->pairs, fit->pair_count, &fit->pair_capacity, 262144, sizeof *pairs);
+  if (!pairs) return false;
+  fit->pairs = pairs;
   double inverse = distance > 0 ? 1 / distance : 0;
   fit->pairs[fit->pair_count++] =
       (SporeWeightedPair){(uint32_t)sample,

@@ -137,12 +137,10 @@ static bool snap(SporeBcc *lattice, const SporeBvh *tree, SporeBccNode node) {
     place = spore_vec3_add_scaled(here, share, spore_vec3_sub(regular_place(lattice, other), here));
   }
   if (!(best < HUGE_VAL)) return true;
-  if (lattice->place_count == lattice->place_room) {
-    size_t room = 2 * lattice->place_room + 1024;
-    double *places = spore_reallocate(lattice->places, 3 * lattice->place_room, 3 * room, sizeof *places);
-    if (!places) return false;
-    lattice->places = places, lattice->place_room = room;
-  }
+  double *places =
+      spore_room_for_one(lattice->places, lattice->place_count, &lattice->place_room, 1024, 3 * sizeof *places);
+  if (!places) return false;
+  lattice->places = places;
   spore_vec3_store(lattice->places + 3 * lattice->place_count, place);
   lattice->moved[index] = (uint32_t)++lattice->place_count;
   lattice->value[index] = 0;

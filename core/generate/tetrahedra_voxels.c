@@ -23,12 +23,10 @@ typedef struct {
 
 static bool add_vertex(Stuffing *stuffing, SporeVec3 p, uint32_t *number) {
   SporeTetrahedralMesh *mesh = stuffing->mesh;
-  if (mesh->vertex_count == stuffing->vertex_room) {
-    size_t room = 2 * stuffing->vertex_room + 1024;
-    double *grown = spore_reallocate(mesh->vertices, 3 * stuffing->vertex_room, 3 * room, sizeof *grown);
-    if (!grown) return false;
-    mesh->vertices = grown, stuffing->vertex_room = room;
-  }
+  double *vertices =
+      spore_room_for_one(mesh->vertices, mesh->vertex_count, &stuffing->vertex_room, 1024, 3 * sizeof *vertices);
+  if (!vertices) return false;
+  mesh->vertices = vertices;
   spore_vec3_store(mesh->vertices + 3 * mesh->vertex_count, p);
   *number = (uint32_t)mesh->vertex_count++;
   return true;
@@ -36,12 +34,10 @@ static bool add_vertex(Stuffing *stuffing, SporeVec3 p, uint32_t *number) {
 
 static bool add_cell(Stuffing *stuffing, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
   SporeTetrahedralMesh *mesh = stuffing->mesh;
-  if (mesh->tetrahedron_count == stuffing->cell_room) {
-    size_t room = 2 * stuffing->cell_room + 4096;
-    uint32_t *grown = spore_reallocate(mesh->tetrahedra, 4 * stuffing->cell_room, 4 * room, sizeof *grown);
-    if (!grown) return false;
-    mesh->tetrahedra = grown, stuffing->cell_room = room;
-  }
+  uint32_t *cells =
+      spore_room_for_one(mesh->tetrahedra, mesh->tetrahedron_count, &stuffing->cell_room, 4096, 4 * sizeof *cells);
+  if (!cells) return false;
+  mesh->tetrahedra = cells;
   const double *v = mesh->vertices;
   bool turned = spore_vec3_volume(spore_mesh_vertex(v, a), spore_mesh_vertex(v, b), spore_mesh_vertex(v, c),
                                   spore_mesh_vertex(v, d)) < 0;

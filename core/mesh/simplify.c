@@ -137,13 +137,9 @@ static bool is_before(const Candidate *one, const Candidate *other) {
 }
 
 static bool push(Collapser *work, Candidate candidate) {
-  if (work->count == work->capacity) {
-    size_t capacity = 2 * work->capacity + 64;
-    Candidate *heap = spore_reallocate(work->heap, work->capacity, capacity, sizeof *heap);
-    if (!heap) return false;
-    work->heap = heap;
-    work->capacity = capacity;
-  }
+  Candidate *heap = spore_room_for_one(work->heap, work->count, &work->capacity, 64, sizeof *heap);
+  if (!heap) return false;
+  work->heap = heap;
   size_t at = work->count++;
   for (; at > 0 && is_before(&candidate, &work->heap[(at - 1) / 2]); at = (at - 1) / 2)
     work->heap[at] = work->heap[(at - 1) / 2];

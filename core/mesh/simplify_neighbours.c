@@ -63,12 +63,9 @@ static void corners_of(const SporeShell *shell, uint32_t triangle, SporeVec3 p[3
 }
 
 static bool add_to_cell(SporeShellNeighbours *near, size_t cell, uint32_t triangle) {
-  if (near->count == near->capacity) {
-    size_t capacity = near->capacity ? 2 * near->capacity : 4096;
-    uint32_t *grown = spore_reallocate(near->entries, 2 * near->capacity, 2 * capacity, sizeof *grown);
-    if (!grown) return false;
-    near->entries = grown, near->capacity = capacity;
-  }
+  uint32_t *entries = spore_room_for_one(near->entries, near->count, &near->capacity, 4096, 2 * sizeof *entries);
+  if (!entries) return false;
+  near->entries = entries;
   near->entries[2 * near->count] = triangle;
   near->entries[2 * near->count + 1] = near->head[cell];
   near->head[cell] = (uint32_t)near->count++;

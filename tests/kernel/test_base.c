@@ -81,6 +81,24 @@ static void test_reallocate(void) {
   spore_free(memory);
 }
 
+/* One by one: what was there stays, what is new is zero, and without memory all is as it was. */
+static void test_room_for_one(void) {
+  int *memory = NULL;
+  size_t capacity = 0;
+  for (int i = 0; i < 20; i++) {
+    memory = spore_room_for_one(memory, (size_t)i, &capacity, 5, sizeof *memory);
+    for (int k = 0; k < (int)capacity; k++) g_assert_cmpint(memory[k], ==, k < i ? k + 1 : 0);
+    memory[i] = i + 1;
+  }
+  g_assert_cmpuint(capacity, ==, 20);
+  spore_allocation_fail_at(1);
+  g_assert_null(spore_room_for_one(memory, 20, &capacity, 5, sizeof *memory));
+  spore_allocation_fail_at(0);
+  g_assert_cmpuint(capacity, ==, 20);
+  g_assert_cmpint(memory[19], ==, 20);
+  spore_free(memory);
+}
+
 static void test_injected_failure(void) {
   uint64_t before = spore_allocation_count();
   spore_allocation_fail_at(3);
@@ -326,6 +344,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/base/translate", test_translate);
   g_test_add_func("/base/allocate", test_allocate);
   g_test_add_func("/base/reallocate", test_reallocate);
+  g_test_add_func("/base/room-for-one", test_room_for_one);
   g_test_add_func("/base/injected-failure", test_injected_failure);
   g_test_add_func("/base/number", test_number);
   g_test_add_func("/base/number-in-other-locale", test_number_in_other_locale);
