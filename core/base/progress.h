@@ -19,4 +19,13 @@ static inline bool spore_progress(const SporeProgress *progress, double fraction
   return !progress || !progress->report || progress->report(progress->data, fraction, stage);
 }
 
+/* A part of some work, with a progress of its own: what it says and shows goes on to that of the whole. */
+typedef struct SporeProgressShare {
+  const SporeProgress *whole; /* or NULL */
+  double done, share;         /* of the whole: before this part, and of it; may change from call to call */
+} SporeProgressShare;
+
+/* The share must outlive it. */
+SporeProgress spore_progress_of_share(SporeProgressShare *share);
+
 #endif

@@ -31,14 +31,8 @@ typedef struct Meshing {
   double lower[3], upper[3]; /* of the wanted voxels */
   double volume;
   double edge;
-  double done, share; /* of the progress */
-  const SporeProgress *progress;
+  SporeProgressShare stage; /* the one at work */
 } Meshing;
-
-static bool report_share(void *data, double fraction, const char *stage) {
-  const Meshing *m = data;
-  return spore_progress(m->progress, m->done + m->share * fraction, stage);
-}
 
 /* Cells of which three faces or all lie against one other organ (or outside) are spikes: they go over to it, so that no
  * border folds back on itself. */
@@ -102,21 +96,21 @@ static bool measure_map(Meshing *m, const SporeLabelMap *map) {
 
 /* A lattice of about as many cells as are wanted. */
 static bool make_cells(Meshing *m, SporeTetrahedralMesh *mesh, SporeError *error) {
-  SporeProgress progress = {.report = report_share, .data = m};
+  SporeProgress progress = spore_progress_of_share(&m->stage);
   double wanted = (double)m->options->cells;
   wanted *= fmin(fmax(FINE * sqrt(USUAL / fmax(wanted, 1)), LEAST_FINE), FINE);
   size_t count = 0;
   m->edge = m->options->cells ? cbrt(CELLS_A_VOLUME * m->volume / wanted) : m->options->size;
   for (int attempt = 0; m->options->cells && attempt < ATTEMPTS; attempt++) {
-    m->share = 0.15;
+    m->stage.share = 0.15;
     if (!spore_label_lattice(&m->field, m->lower, m->upper, m->edge, NULL, &count, &progress, error)) return false;
-    m->done += m->share;
+    m->stage.done += m->stage.share;
     if (fabs((double)count / wanted - 1) < NEAR_ENOUGH) break;
     m->edge *= cbrt(fmax((double)count, 1) / wanted);
   }
-  m->share = 0.15;
+  m->stage.share = 0.15;
   if (!spore_label_lattice(&m->field, m->lower, m->upper, m->edge, mesh, &count, &progress, error)) return false;
-  m->done += m->share;
+  m->stage.done += m->stage.share;
   if (count > MOST_CELLS)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("that makes %zu cells; expected at most %u; ask for fewer or larger ones"), count,
@@ -207,7 +201,7 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
   *result = (SporeTetrahedralMesh){0};
   *report = (SporeLabelTetrahedraReport){0};
   m->options = options;
-  m->progress = progress;
+  m->stage.whole = progress;
   bool done = check(m, map, &failure);
   if (done) spore_label_field_init(&m->field, map, m->wanted);
   done = done && make_cells(m, result, &failure);
@@ -215,8 +209,8 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
     done = spore_error_set(&failure, SPORE_ERROR_INPUT, NULL,
                            _("the organs are finer than the cells: there is not one; expected larger organs; ask for "
                              "more or smaller cells"));
-  SporeProgress fitting = {.report = report_share, .data = m};
-  m->share = 1 - m->done;
+  SporeProgress fitting = spore_progress_of_share(&m->stage);
+  m->stage.share = 1 - m->stage.done;
   done = done && spore_label_fit(&m->field, result, m->edge, m->volumes, &fitting, &failure) &&
          (!options->cells || coarsen(m, result, &fitting, &failure)) &&
          spore_tetrahedral_mesh_validate(result, &failure) && measure(m, result, report, &failure);

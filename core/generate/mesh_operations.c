@@ -113,21 +113,11 @@ static bool apply(SporeTriangleMesh *mesh, SporeMeshOperationKind kind, double a
   return spore_error_set(error, SPORE_ERROR_INTERNAL, NULL, _("there is no such operation on a mesh; report this"));
 }
 
-typedef struct Share {
-  const SporeProgress *progress;
-  double from, size;
-} Share;
-
-static bool report_share(void *data, double fraction, const char *stage) {
-  const Share *share = data;
-  return spore_progress(share->progress, share->from + share->size * fraction, stage);
-}
-
 bool spore_mesh_operate(SporeTriangleMesh *mesh, SporeMeshOperationKind operation, double argument,
                         SporeMeshChange *change, const SporeProgress *progress, SporeError *error) {
   if (!check_argument(&spore_mesh_operations[operation], argument, error)) return false;
-  Share doing = {progress, 0, 1 - MEASURING}, measuring = {progress, 1 - MEASURING, MEASURING};
-  SporeProgress in_doing = {report_share, &doing}, in_measuring = {report_share, &measuring};
+  SporeProgressShare doing = {progress, 0, 1 - MEASURING}, measuring = {progress, 1 - MEASURING, MEASURING};
+  SporeProgress in_doing = spore_progress_of_share(&doing), in_measuring = spore_progress_of_share(&measuring);
   SporeMeshChange ignored;
   SporeTriangleMesh result;
   if (!change) change = &ignored;

@@ -17,14 +17,8 @@
 typedef struct Intake {
   const SporeImportOptions *options;
   SporeImport *import;
-  const SporeProgress *progress;
-  double done, share; /* of the progress: before this step, and of it */
+  SporeProgressShare step; /* the one at work */
 } Intake;
-
-static bool report_share(void *data, double fraction, const char *stage) {
-  const Intake *intake = data;
-  return spore_progress(intake->progress, intake->done + intake->share * fraction, stage);
-}
 
 static void free_file(SporeImportFile *file) {
   g_free(file->file);
@@ -111,7 +105,7 @@ static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFi
 
 /* A body for each label. Staircases of voxels are smoothed away; the volume stays. */
 static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
-  SporeProgress progress = {.report = report_share, .data = intake};
+  SporeProgress progress = spore_progress_of_share(&intake->step);
   SporeError failure = SPORE_ERROR_INIT;
   SporeLabelMap map;
   if (!spore_label_map_decode(file->file, bytes, size, &map, &progress, error)) return FALSE;
@@ -143,7 +137,7 @@ static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *by
 /* One file's bodies. */
 static gboolean add_file(Intake *intake, const char *path, GError **error) {
   SporeImportDivision division = intake->options->division;
-  SporeProgress progress = {.report = report_share, .data = intake};
+  SporeProgress progress = spore_progress_of_share(&intake->step);
   SporeImportFile *file = g_new0(SporeImportFile, 1);
   g_ptr_array_add(intake->import->files, file);
   file->file = g_strdup(path);
@@ -194,7 +188,7 @@ static gboolean merge(SporeImport *import, GError **error) {
 
 static gboolean mend(Intake *intake, SporeImportBody *body, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  SporeProgress progress = {.report = report_share, .data = intake};
+  SporeProgress progress = spore_progress_of_share(&intake->step);
   bool done = spore_mesh_figures(&body->mesh, &body->as_read, &failure);
   for (int kind = 0; done && kind < SPORE_MESH_OPERATIONS; kind++) {
     if (!intake->options->operations[kind].wanted) continue;
@@ -213,17 +207,17 @@ SporeImport *spore_import_read(char *const *files, const SporeImportOptions *opt
   g_autoptr(SporeImport) import = g_new0(SporeImport, 1);
   import->files = g_ptr_array_new_with_free_func((GDestroyNotify)free_file);
   import->bodies = g_ptr_array_new_with_free_func((GDestroyNotify)free_body);
-  Intake intake = {.options = options, .import = import, .progress = progress};
+  Intake intake = {.options = options, .import = import, .step.whole = progress};
   guint count = g_strv_length((char **)files);
   for (guint i = 0; i < count; i++) {
-    intake.done = 0.5 * i / count;
-    intake.share = 0.5 / count;
+    intake.step.done = 0.5 * i / count;
+    intake.step.share = 0.5 / count;
     if (!add_file(&intake, files[i], error)) return NULL;
   }
   if (options->division == SPORE_IMPORT_MERGED && !merge(import, error)) return NULL;
   for (guint i = 0; i < import->bodies->len; i++) {
-    intake.done = 0.5 + 0.5 * i / import->bodies->len;
-    intake.share = 0.5 / import->bodies->len;
+    intake.step.done = 0.5 + 0.5 * i / import->bodies->len;
+    intake.step.share = 0.5 / import->bodies->len;
     if (!mend(&intake, g_ptr_array_index(import->bodies, i), error)) return NULL;
   }
   return g_steal_pointer(&import);

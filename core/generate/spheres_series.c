@@ -18,21 +18,6 @@ static bool check_counts(const size_t *counts, size_t count, SporeError *error) 
   return true;
 }
 
-typedef struct Part {
-  const SporeProgress *whole;
-  double first, share;
-} Part;
-
-static bool report_part(void *data, double fraction, const char *stage) {
-  const Part *part = data;
-  return spore_progress(part->whole, part->first + part->share * fraction, stage);
-}
-
-static void show_part(void *data, const double *spheres, size_t count) {
-  const Part *part = data;
-  if (part->whole && part->whole->show) part->whole->show(part->whole->data, spheres, count);
-}
-
 bool spore_spheres_series(const SporeSpheresSource *source, const SporeSpheresOptions *options, const size_t *counts,
                           size_t count, SporeSpheresReport *reports, SporeSpheresMeasured *measured, void *data,
                           const SporeProgress *progress, SporeError *error) {
@@ -40,8 +25,8 @@ bool spore_spheres_series(const SporeSpheresSource *source, const SporeSpheresOp
   if (!check_counts(counts, count, error)) return false;
   for (size_t i = 0; i < count; i++) sum += 40 + (double)counts[i]; /* about what each takes */
   for (size_t i = 0; i < count; i++) {
-    Part part = {progress, done / sum, (40 + (double)counts[i]) / sum};
-    SporeProgress inner = {report_part, &part, show_part};
+    SporeProgressShare part = {progress, done / sum, (40 + (double)counts[i]) / sum};
+    SporeProgress inner = spore_progress_of_share(&part);
     SporeSpheresOptions one = *options;
     SporeSphereSet set;
     one.count = counts[i];

@@ -38,17 +38,6 @@ static void measured(Measurement *measurement, gsize point, double error) {
   g_mutex_unlock(&measurement->mutex);
 }
 
-/* Of the whole. */
-typedef struct {
-  const SporeProgress *whole;
-  double done, share;
-} Part;
-
-static bool report_part(void *data, double fraction, const char *stage) {
-  const Part *part = data;
-  return spore_progress(part->whole, part->done + part->share * fraction, stage);
-}
-
 static const SporeGenerateType *type_of(const Measurement *measurement) {
   return spore_generate_type(measurement->source->options.kind);
 }
@@ -58,12 +47,12 @@ static gboolean run(gpointer data, const SporeProgress *progress, GError **error
   const size_t *counts = type_of(measurement)->counts;
   double sum = 0;
   for (gsize i = 0; counts[i]; i++) sum += (double)counts[i];
-  Part part = {.whole = progress};
+  SporeProgressShare part = {.whole = progress};
   for (gsize i = 0; counts[i]; i++) {
     double found = 0;
     part.done += part.share;
     part.share = (double)counts[i] / sum;
-    SporeProgress inner = {.report = report_part, .data = &part};
+    SporeProgress inner = spore_progress_of_share(&part);
     if (!type_of(measurement)->price(measurement->source, counts[i], &found, &inner, error)) return FALSE;
     measured(measurement, i, found);
   }
