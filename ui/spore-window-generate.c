@@ -7,6 +7,7 @@
 #include "ui/spore-window-private.h"
 
 #define USUAL_LABEL_CELLS 5000
+#define LOOK_REST 4     /* times as long as a picture takes, between pictures of work that goes on */
 #define MARK_PART 0.015 /* of the organ's diagonal: radius of what marks a picked end */
 
 static void show_candidate(SporeWindow *self);
@@ -266,10 +267,24 @@ static void show_candidate(SporeWindow *self) {
   spore_quality_clear(&quality);
 }
 
+/* A job tells of its progress more often than it has something else to show, or than that can be drawn beside it. */
+static gboolean shows_look_already(SporeWindow *self) {
+  SporeJob *job = spore_generator_get_job(self->generator);
+  gboolean same = job && job == self->look_job && !spore_generator_get_result(self->generator) && !is_picking(self);
+  guint serial = job ? spore_job_get_look_serial(job) : 0;
+  gint64 now = g_get_monotonic_time();
+  double rest_ms = LOOK_REST * spore_viewport_get_draw_ms(SPORE_VIEWPORT(self->viewport));
+  if (same && (serial == self->look_serial || (double)(now - self->look_time) < 1e3 * rest_ms)) return TRUE;
+  self->look_job = job;
+  self->look_serial = serial;
+  self->look_time = now;
+  return FALSE;
+}
+
 static void changed(SporeWindow *self) {
   if (is_picking(self) && !picks_ends(self))
     g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
-  show_candidate(self);
+  if (!shows_look_already(self)) show_candidate(self);
   spore_window_show_job(self);
   spore_window_update_actions(self);
 }

@@ -31,8 +31,11 @@ struct _SporeWindow {
   GMenu *mesh_operations; /* in the menu */
   guint picked;           /* ends of a middle line, so far */
   SporeVec3 first_end;    /* in the body's axes */
-  gboolean framed_apart;  /* what a generator offers of no body has been looked at */
-  gboolean fresh, sure;   /* sure: the user has answered about unsaved changes */
+  SporeJob *look_job;     /* whose look is shown, with its serial and when; borrowed, to be compared */
+  guint look_serial;
+  gint64 look_time;
+  gboolean framed_apart; /* what a generator offers of no body has been looked at */
+  gboolean fresh, sure;  /* sure: the user has answered about unsaved changes */
 };
 
 /* Frame. */

@@ -19,6 +19,7 @@ struct _SporeJob {
   char stage[128];
   double *look; /* look_count x 4, or NULL */
   gsize look_count;
+  guint look_serial;
 };
 
 G_DEFINE_FINAL_TYPE(SporeJob, spore_job, G_TYPE_OBJECT)
@@ -63,6 +64,7 @@ static void show(void *data, const double *spheres, size_t count) {
   g_free(self->look);
   self->look = look;
   self->look_count = count;
+  self->look_serial++;
   g_mutex_unlock(&self->mutex);
 }
 
@@ -142,6 +144,13 @@ char *spore_job_get_stage(SporeJob *self) {
   char *stage = g_strdup(self->stage);
   g_mutex_unlock(&self->mutex);
   return stage;
+}
+
+guint spore_job_get_look_serial(SporeJob *self) {
+  g_mutex_lock(&self->mutex);
+  guint serial = self->look_serial;
+  g_mutex_unlock(&self->mutex);
+  return serial;
 }
 
 double *spore_job_get_look(SporeJob *self, gsize *count) {

@@ -481,6 +481,8 @@ void spore_viewport_view(SporeViewport *self, const char *view) {
   spore_viewport_redraw(self);
 }
 
+double spore_viewport_get_draw_ms(SporeViewport *self) { return self->draw_ms; }
+
 const char *spore_viewport_get_renderer(SporeViewport *self) {
   ensure_renderer(self);
   return self->renderer_name;

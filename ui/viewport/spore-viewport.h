@@ -45,6 +45,8 @@ void spore_viewport_frame(SporeViewport *self);
 void spore_viewport_frame_soon(SporeViewport *self);
 /* "front", "right", "top", or "camera": through the first one of the scene, and with it; without any, all of it. */
 void spore_viewport_view(SporeViewport *self, const char *view);
+/* How long the last picture took, ms. */
+double spore_viewport_get_draw_ms(SporeViewport *self);
 /* GL_RENDERER, or why nothing is drawn. */
 const char *spore_viewport_get_renderer(SporeViewport *self);
 
