@@ -871,6 +871,38 @@ def mouse_takes_an_instrument_from_its_track():
     assert samples[0][4:8] != samples[-1][4:8], "Shift and a drag turn"
 
 
+@check
+def panels_fit_a_small_window():
+    """in a window of 900 x 600 nothing of the beginning is cut off, and the generator's panel scrolls up and down alone, in French too."""
+    for language in ("en", "fr"):
+        with start(LANGUAGE=language) as editor:
+            ids = subprocess.run(["xdotool", "search", "--onlyvisible", "--pid", str(editor.process.pid)], capture_output=True,
+                                 text=True).stdout.split()
+            editor.mouse("windowsize", ids[-1], 900, 600)
+            ui.wait(lambda: editor.place(editor.find(".*", "^(Viewport|Vue)$"))[2] < 400, "the window to be small")
+            for name in ("^(Import mesh|Importer un maillage)…$", "^(Open demo|Ouvrir la démo)$"):
+                ui.wait(lambda: within(editor.place(editor.find("push button", name)),
+                                       editor.place(editor.find(".*", "^(Viewport|Vue)$"))), f"{name} to fit")
+            import_ball(editor)
+            for kind, count in (("spheres", 20), ("surface", 60)):
+                editor.act(f"preview-{kind}", "u", count)
+                ui.wait(lambda: editor.enabled("apply-generated"), "the result", 60)
+                apply = editor.find("push button", "^(Apply|Appliquer)$")
+                spin = editor.find("spin button", "^(Spheres|Nodes|Sphères|Nœuds)$", showing=False)
+                ui.wait(lambda: editor.place(spin)[1] > editor.place(apply)[1] + 60, "the rows below the buttons")
+                panel = editor.place(apply)[0] - 10, 0, editor.place(editor.find(".*", "^(Viewport|Vue)$"))[2], 10000
+                assert within(editor.place(spin), panel), (editor.place(spin), panel)
+                for node in editor.walk():
+                    assert not (node.get_role_name() == "scroll bar" and editor.showing(node)
+                                and node.get_state_set().contains(editor.atspi.StateType.HORIZONTAL)), "a scroll bar lies"
+
+
+def within(inner, outer):
+    """Whether a place on the screen lies within another one."""
+    return (inner[0] >= outer[0] and inner[1] >= outer[1] and inner[0] + inner[2] <= outer[0] + outer[2] and
+            inner[1] + inner[3] <= outer[1] + outer[3])
+
+
 def plays_until(editor, pattern, enough, seconds=120):
     """As fast as it goes, until the figures over the view say so; paused then. The number that they said."""
     editor.act("speed", "s", "0")

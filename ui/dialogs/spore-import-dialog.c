@@ -9,6 +9,9 @@
 #include "ui/panels/report.h"
 
 #define SETTLE_MS 250 /* after a choice, before it is worked out */
+#define CHOICE_LEAST_CHARS 12
+#define CHOICE_CHARS 34
+#define ARGUMENT_CHARS 18
 
 enum {
   COLUMN_BODY,
@@ -260,7 +263,9 @@ static void add_operation(SporeImportDialog *self, int kind) {
   if (self->argument[kind]) {
     GtkWidget *label = gtk_label_new(_(operation->argument_label));
     gtk_style_context_add_class(gtk_widget_get_style_context(label), "dim-label");
-    gtk_widget_set_halign(label, GTK_ALIGN_START);
+    gtk_label_set_xalign(GTK_LABEL(label), 0);
+    gtk_label_set_line_wrap(GTK_LABEL(label), TRUE);
+    gtk_label_set_max_width_chars(GTK_LABEL(label), ARGUMENT_CHARS);
     g_signal_connect(self->argument[kind], "value-changed", G_CALLBACK(choice_changed), self);
     g_object_bind_property(self->wanted[kind], "active", self->argument[kind], "sensitive", G_BINDING_SYNC_CREATE);
     gtk_grid_attach(grid, self->argument[kind], 1, kind, 1, 1);
@@ -294,6 +299,8 @@ static void spore_import_dialog_init(SporeImportDialog *self) {
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->frame), 0);
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->division), SPORE_IMPORT_FILES);
   self->unit_chosen = FALSE; /* setting it looked like a choice */
+  spore_combo_shrinks(self->frame, CHOICE_LEAST_CHARS, CHOICE_CHARS);
+  spore_combo_shrinks(self->division, CHOICE_LEAST_CHARS, CHOICE_CHARS);
   spore_ignore_wheel(self->unit);
   spore_ignore_wheel(self->frame);
   spore_ignore_wheel(self->division);

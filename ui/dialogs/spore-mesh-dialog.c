@@ -5,6 +5,7 @@
 
 #include "ui/panels/report.h"
 
+#define TEXT_CHARS 72
 #define ARGUMENT "spore-argument" /* the spin button, at its dialog */
 
 GtkWidget *spore_operation_spin_new(const SporeMeshOperation *operation) {
@@ -35,6 +36,11 @@ GtkWidget *spore_mesh_dialog_new(GtkWindow *parent, const SporeMeshOperation *op
   GtkWidget *about = gtk_label_new(_(operation->doc)), *state = gtk_label_new(now);
   gtk_container_set_border_width(GTK_CONTAINER(box), 18);
   gtk_box_set_spacing(GTK_BOX(box), 12);
+  for (int i = 0; i < 2; i++) {
+    gtk_label_set_line_wrap(GTK_LABEL(i ? state : about), TRUE);
+    gtk_label_set_max_width_chars(GTK_LABEL(i ? state : about), TEXT_CHARS);
+    gtk_label_set_xalign(GTK_LABEL(i ? state : about), 0);
+  }
   gtk_container_add(GTK_CONTAINER(box), about);
   if (spin) {
     GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);

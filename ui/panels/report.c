@@ -16,6 +16,24 @@ void spore_report(GtkWidget *widget, const GError *error) {
   spore_activate(widget, "report", g_variant_new_string(error->message));
 }
 
+void spore_box_fit(GtkBox *box, int width) {
+  g_autoptr(GList) children = gtk_container_get_children(GTK_CONTAINER(box));
+  int needed = -gtk_box_get_spacing(box);
+  for (GList *child = children; child; child = child->next) {
+    int least;
+    gtk_widget_get_preferred_width(child->data, &least, NULL);
+    if (gtk_widget_get_visible(child->data)) needed += least + gtk_box_get_spacing(box);
+  }
+  gtk_orientable_set_orientation(GTK_ORIENTABLE(box),
+                                 needed <= width ? GTK_ORIENTATION_HORIZONTAL : GTK_ORIENTATION_VERTICAL);
+}
+
+void spore_combo_shrinks(GtkWidget *combo, int least_chars, int most_chars) {
+  g_autoptr(GList) cells = gtk_cell_layout_get_cells(GTK_CELL_LAYOUT(combo));
+  g_object_set(cells->data, "ellipsize", PANGO_ELLIPSIZE_END, "width-chars", least_chars, "max-width-chars", most_chars,
+               NULL);
+}
+
 /* Stopped here and still not handled, so that it goes on to the parent. */
 static gboolean pass_on(GtkWidget *widget, GdkEventScroll *event, gpointer data) {
   g_signal_stop_emission_by_name(widget, "scroll-event");

@@ -10,6 +10,10 @@
 void spore_activate(GtkWidget *widget, const char *name, GVariant *parameter);
 /* Shows the message in the window's bar. */
 void spore_report(GtkWidget *widget, const GError *error);
+/* Children beside each other where their least widths fit into `width`, else one below the other. */
+void spore_box_fit(GtkBox *box, int width);
+/* A combo box of texts that shows less of a long one where there is no room for it. */
+void spore_combo_shrinks(GtkWidget *combo, int least_chars, int most_chars);
 /* The wheel over this widget scrolls what holds it and never changes its value. */
 void spore_ignore_wheel(GtkWidget *widget);
 /* "Contact stiffness" of "contact_stiffness", translated. g_free. */

@@ -11,12 +11,14 @@
 #include "ui/panels/spore-label-list.h"
 #include "ui/panels/spore-histogram.h"
 
+#define QUALITY_LEAST_CHARS 8
+#define QUALITY_CHARS 24
 #define APART 0.75 /* of their size, so that the eye gets in between */
 
 struct _SporeGeneratorPanel {
   GtkBox parent;
-  GtkWidget *empty, *content, *title, *rows, *shown, *inside, *cut, *axis, *apart, *facts, *apply, *cancel, *histogram,
-      *numbers, *measure, *plot, *ends, *organs, *labels;
+  GtkWidget *empty, *content, *columns, *title, *rows, *shown, *inside, *cut, *axis, *apart, *facts, *apply, *cancel,
+      *histogram, *numbers, *measure, *plot, *ends, *organs, *labels;
   SporeGenerator *generator;
   SporeSeries *series;
   guint32 body; /* that the series is of */
@@ -150,6 +152,16 @@ static void refresh(SporeGeneratorPanel *self) {
   show_result(self);
 }
 
+static gboolean fit_columns(gpointer data) {
+  g_autoptr(SporeGeneratorPanel) self = data;
+  spore_box_fit(GTK_BOX(self->columns), gtk_widget_get_allocated_width(self->content));
+  return G_SOURCE_REMOVE;
+}
+
+static void content_sized(GtkWidget *widget, GdkRectangle *allocation, SporeGeneratorPanel *self) {
+  g_idle_add(fit_columns, g_object_ref(self)); /* not while sizes are given out */
+}
+
 static void view_changed(GtkWidget *widget, SporeGeneratorPanel *self) {
   if (!self->filling) g_signal_emit(self, signals[SHOWN_QUALITY_CHANGED], 0);
 }
@@ -192,6 +204,7 @@ static void spore_generator_panel_dispose(GObject *object) {
 static void bind(GtkWidgetClass *widget) {
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, empty);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, content);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, columns);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, title);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, rows);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorPanel, shown);
@@ -220,6 +233,7 @@ static void spore_generator_panel_class_init(SporeGeneratorPanelClass *class) {
   g_type_ensure(SPORE_TYPE_LABEL_LIST);
   gtk_widget_class_set_template_from_resource(widget, "/org/spore/Editor/spore-generator-panel.ui");
   bind(widget);
+  gtk_widget_class_bind_template_callback(widget, content_sized);
   gtk_widget_class_bind_template_callback(widget, options_changed);
   gtk_widget_class_bind_template_callback(widget, quality_chosen);
   gtk_widget_class_bind_template_callback(widget, view_changed);
@@ -234,6 +248,7 @@ static void spore_generator_panel_init(SporeGeneratorPanel *self) {
   self->series = spore_series_new();
   g_signal_connect_object(self->series, "changed", G_CALLBACK(show_series), self, G_CONNECT_SWAPPED);
   gtk_widget_init_template(GTK_WIDGET(self));
+  spore_combo_shrinks(self->shown, QUALITY_LEAST_CHARS, QUALITY_CHARS);
   spore_ignore_wheel(self->shown);
   spore_ignore_wheel(self->cut);
   spore_ignore_wheel(self->axis);

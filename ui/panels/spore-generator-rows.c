@@ -8,6 +8,8 @@
 #include "ui/panels/report.h"
 
 #define MOST_SHOWN 1e9
+#define CHOICE_LEAST_CHARS 5
+#define CHOICE_CHARS 20
 
 typedef struct {
   const SporeParameter *parameter;
@@ -48,6 +50,7 @@ static GtkWidget *new_number(const SporeParameter *parameter, double scale) {
 
 static GtkWidget *new_choice(const SporeParameter *parameter) {
   GtkWidget *combo = gtk_combo_box_text_new();
+  spore_combo_shrinks(combo, CHOICE_LEAST_CHARS, CHOICE_CHARS);
   for (const char *const *choice = parameter->choices; *choice; choice++) {
     g_autofree char *label = spore_choice_label(*choice);
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(combo), label);

@@ -130,9 +130,7 @@ static void combo_chosen(SporePropertyRow *self) {
 
 static GtkWidget *new_combo(SporePropertyRow *self) {
   GtkWidget *editor = gtk_combo_box_text_new();
-  g_autoptr(GList) cells = gtk_cell_layout_get_cells(GTK_CELL_LAYOUT(editor));
-  g_object_set(cells->data, "ellipsize", PANGO_ELLIPSIZE_END, "width-chars", LEAST_CHARS, "max-width-chars", TEXT_CHARS,
-               NULL);
+  spore_combo_shrinks(editor, LEAST_CHARS, TEXT_CHARS);
   g_signal_connect_swapped(editor, "changed", G_CALLBACK(combo_chosen), self);
   spore_ignore_wheel(editor);
   return editor;

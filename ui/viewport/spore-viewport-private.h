@@ -9,7 +9,7 @@ typedef enum { DRAG_NONE, DRAG_ORBIT, DRAG_PAN, DRAG_PROBE, DRAG_PULL, DRAG_EDIT
 
 struct _SporeViewport {
   GtkOverlay parent;
-  GtkWidget *area, *hud, *tools, *overlays, *welcome, *failure;
+  GtkWidget *area, *hud, *tools, *overlays, *welcome, *beginnings, *failure;
 
   SporeEditorDocument *document;
   SporePlayer *player;

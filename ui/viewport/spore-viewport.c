@@ -3,6 +3,7 @@
 #include "core/author/edits.h"
 #include "core/author/region_edits.h"
 #include "ui/document/labels.h"
+#include "ui/panels/report.h"
 #include "ui/render/colour_scale.h"
 #include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
@@ -11,7 +12,8 @@
 #define FIELD_OF_VIEW_RAD 0.61
 /* An empty scene shows about a hand's breadth. */
 #define EMPTY_DISTANCE_M 0.4
-#define MOST_LEVELS 4 /* bodies in the corner */
+#define MOST_LEVELS 4      /* bodies in the corner */
+#define WELCOME_PADDING 72 /* on both sides, of the style */
 #define LEGEND_WIDTH 200
 #define LEGEND_MARGIN 22
 #define LEGEND_HEIGHT 48
@@ -249,6 +251,7 @@ static gboolean place_overlays(gpointer data) {
   gtk_widget_get_preferred_height(self->tools, NULL, &height);
   gboolean room = tools + overlays + margin <= gtk_widget_get_allocated_width(self->area);
   gtk_widget_set_margin_top(self->overlays, room ? margin : height - margin / 2); /* its margins are in it */
+  spore_box_fit(GTK_BOX(self->beginnings), gtk_widget_get_allocated_width(self->area) - WELCOME_PADDING);
   return G_SOURCE_REMOVE;
 }
 
@@ -513,6 +516,7 @@ static void spore_viewport_class_init(SporeViewportClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeViewport, tools);
   gtk_widget_class_bind_template_child(widget, SporeViewport, overlays);
   gtk_widget_class_bind_template_child(widget, SporeViewport, welcome);
+  gtk_widget_class_bind_template_child(widget, SporeViewport, beginnings);
   gtk_widget_class_bind_template_child(widget, SporeViewport, failure);
   gtk_widget_class_bind_template_callback(widget, draw_area);
   gtk_widget_class_bind_template_callback(widget, size_changed);
