@@ -11,6 +11,9 @@
 #define MARGIN 1.3         /* of the distance to the nearest neighbour, */
 #define WIDEST_MARGIN 1.5  /* of the radius */
 #define DIRECTIONS 26      /* in which a sphere may stand out: to the corners, edges and faces of a cube */
+#define OUTWARD_STEPS 8    /* in which it is looked for how far out a sphere is felt, */
+#define HALVINGS 8         /* and between two of them */
+#define LEAST_FELT 0.05    /* of its radius: a sphere that is felt only together with others */
 
 static SporeVec3 centre_of(const SporeDepthField *field, size_t i) { return spore_vec3_load(field->ball + 4 * i); }
 static double radius_of(const SporeDepthField *field, size_t i) { return field->ball[4 * i + 3]; }
@@ -130,9 +133,9 @@ static double sum_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 p
   return sum;
 }
 
-/* sum w_i max(0, r_i - d_i), and its gradient. */
+/* sum w_i max(0, r_i - d_i) - level, and its gradient. */
 static double plain_sum_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 point, SporeVec3 *gradient) {
-  double sum = 0;
+  double sum = -field->level;
   *gradient = (SporeVec3){0, 0, 0};
   for (uint32_t k = field->start[nearest]; k < field->start[nearest + 1]; k++) {
     uint32_t i = field->neighbour[k];
@@ -199,10 +202,34 @@ static bool weigh(SporeDepthField *field) {
   return made;
 }
 
+/* Along one direction; 0 where others reach out over it. */
+static double felt_along(const SporeDepthField *field, uint32_t sphere, SporeVec3 direction) {
+  SporeVec3 unused, centre = centre_of(field, sphere);
+  double inner = 0, outer = radius_of(field, sphere), step = outer / OUTWARD_STEPS;
+  if (spore_depth_field_at(field, sphere, spore_vec3_add_scaled(centre, outer, direction), &unused) > 0) return 0;
+  for (int k = OUTWARD_STEPS - 1; k > 0 && inner == 0; k--)
+    if (spore_depth_field_at(field, sphere, spore_vec3_add_scaled(centre, k * step, direction), &unused) > 0)
+      inner = k * step;
+    else outer = k * step;
+  for (int k = 0; k < HALVINGS; k++) {
+    double middle = 0.5 * (inner + outer);
+    bool felt = spore_depth_field_at(field, sphere, spore_vec3_add_scaled(centre, middle, direction), &unused) > 0;
+    *(felt ? &inner : &outer) = middle;
+  }
+  return inner;
+}
+
+double spore_depth_field_felt_radius(const SporeDepthField *field, uint32_t sphere) {
+  double farthest = LEAST_FELT * radius_of(field, sphere);
+  for (int d = 0; d < DIRECTIONS; d++) farthest = fmax(farthest, felt_along(field, sphere, direction_of(d)));
+  return farthest;
+}
+
 bool spore_depth_field_create(SporeDepthField *field, const double *centre, const double *radius, const double *weight,
-                              size_t count) {
+                              double level, size_t count) {
   bool made = allocate(field, count);
   field->plain = weight;
+  field->level = weight ? level : 0;
   for (size_t i = 0; made && i < count; i++) {
     for (size_t k = 0; k < 3; k++) field->ball[4 * i + k] = centre[3 * i + k];
     field->ball[4 * i + 3] = radius[i];
@@ -242,7 +269,9 @@ double spore_depth_field_ball(const SporeDepthField *field, uint32_t nearest, Sp
     double value = spore_depth_field_at(field, nearest, place, &gradient), slope = spore_vec3_length(gradient);
     *normal = n;
     depth = value / fmax(slope, 0.5) + radius - ahead;
-    if (!(slope > 1e-6)) return value > 0 ? value + radius - ahead : 0;
+    if (!(slope > 1e-6))
+      return value > 0 ? value + radius - ahead
+                       : fmin(radius_of(field, nearest) + radius - spore_vec3_length(offset), 0);
     if (round + 1 == ROUNDS) break;
     SporeVec3 wrong = spore_vec3_add_scaled(n, 1 / slope, gradient);
     double step =

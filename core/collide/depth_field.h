@@ -7,9 +7,9 @@
  * sphere alone it is the depth in that sphere. The weights are such that g is 0 where a sphere stands out most among
  * its neighbours; what lies between spheres is filled to about that height.
  *
- * Spheres that come with weights of their own were fitted for the paper's plain sum, and are felt as that:
+ * Spheres that come with weights of their own were fitted for the paper's plain sum, felt where it is above a level:
  *
- *   g(x) = sum_i w_i max(0, r_i - d_i(x)) */
+ *   g(x) = sum_i w_i max(0, r_i - d_i(x)) - level */
 #ifndef SPORE_COLLIDE_DEPTH_FIELD_H
 #define SPORE_COLLIDE_DEPTH_FIELD_H
 
@@ -22,6 +22,7 @@
 typedef struct SporeDepthField {
   size_t count;
   bool plain;          /* weights came with the spheres */
+  double level;        /* m; of a plain sum */
   double margin;       /* m; of a plain sum it only widens the neighbourhood */
   double mean_radius;  /* m */
   double half_width;   /* m: of the widest side of the box that the spheres fill */
@@ -31,15 +32,18 @@ typedef struct SporeDepthField {
   uint32_t *neighbour; /* of sphere i: those that count anywhere on its surface, itself among them */
 } SporeDepthField;
 
-/* centre (3 a sphere), radius and weight (NULL: found here) are copied. False: no memory, *field cleared. */
+/* centre (3 a sphere), radius and weight (NULL: found here, and there is no level) are copied. False: no memory, *field
+ * cleared. */
 bool spore_depth_field_create(SporeDepthField *field, const double *centre, const double *radius, const double *weight,
-                              size_t count);
+                              double level, size_t count);
 void spore_depth_field_clear(SporeDepthField *field);
 
-/* g at a point near sphere `nearest`, and its gradient; both 0 where no sphere reaches. */
+/* g at a point near sphere `nearest`, and its gradient; where no sphere reaches, 0 or -level, and 0. */
 double spore_depth_field_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 point, SporeVec3 *gradient);
 /* Depth of a ball in the body, m, and the normal out of the body at its deepest point. */
 double spore_depth_field_ball(const SporeDepthField *field, uint32_t nearest, SporeVec3 centre, double radius,
                               SporeVec3 *normal);
+/* How far out a sphere of a plain sum is felt, at most, where it stands out: its radius as a ball of its own, m. */
+double spore_depth_field_felt_radius(const SporeDepthField *field, uint32_t sphere);
 
 #endif

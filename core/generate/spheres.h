@@ -51,8 +51,8 @@ typedef struct SporeSpheresReport {
   double outside;                     /* volume of the union that is outside the solid / volume of the solid */
   double distance_mean, distance_max; /* two-sided, surface of the solid to surface of the union */
   double depth_error;                 /* mean |depth - max_i(r_i - d_i)+| inside / largest depth */
-  /* Of a set with weights, 0 else: mean |depth - sum_i w_i (r_i - d_i)+| inside / largest depth, and the share of
-   * points up to SPORE_SPHERES_NEAR outside at which that sum is not 0. */
+  /* Of a set with weights, 0 else: mean |depth - (sum_i w_i (r_i - d_i)+ - level)+| inside / largest depth, and the
+   * share of points up to SPORE_SPHERES_NEAR outside at which that sum is not 0. */
   double weighted_depth_error, felt_outside;
   bool certified; /* the mesh is closed, and all of it is proven, not sampled, to be inside the spheres */
   double seconds;

@@ -78,13 +78,13 @@ static bool measure_inside(Measure *m, SporeSpheresReport *report) {
 }
 
 double spore_spheres_weighted_depth(const SporeSphereSet *set, const double p[3]) {
-  double sum = 0;
+  double sum = -set->level;
   for (size_t i = 0; i < set->count; i++) {
     const double *s = set->spheres + 4 * i;
     double dx = s[0] - p[0], dy = s[1] - p[1], dz = s[2] - p[2];
     sum += set->weights[i] * fmax(0, s[3] - sqrt(dx * dx + dy * dy + dz * dz));
   }
-  return sum;
+  return fmax(sum, 0);
 }
 
 /* Depth error of the weighted sum, and where it is felt outside. False: cancelled. */

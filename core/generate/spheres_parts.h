@@ -182,7 +182,7 @@ bool spore_spheres_over(const SporeTriangleMesh *sheet, size_t count, const Spor
                         SporeSphereSet *set, SporeSpheresReport *report, const SporeProgressPart *progress,
                         SporeError *error);
 
-/* sum_i w_i (r_i - |p - c_i|)+ of a set with weights. */
+/* (sum_i w_i (r_i - |p - c_i|)+ - level)+ of a set with weights. */
 double spore_spheres_weighted_depth(const SporeSphereSet *set, const double p[3]);
 /* As spore_spheres_measure, on a solid that is there already. */
 bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, SporeSpheresReport *report,

@@ -1,4 +1,5 @@
-/* .spheres and .curve: "x y z r" a line, metres, # comments; spheres with weights "x y z r w". */
+/* .spheres and .curve: "x y z r" a line, metres, # comments; spheres with weights "x y z r w",
+ * before the first of which a line "level H" may stand. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -31,7 +32,24 @@ static const RowWords curve_words = {
 typedef struct Rows {
   GArray *numbers;
   guint columns; /* 0 before the first row */
+  double level;  /* m */
 } Rows;
+
+/* The level, where a set begins with one. */
+static gboolean read_level(SporeScanner *scanner, const RowWords *words, Rows *rows, GError **error) {
+  SporeScanner ahead = *scanner;
+  if (!words->weight || !spore_scanner_next(&ahead) || !spore_scanner_is(&ahead, "level")) return TRUE;
+  *scanner = ahead;
+  if (!spore_scanner_real(scanner, _("the level of a sum of depths, in metres"), &rows->level, error)) return FALSE;
+  if (!(rows->level >= 0))
+    return spore_scanner_fail(scanner, error, _("the level %g is below 0; expected a length in metres; correct it"),
+                              rows->level);
+  if (spore_scanner_more_on_line(scanner))
+    return spore_scanner_fail(scanner, error,
+                              _("there is more behind the level; expected \"level H\"; remove it or put # before it"));
+  rows->columns = 5;
+  return TRUE;
+}
 
 /* The weight, where there is one: all rows have it, or none has. */
 static gboolean read_weight(SporeScanner *scanner, const RowWords *words, Rows *rows, double *weight, GError **error) {
@@ -83,8 +101,8 @@ static gboolean read_row(SporeScanner *scanner, const RowWords *words, Rows *row
 
 /* All rows; numbers is NULL with a message. */
 static Rows read_rows(SporeScanner *scanner, const RowWords *words, GError **error) {
-  Rows rows = {g_array_new(FALSE, FALSE, sizeof(double)), 0};
-  gboolean done = TRUE;
+  Rows rows = {.numbers = g_array_new(FALSE, FALSE, sizeof(double))};
+  gboolean done = read_level(scanner, words, &rows, error);
   while (done) {
     SporeScanner ahead = *scanner;
     if (!spore_scanner_next(&ahead)) break;
@@ -108,6 +126,7 @@ static gboolean store_spheres(const Rows *rows, SporeSphereSet *set, SporeError 
     memcpy(set->spheres + 4 * i, numbers + rows->columns * i, 4 * sizeof *numbers);
     if (set->weights) set->weights[i] = numbers[rows->columns * i + 4];
   }
+  set->level = rows->level;
   return spore_sphere_set_validate(set, failure);
 }
 
@@ -147,7 +166,12 @@ static char *format_rows(const double *rows, gsize count, gsize *size) {
 
 char *spore_spheres_format(const SporeSphereSet *set, gsize *size) {
   if (!set->weights) return format_rows(set->spheres, set->count, size);
-  GString *text = g_string_new("# x y z r w, in metres; w: weight of the sphere's depth\n");
+  GString *text =
+      g_string_new("# x y z r w, in metres; w: weight of the sphere's depth; level: what the sum is felt above\n");
+  if (set->level > 0) {
+    g_string_append(text, "level ");
+    spore_append_reals(text, &set->level, 1, 1, "");
+  }
   for (gsize i = 0; i < set->count; i++) {
     const double *sphere = set->spheres + 4 * i, row[] = {sphere[0], sphere[1], sphere[2], sphere[3], set->weights[i]};
     spore_append_reals(text, row, 1, 5, "");

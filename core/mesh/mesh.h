@@ -26,7 +26,9 @@ typedef struct SporeTetrahedralMesh {
 typedef struct SporeSphereSet {
   size_t count;
   double *spheres; /* count x 4: x y z r */
-  double *weights; /* count, above 0, of the depth sum_i w_i max(0, r_i - distance to centre i); NULL: it has none */
+  /* count, above 0, of the depth sum_i w_i max(0, r_i - distance to centre i) - level; NULL: it has none */
+  double *weights;
+  double level; /* m, of a set with weights, 0 or more: where the sum is no more than this, nothing is felt */
 } SporeSphereSet;
 
 /* The middle line of something long and thin, from one end to the other, with its radius at each point. */
@@ -52,8 +54,9 @@ bool spore_curve_allocate(SporeCurve *curve, size_t count, SporeError *error);
 void spore_curve_clear(SporeCurve *curve);
 
 /* Finite coordinates (|x| <= 1e9 m), indices in range, at least one element; for tetrahedra positive volume above
- * 1e-12 of the cubed longest edge; for spheres r > 0, and weights above 0 and at most 1000; for curves r > 0, two
- * points or more and no two neighbours in the same place. The message names the first offending element (0-based). */
+ * 1e-12 of the cubed longest edge; for spheres r > 0, and weights above 0 and at most 1000, without which there is no
+ * level; for curves r > 0, two points or more and no two neighbours in the same place. The message names the first
+ * offending element (0-based). */
 bool spore_triangle_mesh_validate(const SporeTriangleMesh *mesh, SporeError *error);
 bool spore_tetrahedral_mesh_validate(const SporeTetrahedralMesh *mesh, SporeError *error);
 bool spore_sphere_set_validate(const SporeSphereSet *set, SporeError *error);

@@ -25,12 +25,21 @@ void spore_sphere_set_clear(SporeSphereSet *set) {
   *set = (SporeSphereSet){0};
 }
 
+static bool check_level(const SporeSphereSet *set, SporeError *error) {
+  if (set->weights ? set->level >= 0 && set->level <= SPORE_MESH_COORDINATE_MAXIMUM : set->level == 0) return true;
+  return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                         _("the level of the sphere set is %g; a length of 0 to %g m, and 0 without weights, was "
+                           "expected; correct it or generate the spheres again"),
+                         set->level, SPORE_MESH_COORDINATE_MAXIMUM);
+}
+
 bool spore_sphere_set_validate(const SporeSphereSet *set, SporeError *error) {
   if (set->count > SPORE_MESH_MAXIMUM) return spore_mesh_too_large(error, set->count);
   if (!set->count)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("the sphere set is empty; at least one sphere was expected; generate the spheres again"));
-  if (!spore_mesh_check_points(set->spheres, set->count, 4, _("sphere"), error)) return false;
+  if (!spore_mesh_check_points(set->spheres, set->count, 4, _("sphere"), error) || !check_level(set, error))
+    return false;
   for (size_t i = 0; i < set->count; i++) {
     double radius = set->spheres[4 * i + 3];
     if (!(radius > 0 && radius <= SPORE_MESH_COORDINATE_MAXIMUM))

@@ -243,6 +243,10 @@ static void write_hash(Decoded *decoded) {
   hash = spore_hash(hash, tetrahedra->vertices, tetrahedra->vertex_count * 3 * sizeof(double));
   hash = spore_hash(hash, tetrahedra->tetrahedra, tetrahedra->tetrahedron_count * 4 * sizeof(uint32_t));
   hash = spore_hash(hash, decoded->spheres.spheres, decoded->spheres.count * 4 * sizeof(double));
+  if (decoded->spheres.weights) {
+    hash = spore_hash(hash, decoded->spheres.weights, decoded->spheres.count * sizeof(double));
+    hash = spore_hash(hash, &decoded->spheres.level, sizeof(double));
+  }
   hash = spore_hash(hash, decoded->curve.points, decoded->curve.count * 4 * sizeof(double));
   g_snprintf(decoded->hash, sizeof decoded->hash, "%016" G_GINT64_MODIFIER "x", hash);
 }

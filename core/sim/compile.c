@@ -194,10 +194,8 @@ static bool add_spheres(SporeWorld *world, const SporeWorldDescription *descript
     if ((body->role == SPORE_UNMOVABLE) != unmovable) continue;
     body->sphere_start = all->count;
     if (!spore_body_map_spheres(world, (uint32_t)i, set, error)) return false;
-    for (size_t s = 0; set && s < set->count; s++) {
-      all->radius[all->count + s] = set->spheres[4 * s + 3];
-      all->body[all->count + s] = (uint32_t)i;
-    }
+    if (set && !spore_spheres_radii(set, all->radius + all->count)) return no_memory(error);
+    for (size_t s = 0; set && s < set->count; s++) all->body[all->count + s] = (uint32_t)i;
     spore_mapping_positions(&body->spheres, world->rest_q + body->q_offset, all->centre + 3 * all->count);
     all->count += body->spheres.point_count;
   }

@@ -33,6 +33,30 @@ static bool wants_field(const SporeBody *body) {
          (kind == SPORE_MAPPING_RIGID || kind == SPORE_MAPPING_FIXED);
 }
 
+/* points: centres, `stride` numbers each. */
+static bool make_field(SporeDepthField *field, const double *points, size_t stride, const SporeSphereSet *set) {
+  double *centre = SPORE_NEW_ARRAY(double, 3 * set->count), *radius = SPORE_NEW_ARRAY(double, set->count);
+  bool made = centre && radius;
+  for (size_t i = 0; made && i < set->count; i++) {
+    for (size_t k = 0; k < 3; k++) centre[3 * i + k] = points[stride * i + k];
+    radius[i] = set->spheres[4 * i + 3];
+  }
+  made = made && spore_depth_field_create(field, centre, radius, set->weights, set->level, set->count);
+  spore_free(centre);
+  spore_free(radius);
+  return made;
+}
+
+bool spore_spheres_radii(const SporeSphereSet *set, double *radius) {
+  SporeDepthField field = {0};
+  for (size_t i = 0; i < set->count; i++) radius[i] = set->spheres[4 * i + 3];
+  if (!set->weights) return true;
+  if (!make_field(&field, set->spheres, 4, set)) return false;
+  for (size_t i = 0; i < set->count; i++) radius[i] = spore_depth_field_felt_radius(&field, (uint32_t)i);
+  spore_depth_field_clear(&field);
+  return true;
+}
+
 bool spore_world_compile_fields(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
   const SporeSpheres *spheres = &world->spheres;
   world->reach = SPORE_NEW_ARRAY(double, spheres->count);
@@ -41,12 +65,10 @@ bool spore_world_compile_fields(SporeWorld *world, const SporeWorldDescription *
     world->reach[i] = spheres->radius[i] + world->bodies[spheres->body[i]].contact.margin;
   for (size_t b = 0; made && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
-    size_t count = body->spheres.point_count;
     if (!wants_field(body)) continue;
-    const double *radius = spheres->radius + body->sphere_start;
-    const double *weight = description->bodies[b].spheres->weights;
-    made = spore_depth_field_create(&body->field, body->spheres.points, radius, weight, count);
-    for (size_t i = 0; made && i < count; i++) world->reach[body->sphere_start + i] = (1 + REACH) * radius[i];
+    made = make_field(&body->field, body->spheres.points, 3, description->bodies[b].spheres);
+    for (size_t i = 0; made && i < body->field.count; i++)
+      world->reach[body->sphere_start + i] = (1 + REACH) * body->field.ball[4 * i + 3];
   }
   return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
                                  _("not enough memory for smooth surfaces; use fewer spheres, or surface spheres"));
@@ -97,6 +119,12 @@ static bool seen(const SporeVec3 *sides, size_t count, SporeVec3 normal) {
   return false;
 }
 
+/* Of a sphere of a body with a field; what is felt of it alone is no larger. */
+static double full_radius(const SporeWorld *world, uint32_t sphere) {
+  const SporeBody *body = &world->bodies[world->spheres.body[sphere]];
+  return body->field.ball[4 * (sphere - body->sphere_start) + 3];
+}
+
 /* The deepest pair on a side that was not looked at yet; `count` where there is none. */
 static size_t next_place(const SporeWorld *world, const SporeFelt *pairs, size_t count, bool owner_is_a,
                          const SporeVec3 *looked, size_t looked_count) {
@@ -105,7 +133,7 @@ static size_t next_place(const SporeWorld *world, const SporeFelt *pairs, size_t
   for (size_t i = 0; i < count; i++) {
     const SporeContact *pair = &pairs[i].contact;
     uint32_t owner = owner_is_a ? pair->a : pair->b, probe = owner_is_a ? pair->b : pair->a;
-    double depth = pair->depth - REACH * world->spheres.radius[owner];
+    double depth = pair->depth - REACH * full_radius(world, owner);
     if (depth <= most || (looked_count && seen(looked, looked_count, direction(world, owner, probe)))) continue;
     most = depth;
     deepest = i;

@@ -173,7 +173,7 @@ static void depth_field(GRand *random) {
     radius[i] = 1;
   }
   SporeDepthField field;
-  if (!spore_depth_field_create(&field, centre, radius, NULL, COUNT)) g_error("no memory");
+  if (!spore_depth_field_create(&field, centre, radius, NULL, 0, COUNT)) g_error("no memory");
   double best = HUGE_VAL, sum = 0;
   for (int run = 0; run < RUNS; run++) {
     double start = thread_us();

@@ -37,7 +37,7 @@ static void test_spheres(void) {
 /* Weights go to the file and come back; of all spheres, or of none. */
 static void test_spheres_weights(void) {
   double values[] = {0.1, -1. / 3, 1e-9, 0.05, 1e5, 2, 3.0000000000000004, 1e-300}, weights[] = {1. / 3, 0.7};
-  SporeSphereSet set = {2, values, weights}, again = {0};
+  SporeSphereSet set = {.count = 2, .spheres = values, .weights = weights, .level = 0.1}, again = {0};
   gsize size;
   g_autofree char *text = spore_spheres_format(&set, &size);
   GError *error = NULL;
@@ -45,12 +45,19 @@ static void test_spheres_weights(void) {
   g_assert_no_error(error);
   g_assert_cmpmem(again.spheres, again.count * 4 * sizeof(double), values, sizeof values);
   g_assert_cmpmem(again.weights, again.count * sizeof(double), weights, sizeof weights);
+  g_assert_cmpfloat(again.level, ==, 0.1);
   spore_sphere_set_clear(&again);
   check_spheres_refused("0 0 0 1 1\n0 0 0 1\n", "has no weight");
   check_spheres_refused("0 0 0 1\n0 0 0 1 1\n", "have no weight");
   check_spheres_refused("0 0 0 1 0\n", "not above 0");
   check_spheres_refused("0 0 0 1 2000\n", "weight 2000");
   check_spheres_refused("0 0 0 1 1 1\n", "behind the five numbers");
+  check_spheres_refused("level -1\n0 0 0 1 1\n", "a.spheres:1:7: the level -1 is below 0");
+  check_spheres_refused("level x\n0 0 0 1 1\n", "a.spheres:1:7");
+  check_spheres_refused("level 1 2\n0 0 0 1 1\n", "behind the level");
+  check_spheres_refused("level 0.1\n0 0 0 1\n", "has no weight");
+  check_spheres_refused("0 0 0 1 1\nlevel 0.1\n", "a.spheres:2:1");
+  check_spheres_refused("level 1e300\n0 0 0 1 1\n", "the level of the sphere set is 1e+300");
 }
 
 /* Blank lines, comments, carriage returns, and no end of line at the end: not NUL-terminated either. */

@@ -14,7 +14,7 @@ static void make_floor(SporeDepthField *field, int side, double spacing) {
                                                 ((double)(i / (size_t)side) - side / 2) * spacing));
     radius[i] = 1;
   }
-  g_assert_true(spore_depth_field_create(field, centre, radius, NULL, count));
+  g_assert_true(spore_depth_field_create(field, centre, radius, NULL, 0, count));
   g_free(centre);
   g_free(radius);
 }
@@ -89,7 +89,7 @@ static void test_floor(void) {
 static void test_alone(void) {
   static const double centre[] = {0, 0, 0, 10, 0, 0}, radius[] = {1, 0.5};
   SporeDepthField field;
-  g_assert_true(spore_depth_field_create(&field, centre, radius, NULL, 2));
+  g_assert_true(spore_depth_field_create(&field, centre, radius, NULL, 0, 2));
   SporeVec3 normal, out = spore_vec3_normalise(spore_vec3(1, 2, 3), spore_vec3(0, 1, 0));
   double depth = spore_depth_field_ball(&field, 0, spore_vec3_scale(1.2, out), 0.3, &normal);
   g_assert_cmpfloat(fabs(depth - 0.1), <, 1e-12);
@@ -121,6 +121,25 @@ static void test_gradient(void) {
   g_rand_free(random);
 }
 
+/* A level takes its length off what is felt, of a ball with weight w level / w off its radius; where no sphere reaches,
+ * a ball is as far away as the nearest. */
+static void test_level(void) {
+  static const double centre[] = {0, 0, 0, 10, 0, 0}, radius[] = {1, 0.9}, weight[] = {1, 0.5};
+  SporeDepthField field;
+  SporeVec3 normal, out = spore_vec3_normalise(spore_vec3(1, 2, 3), spore_vec3(0, 1, 0));
+  g_assert_true(spore_depth_field_create(&field, centre, radius, weight, 0.2, 2));
+  double depth = spore_depth_field_ball(&field, 0, spore_vec3_scale(1, out), 0.3, &normal);
+  g_assert_cmpfloat(fabs(depth - 0.1), <, 1e-12);
+  g_assert_cmpfloat(spore_vec3_distance(normal, out), <, 1e-12);
+  depth = spore_depth_field_ball(&field, 0, spore_vec3_scale(1.2, out), 0.3, &normal); /* ends where the sphere does */
+  g_assert_cmpfloat(fabs(depth + 0.1), <, 1e-12);
+  depth = spore_depth_field_ball(&field, 0, spore_vec3_scale(1.7, out), 0.3, &normal);
+  g_assert_cmpfloat(fabs(depth + 0.4), <, 1e-12);
+  g_assert_cmpfloat(fabs(spore_depth_field_felt_radius(&field, 0) - 0.8), <, 1e-3);
+  g_assert_cmpfloat(fabs(spore_depth_field_felt_radius(&field, 1) - 0.5), <, 1e-3);
+  spore_depth_field_clear(&field);
+}
+
 /* Neighbours are all those that count: the field does not jump where another sphere becomes the nearest. */
 static void test_nearest(void) {
   SporeDepthField field;
@@ -139,7 +158,7 @@ static void test_weights(void) {
                       weight[] = {0.5, 0.7, 0.25}, one[] = {1, 1};
   GRand *random = g_rand_new_with_seed(5);
   SporeDepthField field;
-  g_assert_true(spore_depth_field_create(&field, centre, radius, weight, 3));
+  g_assert_true(spore_depth_field_create(&field, centre, radius, weight, 0, 3));
   for (int i = 0; i < 1000; i++) {
     SporeVec3 point = {g_rand_double_range(random, -0.9, 0.9), g_rand_double_range(random, -0.9, 0.9),
                        g_rand_double_range(random, -0.9, 0.9)};
@@ -161,7 +180,7 @@ static void test_weights(void) {
   spore_depth_field_clear(&field);
   static const double apart[] = {0, 0, 0, 10, 0, 0};
   SporeVec3 normal, out = spore_vec3_normalise(spore_vec3(1, 2, 3), spore_vec3(0, 1, 0));
-  g_assert_true(spore_depth_field_create(&field, apart, radius, one, 2));
+  g_assert_true(spore_depth_field_create(&field, apart, radius, one, 0, 2));
   double depth = spore_depth_field_ball(&field, 0, spore_vec3_scale(1.2, out), 0.3, &normal);
   g_assert_cmpfloat(fabs(depth - 0.1), <, 1e-12);
   g_assert_cmpfloat(spore_vec3_distance(normal, out), <, 1e-12);
@@ -174,7 +193,7 @@ static void test_without_memory(void) {
   for (guint64 n = 1;; n++) {
     SporeDepthField field;
     spore_allocation_fail_at(n);
-    bool made = spore_depth_field_create(&field, centre, radius, NULL, 2);
+    bool made = spore_depth_field_create(&field, centre, radius, NULL, 0, 2);
     spore_allocation_fail_at(0);
     if (made) {
       g_assert_cmpuint(n, >, 8);
@@ -192,6 +211,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/depth-field/gradient", test_gradient);
   g_test_add_func("/depth-field/nearest", test_nearest);
   g_test_add_func("/depth-field/weights", test_weights);
+  g_test_add_func("/depth-field/level", test_level);
   g_test_add_func("/depth-field/without-memory", test_without_memory);
   return g_test_run();
 }

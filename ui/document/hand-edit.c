@@ -56,7 +56,7 @@ static gboolean load(SporeHandEdit *edit, SporeDocument *document, SporeObject *
   const SporeCurve *curve = is_curve ? spore_document_curve(document, asset, NULL) : NULL;
   const SporeSphereSet *set = is_curve ? NULL : spore_document_spheres(document, asset, NULL);
   if (curve) copy_points(edit, curve->points, NULL, curve->count);
-  if (set) copy_points(edit, set->spheres, set->weights, set->count);
+  if (set) copy_points(edit, set->spheres, set->weights, set->count), edit->level = set->level;
   return curve || set;
 }
 
@@ -136,7 +136,7 @@ gboolean spore_hand_edit_remove(SporeHandEdit *edit) {
 
 static char *format(const SporeHandEdit *edit, gsize *size, SporeError *error) {
   SporeCurve curve = {.count = edit->count, .points = edit->points};
-  SporeSphereSet set = {.count = edit->count, .spheres = edit->points, .weights = edit->weights};
+  SporeSphereSet set = {.count = edit->count, .spheres = edit->points, .weights = edit->weights, .level = edit->level};
   if (edit->kind == SPORE_HAND_CURVE)
     return spore_curve_validate(&curve, error) ? spore_curve_format(&curve, size) : NULL;
   return spore_sphere_set_validate(&set, error) ? spore_spheres_format(&set, size) : NULL;

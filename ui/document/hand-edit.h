@@ -14,6 +14,7 @@ typedef struct SporeHandEdit {
   double *points; /* count x 4: x y z r, in the body's axes; what is shown, committed or not */
   double
       *weights; /* count, of a set that has them; NULL: it has none. A new sphere gets that of the chosen one, or 1 */
+  double level; /* m, of a set with weights */
   gsize chosen; /* G_MAXSIZE: none */
 } SporeHandEdit;
 

@@ -178,7 +178,7 @@ static const SporeSpheresReport *report_of(SporeInspector *self, SporeObject *bo
   }
   memcpy(work->spheres.spheres, set->spheres, set->count * 4 * sizeof(double));
   if (set->weights && spore_sphere_set_add_weights(&work->spheres, NULL))
-    memcpy(work->spheres.weights, set->weights, set->count * sizeof(double));
+    memcpy(work->spheres.weights, set->weights, set->count * sizeof(double)), work->spheres.level = set->level;
   self->measured_key = g_steal_pointer(&key);
   g_object_unref(spore_job_start(_("Measuring spheres"), spore_measure_work_run, work, spore_generate_work_unref,
                                  measured, G_OBJECT(self)));
