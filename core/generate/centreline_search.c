@@ -110,8 +110,3 @@ bool spore_voxel_search_spread(SporeVoxelSearch *search, const uint32_t *starts,
   }
   return true;
 }
-
-uint32_t spore_voxel_search_start(const SporeVoxelSearch *search, uint32_t voxel) {
-  while (search->from[voxel] != voxel) voxel = search->from[voxel];
-  return voxel;
-}

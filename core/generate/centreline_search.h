@@ -29,8 +29,6 @@ bool spore_voxel_search_create(SporeVoxelSearch *search, const SporeVoxelTube *t
 void spore_voxel_search_clear(SporeVoxelSearch *search);
 /* The cheapest way from any of the starts to each voxel. */
 bool spore_voxel_search_spread(SporeVoxelSearch *search, const uint32_t *starts, size_t start_count, SporeError *error);
-/* The start that the cheapest way to the voxel comes from. */
-uint32_t spore_voxel_search_start(const SporeVoxelSearch *search, uint32_t voxel);
 
 /* What the way leaves out, into the report; the share of the voxels that are near the way, into *cover. */
 bool spore_voxel_search_leftovers(SporeVoxelSearch *search, const SporeVoxelPath *path, SporeCentrelineReport *report,

@@ -63,7 +63,7 @@ void spore_scanner_skip_line(SporeScanner *scanner) {
   while (scanner->at < scanner->end && *scanner->at != '\n') scanner->at++;
 }
 
-gsize spore_scanner_left(const SporeScanner *scanner) { return (gsize)(scanner->end - scanner->at); }
+static gsize bytes_left(const SporeScanner *scanner) { return (gsize)(scanner->end - scanner->at); }
 
 gboolean spore_scanner_fail(const SporeScanner *scanner, GError **error, const char *format, ...) {
   va_list arguments;
@@ -132,7 +132,7 @@ gboolean spore_scanner_integer(SporeScanner *scanner, const char *what, guint64 
 gboolean spore_scanner_count(SporeScanner *scanner, const char *what, gsize bytes, gsize *count, GError **error) {
   guint64 number;
   if (!spore_scanner_integer(scanner, what, 0, SPORE_MESH_MAXIMUM, &number, error)) return FALSE;
-  if (number > spore_scanner_left(scanner) / bytes + 1)
+  if (number > bytes_left(scanner) / bytes + 1)
     return spore_scanner_fail(scanner, error,
                               _("the file is too short for %s of %llu; expected all of them; write or copy the file "
                                 "again, it may be cut short"),

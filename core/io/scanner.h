@@ -24,7 +24,6 @@ gboolean spore_scanner_more_on_line(SporeScanner *scanner);
 gboolean spore_scanner_is(const SporeScanner *scanner, const char *text);
 /* Passes over the rest of the line of the last word. */
 void spore_scanner_skip_line(SporeScanner *scanner);
-gsize spore_scanner_left(const SporeScanner *scanner); /* bytes */
 
 /* The next word as a number; `what` says in messages which one was expected ("the x of a vertex", translated). */
 gboolean spore_scanner_real(SporeScanner *scanner, const char *what, double *value, GError **error);

@@ -2,13 +2,14 @@
 
 #include <math.h>
 
-double spore_total_energy(const SporeWorld *world) {
+/* Sum of all kinds, J. */
+static double total_energy(const SporeWorld *world) {
   SporeEnergy energy = spore_world_energy(world);
   return energy.kinetic + energy.internal + energy.gravity + energy.contact;
 }
 
 void spore_run_statistics_start(SporeRunStatistics *statistics, const SporeWorld *world) {
-  double energy = spore_total_energy(world);
+  double energy = total_energy(world);
   *statistics = (SporeRunStatistics){.energy_start = energy, .energy_end = energy};
 }
 
@@ -27,7 +28,7 @@ void spore_run_statistics_step(SporeRunStatistics *statistics, const SporeWorld 
 }
 
 void spore_run_statistics_energy(SporeRunStatistics *statistics, const SporeWorld *world) {
-  statistics->energy_end = spore_total_energy(world);
+  statistics->energy_end = total_energy(world);
   statistics->energy_drift = fmax(statistics->energy_drift, fabs(statistics->energy_end - statistics->energy_start));
 }
 

@@ -13,9 +13,6 @@ typedef struct SporeRunStatistics {
   double residual_max; /* relative, worst of all implicit solves */
 } SporeRunStatistics;
 
-/* Sum of all kinds, J. */
-double spore_total_energy(const SporeWorld *world);
-
 void spore_run_statistics_start(SporeRunStatistics *statistics, const SporeWorld *world);
 /* After each step: counts. */
 void spore_run_statistics_step(SporeRunStatistics *statistics, const SporeWorld *world);

@@ -7,7 +7,8 @@
 
 #define BEND 0.1 /* how far an end goes off the line, of the length */
 
-double spore_mapping_leverage(const SporeMapping *mapping, size_t point) {
+/* Sum of the absolute weights of a point of a linear mapping; 1 of others. */
+static double leverage_of(const SporeMapping *mapping, size_t point) {
   double sum = 0;
   if (mapping->kind != SPORE_MAPPING_LINEAR) return 1;
   for (uint32_t k = mapping->row_start[point]; k < mapping->row_start[point + 1]; k++) sum += fabs(mapping->weight[k]);
@@ -130,7 +131,7 @@ static void run_trials(Trial *trial, SporeMappingError *measured) {
   if (framed)
     measured->crowd = spore_line_frames_crowd(trial->mapping->frames, &measured->crowd_point, &measured->crowd_share);
   for (size_t i = 0; i < trial->mapping->point_count; i++)
-    measured->leverage = fmax(measured->leverage, spore_mapping_leverage(trial->mapping, i));
+    measured->leverage = fmax(measured->leverage, leverage_of(trial->mapping, i));
 }
 
 bool spore_mapping_measure(const SporeModel *model, const SporeMapping *mapping, const double *points,

@@ -25,7 +25,4 @@ typedef struct SporeMappingError {
 bool spore_mapping_measure(const SporeModel *model, const SporeMapping *mapping, const double *points,
                            SporeMappingError *measured, SporeError *error);
 
-/* Sum of the absolute weights of a point of a linear mapping; 1 of others. */
-double spore_mapping_leverage(const SporeMapping *mapping, size_t point);
-
 #endif

@@ -1,9 +1,5 @@
 #include "core/sim/term_ends.h"
 
-SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q) {
-  return position_of(end, sites, q);
-}
-
 SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) {
   double stiff = 2 * h * h * stiffness * inverse_mass;
   return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};

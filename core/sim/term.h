@@ -148,8 +148,6 @@ bool spore_rail_may_stop(const SporeRail *rail);
 /* How far p is beyond an end of the path, m; 0: it is not. */
 double spore_rail_overshoot(const SporeRail *rail, const SporePathPlace *place, SporeVec3 p);
 
-/* Where an end is, m. */
-SporeVec3 spore_end_position(const SporeEnd *end, const SporeSite *sites, const double *q);
 /* Contact point when the step began, m. */
 SporeVec3 spore_contact_term_point(const SporeContactTerm *term);
 

@@ -133,5 +133,3 @@ static void spore_histogram_init(SporeHistogram *self) {
   gtk_widget_set_size_request(GTK_WIDGET(self), 150, 110);
   spore_histogram_set_quality(self, NULL);
 }
-
-GtkWidget *spore_histogram_new(void) { return g_object_new(SPORE_TYPE_HISTOGRAM, NULL); }

@@ -11,7 +11,6 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_HISTOGRAM spore_histogram_get_type()
 G_DECLARE_FINAL_TYPE(SporeHistogram, spore_histogram, SPORE, HISTOGRAM, GtkDrawingArea)
 
-GtkWidget *spore_histogram_new(void);
 /* Copied. NULL: nothing to show. */
 void spore_histogram_set_quality(SporeHistogram *self, const SporeQuality *quality);
 
