@@ -113,6 +113,22 @@ def help_lists_commands():
     refuses("run", "--no-such-option", "x", says=["no-such-option"])
 
 
+@check
+def readme_agrees():
+    """README shows every command and no other, each with options that it has."""
+    text = (ROOT / "README.md").read_text()
+    shown = re.findall(r"^\$?(spore .*)$", text, re.M) + re.findall(r"`(spore [^`]*)`", text)
+    commands = set(re.findall(r"^  (\w+)  ", spore("--help").stdout, re.M))
+    helps = {name: spore(name, "--help").stdout for name in commands}
+    used = {line.split()[1] for line in shown if line.split()[1].islower()}
+    assert used == commands | {"render"}, used ^ commands # not every build has it
+    assert "render" in commands or "render" not in FEATURES
+    for line in shown:
+        for option in re.findall(r"(?<![\w-])--[a-z][a-z-]*", line):
+            name = line.split()[1]
+            assert name not in helps or re.search(rf"{option}\b", helps[name]) or option == "--help", f"{option}: {line}"
+
+
 def leaves(value, path=()):
     """Paths of all members at the bottom; what lies in an array counts as the array's."""
     if isinstance(value, dict):

@@ -54,7 +54,7 @@ static double lowest(const SporeWorld *world, uint32_t body) {
 }
 
 static void drape(void) {
-  unsigned steps = rig_steps(500, 150);
+  unsigned steps = rig_steps(300, 150);
   for (unsigned k = 0; k < G_N_ELEMENTS(kinds); k++)
     for (double stiffness = 1e2; stiffness < 1e6; stiffness *= 1e3) {
       Rig *rig = rig_new();
@@ -83,7 +83,7 @@ static void drape(void) {
 
 /* Tissue falls on a net that is held at its corners. */
 static void catch_block(void) {
-  unsigned steps = rig_steps(1000, 250);
+  unsigned steps = rig_steps(500, 250);
   for (unsigned k = 0; k < G_N_ELEMENTS(kinds); k++) {
     Rig *rig = rig_new();
     unsigned mixed = 0;
