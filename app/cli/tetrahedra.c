@@ -55,6 +55,27 @@ static void report_pieces(SporeCli *cli, const SporeTetrahedraReport *report) {
                   report->pieces, report->pieces_given);
 }
 
+/* Where the solid is not what the surface shows, and what to do about it. */
+static void say_left_out(SporeCli *cli, const SporeTetrahedraReport *report) {
+  if (report->inner_share > 0)
+    spore_cli_say(
+        cli,
+        _("%.1f %% of the surface are walls inside the solid, up to %.2f %% of the diagonal from its outside: "
+          "they are left out, and what they enclose is filled; turn their triangles round to have a cavity\n"),
+        100 * report->inner_share, 100 * report->inner_distance);
+  if (report->thickened > 0)
+    spore_cli_say(cli,
+                  _("%.1f %% of the surface bound walls that are too thin for the cells of the lattice: they are made "
+                    "about %.3g mm thick; ask for more cells, or for smaller ones there by --region\n"),
+                  100 * report->thickened, 1e3 * report->thickness);
+  if (report->widened > 0)
+    spore_cli_say(
+        cli,
+        _("%.1f %% of the surface bound slits that are too narrow for the cells of the lattice: they are made "
+          "about %.3g mm wide; ask for more cells, or for smaller ones there by --region\n"),
+        100 * report->widened, 1e3 * report->thickness);
+}
+
 static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeTetrahedraReport *report) {
   const char *method = spore_tetrahedra_method_names[report->method];
   spore_cli_count(cli, "nodes", (gint64)mesh->vertex_count);
@@ -63,6 +84,10 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   spore_cli_number(cli, "mean_dihedral_deg", report->quality.mean_dihedral_deg);
   spore_cli_number(cli, "hausdorff", report->hausdorff);
   spore_cli_number(cli, "inner_distance", report->inner_distance);
+  spore_cli_number(cli, "inner_share", report->inner_share);
+  spore_cli_number(cli, "thickened", report->thickened);
+  spore_cli_number(cli, "widened", report->widened);
+  spore_cli_number(cli, "thickness_m", report->thickness);
   spore_cli_number(cli, "volume_change", report->volume_change);
   report_change(cli, "volume", report->volume, report->volume_given, report->volume_change);
   report_change(cli, "area", report->area, report->area_given, report->area_change);
@@ -76,9 +101,7 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
       mesh->tetrahedron_count, mesh->vertex_count, report->quality.min_dihedral_deg, report->quality.mean_dihedral_deg,
       100 * report->hausdorff, 100 * report->volume_change, 100 * report->area_change, method, report->seconds);
   report_pieces(cli, report);
-  if (report->inner_distance > 0)
-    spore_cli_say(cli, _("the surface has walls inside the solid, up to %.2f %% of the diagonal from its outside\n"),
-                  100 * report->inner_distance);
+  say_left_out(cli, report);
 }
 
 static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,
@@ -245,6 +268,10 @@ static const SporeReportMember members[] = {
     {"mean_dihedral_deg", N_("mean of the least angles, degrees")},
     {"hausdorff", N_("largest distance between the mesh and what of the surface bounds its solid, of the diagonal")},
     {"inner_distance", N_("the same from walls inside the solid: double walls, overlapping parts; 0 where none are")},
+    {"inner_share", N_("share of the surface that lies inside the solid, which is filled there")},
+    {"thickened", N_("share of the surface that bounds walls which the cells of the lattice had missed")},
+    {"widened", N_("the same of slits")},
+    {"thickness_m", N_("how wide such walls and slits are made, about, m; 0: there are none")},
     {"volume_change", N_("share of the volume that was gained")},
     {"volume", N_("m^3: given (where the winding number is over one half), result, change")},
     {"area", N_("of what bounds it, m^2: given, result, change")},

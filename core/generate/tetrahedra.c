@@ -18,7 +18,6 @@
 #define SURE 0.9        /* of the tolerance */
 #define BETTER 0.95     /* of what a mesher is off: a lattice no nearer is not worth its shapes */
 #define MOST_CHANGE 0.1 /* of the volume */
-#define CLOSING 0.3     /* of one half: winding numbers in a hole of the surface */
 
 const char *const spore_tetrahedra_method_names[] = {"direct", "repaired", "wrapped", "voxels", NULL};
 
@@ -109,6 +108,8 @@ static bool normalise(SporeTetrahedraWork *work, const SporeTriangleMesh *surfac
 static void clear(SporeTetrahedraWork *work) {
   spore_triangle_mesh_clear(&work->surface);
   spore_bvh_free(work->tree);
+  spore_bvh_free(work->closed);
+  spore_tetrahedra_clear_thin(&work->thin);
   spore_free(work->bounding);
   spore_free(work->inner);
 }
@@ -128,7 +129,7 @@ static double distance_to(const SporeTetrahedraWork *work, const SporeTriangleMe
   for (gsize i = 0; tree && i < PREPARED_SAMPLES; i++) {
     SporeVec3 p = spore_vec3_load(points + 3 * i);
     double distance = spore_bvh_distance(work->tree, p, NULL, NULL);
-    if (distance > most && fabs(spore_bvh_winding(work->tree, p) - 0.5) > CLOSING) most = distance;
+    if (distance > most && fabs(spore_bvh_winding(work->tree, p) - 0.5) > SPORE_TETRAHEDRA_CLOSING) most = distance;
   }
   spore_bvh_free(tree);
   spore_free(points);
@@ -218,7 +219,8 @@ static double misfit_of(const SporeTetrahedraWork *work, const SporeTetrahedralM
   if (!spore_tetrahedra_distances(work, mesh, distance, &inner, &area, error)) return -1;
   double over = log((double)mesh->tetrahedron_count / (double)work->options.cells) / (2 * SPORE_TETRAHEDRA_COUNT);
   bool flat = quality.min_dihedral_deg < SPORE_TETRAHEDRA_ANGLE;
-  return fmax(fmax(*distance / (SURE * work->options.tolerance), fabs(*change) / MOST_CHANGE), fmax(over, 0)) + flat;
+  double lost = work->open ? 0 : fabs(*change) / MOST_CHANGE;
+  return fmax(fmax(*distance / (SURE * work->options.tolerance), lost), fmax(over, 0)) + flat;
 }
 
 /* Where a mesher's cells are farther from the solid than they shall be, those of a coarsened lattice may be nearer: the
@@ -233,7 +235,8 @@ static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh 
   if (!spore_tetrahedra_voxels(work, &other, &failure))
     return failure.code != SPORE_ERROR_CANCELLED || spore_error_propagate(&failure, error);
   double after = misfit_of(work, &other, &near, &change, &failure);
-  if (after >= 0 && after < BETTER * before) {
+  if (work->closed) before = misfit_of(work, mesh, &far, &lost, &failure); /* now that it is known what closes it */
+  if (after >= 0 && before > 1 && after < BETTER * before) {
     g_snprintf(report->refused[report->method], sizeof report->refused[report->method],
                _("its cells are %.2f %% of the diagonal away from what was given and change the volume by %+.1f %%; "
                  "those of %s %.2f %% and %+.1f %%"),
@@ -243,7 +246,7 @@ static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh 
     *mesh = other, other = kept;
   }
   spore_tetrahedral_mesh_clear(&other);
-  return after >= 0 || spore_error_propagate(&failure, error);
+  return (after >= 0 && before >= 0) || spore_error_propagate(&failure, error);
 }
 
 /* The first method that works, or the one that is asked for. */
@@ -290,12 +293,23 @@ static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTet
   return look_at_lattice(work, mesh, report, error);
 }
 
+/* What of the surface the solid does not show as it is. */
+static void report_left_out(const SporeTetrahedraWork *work, SporeTetrahedraReport *report) {
+  const double bounding = (double)work->bounding_count;
+  report->inner_share = (double)work->inner_count / (bounding + (double)work->inner_count);
+  if (report->method != SPORE_TETRAHEDRA_VOXELS) return;
+  report->thickened = fmin((double)work->thin.wall_count / bounding, 1);
+  report->widened = fmin((double)work->thin.slit_count / bounding, 1);
+  report->thickness = report->thickened > 0 || report->widened > 0 ? 2 * work->thin.reach : 0;
+}
+
 /* The figures, still in diagonals. */
 static bool measure(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, SporeTetrahedraReport *report,
                     SporeError *error) {
   if (!spore_tetrahedra_progress(work, 0, _("measuring the distance")))
     return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
   spore_tetrahedral_mesh_quality(mesh, &report->quality);
+  report_left_out(work, report);
   return spore_tetrahedra_distances(work, mesh, &report->hausdorff, &report->inner_distance, &report->area, error);
 }
 
@@ -306,6 +320,7 @@ static void to_metres(SporeTetrahedraReport *report, const SporeTetrahedraWork *
   report->volume = report->quality.volume;
   report->volume_given = work->volume * pow(diagonal, 3);
   report->area *= diagonal * diagonal;
+  report->thickness *= diagonal;
   report->area_given = work->area * diagonal * diagonal;
   report->volume_change = report->volume / report->volume_given - 1;
   report->area_change = report->area / report->area_given - 1;

@@ -49,6 +49,10 @@ typedef struct SporeTetrahedraReport {
   double hausdorff; /* sampled, both ways, between the mesh and what bounds the given solid, of the diagonal */
   double
       inner_distance; /* the largest from what of the given surface lies inside the solid, of the diagonal; 0: none */
+  double inner_share; /* of the surface: what lies inside the solid, which is filled there */
+  double thickened, widened; /* of the surface, by VOXELS: walls, and slits, that its cells had missed, and that are
+                                about `thickness` wide there */
+  double thickness;          /* m; 0: nothing was missed */
   double volume, volume_given,
       volume_change;                    /* m^3, m^3, fraction; given: of the solid, winding number over one half */
   double area, area_given, area_change; /* of what bounds them, m^2, m^2, fraction */

@@ -122,6 +122,23 @@ static bool triangles_allow(const SporeCollapse *c, uint32_t a, uint32_t b) {
   return true;
 }
 
+/* Whether a face at a would fall onto one at b: no cell would be left between them. */
+static bool leaves_nothing(const SporeCollapse *c, uint32_t a, uint32_t b) {
+  const SporeSkin *skin = c->skin;
+  for (size_t i = skin->first[a]; i < skin->first[a + 1]; i++) {
+    const uint32_t *face = skin->corners + 3 * (size_t)skin->faces[i];
+    if (has(face, 3, b)) continue;
+    for (size_t j = skin->first[b]; j < skin->first[b + 1]; j++) {
+      const uint32_t *other = skin->corners + 3 * (size_t)skin->faces[j];
+      int shared = 0;
+      if (has(other, 3, a)) continue;
+      for (int k = 0; k < 3; k++) shared += has(other, 3, face[k]);
+      if (shared == 2) return true;
+    }
+  }
+  return false;
+}
+
 /* The same on the skin: edges of it to a common vertex are those of its faces at the edge. */
 static bool skin_allows(SporeCollapse *c, uint32_t a, uint32_t b) {
   size_t wings = 0;
@@ -136,6 +153,7 @@ static bool skin_allows(SporeCollapse *c, uint32_t a, uint32_t b) {
       c->face[c->face_count++] = face;
     }
   if (!wings) return true;
+  if (leaves_nothing(c, a, b)) return false;
   c->stamp++;
   mark_neighbours(c, c->mark, a, true);
   return count_common(c, b, true, a, b) == wings;

@@ -17,6 +17,7 @@
 #define LEAST_FINE 2.0
 #define FINER 2.5 /* times as many in the next lattice */
 #define MOST_LATTICES 2
+#define MOST_WIDENINGS 2
 #define MOST_FINE 1000000.0
 #define NEAR 0.9 /* of the tolerance: what a lattice shall come to */
 #define POINTS 4 /* of the surface, for each cell */
@@ -33,18 +34,31 @@ static double edge_of(const SporeTetrahedraWork *work, double cells) {
   return cbrt(CELLS_A_CUBE * work->volume / cells);
 }
 
+/* A lattice whose walls and slits are as wide as it needs to have them. */
+static bool stuff(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh, SporeError *error) {
+  double missed = HUGE_VAL;
+  for (int i = 0; missed > (i > 1 ? NEAR * work->options.tolerance : 0); i++) {
+    spore_tetrahedral_mesh_clear(mesh);
+    if (!spore_tetrahedra_stuff(work, edge, mesh, error)) return false;
+    if (i == MOST_WIDENINGS) break;
+    if (!work->thin.walls && mesh->tetrahedron_count && !spore_tetrahedra_close(work, mesh, error)) return false;
+    if (!spore_tetrahedra_find_thin(work, mesh, edge, &missed, error)) return false;
+  }
+  return true;
+}
+
 /* A lattice that is near the surface; it gets finer while it is not. */
 static bool make_fine(SporeTetrahedraWork *work, double cells, SporeTetrahedralMesh *mesh, SporeError *error) {
   const double from = work->fraction, share = work->share;
   double distance = HUGE_VAL;
   bool done = true;
   for (int i = 0; i < MOST_LATTICES && done && distance > NEAR * work->options.tolerance; i++) {
-    spore_tetrahedral_mesh_clear(mesh);
     work->fraction = from + share * i / MOST_LATTICES, work->share = share / MOST_LATTICES;
-    done = spore_tetrahedra_stuff(work, edge_of(work, cells), mesh, error);
+    done = stuff(work, edge_of(work, cells), mesh, error);
     if (done && mesh->tetrahedron_count) {
       double inner, area;
-      done = spore_tetrahedra_mend(mesh, error) && spore_tetrahedra_near(work, work->tree, 1, mesh, error) &&
+      done = spore_tetrahedra_mend(mesh, error) &&
+             spore_tetrahedra_near(work, spore_tetrahedra_bounds(work), 1, mesh, error) &&
              spore_tetrahedra_distances(work, mesh, &distance, &inner, &area, error);
     }
     if (FINER * cells > MOST_FINE) break;
@@ -107,11 +121,11 @@ static bool reduce(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeE
   if (!done) return false;
   size_edges(&plan, work, mesh);
   size_t cells = work->options.cells ? work->options.cells : (size_t)ceil(count_of(&plan.grid, mesh));
-  done =
-      spore_skin_points_create(&points, mesh, work->bounding, work->bounding_count, POINTS * cells + LEAST_POINTS,
-                               error) &&
-      spore_tetrahedra_coarsen(mesh, work->tree, &points, &plan.grid, cells, SPORE_TETRAHEDRA_KEPT, &progress, error) &&
-      spore_tetrahedral_mesh_drop_unused(mesh, error);
+  done = spore_skin_points_create(&points, mesh, work->bounding, work->bounding_count, POINTS * cells + LEAST_POINTS,
+                                  error) &&
+         spore_tetrahedra_coarsen(mesh, spore_tetrahedra_bounds(work), &points, &plan.grid, cells,
+                                  SPORE_TETRAHEDRA_KEPT, &progress, error) &&
+         spore_tetrahedral_mesh_drop_unused(mesh, error);
   spore_skin_points_clear(&points);
   spore_sizing_plan_clear(&plan);
   return done;
@@ -127,8 +141,9 @@ bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *me
   work->fraction = from + 0.4 * share, work->share = 0.5 * share;
   done = done && reduce(work, mesh, error);
   work->fraction = from + 0.9 * share, work->share = 0.1 * share;
-  done = done && spore_tetrahedra_improve(mesh, NULL, work->tree, GOAL, &progress, error) &&
-         spore_tetrahedra_near(work, work->tree, 4, mesh, error) && spore_tetrahedral_mesh_validate(mesh, error);
+  done = done && spore_tetrahedra_improve(mesh, NULL, spore_tetrahedra_bounds(work), GOAL, &progress, error) &&
+         spore_tetrahedra_near(work, spore_tetrahedra_bounds(work), 4, mesh, error) &&
+         spore_tetrahedral_mesh_validate(mesh, error);
   work->fraction = from, work->share = share;
   if (!done) spore_tetrahedral_mesh_clear(mesh);
   return done;

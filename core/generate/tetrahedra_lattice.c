@@ -37,7 +37,7 @@ static bool classify(SporeBcc *lattice, const SporeTetrahedraWork *work, SporeEr
       for (size_t x = 0; x < lattice->columns;) {
         int kind = (int)(z & 1);
         SporeBccNode node = {(int32_t)(2 * x) + kind, (int32_t)(2 * y) + kind, (int32_t)z};
-        double depth = spore_bvh_depth(work->tree, regular_place(lattice, node));
+        double depth = spore_tetrahedra_depth(work, regular_place(lattice, node));
         size_t run = 1 + (size_t)fmin(fabs(depth) / lattice->edge, (double)(lattice->columns - x - 1));
         for (size_t first = spore_bcc_index(lattice, node); run; run--, x++)
           lattice->value[first++] = depth > 0 ? 1 : -1;
@@ -91,12 +91,13 @@ static bool grow_cuts(SporeBcc *lattice) {
 }
 
 /* By false position, halving where the depth is far from linear. */
-static double find_cut(const SporeBcc *lattice, const SporeBvh *tree, SporeVec3 a, SporeVec3 b) {
-  double low = 0, high = 1, f_low = fmax(spore_bvh_depth(tree, a), 0), f_high = fmin(spore_bvh_depth(tree, b), 0);
+static double find_cut(const SporeBcc *lattice, const SporeTetrahedraWork *work, SporeVec3 a, SporeVec3 b) {
+  double low = 0, high = 1, f_low = fmax(spore_tetrahedra_depth(work, a), 0),
+         f_high = fmin(spore_tetrahedra_depth(work, b), 0);
   for (int i = 0; i < CUT_STEPS && high - low > CUT_TOLERANCE; i++) {
     double t = f_low - f_high > 0 ? low + (high - low) * f_low / (f_low - f_high) : 0.5 * (low + high);
     if (i % 3 == 2 || !(t > low && t < high)) t = 0.5 * (low + high);
-    double f = spore_bvh_depth(tree, spore_vec3_add_scaled(a, t, spore_vec3_sub(b, a)));
+    double f = spore_tetrahedra_depth(work, spore_vec3_add_scaled(a, t, spore_vec3_sub(b, a)));
     if (fabs(f) < CUT_TOLERANCE * lattice->edge) return t;
     if (f > 0) low = t, f_low = f;
     else high = t, f_high = f;
@@ -104,14 +105,14 @@ static double find_cut(const SporeBcc *lattice, const SporeBvh *tree, SporeVec3 
   return 0.5 * (low + high);
 }
 
-SporeBccCut *spore_bcc_cut(SporeBcc *lattice, const SporeBvh *tree, SporeBccNode inside, int neighbour) {
+SporeBccCut *spore_bcc_cut(SporeBcc *lattice, const SporeTetrahedraWork *work, SporeBccNode inside, int neighbour) {
   uint64_t key = (uint64_t)spore_bcc_index(lattice, inside) * SPORE_BCC_NEIGHBOURS + (uint64_t)neighbour + 1;
   if (2 * lattice->cut_count >= lattice->cut_room && !grow_cuts(lattice)) return NULL;
   SporeBccCut *cut = slot_of(lattice, key);
   if (cut->key) return cut;
   SporeBccNode outside = spore_bcc_neighbour(inside, neighbour);
   *cut = (SporeBccCut){
-      .key = key, .share = find_cut(lattice, tree, regular_place(lattice, inside), regular_place(lattice, outside))};
+      .key = key, .share = find_cut(lattice, work, regular_place(lattice, inside), regular_place(lattice, outside))};
   lattice->cut_count++;
   return cut;
 }
@@ -120,7 +121,7 @@ SporeBccCut *spore_bcc_cut(SporeBcc *lattice, const SporeBvh *tree, SporeBccNode
 static int back(int neighbour) { return neighbour < AXES ? neighbour ^ 1 : AXES + 7 - (neighbour - AXES); }
 
 /* Moves a node to the nearest cut of its edges that is nearer than the snapping share. */
-static bool snap(SporeBcc *lattice, const SporeBvh *tree, SporeBccNode node) {
+static bool snap(SporeBcc *lattice, const SporeTetrahedraWork *work, SporeBccNode node) {
   size_t index = spore_bcc_index(lattice, node);
   double best = HUGE_VAL;
   SporeVec3 place = {0, 0, 0}, here = regular_place(lattice, node);
@@ -129,7 +130,7 @@ static bool snap(SporeBcc *lattice, const SporeBvh *tree, SporeBccNode node) {
     if (!spore_bcc_has(lattice, other)) continue;
     int8_t value = lattice->value[index];
     if (value * lattice->value[spore_bcc_index(lattice, other)] >= 0) continue;
-    SporeBccCut *cut = value > 0 ? spore_bcc_cut(lattice, tree, node, n) : spore_bcc_cut(lattice, tree, other, back(n));
+    SporeBccCut *cut = value > 0 ? spore_bcc_cut(lattice, work, node, n) : spore_bcc_cut(lattice, work, other, back(n));
     if (!cut) return false;
     double share = value > 0 ? cut->share : 1 - cut->share, most = n < AXES ? LONG_SNAP : SHORT_SNAP;
     if (share >= most || share / most >= best) continue;
@@ -152,7 +153,7 @@ static bool snap_all(SporeBcc *lattice, const SporeTetrahedraWork *work, size_t 
     if (i % 65536 == 0 &&
         !spore_tetrahedra_progress(work, 0.4 + 0.4 * (double)i / (double)count, _("filling a lattice")))
       return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
-    if (!snap(lattice, work->tree, node_of(lattice, i))) return spore_mesh_no_memory(error);
+    if (!snap(lattice, work, node_of(lattice, i))) return spore_mesh_no_memory(error);
   }
   return true;
 }

@@ -51,6 +51,6 @@ static inline SporeBccNode spore_bcc_neighbour(SporeBccNode node, int n) {
 }
 SporeVec3 spore_bcc_place(const SporeBcc *lattice, SporeBccNode node);
 /* The cut of the edge from a node inside; NULL: no memory. */
-SporeBccCut *spore_bcc_cut(SporeBcc *lattice, const SporeBvh *tree, SporeBccNode inside, int neighbour);
+SporeBccCut *spore_bcc_cut(SporeBcc *lattice, const SporeTetrahedraWork *work, SporeBccNode inside, int neighbour);
 
 #endif

@@ -9,16 +9,28 @@
 
 #define SPORE_TETRAHEDRA_ANGLE 10                             /* degrees: the least dihedral angle wanted */
 #define SPORE_TETRAHEDRA_KEPT (SPORE_TETRAHEDRA_ANGLE + 0.75) /* that moves for another end leave */
-#define SPORE_TETRAHEDRA_COUNT 0.1                            /* by which the number of cells may differ, logarithm */
+#define SPORE_TETRAHEDRA_CLOSING 0.3 /* of one half: winding numbers in a hole of the surface */
+#define SPORE_TETRAHEDRA_COUNT 0.1   /* by which the number of cells may differ, logarithm */
+
+/* What of the solid is thinner than the cells of a lattice: points that bound such walls and slits. */
+typedef struct SporeTetrahedraThin {
+  double *walls, *slits; /* wall_count x 3, slit_count x 3; NULL: not looked for */
+  size_t wall_count, slit_count;
+  SporeBvh *wall_tree, *slit_tree; /* of them; NULL: there are none */
+  double reach;                    /* that far around them the lattice has solid, or a gap */
+} SporeTetrahedraThin;
 
 typedef struct SporeTetrahedraWork {
   SporeTetrahedraOptions options; /* lengths in diagonals; tolerance set */
   SporeTetrahedraRegion regions[SPORE_TETRAHEDRA_REGIONS];
   SporeTriangleMesh surface; /* the given one, welded and turned alike */
   SporeBvh *tree;            /* of it */
+  SporeBvh *closed;          /* with what closes its holes; NULL: it has none */
+  bool open;                 /* it has holes: where the solid ends in them, and its volume, are a guess */
   double volume, area;       /* of the solid and of what bounds it */
   double *bounding, *inner;  /* points of the surface (count x 3) that bound the solid, and that lie inside it */
   size_t bounding_count, inner_count;
+  SporeTetrahedraThin thin;
   const SporeProgress *progress;
   double fraction, share; /* of the progress, that the work in hand has */
 } SporeTetrahedraWork;
@@ -32,6 +44,14 @@ bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error);
 /* Largest distances between the mesh and the points that bound the solid, both ways, and from the inner points. */
 bool spore_tetrahedra_distances(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double *hausdorff,
                                 double *inner, double *area, SporeError *error);
+
+/* What bounds the solid, as far as it is known: the surface, and what closes its holes. */
+static inline const SporeBvh *spore_tetrahedra_bounds(const SporeTetrahedraWork *work) {
+  return work->closed ? work->closed : work->tree;
+}
+/* Where the surface is open the solid ends where its winding number falls below one half: work->closed has the faces of
+ * cells of the solid that lie there. */
+bool spore_tetrahedra_close(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, SporeError *error);
 
 /* Brings the skin near what bounds the solid by spore_tetrahedra_approach, in as many turns as help; `surface`: the
  * solid's, or a closed one near it. */
@@ -51,6 +71,14 @@ bool spore_tetrahedra_fill(SporeTriangleMesh *surface, SporeError *error);
 /* A mesh in a prepared surface of the number of cells, or the size, that is asked for. */
 gboolean spore_tetrahedra_fit(SporeTetrahedraWork *work, const SporeTriangleMesh *surface, SporeTetrahedralMesh *mesh,
                               GError **error);
+
+/* Depth in the solid, m, its thin walls and slits widened; it changes by no more than the way that a point goes. */
+double spore_tetrahedra_depth(const SporeTetrahedraWork *work, SporeVec3 p);
+/* Adds what cells of a lattice with that edge have missed to work->thin; *farthest: how far off the worst of it is, 0
+ * where there is none. */
+bool spore_tetrahedra_find_thin(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double edge,
+                                double *farthest, SporeError *error);
+void spore_tetrahedra_clear_thin(SporeTetrahedraThin *thin);
 
 /* Cells of a lattice whose cubes have that edge, cut where the solid ends. None where it misses the solid. */
 bool spore_tetrahedra_stuff(const SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh,

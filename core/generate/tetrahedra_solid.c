@@ -94,6 +94,7 @@ bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error) {
       uint32_t *corner = work->surface.triangles + 3 * t, kept = corner[1];
       corner[1] = corner[2], corner[2] = kept;
     }
+  work->open = report.boundary_edges > 0;
   if (work->options.fill && !spore_tetrahedra_fill(&work->surface, error)) return false;
   work->tree = spore_bvh_create(&work->surface, error);
   if (!work->tree || !sort_samples(work, error) || !measure_volume(work, &report, error)) return false;
@@ -124,7 +125,8 @@ bool spore_tetrahedra_distances(const SporeTetrahedraWork *work, const SporeTetr
   done = done && (tree = spore_bvh_create(&boundary, error)) && spore_triangle_mesh_report(&boundary, &report, error);
   if (done) {
     spore_surface_samples(&boundary, SAMPLES, points, NULL);
-    *hausdorff = fmax(farthest(tree, work->bounding, work->bounding_count), farthest(work->tree, points, SAMPLES));
+    *hausdorff = fmax(farthest(tree, work->bounding, work->bounding_count),
+                      farthest(spore_tetrahedra_bounds(work), points, SAMPLES));
     *inner = farthest(tree, work->inner, work->inner_count);
     *area = report.area;
   }

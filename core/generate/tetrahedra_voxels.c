@@ -10,7 +10,7 @@
 
 typedef struct {
   SporeBcc *lattice;
-  const SporeBvh *tree;
+  const SporeTetrahedraWork *work;
   SporeTetrahedralMesh *mesh;
   size_t vertex_room, cell_room;
 } Stuffing;
@@ -68,7 +68,7 @@ static int way_to(SporeBccNode from, SporeBccNode to) {
  */
 static bool end_vertex(Stuffing *stuffing, SporeBccNode inside, const Corner *to, uint32_t *number) {
   if (to->value >= 0) return node_vertex(stuffing, to->node, number);
-  SporeBccCut *cut = spore_bcc_cut(stuffing->lattice, stuffing->tree, inside, way_to(inside, to->node));
+  SporeBccCut *cut = spore_bcc_cut(stuffing->lattice, stuffing->work, inside, way_to(inside, to->node));
   if (!cut) return false;
   if (!cut->vertex) {
     SporeVec3 a = spore_bcc_place(stuffing->lattice, inside), b = spore_bcc_place(stuffing->lattice, to->node);
@@ -198,7 +198,7 @@ bool spore_tetrahedra_stuff(const SporeTetrahedraWork *work, double edge, SporeT
   *mesh = (SporeTetrahedralMesh){0};
   SporeBcc lattice;
   if (!spore_bcc_create(&lattice, work, edge, error)) return false;
-  Stuffing stuffing = {.lattice = &lattice, .tree = work->tree, .mesh = mesh};
+  Stuffing stuffing = {.lattice = &lattice, .work = work, .mesh = mesh};
   bool done = stuff(&stuffing, work, error);
   spore_bcc_clear(&lattice);
   if (!done) spore_tetrahedral_mesh_clear(mesh);

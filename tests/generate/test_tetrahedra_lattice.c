@@ -25,6 +25,35 @@ static void test_thin_wall(void) {
   spore_tetrahedral_mesh_clear(&result.mesh);
 }
 
+/* A fin and a slit that lie between the nodes of the lattice: it has both, in one piece, and says what they are made.
+ */
+static void test_thin_parts(void) {
+  const SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_VOXELS, .cells = 400, .tolerance = 0.05};
+  SporeTriangleMesh fin = {0}, slit = {0}, box = {0};
+  shape_ball(&fin, 0.03, 8);
+  shape_box(&box, (double[3]){0.02, -0.011, 0.0003}, (double[3]){0.09, 0.012, 0.0008}, 6);
+  shape_append(&fin, &box);
+  spore_triangle_mesh_clear(&box);
+  Result result = fill(&fin, options, "voxels");
+  g_assert_cmpfloat(result.report.thickened, >, 0.1);
+  g_assert_cmpfloat(result.report.thickness, >, 0.0005);
+  g_assert_cmpfloat(result.report.inner_share, >, 0.001); /* what of each part lies in the other */
+  g_assert_cmpfloat(result.report.hausdorff, <, 0.05);
+  g_assert_cmpuint(result.report.pieces, ==, 1);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+
+  shape_ball(&slit, 0.05, 8);
+  shape_box(&box, (double[3]){-0.01, -0.06, 0.0003}, (double[3]){0.06, 0.06, 0.0008}, 6);
+  shape_turn(&box);
+  shape_append(&slit, &box);
+  spore_triangle_mesh_clear(&box);
+  result = fill(&slit, options, "voxels");
+  g_assert_cmpfloat(result.report.widened, >, 0.1);
+  g_assert_cmpfloat(result.report.hausdorff, <, 0.05);
+  g_assert_cmpuint(result.report.pieces, ==, 1);
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
 /* The lattice alone: angles that the method proves, the volume of a ball, nothing outside. */
 static void test_voxels(void) {
   SporeTriangleMesh surface = {0};
@@ -165,6 +194,7 @@ static void test_crumbs(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tetrahedra/thin-wall", test_thin_wall);
+  g_test_add_func("/tetrahedra/thin-parts", test_thin_parts);
   g_test_add_func("/tetrahedra/voxels", test_voxels);
   g_test_add_func("/tetrahedra/voxel-angles", test_voxel_angles);
   g_test_add_func("/tetrahedra/fill", test_fill);
