@@ -3,6 +3,7 @@
 #include "core/mesh/common.h"
 #include "core/scene/generated.h"
 #include "core/author/edits.h"
+#include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/spore-window-private.h"
 
@@ -73,10 +74,32 @@ static void ask(const Request *request, SporeObject *asset) {
   gtk_widget_show(dialog);
 }
 
+/* Those of the scene, as they were made last. */
+static void preview_label_map(SporeWindow *self, SporeObject *body, SporeObject *map, guint count) {
+  g_autoptr(GError) error = NULL;
+  g_autoptr(GBytes) content = spore_document_read_asset(document_of(self), spore_object_text(map, "file"), &error);
+  if (!content) {
+    spore_window_failed(self, error);
+    return;
+  }
+  SporeLabelSource *source = spore_label_source_new_of(spore_object_text(map, "file"), content);
+  SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS, .labels = source};
+  spore_object_fields(spore_edit_body_tetrahedra(document_of(self), body), &options.fields);
+  if (count) spore_generate_set_count(&options, count);
+  preview(self, NULL, &options, FALSE);
+  spore_label_source_unref(source);
+}
+
 static void start(SporeWindow *self, SporeGenerateKind kind, guint count, gboolean apply) {
   Request request = {self, kind, count, apply};
   SporeObject *body = spore_window_body_to_work_on(self);
   SporeObject *asset = body ? spore_generate_target(document_of(self), body, kind) : NULL;
+  SporeObject *map =
+      body && kind == SPORE_GENERATE_TETRAHEDRA ? spore_edit_body_label_map(document_of(self), body) : NULL;
+  if (map) {
+    preview_label_map(self, body, map, count);
+    return;
+  }
   gboolean goes_on = body && spore_generator_get_body(self->generator) == body &&
                      spore_generator_get_options(self->generator)->kind == kind;
   if (asset && spore_generated_is(asset, "edited") && !spore_generated_is(asset, "frozen") && !goes_on)

@@ -92,6 +92,18 @@ static gboolean unset(SporeDocument *document, SporeObject *object, const char *
   return spore_document_unset(document, object, (guint)index, error);
 }
 
+gboolean spore_edit_remember_source(SporeDocument *document, SporeObject *asset, const SporeGeneratedFrom *from,
+                                    GError **error) {
+  if (!spore_generated_may_change(asset, error) || !remember_options(document, asset, from->fields, error) ||
+      !add_regions(document, asset, from, error))
+    return FALSE;
+  g_autofree char *options_hash = spore_generated_options_hash(asset);
+  return spore_document_set_text(document, asset, "source", from->source, error) &&
+         spore_document_set_text(document, asset, "source_hash", from->source_hash, error) &&
+         spore_document_set_text(document, asset, "options_hash", options_hash, error) &&
+         unset(document, asset, "edited", error);
+}
+
 /* What it is made of; takes the text. */
 typedef struct {
   const char *element, *suffix, *extension;
@@ -108,19 +120,14 @@ static SporeObject *keep(SporeDocument *document, SporeObject *body, SporeObject
   if (!asset)
     asset = spore_document_insert(document, spore_document_section(document, "assets"), content->element, name,
                                   G_MAXUINT, error);
-  if (!asset || !spore_generated_may_change(asset, error) || !remember_options(document, asset, from->fields, error) ||
-      !add_regions(document, asset, from, error))
-    return NULL;
+  if (!asset) return NULL;
   g_autofree char *file =
       spore_content_file_name(spore_object_name(asset), content->extension, content->text, content->size);
-  g_autofree char *options_hash = spore_generated_options_hash(asset);
   spore_document_put_blob(document, file, bytes);
-  gboolean done = spore_document_set_text(document, asset, "file", file, error) &&
-                  spore_document_set_text(document, asset, "source", from->source, error) &&
-                  spore_document_set_text(document, asset, "source_hash", from->source_hash, error) &&
-                  spore_document_set_text(document, asset, "options_hash", options_hash, error) &&
-                  unset(document, asset, "edited", error);
-  return done ? asset : NULL;
+  return spore_document_set_text(document, asset, "file", file, error) &&
+                 spore_edit_remember_source(document, asset, from, error)
+             ? asset
+             : NULL;
 }
 
 /* A unit of the body names the asset. */

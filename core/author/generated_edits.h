@@ -36,6 +36,10 @@ typedef enum SporeSurfaceUse { SPORE_SURFACE_MODEL, SPORE_SURFACE_SHOWN, SPORE_S
 gboolean spore_edit_use_surface(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
                                 const SporeTriangleMesh *mesh, SporeSurfaceUse use, GError **error);
 
+/* The asset remembers what it was made from, and how; its file is set before. FALSE with an error: it is frozen. */
+gboolean spore_edit_remember_source(SporeDocument *document, SporeObject *asset, const SporeGeneratedFrom *from,
+                                    GError **error);
+
 /* Tetrahedra of several organs. */
 typedef enum SporeLabelUse {
   SPORE_LABELS_LINKED, /* bodies, with a seam between each two that share faces */
@@ -45,13 +49,19 @@ typedef enum SporeLabelUse {
 } SporeLabelUse;
 typedef struct SporeLabelBodies {
   const char *file; /* they came from: names what is of all */
+  GBytes *content;  /* of that file, which the scene keeps, to tell when it changes; NULL: it does not */
+  const SporeTetrahedraFields *fields; /* how they were made; NULL: not known */
   const SporeTetrahedralMesh *mesh;
   const guint32 *labels; /* count, each of which some cell has */
   char *const *names;    /* count */
   gsize count;
   SporeLabelUse use;
 } SporeLabelBodies;
-/* New assets, and bodies with their usual model, which show the tetrahedra's own surface. */
+/* New assets, and bodies with their usual model, which show the tetrahedra's own surface; where the scene has the same
+ * label map, tetrahedra of the same name that came from it become the new ones, and their bodies stay. */
 gboolean spore_edit_use_labels(SporeDocument *document, const SporeLabelBodies *organs, GError **error);
+
+/* The label map that the tetrahedra of a body came from which shows no mesh; NULL: it is not so. */
+SporeObject *spore_edit_body_label_map(SporeDocument *document, SporeObject *body);
 
 #endif

@@ -7,22 +7,68 @@
 
 #define FACE_NODES 3
 
-/* An asset of these tetrahedra, and where it is wanted a body made of them: *made, where that is not NULL. */
-static gboolean add(SporeDocument *document, const char *name, const SporeTetrahedralMesh *mesh, gboolean body_too,
-                    SporeObject **made, GError **error) {
+/* The map in the scene, kept there where it is not yet. NULL with an error. */
+static SporeObject *keep_map(SporeDocument *document, const char *name, const SporeLabelBodies *organs,
+                             GError **error) {
+  gsize size;
+  gconstpointer bytes = g_bytes_get_data(organs->content, &size);
+  const char *extension = g_str_has_suffix(organs->file, ".nrrd") ? "nrrd"
+                          : g_str_has_suffix(organs->file, ".gz") ? "nii.gz"
+                                                                  : "nii";
+  g_autofree char *file = spore_content_file_name(name, extension, bytes, size);
+  SporeObject *assets = spore_document_section(document, "assets");
+  for (guint i = 0; i < spore_object_child_count(assets); i++) {
+    SporeObject *asset = spore_object_child(assets, i);
+    if (!g_str_equal(spore_object_type(asset)->element, "label_map")) continue;
+    g_autoptr(GBytes) there = spore_document_read_asset(document, spore_object_text(asset, "file"), NULL);
+    if (there && g_bytes_equal(there, organs->content)) return asset;
+  }
+  g_autofree char *map_name = g_strdup_printf("%s_labels", name);
+  SporeObject *asset = spore_document_insert(document, assets, "label_map", map_name, G_MAXUINT, error);
+  spore_document_put_blob(document, file, organs->content);
+  return asset && spore_document_set_text(document, asset, "file", file, error) ? asset : NULL;
+}
+
+/* What was made of that map earlier under that name. */
+static SporeObject *made_earlier(SporeDocument *document, const char *name, const SporeGeneratedFrom *from) {
+  SporeObject *asset = from ? spore_document_find(document, "tetrahedra", name) : NULL;
+  return asset && g_strcmp0(spore_object_text(asset, "source"), from->source) == 0 ? asset : NULL;
+}
+
+static SporeObject *body_made_of(SporeDocument *document, const SporeObject *asset) {
+  SporeObject *bodies = spore_document_section(document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    if (spore_edit_body_tetrahedra(document, body) == asset) return body;
+  }
+  return NULL;
+}
+
+static SporeObject *add_asset(SporeDocument *document, const char *name, const SporeTetrahedralMesh *mesh,
+                              const SporeGeneratedFrom *from, GError **error) {
   gsize size;
   char *text = spore_medit_format(mesh, &size);
   g_autoptr(GBytes) content = g_bytes_new_take(text, size);
   g_autofree char *file = spore_content_file_name(name, "mesh", text, size);
-  g_autofree char *cells = g_strdup_printf("%zu", mesh->tetrahedron_count);
   spore_document_put_blob(document, file, content);
-  SporeObject *asset =
-      spore_document_insert(document, spore_document_section(document, "assets"), "tetrahedra", name, G_MAXUINT, error);
-  if (!asset || !spore_document_set_text(document, asset, "file", file, error) ||
-      !spore_document_set_text(document, asset, "cells", cells, error) || !body_too)
-    return asset && !body_too;
-  SporeObject *body =
-      spore_document_insert(document, spore_document_section(document, "bodies"), "body", name, G_MAXUINT, error);
+  SporeObject *asset = made_earlier(document, name, from);
+  if (!asset)
+    asset = spore_document_insert(document, spore_document_section(document, "assets"), "tetrahedra", name, G_MAXUINT,
+                                  error);
+  if (!asset || !spore_document_set_text(document, asset, "file", file, error)) return NULL;
+  return !from || spore_edit_remember_source(document, asset, from, error) ? asset : NULL;
+}
+
+/* An asset of these tetrahedra, and where it is wanted a body made of them: *made, where that is not NULL. from NULL:
+ * nothing is kept of where they came from. */
+static gboolean add(SporeDocument *document, const char *name, const SporeTetrahedralMesh *mesh,
+                    const SporeGeneratedFrom *from, gboolean body_too, SporeObject **made, GError **error) {
+  SporeObject *asset = add_asset(document, name, mesh, from, error);
+  if (!asset || !body_too) return asset != NULL;
+  SporeObject *body = body_made_of(document, asset);
+  if (made) *made = body;
+  if (body) return TRUE;
+  body = spore_document_insert(document, spore_document_section(document, "bodies"), "body", name, G_MAXUINT, error);
   SporeObject *mechanical = body ? spore_edit_child_or_new(document, body, "mechanical", error) : NULL;
   if (made) *made = body;
   return mechanical && spore_document_set_text(document, mechanical, "geometry", spore_object_name(asset), error) &&
@@ -49,11 +95,11 @@ static SporeTetrahedralMesh extract(const SporeTetrahedralMesh *mesh, guint32 la
   return part;
 }
 
-static gboolean add_organ(SporeDocument *document, const SporeLabelBodies *organs, gsize i, SporeObject **made,
-                          GError **error) {
+static gboolean add_organ(SporeDocument *document, const SporeLabelBodies *organs, gsize i,
+                          const SporeGeneratedFrom *from, SporeObject **made, GError **error) {
   g_autofree char *name = spore_organ_name(organs->names[i]);
   SporeTetrahedralMesh part = extract(organs->mesh, organs->labels[i]);
-  gboolean done = add(document, name, &part, TRUE, made, error);
+  gboolean done = add(document, name, &part, from, TRUE, made, error);
   g_free(part.vertices);
   g_free(part.tetrahedra);
   return done;
@@ -81,7 +127,15 @@ static gsize shared_nodes(const guint64 *bits, gsize words, gsize node_count, gs
   return shared;
 }
 
+static gboolean is_seam_of(const SporeObject *link, const SporeObject *a, const SporeObject *b) {
+  return g_str_equal(spore_object_type(link)->element, "seam") && spore_object_reference(link, "body_a") == a &&
+         spore_object_reference(link, "body_b") == b;
+}
+
 static gboolean add_seam(SporeDocument *document, const SporeObject *a, const SporeObject *b, GError **error) {
+  const SporeObject *links = spore_document_section(document, "links");
+  for (guint i = 0; i < spore_object_child_count(links); i++)
+    if (is_seam_of(spore_object_child(links, i), a, b)) return TRUE;
   g_autofree char *name = g_strdup_printf("%s_%s", spore_object_name(a), spore_object_name(b));
   SporeObject *seam =
       spore_document_insert(document, spore_document_section(document, "links"), "seam", name, G_MAXUINT, error);
@@ -100,20 +154,41 @@ static gboolean add_seams(SporeDocument *document, const SporeLabelBodies *organ
   return TRUE;
 }
 
-static gboolean add_organs(SporeDocument *document, const SporeLabelBodies *organs, GError **error) {
+static gboolean add_organs(SporeDocument *document, const SporeLabelBodies *organs, const SporeGeneratedFrom *from,
+                           GError **error) {
   g_autofree SporeObject **bodies = g_new0(SporeObject *, organs->count);
   for (gsize i = 0; i < organs->count; i++)
-    if (!add_organ(document, organs, i, &bodies[i], error)) return FALSE;
+    if (!add_organ(document, organs, i, from, &bodies[i], error)) return FALSE;
   return organs->use != SPORE_LABELS_LINKED || add_seams(document, organs, bodies, error);
+}
+
+static gboolean add_all(SporeDocument *document, const SporeLabelBodies *organs, const char *name,
+                        const SporeGeneratedFrom *from, GError **error) {
+  if (organs->use == SPORE_LABELS_LINKED || organs->use == SPORE_LABELS_BODIES)
+    return add_organs(document, organs, from, error);
+  return add(document, name, organs->mesh, from, organs->use == SPORE_LABELS_ONE_BODY, NULL, error);
+}
+
+static gboolean use_labels(SporeDocument *document, const SporeLabelBodies *organs, const char *name, GError **error) {
+  if (!organs->content) return add_all(document, organs, name, NULL, error);
+  SporeObject *map = keep_map(document, name, organs, error);
+  if (!map) return FALSE;
+  g_autofree char *hash = spore_document_asset_hash(document, map);
+  const SporeGeneratedFrom from = {.source = spore_object_name(map), .source_hash = hash, .fields = organs->fields};
+  return add_all(document, organs, name, &from, error);
 }
 
 gboolean spore_edit_use_labels(SporeDocument *document, const SporeLabelBodies *organs, GError **error) {
   g_autofree char *base = g_path_get_basename(organs->file);
   base[strcspn(base, ".")] = '\0';
   g_autofree char *name = spore_organ_name(base);
-  gboolean apart = organs->use == SPORE_LABELS_LINKED || organs->use == SPORE_LABELS_BODIES;
   spore_document_begin(document, _("Generate tetrahedra"));
-  gboolean done = apart ? add_organs(document, organs, error)
-                        : add(document, name, organs->mesh, organs->use == SPORE_LABELS_ONE_BODY, NULL, error);
-  return spore_edit_finish(document, done);
+  return spore_edit_finish(document, use_labels(document, organs, name, error));
+}
+
+SporeObject *spore_edit_body_label_map(SporeDocument *document, SporeObject *body) {
+  SporeObject *asset = spore_edit_body_tetrahedra(document, body);
+  const char *source = asset ? spore_object_text(asset, "source") : NULL;
+  if (!source || spore_edit_visual_mesh(document, body, NULL)) return NULL;
+  return spore_document_find(document, "label_map", source);
 }

@@ -83,6 +83,12 @@ static gboolean check_curve(SporeCheck *check, SporeObject *asset, GError **erro
   return curve != NULL;
 }
 
+/* Nothing that runs reads it: it has to be there. */
+static gboolean check_label_map(SporeCheck *check, SporeObject *asset, GError **error) {
+  g_autoptr(GBytes) content = spore_document_read_asset(check->document, spore_object_text(asset, "file"), error);
+  return content != NULL;
+}
+
 static void check_fresh(SporeCheck *check, SporeObject *asset) {
   SporeGenerated generated = spore_generated_state(check->document, asset);
   SporeObject *source = spore_object_reference(asset, "source");
@@ -105,12 +111,13 @@ static void check_asset(SporeCheck *check, SporeObject *asset) {
   if (strcmp(element, "mesh") == 0) done = check_mesh(check, asset, &error);
   else if (strcmp(element, "tetrahedra") == 0) done = check_tetrahedra(check, asset, &error);
   else if (strcmp(element, "curve") == 0) done = check_curve(check, asset, &error);
+  else if (strcmp(element, "label_map") == 0) done = check_label_map(check, asset, &error);
   else done = check_spheres(check, asset, &error);
   if (!done) spore_check_say_error(check, used ? SPORE_FAULT : SPORE_WARNING, asset, error);
   if (!used)
     spore_check_say(check, SPORE_NOTE, asset, _("remove it, or name it in a body"), _("nothing uses the %s \"%s\""),
                     element, spore_object_name(asset));
-  if (strcmp(element, "mesh") != 0) check_fresh(check, asset);
+  if (strcmp(element, "mesh") != 0 && strcmp(element, "label_map") != 0) check_fresh(check, asset);
 }
 
 void spore_check_assets(SporeCheck *check) { spore_check_each(check, "assets", NULL, check_asset); }

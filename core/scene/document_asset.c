@@ -234,8 +234,12 @@ static char *locate(const SporeDocument *document, const char *place, const char
                          (intmax_t)status.st_size, (intmax_t)status.st_mtim.tv_sec, status.st_mtim.tv_nsec, options);
 }
 
-static void write_hash(Decoded *decoded) {
+/* content: of what is not decoded here; else NULL. */
+static void write_hash(Decoded *decoded, GBytes *content) {
   guint64 hash = SPORE_HASH_INIT;
+  gsize size = 0;
+  const void *bytes = content ? g_bytes_get_data(content, &size) : NULL;
+  if (content) hash = spore_hash(hash, bytes, size);
   const SporeTriangleMesh *mesh = &decoded->mesh;
   const SporeTetrahedralMesh *tetrahedra = &decoded->tetrahedra;
   hash = spore_hash(hash, mesh->vertices, mesh->vertex_count * 3 * sizeof(double));
@@ -263,8 +267,9 @@ static Decoded *decode(SporeDocument *document, const SporeObject *asset, GBytes
   const char *element = asset->type->element, *file = spore_object_text(asset, "file");
   g_autofree char *place = path_of(document, file);
   Decoded *decoded = g_atomic_rc_box_new0(Decoded);
-  gboolean done;
-  if (strcmp(element, "mesh") == 0 && readers->mesh)
+  gboolean done, label_map = strcmp(element, "label_map") == 0; /* of which it is known whether it changed */
+  if (label_map) done = TRUE;
+  else if (strcmp(element, "mesh") == 0 && readers->mesh)
     done = readers->mesh(place, file, content, (int)spore_object_number(asset, "unit"),
                          (int)spore_object_number(asset, "frame"), &decoded->mesh, error);
   else if (strcmp(element, "spheres") == 0 && readers->spheres)
@@ -279,7 +284,7 @@ static Decoded *decode(SporeDocument *document, const SporeObject *asset, GBytes
                                "tetrahedra or a curve; name one of these"),
                              element);
   if (done) {
-    write_hash(decoded);
+    write_hash(decoded, label_map ? content : NULL);
     return decoded;
   }
   unref_decoded(decoded);

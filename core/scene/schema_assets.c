@@ -195,6 +195,17 @@ static const SporeParameter sphere_region_parameters[] = {
      .doc = N_("How many times as many spheres lie in a volume there; where regions overlap, the largest holds.")},
 };
 
+static const SporeParameter label_map_parameters[] = {
+    NAME(SporeLabelMapFields, N_("Name by which tetrahedra refer to the label map.")),
+    {.name = "file",
+     .type = SPORE_FILE,
+     .unit = "",
+     FIELD(SporeLabelMapFields, file),
+     .required = true,
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("File of the label map (NIfTI, NRRD), inside the scene's folder.")},
+};
+
 static const SporeParameter tetrahedra_parameters[] = {
     NAME(SporeTetrahedraFields, N_("Name by which mechanical units refer to the tetrahedra.")),
     {.name = "file",
@@ -207,10 +218,10 @@ static const SporeParameter tetrahedra_parameters[] = {
     {.name = "source",
      .type = SPORE_REFERENCE,
      .unit = "",
-     .references = "mesh",
+     .references = "mesh|label_map",
      FIELD(SporeTetrahedraFields, source),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Mesh that the tetrahedra were generated from; none: made elsewhere.")},
+     .doc = N_("Mesh or label map that the tetrahedra were generated from; none: made elsewhere.")},
     {.name = "method",
      .type = SPORE_CHOICE,
      .unit = "",
@@ -345,7 +356,7 @@ static const SporeParameter curve_parameters[] = {
 
 const SporeElement spore_asset_elements[] = {
     {"assets", N_("Assets"), N_("Files that the scene is made from."),
-     .children = CHILDREN("mesh", "spheres", "tetrahedra", "curve")},
+     .children = CHILDREN("mesh", "spheres", "tetrahedra", "curve", "label_map")},
     {"mesh", N_("Mesh"), N_("A surface of triangles."), TABLE(mesh_parameters, SporeMeshFields)},
     {"spheres", N_("Spheres"), N_("A set of spheres that fills a shape, for collision."),
      TABLE(spheres_parameters, SporeSpheresFields), .children = CHILDREN("sphere_region")},
@@ -357,5 +368,7 @@ const SporeElement spore_asset_elements[] = {
      TABLE(cell_region_parameters, SporeCellRegionFields)},
     {"curve", N_("Curve"), N_("The middle line of a thread or a tube, with its radius along it."),
      TABLE(curve_parameters, SporeCurveFields)},
+    {"label_map", N_("Label map"), N_("What each voxel of an image belongs to: organs are generated from it."),
+     TABLE(label_map_parameters, SporeLabelMapFields)},
     {NULL},
 };

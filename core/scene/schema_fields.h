@@ -32,6 +32,10 @@ typedef struct SporeMeshFields {
   double size, keep_angle, wall; /* m, degrees, m */
 } SporeMeshFields;
 
+typedef struct SporeLabelMapFields {
+  const char *name, *file;
+} SporeLabelMapFields;
+
 extern const char *const spore_sphere_methods[]; /* that `method` counts; NULL-terminated */
 typedef struct SporeSpheresFields {
   const char *name, *file, *source, *source_hash, *options_hash;

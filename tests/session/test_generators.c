@@ -169,7 +169,7 @@ static void test_labels(Fixture *fixture, gconstpointer data) {
   uint32_t cells[8] = {0, 1, 2, 3, 1, 2, 3, 4}, labels[2] = {3, 7};
   SporeTetrahedralMesh mesh = {5, 2, vertices, cells, labels};
   char *names[] = {(char *)"left lobe", (char *)"right lobe"};
-  SporeLabelBodies organs = {"/tmp/two.nii.gz", &mesh, labels, names, 2, SPORE_LABELS_BODIES};
+  SporeLabelBodies organs = {"/tmp/two.nii.gz", NULL, NULL, &mesh, labels, names, 2, SPORE_LABELS_BODIES};
   g_autofree char *before = text_of(fixture);
   GError *error = NULL;
   spore_edit_use_labels(fixture->document, &organs, &error);
@@ -203,7 +203,7 @@ static void test_linked_labels(Fixture *fixture, gconstpointer data) {
   uint32_t cells[12] = {0, 1, 2, 3, 1, 2, 3, 4, 3, 4, 5, 6}, labels[3] = {3, 7, 9};
   SporeTetrahedralMesh mesh = {7, 3, vertices, cells, labels};
   char *names[] = {(char *)"left lobe", (char *)"right lobe", (char *)"other"};
-  SporeLabelBodies organs = {"/tmp/three.nii.gz", &mesh, labels, names, 3, SPORE_LABELS_LINKED};
+  SporeLabelBodies organs = {"/tmp/three.nii.gz", NULL, NULL, &mesh, labels, names, 3, SPORE_LABELS_LINKED};
   g_autofree char *before = text_of(fixture);
   GError *error = NULL;
   spore_edit_use_labels(fixture->document, &organs, &error);
@@ -217,6 +217,48 @@ static void test_linked_labels(Fixture *fixture, gconstpointer data) {
   g_assert_cmpuint(spore_world_link_count(simulation->world), ==, 3);
   spore_simulation_free(simulation);
   assert_one_step(fixture, before);
+}
+
+/* The scene keeps the map, and says when it or the options changed; made again, the organs are the same bodies. */
+static void test_stale_labels(Fixture *fixture, gconstpointer data) {
+  double vertices[15] = {0, 0, 0, 0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01, 0.01, 0.01, 0.01};
+  uint32_t cells[8] = {0, 1, 2, 3, 1, 2, 3, 4}, labels[2] = {3, 7};
+  SporeTetrahedralMesh mesh = {5, 2, vertices, cells, labels};
+  char *names[] = {(char *)"left lobe", (char *)"right lobe"};
+  SporeTetrahedraFields fields;
+  spore_parameters_set_initial(spore_generate_table(fixture->document, SPORE_GENERATE_LABELS), &fields);
+  fields.cells = 5000;
+  g_autoptr(GBytes) content = g_bytes_new_static("voxels", 6), other = g_bytes_new_static("other voxels", 12);
+  SporeLabelBodies organs = {"/tmp/two.nii.gz", content, &fields, &mesh, labels, names, 2, SPORE_LABELS_LINKED};
+  g_autofree char *before = text_of(fixture);
+  GError *error = NULL;
+  spore_edit_use_labels(fixture->document, &organs, &error);
+  g_assert_no_error(error);
+  assert_one_step(fixture, before);
+  SporeObject *map = spore_document_by_path(fixture->document, "assets/two_labels");
+  SporeObject *left = spore_document_find(fixture->document, "tetrahedra", "left_lobe");
+  SporeObject *body = spore_document_find(fixture->document, "body", "right_lobe");
+  g_assert_cmpint(spore_generated_state(fixture->document, left), ==, SPORE_GENERATED_FRESH);
+  g_assert_true(spore_edit_body_label_map(fixture->document, body) == map);
+  spore_document_set_text(fixture->document, left, "cells", "3000", &error);
+  g_assert_cmpint(spore_generated_state(fixture->document, left), ==, SPORE_GENERATED_OPTIONS_CHANGED);
+  spore_document_put_blob(fixture->document, spore_object_text(map, "file"), other);
+  g_assert_cmpint(spore_generated_state(fixture->document, left), ==, SPORE_GENERATED_SOURCE_CHANGED);
+  g_autofree char *stale = text_of(fixture);
+  organs.content = other;
+  vertices[14] = 0.02;
+  spore_edit_use_labels(fixture->document, &organs, &error);
+  g_assert_no_error(error);
+  assert_one_step(fixture, stale);
+  g_assert_cmpint(spore_generated_state(fixture->document, left), ==, SPORE_GENERATED_FRESH);
+  const guint counts[] = {4, 3, 1}; /* with the tube */
+  const char *const sections[] = {"assets", "bodies", "links"};
+  for (int i = 0; i < 3; i++)
+    g_assert_cmpuint(spore_object_child_count(spore_document_section(fixture->document, sections[i])), ==, counts[i]);
+  spore_document_set_text(fixture->document, left, "frozen", "true", &error);
+  g_assert_false(spore_edit_use_labels(fixture->document, &organs, &error));
+  g_assert_nonnull(strstr(error->message, "is frozen"));
+  g_clear_error(&error);
 }
 
 static void test_wanted_labels(Fixture *fixture, gconstpointer data) {
@@ -267,6 +309,7 @@ int main(int argc, char **argv) {
       {"surface", test_surface},
       {"labels", test_labels},
       {"linked-labels", test_linked_labels},
+      {"stale-labels", test_stale_labels},
       {"wanted-labels", test_wanted_labels},
       {"label-names", test_label_names},
   };

@@ -670,6 +670,18 @@ def organs_of_a_label_map():
         assert '<seam name="liver_label_7" body_a="liver" body_b="label_7"/>' in text, text
         editor.act("step")
         ui.wait(lambda: editor.time_s(), "time to advance with the seam")
+        kept = folder("saved") / "organs" / re.search('<label_map name="organs_labels" file="(.*?)"', text)[1]
+        assert kept.read_bytes() == path.read_bytes(), "the scene keeps the label map"
+        editor.act("reset")
+        kept.write_bytes(path.read_bytes().replace(b"test\n", b"test\n# other\n"))
+        editor.act("select", "s", "bodies/liver")
+        editor.find("label", "(?s)tetrahedra.*Stale: the label map has changed since", showing=False)
+        editor.act("preview-tetrahedra", "u", 0)
+        editor.find("label", r"(?s)tetrahedra in.*liver: \d+ cells.*label 7: ", 60)
+        editor.act("apply-generated")
+        ui.wait(lambda: not editor.look("label", "Stale: ", showing=False), "the organs to be fresh")
+        assert saved(editor, "organs").count("<body ") == 2
+        editor.act("undo")
         editor.act("undo")
         ui.wait(lambda: not editor.row("liver") and not editor.row("label_7"), "both to go")
         assert not editor.enabled("undo")

@@ -63,6 +63,8 @@ static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, Sp
     g_array_append_val(labels, label);
   }
   const SporeLabelBodies bodies = {.file = work->source,
+                                   .content = spore_label_source_content(work->options.labels),
+                                   .fields = &work->options.fields.tetrahedra,
                                    .mesh = &work->tetrahedra,
                                    .labels = (const guint32 *)(const void *)labels->data,
                                    .names = (char *const *)names->pdata,
@@ -77,6 +79,8 @@ static char *facts(const SporeGenerateWork *work) {
   g_string_append_printf(text, _("%zu tetrahedra in %.1f s\nLeast angle %.1f°, mean %.1f°\nShared faces: %zu"),
                          work->tetrahedra.tetrahedron_count, report->seconds, report->quality.min_dihedral_deg,
                          report->quality.mean_dihedral_deg, report->shared_faces);
+  if (!spore_label_source_content(work->options.labels))
+    g_string_append(text, _("\nToo large a file for the scene to keep: it will not tell when the file changes"));
   for (guint i = 0; i < report->labels->len; i++) {
     const SporeLabelFigures *figures = figures_of(work, i);
     g_autofree char *name = name_of(work, figures->label);

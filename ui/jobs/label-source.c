@@ -4,8 +4,11 @@
 
 #include "core/generate/organ_import.h"
 
+#define MOST_KEPT ((gsize)64 << 20) /* bytes, that a scene is made larger by */
+
 struct SporeLabelSource {
   char *file;
+  GBytes *content; /* NULL: not read yet, or too large to keep */
   GMutex mutex;
   SporeLabelMap map;
   GArray *labels, *voxels; /* NULL: not read yet */
@@ -19,11 +22,20 @@ SporeLabelSource *spore_label_source_new(const char *file) {
   return source;
 }
 
+SporeLabelSource *spore_label_source_new_of(const char *file, GBytes *content) {
+  SporeLabelSource *source = spore_label_source_new(file);
+  source->content = g_bytes_ref(content);
+  return source;
+}
+
+GBytes *spore_label_source_content(const SporeLabelSource *source) { return source->content; }
+
 SporeLabelSource *spore_label_source_ref(SporeLabelSource *source) { return g_atomic_rc_box_acquire(source); }
 
 static void clear(gpointer data) {
   SporeLabelSource *source = data;
   g_free(source->file);
+  g_clear_pointer(&source->content, g_bytes_unref);
   g_mutex_clear(&source->mutex);
   spore_label_map_clear(&source->map);
   g_clear_pointer(&source->labels, g_array_unref);
@@ -36,7 +48,8 @@ void spore_label_source_unref(SporeLabelSource *source) { g_atomic_rc_box_releas
 const char *spore_label_source_file(const SporeLabelSource *source) { return source->file; }
 
 static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, GError **error) {
-  g_autoptr(GBytes) content = spore_import_read_content(source->file, error);
+  g_autoptr(GBytes) content =
+      source->content ? g_bytes_ref(source->content) : spore_import_read_content(source->file, error);
   if (!content) return FALSE;
   gsize size;
   const void *bytes = g_bytes_get_data(content, &size);
@@ -52,6 +65,7 @@ static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, 
                              _("it has %u labels above 0; expected 1 to %u; is it a segmentation?"), labels->len,
                              SPORE_LABEL_SOURCE_MOST);
   }
+  if (!source->content && size <= MOST_KEPT) source->content = g_bytes_ref(content);
   source->names = spore_label_map_names(bytes, size);
   source->voxels = g_steal_pointer(&voxels);
   source->labels = g_steal_pointer(&labels);

@@ -10,6 +10,10 @@
 typedef struct SporeLabelSource SporeLabelSource;
 
 SporeLabelSource *spore_label_source_new(const char *file);
+/* Of content that is there already. */
+SporeLabelSource *spore_label_source_new_of(const char *file, GBytes *content);
+/* Of one that was read: what the file held, where that is no more than a scene keeps; NULL. Borrowed. */
+GBytes *spore_label_source_content(const SporeLabelSource *source);
 SporeLabelSource *spore_label_source_ref(SporeLabelSource *source);
 void spore_label_source_unref(SporeLabelSource *source);
 const char *spore_label_source_file(const SporeLabelSource *source);

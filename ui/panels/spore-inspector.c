@@ -121,7 +121,11 @@ static void show_mesh_facts(SporeInspector *self, SporeObject *body) {
 /* What became of the asset since it was generated, a line each. */
 static void append_state(SporeInspector *self, SporeObject *asset, GString *text) {
   SporeGenerated generated = spore_generated_state(document_of(self), asset);
-  if (generated == SPORE_GENERATED_SOURCE_CHANGED) g_string_append(text, _("\nStale: the mesh has changed since"));
+  SporeObject *source = generated == SPORE_GENERATED_SOURCE_CHANGED ? spore_object_reference(asset, "source") : NULL;
+  gboolean labels = source && g_str_equal(spore_object_type(source)->element, "label_map");
+  if (source)
+    g_string_append(text,
+                    labels ? _("\nStale: the label map has changed since") : _("\nStale: the mesh has changed since"));
   if (generated == SPORE_GENERATED_OPTIONS_CHANGED) g_string_append(text, _("\nStale: the options have changed since"));
   if (spore_generated_is(asset, "edited")) g_string_append(text, _("\nEdited by hand"));
   if (spore_generated_is(asset, "frozen"))
