@@ -18,7 +18,7 @@ typedef struct Fixture {
 
 static void set_up(Fixture *f, gconstpointer data) {
   SporeRandom random = {1};
-  shape_torus(&f->mesh, 0.06, 0.02, 8, 5);
+  shape_box(&f->mesh, (double[3]){-0.08, -0.08, -0.02}, (double[3]){0.08, 0.08, 0.02}, 1);
   g_assert_true(spore_solid_create(&f->solid, &f->mesh, NULL));
   g_assert_true(spore_samples_create(&f->samples, &f->solid, 2, &random, &quiet, NULL));
   g_assert_true(spore_candidates_create(&f->candidates, &f->solid, 64, &random, &quiet, NULL));
@@ -85,6 +85,7 @@ static bool cover(Fixture *f, SporeError *error) {
   bool done = (spore_balls_gaps(&f->solid, &balls, 1e-3, 1e-2, &gaps, &count) &&
                spore_balls_grow_to_cover(&f->solid, &balls)) ||
               spore_spheres_no_memory(error);
+  if (done) g_assert_cmpuint(count, >, 0);
   spore_free(gaps);
   spore_balls_clear(&balls);
   return done;
