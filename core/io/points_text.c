@@ -1,5 +1,5 @@
 /* .spheres and .curve: "x y z r" a line, metres, # comments; spheres with weights "x y z r w",
- * before the first of which a line "level H" may stand. */
+ * before the first of which a comment "# level H" may stand: readers that know nothing of levels pass over it. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -35,18 +35,41 @@ typedef struct Rows {
   double level;  /* m */
 } Rows;
 
-/* The level, where a set begins with one. */
+/* Passes over a comment that stands alone on its line; FALSE where something else begins. */
+static gboolean pass_comment(SporeScanner *scanner) {
+  if (scanner->at == scanner->end || *scanner->at != '#') return FALSE;
+  const char *newline = memchr(scanner->at, '\n', (gsize)(scanner->end - scanner->at));
+  scanner->at = newline ? newline + 1 : scanner->end;
+  scanner->line_start = scanner->at;
+  scanner->line++;
+  return TRUE;
+}
+
+/* Is the comment that begins here "# level H"? `inside` stands behind "level" then. */
+static gboolean is_level(const SporeScanner *scanner, SporeScanner *inside) {
+  *inside = *scanner;
+  if (inside->at == inside->end || *inside->at != '#') return FALSE;
+  inside->at++;
+  if (!spore_scanner_next(inside) || inside->word_line != scanner->line || !spore_scanner_is(inside, "level"))
+    return FALSE;
+  SporeScanner ahead = *inside;
+  GError *none = NULL;
+  double value;
+  gboolean number = spore_scanner_more_on_line(&ahead) && spore_scanner_real(&ahead, "", &value, &none);
+  g_clear_error(&none);
+  return number && !spore_scanner_more_on_line(&ahead);
+}
+
+/* The level, where one stands among the comments that a set begins with. */
 static gboolean read_level(SporeScanner *scanner, const RowWords *words, Rows *rows, GError **error) {
-  SporeScanner ahead = *scanner;
-  if (!words->weight || !spore_scanner_next(&ahead) || !spore_scanner_is(&ahead, "level")) return TRUE;
-  *scanner = ahead;
-  if (!spore_scanner_real(scanner, _("the level of a sum of depths, in metres"), &rows->level, error)) return FALSE;
+  SporeScanner inside;
+  while (words->weight && !is_level(scanner, &inside))
+    if (!pass_comment(scanner)) return TRUE;
+  if (!words->weight) return TRUE;
+  if (!spore_scanner_real(&inside, _("the level of a sum of depths, in metres"), &rows->level, error)) return FALSE;
   if (!(rows->level >= 0))
-    return spore_scanner_fail(scanner, error, _("the level %g is below 0; expected a length in metres; correct it"),
+    return spore_scanner_fail(&inside, error, _("the level %g is below 0; expected a length in metres; correct it"),
                               rows->level);
-  if (spore_scanner_more_on_line(scanner))
-    return spore_scanner_fail(scanner, error,
-                              _("there is more behind the level; expected \"level H\"; remove it or put # before it"));
   rows->columns = 5;
   return TRUE;
 }
@@ -169,7 +192,7 @@ char *spore_spheres_format(const SporeSphereSet *set, gsize *size) {
   GString *text =
       g_string_new("# x y z r w, in metres; w: weight of the sphere's depth; level: what the sum is felt above\n");
   if (set->level > 0) {
-    g_string_append(text, "level ");
+    g_string_append(text, "# level ");
     spore_append_reals(text, &set->level, 1, 1, "");
   }
   for (gsize i = 0; i < set->count; i++) {

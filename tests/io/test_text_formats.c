@@ -52,12 +52,29 @@ static void test_spheres_weights(void) {
   check_spheres_refused("0 0 0 1 0\n", "not above 0");
   check_spheres_refused("0 0 0 1 2000\n", "weight 2000");
   check_spheres_refused("0 0 0 1 1 1\n", "behind the five numbers");
-  check_spheres_refused("level -1\n0 0 0 1 1\n", "a.spheres:1:7: the level -1 is below 0");
-  check_spheres_refused("level x\n0 0 0 1 1\n", "a.spheres:1:7");
-  check_spheres_refused("level 1 2\n0 0 0 1 1\n", "behind the level");
-  check_spheres_refused("level 0.1\n0 0 0 1\n", "has no weight");
-  check_spheres_refused("0 0 0 1 1\nlevel 0.1\n", "a.spheres:2:1");
-  check_spheres_refused("level 1e300\n0 0 0 1 1\n", "the level of the sphere set is 1e+300");
+  check_spheres_refused("# level -1\n0 0 0 1 1\n", "a.spheres:1:9: the level -1 is below 0");
+  check_spheres_refused("# of a liver\n# level 0.1\n0 0 0 1\n", "a.spheres:3:7: the sphere has no weight");
+  check_spheres_refused("level 0.1\n0 0 0 1 1\n", "a.spheres:1:1");
+  check_spheres_refused("# level 1e300\n0 0 0 1 1\n", "the level of the sphere set is 1e+300");
+}
+
+/* Only a comment that is a level and nothing else is one. */
+static void test_spheres_level(void) {
+  static const struct {
+    const char *text;
+    double level;
+  } cases[] = {{"#level 0.1\n0 0 0 1 1", 0.1},        {"# a\r\n# level 0.25\r\n# b\n0 0 0 1 1", 0.25},
+               {"# level of 3\n0 0 0 1 1", 0},        {"# level 3 of 4\n0 0 0 1 1", 0},
+               {"# level\n0.5 0 0 1 1", 0},           {"0 0 0 1 1 # level 1\n", 0},
+               {"0 0 0 1 1\n# level 1\n1 0 0 1 1", 0}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SporeSphereSet set = {0};
+    GError *error = NULL;
+    g_assert_true(spore_spheres_parse("a.spheres", cases[i].text, strlen(cases[i].text), &set, &error));
+    g_assert_no_error(error);
+    g_assert_cmpfloat(set.level, ==, cases[i].level);
+    spore_sphere_set_clear(&set);
+  }
 }
 
 /* Blank lines, comments, carriage returns, and no end of line at the end: not NUL-terminated either. */
@@ -232,6 +249,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/text-formats/spheres", test_spheres);
   g_test_add_func("/text-formats/spheres-weights", test_spheres_weights);
+  g_test_add_func("/text-formats/spheres-level", test_spheres_level);
   g_test_add_func("/text-formats/spheres-layout", test_spheres_layout);
   g_test_add_func("/text-formats/spheres-refused", test_spheres_refused);
   g_test_add_func("/text-formats/curve", test_curve);
