@@ -13,9 +13,9 @@
 
 /* Importing. */
 
-static void take_import(SporeWindow *self, const SporeImport *import, int unit) {
+static void take_import(SporeWindow *self, const SporeImport *import) {
   g_autoptr(GError) failure = NULL;
-  SporeObject *body = spore_edit_import(spore_editor_document_get(self->document), import, unit, &failure);
+  SporeObject *body = spore_edit_import(spore_editor_document_get(self->document), import, &failure);
   if (!body) {
     spore_window_failed(self, failure);
     return;
@@ -31,18 +31,17 @@ static void imported(SporeJob *job, gpointer data, const GError *error, gpointer
   SporeWindow *self = owner;
   SporeImportWork *work = data;
   if (spore_window_failed(self, error) || !self->document) return;
-  take_import(self, work->import, work->options.unit);
+  take_import(self, work->import);
 }
 
 static void import_answered(GtkDialog *dialog, int response, SporeWindow *self) {
-  int unit = 0;
   g_autoptr(SporeImport) import =
-      response == GTK_RESPONSE_ACCEPT ? spore_import_dialog_take(SPORE_IMPORT_DIALOG(dialog), &unit) : NULL;
+      response == GTK_RESPONSE_ACCEPT ? spore_import_dialog_take(SPORE_IMPORT_DIALOG(dialog)) : NULL;
   g_autofree char *labels = response == SPORE_RESPONSE_TOGETHER
                                 ? g_strdup(spore_import_dialog_get_label_map(SPORE_IMPORT_DIALOG(dialog)))
                                 : NULL;
   gtk_widget_destroy(GTK_WIDGET(dialog));
-  if (import) take_import(self, import, unit);
+  if (import) take_import(self, import);
   if (labels) spore_window_preview_labels(self, labels);
 }
 

@@ -44,17 +44,19 @@ static void report_changes(SporeCli *cli, const SporeImportBody *body) {
 }
 
 /* name: that the body has in the scene. */
-static void report_mesh(SporeCli *cli, const SporeImportBody *body, const char *name, const char *unit) {
+static void report_mesh(SporeCli *cli, const SporeImportBody *body, const char *name, int unit) {
   const SporeMeshReport *figures = &body->as_read.report;
   g_autofree char *size = spore_length_text(figures->diagonal);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "body", name);
   spore_cli_text(cli, "file", body->source ? body->source->file : NULL);
-  spore_cli_text(cli, "unit", unit);
+  if (body->source) unit = body->source->unit;
+  spore_cli_text(cli, "unit", unit < 0 ? NULL : spore_length_units[unit]); /* null: of several files, each its own */
   spore_cli_text(cli, "frame", body->source ? spore_mesh_frames[body->source->frame] : NULL);
   spore_cli_number(cli, "diagonal_m", figures->diagonal);
   report_figures(cli, "as_read", &body->as_read);
-  spore_cli_say(cli, _("%s: %s across, axes %s\n"), name, size,
+  spore_cli_say(cli, _("%s: %s across, unit %s, axes %s\n"), name, size,
+                unit < 0 ? _("of several files") : spore_length_units[unit],
                 body->source ? spore_mesh_frames[body->source->frame] : _("of several files"));
   spore_cli_say(cli, "  %-12s %9s %10s %8s %12s %10s %10s  %s\n", "", _("triangles"), _("components"), _("boundary"),
                 _("non-manifold"), _("volume cm3"), _("area cm2"), _("moved"));
@@ -78,7 +80,7 @@ static void report_diagnostics(SporeCli *cli, SporeDocument *document, const Spo
 }
 
 static void report(SporeCli *cli, SporeDocument *document, const SporeImport *import, const GPtrArray *bodies,
-                   const char *unit) {
+                   int unit) {
   SporeObject *all = spore_document_section(document, "bodies");
   spore_cli_open_array(cli, "bodies");
   for (guint i = 0; i < spore_object_child_count(all); i++)
@@ -109,11 +111,11 @@ static int import(SporeCli *cli, char **meshes, const SporeImportOptions *option
   g_autoptr(SporeImport) found = done ? spore_import_read(meshes, options, spore_cli_progress(cli), &error) : NULL;
   g_autoptr(GPtrArray) bodies = NULL;
   SporeDocument *document = found ? open_scene(cli, output, add, &error) : NULL;
-  done = document && spore_import_insert(document, found, options->unit, &bodies, &error) &&
+  done = document && spore_import_insert(document, found, &bodies, &error) &&
          spore_cli_make_folder_of(output, &error) && spore_scene_save(document, output, &error);
   if (done) {
     spore_cli_say(cli, _("%s: written\n"), output);
-    report(cli, document, found, bodies, spore_length_units[options->unit]);
+    report(cli, document, found, bodies, options->unit);
   }
   if (document) spore_document_free(document);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
@@ -158,8 +160,10 @@ static gboolean read_split(const char *name, const char *text, gpointer data, GE
 /* The operations' options come from their table. */
 static GOptionEntry *make_entries(Request *request) {
   const GOptionEntry first[] = {
-      {"unit", 'u', 0, G_OPTION_ARG_STRING, &request->unit, N_("Unit of the meshes: m, cm, mm, um, in (default m)"),
-       "UNIT"},
+      {"unit", 'u', 0, G_OPTION_ARG_STRING, &request->unit,
+       N_("Unit of the meshes: m, cm, mm, um, in (default m); guess: of each file by itself, what makes it "
+          "as large as an organ"),
+       "UNIT|guess"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &request->frame,
        N_("Axes of the meshes: Y_UP, RAS, LPS (default: what the file says)"), "FRAME"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &request->output, N_("Scene to write"), "F.spore"},
@@ -192,7 +196,9 @@ static int understand(Request *request) {
   if (request->merge && options->division != SPORE_IMPORT_FILES)
     return spore_cli_usage(_("spore import: --merge and --split are both there; expected one of them; leave one out"));
   if (request->merge) options->division = SPORE_IMPORT_MERGED;
-  options->unit = spore_cli_choice("--unit", request->unit ? request->unit : "m", spore_length_units, &error);
+  gboolean guess = g_strcmp0(request->unit, "guess") == 0;
+  options->unit =
+      guess ? -1 : spore_cli_choice("--unit", request->unit ? request->unit : "m", spore_length_units, &error);
   options->frame = request->frame ? spore_cli_choice("--frame", request->frame, spore_mesh_frames, &error) : -1;
   return error ? spore_cli_fail(error) : SPORE_EXIT_DONE;
 }

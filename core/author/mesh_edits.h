@@ -5,7 +5,7 @@
 #include "core/generate/organ_import.h"
 
 /* Bodies for what was read in `unit`. Returns the first; NULL with an error: nothing was inserted. */
-SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, int unit, GError **error);
+SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, GError **error);
 
 /* The asset holds another mesh (m, SPORE's axes) from now on. label: of the step, translated. */
 gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label,

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <glib/gi18n.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -134,10 +135,43 @@ static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *by
   return done;
 }
 
+/* Whether the format has metres, whatever is in the file. */
+static gboolean says_metres(const char *path, const char *bytes, gsize size) {
+  g_autofree char *small = g_ascii_strdown(path, -1);
+  return (size >= 4 && memcmp(bytes, "glTF", 4) == 0) || g_str_has_suffix(small, ".gltf");
+}
+
+/* Unit in which all parts together are as large as an organ, or an instrument, is. */
+static int guess_unit(const GPtrArray *parts) {
+  double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, diagonal = 0;
+  for (guint p = 0; p < parts->len; p++) {
+    const SporeTriangleMesh *mesh = &((const SporeMeshPart *)g_ptr_array_index(parts, p))->mesh;
+    for (gsize i = 0; i < 3 * mesh->vertex_count; i++) {
+      lower[i % 3] = fmin(lower[i % 3], mesh->vertices[i]);
+      upper[i % 3] = fmax(upper[i % 3], mesh->vertices[i]);
+    }
+  }
+  for (int k = 0; k < 3; k++) diagonal = hypot(diagonal, upper[k] - lower[k]);
+  return MAX(spore_length_unit_guess(diagonal), 0);
+}
+
+/* The parts of a mesh file, in metres; where the unit is not given, they are read to see how large they are. */
+static GPtrArray *read_parts(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
+  SporeProgress progress = spore_progress_of_share(&intake->step);
+  gboolean named = intake->options->division == SPORE_IMPORT_PARTS;
+  file->unit = MAX(intake->options->unit, 0);
+  g_autoptr(GPtrArray) parts =
+      spore_mesh_decode_parts(file->file, bytes, size, file->unit, file->frame, named, &file->parts, &progress, error);
+  if (!parts || intake->options->unit >= 0 || says_metres(file->file, bytes, size)) return g_steal_pointer(&parts);
+  file->unit = guess_unit(parts);
+  if (file->unit == 0) return g_steal_pointer(&parts);
+  return spore_mesh_decode_parts(file->file, bytes, size, file->unit, file->frame, named, &file->parts, &progress,
+                                 error);
+}
+
 /* One file's bodies. */
 static gboolean add_file(Intake *intake, const char *path, GError **error) {
   SporeImportDivision division = intake->options->division;
-  SporeProgress progress = spore_progress_of_share(&intake->step);
   SporeImportFile *file = g_new0(SporeImportFile, 1);
   g_ptr_array_add(intake->import->files, file);
   file->file = g_strdup(path);
@@ -153,8 +187,7 @@ static gboolean add_file(Intake *intake, const char *path, GError **error) {
   }
   file->frame_said = spore_mesh_frame_hint(bytes, size);
   file->frame = intake->options->frame >= 0 ? intake->options->frame : MAX(file->frame_said, 0);
-  g_autoptr(GPtrArray) parts = spore_mesh_decode_parts(path, bytes, size, intake->options->unit, file->frame,
-                                                       division == SPORE_IMPORT_PARTS, &file->parts, &progress, error);
+  g_autoptr(GPtrArray) parts = read_parts(intake, file, bytes, size, error);
   if (!parts) return FALSE;
   file->joined = file->parts > 1 && division == SPORE_IMPORT_FILES;
   g_autofree char *stem = stem_of(path);
@@ -223,10 +256,10 @@ SporeImport *spore_import_read(char *const *files, const SporeImportOptions *opt
   return g_steal_pointer(&import);
 }
 
-static SporeObject *insert_body(SporeDocument *document, const SporeImportBody *body, int unit, GError **error) {
+static SporeObject *insert_body(SporeDocument *document, const SporeImportBody *body, GError **error) {
   const SporeImportFile *source = body->source;
   if (!body->changed)
-    return spore_organ_insert(document, NULL, source->file, source->content, unit, source->frame, error);
+    return spore_organ_insert(document, NULL, source->file, source->content, source->unit, source->frame, error);
   gsize size;
   char *text = spore_off_format(&body->mesh, &size);
   g_autoptr(GBytes) content = g_bytes_new_take(text, size);
@@ -234,11 +267,10 @@ static SporeObject *insert_body(SporeDocument *document, const SporeImportBody *
   return spore_organ_insert(document, name, file, content, 0, 0, error); /* metres, SPORE's axes */
 }
 
-gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, int unit, GPtrArray **bodies,
-                             GError **error) {
+gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, GPtrArray **bodies, GError **error) {
   g_autoptr(GPtrArray) made = g_ptr_array_new();
   for (guint i = 0; i < import->bodies->len; i++) {
-    SporeObject *body = insert_body(document, g_ptr_array_index(import->bodies, i), unit, error);
+    SporeObject *body = insert_body(document, g_ptr_array_index(import->bodies, i), error);
     if (!body) return FALSE;
     g_ptr_array_add(made, body);
   }

@@ -15,7 +15,7 @@ typedef enum SporeImportDivision {
 } SporeImportDivision;
 
 typedef struct SporeImportOptions {
-  int unit;  /* index into spore_length_units */
+  int unit;  /* index into spore_length_units; -1: guessed of each file, by its size; metres where glTF says so */
   int frame; /* into spore_mesh_frames; -1: what the file says, else Y_UP */
   SporeImportDivision division;
   struct {
@@ -28,12 +28,12 @@ typedef struct SporeImportOptions {
 typedef struct SporeImportFile {
   char *file;
   GBytes *content;
-  int frame;      /* taken */
-  int frame_said; /* by the file itself, or -1 */
-  guint parts;    /* that the file names */
-  bool joined;    /* the parts, without being asked to */
-  bool label_map; /* each label became a body */
-  bool overruled; /* a label map, whose header says unit and axes: others were given */
+  int unit, frame; /* taken */
+  int frame_said;  /* by the file itself, or -1 */
+  guint parts;     /* that the file names */
+  bool joined;     /* the parts, without being asked to */
+  bool label_map;  /* each label became a body */
+  bool overruled;  /* a label map, whose header says unit and axes: others were given */
 } SporeImportFile;
 
 /* A body to be. */
@@ -65,8 +65,7 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeImport, spore_import_free)
 /* A mesh asset and a body that shows it for each: a file's own content, unit and frame where nothing was changed, else
  * OFF in metres and SPORE's axes, named by its content. One undo step is the caller's to make (a group): on FALSE what
  * was inserted stays. *bodies (may be NULL): the objects, GPtrArray. */
-gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, int unit, GPtrArray **bodies,
-                             GError **error);
+gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, GPtrArray **bodies, GError **error);
 
 /* What an author should know about a file beyond what the checks of the scene say: NULL, or "what; remedy", translated.
  * g_free. */

@@ -196,6 +196,9 @@ def a_scene_is_authored_by_commands():
     file("ball.off", shapes.off(*shapes.sphere()))
     file("egg.off", shapes.off(*shapes.sphere(radius=30)))
     scene = WORK / "authored" / "two.spore"
+    guessed = report("import", "ball.off", "egg.off", "--unit", "guess", "-o", WORK / "authored" / "guessed.spore")
+    assert [mesh["unit"] for mesh in guessed["meshes"]] == ["m", "mm"] and not guessed["diagnostics"]
+    assert all(abs(mesh["diagonal_m"] - guessed["meshes"][0]["diagonal_m"]) < 1e-6 for mesh in guessed["meshes"])
     spore("import", "ball.off", "-o", scene)
     assert report("import", "egg.off", "--unit", "mm", "--add", "-o", scene)["bodies"] == ["ball", "egg"]
     made = report("tetrahedra", scene, "--body", "egg", "--cells", "300", "--region", "0,0.03,0,0.01,0.004")

@@ -61,7 +61,7 @@ static SporeObject *add_content(Fixture *fixture, const char *content) {
   SporeImportWork *work = spore_import_work_new(files, &options);
   spore_import_work_run(work, NULL, &error);
   g_assert_no_error(error);
-  SporeObject *body = spore_edit_import(fixture->document, work->import, options.unit, &error);
+  SporeObject *body = spore_edit_import(fixture->document, work->import, &error);
   g_assert_no_error(error);
   spore_import_work_free(work);
   g_remove(file);

@@ -32,9 +32,7 @@ struct _SporeImportDialog {
   GPtrArray *files; /* char *, NULL at the end */
   SporeJob *job;
   guint settling;
-  gboolean unit_chosen; /* by the user: it is guessed until then */
   SporeImport *import;
-  int import_unit; /* what it was read in */
 };
 
 G_DEFINE_FINAL_TYPE(SporeImportDialog, spore_import_dialog, GTK_TYPE_DIALOG)
@@ -69,19 +67,35 @@ static void add_row(SporeImportDialog *self, const SporeImportBody *body) {
                                     COLUMN_VOLUME, volume, COLUMN_MOVED, far, -1);
 }
 
-static double largest(const SporeImport *import) {
-  double across = 0;
-  for (guint i = 0; i < import->bodies->len; i++)
-    across = MAX(across, ((SporeImportBody *)g_ptr_array_index(import->bodies, i))->as_read.report.diagonal);
-  return across;
+/* The largest body of a file, or of all where it is of several; NULL: none. */
+static const SporeImportBody *largest(const SporeImport *import, const SporeImportFile *file) {
+  const SporeImportBody *found = NULL;
+  for (guint i = 0; i < import->bodies->len; i++) {
+    const SporeImportBody *body = g_ptr_array_index(import->bodies, i);
+    if ((!body->source || body->source == file) &&
+        (!found || body->as_read.report.diagonal > found->as_read.report.diagonal))
+      found = body;
+  }
+  return found;
+}
+
+/* A file whose largest body is no size for an organ; NULL: there is none. g_free. */
+static char *doubt_of(const SporeImport *import) {
+  for (guint i = 0; i < import->files->len; i++) {
+    const SporeImportFile *file = g_ptr_array_index(import->files, i);
+    const SporeImportBody *body = largest(import, file);
+    double across = body ? body->as_read.report.diagonal : 0;
+    g_autofree char *doubt = body ? spore_length_doubt(across, file->unit) : NULL;
+    g_autofree char *length = spore_length_text(across);
+    if (doubt) return g_strdup_printf(_("%s, %s across: is the unit right? %s"), body->name, length, doubt);
+  }
+  return NULL;
 }
 
 /* What the author should look at twice: the unit, then what the files say. */
 static void show_warnings(SporeImportDialog *self) {
-  GString *text = g_string_new(NULL);
-  double across = largest(self->import);
-  g_autofree char *doubt = spore_length_doubt(across, self->import_unit), *length = spore_length_text(across);
-  if (doubt) g_string_append_printf(text, _("%s across: is the unit right? %s"), length, doubt);
+  g_autofree char *doubt = doubt_of(self->import);
+  GString *text = g_string_new(doubt);
   for (guint i = 0; i < self->import->files->len; i++) {
     const SporeImportFile *file = g_ptr_array_index(self->import->files, i);
     g_autofree char *remark = spore_import_remark(file), *base = g_path_get_basename(file->file);
@@ -92,13 +106,20 @@ static void show_warnings(SporeImportDialog *self) {
   g_string_free(text, TRUE);
 }
 
-/* TRUE: another unit was set, and everything is read anew in it. */
-static gboolean guess_unit(SporeImportDialog *self) {
-  int guess = spore_length_unit_guess(largest(self->import) / spore_length_unit_m[self->import_unit]);
-  if (self->unit_chosen || guess < 0 || guess == self->import_unit) return FALSE;
-  gtk_combo_box_set_active(GTK_COMBO_BOX(self->unit), guess);
-  self->unit_chosen = FALSE; /* setting it looked like a choice */
-  return TRUE;
+/* "2 bodies; the unit, mm, is guessed from the size" */
+static char *state_of(SporeImportDialog *self, const char *count) {
+  g_autoptr(GString) units = g_string_new(NULL);
+  guint different = 0, known = 0;
+  for (guint i = 0; i < self->import->files->len; i++) {
+    const SporeImportFile *file = g_ptr_array_index(self->import->files, i);
+    if (known & 1u << file->unit) continue;
+    known |= 1u << file->unit;
+    g_string_append_printf(units, different++ ? ", %s" : "%s", spore_length_units[file->unit]);
+  }
+  if (gtk_combo_box_get_active(GTK_COMBO_BOX(self->unit)) > 0) return g_strdup(count);
+  return g_strdup_printf(different > 1 ? _("%s; the units, %s, are guessed from the sizes")
+                                       : _("%s; the unit, %s, is guessed from the size"),
+                         count, units->str);
 }
 
 static void show_import(SporeImportDialog *self) {
@@ -106,9 +127,7 @@ static void show_import(SporeImportDialog *self) {
   for (guint i = 0; i < self->import->bodies->len; i++) add_row(self, g_ptr_array_index(self->import->bodies, i));
   g_autofree char *count =
       g_strdup_printf(ngettext("%u body", "%u bodies", self->import->bodies->len), self->import->bodies->len);
-  g_autofree char *text = self->unit_chosen ? g_strdup(count)
-                                            : g_strdup_printf(_("%s; the unit, %s, is guessed from the size"), count,
-                                                              spore_length_units[self->import_unit]);
+  g_autofree char *text = state_of(self, count);
   gtk_label_set_text(GTK_LABEL(self->state), text);
   show_warnings(self);
   gtk_widget_set_sensitive(self->accept, TRUE);
@@ -140,12 +159,11 @@ static void read_through(SporeJob *job, gpointer data, const GError *error, gpoi
     return;
   }
   self->import = g_steal_pointer(&work->import);
-  self->import_unit = work->options.unit;
-  if (!guess_unit(self)) show_import(self);
+  show_import(self);
 }
 
 static void read_options(SporeImportDialog *self, SporeImportOptions *options) {
-  options->unit = gtk_combo_box_get_active(GTK_COMBO_BOX(self->unit));
+  options->unit = gtk_combo_box_get_active(GTK_COMBO_BOX(self->unit)) - 1;
   options->frame = gtk_combo_box_get_active(GTK_COMBO_BOX(self->frame)) - 1;
   options->division = (SporeImportDivision)gtk_combo_box_get_active(GTK_COMBO_BOX(self->division));
   for (int i = 0; i < SPORE_MESH_OPERATIONS; i++) {
@@ -178,11 +196,6 @@ static void read_soon(SporeImportDialog *self) {
 
 static void choice_changed(GtkWidget *widget, SporeImportDialog *self) { read_soon(self); }
 
-static void unit_changed(GtkWidget *widget, SporeImportDialog *self) {
-  self->unit_chosen = TRUE;
-  read_soon(self);
-}
-
 static void add_file(SporeImportDialog *self, const char *file) {
   g_ptr_array_insert(self->files, (int)self->files->len - 1, g_strdup(file)); /* before the NULL */
 }
@@ -214,7 +227,6 @@ static void add_files(GtkButton *button, SporeImportDialog *self) {
 static void clear_files(GtkButton *button, SporeImportDialog *self) {
   g_ptr_array_set_size(self->files, 0);
   g_ptr_array_add(self->files, NULL);
-  self->unit_chosen = FALSE;
   gtk_label_set_text(GTK_LABEL(self->state), _("STL, OBJ, PLY, OFF, glTF or GLB; label maps: NIfTI, NRRD"));
   read_soon(self);
 }
@@ -249,7 +261,6 @@ static void spore_import_dialog_class_init(SporeImportDialogClass *class) {
   gtk_widget_class_bind_template_callback(widget, add_files);
   gtk_widget_class_bind_template_callback(widget, clear_files);
   gtk_widget_class_bind_template_callback(widget, choice_changed);
-  gtk_widget_class_bind_template_callback(widget, unit_changed);
 }
 
 static void add_operation(SporeImportDialog *self, int kind) {
@@ -290,6 +301,7 @@ static void spore_import_dialog_init(SporeImportDialog *self) {
   self->files = g_ptr_array_new_with_free_func(g_free);
   g_ptr_array_add(self->files, NULL);
   gtk_widget_init_template(GTK_WIDGET(self));
+  gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(self->unit), _("Guessed for each file"));
   for (int i = 0; spore_length_units[i]; i++)
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(self->unit), spore_length_units[i]);
   for (int i = 0; i < SPORE_MESH_OPERATIONS; i++) add_operation(self, i);
@@ -298,7 +310,7 @@ static void spore_import_dialog_init(SporeImportDialog *self) {
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->unit), 0);
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->frame), 0);
   gtk_combo_box_set_active(GTK_COMBO_BOX(self->division), SPORE_IMPORT_FILES);
-  self->unit_chosen = FALSE; /* setting it looked like a choice */
+  spore_combo_shrinks(self->unit, CHOICE_LEAST_CHARS, CHOICE_CHARS);
   spore_combo_shrinks(self->frame, CHOICE_LEAST_CHARS, CHOICE_CHARS);
   spore_combo_shrinks(self->division, CHOICE_LEAST_CHARS, CHOICE_CHARS);
   spore_ignore_wheel(self->unit);
@@ -321,7 +333,4 @@ const char *spore_import_dialog_get_label_map(SporeImportDialog *self) {
   return file && file->label_map ? file->file : NULL;
 }
 
-SporeImport *spore_import_dialog_take(SporeImportDialog *self, int *unit) {
-  *unit = self->import_unit;
-  return g_steal_pointer(&self->import);
-}
+SporeImport *spore_import_dialog_take(SporeImportDialog *self) { return g_steal_pointer(&self->import); }

@@ -17,8 +17,8 @@ G_DECLARE_FINAL_TYPE(SporeImportDialog, spore_import_dialog, SPORE, IMPORT_DIALO
 /* files may be NULL. Responds GTK_RESPONSE_ACCEPT when what was read is to be imported, SPORE_RESPONSE_TOGETHER when
  * the organs of its label map are to be meshed together instead. */
 GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *const *files);
-/* What was read last, with its unit; the caller's to free. NULL: nothing. */
-SporeImport *spore_import_dialog_take(SporeImportDialog *self, int *unit);
+/* What was read last; the caller's to free. NULL: nothing. */
+SporeImport *spore_import_dialog_take(SporeImportDialog *self);
 
 /* The one file, where it was read and is a label map; NULL: it is not. Borrowed. */
 const char *spore_import_dialog_get_label_map(SporeImportDialog *self);

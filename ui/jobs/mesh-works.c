@@ -24,7 +24,7 @@ gboolean spore_import_work_run(gpointer data, const SporeProgress *progress, GEr
   for (guint i = 0; work->import && i < work->import->bodies->len; i++) {
     const SporeImportBody *body = g_ptr_array_index(work->import->bodies, i);
     if (!body->changed)
-      spore_editor_readers_remember(body->source->content, work->options.unit, body->source->frame, &body->mesh);
+      spore_editor_readers_remember(body->source->content, body->source->unit, body->source->frame, &body->mesh);
   }
   return work->import != NULL;
 }
