@@ -297,14 +297,15 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"worth", N_("with --counts: as given")},
       {"scene", N_("that was given: as written, and the name of the body that has the spheres: body")},
       {NULL, NULL}};
-  static const SporeCommandInfo info = {"spheres",
-                                        "FILE",
-                                        N_("Fits collision spheres to a mesh, to the tetrahedra of a .mesh file, or "
-                                           "along a .curve file; or, of a scene (F.spore), to the mesh that a body of "
-                                           "it shows, and gives them to that body."),
-                                        1,
-                                        1,
-                                        members};
+  static const SporeCommandInfo info = {
+      "spheres",
+      "FILE",
+      N_("Fits collision spheres to a mesh, to the boundary of the tetrahedra of a .mesh file, or "
+         "along a .curve file; or, of a scene (F.spore), to the mesh that a body of "
+         "it shows, and gives them to that body."),
+      1,
+      1,
+      members};
   Request r = {.seed = -1, .thickness = -1, .worth = SPORE_SPHERES_WORTH};
   const GOptionEntry entries[] = {
       {"count", 'n', 0, G_OPTION_ARG_INT64, &r.count, N_("Number of spheres"), "N"},

@@ -199,7 +199,25 @@ def tetrahedra(build, work):
             yield aimed(f"{case}: processor time", seconds, "s", 30)
 
 
-SECTIONS = [balanced_spheres, bounding_spheres, weighted_spheres, centrelines, tetrahedra]
+def spheres_of_tetrahedra(build, work):
+    """Spheres of 500 cells, the peer a sphere round each (the paper): as many that fit, an eighth as many that cover."""
+    cells = work / "cells.mesh"
+    for name, _, path in meshes(work):
+        made, _, fault = run(build, "tetrahedra", path, "--unit", "mm", "--cells", 500, "-o", cells)
+        if made is None:
+            yield row("authoring", f"{name}, spheres of 500 cells REFUSED: {fault}", math.nan, "")
+            continue
+        peer = json.loads(subprocess.run([build / "tests/bench/bench_cell_spheres", cells], capture_output=True, text=True, check=True).stdout)
+        for mode, count in (("balanced", peer["count"]), ("bounding", peer["count"] // 8)):
+            answer, _, _ = run(build, "spheres", cells, "--mode", mode, "--count", count)
+            for (measure, unit), ours, theirs in zip(MEASURES, sphere_figures(answer), sphere_figures(peer)):
+                if measure != "not covered":
+                    yield row("authoring", f"{name}, {peer['count']} cells, {count} {mode} spheres: {measure}", ours, unit,
+                              peer_name="a sphere a cell", peer=theirs, least=1)
+            yield row("authoring", f"{name}, {peer['count']} cells, {count} {mode} spheres: not covered", 1 - answer["coverage"], "of it")
+
+
+SECTIONS = [balanced_spheres, bounding_spheres, weighted_spheres, centrelines, tetrahedra, spheres_of_tetrahedra]
 
 
 def bench_authoring(build, work):
