@@ -180,15 +180,7 @@ static bool build(SporeLinearSolid *body, const SporeGeometry *geometry, const S
 }
 
 static SporeModel *create(const SporeGeometry *geometry, const void *fields, SporeError *error) {
-  if (!spore_tetrahedra_check_mesh(geometry->tetrahedra, error)) return NULL;
-  SporeLinearSolid *body = SPORE_NEW(SporeLinearSolid);
-  if (!body) {
-    spore_linear_solid_no_memory(error);
-    return NULL;
-  }
-  if (build(body, geometry, fields, error)) return &body->base;
-  spore_linear_solid_destroy(&body->base);
-  return NULL;
+  return spore_linear_solid_create(build, geometry, fields, error);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {

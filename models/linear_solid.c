@@ -36,6 +36,19 @@ void spore_linear_solid_destroy(SporeModel *model) {
   spore_free(body);
 }
 
+SporeModel *spore_linear_solid_create(SporeLinearBuild *build, const SporeGeometry *geometry, const void *fields,
+                                      SporeError *error) {
+  if (!spore_tetrahedra_check_mesh(geometry->tetrahedra, error)) return NULL;
+  SporeLinearSolid *body = SPORE_NEW(SporeLinearSolid);
+  if (!body) {
+    spore_linear_solid_no_memory(error);
+    return NULL;
+  }
+  if (build(body, geometry, fields, error)) return &body->base;
+  spore_linear_solid_destroy(&body->base);
+  return NULL;
+}
+
 /* Making. */
 
 /* Blocks V (mu (g_a . g_b) I + mu g_b g_a^T + lambda g_a g_b^T) of an element, g the gradients of its corners. */

@@ -38,6 +38,11 @@ bool spore_linear_stiffness(const SporeTetrahedronNodes *nodes, double poisson_r
 /* Fills the rest once masses, surface and stiffness are there. False: no memory. */
 bool spore_linear_solid_finish(SporeLinearSolid *body, const SporeLinearFields *fields);
 bool spore_linear_solid_no_memory(SporeError *error);
+/* A model that `build` makes of the geometry; false with an error, and no model comes of it. */
+typedef bool SporeLinearBuild(SporeLinearSolid *body, const SporeGeometry *geometry, const SporeLinearFields *fields,
+                              SporeError *error);
+SporeModel *spore_linear_solid_create(SporeLinearBuild *build, const SporeGeometry *geometry, const void *fields,
+                                      SporeError *error);
 
 /* matrix += R K back for each of `count` blocks of 9, row-major. */
 SPORE_DECLARE_KERNEL(void, spore_linear_turn, size_t count, const double *blocks, SporeMat3 rotation, SporeMat3 back,
