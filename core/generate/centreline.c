@@ -81,6 +81,24 @@ static bool refuse_shape(const SporeCentrelineOptions *options, const SporeCentr
       100 * report->cover, report->offset);
 }
 
+/* The way from voxel to voxel is longer than the smooth line: where along that each branch leaves it. */
+static void place_branches(const SporeCurve *curve, SporeCentrelineReport *report) {
+  for (size_t i = 0; i < SPORE_CENTRELINE_NAMED && i < report->branches; i++) {
+    SporeVec3 foot = spore_vec3_load(report->branch[i].foot);
+    double least = HUGE_VAL, along = 0;
+    for (size_t k = 1; k < curve->count; k++) {
+      SporeVec3 from = spore_vec3_load(curve->points + 4 * (k - 1)), to = spore_vec3_load(curve->points + 4 * k);
+      SporeVec3 step = spore_vec3_sub(to, from);
+      double length = spore_vec3_length(step), square = length * length;
+      double u = square > 0 ? spore_vec3_dot(spore_vec3_sub(foot, from), step) / square : 0;
+      u = fmin(fmax(u, 0), 1);
+      double distance = spore_vec3_distance(foot, spore_vec3_add_scaled(from, u, step));
+      if (distance < least) least = distance, report->branch[i].from = along + u * length;
+      along += length;
+    }
+  }
+}
+
 static bool find(const SporeSolid *solid, const SporeCentrelineOptions *options, SporeCurve *curve,
                  SporeCentrelineReport *report, const SporeProgress *progress, SporeError *error) {
   SporeVoxelTube tube;
@@ -96,6 +114,7 @@ static bool find(const SporeSolid *solid, const SporeCentrelineOptions *options,
               spore_centreline_refine(solid, &tube, &path, options, &dense, &refining, error);
   if (done) {
     spore_centreline_figures(solid, &dense, report);
+    place_branches(&dense, report);
     done = refuse_shape(options, report, solid->volume, error) && spore_centreline_thin(&dense, options, curve, error);
   }
   if (done && progress && progress->show) progress->show(progress->data, curve->points, curve->count);

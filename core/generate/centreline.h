@@ -19,10 +19,10 @@ typedef struct SporeCentrelineOptions {
 
 /* What leaves the curve's side: it is no part of the curve. */
 typedef struct SporeCentrelineBranch {
-  double from;   /* m, along the curve */
-  double length; /* m, from the curve's side */
-  double end[3]; /* m */
-  bool returns;  /* to the curve, elsewhere: a loop */
+  double from;            /* m, along the curve */
+  double length;          /* m, from the curve's side */
+  double foot[3], end[3]; /* m: where it leaves the way through the organ's middle, and its tip */
+  bool returns;           /* to the curve, elsewhere: a loop */
 } SporeCentrelineBranch;
 
 typedef struct SporeCentrelineReport {

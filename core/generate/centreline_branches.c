@@ -138,6 +138,7 @@ bool spore_voxel_search_leftovers(SporeVoxelSearch *search, const SporeVoxelPath
     uint32_t far = take_piece(&left, i, &branch.returns), foot = left.foot[far];
     branch.from = left.along[foot];
     branch.length = search->length[far] - left.radius[foot];
+    spore_vec3_store(branch.foot, spore_voxel_middle(tube, path->voxel[foot]));
     spore_vec3_store(branch.end, spore_voxel_middle(tube, far));
     if (search->length[far] > BRANCH * left.radius[foot]) name_branch(report, &branch);
   }

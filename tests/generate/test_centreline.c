@@ -180,6 +180,7 @@ static void test_branch(void) {
   g_assert_cmpfloat_with_epsilon(report.branch[0].length, 0.06, 0.008);
   g_assert_cmpfloat_with_epsilon(report.branch[0].end[1], 0.08, 0.004);
   g_assert_false(report.branch[0].returns);
+  g_assert_cmpfloat(report.branch[0].from, <=, report.length);
   g_assert_cmpfloat_with_epsilon(report.length, 0.2, 0.006);
   spore_curve_clear(&curve);
   spore_triangle_mesh_clear(&branch);
