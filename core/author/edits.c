@@ -269,6 +269,13 @@ SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GErr
   SporeObject *asset = spore_edit_visual_mesh(document, body, error);
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(document, asset, error) : NULL;
   if (!mesh) return NULL;
+  if ((SporeRole)spore_object_number(body, "role") != SPORE_PASSIVE) {
+    g_autofree char *path = spore_object_path(body);
+    spore_error_raise(error, SPORE_ERROR_INPUT, path,
+                      _("the body does not fall, and needs no pin; expected one that physics moves; give it a model "
+                        "first, tetrahedra for instance"));
+    return NULL;
+  }
   double extent;
   SporeVec3 point = hold_point(mesh, spore_body_pose(body), &extent);
   spore_document_begin(document, _("Hold organ"));

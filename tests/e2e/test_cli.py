@@ -237,6 +237,7 @@ def authoring_commands_refuse_what_they_cannot_do():
     refuses("spheres", "ball.off", "--body", "ball", "--count", "3", says=("--body", ".spore"))
     refuses("edit", scene, says=("nothing is asked for",))
     refuses("edit", scene, "--hold", "none", says=('no body "none"',))
+    refuses("edit", scene, "--hold", "ball", says=("needs no pin",))
     refuses("edit", scene, "--set", "bodies/ball/collision/stifness=3", says=("did you mean",))
     refuses("import", "ball.off", "--add", "-o", WORK / "authored" / "absent.spore", says=("absent.spore", "no such file"))
     assert scene.read_text() == before

@@ -436,6 +436,10 @@ static void test_set_model(Fixture *fixture, gconstpointer data) {
 static void test_probe_and_pin(Fixture *fixture, gconstpointer data) {
   GError *error = NULL;
   SporeObject *body = add_organ(fixture);
+  g_assert_null(spore_edit_add_pin(fixture->document, body, &error)); /* it does not move */
+  g_assert_error(error, SPORE_ERROR, SPORE_ERROR_INPUT);
+  g_clear_error(&error);
+  g_assert_true(spore_edit_set_model(fixture->document, body, "rigid_body", &error));
   g_autofree char *before = text_of(fixture);
   SporeObject *pin = spore_edit_add_pin(fixture->document, body, &error);
   g_assert_no_error(error);
