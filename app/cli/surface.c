@@ -6,6 +6,7 @@
 #include "core/generate/surface.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
+#include "core/scene/schema_fields.h"
 
 SporeSurfaceFormatter spore_surface_formatter(const char *file) {
   if (g_str_has_suffix(file, ".off")) return spore_off_format;
@@ -108,6 +109,10 @@ static int check_options(gint64 nodes, double size, double keep_angle_deg, const
     return spore_cli_usage(_("spore surface: neither number of nodes nor size is one; expected either --nodes 1 to %u "
                              "or --size in metres above 0, or a --wall in metres; give one of them"),
                            SPORE_MESH_MAXIMUM);
+  if (wall->detail < 0 || wall->detail > SPORE_MOST_WALL_DETAIL || (wall->detail && !walled))
+    return spore_cli_usage(_("--detail %lld: not a number of steps in a wall; expected 1 to %d, with a "
+                             "--wall; give both, such as 8"),
+                           (long long)wall->detail, SPORE_MOST_WALL_DETAIL);
   if (wall->inner && !walled)
     return spore_cli_usage(
         _("--inner %s: there is no inner surface; expected a --wall to have one; give its thickness"), wall->inner);
@@ -143,7 +148,8 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
       {"seconds", N_("that it took")},
       {"wall", N_("with --wall: thickness_m (min, mean, max: from the outer surface to the lumen; most where the lumen "
                   "ends short "
-                  "of a narrow part), inner_m (min, max: from the lumen to the outer surface), volume_m3, lumen_m3, "
+                  "of a narrow part), inner_m (min, max: from the lumen to the outer surface), error (largest "
+                  "distance of inner_m from the thickness asked for, of it), error_at_m (where), volume_m3, lumen_m3, "
                   "pieces of the "
                   "lumen, its nodes and triangles, step_m (of the lattice that it was found on), seconds")},
       {NULL, NULL}};
@@ -157,7 +163,7 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
       1,
       members};
   char *unit = NULL, *frame = NULL, *output = NULL, *inner = NULL;
-  gint64 nodes = 0;
+  gint64 nodes = 0, detail = 0;
   double size = 0, thickness = 0, keep_angle_deg = SPORE_SIMPLIFY_KEEP_ANGLE * 180 / G_PI;
   const GOptionEntry entries[] = {
       {"nodes", 'n', 0, G_OPTION_ARG_INT64, &nodes, N_("Number of nodes at most"), "N"},
@@ -166,13 +172,16 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
        N_("Keep edges at which the surface turns by more (degrees, default 60; 360: none)"), "DEG"},
       {"wall", 'w', 0, G_OPTION_ARG_DOUBLE, &thickness,
        N_("Make the organ hollow, with a wall of this thickness, m; -o takes the wall as one closed surface"), "M"},
+      {"detail", 'd', 0, G_OPTION_ARG_INT64, &detail,
+       N_("Steps in the wall's thickness: twice as many halve its largest error (default 0: as the size asks for)"),
+       "N"},
       {"inner", 'i', 0, G_OPTION_ARG_FILENAME, &inner, N_("File to write the lumen's surface to: .off or .obj"), "F"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, in metres: .off or .obj"), "F"},
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  const SporeWallOptions wall = {thickness, output, inner};
+  const SporeWallOptions wall = {thickness, detail, output, inner};
   if (status == SPORE_EXIT_DONE) status = check_options(nodes, size, keep_angle_deg, &wall);
   if (status == SPORE_EXIT_DONE) {
     SporeSimplifyOptions options = {(size_t)nodes, size, keep_angle_deg * G_PI / 180};

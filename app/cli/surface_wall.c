@@ -5,7 +5,8 @@
 #include "core/generate/wall.h"
 #include "core/io/scene_xml.h"
 
-static void report(SporeCli *cli, const SporeTriangleMesh *inner, const SporeWallReport *report) {
+static void report(SporeCli *cli, const SporeTriangleMesh *inner, double thickness, const SporeWallReport *report) {
+  SporeVec3 at = report->error_at;
   spore_cli_open(cli, "wall");
   spore_cli_open(cli, "thickness_m");
   spore_cli_number(cli, "min", report->thickness_min);
@@ -16,6 +17,10 @@ static void report(SporeCli *cli, const SporeTriangleMesh *inner, const SporeWal
   spore_cli_number(cli, "min", report->inner_min);
   spore_cli_number(cli, "max", report->inner_max);
   spore_cli_close(cli);
+  spore_cli_number(cli, "error", report->error);
+  spore_cli_open_array(cli, "error_at_m");
+  for (int e = 0; e < 3; e++) spore_cli_number(cli, NULL, ((const double[3]){at.x, at.y, at.z})[e]);
+  spore_cli_close_array(cli);
   spore_cli_number(cli, "volume_m3", report->wall_volume);
   spore_cli_number(cli, "lumen_m3", report->lumen_volume);
   spore_cli_count(cli, "pieces", (gint64)report->pieces);
@@ -30,6 +35,10 @@ static void report(SporeCli *cli, const SporeTriangleMesh *inner, const SporeWal
                 report->thickness_mean, report->thickness_min, report->thickness_max, report->wall_volume,
                 report->lumen_volume, report->pieces, inner->vertex_count, report->inner_min, report->inner_max,
                 report->seconds);
+  spore_cli_say(cli,
+                _("farthest off the thickness asked for: %.1f %%, at (%.4g %.4g %.4g) m; a --detail above %.2g would "
+                  "have it nearer, in more nodes\n"),
+                100 * report->error, at.x, at.y, at.z, thickness / report->step);
 }
 
 static gboolean write_mesh(const char *file, const SporeTriangleMesh *mesh, GError **error) {
@@ -43,7 +52,8 @@ gboolean spore_surface_make_wall(SporeCli *cli, const char *file, const SporeTri
   SporeError fault = SPORE_ERROR_INIT;
   SporeTriangleMesh inner = {0}, wall = {0};
   SporeWallReport figures;
-  gboolean done = spore_wall_inner(outer, options->thickness, 0, &inner, &figures, spore_cli_progress(cli), &fault) &&
+  gboolean done = spore_wall_inner(outer, options->thickness, (double)options->detail, &inner, &figures,
+                                   spore_cli_progress(cli), &fault) &&
                   spore_wall_solid(outer, &inner, &wall, &fault);
   if (!done) {
     spore_error_at(&fault, file);
@@ -51,7 +61,7 @@ gboolean spore_surface_make_wall(SporeCli *cli, const char *file, const SporeTri
   }
   done = done && (!options->wall || write_mesh(options->wall, &wall, error)) &&
          (!options->inner || write_mesh(options->inner, &inner, error));
-  if (done) report(cli, &inner, &figures);
+  if (done) report(cli, &inner, options->thickness, &figures);
   spore_triangle_mesh_clear(&inner);
   spore_triangle_mesh_clear(&wall);
   return done;

@@ -6,6 +6,7 @@
 
 typedef struct SporeWallOptions {
   double thickness;         /* m */
+  gint64 detail;            /* steps of the lattice in it; 0: as the diagonal asks for */
   const char *wall, *inner; /* files to write, NULL: none; suffixes that spore_surface_formatter knows */
 } SporeWallOptions;
 

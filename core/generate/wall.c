@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/generate/wall_parts.h"
 #include "core/mesh/bvh.h"
+#include "core/mesh/common.h"
 #include "core/mesh/isosurface.h"
 
 #define STEPS 4        /* in the thickness */
@@ -49,37 +50,56 @@ static bool refuse(const SporeBvh *bvh, const SporeMeshReport *box, double thick
       thickness, deepest, place.x, place.y, place.z);
 }
 
-/* At vertices and middles of triangles. */
-static void measure(const SporeTriangleMesh *from, const SporeBvh *to, double *least, double *mean, double *most) {
+/* From the outer surface, at vertices and middles of triangles. */
+static void measure_outer(const SporeTriangleMesh *outer, const SporeBvh *inner, SporeWallReport *report) {
   double area = 0;
-  *least = HUGE_VAL, *mean = *most = 0;
-  for (size_t t = 0; t < from->triangle_count; t++) {
+  report->thickness_min = HUGE_VAL;
+  for (size_t t = 0; t < outer->triangle_count; t++) {
     SporeVec3 p[3], middle = {0, 0, 0};
     for (size_t k = 0; k < 3; k++) {
-      p[k] = spore_vec3_load(from->vertices + 3 * (size_t)from->triangles[3 * t + k]);
+      p[k] = spore_mesh_vertex(outer->vertices, outer->triangles[3 * t + k]);
       middle = spore_vec3_add_scaled(middle, 1.0 / 3, p[k]);
     }
-    double at = spore_bvh_distance(to, middle, NULL, NULL), corner = spore_bvh_distance(to, p[0], NULL, NULL);
-    double size = spore_vec3_length(spore_vec3_cross(spore_vec3_sub(p[1], p[0]), spore_vec3_sub(p[2], p[0])));
-    *least = fmin(*least, fmin(at, corner));
-    *most = fmax(*most, fmax(at, corner));
-    *mean += size * at;
+    double at = spore_bvh_distance(inner, middle, NULL, NULL), corner = spore_bvh_distance(inner, p[0], NULL, NULL);
+    double size = spore_vec3_length(spore_mesh_area_vector(p[0], p[1], p[2]));
+    report->thickness_min = fmin(report->thickness_min, fmin(at, corner));
+    report->thickness_max = fmax(report->thickness_max, fmax(at, corner));
+    report->thickness_mean += size * at;
     area += size;
   }
-  *mean /= area;
+  report->thickness_mean /= area;
+}
+
+/* From the inner one, at vertices, middles of edges and of triangles. */
+static void measure_inner(const SporeTriangleMesh *inner, const SporeBvh *outer, double thickness,
+                          SporeWallReport *report) {
+  report->inner_min = HUGE_VAL;
+  for (size_t t = 0; t < inner->triangle_count; t++) {
+    SporeVec3 p[7] = {{0, 0, 0}};
+    for (size_t k = 0; k < 3; k++) {
+      p[k + 1] = spore_mesh_vertex(inner->vertices, inner->triangles[3 * t + k]);
+      p[0] = spore_vec3_add_scaled(p[0], 1.0 / 3, p[k + 1]);
+    }
+    for (size_t k = 0; k < 3; k++) p[4 + k] = spore_vec3_scale(0.5, spore_vec3_add(p[1 + k], p[1 + (k + 1) % 3]));
+    for (size_t k = 0; k < 7; k++) {
+      double at = spore_bvh_distance(outer, p[k], NULL, NULL), error = fabs(at / thickness - 1);
+      report->inner_min = fmin(report->inner_min, at);
+      report->inner_max = fmax(report->inner_max, at);
+      if (error > report->error) report->error = error, report->error_at = p[k];
+    }
+  }
 }
 
 static bool report_wall(const SporeTriangleMesh *outer, const SporeBvh *bvh, const SporeMeshReport *box,
-                        const SporeTriangleMesh *inner, SporeWallReport *report, SporeError *error) {
+                        const SporeTriangleMesh *inner, double thickness, SporeWallReport *report, SporeError *error) {
   SporeMeshReport lumen;
   SporeBvh *other = spore_bvh_create(inner, error);
-  double mean;
   if (!other || !spore_triangle_mesh_report(inner, &lumen, error)) {
     spore_bvh_free(other);
     return false;
   }
-  measure(outer, other, &report->thickness_min, &report->thickness_mean, &report->thickness_max);
-  measure(inner, bvh, &report->inner_min, &mean, &report->inner_max);
+  measure_outer(outer, other, report);
+  measure_inner(inner, bvh, thickness, report);
   report->lumen_volume = lumen.volume;
   report->wall_volume = fabs(box->volume) - lumen.volume;
   report->pieces = lumen.components;
@@ -105,7 +125,7 @@ bool spore_wall_inner(const SporeTriangleMesh *outer, double thickness, double d
   if (made && inner->triangle_count == 0) made = refuse(bvh, &box, thickness, error);
   if (made && !spore_wall_fit(bvh, thickness, step, inner))
     made = spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the inner surface of a wall"));
-  made = made && report_wall(outer, bvh, &box, inner, report, error);
+  made = made && report_wall(outer, bvh, &box, inner, thickness, report, error);
   spore_bvh_free(bvh);
   if (!made) spore_triangle_mesh_clear(inner);
   report->seconds = 1e-9 * (double)(spore_clock_ns() - start);

@@ -56,10 +56,15 @@ static inline double spore_vec3_volume(SporeVec3 a, SporeVec3 b, SporeVec3 c, Sp
   return spore_vec3_dot(spore_vec3_cross(spore_vec3_sub(b, a), spore_vec3_sub(c, a)), spore_vec3_sub(d, a));
 }
 
-/* Whether the segment from p to r goes through the triangle; the same from either end. */
+/* Of a segment, by which its end lies off a plane that it is in. */
+#define SPORE_VEC3_FLAT 1e-10
+/* Whether the segment from p to r goes through the triangle, and not just to its plane, as far as that can be told in
+ * rounded numbers; the same from either end. */
 static inline bool spore_vec3_crosses(SporeVec3 p, SporeVec3 r, SporeVec3 a, SporeVec3 b, SporeVec3 c) {
   double before = spore_vec3_volume(a, b, c, p), behind = spore_vec3_volume(a, b, c, r);
   if (!(before * behind < 0)) return false;
+  double area = spore_vec3_length(spore_vec3_cross(spore_vec3_sub(b, a), spore_vec3_sub(c, a)));
+  if (fmin(fabs(before), fabs(behind)) <= SPORE_VEC3_FLAT * area * spore_vec3_distance(p, r)) return false;
   double u = spore_vec3_volume(p, r, a, b), v = spore_vec3_volume(p, r, b, c), w = spore_vec3_volume(p, r, c, a);
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }

@@ -99,6 +99,15 @@ static const SporeParameter mesh_parameters[] = {
      FIELD(SporeMeshFields, wall),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("Thickness of the wall that makes the organ hollow; 0: it stays as it is.")},
+    {.name = "wall_detail",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     0,
+     SPORE_MOST_WALL_DETAIL,
+     FIELD(SporeMeshFields, wall_detail),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Steps in the wall's thickness: twice as many halve its largest error, in four times the triangles; 0: "
+               "as the organ's size asks for.")},
     GENERATED(SporeMeshFields),
 };
 

@@ -23,6 +23,7 @@ typedef struct SporeEnvironmentFields {
   double gravity[3]; /* m/s^2 */
 } SporeEnvironmentFields;
 
+#define SPORE_MOST_WALL_DETAIL 64 /* steps of the lattice in a thickness */
 typedef struct SporeMeshFields {
   const char *name, *file;
   int unit, frame; /* as core/io/mesh_import.h counts them */
@@ -30,6 +31,7 @@ typedef struct SporeMeshFields {
   bool frozen, edited;
   int64_t nodes;
   double size, keep_angle, wall; /* m, degrees, m */
+  int64_t wall_detail;
 } SporeMeshFields;
 
 typedef struct SporeLabelMapFields {

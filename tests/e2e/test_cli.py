@@ -184,6 +184,8 @@ def surface_makes_nets():
     assert report("surface", "wall.off", "--nodes", 5000)["pieces"] == 2 and report("surface", "lumen.off", "-n", 100)["open_edges"] == 0
     refuses("surface", "ball.off", "--wall", 0.05, says=["leaves no lumen", "0.02", "thinner"])
     refuses("surface", "ball.off", "--wall", -1, says=["--wall -1"])
+    refuses("surface", "ball.off", "--wall", 0.006, "--detail", 65, says=["--detail 65", "1 to 64"])
+    refuses("surface", "ball.off", "-n", 60, "--detail", 4, says=["--detail 4", "--wall"])
     refuses("surface", "ball.off", "-n", 60, "--inner", "lumen.off", says=["--inner lumen.off"])
     refuses("surface", "ball.off", "-n", 60, "--keep-angle", -5, says=["--keep-angle -5"])
     refuses("surface", "ball.off", "-n", 60, "-o", "ball.stl", says=["ball.stl", ".off or .obj"])

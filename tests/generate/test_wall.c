@@ -54,6 +54,33 @@ static void test_box_and_ball(void) {
   }
 }
 
+/* A wedge, whose lumen ends in an edge: half as far off the thickness at twice the detail, and told where. */
+static void test_edge(void) {
+  const double lower[3] = {-0.03, -0.02, -0.03}, upper[3] = {0.03, 0.02, 0.03};
+  SporeTriangleMesh outer, inner;
+  SporeError error = SPORE_ERROR_INIT;
+  double off[2];
+  shape_box(&outer, lower, upper, 4);
+  for (size_t i = 0; i < outer.vertex_count; i++)
+    outer.vertices[3 * i + 1] *= 0.5 - outer.vertices[3 * i] / 0.06 + 0.02;
+  SporeBvh *bvh = spore_bvh_create(&outer, &error);
+  for (int k = 0; k < 2; k++) {
+    SporeWallReport report;
+    g_assert_true(spore_wall_inner(&outer, 0.004, 3 << k, &inner, &report, NULL, &error));
+    off[k] = report.error;
+    g_test_message("detail %d: off by %.1f %% at %.4f %.4f %.4f", 3 << k, 100 * report.error, report.error_at.x,
+                   report.error_at.y, report.error_at.z);
+    double there = fabs(spore_bvh_distance(bvh, report.error_at, NULL, NULL) / 0.004 - 1);
+    g_assert_cmpfloat_with_epsilon(there, report.error, 1e-9);
+    g_assert_cmpfloat(fmax(report.inner_max / 0.004 - 1, 1 - report.inner_min / 0.004), <=, report.error + 1e-9);
+    g_assert_false(cuts_itself(&inner));
+    spore_triangle_mesh_clear(&inner);
+  }
+  g_assert_cmpfloat(off[1], <, 0.65 * off[0]);
+  spore_bvh_free(bvh);
+  spore_triangle_mesh_clear(&outer);
+}
+
 /* A ring's lumen is a ring; two balls joined by what is thinner than the walls have two. Neither cuts itself. */
 static void test_ring_and_pair(void) {
   SporeTriangleMesh ring, inner, small;
@@ -113,6 +140,7 @@ static void test_refused(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/wall/box-and-ball", test_box_and_ball);
+  g_test_add_func("/wall/edge", test_edge);
   g_test_add_func("/wall/ring-and-pair", test_ring_and_pair);
   g_test_add_func("/wall/refused", test_refused);
   return g_test_run();

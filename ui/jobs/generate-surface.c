@@ -21,9 +21,10 @@ static SporeSimplifyOptions options_of(const SporeGenerateWork *work) {
 static bool make_wall(SporeGenerateWork *work, const SporeProgress *progress, SporeError *failure) {
   SporeTriangleMesh outer = work->surface, inner = {0};
   work->surface = (SporeTriangleMesh){0};
-  bool done =
-      spore_wall_inner(&outer, work->options.fields.surface.wall, 0, &inner, &work->wall_report, progress, failure) &&
-      spore_wall_solid(&outer, &inner, &work->surface, failure);
+  const SporeMeshFields *fields = &work->options.fields.surface;
+  bool done = spore_wall_inner(&outer, fields->wall, (double)fields->wall_detail, &inner, &work->wall_report, progress,
+                               failure) &&
+              spore_wall_solid(&outer, &inner, &work->surface, failure);
   work->wall_report.seconds *= done;
   spore_triangle_mesh_clear(&outer);
   spore_triangle_mesh_clear(&inner);
@@ -87,9 +88,10 @@ static char *facts(const SporeGenerateWork *work) {
                            100 * report->hausdorff, 1e3 * report->edge_mean, report->min_angle_deg,
                            report->mean_angle_deg);
   if (wall->wall_volume > 0)
-    g_string_append_printf(text, _("\nWall %.2f mm (%.2f to %.2f), %.3g ml\nLumen %.3g ml, pieces: %zu"),
+    g_string_append_printf(text,
+                           _("\nWall %.2f mm (%.2f to %.2f), off by %.1f %%\n%.3g ml; lumen %.3g ml, pieces: %zu"),
                            1e3 * wall->thickness_mean, 1e3 * wall->thickness_min, 1e3 * wall->thickness_max,
-                           1e6 * wall->wall_volume, 1e6 * wall->lumen_volume, wall->pieces);
+                           100 * wall->error, 1e6 * wall->wall_volume, 1e6 * wall->lumen_volume, wall->pieces);
   return g_string_free(text, FALSE);
 }
 
