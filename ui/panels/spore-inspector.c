@@ -28,8 +28,8 @@ struct _SporeInspector {
   SporeEditorDocument *document;
   guint rebuild, refresh;
   GPtrArray *rows; /* SporePropertyRow *, borrowed from the widget tree */
-  GtkWidget *mesh_facts, *spheres_box, *tetrahedra_box, *curve_box, *surface_box, *model, *preset, *mapping_facts,
-      *measure;
+  int placed;      /* sections that a rebuild has been through */
+  GtkWidget *mesh_facts, *spheres_box, *tetrahedra_box, *curve_box, *surface_box, *model, *preset, *mapping_facts;
   gboolean filling;
   GHashTable *collapsed; /* set of section titles that the user closed */
 
@@ -54,17 +54,69 @@ static void section_toggled(GtkExpander *expander, GParamSpec *spec, SporeInspec
   else g_hash_table_add(self->collapsed, g_strdup(title));
 }
 
-static GtkBox *add_section(SporeInspector *self, const char *title) {
+/* What tells one section from another: title, path of what it shows, and what holds the regions that it lists (may be
+ * NULL) with their names. */
+static char *key_of(const char *title, const char *path, const SporeObject *holder) {
+  GString *key = g_string_new(title);
+  g_string_append_printf(key, "|%s", path);
+  if (!holder) return g_string_free(key, FALSE);
+  g_autofree char *held = spore_object_path(holder);
+  gboolean generated = spore_parameter_find(spore_object_type(holder)->table, "source") >= 0;
+  const char *source = generated ? spore_object_text(holder, "source") : NULL;
+  g_string_append_printf(key, "|%s|%s", held, source ? source : "");
+  for (guint i = 0; i < spore_object_child_count(holder); i++)
+    g_string_append_printf(key, "|%s", spore_object_name(spore_object_child(holder, i)));
+  return g_string_free(key, FALSE);
+}
+
+static GtkWidget *find_section(SporeInspector *self, const char *key) {
+  g_autoptr(GList) sections = gtk_container_get_children(GTK_CONTAINER(self->sections));
+  for (GList *section = sections; section; section = section->next)
+    if (g_str_equal(g_object_get_data(section->data, "key"), key)) return section->data;
+  return NULL;
+}
+
+static GPtrArray *rows_of(GtkBox *box) {
+  return g_object_get_data(G_OBJECT(gtk_widget_get_parent(GTK_WIDGET(box))), "rows");
+}
+
+static GtkWidget *new_section(SporeInspector *self, const char *title, const char *key) {
   GtkWidget *expander = gtk_expander_new(title);
-  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
   gtk_widget_set_name(expander, title);
   gtk_expander_set_expanded(GTK_EXPANDER(expander), !g_hash_table_contains(self->collapsed, title));
   g_signal_connect(expander, "notify::expanded", G_CALLBACK(section_toggled), self);
   gtk_style_context_add_class(gtk_widget_get_style_context(expander), "section");
-  gtk_style_context_add_class(gtk_widget_get_style_context(box), "section-body");
-  gtk_container_add(GTK_CONTAINER(expander), box);
+  g_object_set_data_full(G_OBJECT(expander), "key", g_strdup(key), g_free);
+  g_object_set_data_full(G_OBJECT(expander), "rows", g_ptr_array_new(), (GDestroyNotify)g_ptr_array_unref);
   gtk_container_add(GTK_CONTAINER(self->sections), expander);
+  return expander;
+}
+
+/* The box to fill; NULL: it stays as it is, since it shows the same. Making widgets takes long. */
+static GtkBox *add_section(SporeInspector *self, const char *title, const char *path, const SporeObject *holder) {
+  g_autofree char *key = key_of(title, path, holder);
+  GtkWidget *old = find_section(self, key), *section = old ? old : new_section(self, title, key);
+  gtk_box_reorder_child(GTK_BOX(self->sections), section, self->placed++);
+  if (old) return NULL;
+  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
+  gtk_style_context_add_class(gtk_widget_get_style_context(box), "section-body");
+  gtk_container_add(GTK_CONTAINER(section), box);
   return GTK_BOX(box);
+}
+
+/* Those that the rebuild has not come to show something that is not selected any more. */
+static void drop_old_sections(SporeInspector *self) {
+  g_autoptr(GList) sections = gtk_container_get_children(GTK_CONTAINER(self->sections));
+  for (GList *old = g_list_nth(sections, (guint)self->placed); old; old = old->next) gtk_widget_destroy(old->data);
+}
+
+static void collect_rows(SporeInspector *self) {
+  g_autoptr(GList) sections = gtk_container_get_children(GTK_CONTAINER(self->sections));
+  g_ptr_array_set_size(self->rows, 0);
+  for (GList *section = sections; section; section = section->next) {
+    GPtrArray *rows = g_object_get_data(section->data, "rows");
+    for (guint i = 0; i < rows->len; i++) g_ptr_array_add(self->rows, rows->pdata[i]);
+  }
 }
 
 /* One row a parameter of the table. */
@@ -72,7 +124,7 @@ static void add_rows(SporeInspector *self, GtkBox *box, const char *path, const 
   for (gsize i = 0; i < type->table->count; i++) {
     GtkWidget *row = spore_property_row_new(self->document, path, type, (guint)i);
     gtk_container_add(GTK_CONTAINER(box), row);
-    g_ptr_array_add(self->rows, row);
+    g_ptr_array_add(rows_of(box), row);
   }
 }
 
@@ -352,7 +404,7 @@ static GtkComboBoxText *add_choice(GtkBox *box, const char *text) {
 
 static void add_model_choice(SporeInspector *self, GtkBox *box) {
   GtkComboBoxText *combo = add_choice(box, _("Model"));
-  self->model = GTK_WIDGET(combo);
+  g_set_weak_pointer(&self->model, GTK_WIDGET(combo));
   gtk_combo_box_text_append(combo, "", _("None"));
   SporeModelRegistry registry = spore_schema_registry(spore_document_schema(document_of(self)));
   for (; *registry; registry++) gtk_combo_box_text_append(combo, (*registry)->name, _((*registry)->label));
@@ -368,7 +420,7 @@ static void add_preset_choice(SporeInspector *self, GtkBox *box, SporeObject *mo
   const SporePreset *preset = spore_object_type(model)->model->presets;
   if (!preset) return;
   GtkComboBoxText *combo = add_choice(box, _("Preset"));
-  self->preset = GTK_WIDGET(combo);
+  g_set_weak_pointer(&self->preset, GTK_WIDGET(combo));
   gtk_combo_box_text_append(combo, "", _("Own values"));
   for (; preset->name; preset++) {
     g_autofree char *text = g_strdup_printf("%s (%s)", _(preset->label), preset->source);
@@ -380,13 +432,16 @@ static void add_preset_choice(SporeInspector *self, GtkBox *box, SporeObject *mo
 /* Parts of other tissue, for models that know of such, and for those that do not but have been given some. */
 static void add_regions(SporeInspector *self, SporeObject *body, SporeObject *model) {
   const SporeModelType *type = spore_object_type(model)->model;
-  if (!(type && type->regions) && !spore_object_child_of(body, "regions")) return;
+  const SporeObject *regions = spore_object_child_of(body, "regions");
+  if (!(type && type->regions) && !regions) return;
   const SporeObjectType *holder = spore_object_type_child(spore_object_type(body), "regions");
   g_autofree char *parent = spore_object_path(body);
   g_autofree char *path = g_strconcat(parent, "/regions", NULL);
-  spore_fill_region_list(add_section(self, _("Regions")), self->document, path, holder,
+  GtkBox *box = add_section(self, _("Regions"), path, regions);
+  if (!box) return;
+  spore_fill_region_list(box, self->document, path, holder,
                          _("All of it is of one tissue: a region is a part of another stiffness, density or tissue"),
-                         self->rows);
+                         rows_of(box));
 }
 
 /* Of what a generator made: where it shall be finer. */
@@ -394,64 +449,95 @@ static void add_generator_regions(SporeInspector *self, GtkBox *box, SporeObject
   const char *source = asset ? spore_object_text(asset, "source") : NULL;
   if (!asset || (!source && !spore_object_child_count(asset))) return;
   g_autofree char *path = spore_object_path(asset);
-  spore_fill_region_list(box, self->document, path, spore_object_type(asset), empty, self->rows);
+  spore_fill_region_list(box, self->document, path, spore_object_type(asset), empty, rows_of(box));
 }
 
-static void add_mapping(SporeInspector *self) {
-  GtkBox *box = add_section(self, _("Mapping"));
-  self->mapping_facts = add_fact(box);
-  self->measure = gtk_button_new_with_label(_("Measure mapping"));
-  gtk_widget_set_halign(self->measure, GTK_ALIGN_START);
-  gtk_widget_set_tooltip_text(self->measure,
+static void add_mapping(SporeInspector *self, const char *path) {
+  GtkBox *box = add_section(self, _("Mapping"), path, NULL);
+  if (!box) return;
+  g_set_weak_pointer(&self->mapping_facts, add_fact(box));
+  GtkWidget *measure = gtk_button_new_with_label(_("Measure mapping"));
+  gtk_widget_set_halign(measure, GTK_ALIGN_START);
+  gtk_widget_set_tooltip_text(measure,
                               _("Compile the scene and measure how far vertices and spheres are carried wrong"));
-  gtk_actionable_set_action_name(GTK_ACTIONABLE(self->measure), "win.measure-mapping");
-  gtk_container_add(GTK_CONTAINER(box), self->measure);
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(measure), "win.measure-mapping");
+  gtk_container_add(GTK_CONTAINER(box), measure);
+}
+
+static void add_visual(SporeInspector *self, SporeObject *body, const char *path) {
+  GtkBox *box = add_section(self, _("Visual mesh"), path, NULL);
+  if (!box) return;
+  g_set_weak_pointer(&self->mesh_facts, add_fact(box));
+  add_unit(self, box, body, "visual");
+}
+
+/* A box of a generator; *place: where it is kept. */
+static void add_generator(GtkBox *box, GtkWidget **place, const char *action, const char *label, guint count,
+                          guint most) {
+  g_set_weak_pointer(place, spore_generator_box_new(action, label, count, most));
+  gtk_container_add(GTK_CONTAINER(box), *place);
+}
+
+static void add_collision(SporeInspector *self, SporeObject *body, const char *path) {
+  SporeObject *asset = spore_edit_body_spheres(document_of(self), body);
+  GtkBox *box = add_section(self, _("Collision spheres"), path, asset);
+  if (!box) return;
+  add_generator(box, &self->spheres_box, "preview-spheres", _("Number of spheres"),
+                last_count(asset, "count", DEFAULT_SPHERES), SPORE_SPHERES_MAXIMUM);
+  add_unit(self, box, body, "collision");
+  add_generator_regions(self, box, asset,
+                        _("Spheres lie as densely everywhere: in a region they lie denser, or less so"));
+}
+
+static void add_mechanical(SporeInspector *self, SporeObject *body, const char *path) {
+  SporeDocument *document = document_of(self);
+  SporeObject *asset = spore_edit_body_tetrahedra(document, body);
+  GtkBox *box = add_section(self, _("Mechanical unit"), path, asset);
+  if (!box) return;
+  add_model_choice(self, box);
+  add_generator(box, &self->tetrahedra_box, "preview-tetrahedra", _("Number of tetrahedra"),
+                last_count(asset, "cells", DEFAULT_CELLS), MOST_CELLS);
+  add_generator(box, &self->surface_box, "preview-surface", _("Nodes of a surface"),
+                last_count(spore_edit_body_surface(document, body), "nodes", DEFAULT_NODES), MOST_CELLS);
+  add_generator(box, &self->curve_box, "preview-curve", _("Points of the middle line"),
+                last_count(spore_edit_body_curve(document, body), "points", 0), SPORE_CENTRELINE_MOST_POINTS);
+  add_unit(self, box, body, "mechanical");
+  add_generator_regions(self, box, asset,
+                        _("Tetrahedra are as large everywhere: in a region they are of a size of their own"));
+}
+
+static void add_model(SporeInspector *self, SporeObject *model) {
+  const SporeModelType *type = spore_object_type(model)->model;
+  g_autofree char *path = spore_object_path(model);
+  GtkBox *box = add_section(self, type ? _(type->label) : spore_object_type(model)->element, path, NULL);
+  if (!box) return;
+  if (type) gtk_widget_set_tooltip_text(GTK_WIDGET(box), _(type->doc));
+  if (type) add_preset_choice(self, box, model);
+  add_object(self, box, model);
 }
 
 static void add_body(SporeInspector *self, SporeObject *body) {
-  SporeDocument *document = document_of(self);
-  add_object(self, add_section(self, _("Body")), body);
-
-  GtkBox *visual = add_section(self, _("Visual mesh"));
-  self->mesh_facts = add_fact(visual);
-  add_unit(self, visual, body, "visual");
-
-  GtkBox *collision = add_section(self, _("Collision spheres"));
-  guint spheres = last_count(spore_edit_body_spheres(document, body), "count", DEFAULT_SPHERES);
-  self->spheres_box =
-      spore_generator_box_new("preview-spheres", _("Number of spheres"), spheres, SPORE_SPHERES_MAXIMUM);
-  gtk_container_add(GTK_CONTAINER(collision), self->spheres_box);
-  add_unit(self, collision, body, "collision");
-  add_generator_regions(self, collision, spore_edit_body_spheres(document, body),
-                        _("Spheres lie as densely everywhere: in a region they lie denser, or less so"));
-
-  GtkBox *mechanical = add_section(self, _("Mechanical unit"));
-  add_model_choice(self, mechanical);
-  guint cells = last_count(spore_edit_body_tetrahedra(document, body), "cells", DEFAULT_CELLS);
-  self->tetrahedra_box = spore_generator_box_new("preview-tetrahedra", _("Number of tetrahedra"), cells, MOST_CELLS);
-  gtk_container_add(GTK_CONTAINER(mechanical), self->tetrahedra_box);
-  guint nodes = last_count(spore_edit_body_surface(document, body), "nodes", DEFAULT_NODES);
-  self->surface_box = spore_generator_box_new("preview-surface", _("Nodes of a surface"), nodes, MOST_CELLS);
-  gtk_container_add(GTK_CONTAINER(mechanical), self->surface_box);
-  guint points = last_count(spore_edit_body_curve(document, body), "points", 0);
-  self->curve_box =
-      spore_generator_box_new("preview-curve", _("Points of the middle line"), points, SPORE_CENTRELINE_MOST_POINTS);
-  gtk_container_add(GTK_CONTAINER(mechanical), self->curve_box);
-  add_unit(self, mechanical, body, "mechanical");
-  add_generator_regions(self, mechanical, spore_edit_body_tetrahedra(document, body),
-                        _("Tetrahedra are as large everywhere: in a region they are of a size of their own"));
-
+  g_autofree char *path = spore_object_path(body);
+  GtkBox *own = add_section(self, _("Body"), path, NULL);
+  if (own) add_object(self, own, body);
+  add_visual(self, body, path);
+  add_collision(self, body, path);
+  add_mechanical(self, body, path);
   SporeObject *model = spore_edit_body_model(body);
   if (model) {
-    const SporeModelType *type = spore_object_type(model)->model;
-    GtkBox *parameters = add_section(self, type ? _(type->label) : spore_object_type(model)->element);
-    if (type) gtk_widget_set_tooltip_text(GTK_WIDGET(parameters), _(type->doc));
-    if (type) add_preset_choice(self, parameters, model);
-    add_object(self, parameters, model);
+    add_model(self, model);
     add_regions(self, body, model);
-    add_mapping(self);
+    add_mapping(self, path);
   }
-  add_unit(self, add_section(self, _("Fidelity")), body, "fidelity");
+  GtkBox *fidelity = add_section(self, _("Fidelity"), path, NULL);
+  if (fidelity) add_unit(self, fidelity, body, "fidelity");
+}
+
+/* An object alone. */
+static void add_one(SporeInspector *self, SporeObject *object) {
+  g_autofree char *path = spore_object_path(object);
+  GtkBox *box = add_section(self, _(spore_object_type(object)->label), path, NULL);
+  if (box) add_object(self, box, object);
 }
 
 /* Sections of the scene that hold settings rather than objects. */
@@ -459,8 +545,7 @@ static void add_settings(SporeInspector *self, SporeObject *object) {
   for (guint i = 0; i < spore_object_child_count(object); i++) {
     SporeObject *child = spore_object_child(object, i);
     if (spore_object_name(child)) continue;
-    if (spore_object_type(child)->table->count > 0)
-      add_object(self, add_section(self, _(spore_object_type(child)->label)), child);
+    if (spore_object_type(child)->table->count > 0) add_one(self, child);
     add_settings(self, child);
   }
 }
@@ -471,31 +556,27 @@ static void show_title(SporeInspector *self, const char *title, const char *subt
   gtk_widget_set_visible(self->subtitle, *subtitle != '\0');
 }
 
-static void destroy_child(GtkWidget *child, gpointer data) { gtk_widget_destroy(child); }
-
 static gboolean rebuild(gpointer data) {
   SporeInspector *self = data;
   self->rebuild = 0;
+  self->placed = 0;
   g_clear_handle_id(&self->refresh, g_source_remove);
-  g_ptr_array_set_size(self->rows, 0);
-  self->mesh_facts = self->spheres_box = self->tetrahedra_box = self->curve_box = self->surface_box = self->model =
-      self->preset = NULL;
-  self->mapping_facts = self->measure = NULL;
-  gtk_container_foreach(GTK_CONTAINER(self->sections), destroy_child, NULL);
   SporeObject *selected = spore_editor_document_selected(self->document);
   SporeObject *body = spore_editor_document_selected_body(self->document);
   if (body) {
     show_title(self, spore_object_name(body), "");
     add_body(self, body);
-    show_facts(self);
   } else if (selected && spore_object_name(selected)) {
     show_title(self, spore_object_name(selected), _(spore_object_type(selected)->label));
-    add_object(self, add_section(self, _(spore_object_type(selected)->label)), selected);
+    add_one(self, selected);
   } else {
     show_title(self, _("Scene"), _("Select an organ to see its units"));
     add_settings(self, spore_document_root(document_of(self)));
   }
+  drop_old_sections(self);
+  collect_rows(self);
   gtk_widget_show_all(self->sections);
+  show_facts(self);
   for (guint i = 0; i < self->rows->len; i++) spore_property_row_refresh(g_ptr_array_index(self->rows, i));
   g_signal_emit(self, signals[MARKS_CHANGED], 0);
   return G_SOURCE_REMOVE;
