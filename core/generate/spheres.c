@@ -87,11 +87,12 @@ static size_t images_of(const SporeSymmetry *symmetry, unsigned bound) {
 
 /* weights: of the balls, or NULL. */
 static bool store_balls(const SporeSymmetry *symmetry, const SporeBalls *balls, const uint8_t *bound,
-                        const double *weights, SporeSphereSet *set, SporeError *error) {
+                        const double *weights, double level, SporeSphereSet *set, SporeError *error) {
   if (!spore_sphere_set_allocate(set, spore_balls_images(symmetry, balls, bound, NULL), error)) return false;
   spore_balls_images(symmetry, balls, bound, set->spheres);
   if (!weights) return true;
   if (!spore_sphere_set_add_weights(set, error)) return false;
+  set->level = level;
   for (size_t i = 0, image = 0; i < balls->count; i++)
     for (size_t k = images_of(symmetry, bound[i]); k > 0; k--) set->weights[image++] = weights[i];
   return true;
@@ -210,13 +211,13 @@ static bool place_balls(SporeSolid *solid, size_t count, const SporeSpheresOptio
 
 /* What the other modes make of a balanced start; *weights: the caller's to free. */
 static bool refine(const Work *work, const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound, double **weights,
-                   const SporeProgressPart *progress, SporeError *error) {
+                   double *level, const SporeProgressPart *progress, SporeError *error) {
   uint64_t seed = work->options->seed;
   if (work->options->mode == SPORE_SPHERES_BOUNDING)
     return spore_spheres_bound(solid, balls, bound, seed, progress, error);
   if (work->options->mode == SPORE_SPHERES_BALANCED) return true;
   *weights = SPORE_NEW_ARRAY(double, balls->count);
-  return *weights ? spore_spheres_weigh(solid, balls, bound, *weights, seed, progress, error)
+  return *weights ? spore_spheres_weigh(solid, balls, bound, *weights, level, seed, progress, error)
                   : spore_spheres_no_memory(error);
 }
 
@@ -228,13 +229,13 @@ static bool fill_solid(const Work *work, size_t count, SporeSphereSet *set, Spor
   SporeProgressPart placing = part_of(progress, 0, balanced ? 0.9 : 0.4), refining = part_of(progress, 0.4, 0.5),
                     measuring = part_of(progress, 0.9, 0.1);
   SporeBalls balls = {0};
-  double *weights = NULL;
+  double *weights = NULL, level = 0;
   uint8_t *bound = SPORE_NEW_ARRAY(uint8_t, count);
   *set = (SporeSphereSet){0};
   bool done = bound || spore_spheres_no_memory(error);
   done = done && place_balls(solid, count, work->options, &balls, bound, &placing, error) &&
-         refine(work, solid, &balls, bound, &weights, &refining, error) &&
-         store_balls(&solid->symmetry, &balls, bound, weights, set, error) &&
+         refine(work, solid, &balls, bound, &weights, &level, &refining, error) &&
+         store_balls(&solid->symmetry, &balls, bound, weights, level, set, error) &&
          spore_solid_measure(solid, set, report, &measuring, error);
   report->mirrors = solid->symmetry.count;
   spore_balls_clear(&balls);

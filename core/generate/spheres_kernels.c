@@ -56,3 +56,51 @@ void SPORE_LEVEL_NAME(spore_local_cost)(const float *distance, const float *pric
     cost->farthest = farthest[k] > cost->farthest ? farthest[k] : cost->farthest;
   }
 }
+
+static float sum_lanes(const float *lane) {
+  float sum = 0;
+  for (int k = 0; k < LANES; k++) sum += lane[k];
+  return sum;
+}
+
+static void sum_depths(const SporeWeightedBlock *b, size_t first, float *restrict sum) {
+  float all[LANES] = {0};
+  for (size_t i = 0; i < b->count; i++) {
+    float cx = b->x[i], cy = b->y[i], cz = b->z[i], r = b->r[i], w = b->weight[i];
+    for (int k = 0; k < LANES; k++) {
+      float dx = b->px[first + k] - cx, dy = b->py[first + k] - cy, dz = b->pz[first + k] - cz;
+      float depth = r - sqrtf(dx * dx + dy * dy + dz * dz);
+      all[k] += w * (depth > 0 ? depth : 0);
+    }
+  }
+  for (int k = 0; k < LANES; k++) sum[first + k] = all[k] - b->level;
+}
+
+/* Of what is wrong at each sample, by the sum there. */
+static void slopes_of_samples(const SporeWeightedBlock *b, const float *sum, float *restrict slope) {
+  for (size_t k = 0; k < SPORE_BLOCK; k++) {
+    float depth = b->depth[k], wrong = sum[k] - (depth > 0 ? depth : 0);
+    wrong = depth < 0 && wrong < 0 ? 0 : wrong;
+    slope[k] = b->share[k] * wrong / sqrtf(wrong * wrong + b->smoothing * b->smoothing);
+  }
+}
+
+void SPORE_LEVEL_NAME(spore_weighted_slopes)(const SporeWeightedBlock *b, float *restrict sum, float *restrict slopes) {
+  float slope[SPORE_BLOCK];
+  for (size_t first = 0; first < SPORE_BLOCK; first += LANES) sum_depths(b, first, sum);
+  slopes_of_samples(b, sum, slope);
+  for (size_t i = 0; i < b->count; i++) {
+    float cx = b->x[i], cy = b->y[i], cz = b->z[i], r = b->r[i], w = b->weight[i];
+    float sx[LANES] = {0}, sy[LANES] = {0}, sz[LANES] = {0}, sr[LANES] = {0}, sw[LANES] = {0};
+    for (size_t first = 0; first < SPORE_BLOCK; first += LANES)
+      for (int k = 0; k < LANES; k++) {
+        float dx = b->px[first + k] - cx, dy = b->py[first + k] - cy, dz = b->pz[first + k] - cz;
+        float distance = sqrtf(dx * dx + dy * dy + dz * dz), depth = r - distance;
+        float s = depth > 0 ? slope[first + k] : 0, along = s / (distance > 1e-12f ? distance : 1e-12f);
+        sx[k] += along * dx, sy[k] += along * dy, sz[k] += along * dz, sr[k] += s, sw[k] += s * depth;
+      }
+    float *out = slopes + 5 * i;
+    out[0] = w * sum_lanes(sx), out[1] = w * sum_lanes(sy), out[2] = w * sum_lanes(sz), out[3] = w * sum_lanes(sr);
+    out[4] = sum_lanes(sw);
+  }
+}

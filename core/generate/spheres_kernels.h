@@ -30,4 +30,18 @@ typedef struct SporeLocalCost {
 SPORE_DECLARE_KERNEL(void, spore_local_cost, const float *distance, const float *price, size_t count, float radius,
                      SporeLocalCost *cost);
 
+/* A block of samples of the depth and the balls that reach it, as columns, relative to its middle; lengths in any unit.
+ */
+typedef struct SporeWeightedBlock {
+  size_t count;                              /* of balls */
+  const float *x, *y, *z, *r, *weight;       /* count */
+  const float *px, *py, *pz, *depth, *share; /* SPORE_BLOCK samples, and what each counts for */
+  float smoothing, level;
+} SporeWeightedBlock;
+
+/* sum[k] = sum_i w_i (r_i - d_i)+ - level of the samples. slopes: count x 5, by x, y, z, r, w, of the shares of the
+ * samples times |sum - depth|, rounded below `smoothing`; outside, where the depth is below 0, only a sum above 0 is
+ * wrong. */
+SPORE_DECLARE_KERNEL(void, spore_weighted_slopes, const SporeWeightedBlock *block, float *sum, float *slopes);
+
 #endif

@@ -4,36 +4,39 @@
 
 #include "core/generate/spheres_weighted.h"
 
+#define SPORE_WEIGHTED_UNKNOWNS 5 /* of a ball: centre, radius, weight */
 #define SPORE_WEIGHT_LEAST 0.01
 
-/* Where a ball says something: a sample in it. */
-typedef struct SporeWeightedPair {
-  uint32_t sample, ball;
-  float out[3]; /* from the centre to the sample, of length 1 */
-  float depth;  /* m */
-} SporeWeightedPair;
+/* A ball, or its image in the planes. */
+typedef struct SporeWeightedImage {
+  uint32_t ball;
+  uint8_t planes; /* bits */
+} SporeWeightedImage;
 
 typedef struct SporeWeightedFit {
   const SporeSolid *solid; /* whose symmetry the balls follow: they stand for their images, samples are folded */
   const uint8_t *bound;    /* balls: mirror planes that they stay on, as bits */
-  SporeSamples samples;
-  SporeBalls balls, trial;
-  double *weights, *trial_weights;
-  SporeWeightedPair *pairs;
-  size_t pair_count, pair_capacity;
-  double *sum, *importance, *along;                                    /* a sample: f; weight of its square; scratch */
-  double *gradient, *diagonal, *step, *residual, *direction, *product; /* UNKNOWNS x balls */
+  SporeSamples samples;    /* their weights are shares in the loss */
+  SporeBalls balls;
+  double *weights;
+  double *sum;                                 /* samples: the sum less the level, m */
+  double *slope, *running;                     /* balls x UNKNOWNS, x 2: of the loss; means of it and its square */
+  double *known;                               /* balls x 4: where a centre's depth was last asked for, and that */
+  SporeWeightedImage *near_group, *near_block; /* images */
+  float *columns, *slopes;                     /* images x UNKNOWNS, of a block */
+  size_t image_count;                          /* most */
   SporeRandom random;
-  double smoothing, damping, loss;
-  bool weights_only;
+  double smoothing, level; /* m */
 } SporeWeightedFit;
 
-/* Pairs, f and the loss of the balls. False: no memory. */
-bool spore_weighted_evaluate(SporeWeightedFit *fit, const SporeBalls *balls, const double *weights);
+/* The sum at the samples, and the slopes of the loss, of each `parts`th block, the first of them `part`. */
+void spore_weighted_evaluate(SporeWeightedFit *fit, size_t part, size_t parts);
 /* The centre, or its image, that the ball may have. */
 SporeVec3 spore_weighted_confine(const SporeWeightedFit *fit, size_t ball, SporeVec3 centre);
-/* Puts up to `most` balls of little worth where others would gain more. Evaluates nothing; *replaced: how many. False:
- * no memory. */
-bool spore_weighted_replace(SporeWeightedFit *fit, size_t most, size_t *replaced);
+/* How far out of the solid a ball may reach, m. */
+double spore_weighted_reach(const SporeWeightedFit *fit);
+/* Puts up to `most` balls of little worth where others would gain more, by the sum at all samples. Evaluates nothing.
+ * False: no memory. */
+bool spore_weighted_replace(SporeWeightedFit *fit, size_t most);
 
 #endif

@@ -93,11 +93,11 @@ static bool cover(Fixture *f, SporeError *error) {
 
 static bool weigh(Fixture *f, SporeError *error) {
   SporeBalls balls;
-  double weights[2];
+  double weights[2], level;
   if (!spore_balls_create(&balls, 2)) return spore_spheres_no_memory(error);
   spore_balls_set(&balls, 0, spore_vec3(0.06, 0, 0), 0.02);
   spore_balls_set(&balls, 1, spore_vec3(-0.06, 0, 0), 0.02);
-  bool done = spore_spheres_weigh(&f->solid, &balls, (const uint8_t[2]){0}, weights, 1, &quiet, error);
+  bool done = spore_spheres_weigh(&f->solid, &balls, (const uint8_t[2]){0}, weights, &level, 1, &quiet, error);
   spore_balls_clear(&balls);
   return done;
 }
