@@ -328,7 +328,8 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
        "D"},
       {"mode", 'm', 0, G_OPTION_ARG_STRING, &r.mode,
        N_("What the spheres are to be good at: balanced (default) fits the depth inside; bounding covers all of the "
-          "mesh, with little outside; weighted gives them weights whose sum fits the depth"),
+          "mesh, with little outside; weighted gives them weights whose sum fits the depth more closely; "
+          "directions in light contact are truer with balanced"),
        "MODE"},
       {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &r.regions,
        N_("FACTOR times as many spheres within R metres of a place (several may be given)"), "X,Y,Z,R,FACTOR"},
