@@ -47,6 +47,9 @@ static void note_necks(SporeTetrahedraWork *work, const SporeBvh *cells) {
   }
 }
 
+/* Noted before: each point counts once. */
+static bool is_of(const SporeBvh *tree, SporeVec3 p) { return tree && !(spore_bvh_distance(tree, p, NULL, NULL) > 0); }
+
 /* cells: NULL where there are none, so that all is missed. */
 static double note_missed(SporeTetrahedraWork *work, const SporeBvh *cells) {
   SporeTetrahedraThin *thin = &work->thin;
@@ -56,7 +59,9 @@ static double note_missed(SporeTetrahedraWork *work, const SporeBvh *cells) {
     double distance = cells ? spore_bvh_distance(cells, p, NULL, NULL) : 1;
     if (distance < MISSED * work->options.tolerance) continue;
     farthest = fmax(farthest, distance);
-    if (cells && spore_bvh_winding(cells, p) > 0.5) spore_vec3_store(thin->slits + 3 * thin->slit_count++, p);
+    bool slit = cells && spore_bvh_winding(cells, p) > 0.5;
+    if (is_of(slit ? thin->slit_tree : thin->wall_tree, p)) continue;
+    if (slit) spore_vec3_store(thin->slits + 3 * thin->slit_count++, p);
     else spore_vec3_store(thin->walls + 3 * thin->wall_count++, p);
   }
   return farthest;
