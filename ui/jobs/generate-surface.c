@@ -89,7 +89,7 @@ static char *facts(const SporeGenerateWork *work) {
                            report->mean_angle_deg);
   if (wall->wall_volume > 0)
     g_string_append_printf(text,
-                           _("\nWall %.2f mm (%.2f to %.2f), off by %.1f %%\n%.3g ml; lumen %.3g ml, pieces: %zu"),
+                           _("\nWall %.2f mm (%.2f to %.2f), off by %.1f %%, %.3g ml\nLumen %.3g ml, pieces: %zu"),
                            1e3 * wall->thickness_mean, 1e3 * wall->thickness_min, 1e3 * wall->thickness_max,
                            100 * wall->error, 1e6 * wall->wall_volume, 1e6 * wall->lumen_volume, wall->pieces);
   return g_string_free(text, FALSE);
