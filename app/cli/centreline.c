@@ -109,6 +109,8 @@ static gboolean write_scene(SporeCli *cli, const Input *input, const SporeCurve 
                                         .control_points = (size_t)output->control_points,
                                         .loops_apart = figures->approach > APART};
   bool carried = spore_centreline_carries(curve, &input->mesh);
+  if (g_file_test(output->scene, G_FILE_TEST_EXISTS))
+    spore_cli_say(cli, _("%s: a new scene takes the place of the one that was there\n"), output->scene);
   SporeDocument *document = spore_document_new(cli->schema);
   spore_document_set_readers(document, &spore_io_readers);
   gboolean done = make_body(document, input, curve, &options, carried, error) &&

@@ -1,13 +1,22 @@
 #include "app/cli/plan_carried.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 
 #include "core/scene/carried.h"
 
+/* A figure of the table; what does not apply is a dash. */
+static const char *figure(double value, char room[16]) {
+  g_snprintf(room, 16, isfinite(value) ? "%.1e" : "-", value);
+  return room;
+}
+
 static void say(const SporeCli *cli, const char *body, const char *unit, const SporeCarried *carried) {
-  spore_cli_say(cli, "%-15s %-9s %7zu %7.1f %12.3g %9.3g %9.1e %9.1e %9.1e %9.1e\n", body, unit, carried->count,
+  char rest[16], rigid[16], affine[16], bend[16];
+  spore_cli_say(cli, "%-15s %-9s %7zu %7.1f %12.3g %9.3g %9s %9s %9s %9s\n", body, unit, carried->count,
                 100 * (double)carried->off / (double)carried->count, carried->farthest, carried->error.leverage,
-                carried->error.rest, carried->error.rigid, carried->error.affine, carried->error.bend);
+                figure(carried->error.rest, rest), figure(carried->error.rigid, rigid),
+                figure(carried->error.affine, affine), figure(carried->error.bend, bend));
 }
 
 static void report(SporeCli *cli, const SporeObject *body, const char *unit, const SporeCarried *carried) {
