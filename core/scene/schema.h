@@ -22,10 +22,9 @@ bool spore_format_version_check(const char *version, SporeError *error);
  *     environment(gravity)
  *     solver(spore_solver_parameters)
  *     defaults > contact(spore_contact_parameters)   what bodies' collision units start from
- *     assets > mesh(name file unit frame source nodes size keep_angle wall wall_detail), and what generated data remember
- *              curve(name file source points tolerance first_place last_place), the same
- *              spheres(name file source method count tolerance seed) and what generated data remember (generated.h)
- *                > sphere_region(name centre radius density)
+ *     assets > mesh(name file unit frame source nodes size keep_angle wall wall_detail), and what generated data
+ * remember curve(name file source points tolerance first_place last_place), the same spheres(name file source method
+ * count tolerance seed) and what generated data remember (generated.h) > sphere_region(name centre radius density)
  *              tetrahedra(name file source method cells size tolerance curvature fill gap), the same
  *                > cell_region(name centre radius size)
  *     bodies > body(name role position rotation velocity spin)
