@@ -33,17 +33,18 @@ static bool reaches(const double bound[4], SporeVec3 c, double radius) {
 
 void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double radius) {
   const SporePoints *points = &search->prices.points;
-  const double at[3] = {c.x, c.y, c.z};
   size_t count = 0;
   for (size_t g = 0; g < points->group_count; g++) {
     if (!reaches(points->group + 4 * g, c, radius)) continue;
     size_t end = (g + 1) * SPORE_GROUP < points->block_count ? (g + 1) * SPORE_GROUP : points->block_count;
     for (size_t b = g * SPORE_GROUP; b < end; b++) {
       if (!reaches(points->block + 4 * b, c, radius)) continue;
-      size_t first = b * SPORE_BLOCK;
-      uint32_t bits = SPORE_KERNEL(spore_block_within)(points->x + first, points->y + first, points->z + first, at,
-                                                       radius * radius);
-      for (; bits; bits &= bits - 1) search->reached[count++] = (uint32_t)first + (uint32_t)__builtin_ctz(bits);
+      double square[SPORE_BLOCK];
+      for (size_t k = 0; k < SPORE_BLOCK; k++) square[k] = square_distance(points, b * SPORE_BLOCK + k, c);
+      for (size_t k = 0; k < SPORE_BLOCK; k++) {
+        search->reached[count] = (uint32_t)(b * SPORE_BLOCK + k);
+        count += square[k] <= radius * radius;
+      }
     }
   }
   search->reached_count = count;

@@ -104,16 +104,3 @@ void SPORE_LEVEL_NAME(spore_weighted_slopes)(const SporeWeightedBlock *b, float 
     out[4] = sum_lanes(sw);
   }
 }
-
-uint32_t SPORE_LEVEL_NAME(spore_block_within)(const double *x, const double *y, const double *z, const double at[3],
-                                              double square_most) {
-  double cx = at[0], cy = at[1], cz = at[2];
-  uint64_t within[SPORE_BLOCK];
-  uint32_t bits = 0;
-  for (int k = 0; k < SPORE_BLOCK; k++) {
-    double dx = x[k] - cx, dy = y[k] - cy, dz = z[k] - cz;
-    within[k] = dx * dx + dy * dy + dz * dz <= square_most ? UINT64_C(1) << k : 0;
-  }
-  for (int k = 0; k < SPORE_BLOCK; k++) bits |= (uint32_t)within[k];
-  return bits;
-}

@@ -2,8 +2,6 @@
 #ifndef SPORE_GENERATE_SPHERES_KERNELS_H
 #define SPORE_GENERATE_SPHERES_KERNELS_H
 
-#include <stdint.h>
-
 #include "core/math/simd.h"
 
 /* Balls as columns, relative to the middle of a block of points. */
@@ -45,9 +43,5 @@ typedef struct SporeWeightedBlock {
  * samples times |sum - depth|, rounded below `smoothing`; outside, where the depth is below 0, only a sum above 0 is
  * wrong. */
 SPORE_DECLARE_KERNEL(void, spore_weighted_slopes, const SporeWeightedBlock *block, float *sum, float *slopes);
-
-/* Which of the SPORE_BLOCK points x, y, z are no farther from `at` than the root of square_most, as bits. */
-SPORE_DECLARE_KERNEL(uint32_t, spore_block_within, const double *x, const double *y, const double *z,
-                     const double at[3], double square_most);
 
 #endif

@@ -45,24 +45,20 @@ static bool add_cell(Cells *cells, SporeVec3 middle, double edge, int side) {
   return add_point(cells, p, inside ? -edge * edge * edge : edge * edge * edge);
 }
 
-/* side: 1 inside, -1 outside, 0 not known. */
-static bool divide(Cells *cells, SporeVec3 middle, double edge, int side) {
+static bool divide(Cells *cells, SporeVec3 middle, double edge) {
   if (cells->visited++ % REPORT_EVERY == 0 &&
       !spore_progress_part(cells->progress, fmin(1, (double)cells->visited / (4. * CELLS_MOST)),
                            _("Sampling the solid"), cells->error))
     return false;
-  const SporeBvh *bvh = cells->solid->bvh;
-  double depth = side ? side * spore_bvh_distance(bvh, middle, NULL, NULL) : spore_bvh_depth(bvh, middle),
-         far = fabs(depth) - edge * (sqrt(3) / 2);
-  if (far > 0) side = depth > 0 ? 1 : -1;
+  double depth = spore_bvh_depth(cells->solid->bvh, middle), far = fabs(depth) - edge * (sqrt(3) / 2);
   if (far > 0 && edge <= GRADE * far + (depth > 0 ? 3 : 1.5) * cells->finest)
-    return add_cell(cells, middle, edge, side);
-  if (edge <= 1.5 * cells->finest) return add_cell(cells, middle, edge, side);
+    return add_cell(cells, middle, edge, depth > 0 ? 1 : -1);
+  if (edge <= 1.5 * cells->finest) return add_cell(cells, middle, edge, 0);
   for (int k = 0; k < 8; k++) {
     double quarter = edge / 4;
     SporeVec3 at = spore_vec3(middle.x + (k & 1 ? quarter : -quarter), middle.y + (k & 2 ? quarter : -quarter),
                               middle.z + (k & 4 ? quarter : -quarter));
-    if (!divide(cells, at, edge / 2, side)) return false;
+    if (!divide(cells, at, edge / 2)) return false;
   }
   return true;
 }
@@ -76,7 +72,7 @@ static bool divide_all(Cells *cells) {
   }
   for (int k = 0; k < 3; k++) edge = fmax(edge, upper[k] - lower[k]);
   SporeVec3 middle = spore_vec3_scale(0.5, spore_vec3_add(spore_vec3_load(lower), spore_vec3_load(upper)));
-  return divide(cells, middle, (1 + 2 * PADDING) * edge, 0);
+  return divide(cells, middle, (1 + 2 * PADDING) * edge);
 }
 
 /* The surface's corners stand out most, so all of them are there, unless they are very many. */
