@@ -136,10 +136,10 @@ def a_wrong_unit_is_doubted():
     with start() as editor:
         editor.act("import-dialog-with", "as", [str(large)])
         editor.find("label", "the unit, mm, is guessed")
-        combo = inside(editor, "Import mesh", "combo box", "^mm$")
-        editor.atspi.Selection.select_child(combo, 0)
+        combo = inside(editor, "Import mesh", "combo box", "^Guessed for each file$")
+        editor.atspi.Selection.select_child(combo, 1)
         editor.find("label", "208 m across: is the unit right. in mm it would be 208 mm across")
-        editor.atspi.Selection.select_child(combo, 2)
+        editor.atspi.Selection.select_child(combo, 3)
         ui.wait(lambda: not editor.look("label", "is the unit right"), "the doubt to go")
         editor.press(editor.find("push button", "^Cancel$"))
         ui.wait(lambda: not editor.look("dialog", "Import mesh"), "the dialog to close")
