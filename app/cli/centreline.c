@@ -145,7 +145,7 @@ static int generate(SporeCli *cli, const char *file, const SporeCentrelineOption
   SporeCurve curve = {0};
   SporeCentrelineReport figures = {0};
   gboolean done =
-      (!output->curve || spore_cli_keeps(output->curve, file, &error)) &&
+      (!output->curve || spore_cli_has_room(output->curve, file, &error)) &&
       (!output->scene || spore_cli_keeps(output->scene, file, &error)) &&
       spore_cli_read_mesh(cli, file, unit, frame, &input.mesh, &input.content, &input.unit, &input.frame, &error);
   if (done && !spore_centreline_from_mesh(&input.mesh, options, &curve, &figures, spore_cli_progress(cli), &fault)) {

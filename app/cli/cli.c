@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/io/mesh_import.h"
+#include "core/io/scene_xml.h"
 
 static volatile sig_atomic_t interrupted;
 
@@ -155,6 +156,10 @@ gboolean spore_cli_keeps(const char *output, const char *input, GError **error) 
     return TRUE;
   return spore_error_raise(error, SPORE_ERROR_INPUT, output,
                            _("this is the input; expected another file to write to; name one"));
+}
+
+gboolean spore_cli_has_room(const char *output, const char *input, GError **error) {
+  return spore_file_has_folder(output, error) && spore_cli_keeps(output, input, error);
 }
 
 gboolean spore_cli_make_folder_of(const char *file, GError **error) {

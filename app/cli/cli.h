@@ -74,6 +74,8 @@ gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, 
                              GError **error);
 /* TRUE unless writing output would destroy input: the same file, be it by another name. */
 gboolean spore_cli_keeps(const char *output, const char *input, GError **error);
+/* The same, and there is a folder for the output: to be asked before what takes long. */
+gboolean spore_cli_has_room(const char *output, const char *input, GError **error);
 /* Makes the folder that the file is to lie in, where there is none. */
 gboolean spore_cli_make_folder_of(const char *file, GError **error);
 /* Index of text in a NULL-terminated list; -1 with a GError that lists it. */

@@ -56,7 +56,7 @@ static gboolean draw(SporeRun *run, const RenderOptions *options, int width, int
 static int render(SporeCli *cli, const char *scene, const RenderOptions *options) {
   GError *error = NULL;
   int width = 0, height = 0;
-  if (!spore_cli_keeps(options->output, scene, &error) || !parse_size(options->size, &width, &height, &error))
+  if (!spore_cli_has_room(options->output, scene, &error) || !parse_size(options->size, &width, &height, &error))
     return spore_cli_fail(error);
   g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, 1, &error);
   if (!run) return spore_cli_fail(error);

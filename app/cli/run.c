@@ -80,8 +80,8 @@ static int save_recording(const SporeTrack *recording, const char *file) {
 
 static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   GError *error = NULL;
-  if (options->record && (!spore_cli_keeps(options->record, scene, &error) ||
-                          (options->scene.input && !spore_cli_keeps(options->record, options->scene.input, &error))))
+  if (options->record && (!spore_cli_has_room(options->record, scene, &error) ||
+                          (options->scene.input && !spore_cli_has_room(options->record, options->scene.input, &error))))
     return spore_cli_fail(error);
   g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, options->threads, &error);
   if (!run) return spore_cli_fail(error);

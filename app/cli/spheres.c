@@ -159,7 +159,7 @@ static GArray *parse_regions(char **texts, GError **error) {
 static gboolean keeps_input(const Request *request, const char *file, GError **error) {
   const char *const outputs[] = {request->output, request->svg, request->csv};
   for (guint i = 0; i < G_N_ELEMENTS(outputs); i++)
-    if (outputs[i] && !spore_cli_keeps(outputs[i], file, error)) return FALSE;
+    if (outputs[i] && !spore_cli_has_room(outputs[i], file, error)) return FALSE;
   return TRUE;
 }
 

@@ -92,8 +92,8 @@ static int generate(SporeCli *cli, const char *file, const SporeSimplifyOptions 
                     const char *frame, const SporeWallOptions *wall) {
   GError *error = NULL;
   SporeTriangleMesh surface = {0};
-  gboolean done = (!wall->wall || spore_cli_keeps(wall->wall, file, &error)) &&
-                  (!wall->inner || spore_cli_keeps(wall->inner, file, &error)) &&
+  gboolean done = (!wall->wall || spore_cli_has_room(wall->wall, file, &error)) &&
+                  (!wall->inner || spore_cli_has_room(wall->inner, file, &error)) &&
                   spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
                   make(cli, file, &surface, options, wall, &error);
   spore_triangle_mesh_clear(&surface);

@@ -110,8 +110,7 @@ static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOption
   SporeTriangleMesh surface = {0};
   SporeTetrahedralMesh mesh = {0};
   SporeTetrahedraReport figures = {0};
-  gboolean done = (!output || spore_cli_keeps(output, file, &error)) &&
-                  spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
+  gboolean done = spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
                   spore_tetrahedra_from_mesh(file, &surface, options, &mesh, &figures, spore_cli_progress(cli), &error);
   if (done && output) {
     gsize size = 0;
@@ -206,7 +205,6 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
   SporeTetrahedralMesh mesh = {0};
   SporeLabelTetrahedraReport figures = {0};
   gboolean done =
-      (!output || spore_cli_keeps(output, file, &error)) &&
       spore_cli_label_tetrahedra(cli, file, content, labels, options->cells, options->size, &mesh, &figures, &error);
   if (done && output) {
     gsize size = 0;
@@ -223,6 +221,7 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
 static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,
                         const char *frame, const char *labels, const char *output) {
   GError *error = NULL;
+  if (output && !spore_cli_has_room(output, file, &error)) return spore_cli_fail(error);
   g_autoptr(GBytes) content = spore_cli_read_file(file, _("a mesh or a label map"), &error);
   if (!content) return spore_cli_fail(error);
   gsize size;

@@ -30,6 +30,11 @@ static int open_folder_of(const char *file, GError **error) {
   return directory;
 }
 
+gboolean spore_file_has_folder(const char *file, GError **error) {
+  int directory = open_folder_of(file, error);
+  return directory >= 0 && close(directory) == 0;
+}
+
 static gboolean add_file(SporeFileBatch *batch, const char *file, const void *content, gsize size, GError **error) {
   g_autofree char *target = real_target(file);
   g_autofree char *name = g_path_get_basename(target);

@@ -20,5 +20,7 @@ gboolean spore_scene_save(SporeDocument *document, const char *file, GError **er
 
 /* Writes a file whole or not at all: temporary file beside it, fsync, rename, fsync of the folder. */
 gboolean spore_write_file(const char *file, const void *content, gsize size, GError **error);
+/* Is there a folder for the file? To be asked before what takes long to be written. */
+gboolean spore_file_has_folder(const char *file, GError **error);
 
 #endif

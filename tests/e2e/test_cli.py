@@ -318,6 +318,16 @@ def import_mends_meshes():
 
 
 @check
+def places_to_write_are_asked_for_first():
+    """What cannot be written is said before the work on it begins: a folder that is not there, before the mesh is read."""
+    for command, option, name in (("spheres --count 4", "-o", "a.spheres"), ("tetrahedra --cells 100", "-o", "a.mesh"),
+                                  ("surface --nodes 100", "-o", "a.off"), ("centreline", "-o", "a.curve"),
+                                  ("spheres --counts 4,8", "--svg", "a.svg")):
+        stopped = spore(*command.split(), "no-such-mesh.off", option, f"nowhere/{name}", status=(2, 3)).stderr
+        assert "nowhere" in stopped and "no-such-mesh" not in stopped, stopped
+
+
+@check
 def import_doubts_unit_and_axes():
     """A size that no organ has is said with the unit that would make it one; axes said by the file are taken, or their loss said."""
     file("mm.off", shapes.off(*shapes.sphere(radius=30)))
