@@ -45,31 +45,28 @@ static gboolean pass_comment(SporeScanner *scanner) {
   return TRUE;
 }
 
-/* Is the comment that begins here "# level H"? `inside` stands behind "level" then. */
-static gboolean is_level(const SporeScanner *scanner, SporeScanner *inside) {
-  *inside = *scanner;
-  if (inside->at == inside->end || *inside->at != '#') return FALSE;
-  inside->at++;
-  if (!spore_scanner_next(inside) || inside->word_line != scanner->line || !spore_scanner_is(inside, "level"))
+/* Is the comment that begins here "# level H"? `number` has read H then. */
+static gboolean is_level(const SporeScanner *scanner, SporeScanner *number, double *level) {
+  *number = *scanner;
+  if (number->at == number->end || *number->at != '#') return FALSE;
+  number->at++;
+  if (!spore_scanner_next(number) || number->word_line != scanner->line || !spore_scanner_is(number, "level"))
     return FALSE;
-  SporeScanner ahead = *inside;
-  GError *none = NULL;
-  double value;
-  gboolean number = spore_scanner_more_on_line(&ahead) && spore_scanner_real(&ahead, "", &value, &none);
-  g_clear_error(&none);
-  return number && !spore_scanner_more_on_line(&ahead);
+  g_autoptr(GError) none = NULL;
+  return spore_scanner_more_on_line(number) && spore_scanner_real(number, "", level, &none) &&
+         !spore_scanner_more_on_line(number);
 }
 
 /* The level, where one stands among the comments that a set begins with. */
-static gboolean read_level(SporeScanner *scanner, const RowWords *words, Rows *rows, GError **error) {
-  SporeScanner inside;
-  while (words->weight && !is_level(scanner, &inside))
+static gboolean read_level(SporeScanner *scanner, Rows *rows, GError **error) {
+  SporeScanner number;
+  double level;
+  while (!is_level(scanner, &number, &level))
     if (!pass_comment(scanner)) return TRUE;
-  if (!words->weight) return TRUE;
-  if (!spore_scanner_real(&inside, _("the level of a sum of depths, in metres"), &rows->level, error)) return FALSE;
-  if (!(rows->level >= 0))
-    return spore_scanner_fail(&inside, error, _("the level %g is below 0; expected a length in metres; correct it"),
-                              rows->level);
+  if (!(level >= 0))
+    return spore_scanner_fail(&number, error, _("the level %g is below 0; expected a length in metres; correct it"),
+                              level);
+  rows->level = level;
   rows->columns = 5;
   return TRUE;
 }
@@ -125,7 +122,7 @@ static gboolean read_row(SporeScanner *scanner, const RowWords *words, Rows *row
 /* All rows; numbers is NULL with a message. */
 static Rows read_rows(SporeScanner *scanner, const RowWords *words, GError **error) {
   Rows rows = {.numbers = g_array_new(FALSE, FALSE, sizeof(double))};
-  gboolean done = read_level(scanner, words, &rows, error);
+  gboolean done = !words->weight || read_level(scanner, &rows, error);
   while (done) {
     SporeScanner ahead = *scanner;
     if (!spore_scanner_next(&ahead)) break;

@@ -21,6 +21,11 @@ static gboolean add_pin(SporeCompiler *compiler, const SporeObject *object) {
   return TRUE;
 }
 
+static gboolean set_bodies(SporeCompiler *compiler, const SporeObject *object, SporeLinkDescription *link) {
+  return spore_compiler_body_index(compiler, object, "body_a", &link->body_a) &&
+         spore_compiler_body_index(compiler, object, "body_b", &link->body_b);
+}
+
 static gboolean add_spring(SporeCompiler *compiler, const SporeObject *object) {
   SporeSpringFields fields;
   spore_object_fields(object, &fields);
@@ -32,9 +37,7 @@ static gboolean add_spring(SporeCompiler *compiler, const SporeObject *object) {
                                .damping = fields.damping,
                                .rest_length = fields.rest_length,
                                .strength = fields.strength};
-  if (!spore_compiler_body_index(compiler, object, "body_a", &link.body_a) ||
-      !spore_compiler_body_index(compiler, object, "body_b", &link.body_b))
-    return FALSE;
+  if (!set_bodies(compiler, object, &link)) return FALSE;
   if (link.body_a == SPORE_NO_BODY)
     return spore_compiler_refuse(
         compiler, object, _("the spring \"%s\" has no body_a; expected the name of a body; set it"), fields.name);
@@ -66,9 +69,7 @@ static gboolean add_joint(SporeCompiler *compiler, const SporeObject *object) {
                                .strength = fields.joint.strength};
   for (gsize i = 0; i < G_N_ELEMENTS(joint_kinds); i++)
     if (strcmp(element, joint_kinds[i].element) == 0) link.kind = joint_kinds[i].kind;
-  if (!spore_compiler_body_index(compiler, object, "body_a", &link.body_a) ||
-      !spore_compiler_body_index(compiler, object, "body_b", &link.body_b))
-    return FALSE;
+  if (!set_bodies(compiler, object, &link)) return FALSE;
   if (link.body_a == SPORE_NO_BODY)
     return spore_compiler_refuse(compiler, object,
                                  _("the link \"%s\" has no body_a; expected the name of a body; set it"), fields.name);
@@ -82,9 +83,7 @@ static gboolean add_seam(SporeCompiler *compiler, const SporeObject *object) {
   SporeSeamSide sides[2];
   spore_object_fields(object, &fields);
   SporeLinkDescription link = {.name = fields.name, .kind = SPORE_LINK_BALL, .damping = fields.joint.damping};
-  if (!spore_compiler_body_index(compiler, object, "body_a", &link.body_a) ||
-      !spore_compiler_body_index(compiler, object, "body_b", &link.body_b))
-    return FALSE;
+  if (!set_bodies(compiler, object, &link)) return FALSE;
   if (link.body_a == SPORE_NO_BODY || link.body_b == SPORE_NO_BODY)
     return spore_compiler_refuse(
         compiler, object, _("the seam \"%s\" joins two bodies, and names fewer; set body_a and body_b"), fields.name);
