@@ -1041,6 +1041,19 @@ def bad_files():
 
 
 @check
+def names_are_no_markup():
+    """names with signs that markup knows are shown as they are, in the list of problems and in what hangs over its rows."""
+    scene = folder("markup") / "scene.spore"
+    scene.write_text('<spore version="1.0"><assets><mesh name="a" file="a&lt;b>&amp;c.off"/></assets>'
+                     '<bodies><body name="a" role="unmovable"><visual mesh="a"/></body></bodies></spore>')
+    with start(str(scene)) as editor:
+        editor.press(editor.find("radio button", "^Problems"))
+        x, y, width, height = editor.place(editor.find("table cell", "a<b>&c[.]off"))
+        editor.mouse("mousemove", x + 40, y + height // 2, "sleep", 0.2, "mousemove_relative", 3, 0)
+        time.sleep(1.5)  # what it cannot show as markup it says on its error output, which ends the journey
+
+
+@check
 def cancel_leaves_nothing():
     """a generator that is cancelled leaves nothing behind."""
     with start() as editor:

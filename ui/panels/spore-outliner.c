@@ -7,7 +7,7 @@
 #include "core/sim/world.h"
 #include "ui/panels/report.h"
 
-enum { COLUMN_ID, COLUMN_NAME, COLUMN_BADGE, COLUMN_HINT, COLUMN_EDITABLE, COLUMN_WEIGHT };
+enum { COLUMN_ID, COLUMN_NAME, COLUMN_BADGE, COLUMN_HINT /* markup */, COLUMN_EDITABLE, COLUMN_WEIGHT };
 
 struct _SporeOutliner {
   GtkBox parent;
@@ -35,9 +35,10 @@ static const char *badge_of(SporeOutliner *self, guint32 id) {
 
 static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *object) {
   guint32 id = spore_object_id(object);
+  g_autofree char *hint = g_markup_escape_text(_(spore_object_type(object)->label), -1);
   gtk_tree_store_insert_with_values(self->store, NULL, group, -1, COLUMN_ID, id, COLUMN_NAME, spore_object_name(object),
-                                    COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, _(spore_object_type(object)->label),
-                                    COLUMN_EDITABLE, TRUE, COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, -1);
+                                    COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, hint, COLUMN_EDITABLE, TRUE,
+                                    COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, -1);
 }
 
 static void add_group(SporeOutliner *self, const char *title, guint32 id, GtkTreeIter *group) {

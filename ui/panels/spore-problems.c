@@ -30,12 +30,19 @@ static const char *icon_of(SporeSeverity severity) {
   return icons[severity];
 }
 
+/* All of it, for what the columns have no room for; tooltips of rows are read as markup. */
+static char *hint_of(const SporeDiagnostic *diagnostic) {
+  const char *remedy = diagnostic->remedy ? diagnostic->remedy : "";
+  return g_markup_printf_escaped("%s%s%s", diagnostic->message, *remedy ? "\n" : "", remedy);
+}
+
 static void show(SporeProblems *self) {
   gtk_list_store_clear(self->store);
   for (guint i = 0; i < self->found->len; i++) {
     const SporeDiagnostic *diagnostic = g_ptr_array_index(self->found, i);
+    g_autofree char *hint = hint_of(diagnostic);
     gtk_list_store_insert_with_values(self->store, NULL, -1, 0, diagnostic->object, 1, icon_of(diagnostic->severity), 2,
-                                      diagnostic->message, 3, diagnostic->remedy, 4, diagnostic->place, -1);
+                                      diagnostic->message, 3, diagnostic->remedy, 4, diagnostic->place, 5, hint, -1);
   }
   g_signal_emit(self, checked, 0, self->found);
 }
