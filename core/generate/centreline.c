@@ -11,7 +11,8 @@
 #define LEAST_SLENDER 4.5 /* diameters that a tube is long */
 #define MOST_OFFSET 0.4   /* radii from the middle of its sections: what is more is no line in the middle of a tube */
 #define LEAST_COVER 0.4   /* of the volume of a tube, within two radii of its middle line */
-#define BESIDE 1.5        /* voxels that an end may be from the organ */
+#define COILED 0.9 /* of a tube's volume, at its middle line, in what has no lumen: in a wall round one it is less */
+#define BESIDE 1.5 /* voxels that an end may be from the organ */
 
 bool spore_centreline_no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
@@ -29,15 +30,51 @@ static bool check_options(const SporeCentrelineOptions *options, SporeError *err
                          options->tolerance, SPORE_CENTRELINE_TOLERANCE);
 }
 
-/* The solid whose middle is looked for, without walls inside: that of the outer wall where there is a lumen. */
-static bool make_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, double *inner_wall,
+/* Whether a solid is a tube as it is, so that what is hidden of its surface lies between its coils and is no lumen's.
+ */
+static bool is_coiled(const SporeSolid *solid, bool *coiled, const SporeProgressPart *progress, SporeError *error) {
+  SporeVoxelTube tube;
+  SporeVoxelPath path = {0};
+  SporeCentrelineReport report = {0};
+  if (!spore_voxel_tube_create(&tube, solid, progress, error)) return false;
+  bool done = spore_voxel_path_find(&path, &tube, NULL, &report, progress, error);
+  *coiled = done && report.cover >= COILED;
+  spore_voxel_path_clear(&path);
+  spore_voxel_tube_clear(&tube);
+  return done;
+}
+
+static bool runs_inside(const SporeSolid *solid, const SporeCurve *curve) {
+  SporeCentrelineReport report = {0};
+  spore_centreline_figures(solid, curve, &report);
+  return report.outside < 0.5;
+}
+
+static bool replace_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, SporeError *error) {
+  if (!mesh->triangle_count) return true;
+  spore_solid_clear(solid);
+  return spore_solid_create(solid, mesh, error);
+}
+
+/* The solid whose middle is looked for, without walls inside: that of the outer wall where there is a lumen. curve: of
+ * which it is known that it runs in the middle; NULL: none. */
+static bool make_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, const SporeCurve *curve, double *inner_wall,
                        const SporeProgressPart *progress, SporeError *error) {
-  SporeTriangleMesh outer;
+  SporeOuterWall wall;
+  SporeProgressPart looking = {progress->whole, progress->first, progress->share / 2};
+  SporeProgressPart trying = {progress->whole, progress->first + progress->share / 2, progress->share / 2};
+  bool coiled = true;
   if (!spore_solid_create(solid, mesh, error)) return false;
-  bool done = spore_outer_wall(&solid->mesh, solid->bvh, &outer, inner_wall, progress, error);
-  if (!done || outer.triangle_count) spore_solid_clear(solid);
-  if (done && outer.triangle_count) done = spore_solid_create(solid, &outer, error);
-  spore_triangle_mesh_clear(&outer);
+  bool done =
+      spore_outer_wall(&solid->mesh, solid->bvh, &wall, &looking, error) && replace_solid(solid, &wall.solid, error);
+  if (done && wall.hidden > 0) {
+    if (curve) coiled = runs_inside(solid, curve);
+    else done = is_coiled(solid, &coiled, &trying, error);
+  }
+  *inner_wall = coiled ? 0 : wall.hidden;
+  done = done && (coiled || replace_solid(solid, &wall.filled, error));
+  spore_outer_wall_clear(&wall);
+  if (!done) spore_solid_clear(solid);
   return done;
 }
 
@@ -131,7 +168,8 @@ bool spore_centreline_from_mesh(const SporeTriangleMesh *mesh, const SporeCentre
   SporeProgressPart looking = {progress, 0, 0.3};
   *curve = (SporeCurve){0};
   *report = (SporeCentrelineReport){0};
-  if (!check_options(options, error) || !make_solid(&solid, mesh, &report->inner_wall, &looking, error)) return false;
+  if (!check_options(options, error) || !make_solid(&solid, mesh, NULL, &report->inner_wall, &looking, error))
+    return false;
   bool done = find(&solid, options, curve, report, progress, error);
   spore_solid_clear(&solid);
   if (!done) spore_curve_clear(curve);
@@ -145,7 +183,8 @@ bool spore_centreline_measure(const SporeTriangleMesh *mesh, SporeCurve *curve, 
   SporeSolid solid;
   SporeProgressPart none = {NULL, 0, 1};
   *report = (SporeCentrelineReport){0};
-  if (!spore_curve_validate(curve, error) || !make_solid(&solid, mesh, &report->inner_wall, &none, error)) return false;
+  if (!spore_curve_validate(curve, error) || !make_solid(&solid, mesh, curve, &report->inner_wall, &none, error))
+    return false;
   spore_centreline_set_radii(&solid, curve);
   spore_centreline_figures(&solid, curve, report);
   spore_solid_clear(&solid);

@@ -39,11 +39,17 @@ void spore_voxel_path_clear(SporeVoxelPath *path);
 bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, const uint32_t *ends,
                            SporeCentrelineReport *report, const SporeProgressPart *progress, SporeError *error);
 
-/* A surface without its walls inside: those that have the organ on both sides, and where there is a lumen all that are
- * hardly seen from outside, with the others turned outward. Empty where nothing is dropped. *hidden: share of the area
- * that is seen from nowhere; 0 where that is so little that there is no lumen. */
-bool spore_outer_wall(const SporeTriangleMesh *mesh, const SporeBvh *bvh, SporeTriangleMesh *outer, double *hidden,
+/* A surface without its walls inside. */
+typedef struct SporeOuterWall {
+  SporeTriangleMesh solid; /* without walls that have the organ on both sides, what is seen turned outward; empty: as it
+                            * is given */
+  SporeTriangleMesh filled; /* without all that are hardly seen from outside, too: what is between them counts as
+                             * inside; empty: so little is hidden that there is no lumen */
+  double hidden;            /* share of the area that is seen from nowhere; 0 where `filled` is empty */
+} SporeOuterWall;
+bool spore_outer_wall(const SporeTriangleMesh *mesh, const SporeBvh *bvh, SporeOuterWall *wall,
                       const SporeProgressPart *progress, SporeError *error);
+void spore_outer_wall_clear(SporeOuterWall *wall);
 
 /* Distance (m) of the wall from a point inside, through walls that have the organ on both sides; at most `reach`. */
 double spore_section_wall(const SporeSolid *solid, SporeVec3 p, SporeVec3 d, double reach);

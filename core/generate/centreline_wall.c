@@ -5,11 +5,13 @@
 #include "core/base/text.h"
 #include "core/generate/centreline_parts.h"
 
-#define RAYS 24        /* of a triangle, each side */
-#define RAY_STEP 7     /* their order: from steep to flat and again; no divisor in common with RAYS */
-#define HIDDEN 3       /* rays that go out: with fewer a triangle is seen from nowhere */
-#define OUTER 8        /* with as many it is of the outer wall: those of a lumen see less but at its very mouth */
-#define INNER_WALL 0.1 /* share of the surface that is hidden in what has a lumen; loops that touch hide less */
+#define RAYS 24    /* of a triangle, each side */
+#define RAY_STEP 7 /* their order: from steep to flat and again; no divisor in common with RAYS */
+#define HIDDEN 3   /* rays that go out: with fewer a triangle is seen from nowhere */
+#define OUTER 8    /* with as many it is of the outer wall: those of a lumen see less but at its very mouth */
+#define INNER_WALL                                                                                                     \
+  0.1               /* share of the surface that is hidden in what may have a lumen; a few loops that touch hide less */
+#define ASTRAY 0.01 /* share of the surface that is seen from behind where its triangles are not turned alike */
 #define INSIDE -1
 #define REPORT_EACH 64
 
@@ -52,49 +54,69 @@ static View view_of(const SporeTriangleMesh *mesh, const SporeBvh *bvh, size_t t
   return (View){back > front ? back : front, back > front};
 }
 
-static bool look(const SporeTriangleMesh *mesh, const SporeBvh *bvh, double lift, View *views, double *hidden,
-                 bool *inside, const SporeProgressPart *progress, SporeError *error) {
-  double all = 0, unseen = 0;
+/* What is to be done about the walls: shares are of the area that is no wall inside. */
+typedef struct Walls {
+  bool inside;   /* there are such with the organ on both sides */
+  double hidden; /* share that is seen from nowhere */
+  double turned; /* share that is seen from the side its normals point away from */
+} Walls;
+
+static bool look(const SporeTriangleMesh *mesh, const SporeBvh *bvh, double lift, View *views, Walls *walls,
+                 const SporeProgressPart *progress, SporeError *error) {
+  double all = 0, unseen = 0, behind = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     double area;
     if (t % REPORT_EACH == 0 && !spore_progress_part(progress, (double)t / (double)mesh->triangle_count,
                                                      _("looking for the outer wall"), error))
       return false;
     views[t] = view_of(mesh, bvh, t, lift, &area);
-    *inside = *inside || views[t].open == INSIDE;
-    all += views[t].open == INSIDE ? 0 : area;
-    unseen += views[t].open != INSIDE && views[t].open < HIDDEN ? area : 0;
+    walls->inside = walls->inside || views[t].open == INSIDE;
+    if (views[t].open == INSIDE) continue;
+    all += area;
+    unseen += views[t].open < HIDDEN ? area : 0;
+    behind += views[t].open >= OUTER && views[t].behind ? area : 0;
   }
-  *hidden = all > 0 ? unseen / all : 0;
+  if (all > 0) *walls = (Walls){walls->inside, unseen / all, behind / all};
   return true;
 }
 
-static void keep(SporeTriangleMesh *mesh, const View *views, int least) {
-  size_t kept = 0;
+/* Those seen from so many rays, and turned to where they are seen from. */
+static bool keep(SporeTriangleMesh *kept, const SporeTriangleMesh *mesh, const View *views, int least,
+                 SporeError *error) {
+  size_t count = 0;
+  if (!spore_triangle_mesh_copy(kept, mesh, error)) return false;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     if (views[t].open < least) continue;
-    uint32_t corner[3];
-    memcpy(corner, mesh->triangles + 3 * t, sizeof corner);
-    uint32_t *to = mesh->triangles + 3 * kept++;
-    bool behind = least == OUTER && views[t].behind;
+    const uint32_t *corner = mesh->triangles + 3 * t;
+    uint32_t *to = kept->triangles + 3 * count++;
+    bool behind = views[t].open >= OUTER && views[t].behind;
     to[0] = corner[0], to[1] = corner[behind ? 2 : 1], to[2] = corner[behind ? 1 : 2];
   }
-  mesh->triangle_count = kept;
+  kept->triangle_count = count;
+  return true;
 }
 
-bool spore_outer_wall(const SporeTriangleMesh *mesh, const SporeBvh *bvh, SporeTriangleMesh *outer, double *hidden,
+bool spore_outer_wall(const SporeTriangleMesh *mesh, const SporeBvh *bvh, SporeOuterWall *wall,
                       const SporeProgressPart *progress, SporeError *error) {
   SporeMeshReport report;
+  Walls walls = {0};
   View *views = SPORE_NEW_ARRAY(View, mesh->triangle_count);
-  *outer = (SporeTriangleMesh){0};
-  bool inside = false, done = views || spore_centreline_no_memory(error);
+  *wall = (SporeOuterWall){0};
+  bool done = views || spore_centreline_no_memory(error);
   done = done && spore_triangle_mesh_report(mesh, &report, error) &&
-         look(mesh, bvh, 1e-5 * report.diagonal, views, hidden, &inside, progress, error);
-  if (done && *hidden <= INNER_WALL) *hidden = 0;
-  if (done && (*hidden > 0 || inside)) {
-    done = spore_triangle_mesh_copy(outer, mesh, error);
-    if (done) keep(outer, views, *hidden > 0 ? OUTER : INSIDE + 1);
+         look(mesh, bvh, 1e-5 * report.diagonal, views, &walls, progress, error);
+  if (done && (walls.inside || walls.turned > ASTRAY)) done = keep(&wall->solid, mesh, views, INSIDE + 1, error);
+  if (done && walls.hidden > INNER_WALL) {
+    wall->hidden = walls.hidden;
+    done = keep(&wall->filled, mesh, views, OUTER, error);
   }
+  if (!done) spore_outer_wall_clear(wall);
   spore_free(views);
   return done;
+}
+
+void spore_outer_wall_clear(SporeOuterWall *wall) {
+  spore_triangle_mesh_clear(&wall->solid);
+  spore_triangle_mesh_clear(&wall->filled);
+  *wall = (SporeOuterWall){0};
 }
