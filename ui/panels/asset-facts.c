@@ -1,0 +1,82 @@
+#include "ui/panels/asset-facts.h"
+
+#include <glib/gi18n.h>
+
+#include "core/scene/compile.h"
+#include "core/scene/generated.h"
+
+char *spore_mesh_facts(const SporeTriangleMesh *mesh) {
+  SporeMeshReport report;
+  if (!spore_triangle_mesh_report(mesh, &report, NULL)) return NULL;
+  return g_strdup_printf(_("%zu triangles, %.3g × %.3g × %.3g mm, %s"), mesh->triangle_count,
+                         1e3 * (report.upper[0] - report.lower[0]), 1e3 * (report.upper[1] - report.lower[1]),
+                         1e3 * (report.upper[2] - report.lower[2]), report.closed ? _("closed") : _("not closed"));
+}
+
+/* Of what there is; NULL with an error: it cannot be read. */
+
+static char *count_spheres(SporeDocument *document, SporeObject *asset, GError **error) {
+  const SporeSphereSet *set = spore_document_spheres(document, asset, error);
+  return set ? g_strdup_printf(_("%zu spheres"), set->count) : NULL;
+}
+
+static char *tell_tetrahedra(SporeDocument *document, SporeObject *asset, GError **error) {
+  const SporeTetrahedralMesh *mesh = spore_document_tetrahedra(document, asset, error);
+  SporeTetrahedraQuality quality;
+  if (!mesh) return NULL;
+  spore_tetrahedral_mesh_quality(mesh, &quality);
+  return g_strdup_printf(_("%zu tetrahedra, %.3g ml\nLeast angle %.1f°, mean %.1f°"), mesh->tetrahedron_count,
+                         1e6 * quality.volume, quality.min_dihedral_deg, quality.mean_dihedral_deg);
+}
+
+static char *tell_curve(SporeDocument *document, SporeObject *asset, GError **error) {
+  const SporeCurve *curve = spore_document_curve(document, asset, error);
+  return curve ? g_strdup_printf(_("%zu points, %.1f mm long"), curve->count, 1e3 * spore_curve_length(curve)) : NULL;
+}
+
+static char *tell_surface(SporeDocument *document, SporeObject *asset, GError **error) {
+  const SporeTriangleMesh *mesh = spore_document_mesh(document, asset, error);
+  return mesh ? g_strdup_printf(_("%zu nodes, %zu triangles"), mesh->vertex_count, mesh->triangle_count) : NULL;
+}
+
+static const struct {
+  char *(*tell)(SporeDocument *document, SporeObject *asset, GError **error);
+  const char *none;
+} kinds[SPORE_GENERATE_KIND_COUNT] = {
+    [SPORE_GENERATE_SPHERES] = {count_spheres, N_("No spheres yet: the body touches nothing")},
+    [SPORE_GENERATE_TETRAHEDRA] = {tell_tetrahedra, N_("No tetrahedra yet")},
+    [SPORE_GENERATE_CURVE] = {tell_curve, N_("No middle line yet")},
+    [SPORE_GENERATE_SURFACE] = {tell_surface, N_("No generated surface yet")},
+};
+
+char *spore_asset_facts(SporeDocument *document, const SporeObject *body, SporeObject *asset, SporeGenerateKind kind) {
+  g_autoptr(GError) error = NULL;
+  if (!asset && kind == SPORE_GENERATE_SPHERES && spore_body_has_own_spheres(body))
+    return g_strdup(_("The model's own spheres"));
+  if (!asset) return g_strdup(_(kinds[kind].none));
+  char *text = kinds[kind].tell(document, asset, &error);
+  return text ? text : g_strdup(error->message);
+}
+
+char *spore_spheres_facts(const SporeSpheresReport *report) {
+  if (!report) return g_strdup(_(", measuring…"));
+  if (!(report->coverage > 0)) return g_strdup("");
+  return g_strdup_printf(_("\nCoverage %.1f %%, outside %.1f %%\nDepth error %.1f %%, distance %.2f %%"),
+                         100 * report->coverage, 100 * report->outside, 100 * spore_spheres_felt_error(report),
+                         100 * report->distance_mean);
+}
+
+char *spore_asset_state_facts(SporeDocument *document, SporeObject *asset) {
+  GString *text = g_string_new(NULL);
+  SporeGenerated generated = spore_generated_state(document, asset);
+  SporeObject *source = generated == SPORE_GENERATED_SOURCE_CHANGED ? spore_object_reference(asset, "source") : NULL;
+  gboolean labels = source && g_str_equal(spore_object_type(source)->element, "label_map");
+  if (source)
+    g_string_append(text,
+                    labels ? _("\nStale: the label map has changed since") : _("\nStale: the mesh has changed since"));
+  if (generated == SPORE_GENERATED_OPTIONS_CHANGED) g_string_append(text, _("\nStale: the options have changed since"));
+  if (spore_generated_is(asset, "edited")) g_string_append(text, _("\nEdited by hand"));
+  if (spore_generated_is(asset, "frozen"))
+    g_string_append(text, _("\nFrozen: nothing generates it again; it may be edited by hand"));
+  return g_string_free(text, FALSE);
+}
