@@ -66,8 +66,10 @@ static void place_body(Start *start, SporeObject *body, const SporeSimulation *s
   g_array_append_val(start->groups, touch.contact.group);
   if (simulation && spore_body_has_own_spheres(body)) place_own_spheres(start, body, index, simulation);
   SporePose pose = spore_body_pose(body);
+  g_autofree double *radius = set ? g_new(double, set->count) : NULL;
+  if (set) spore_spheres_radii(set, radius, 1);
   for (size_t i = 0; set && i < set->count; i++) {
-    Ball ball = {spore_pose_apply(pose, spore_vec3_load(&set->spheres[4 * i])), set->spheres[4 * i + 3], index};
+    Ball ball = {spore_pose_apply(pose, spore_vec3_load(&set->spheres[4 * i])), radius[i], index};
     g_array_append_val(start->balls, ball);
   }
 }

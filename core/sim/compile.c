@@ -194,7 +194,7 @@ static bool add_spheres(SporeWorld *world, const SporeWorldDescription *descript
     if ((body->role == SPORE_UNMOVABLE) != unmovable) continue;
     body->sphere_start = all->count;
     if (!spore_body_map_spheres(world, (uint32_t)i, set, error)) return false;
-    if (set && !spore_spheres_radii(set, all->radius + all->count)) return no_memory(error);
+    if (set && !spore_spheres_radii(set, all->radius + all->count, 1)) return no_memory(error);
     for (size_t s = 0; set && s < set->count; s++) all->body[all->count + s] = (uint32_t)i;
     spore_mapping_positions(&body->spheres, world->rest_q + body->q_offset, all->centre + 3 * all->count);
     all->count += body->spheres.point_count;

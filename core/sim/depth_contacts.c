@@ -47,12 +47,12 @@ static bool make_field(SporeDepthField *field, const double *points, size_t stri
   return made;
 }
 
-bool spore_spheres_radii(const SporeSphereSet *set, double *radius) {
+bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t stride) {
   SporeDepthField field = {0};
-  for (size_t i = 0; i < set->count; i++) radius[i] = set->spheres[4 * i + 3];
+  for (size_t i = 0; i < set->count; i++) radius[stride * i] = set->spheres[4 * i + 3];
   if (!set->weights) return true;
   if (!make_field(&field, set->spheres, 4, set)) return false;
-  for (size_t i = 0; i < set->count; i++) radius[i] = spore_depth_field_felt_radius(&field, (uint32_t)i);
+  for (size_t i = 0; i < set->count; i++) radius[stride * i] = spore_depth_field_felt_radius(&field, (uint32_t)i);
   spore_depth_field_clear(&field);
   return true;
 }

@@ -255,6 +255,10 @@ const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body)
 uint64_t spore_world_step_count(const SporeWorld *world);
 double spore_world_time_s(const SporeWorld *world);
 const SporeSpheres *spore_world_spheres(const SporeWorld *world); /* as of the last step's map phase */
+/* Radii that a set's spheres have as balls, in the world as to whom checks or draws it: those of one with weights reach
+ * out only as far as their sum is felt. set->count of them, each `stride` numbers behind the one before. False: no
+ * memory; they are those of the set then. */
+bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t stride);
 size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body);
 size_t spore_world_dof(const SporeWorld *world); /* velocity components that physics moves */
 /* Body's state, for measuring and carrying over; valid until the next step. A body without a model has the 7 + 6 of a

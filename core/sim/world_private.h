@@ -388,9 +388,6 @@ bool spore_world_allocate_vectors(SporeWorld *world, SporeError *error);
 bool spore_body_make_matrix(SporeBody *body, SporeError *error);
 
 /* Where the model's present level puts the centres of the set, which may be NULL, into body->spheres. */
-/* Radii that the spheres have as balls (set->count): those of a set with weights reach out only as far as their sum is
- * felt. False: no memory. */
-bool spore_spheres_radii(const SporeSphereSet *set, double *radius);
 bool spore_body_map_spheres(SporeWorld *world, uint32_t body, const SporeSphereSet *set, SporeError *error);
 
 /* levels.c */

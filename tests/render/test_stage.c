@@ -100,6 +100,27 @@ static void test_spheres_alone(void) {
   setting_close(&setting);
 }
 
+/* Spheres with weights are as large as they are felt. */
+static void test_weighted_spheres(void) {
+  Setting setting = setting_open(MINIMAL);
+  static const char text[] = "# level 0.025\n0 0 0 0.1 0.5\n";
+  SporeVec3 point = {0};
+  GError *error = NULL;
+  SporeObject *floor = spore_document_find(setting.document, "body", "floor");
+  SporeObject *asset = spore_object_reference(spore_object_child_of(floor, "collision"), "spheres");
+  g_autoptr(GBytes) content = g_bytes_new_static(text, sizeof text - 1);
+  spore_document_put_blob(setting.document, "felt.spheres", content);
+  spore_document_set_text(setting.document, asset, "file", "felt.spheres", &error);
+  g_assert_no_error(error);
+  spore_document_remove(setting.document, spore_object_child_of(floor, "visual"), &error);
+  g_assert_no_error(error);
+  spore_stage_rebuild(setting.stage, NULL);
+  SporeVec3 centre = spore_body_pose(floor).position;
+  g_assert_cmpuint(pick_down(&setting, centre.x + 0.03, centre.z, &point), ==, id_of(&setting, "floor"));
+  g_assert_cmpfloat_with_epsilon(point.y, centre.y + 0.04, 1e-4);
+  setting_close(&setting);
+}
+
 static int changed_pixels(const Setting *setting, const SporeStageOptions *options) {
   static const SporeStageOptions surfaces = {.surfaces = TRUE};
   SporeCamera camera;
@@ -343,6 +364,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/follows-the-simulation", test_follows_the_simulation);
   g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
   g_test_add_func("/render/stage/overlays", test_overlays);
+  g_test_add_func("/render/stage/weighted-spheres", test_weighted_spheres);
   g_test_add_func("/render/stage/own-spheres", test_own_spheres);
   g_test_add_func("/render/stage/selection-is-seen", test_selection_is_seen);
   g_test_add_func("/render/stage/cameras", test_cameras);

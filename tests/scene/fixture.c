@@ -86,6 +86,7 @@ char *fixture_scene_folder_new(const char *scene) {
   g_free(fixture_write(folder, "sheet.off", sheet_off));
   g_free(fixture_write(folder, "cube.mesh", cube_mesh));
   g_free(fixture_write(folder, "ball.spheres", "# one\n0 0 0 0.05\n"));
+  g_free(fixture_write(folder, "felt.spheres", "# level 0.025\n0 0 0 0.1 0.5\n"));
   g_free(fixture_write(folder, "away.spheres", "0 0 0 0.05\n0.3 0 0 0.05\n"));
   g_free(fixture_write(folder, "far.spheres", "0 0 0 0.05\n0.8 0 0.8 0.05\n"));
   g_free(fixture_write(folder, "scene.spore", scene));

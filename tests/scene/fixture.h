@@ -11,8 +11,8 @@ const SporeSchema *fixture_schema(void);
 const SporeSchema *fixture_model_schema(void);
 /* A folder with cube.off (closed, 0.1 m), open.off (a side missing), large.off (173 m across), wide.off (closed,
  * a corner at four of the corners of a cube of 0.2 m), sheet.off (flat, 0.1 m), cube.mesh (five tetrahedra),
- * ball.spheres (one of 0.05 m), away.spheres (two, one of them 0.3 m off), and scene.spore with the text; and that
- * scene, which must be good. */
+ * ball.spheres (one of 0.05 m), felt.spheres (one of 0.1 m, with a weight and a level, felt to 0.05 m), away.spheres
+ * (two, one of them 0.3 m off), and scene.spore with the text; and that scene, which must be good. */
 char *fixture_scene_folder_new(const char *scene);
 SporeDocument *fixture_load(const char *folder);
 

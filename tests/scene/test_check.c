@@ -156,6 +156,12 @@ static const Mistake mistakes[] = {
     {"small-overlap",
      BODIES(FLOOR "<body name=\"stone\" position=\"0 -0.01 0\">" STONE BALL "</body>\n"),
      {"note 5:1: \"stone\" and \"floor\" overlap by 10 mm"}},
+    {"overlap-as-felt", /* not by 60 mm, as its radius would have it */
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\"/><spheres "
+           "name=\"felt\" file=\"felt.spheres\"/></assets>\n"
+           "<bodies>\n" FLOOR "<body name=\"stone\" position=\"0 -0.01 0\">" STONE
+           "<collision spheres=\"felt\"/></body>\n</bodies>\n"),
+     {"note 5:1: \"stone\" and \"floor\" overlap by 9.95 mm"}},
     {"overlap-in-a-group",
      BODIES("<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\"><collision spheres=\"ball\" "
             "group=\"1\"/></body>\n"

@@ -84,6 +84,7 @@ void spore_generate_show_surface(const SporeTriangleMesh *mesh, float *places, S
 void spore_generate_show_spheres(const SporeSphereSet *set, float *places, SporeStageCandidate *candidate) {
   candidate->sphere_count = set->count;
   candidate->spheres = g_memdup2(set->spheres, 4 * set->count * sizeof(double));
+  spore_spheres_radii(set, candidate->spheres + 3, 4);
   candidate->sphere_values = places;
 }
 

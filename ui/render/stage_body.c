@@ -195,6 +195,7 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   g_free(centres);
   if (!mapped) return;
   body->spheres = g_memdup2(set->spheres, set->count * 4 * sizeof(double));
+  spore_spheres_radii(set, body->spheres + 3, 4);
   body->shown = set->count;
   body->solid = !body->surface_handle && !body->liquid;
   const float *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
