@@ -10,7 +10,6 @@
 #include "core/io/organ.h"
 #include "core/io/scene_xml.h"
 
-#define APART 1.2 /* radii from loop to loop, over their sum: the body may touch itself */
 
 static void report_branches(SporeCli *cli, const SporeCentrelineReport *report) {
   spore_cli_count(cli, "branches", (gint64)report->branches);
@@ -107,7 +106,7 @@ static gboolean write_scene(SporeCli *cli, const Input *input, const SporeCurve 
   if (kind < 0) return FALSE;
   SporeCentrelineBodyOptions options = {.body = (SporeCentrelineBody)kind,
                                         .control_points = (size_t)output->control_points,
-                                        .loops_apart = figures->approach > APART};
+                                        .loops_apart = figures->approach > SPORE_CENTRELINE_APART};
   bool carried = spore_centreline_carries(curve, &input->mesh);
   if (g_file_test(output->scene, G_FILE_TEST_EXISTS))
     spore_cli_say(cli, _("%s: a new scene takes the place of the one that was there\n"), output->scene);

@@ -11,6 +11,8 @@
 
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
+#include "core/mesh/common.h"
+#include "core/scene/length_unit.h"
 
 static volatile sig_atomic_t interrupted;
 
@@ -190,6 +192,13 @@ GBytes *spore_cli_read_file(const char *file, const char *expected, GError **err
   return bytes ? g_bytes_new_take(bytes, size) : NULL;
 }
 
+/* Before the work, so that a wrong unit is not found in its result. */
+static void say_size(const SporeCli *cli, const char *file, const SporeTriangleMesh *mesh, int unit) {
+  double diagonal_m = spore_mesh_diagonal(mesh->vertices, mesh->vertex_count, 3);
+  g_autofree char *length = spore_length_text(diagonal_m), *doubt = spore_length_doubt(diagonal_m, unit);
+  if (doubt) spore_cli_say(cli, _("%s: %s across in %s; %s (--unit)\n"), file, length, spore_length_units[unit], doubt);
+}
+
 gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
                              SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
                              GError **error) {
@@ -204,6 +213,7 @@ gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, 
   if (!frame && hint >= 0) frame_chosen = hint;
   if (!spore_mesh_decode(file, file, bytes, size, unit_chosen, frame_chosen, mesh, spore_cli_progress(cli), error))
     return FALSE;
+  say_size(cli, file, mesh, unit_chosen);
   if (content) *content = g_steal_pointer(&read);
   if (unit_index) *unit_index = unit_chosen;
   if (frame_index) *frame_index = frame_chosen;

@@ -12,6 +12,7 @@ typedef enum SporeCentrelineBody {
 } SporeCentrelineBody;
 extern const char *const spore_centreline_body_names[]; /* "thread", ...; ends with NULL */
 
+#define SPORE_CENTRELINE_APART 1.0 /* radii from loop to loop, over their sum, from which on loops are apart */
 typedef struct SporeCentrelineBodyOptions {
   SporeCentrelineBody body;
   size_t control_points; /* 0: from the line's length, thickness and bends */

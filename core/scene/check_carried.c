@@ -18,8 +18,9 @@ static void check_spheres(SporeCheck *check, const SporeObject *body, const Spor
 
 static void check_frames(SporeCheck *check, const SporeObject *body, const SporeCarried *carried) {
   const SporeObject *visual = spore_object_child_of(body, "visual");
-  if (carried->error.torn > SPORE_CARRIED_TORN)
-    spore_check_say(check, SPORE_WARNING, visual, _("draw a surface whose loops do not touch, or the body's own skin"),
+  if (carried->error.torn > 0)
+    spore_check_say(check, carried->error.torn > SPORE_CARRIED_TORN ? SPORE_WARNING : SPORE_NOTE, visual,
+                    _("draw a surface whose loops do not touch, or the body's own skin"),
                     _("%.3g%% of the edges drawn for \"%s\" lead from one loop of its line to another, and are torn "
                       "apart as these move"),
                     100 * carried->error.torn, spore_object_name(body));

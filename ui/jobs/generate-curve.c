@@ -5,8 +5,6 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-#define APART 1.2 /* radii from loop to loop, over their sum: the body may touch itself */
-
 static const char *const purpose_names[] = {"curve", "thread", "tube", "intestine", NULL};
 static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
     purpose_names,
@@ -34,7 +32,7 @@ static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GErr
 static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
   const SporeGeneratedFrom from = {work->source, work->source_hash, &work->options.fields};
   const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)(work->options.purpose - 1),
-                                            .loops_apart = work->curve_report.approach > APART};
+                                            .loops_apart = work->curve_report.approach > SPORE_CENTRELINE_APART};
   return spore_edit_use_curve(document, body, &from, &work->curve, work->options.purpose ? &along : NULL, error);
 }
 
