@@ -132,7 +132,10 @@ static const char *hint_for(SporeWindow *self) {
   g_autoptr(GVariant) tool = g_action_group_get_action_state(G_ACTION_GROUP(self), "tool");
   if (spore_viewport_edits_regions(SPORE_VIEWPORT(self->viewport)))
     return _("Click puts the region there; its middle and its rim have a handle to drag; N and P choose, Insert adds");
-  if (g_str_equal(g_variant_get_string(tool, NULL), "edit"))
+  gboolean edits = g_str_equal(g_variant_get_string(tool, NULL), "edit");
+  if (edits && !spore_viewport_has_edited(SPORE_VIEWPORT(self->viewport)))
+    return _("Nothing to edit by hand here: select an organ that has spheres or a middle line");
+  if (edits)
     return _("Drag moves a sphere or point, the wheel resizes it; N and P choose, Insert adds, Delete deletes");
   if (spore_player_is_playing(self->player))
     return _("Choose Probe: drag leads an instrument, the right button closes it; Ctrl+drag pulls tissue; F5 pauses");
@@ -141,7 +144,11 @@ static const char *hint_for(SporeWindow *self) {
   return _("Paused: F5 goes on, F6 makes one step, Shift+F5 goes back to the start");
 }
 
-void spore_window_show_hint(SporeWindow *self) { gtk_label_set_text(GTK_LABEL(self->hint), hint_for(self)); }
+void spore_window_show_hint(SporeWindow *self) {
+  const char *hint = hint_for(self);
+  gtk_label_set_text(GTK_LABEL(self->hint), hint);
+  gtk_widget_set_tooltip_text(self->hint, hint); /* a narrow window has no room for all of it */
+}
 
 static void update_title(SporeWindow *self) {
   g_autofree char *name = spore_editor_document_get_title(self->document);

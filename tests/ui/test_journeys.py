@@ -194,9 +194,9 @@ def spheres_with_their_error():
 
 @check
 def numbers_that_pay():
-    """the error of several numbers of spheres is measured and shown with where more stop paying; one is taken from it."""
+    """the error of several numbers of spheres is measured and shown with where more stop paying; one is taken from it, and another method asks for others."""
     with start() as editor:
-        import_ball(editor)
+        import_tube(editor)
         editor.act("preview-spheres", "u", 10)
         editor.press(editor.find("radio button", "^Numbers$"))
         editor.press(editor.find("push button", "^Measure numbers$"))
@@ -210,6 +210,14 @@ def numbers_that_pay():
         editor.focus()
         editor.keys("Right", "Return")
         editor.find("label", "(?s)16 spheres.*Coverage", 60)
+        editor.choose(editor.find("combo box", "^Method$", showing=False), "Bounding")
+        editor.find("drawing area", "^Error against number:$")
+        editor.choose(editor.find("combo box", "^Method$", showing=False), "Balanced")
+        editor.set_number(editor.find("spin button", "^Coverage, %$", showing=False), 80)
+        editor.press(editor.find("push button", "^Measure numbers$"))
+        plot = editor.find("drawing area", r"Error against number: 8: .* %; 16: ", 60)
+        errors = [float(number) for number in re.findall(r": ([\d.]+) %", plot.get_name())]
+        assert errors[0] > errors[1], plot.get_name()
 
 
 @check
@@ -237,10 +245,10 @@ def stale_and_frozen():
         make_soft_ball(editor, 12)
         editor.act("select", "s", "bodies/ball")
         editor.act("set-property", "(sss)", ("assets/ball_spheres", "count", "15"))
-        editor.find("label", "(?s)12 spheres.*Stale: the options have changed", showing=False)
+        editor.find("label", "Stale: the options have changed", showing=False)
         editor.find("table cell", "is stale: its options have changed")
         editor.press(editor.find("toggle button|check box", "^Freeze$", showing=False))
-        editor.find("label", "(?s)12 spheres.*Frozen", showing=False)
+        editor.find("label", "Frozen: ", showing=False)
         editor.act("generate-spheres", "u", 15)
         ui.wait(lambda: "is frozen" in (editor.message() or ""), "the refusal")
         editor.press(editor.find("toggle button|check box", "^Freeze$", showing=False))
@@ -514,7 +522,7 @@ def middle_line_of_a_tube():
         assert abs(line_length(editor) - 80) < 3
         editor.find("drawing area", "Histogram of Radius: mean .* mm")
         editor.choose(editor.find("combo box", "^Show$"), "Bend")
-        editor.find("drawing area", "Histogram of Bend: mean .* °")
+        editor.find("drawing area", "Histogram of Bend: mean .*°")
         assert saved(editor, "line") == before
         editor.choose(editor.find("combo box", "^Make$"), "Tube")
         editor.press(editor.find("push button", "^Apply$"))
@@ -528,7 +536,7 @@ def middle_line_of_a_tube():
         editor.act("change-mesh", "(sd)", ("smooth", 3.0))
         ui.wait(lambda: editor.enabled("change-mesh"), "the smoothing to end")
         editor.act("select", "s", "bodies/tube")
-        editor.find("label", r"(?s)points, .* mm long.*Stale: the mesh has changed", showing=False)
+        editor.find("label", "Stale: the mesh has changed", showing=False)
         editor.act("set-property", "(sss)", ("assets/tube_line", "frozen", "true"))
         editor.act("preview-curve", "u", 0)
         ui.wait(lambda: "is frozen" in (editor.message() or ""), "the refusal")
@@ -569,6 +577,20 @@ def ends_picked_by_hand():
         assert editor.enabled("apply-generated")
 
 
+def points_of(editor, name):
+    """Points of the tube's line as the scene has it now, and whether they were edited."""
+    text = saved(editor, name)
+    file = re.search(r'file="(tube_line[^"]*)"', text)[1]
+    lines = (folder("saved") / name / file).read_text().splitlines()
+    return [[float(n) for n in line.split()] for line in lines if not line.startswith("#")], 'edited="true"' in text
+
+
+def drag_up_the_middle(editor):
+    x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
+    editor.mouse("mousemove", x + width // 2, y + height // 2, "mousedown", 1, "mousemove_relative", "--", 0, -30, "sleep", 0.2,
+                 "mouseup", 1)
+
+
 @check
 def curve_by_hand():
     """a point of a middle line is moved by hand as one step, and generating again asks first."""
@@ -582,27 +604,44 @@ def curve_by_hand():
         editor.act("select", "s", "assets/tube_line")
         editor.act("view", "s", "front")
         editor.act("tool", "s", "edit")
-
-        def points():
-            text = saved(editor, "curve_by_hand")
-            file = re.search(r'file="(tube_line[^"]*)"', text)[1]
-            lines = (folder("saved") / "curve_by_hand" / file).read_text().splitlines()
-            return [[float(n) for n in line.split()] for line in lines if not line.startswith("#")], 'edited="true"' in text
-
-        before, edited = points()
+        before, edited = points_of(editor, "curve_by_hand")
         assert len(before) == 5 and not edited
-        x, y, width, height = editor.place(editor.find(".*", "^Viewport$"))
-        editor.mouse("mousemove", x + width // 2, y + height // 2, "mousedown", 1, "mousemove_relative", "--", 0, -30, "sleep", 0.2,
-                     "mouseup", 1)
-        ui.wait(lambda: points()[1], "the edit")
-        after, _ = points()
+        drag_up_the_middle(editor)
+        ui.wait(lambda: points_of(editor, "curve_by_hand")[1], "the edit")
+        after, _ = points_of(editor, "curve_by_hand")
         moved = [i for i in range(5) if before[i] != after[i]]
         assert moved == [2] and after[2][1] > before[2][1] + 1e-3, (before, after)
         editor.act("select", "s", "bodies/tube")
         editor.act("preview-curve", "u", 5)
         editor.press(editor.find("push button", "^Keep the edits$"))
         editor.act("undo")
-        assert points() == (before, False)
+        assert points_of(editor, "curve_by_hand") == (before, False)
+
+
+@check
+def line_alone_by_hand():
+    """the Edit tool says when it has nothing to edit; a line that no model uses yet is edited on the organ in whose middle it lies, frozen too."""
+    with start() as editor:
+        import_tube(editor)
+        editor.act("view", "s", "front")
+        editor.act("tool", "s", "edit")
+        editor.find("label", "^Nothing to edit by hand here")
+        editor.act("preview-curve", "u", 5)
+        line_length(editor)
+        editor.act("apply-generated")
+        ui.wait(lambda: editor.row("tube_line"), "the line")
+        editor.act("set-property", "(sss)", ("assets/tube_line", "frozen", "true"))
+        editor.find("label", "^Frozen: ", showing=False)
+        editor.act("tool", "s", "edit")
+        editor.find("label", "^Drag moves a sphere or point")
+        before, _ = points_of(editor, "line_alone")
+        drag_up_the_middle(editor)
+        ui.wait(lambda: points_of(editor, "line_alone")[1], "the edit")
+        after, _ = points_of(editor, "line_alone")
+        assert [i for i in range(5) if before[i] != after[i]] == [2], (before, after)
+        editor.find("label", "(?s)Edited by hand.*Frozen", showing=False)
+        editor.act("undo")
+        assert points_of(editor, "line_alone") == (before, False)
 
 
 @check
@@ -614,7 +653,7 @@ def surface_of_fewer_nodes():
         editor.find("label", r"(?s)60 nodes, 116 triangles.*Distance .* %.*Least angle", 60)
         editor.find("drawing area", "Histogram of Surface distance: mean .* mm")
         editor.choose(editor.find("combo box", "^Show$"), "Least angle")
-        editor.find("drawing area", "Histogram of Least angle: mean .* °")
+        editor.find("drawing area", "Histogram of Least angle: mean .*°")
         editor.press(editor.find("radio button", "^Numbers$"))
         editor.press(editor.find("push button", "^Measure numbers$"))
         plot = editor.find("drawing area", r"Error against number: 50: .* %; 100: .* %; 200: ", 60)
@@ -661,7 +700,7 @@ def organs_of_a_label_map():
         editor.find("label", r"(?s)tetrahedra in.*label 7: ", 60)
         editor.choose(editor.find("combo box", "^Show$"), "Least angle")
         editor.press(editor.find("radio button", "^Histogram$"))
-        editor.find("drawing area", "Histogram of Least angle: mean .* °")
+        editor.find("drawing area", "Histogram of Least angle: mean .*°")
         assert not editor.row("liver")
         editor.act("apply-generated")
         ui.wait(lambda: editor.row("liver") and editor.row("label_7"), "the bodies")
@@ -675,7 +714,7 @@ def organs_of_a_label_map():
         editor.act("reset")
         kept.write_bytes(path.read_bytes().replace(b"test\n", b"test\n# other\n"))
         editor.act("select", "s", "bodies/liver")
-        editor.find("label", "(?s)tetrahedra.*Stale: the label map has changed since", showing=False)
+        editor.find("label", "Stale: the label map has changed since", showing=False)
         editor.act("preview-tetrahedra", "u", 0)
         editor.find("label", r"(?s)tetrahedra in.*liver: \d+ cells.*label 7: ", 60)
         editor.act("apply-generated")
@@ -704,7 +743,7 @@ def tetrahedra_as_asked_for():
         import_ball(editor)
         editor.act("preview-tetrahedra", "u", 300)
         editor.find("label", r"(?s)\d+ tetrahedra in .* of the mesh\n.*Least angle.*Error .*volume .*Surface", 120)
-        editor.find("drawing area", "Histogram of Least angle: mean .* °")
+        editor.find("drawing area", "Histogram of Least angle: mean .*°")
         whole = picture_sum(editor)
         editor.choose(editor.find("combo box", "^Show$"), "Radius ratio")
         editor.find("drawing area", r"Histogram of Radius ratio: mean [1-9.]+,")
@@ -733,7 +772,7 @@ def spheres_by_tolerance_and_region():
         import_ball(editor)
         editor.act("preview-spheres", "u", 30)
         editor.find("label", "(?s)^30 spheres in .*Coverage", 60)
-        editor.set_number(editor.find("spin button", "^Tolerance$", showing=False), 0.03)
+        editor.set_number(editor.find("spin button", "^Tolerance, %$", showing=False), 3)
         label = editor.find("label", r"(?s)^(?!30 )\d+ spheres in .*Coverage", 60)
         count = int(editor.name_of(label).split()[0])
         assert 0 < count < 30, count

@@ -6,7 +6,7 @@
 
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
-#include "core/author/edits.h"
+#include "core/author/generated_edits.h"
 #include "core/author/region_edits.h"
 
 static gboolean is_of(SporeObject *object, const char *element) {
@@ -14,20 +14,20 @@ static gboolean is_of(SporeObject *object, const char *element) {
 }
 
 static SporeObject *asset_of_body(SporeDocument *document, SporeObject *body) {
-  SporeObject *spheres = spore_edit_used_asset(document, body, "collision", "spheres", "spheres");
-  return spheres ? spheres : spore_edit_used_asset(document, body, "mechanical", "geometry", "curve");
+  SporeObject *spheres = spore_edit_body_spheres(document, body);
+  return spheres ? spheres : spore_edit_body_curve(document, body);
 }
 
-static gboolean uses(SporeDocument *document, SporeObject *body, const SporeObject *asset) {
-  return spore_edit_used_asset(document, body, "collision", "spheres", "spheres") == asset ||
-         spore_edit_used_asset(document, body, "mechanical", "geometry", "curve|tetrahedra") == asset;
+static gboolean has(SporeDocument *document, SporeObject *body, const SporeObject *asset) {
+  return spore_edit_body_spheres(document, body) == asset || spore_edit_body_curve(document, body) == asset ||
+         spore_edit_body_tetrahedra(document, body) == asset;
 }
 
 static SporeObject *body_of_asset(SporeDocument *document, SporeObject *asset) {
   SporeObject *bodies = spore_document_section(document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
-    if (uses(document, body, asset)) return body;
+    if (has(document, body, asset)) return body;
   }
   return NULL;
 }

@@ -18,7 +18,8 @@ typedef struct SporeHandEdit {
   gsize chosen; /* G_MAXSIZE: none */
 } SporeHandEdit;
 
-/* Takes what the selected object (an asset, or a body or part of one) offers: its spheres, else its curve. Goes on with
+/* Takes what the selected object (an asset, or a body or part of one) offers: its spheres, else its curve, be it only
+ * the line in the middle of what the body shows. Goes on with
  * what is chosen where it is the same. FALSE: it offers nothing. */
 gboolean spore_hand_edit_open(SporeHandEdit *edit, SporeDocument *document, SporeObject *selected);
 /* Takes the regions that the object holds; the same otherwise. */

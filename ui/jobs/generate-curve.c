@@ -54,12 +54,20 @@ static char *facts(const SporeGenerateWork *work) {
 
 /* Qualities. */
 
-static void measure_radius(const SporeGenerateWork *work, SporeQuality *quality) {
-  quality->count = work->curve.count;
-  quality->values = spore_generate_scaled(work->curve.points + 3, quality->count, 4, 1e3);
-}
-
 static SporeVec3 point(const SporeCurve *curve, gsize i) { return spore_vec3_load(curve->points + 4 * i); }
+
+/* Each point stands for half of the line to either side of it. */
+static void measure_radius(const SporeGenerateWork *work, SporeQuality *quality) {
+  const SporeCurve *curve = &work->curve;
+  quality->count = curve->count;
+  quality->values = spore_generate_scaled(curve->points + 3, quality->count, 4, 1e3);
+  quality->weights = g_new0(double, quality->count);
+  for (gsize i = 0; i + 1 < curve->count; i++) {
+    double half = 0.5 * spore_vec3_distance(point(curve, i), point(curve, i + 1));
+    quality->weights[i] += half;
+    quality->weights[i + 1] += half;
+  }
+}
 
 /* The angle by which the line turns at each point. */
 static void measure_bend(const SporeGenerateWork *work, SporeQuality *quality) {

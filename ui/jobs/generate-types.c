@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "core/scene/generated.h"
+
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
   static const SporeGenerateType *const types[SPORE_GENERATE_KIND_COUNT] = {
       [SPORE_GENERATE_SPHERES] = &spore_generate_spheres, [SPORE_GENERATE_TETRAHEDRA] = &spore_generate_tetrahedra,
@@ -63,6 +65,25 @@ void spore_generate_set_count(SporeGenerateOptions *options, size_t count) {
   *place = (int64_t)count;
   if (options->kind == SPORE_GENERATE_SPHERES) forget_aims(&options->fields.spheres);
   if (options->kind == SPORE_GENERATE_TETRAHEDRA) options->fields.tetrahedra.size = 0;
+}
+
+SporeGenerateOptions spore_generate_by_number(const SporeGenerateOptions *options) {
+  SporeGenerateOptions copy = *options;
+  spore_generate_set_count(&copy, 0);
+  return copy;
+}
+
+gboolean spore_generate_differ_by_number(const SporeParameterTable *table, const SporeGenerateOptions *a,
+                                         const SporeGenerateOptions *b) {
+  if (a->kind != b->kind) return FALSE;
+  SporeGenerateOptions x = spore_generate_by_number(a), y = spore_generate_by_number(b);
+  for (size_t i = 0; i < table->count; i++) {
+    const SporeParameter *parameter = &table->parameters[i];
+    if (!spore_generated_is_option(parameter)) continue;
+    SporeValue one = spore_parameter_load(parameter, &x.fields), other = spore_parameter_load(parameter, &y.fields);
+    if (!spore_value_equal(&one, &other)) return FALSE;
+  }
+  return TRUE;
 }
 
 /* Services for the kinds. */

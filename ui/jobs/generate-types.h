@@ -54,6 +54,12 @@ extern const SporeGenerateType spore_generate_spheres, spore_generate_tetrahedra
     spore_generate_surface, spore_generate_labels;
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind);
 
+/* By number alone, as its error is measured against it: no other aim holds. */
+SporeGenerateOptions spore_generate_by_number(const SporeGenerateOptions *options);
+/* Whether both ask for the same but for how many. */
+gboolean spore_generate_differ_by_number(const SporeParameterTable *table, const SporeGenerateOptions *a,
+                                         const SporeGenerateOptions *b);
+
 /* values x scale, without sign, every stride-th; g_free. */
 double *spore_generate_scaled(const double *values, gsize count, gsize stride, double scale);
 /* Copies a surface into a candidate, with a place on the scale a vertex (taken) or none. */

@@ -14,11 +14,12 @@ const char *spore_quality_label(SporeGenerateKind kind, gsize which) {
   return _(spore_generate_type(kind)->qualities[which].label);
 }
 
-/* The next of 1, 2, 5 times a power of ten. */
+/* The next that has few digits, and its half too. */
 static double round_up(double value) {
+  static const double steps[] = {1, 1.2, 1.6, 2, 3, 4, 5, 6, 8};
   double power = pow(10, floor(log10(value)));
-  for (double step = 1; step <= 10; step = step == 2 ? 5 : 2 * step)
-    if (value <= step * power * (1 + 1e-9)) return step * power;
+  for (gsize i = 0; i < G_N_ELEMENTS(steps); i++)
+    if (value <= steps[i] * power * (1 + 1e-9)) return steps[i] * power;
   return 10 * power;
 }
 
@@ -37,13 +38,24 @@ void spore_quality_clear(SporeQuality *quality) {
 }
 
 double spore_quality_place(const SporeQuality *quality, gsize i) {
-  return CLAMP((quality->values[i] - quality->low) / (quality->high - quality->low), 0, 1);
+  return CLAMP(quality->values[i] / quality->high, 0, 1);
 }
 
 float *spore_quality_places(const SporeQuality *quality) {
   float *places = g_new(float, quality->count);
   for (gsize i = 0; i < quality->count; i++) places[i] = (float)spore_quality_place(quality, i);
   return places;
+}
+
+gboolean spore_quality_goes_beyond(const SporeQuality *quality) {
+  for (gsize i = 0; i < quality->count; i++)
+    if (quality->values[i] > quality->high) return TRUE;
+  return FALSE;
+}
+
+char *spore_quality_figure(const SporeQuality *quality, double value) {
+  const char *space = !*quality->unit || g_str_equal(quality->unit, "°") ? "" : " ";
+  return g_strdup_printf("%.3g%s%s", value, space, quality->unit);
 }
 
 static double weight_of(const SporeQuality *quality, gsize i) { return quality->weights ? quality->weights[i] : 1; }

@@ -8,7 +8,7 @@ typedef struct SporeQuality {
   const char *label, *unit; /* translated; of the values */
   gsize count;
   double *values, *weights; /* count; weights NULL: all the same */
-  double low, high;         /* ends of the scale: round numbers, all but a few values lie between them */
+  double high; /* end of the scale, which begins at 0: a round number that all but a few values lie below */
 } SporeQuality;
 
 /* How many there are of results of this kind, and what each is called (translated). */
@@ -20,6 +20,10 @@ void spore_quality_clear(SporeQuality *quality);
 /* Place of a value on the scale of colours, 0..1; of all values (g_free). */
 double spore_quality_place(const SporeQuality *quality, gsize i);
 float *spore_quality_places(const SporeQuality *quality);
+/* Whether some values lie above the scale. */
+gboolean spore_quality_goes_beyond(const SporeQuality *quality);
+/* A value with its unit: "0.26 mm", "39°". g_free. */
+char *spore_quality_figure(const SporeQuality *quality, double value);
 double spore_quality_mean(const SporeQuality *quality);
 /* The value that this share of the weight lies below. */
 double spore_quality_quantile(const SporeQuality *quality, double share);

@@ -84,7 +84,8 @@ void spore_series_clear(SporeSeries *self) {
 
 gboolean spore_series_start(SporeSeries *self, SporeDocument *document, SporeObject *body,
                             const SporeGenerateOptions *options, GError **error) {
-  SporeGenerateWork *source = spore_generate_work_new(document, body, options, error);
+  SporeGenerateOptions by_number = spore_generate_by_number(options);
+  SporeGenerateWork *source = spore_generate_work_new(document, body, &by_number, error);
   if (!source) return FALSE;
   spore_series_clear(self);
   self->measurement = g_atomic_rc_box_new0(Measurement);
@@ -95,6 +96,15 @@ gboolean spore_series_start(SporeSeries *self, SporeDocument *document, SporeObj
   g_signal_connect_object(self->job, "progressed", G_CALLBACK(tell), self, G_CONNECT_SWAPPED);
   tell(self);
   return TRUE;
+}
+
+gboolean spore_series_is_of(SporeSeries *self, SporeDocument *document, SporeObject *body,
+                            const SporeGenerateOptions *options) {
+  if (!self->measurement) return TRUE;
+  const SporeGenerateWork *source = self->measurement->source;
+  return body &&
+         spore_generate_differ_by_number(spore_generate_table(document, options->kind), &source->options, options) &&
+         spore_generate_work_body(source, document) == body;
 }
 
 gboolean spore_series_is_running(SporeSeries *self) { return self->job != NULL; }

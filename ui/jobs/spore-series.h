@@ -22,6 +22,9 @@ gboolean spore_series_start(SporeSeries *self, SporeDocument *document, SporeObj
                             const SporeGenerateOptions *options, GError **error);
 void spore_series_stop(SporeSeries *self);  /* what was measured stays */
 void spore_series_clear(SporeSeries *self); /* and goes */
+/* Whether what was measured, if anything was, still is of this body as it is now, by these options but for how many. */
+gboolean spore_series_is_of(SporeSeries *self, SporeDocument *document, SporeObject *body,
+                            const SporeGenerateOptions *options);
 gboolean spore_series_is_running(SporeSeries *self);
 /* Points measured so far; errors in %, of what the kind says. */
 gsize spore_series_get_points(SporeSeries *self, size_t counts[SPORE_SERIES_POINTS],

@@ -66,17 +66,17 @@ char *spore_spheres_facts(const SporeSpheresReport *report) {
                          100 * report->distance_mean);
 }
 
-char *spore_asset_state_facts(SporeDocument *document, SporeObject *asset) {
-  GString *text = g_string_new(NULL);
+char *spore_asset_remarks(SporeDocument *document, SporeObject *asset) {
+  const char *lines[4] = {NULL};
+  int count = 0;
   SporeGenerated generated = spore_generated_state(document, asset);
   SporeObject *source = generated == SPORE_GENERATED_SOURCE_CHANGED ? spore_object_reference(asset, "source") : NULL;
   gboolean labels = source && g_str_equal(spore_object_type(source)->element, "label_map");
   if (source)
-    g_string_append(text,
-                    labels ? _("\nStale: the label map has changed since") : _("\nStale: the mesh has changed since"));
-  if (generated == SPORE_GENERATED_OPTIONS_CHANGED) g_string_append(text, _("\nStale: the options have changed since"));
-  if (spore_generated_is(asset, "edited")) g_string_append(text, _("\nEdited by hand"));
+    lines[count++] = labels ? _("Stale: the label map has changed since") : _("Stale: the mesh has changed since");
+  if (generated == SPORE_GENERATED_OPTIONS_CHANGED) lines[count++] = _("Stale: the options have changed since");
+  if (spore_generated_is(asset, "edited")) lines[count++] = _("Edited by hand");
   if (spore_generated_is(asset, "frozen"))
-    g_string_append(text, _("\nFrozen: nothing generates it again; it may be edited by hand"));
-  return g_string_free(text, FALSE);
+    lines[count++] = _("Frozen: nothing generates it again; it may be edited by hand");
+  return g_strjoinv("\n", (char **)lines);
 }

@@ -11,8 +11,7 @@ char *spore_asset_facts(SporeDocument *document, const SporeObject *body, SporeO
 /* How good spheres are; all zero: that could not be measured, and nothing is said. NULL: it is being measured. g_free.
  */
 char *spore_spheres_facts(const SporeSpheresReport *report);
-/* What became of the asset since it was generated: stale, edited, frozen; a line each, begun by a line break. g_free.
- */
-char *spore_asset_state_facts(SporeDocument *document, SporeObject *asset);
+/* What became of the asset since it was generated: stale, edited, frozen; a line each, or "". g_free. */
+char *spore_asset_remarks(SporeDocument *document, SporeObject *asset);
 
 #endif

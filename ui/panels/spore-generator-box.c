@@ -6,7 +6,7 @@
 
 struct _SporeGeneratorBox {
   GtkBox parent;
-  GtkWidget *label, *count, *button, *result, *tools, *freeze;
+  GtkWidget *label, *count, *button, *result, *remarks, *tools, *freeze;
   guint known;          /* count that the document said last */
   char *action, *asset; /* asset: path of what is there, or NULL */
   gboolean filling;
@@ -41,6 +41,7 @@ static void spore_generator_box_class_init(SporeGeneratorBoxClass *class) {
   gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, count);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, button);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, result);
+  gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, remarks);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, tools);
   gtk_widget_class_bind_template_child(widget, SporeGeneratorBox, freeze);
   gtk_widget_class_bind_template_callback(widget, generate);
@@ -63,8 +64,16 @@ GtkWidget *spore_generator_box_new(const char *action, const char *label, guint 
   return GTK_WIDGET(self);
 }
 
+static void set_class(GtkWidget *widget, const char *name, gboolean has) {
+  GtkStyleContext *style = gtk_widget_get_style_context(widget);
+  if (has) gtk_style_context_add_class(style, name);
+  else gtk_style_context_remove_class(style, name);
+}
+
 void spore_generator_box_set_result(SporeGeneratorBox *self, const char *text, SporeGeneratorState state) {
   gtk_label_set_text(GTK_LABEL(self->result), text);
+  gtk_label_set_text(GTK_LABEL(self->remarks), state.remarks);
+  gtk_widget_set_visible(self->remarks, *state.remarks != '\0');
   gtk_button_set_label(GTK_BUTTON(self->button), state.stale ? _("Regenerate") : _("Generate"));
   g_free(self->asset);
   self->asset = g_strdup(state.asset);
@@ -77,7 +86,6 @@ void spore_generator_box_set_result(SporeGeneratorBox *self, const char *text, S
   gtk_widget_set_visible(self->tools, state.generated);
   gtk_widget_set_sensitive(self->button, !state.frozen);
   gtk_widget_set_sensitive(self->count, !state.frozen);
-  GtkStyleContext *style = gtk_widget_get_style_context(self->button);
-  if (state.stale) gtk_style_context_add_class(style, "suggested-action");
-  else gtk_style_context_remove_class(style, "suggested-action");
+  set_class(self->button, "suggested-action", state.stale);
+  set_class(self->remarks, "stale", state.stale);
 }

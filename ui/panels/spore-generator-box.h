@@ -11,8 +11,9 @@ G_DECLARE_FINAL_TYPE(SporeGeneratorBox, spore_generator_box, SPORE, GENERATOR_BO
 
 /* Of what is there now. */
 typedef struct SporeGeneratorState {
-  const char *asset; /* path; NULL: nothing is there */
-  guint count;       /* that it was, or is to be, made with; 0: as the user chose last */
+  const char *asset;   /* path; NULL: nothing is there */
+  const char *remarks; /* what became of it since it was generated; "": nothing */
+  guint count;         /* that it was, or is to be, made with; 0: as the user chose last */
   gboolean generated, stale, frozen;
 } SporeGeneratorState;
 

@@ -21,8 +21,6 @@ struct _SporeGeneratorPanel {
       *histogram, *numbers, *measure, *plot, *ends, *organs, *labels;
   SporeGenerator *generator;
   SporeSeries *series;
-  guint32 body; /* that the series is of */
-  int series_kind;
   gboolean filling;
   int kind; /* that the lists are filled for, -1: none yet */
 };
@@ -89,15 +87,6 @@ static void count_chosen(SporeCountPlot *plot, guint count, SporeGeneratorPanel 
   spore_generator_rows_set_count(SPORE_GENERATOR_ROWS(self->rows), count);
 }
 
-/* Of another body, or of none, they say nothing. */
-static void follow_body(SporeGeneratorPanel *self, SporeObject *body) {
-  guint32 id = body ? spore_object_id(body) : 0;
-  int kind = body ? (int)spore_generator_get_options(self->generator)->kind : -1;
-  if (id != self->body || kind != self->series_kind) spore_series_clear(self->series);
-  self->body = id;
-  self->series_kind = kind;
-}
-
 /* Result. */
 
 static void fill_qualities(SporeGeneratorPanel *self, SporeGenerateKind kind) {
@@ -139,7 +128,8 @@ static void refresh(SporeGeneratorPanel *self) {
   gboolean active = spore_generator_is_active(self->generator) && (body || options->labels);
   gtk_widget_set_visible(self->empty, !active);
   gtk_widget_set_visible(self->content, active);
-  follow_body(self, body);
+  if (!spore_series_is_of(self->series, spore_generator_get_document(self->generator), body, options))
+    spore_series_clear(self->series); /* of another body, or made in another way, they say nothing */
   if (!active) return;
   g_autofree char *title = title_of(self, body, options);
   gtk_label_set_text(GTK_LABEL(self->title), title);

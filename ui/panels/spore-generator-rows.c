@@ -10,11 +10,13 @@
 #define MOST_SHOWN 1e9
 #define CHOICE_LEAST_CHARS 5
 #define CHOICE_CHARS 20
+#define DIGITS 2          /* after the point */
+#define ROUNDED 0.5001e-2 /* what is less than that apart looks the same, and is no change */
 
 typedef struct {
   const SporeParameter *parameter;
   GtkWidget *editor;
-  double scale; /* shown / value: lengths are shown in mm */
+  double scale; /* shown / value: lengths are shown in mm, shares in % */
 } Row;
 
 struct _SporeGeneratorRows {
@@ -35,13 +37,24 @@ static void tell(SporeGeneratorRows *self) {
 
 /* Making. */
 
+/* A measure of 0 is none at all: the row's hint says what happens then. */
+static gboolean show_none(GtkSpinButton *spin, gpointer data) {
+  if (gtk_spin_button_get_value(spin) != 0) return FALSE;
+  if (*gtk_entry_get_text(GTK_ENTRY(spin))) gtk_entry_set_text(GTK_ENTRY(spin), "");
+  return TRUE;
+}
+
 static GtkWidget *new_number(const SporeParameter *parameter, double scale) {
-  gboolean whole = parameter->type == SPORE_INTEGER, share = *parameter->unit == '\0' && !whole;
+  gboolean whole = parameter->type == SPORE_INTEGER;
   double least = MAX(parameter->minimum * scale, -MOST_SHOWN), most = MIN(parameter->maximum * scale, MOST_SHOWN);
-  double step = whole ? 10 : share ? 0.005 : scale > 1 ? 0.5 : 5;
+  double step = whole ? 10 : scale > 1 ? 0.5 : 5;
   GtkWidget *spin = gtk_spin_button_new_with_range(least, most, step);
-  gtk_spin_button_set_digits(GTK_SPIN_BUTTON(spin), whole ? 0 : share ? 4 : 2);
+  gtk_spin_button_set_digits(GTK_SPIN_BUTTON(spin), whole ? 0 : DIGITS);
   gtk_spin_button_set_increments(GTK_SPIN_BUTTON(spin), step, 10 * step);
+  if (!whole && least == 0) {
+    gtk_entry_set_placeholder_text(GTK_ENTRY(spin), "–");
+    g_signal_connect(spin, "output", G_CALLBACK(show_none), NULL);
+  }
   gtk_spin_button_set_numeric(GTK_SPIN_BUTTON(spin), TRUE);
   gtk_entry_set_width_chars(GTK_ENTRY(spin), 5);
   gtk_entry_set_max_width_chars(GTK_ENTRY(spin), 5);
@@ -73,11 +86,12 @@ static GtkWidget *new_editor(SporeGeneratorRows *self, const SporeParameter *par
 
 static void add_row(SporeGeneratorRows *self, const SporeParameter *parameter, const char *text) {
   gboolean length = g_str_equal(parameter->unit, "m");
-  Row row = {.parameter = parameter, .scale = length ? 1e3 : 1};
+  gboolean share = parameter->type == SPORE_REAL && *parameter->unit == '\0';
+  Row row = {.parameter = parameter, .scale = length ? 1e3 : share ? 100 : 1};
   row.editor = new_editor(self, parameter, row.scale);
   if (!row.editor) return; /* places are picked in the view */
   g_autofree char *plain = text ? g_strdup(text) : spore_label_of(parameter->name);
-  g_autofree char *unit = length ? g_strdup("mm") : spore_unit_label(parameter->unit);
+  g_autofree char *unit = length ? g_strdup("mm") : share ? g_strdup("%") : spore_unit_label(parameter->unit);
   g_autofree char *labelled = *unit ? g_strdup_printf("%s, %s", plain, unit) : g_strdup(plain);
   GtkWidget *label = gtk_label_new(labelled);
   gtk_label_set_xalign(GTK_LABEL(label), 0);
@@ -150,8 +164,7 @@ void spore_generator_rows_get_options(SporeGeneratorRows *self, SporeGenerateOpt
     const Row *row = &g_array_index(self->rows, Row, i);
     SporeValue before = spore_parameter_load(row->parameter, place_of(self, row, options));
     SporeValue value = {.type = row->parameter->type, .number = {value_of(row)}};
-    /* What the spin button rounds when it is shown is no change. */
-    if (fabs(value.number[0] - before.number[0]) * row->scale < 0.5e-4) continue;
+    if (fabs(value.number[0] - before.number[0]) * row->scale <= ROUNDED) continue;
     spore_parameter_store(row->parameter, &value, place_of(self, row, options));
   }
 }

@@ -12,23 +12,34 @@
 struct _SporeHistogram {
   GtkDrawingArea parent;
   double share[BINS], largest, mean; /* share: of the weight; the last bin has what lies beyond the scale too */
-  double low, high;
-  char *title, *unit; /* title NULL: nothing to show */
+  double high;
+  char *title, *marks[3]; /* title NULL: nothing to show; marks: at the ends of the scale and in its middle */
 };
 
 G_DEFINE_FINAL_TYPE(SporeHistogram, spore_histogram, GTK_TYPE_DRAWING_AREA)
 
-/* Returns its width. */
-static int draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double align, const char *text) {
-  int width, height;
+/* align: 0 begins at x, 0.5 about it, 1 ends there. Where it would go into what lies at `free_until` it is left out.
+ * Returns where it begins. */
+static double draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double align, const char *text,
+                        double free_until) {
+  int width;
   g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
-  pango_layout_get_pixel_size(layout, &width, &height);
-  gtk_render_layout(gtk_widget_get_style_context(widget), cr, x - align * width, y, layout);
-  return width;
+  pango_layout_get_pixel_size(layout, &width, NULL);
+  double begin = x - align * width;
+  if (begin + width > free_until) return free_until;
+  gtk_render_layout(gtk_widget_get_style_context(widget), cr, begin, y, layout);
+  return begin;
 }
 
-static double place_of(const SporeHistogram *self, double value) {
-  return CLAMP((value - self->low) / (self->high - self->low), 0, 1);
+static double place_of(const SporeHistogram *self, double value) { return CLAMP(value / self->high, 0, 1); }
+
+/* The axis from its end, which has the unit, to its beginning. */
+static void draw_marks(SporeHistogram *self, cairo_t *cr, double left, double width, double y) {
+  double free_until = left + width;
+  for (int i = 2; i >= 0; i--) {
+    double begin = draw_text(GTK_WIDGET(self), cr, left + 0.5 * i * width, y, 0.5 * i, self->marks[i], free_until);
+    free_until = begin - MARGIN;
+  }
 }
 
 static void draw_bars(const SporeHistogram *self, cairo_t *cr, double left, double top, double width, double height) {
@@ -68,12 +79,8 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   double width = gtk_widget_get_allocated_width(widget), height = gtk_widget_get_allocated_height(widget);
   if (!self->title) return FALSE;
   double left = MARGIN, top = LINE + MARGIN, across = width - 2 * MARGIN, up = height - top - LINE - MARGIN;
-  g_autofree char *title = g_strdup_printf(_("Mean %.3g %s"), self->mean, self->unit);
-  g_autofree char *low = g_strdup_printf("%g", self->low);
-  g_autofree char *high = g_strdup_printf(_("%g %s and over"), self->high, self->unit);
-  draw_text(widget, cr, left, 2, 0, title);
-  if (draw_text(widget, cr, left + across, top + up + 3, 1, high) < across - LINE)
-    draw_text(widget, cr, left, top + up + 3, 0, low);
+  draw_text(widget, cr, left, 2, 0, self->title, width);
+  draw_marks(self, cr, left, across, top + up + 3);
   if (up <= 0 || across <= BINS) return FALSE;
   draw_bars(self, cr, left, top, across, up);
   draw_frame(self, cr, left, top, across, up);
@@ -81,27 +88,39 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
 }
 
 static void describe(SporeHistogram *self, const SporeQuality *quality) {
-  g_autofree char *unit = quality && *quality->unit ? g_strconcat(" ", quality->unit, NULL) : g_strdup("");
-  g_autofree char *text = quality
-                              ? g_strdup_printf(_("Histogram of %s: mean %.3g%s, 95 %% below %.3g%s"), quality->label,
-                                                self->mean, unit, spore_quality_quantile(quality, 0.95), unit)
-                              : g_strdup(_("Histogram: nothing to show yet"));
+  g_autofree char *mean = quality ? spore_quality_figure(quality, self->mean) : NULL;
+  g_autofree char *most = quality ? spore_quality_figure(quality, spore_quality_quantile(quality, 0.95)) : NULL;
+  g_autofree char *text =
+      quality ? g_strdup_printf(_("Histogram of %s: mean %s, 95 %% below %s\nThe tallest bar has %.2g %%"),
+                                quality->label, mean, most, 100 * self->largest)
+              : g_strdup(_("Histogram: nothing to show yet"));
   atk_object_set_name(gtk_widget_get_accessible(GTK_WIDGET(self)), text);
   gtk_widget_set_tooltip_text(GTK_WIDGET(self), text);
 }
 
+static void clear_texts(SporeHistogram *self) {
+  g_clear_pointer(&self->title, g_free);
+  for (int i = 0; i < 3; i++) g_clear_pointer(&self->marks[i], g_free);
+}
+
+static void set_texts(SporeHistogram *self, const SporeQuality *quality) {
+  g_autofree char *mean = spore_quality_figure(quality, self->mean);
+  g_autofree char *high = spore_quality_figure(quality, self->high);
+  self->title = g_strdup_printf(_("Mean %s"), mean);
+  self->marks[0] = g_strdup("0");
+  self->marks[1] = g_strdup_printf("%.3g", 0.5 * self->high);
+  self->marks[2] = g_strconcat(spore_quality_goes_beyond(quality) ? "≥ " : "", high, NULL);
+}
+
 void spore_histogram_set_quality(SporeHistogram *self, const SporeQuality *quality) {
   if (quality && !quality->count) quality = NULL;
-  g_clear_pointer(&self->title, g_free);
-  g_clear_pointer(&self->unit, g_free);
+  clear_texts(self);
   for (int i = 0; i < BINS; i++) self->share[i] = 0;
   if (quality) {
     double whole = 0;
-    self->title = g_strdup(quality->label);
-    self->unit = g_strdup(quality->unit);
     self->mean = spore_quality_mean(quality);
-    self->low = quality->low;
     self->high = quality->high;
+    set_texts(self, quality);
     for (gsize i = 0; i < quality->count; i++) {
       double weight = quality->weights ? quality->weights[i] : 1;
       self->share[MIN((int)(BINS * spore_quality_place(quality, i)), BINS - 1)] += weight;
@@ -118,9 +137,7 @@ void spore_histogram_set_quality(SporeHistogram *self, const SporeQuality *quali
 }
 
 static void spore_histogram_finalize(GObject *object) {
-  SporeHistogram *self = SPORE_HISTOGRAM(object);
-  g_free(self->title);
-  g_free(self->unit);
+  clear_texts(SPORE_HISTOGRAM(object));
   G_OBJECT_CLASS(spore_histogram_parent_class)->finalize(object);
 }
 

@@ -95,7 +95,7 @@ static void show_mesh_facts(SporeInspector *self, SporeObject *body) {
   gtk_label_set_text(GTK_LABEL(self->mesh_facts), self->mesh_text ? self->mesh_text : none);
 }
 
-/* What is there of a kind, and what became of it since. */
+/* What is there of a kind. */
 static char *facts_of(SporeInspector *self, SporeObject *body, SporeObject *asset, SporeGenerateKind kind) {
   g_autofree char *text = spore_asset_facts(document_of(self), body, asset, kind);
   if (!asset) return g_steal_pointer(&text);
@@ -103,8 +103,7 @@ static char *facts_of(SporeInspector *self, SporeObject *body, SporeObject *asse
   const SporeSpheresReport *report =
       spheres ? spore_sphere_measures_get(self->measures, document_of(self), body, asset) : NULL;
   g_autofree char *quality = spheres ? spore_spheres_facts(report) : g_strdup("");
-  g_autofree char *state = spore_asset_state_facts(document_of(self), asset);
-  return g_strconcat(text, quality, state, NULL);
+  return g_strconcat(text, quality, NULL);
 }
 
 static guint last_count(SporeObject *asset, const char *property, guint otherwise) {
@@ -116,7 +115,9 @@ static void show_generated(SporeInspector *self, SporeObject *body, SporeGenerat
   SporeGenerated generated = asset ? spore_generated_state(document_of(self), asset) : SPORE_GENERATED_NOT;
   g_autofree char *path = asset ? spore_object_path(asset) : NULL;
   g_autofree char *text = facts_of(self, body, asset, kind);
+  g_autofree char *remarks = asset ? spore_asset_remarks(document_of(self), asset) : g_strdup("");
   SporeGeneratorState state = {.asset = path,
+                               .remarks = remarks,
                                .count = last_count(asset, spore_generate_type(kind)->count, 0),
                                .generated = generated != SPORE_GENERATED_NOT,
                                .stale = generated == SPORE_GENERATED_SOURCE_CHANGED ||

@@ -7,7 +7,7 @@
 #include "ui/panels/report.h"
 
 #define NUMBER_CHARS 9
-#define TEXT_CHARS 20
+#define TEXT_CHARS 17
 #define LEAST_CHARS 5
 
 struct _SporePropertyRow {

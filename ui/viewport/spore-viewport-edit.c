@@ -121,6 +121,8 @@ void spore_viewport_edit_region(SporeViewport *self, SporeObject *region) {
   show(self);
 }
 
+gboolean spore_viewport_has_edited(SporeViewport *self) { return self->edit.count > 0; }
+
 gboolean spore_viewport_edits_regions(SporeViewport *self) { return self->tool == SPORE_TOOL_EDIT && self->regions; }
 
 static void commit(SporeViewport *self, const char *label) {

@@ -24,9 +24,8 @@ struct _SporeViewport {
   guint edit_timer;      /* wheel notches that are not committed yet */
   SporeStageCandidate *candidate;
   SporeStageMarks marks;
-  char *legend; /* of the candidate's colours; NULL: none */
-  double legend_low, legend_high;
-  char *legend_unit;
+  char *legend;      /* of the candidate's colours; NULL: none */
+  char *legend_high; /* at the end of their scale, which begins at 0 */
 
   SporeOffscreen *offscreen;
   SporeRenderer *renderer;

@@ -207,12 +207,10 @@ static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height)
     cairo_rectangle(cr, left + i, top, 1, 10);
     cairo_fill(cr);
   }
-  g_autofree char *low = g_strdup_printf("%g", self->legend_low);
-  g_autofree char *high = g_strdup_printf("%g %s", self->legend_high, self->legend_unit);
   const struct {
     const char *text;
     double y, align;
-  } lines[] = {{self->legend, top - 21, 0}, {low, top + 13, 0}, {high, top + 13, 1}};
+  } lines[] = {{self->legend, top - 21, 0}, {"0", top + 13, 0}, {self->legend_high, top + 13, 1}};
   cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
   for (gsize i = 0; i < G_N_ELEMENTS(lines); i++) {
     int wide;
@@ -427,19 +425,21 @@ void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *op
   update_stage(self);
 }
 
+static void clear_legend(SporeViewport *self) {
+  g_clear_pointer(&self->legend, g_free);
+  g_clear_pointer(&self->legend_high, g_free);
+}
+
 void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend) {
   if (!candidate && !self->candidate) return;
   if (self->stage) spore_stage_set_candidate(self->stage, candidate);
   spore_stage_candidate_free(self->candidate);
   self->candidate = candidate;
   show_welcome(self);
-  g_clear_pointer(&self->legend, g_free);
-  g_clear_pointer(&self->legend_unit, g_free);
+  clear_legend(self);
   if (candidate && legend->count) {
     self->legend = g_strdup(legend->label);
-    self->legend_unit = g_strdup(legend->unit);
-    self->legend_low = legend->low;
-    self->legend_high = legend->high;
+    self->legend_high = spore_quality_figure(legend, legend->high);
   }
   spore_viewport_redraw(self);
 }
@@ -500,8 +500,7 @@ static void spore_viewport_dispose(GObject *object) {
   g_clear_pointer(&self->renderer_name, g_free);
   g_clear_pointer(&self->candidate, spore_stage_candidate_free);
   g_clear_pointer(&self->marks.segments, g_free);
-  g_clear_pointer(&self->legend, g_free);
-  g_clear_pointer(&self->legend_unit, g_free);
+  clear_legend(self);
   G_OBJECT_CLASS(spore_viewport_parent_class)->dispose(object);
 }
 

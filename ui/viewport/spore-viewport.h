@@ -32,6 +32,8 @@ void spore_viewport_set_tool(SporeViewport *self, SporeTool tool);
 /* The Edit tool, for the regions that the object holds, this one first. */
 void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
 gboolean spore_viewport_edits_regions(SporeViewport *self);
+/* Whether the Edit tool has something to edit. */
+gboolean spore_viewport_has_edited(SporeViewport *self);
 /* The next click of the left button on a body does not select it: it is told by "picked". */
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
