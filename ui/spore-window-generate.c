@@ -25,11 +25,6 @@ typedef struct {
   gboolean apply;
 } Request;
 
-static void show_panel(SporeWindow *self) {
-  g_action_group_change_action_state(G_ACTION_GROUP(self), "show-problems", g_variant_new_boolean(TRUE));
-  gtk_stack_set_visible_child(GTK_STACK(self->tabs), self->generator_panel);
-}
-
 static void preview(SporeWindow *self, SporeObject *body, const SporeGenerateOptions *options, gboolean apply) {
   g_autoptr(GError) error = NULL;
   if (self->job) {
@@ -40,7 +35,7 @@ static void preview(SporeWindow *self, SporeObject *body, const SporeGenerateOpt
   g_action_group_change_action_state(G_ACTION_GROUP(self), "tool", g_variant_new_string("select"));
   if (!spore_generator_preview(self->generator, body, options, &error)) spore_window_failed(self, error);
   else if (apply) spore_generator_apply_when_done(self->generator);
-  else show_panel(self);
+  else spore_window_show_tab(self, self->generator_panel);
 }
 
 static void begin(const Request *request) {

@@ -107,14 +107,15 @@ static void changed(SporeJob *job, gpointer data, const GError *error, gpointer 
     return;
   }
   const char *label = _(spore_mesh_operations[work->operation].label);
-  if (!spore_edit_change_mesh(document, asset, label, &work->mesh, &failure)) {
+  if (!spore_edit_change_mesh(document, asset, label, work->content, &failure)) {
     spore_window_failed(self, failure);
     return;
   }
   g_autofree char *before = spore_figures_text(&work->change.before), *after = spore_figures_text(&work->change.after);
   g_autofree char *moved = spore_length_text(work->change.moved < 1e-9 ? 0 : work->change.moved);
-  spore_window_log(self, _("%s, %s: before %s; after %s; moved by up to %s"), spore_object_name(asset), label, before,
-                   after, moved);
+  spore_window_log(self, _("%s, %s:\n  before: %s\n  after: %s\n  moved by up to %s"), spore_object_name(asset), label,
+                   before, after, moved);
+  spore_window_show_tab(self, self->log);
 }
 
 static void start_change(SporeWindow *self, SporeObject *asset, int kind, double argument) {

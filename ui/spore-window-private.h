@@ -42,6 +42,8 @@ struct _SporeWindow {
 void spore_window_set_document(SporeWindow *self, SporeDocument *document);
 void spore_window_complain(SporeWindow *self, const char *message);
 void spore_window_log(SporeWindow *self, const char *format, ...) G_GNUC_PRINTF(2, 3);
+/* Brings what lies in one of the bottom's tabs to the front. */
+void spore_window_show_tab(SporeWindow *self, GtkWidget *what);
 /* One job at a time; FALSE (and data freed): another is running, said to the user. */
 gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
                                 GDestroyNotify free_data, SporeJobDone done);

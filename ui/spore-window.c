@@ -25,6 +25,12 @@ void spore_window_log(SporeWindow *self, const char *format, ...) {
   gtk_text_view_scroll_to_iter(GTK_TEXT_VIEW(self->log), &end, 0, FALSE, 0, 0);
 }
 
+void spore_window_show_tab(SporeWindow *self, GtkWidget *what) {
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "show-problems", g_variant_new_boolean(TRUE));
+  while (gtk_widget_get_parent(what) != self->tabs) what = gtk_widget_get_parent(what);
+  gtk_stack_set_visible_child(GTK_STACK(self->tabs), what);
+}
+
 void spore_window_complain(SporeWindow *self, const char *message) {
   gtk_label_set_text(GTK_LABEL(self->message), message);
   gtk_widget_show(self->message_bar);

@@ -16,11 +16,10 @@ SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *impor
   return spore_edit_finish(document, spore_import_insert(document, import, &bodies, error)) ? bodies->pdata[0] : NULL;
 }
 
-gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label,
-                                const SporeTriangleMesh *mesh, GError **error) {
+gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label, GBytes *content,
+                                GError **error) {
   gsize size;
-  char *text = spore_off_format(mesh, &size);
-  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
+  const char *text = g_bytes_get_data(content, &size);
   g_autofree char *file = spore_content_file_name(spore_object_name(asset), "off", text, size);
   spore_document_put_blob(document, file, content);
   spore_document_begin(document, label);

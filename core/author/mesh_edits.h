@@ -7,8 +7,9 @@
 /* Bodies for what was read in `unit`. Returns the first; NULL with an error: nothing was inserted. */
 SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, GError **error);
 
-/* The asset holds another mesh (m, SPORE's axes) from now on. label: of the step, translated. */
-gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label,
-                                const SporeTriangleMesh *mesh, GError **error);
+/* The asset holds another mesh from now on: content of an OFF file in m, in SPORE's axes. label: of the step,
+ * translated. */
+gboolean spore_edit_change_mesh(SporeDocument *document, SporeObject *asset, const char *label, GBytes *content,
+                                GError **error);
 
 #endif

@@ -20,7 +20,7 @@ int spore_length_unit_guess(double diagonal) {
 char *spore_length_text(double length_m) {
   if (length_m >= 1) return g_strdup_printf("%.3g m", length_m);
   if (length_m >= 1e-3) return g_strdup_printf("%.3g mm", length_m * 1e3);
-  return g_strdup_printf("%.3g um", length_m * 1e6);
+  return g_strdup_printf("%.3g µm", length_m * 1e6);
 }
 
 char *spore_length_doubt(double diagonal_m, int unit) {

@@ -129,7 +129,7 @@ static const Mistake mistakes[] = {
      SCENE("<assets><mesh name=\"cube\" file=\"cube.off\" unit=\"um\"/><spheres name=\"ball\" "
            "file=\"ball.spheres\"/></assets>\n"
            "<bodies>\n<body name=\"floor\" role=\"unmovable\">" BALL "<visual mesh=\"cube\"/></body></bodies>\n"),
-     {"warning 2:9: \"cube\" is 0.173 um across"}},
+     {"warning 2:9: \"cube\" is 0.173 µm across"}},
     {"open-mesh",
      SCENE("<assets><mesh name=\"o\" file=\"open.off\"/><spheres name=\"ball\" file=\"ball.spheres\" "
            "source=\"o\"/></assets>\n"

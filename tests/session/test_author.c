@@ -122,7 +122,7 @@ static void test_change_mesh(Fixture *fixture, gconstpointer data) {
     g_assert_cmpfloat_with_epsilon(work->change.after.report.volume, volume, 1e-9 * volume);
     g_assert_cmpfloat(work->change.moved, >, 0);
     g_assert_true(spore_mesh_work_asset(work, fixture->document) == mesh);
-    g_assert_true(spore_edit_change_mesh(fixture->document, mesh, "Smooth", &work->mesh, &error));
+    g_assert_true(spore_edit_change_mesh(fixture->document, mesh, "Smooth", work->content, &error));
     g_assert_null(spore_mesh_work_asset(work, fixture->document));
     spore_mesh_work_free(work);
     if (i == 0) assert_one_step(fixture, before);

@@ -162,10 +162,9 @@ def a_mesh_of_the_scene_is_changed():
         editor.find("label", "closed")
         editor.act("change-mesh", "(sd)", ("smooth", 5.0))
         ui.wait(lambda: editor.enabled("change-mesh"), "the smoothing to end")
-        editor.press(editor.find("radio button", "^Log$"))
-        text = editor.text_of(editor.find("text", "Log"))
-        assert re.search("Fill holes: before 522 triangles.*open edges: 8.*after 528 triangles.*open edges: 0", text), text
-        assert re.search("Smooth: before .*after .*moved by up to .* [um]m", text), text
+        text = editor.text_of(editor.find("text", "^Log$"))  # which came to the front
+        assert re.search("(?s)Fill holes:.*before: 522 triangles.*open edges: 8.*after: 528 triangles.*open edges: 0", text), text
+        assert re.search("(?s)Smooth:.*before: .*after: .*moved by up to .* [µm]m", text), text
         assert undo_all(editor) == 3
         assert not editor.row("open")
 

@@ -1,5 +1,7 @@
 #include "ui/jobs/mesh-works.h"
 
+#include "core/io/mesh_import.h"
+#include "core/io/scene_xml.h"
 #include "ui/document/asset-readers.h"
 
 /* Import. */
@@ -51,14 +53,31 @@ void spore_mesh_work_free(gpointer data) {
   SporeMeshWork *work = data;
   g_free(work->hash);
   spore_triangle_mesh_clear(&work->mesh);
+  g_clear_pointer(&work->content, g_bytes_unref);
   g_free(work);
+}
+
+/* What is stored is looked at as the scene will read it, which leaves out triangles without area; and is kept for that.
+ */
+static gboolean store(SporeMeshWork *work, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeTriangleMesh read = {0};
+  gsize size;
+  char *text = spore_off_format(&work->mesh, &size);
+  work->content = g_bytes_new_take(text, size);
+  if (!spore_io_readers.mesh("", "changed.off", work->content, 0, 0, &read, error)) return FALSE;
+  spore_triangle_mesh_clear(&work->mesh);
+  work->mesh = read;
+  spore_editor_readers_remember(work->content, 0, 0, &work->mesh);
+  return spore_mesh_figures(&work->mesh, &work->change.after, &failure) || spore_error_propagate(&failure, error);
 }
 
 gboolean spore_mesh_work_run(gpointer data, const SporeProgress *progress, GError **error) {
   SporeMeshWork *work = data;
   SporeError failure = SPORE_ERROR_INIT;
-  return spore_mesh_operate(&work->mesh, work->operation, work->argument, &work->change, progress, &failure) ||
-         spore_error_propagate(&failure, error);
+  if (!spore_mesh_operate(&work->mesh, work->operation, work->argument, &work->change, progress, &failure))
+    return spore_error_propagate(&failure, error);
+  return store(work, error);
 }
 
 SporeObject *spore_mesh_work_asset(const SporeMeshWork *work, SporeDocument *document) {

@@ -20,7 +20,8 @@ typedef struct SporeMeshWork {
   char *hash;    /* of what it began with */
   SporeMeshOperationKind operation;
   double argument;
-  SporeTriangleMesh mesh; /* in and out */
+  SporeTriangleMesh mesh; /* in, and out as it is read from the content */
+  GBytes *content;        /* out: for spore_edit_change_mesh */
   SporeMeshChange change; /* out */
 } SporeMeshWork;
 /* Copies the asset's mesh. NULL with an error where it cannot be read. */
