@@ -1,7 +1,8 @@
 /* Balls around a solid: a search that moves one ball at a time to where it, the others as they are, costs least. What
  * is outside costs its volume; what is left uncovered costs its volume times a price that rises, so that at first balls
  * can hand over what they hold to their neighbours. Once little is left uncovered, balls that do little are put where
- * others hold much outside, wherever that turns out to pay after their neighbours have settled. */
+ * others hold much outside, wherever that turns out to pay after those around have settled. In the end all is held, and
+ * a ball costs the volume that it adds to the others. */
 #include "core/generate/spheres_bounding.h"
 
 #include <math.h>
@@ -10,9 +11,10 @@
 #include "core/base/text.h"
 #include "core/generate/spheres_bounding_search.h"
 
-#define FEW 60            /* balls: so many sweep twice, half as many or fewer three times */
-#define TRIALS_PER_BALL 5 /* most relocations that are tried */
-#define GAP_VOLUME 0.3    /* of a cube: volume that an added point stands for */
+#define FEW 60                /* balls: so many sweep twice, half as many or fewer three times */
+#define WORK_PER_BALL 6000000 /* that goes into relocations, */
+#define WORK_MOST 190000000   /* of all balls: so that most solids take less than five seconds */
+#define GAP_VOLUME 0.3        /* of a cube: volume that an added point stands for */
 
 /* What the search does one after the other. */
 typedef struct Stage {
@@ -20,7 +22,7 @@ typedef struct Stage {
   double margin, finest; /* of the diagonal: which points of the surface are added; finest 0: none */
   double step;           /* of a radius: how far balls look around at first */
   int sweeps;
-  size_t relocations; /* before the sweeps */
+  bool relocate; /* after the sweeps, which are done again then */
 } Stage;
 
 /* The balls and their images in the planes that they are not bound to, those of a ball one after the other. */
@@ -55,43 +57,54 @@ static bool add_points(SporeBoundingSearch *search, const Stage *stage) {
   return done;
 }
 
-static bool run_stage(SporeBoundingSearch *search, const Stage *stage, const SporeProgressPart *progress,
-                      SporeError *error) {
-  SporeProgressPart relocating = {progress->whole, progress->first, 0.7 * progress->share};
-  double first = stage->relocations ? 0.7 : 0;
-  search->price = stage->price;
-  if (stage->finest > 0 && !add_points(search, stage)) return spore_spheres_no_memory(error);
-  size_t trials = stage->relocations, most = TRIALS_PER_BALL * search->balls->count;
-  if (!spore_bounding_relocate(search, trials < most ? trials : most, &relocating, error)) return false;
-  spore_bounding_set_steps(search, stage->step);
+static bool sweep(SporeBoundingSearch *search, const Stage *stage, const SporeProgressPart *progress,
+                  SporeError *error) {
   int sweeps = stage->sweeps * (1 + (int)fmin(2, FEW / (double)search->balls->count));
-  for (int sweep = 0; sweep < sweeps; sweep++) {
-    if (!spore_progress_part(progress, first + (1 - first) * sweep / sweeps, _("Bounding with spheres"), error))
-      return false;
+  spore_bounding_set_steps(search, stage->step);
+  for (int done = 0; done < sweeps; done++) {
+    if (!spore_progress_part(progress, (double)done / sweeps, _("Bounding with spheres"), error)) return false;
+    spore_bounding_shell_turn(&search->shell, &search->random);
     for (size_t i = 0; i < search->balls->count; i++) spore_bounding_settle(search, i);
     spore_progress_show_images(progress, &search->solid->symmetry, search->balls, search->bound);
   }
   return true;
 }
 
+static bool run_stage(SporeBoundingSearch *search, const Stage *stage, const SporeProgressPart *progress,
+                      SporeError *error) {
+  SporeProgressPart first = {progress->whole, progress->first, 0.05 * progress->share},
+                    relocating = {progress->whole, progress->first + first.share, 0.9 * progress->share},
+                    last = {progress->whole, relocating.first + relocating.share, 0.05 * progress->share};
+  search->price = stage->price;
+  if (stage->finest > 0 && !add_points(search, stage)) return spore_spheres_no_memory(error);
+  if (!stage->relocate) return sweep(search, stage, progress, error);
+  uint64_t work = WORK_PER_BALL * search->balls->count;
+  if (work > WORK_MOST) work = WORK_MOST;
+  return sweep(search, stage, &first, error) && spore_bounding_relocate(search, work, &relocating, error) &&
+         sweep(search, stage, &last, error);
+}
+
 static bool run_stages(SporeBoundingSearch *search, const SporeProgressPart *progress, SporeError *error) {
-  static const Stage stages[] = {{2, 0, 0, 0.2, 12, 0},
-                                 {4, 0, 0, 0.2, 12, 0},
-                                 {8, 0, 0, 0.2, 12, 0},
-                                 {16, 4e-3, 6e-3, 0.2, 12, 250},
-                                 {32, 0, 0, 0.2, 12, 0},
-                                 {128, 0, 0, 0.2, 12, 0},
-                                 {2048, 0, 0, 0.2, 12, 0},
-                                 {SPORE_BOUNDING_HARD, 1.5e-3, 1.5e-3, 0.06, 8, 0},
-                                 {SPORE_BOUNDING_HARD, 3e-4, 7e-4, 0.06, 8, 0},
-                                 {SPORE_BOUNDING_HARD, 1e-4, 5e-4, 0.06, 5, 0},
-                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, 0},
-                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, 0}};
+  static const Stage stages[] = {{2, 0, 0, 0.2, 12, false},
+                                 {4, 0, 0, 0.2, 12, false},
+                                 {8, 0, 0, 0.2, 12, false},
+                                 {16, 4e-3, 6e-3, 0.2, 12, true},
+                                 {32, 0, 0, 0.2, 12, false},
+                                 {128, 0, 0, 0.2, 12, false},
+                                 {2048, 0, 0, 0.2, 12, false},
+                                 {SPORE_BOUNDING_HARD, 1.5e-3, 1.5e-3, 0.06, 8, false},
+                                 {SPORE_BOUNDING_HARD, 3e-4, 7e-4, 0.06, 8, false},
+                                 {SPORE_BOUNDING_HARD, 1e-4, 5e-4, 0.06, 5, false},
+                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, false},
+                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, false}};
   const size_t count = sizeof stages / sizeof *stages;
+  double share[sizeof stages / sizeof *stages], sum = 0; /* of the time, about */
+  for (size_t s = 0; s < count; s++) sum += share[s] = stages[s].relocate ? 1.5 * (double)count : 1;
+  double first = progress->first;
   for (size_t s = 0; s < count; s++) {
-    SporeProgressPart part = {progress->whole, progress->first + progress->share * (double)s / (double)count,
-                              progress->share / (double)count};
+    SporeProgressPart part = {progress->whole, first, progress->share * share[s] / sum};
     if (!run_stage(search, &stages[s], &part, error)) return false;
+    first += part.share;
   }
   return true;
 }

@@ -1,5 +1,6 @@
 /* Relocations: a ball that alone holds little of the solid is given up, and one that holds much outside is divided in
- * two. Those around settle; the trial stands where all of that together saves. */
+ * two. Whether that pays shows late, and one helps another, so many are done at once, those around settle, and all
+ * stand together where that saves; the next time there are fewer where it does not. */
 #include <math.h>
 #include <string.h>
 
@@ -7,10 +8,15 @@
 #include "core/base/text.h"
 #include "core/generate/spheres_bounding_search.h"
 
-#define ACTIVE_MOST 20   /* balls that settle in a trial */
-#define TRIAL_SWEEPS 5   /* of them */
-#define TRIAL_STEP 0.2   /* of a radius: of the first sweep */
-#define PAIR_SWEEPS 3    /* of the two alone, before */
+#define BATCH 0.25          /* of the balls: relocations of the first batch, and at most */
+#define PASS 0.125          /* of the balls: relocations from one ranking */
+#define FEWER 0.7           /* relocations, after a batch that does not pay */
+#define MORE 1.2            /* after one that does */
+#define NEIGHBOURS_MOST 10  /* of a ball, that settle with it */
+#define PAIR_SWEEPS 3       /* of the two alone, */
+#define NEIGHBOURS_SWEEPS 2 /* and with their neighbours */
+#define BATCH_SWEEPS 12
+#define STEP 0.2         /* of a radius: of the first sweep */
 #define HALF_RADIUS 0.85 /* of the divided ball's: radius of its halves, at first */
 #define APART_LEAST 0.2  /* of the divided ball's radius: its halves' way from its middle */
 #define APART_MOST 0.6
@@ -21,16 +27,26 @@ typedef struct Relocate {
   SporeBoundingSearch *search;
   double *worth, *burden; /* balls: volume inside that it holds alone, volume outside that it holds, shared, m^3 */
   bool *marked;           /* balls: done with in this pass */
-  uint32_t active[ACTIVE_MOST];
+  uint32_t active[2 + 2 * NEIGHBOURS_MOST];
   size_t active_count;
   SporeBalls before;
-  uint16_t *held; /* before */
+  uint16_t *held;       /* before */
+  uint64_t first, work; /* search->work at the start, and how much more there may be */
+  const SporeProgressPart *progress;
+  SporeError *error;
+  bool cancelled;
 } Relocate;
+
+static bool go_on(Relocate *r) {
+  double fraction = fmin(1, (double)(r->search->work - r->first) / (double)r->work);
+  if (!r->cancelled) r->cancelled = !spore_progress_part(r->progress, fraction, _("Bounding with spheres"), r->error);
+  return !r->cancelled;
+}
 
 static void weigh_ball(Relocate *r, size_t i) {
   SporeBoundingSearch *search = r->search;
   r->worth[i] = r->burden[i] = 0;
-  spore_bounding_reach(search, spore_balls_centre(search->balls, i), search->balls->r[i]);
+  spore_bounding_reach(search, spore_balls_centre(search->balls, i), 0, search->balls->r[i]);
   for (size_t m = 0; m < search->reached_count; m++) {
     size_t k = search->reached[m];
     double volume = search->prices.volume[k];
@@ -52,11 +68,12 @@ static void weigh_balls(Relocate *r) {
   }
 }
 
-/* Ball of the least (sign 1) or the largest (sign -1) value, of those not marked; SIZE_MAX: all are. */
-static size_t first_of(const Relocate *r, const double *value, double sign) {
+/* Ball of the least (sign 1) or the largest (sign -1) value, of those not marked, and marks it; SIZE_MAX: all are. */
+static size_t take_first(Relocate *r, const double *value, double sign) {
   size_t best = SIZE_MAX;
   for (size_t i = 0; i < r->search->balls->count; i++)
     if (!r->marked[i] && (best == SIZE_MAX || sign * value[i] < sign * value[best])) best = i;
+  if (best != SIZE_MAX) r->marked[best] = true;
   return best;
 }
 
@@ -65,7 +82,7 @@ static SporeVec3 long_axis(SporeBoundingSearch *search, size_t i) {
   const SporePoints *points = &search->prices.points;
   SporeVec3 c = spore_balls_centre(search->balls, i);
   double weight = 0, sum[3] = {0}, square[3][3] = {{0}};
-  spore_bounding_reach(search, c, search->balls->r[i]);
+  spore_bounding_reach(search, c, 0, search->balls->r[i]);
   for (size_t m = 0; m < search->reached_count; m++) {
     size_t k = search->reached[m];
     double volume = -search->prices.volume[k], p[3] = {points->x[k] - c.x, points->y[k] - c.y, points->z[k] - c.z};
@@ -87,21 +104,26 @@ static SporeVec3 long_axis(SporeBoundingSearch *search, size_t i) {
   return spore_vec3_scale(sqrt(length), spore_vec3_normalise(spore_vec3_load(axis), spore_vec3(1, 0, 0)));
 }
 
-/* The pair, and balls that overlap either of them. */
-static void choose_active(Relocate *r, size_t spare, size_t target) {
+static bool is_active(const Relocate *r, size_t i) {
+  for (size_t k = 0; k < r->active_count; k++)
+    if (r->active[k] == i) return true;
+  return false;
+}
+
+/* Those that overlap the ball most. */
+static void add_neighbours(Relocate *r, size_t of) {
   const SporeBalls *balls = r->search->balls;
-  r->active[0] = (uint32_t)target, r->active[1] = (uint32_t)spare;
-  r->active_count = 2;
-  for (size_t i = 0; i < balls->count && r->active_count < ACTIVE_MOST; i++)
-    for (size_t p = 0; p < 2; p++) {
-      size_t of = r->active[p];
-      if (i == spare || i == target ||
-          spore_vec3_distance(spore_balls_centre(balls, i), spore_balls_centre(balls, of)) >=
-              balls->r[i] + balls->r[of])
-        continue;
-      r->active[r->active_count++] = (uint32_t)i;
-      break;
-    }
+  double gap[NEIGHBOURS_MOST];
+  size_t found[NEIGHBOURS_MOST], count = 0;
+  for (size_t i = 0; i < balls->count; i++) {
+    double its =
+        spore_vec3_distance(spore_balls_centre(balls, i), spore_balls_centre(balls, of)) - balls->r[i] - balls->r[of];
+    if (its >= 0 || is_active(r, i) || (count == NEIGHBOURS_MOST && its >= gap[count - 1])) continue;
+    size_t at = count < NEIGHBOURS_MOST ? count++ : count - 1;
+    for (; at > 0 && gap[at - 1] > its; at--) gap[at] = gap[at - 1], found[at] = found[at - 1];
+    gap[at] = its, found[at] = i;
+  }
+  for (size_t k = 0; k < count; k++) r->active[r->active_count++] = (uint32_t)found[k];
 }
 
 /* A sweep of the first `count`; what it saves. */
@@ -125,24 +147,58 @@ static double divide_ball(SporeBoundingSearch *search, size_t spare, size_t targ
   return saved + spore_bounding_insert(search, spare, other, half);
 }
 
-/* True: it pays, and stands. */
-static bool try_pair(Relocate *r, size_t spare, size_t target) {
+/* Moves the one to the other, and those around settle; what that saves. */
+static double relocate(Relocate *r, size_t spare, size_t target) {
   SporeBoundingSearch *search = r->search;
-  size_t size = search->prices.points.block_count * SPORE_BLOCK * sizeof *r->held;
-  memcpy(r->held, search->prices.held, size);
-  spore_balls_copy(&r->before, search->balls);
-  choose_active(r, spare, target);
+  r->active[0] = (uint32_t)target, r->active[1] = (uint32_t)spare;
+  r->active_count = 2;
+  add_neighbours(r, target);
+  add_neighbours(r, spare);
+  for (size_t k = 0; k < r->active_count; k++) search->step[r->active[k]] = STEP, r->marked[r->active[k]] = true;
   double saved = divide_ball(search, spare, target);
-  for (size_t k = 0; k < r->active_count; k++) search->step[r->active[k]] = TRIAL_STEP;
   for (int sweep = 0; sweep < PAIR_SWEEPS; sweep++) saved += settle_active(r, 2);
-  for (int left = TRIAL_SWEEPS - 1; left >= 0; left--) {
-    double more = settle_active(r, r->active_count);
-    saved += more;
-    if (saved > 0 && left <= TRIAL_SWEEPS - 2) return true;
-    if (saved + left * more <= 0) break; /* the next sweeps will hardly save more than this one */
+  for (int sweep = 0; sweep < NEIGHBOURS_SWEEPS; sweep++) saved += settle_active(r, r->active_count);
+  return saved;
+}
+
+/* From one ranking; at most `wanted`, of which *done are. What that saves. */
+static double run_pass(Relocate *r, size_t wanted, size_t *done) {
+  double saved = 0;
+  weigh_balls(r);
+  for (*done = 0; *done < wanted && go_on(r); ++*done) {
+    size_t spare = take_first(r, r->worth, 1), target = take_first(r, r->burden, -1);
+    if (target == SIZE_MAX) break;
+    saved += relocate(r, spare, target);
   }
-  memcpy(search->prices.held, r->held, size);
-  spore_balls_copy(search->balls, &r->before);
+  return saved;
+}
+
+/* Those of the last pass settle, or all; what that saves, given what was saved so far: they stop where it will not come
+ * to be more than nothing. */
+static double settle_marked(Relocate *r, bool all, double saved) {
+  for (int left = BATCH_SWEEPS - 1; left >= 0 && go_on(r); left--) {
+    double more = 0;
+    for (size_t i = 0; i < r->search->balls->count; i++)
+      if (all || r->marked[i]) more += spore_bounding_settle(r->search, i);
+    saved += more;
+    if (saved + left * more <= 0) break;
+  }
+  return saved;
+}
+
+/* True: it pays, and stands. */
+static bool try_batch(Relocate *r, size_t wanted) {
+  SporePrices *prices = &r->search->prices;
+  size_t size = prices->points.block_count * SPORE_BLOCK * sizeof *r->held,
+         a_pass = 1 + (size_t)(PASS * (double)r->search->balls->count), done = 1;
+  memcpy(r->held, prices->held, size);
+  spore_balls_copy(&r->before, r->search->balls);
+  double saved = 0;
+  for (size_t left = wanted; left > 0 && done > 0; left -= done)
+    saved += run_pass(r, left < a_pass ? left : a_pass, &done);
+  if (settle_marked(r, wanted >= a_pass, saved) > 0) return true;
+  memcpy(prices->held, r->held, size);
+  spore_balls_copy(r->search->balls, &r->before);
   return false;
 }
 
@@ -164,22 +220,17 @@ static void close_relocate(Relocate *r) {
   spore_balls_clear(&r->before);
 }
 
-bool spore_bounding_relocate(SporeBoundingSearch *search, size_t trials, const SporeProgressPart *progress,
+bool spore_bounding_relocate(SporeBoundingSearch *search, uint64_t work, const SporeProgressPart *progress,
                              SporeError *error) {
   Relocate r;
-  size_t n = search->balls->count, a_pass = n / 8 + 1;
-  bool done = n < 2 || open_relocate(&r, search) || spore_spheres_no_memory(error);
+  size_t n = search->balls->count;
   if (n < 2) return true;
-  for (size_t trial = 0; done && trial < trials; trial++) {
-    if (trial % a_pass == 0) weigh_balls(&r);
-    size_t spare = first_of(&r, r.worth, 1);
-    if (spare != SIZE_MAX) r.marked[spare] = true;
-    size_t target = first_of(&r, r.burden, -1);
-    if (target == SIZE_MAX) continue;
-    r.marked[target] = true;
-    done = spore_progress_part(progress, (double)trial / (double)trials, _("Bounding with spheres"), error);
-    if (!done || !try_pair(&r, spare, target)) continue;
-    for (size_t k = 0; k < r.active_count; k++) r.marked[r.active[k]] = true;
+  bool done = open_relocate(&r, search) || spore_spheres_no_memory(error);
+  r.first = search->work, r.work = work, r.progress = progress, r.error = error;
+  double most = fmax(1, BATCH * (double)n), batch = most;
+  while (done && search->work - r.first < work) {
+    batch = try_batch(&r, (size_t)batch) ? fmin(MORE * batch, most) : fmax(FEWER * batch, 1);
+    done = !r.cancelled;
     spore_progress_show_images(progress, &search->solid->symmetry, search->balls, search->bound);
   }
   close_relocate(&r);

@@ -7,6 +7,8 @@
 
 #define BINS 48          /* of radii, of which the best is looked for */
 #define SETTLE_TRIES 6   /* of places of a ball, a sweep */
+#define HARD_TRIES 12    /* the same where all has to be held */
+#define LOOK_WORK 100    /* of looking around at no point */
 #define COVER_TRIES 10   /* of places of a ball, to cover a point */
 #define COVER_SLACK 2e-3 /* of the diagonal: balls not this much farther from a point than the nearest may cover it */
 #define NEEDED 1e3       /* of the solid's volume: price of a point that must be covered */
@@ -31,19 +33,25 @@ static bool reaches(const double bound[4], SporeVec3 c, double radius) {
   return dx * dx + dy * dy + dz * dz <= reach * reach;
 }
 
-void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double radius) {
+static bool within(const double bound[4], SporeVec3 c, double radius) {
+  double dx = bound[0] - c.x, dy = bound[1] - c.y, dz = bound[2] - c.z, room = radius - bound[3];
+  return room > 0 && dx * dx + dy * dy + dz * dz < room * room;
+}
+
+void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double inner, double radius) {
   const SporePoints *points = &search->prices.points;
+  double inner2 = inner > 0 ? inner * inner : 0;
   size_t count = 0;
   for (size_t g = 0; g < points->group_count; g++) {
-    if (!reaches(points->group + 4 * g, c, radius)) continue;
+    if (!reaches(points->group + 4 * g, c, radius) || within(points->group + 4 * g, c, inner)) continue;
     size_t end = (g + 1) * SPORE_GROUP < points->block_count ? (g + 1) * SPORE_GROUP : points->block_count;
     for (size_t b = g * SPORE_GROUP; b < end; b++) {
-      if (!reaches(points->block + 4 * b, c, radius)) continue;
+      if (!reaches(points->block + 4 * b, c, radius) || within(points->block + 4 * b, c, inner)) continue;
       double square[SPORE_BLOCK];
       for (size_t k = 0; k < SPORE_BLOCK; k++) square[k] = square_distance(points, b * SPORE_BLOCK + k, c);
       for (size_t k = 0; k < SPORE_BLOCK; k++) {
         search->reached[count] = (uint32_t)(b * SPORE_BLOCK + k);
-        count += square[k] <= radius * radius;
+        count += (square[k] <= radius * radius) & (square[k] >= inner2);
       }
     }
   }
@@ -73,7 +81,7 @@ static void find_local(SporeBoundingSearch *search, SporeVec3 c, double radius) 
     unsigned held = search->prices.held[k];
     double price = held > 1 ? 0 : price_of(search, k);
     if (held == 1 && square_distance(points, k, c) > r2) price = 0;
-    if (hard && held == 0 && price < 0) price = 0; /* whoever covers it best does so, one by one */
+    if (hard && (held == 0 || price > 0)) price = 0; /* whoever covers it best does so, one by one */
     if (price != 0) add_local(local, points->x[k] - c.x, points->y[k] - c.y, points->z[k] - c.z, price);
   }
   pad_local(local);
@@ -129,13 +137,15 @@ typedef struct Place {
 /* From the best place so far, first on the way that led to it, then a random way; shorter after each that fails. *scale
  * (m) is at most the first one's, which is what was reached; it comes back as what the next look had better begin
  * with. */
-static Place try_places(SporeBoundingSearch *search, size_t i, double *scale, int tries) {
+static Place try_places(SporeBoundingSearch *search, size_t i, double *scale, int tries, const SporeVec3 *needed) {
   SporeVec3 start = spore_balls_centre(search->balls, i), way = spore_vec3(0, 0, 0);
   double radius = search->balls->r[i], reach = *scale;
   bool hard = search->price >= SPORE_BOUNDING_HARD, found = false;
-  Place best = {start, radius, 0};
+  Place best = {start, radius, needed ? -HUGE_VAL : 0};
   measure_local(&search->local, spore_vec3(0, 0, 0));
-  double before = local_cost(&search->local, radius, NULL);
+  double before = hard ? spore_bounding_shell_volume(&search->shell, start, radius)
+                       : local_cost(&search->local, radius, NULL),
+         least = fmax(radius - 2 * reach, 0.1 * radius);
   for (int t = 0; t < tries; t++) {
     SporeVec3 c = spore_vec3_add(best.centre, way);
     if (t && !(spore_vec3_dot(way, way) > 0))
@@ -146,9 +156,10 @@ static Place try_places(SporeBoundingSearch *search, size_t i, double *scale, in
     way = spore_vec3(0, 0, 0);
     if (away > reach) continue;
     measure_local(&search->local, spore_vec3_sub(c, start));
-    double r = hard ? needed_radius(&search->local, 0.1 * radius)
-                    : best_radius(&search->local, fmax(best.radius - 2 * reach, 0.1 * radius), most);
-    double saved = r <= most ? before - local_cost(&search->local, r, NULL) : 0;
+    double r = hard ? needed_radius(&search->local, least) : best_radius(&search->local, least, most);
+    double saved = -HUGE_VAL;
+    if (r <= most)
+      saved = before - (hard ? spore_bounding_shell_volume(&search->shell, c, r) : local_cost(&search->local, r, NULL));
     if (saved > best.saved) {
       way = spore_vec3_sub(c, best.centre);
       best = (Place){c, r, saved};
@@ -162,14 +173,17 @@ static Place try_places(SporeBoundingSearch *search, size_t i, double *scale, in
 static Place look_around(SporeBoundingSearch *search, size_t i, double *scale, int tries, const SporeVec3 *needed) {
   SporeVec3 start = spore_balls_centre(search->balls, i);
   double radius = search->balls->r[i];
-  spore_bounding_reach(search, start, radius + 2 * *scale);
+  spore_bounding_reach(search, start, radius - 3 * *scale, radius + 2 * *scale);
+  if (search->price >= SPORE_BOUNDING_HARD)
+    spore_bounding_shell_look(&search->shell, &search->solid->symmetry, search->balls, i, 2 * *scale);
   find_local(search, start, radius);
   if (needed) {
     SporeVec3 p = spore_vec3_sub(*needed, start);
     add_local(&search->local, p.x, p.y, p.z, -NEEDED * search->solid->volume);
     pad_local(&search->local);
   }
-  return try_places(search, i, scale, tries);
+  search->work += LOOK_WORK + 2 * search->reached_count + search->local.count * (size_t)tries;
+  return try_places(search, i, scale, tries, needed);
 }
 
 /* Counts the ball's points from the reached ones: `by` 1 as held, -1 as no longer held. */
@@ -194,7 +208,7 @@ void spore_bounding_set_steps(SporeBoundingSearch *search, double step) {
 
 double spore_bounding_settle(SporeBoundingSearch *search, size_t i) {
   double radius = search->balls->r[i], scale = search->step[i] * radius;
-  Place best = look_around(search, i, &scale, SETTLE_TRIES, NULL);
+  Place best = look_around(search, i, &scale, search->price >= SPORE_BOUNDING_HARD ? HARD_TRIES : SETTLE_TRIES, NULL);
   search->step[i] = fmin(fmax(scale / radius, STEP_LEAST), STEP_MOST);
   if (best.saved > 0) put_reached(search, i, &best);
   return best.saved;
@@ -216,9 +230,9 @@ void spore_bounding_cover(SporeBoundingSearch *search, SporeVec3 p) {
     Place place = look_around(search, i, &scale, COVER_TRIES, &p);
     if (place.saved > best.saved) best = place, ball = i;
   }
-  if (!(best.saved > 0)) return;
+  if (!(best.saved > -HUGE_VAL)) return;
   SporeVec3 c = spore_balls_centre(balls, ball);
-  spore_bounding_reach(search, c, fmax(balls->r[ball], spore_vec3_distance(c, best.centre) + best.radius));
+  spore_bounding_reach(search, c, 0, fmax(balls->r[ball], spore_vec3_distance(c, best.centre) + best.radius));
   put_reached(search, ball, &best);
 }
 
@@ -231,14 +245,14 @@ static double cost_of(SporeBoundingSearch *search, SporeVec3 c, double radius, b
 
 double spore_bounding_remove(SporeBoundingSearch *search, size_t i) {
   SporeVec3 c = spore_balls_centre(search->balls, i);
-  spore_bounding_reach(search, c, search->balls->r[i]);
+  spore_bounding_reach(search, c, 0, search->balls->r[i]);
   double cost = cost_of(search, c, search->balls->r[i], true);
   hold_reached(search, c, search->balls->r[i], -1);
   return cost;
 }
 
 double spore_bounding_insert(SporeBoundingSearch *search, size_t i, SporeVec3 c, double radius) {
-  spore_bounding_reach(search, c, radius);
+  spore_bounding_reach(search, c, 0, radius);
   double cost = cost_of(search, c, radius, false);
   hold_reached(search, c, radius, 1);
   spore_balls_set(search->balls, i, c, radius);
@@ -262,9 +276,12 @@ bool spore_bounding_open(SporeBoundingSearch *search) {
         (SporeBoundingLocal){0, memory, memory + most, memory + 2 * most, memory + 3 * most, memory + 4 * most};
   if (!memory || !search->reached || !search->step) return false;
   for (size_t i = 0; i < search->balls->count; i++) {
-    spore_bounding_reach(search, spore_balls_centre(search->balls, i), search->balls->r[i]);
-    hold_reached(search, spore_balls_centre(search->balls, i), search->balls->r[i], 1);
+    SporeVec3 c = spore_balls_centre(search->balls, i);
+    spore_bounding_reach(search, c, 0, search->balls->r[i]);
+    hold_reached(search, c, search->balls->r[i], 1);
   }
+  if (!spore_bounding_shell_create(&search->shell)) return false;
+  spore_bounding_shell_turn(&search->shell, &search->random);
   return true;
 }
 
@@ -272,6 +289,7 @@ void spore_bounding_close(SporeBoundingSearch *search) {
   spore_free(search->reached);
   spore_free(search->step);
   spore_free(search->local.x);
+  spore_bounding_shell_clear(&search->shell);
   search->reached = NULL;
   search->step = NULL;
   search->local = (SporeBoundingLocal){0};

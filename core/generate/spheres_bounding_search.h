@@ -13,6 +13,25 @@ typedef struct SporeBoundingLocal {
   float *price;                /* of holding a point, below 0: of leaving it; 0: of the padding */
 } SporeBoundingLocal;
 
+#define SPORE_BOUNDING_RAYS 256
+
+/* Rays from where a ball is, lengths in its radii. */
+typedef struct SporeBoundingShell {
+  float *x, *y, *z;
+  float *from, *to; /* where they leave the other balls; where they end */
+  SporeVec3 middle; /* m */
+  double radius;    /* m */
+} SporeBoundingShell;
+bool spore_bounding_shell_create(SporeBoundingShell *shell);
+void spore_bounding_shell_clear(SporeBoundingShell *shell);
+/* All rays together, somehow. */
+void spore_bounding_shell_turn(SporeBoundingShell *shell, SporeRandom *random);
+/* From ball i, which may come to reach out farther by `reach`. */
+void spore_bounding_shell_look(SporeBoundingShell *shell, const SporeSymmetry *symmetry, const SporeBalls *balls,
+                               size_t i, double reach);
+/* m^3 that the ball adds to the others if it is put there. */
+double spore_bounding_shell_volume(const SporeBoundingShell *shell, SporeVec3 centre, double radius);
+
 typedef struct SporeBoundingSearch {
   const SporeSolid *solid; /* whose symmetry the balls follow: they stand for their images, points are folded */
   const uint8_t *bound;    /* balls: mirror planes that they stay on, as bits */
@@ -23,6 +42,8 @@ typedef struct SporeBoundingSearch {
   uint32_t *reached; /* scratch: points, reached_count */
   size_t reached_count;
   SporeBoundingLocal local;
+  SporeBoundingShell shell;
+  uint64_t work; /* points looked at so far, about: what looking around costs */
   SporeRandom random;
 } SporeBoundingSearch;
 
@@ -31,8 +52,8 @@ bool spore_bounding_open(SporeBoundingSearch *search);
 void spore_bounding_close(SporeBoundingSearch *search);
 /* The centre, or its image, that ball i may have. */
 SporeVec3 spore_bounding_confine(const SporeBoundingSearch *search, size_t i, SporeVec3 centre);
-/* Points within `radius` of c, into search->reached. */
-void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double radius);
+/* Points at `inner` to `radius` from c, into search->reached. */
+void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double inner, double radius);
 /* How far all balls look around next, in radii. */
 void spore_bounding_set_steps(SporeBoundingSearch *search, double step);
 /* Moves ball i to the best of some places around; returns what that saves, m^3, 0: it stays. */
@@ -42,9 +63,9 @@ void spore_bounding_cover(SporeBoundingSearch *search, SporeVec3 p);
 /* Takes ball i away, or puts it where there is none (radius > 0 then); both return what that saves. */
 double spore_bounding_remove(SporeBoundingSearch *search, size_t i);
 double spore_bounding_insert(SporeBoundingSearch *search, size_t i, SporeVec3 c, double radius);
-/* Trials, each of which gives up a ball of little worth and divides one that holds much outside, and stands where that
- * saves. False: no memory, or cancelled, which *error says. */
-bool spore_bounding_relocate(SporeBoundingSearch *search, size_t trials, const SporeProgressPart *progress,
+/* Gives up balls of little worth and divides those that hold much outside, in batches, each of which stands where it
+ * saves once all around have settled; until about `work` is done. False: no memory, or cancelled, which *error says. */
+bool spore_bounding_relocate(SporeBoundingSearch *search, uint64_t work, const SporeProgressPart *progress,
                              SporeError *error);
 
 #endif

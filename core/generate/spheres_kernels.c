@@ -104,3 +104,30 @@ void SPORE_LEVEL_NAME(spore_weighted_slopes)(const SporeWeightedBlock *b, float 
     out[4] = sum_lanes(sw);
   }
 }
+
+void SPORE_LEVEL_NAME(spore_rays_leave)(const float *x, const float *y, const float *z, size_t count,
+                                        const float ball[4], float *restrict from) {
+  float cx = ball[0], cy = ball[1], cz = ball[2], room = ball[3] * ball[3] - (cx * cx + cy * cy + cz * cz);
+  for (size_t first = 0; first < count; first += LANES)
+    for (size_t k = first; k < first + LANES; k++) {
+      float along = cx * x[k] + cy * y[k] + cz * z[k], square = along * along + room;
+      float half = sqrtf(square > 0 ? square : 0), leave = along + half;
+      leave = square > 0 && along - half <= 1 ? leave : 0;
+      from[k] = leave > from[k] ? leave : from[k];
+    }
+}
+
+void SPORE_LEVEL_NAME(spore_rays_volume)(const float *x, const float *y, const float *z, const float *from,
+                                         const float *to, size_t count, const float ball[4], float *sum) {
+  float cx = ball[0], cy = ball[1], cz = ball[2], room = ball[3] * ball[3] - (cx * cx + cy * cy + cz * cz);
+  float sums[LANES] = {0};
+  for (size_t first = 0; first < count; first += LANES)
+    for (int k = 0; k < LANES; k++) {
+      float along = cx * x[first + k] + cy * y[first + k] + cz * z[first + k], square = along * along + room;
+      float leave = square > 0 ? along + sqrtf(square > 0 ? square : 0) : 0, f = from[first + k];
+      leave = leave < to[first + k] ? leave : to[first + k];
+      sums[k] += leave > f ? leave * leave * leave - f * f * f : 0;
+    }
+  *sum = 0;
+  for (int k = 0; k < LANES; k++) *sum += sums[k];
+}

@@ -2,6 +2,8 @@
 #ifndef SPORE_GENERATE_SPHERES_KERNELS_H
 #define SPORE_GENERATE_SPHERES_KERNELS_H
 
+#include <stdint.h>
+
 #include "core/math/simd.h"
 
 /* Balls as columns, relative to the middle of a block of points. */
@@ -43,5 +45,13 @@ typedef struct SporeWeightedBlock {
  * samples times |sum - depth|, rounded below `smoothing`; outside, where the depth is below 0, only a sum above 0 is
  * wrong. */
 SPORE_DECLARE_KERNEL(void, spore_weighted_slopes, const SporeWeightedBlock *block, float *sum, float *slopes);
+
+/* Rays x, y, z from the origin, whole lanes of them; ball: centre and radius. from[k] becomes where the ray leaves the
+ * ball, where that is farther and the ray enters it within 1. */
+SPORE_DECLARE_KERNEL(void, spore_rays_leave, const float *x, const float *y, const float *z, size_t count,
+                     const float ball[4], float *from);
+/* Sum of the cubes of where the rays leave the ball, at `to` at most, less the cubes of `from`, where that is more. */
+SPORE_DECLARE_KERNEL(void, spore_rays_volume, const float *x, const float *y, const float *z, const float *from,
+                     const float *to, size_t count, const float ball[4], float *sum);
 
 #endif
