@@ -94,8 +94,8 @@ static void show(const SporeGenerateWork *work, float *places, SporeStageCandida
 }
 
 static const SporeGenerateQuality qualities[] = {
-    {N_("Radius"), "mm", measure_radius, show},
-    {N_("Bend"), "°", measure_bend, show},
+    {N_("Radius"), "mm", FALSE, measure_radius, show},
+    {N_("Bend"), "°", FALSE, measure_bend, show},
 };
 
 const SporeGenerateType spore_generate_curve = {

@@ -113,8 +113,8 @@ static void show_cells(const SporeGenerateWork *work, float *places, SporeStageC
 }
 
 static const SporeGenerateQuality qualities[] = {
-    {N_("Organ"), "", measure_organs, show_cells},
-    {N_("Least angle"), "°", spore_generate_measure_angles, show_cells},
+    {N_("Organ"), "", TRUE, measure_organs, show_cells},
+    {N_("Least angle"), "°", FALSE, spore_generate_measure_angles, show_cells},
 };
 
 static SporeObject *no_target(SporeDocument *document, SporeObject *body) { return NULL; }

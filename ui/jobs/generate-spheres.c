@@ -80,10 +80,10 @@ static void measure_radius(const SporeGenerateWork *work, SporeQuality *quality)
 }
 
 static const SporeGenerateQuality qualities[] = {
-    {N_("Surface distance"), "mm", measure_distance, show_mesh},
-    {N_("Outside share"), "%", measure_outside, show_set},
-    {N_("Depth error"), "mm", measure_depth, show_set},
-    {N_("Radius"), "mm", measure_radius, show_set},
+    {N_("Surface distance"), "mm", FALSE, measure_distance, show_mesh},
+    {N_("Outside share"), "%", FALSE, measure_outside, show_set},
+    {N_("Depth error"), "mm", FALSE, measure_depth, show_set},
+    {N_("Radius"), "mm", FALSE, measure_radius, show_set},
 };
 
 const SporeGenerateType spore_generate_spheres = {

@@ -147,8 +147,8 @@ static void show_triangles(const SporeGenerateWork *work, float *places, SporeSt
 }
 
 static const SporeGenerateQuality qualities[] = {
-    {N_("Surface distance"), "mm", measure_distance, show_given},
-    {N_("Least angle"), "°", measure_angles, show_triangles},
+    {N_("Surface distance"), "mm", FALSE, measure_distance, show_given},
+    {N_("Least angle"), "°", FALSE, measure_angles, show_triangles},
 };
 
 const SporeGenerateType spore_generate_surface = {

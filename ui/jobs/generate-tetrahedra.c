@@ -100,9 +100,9 @@ static void show_cells(const SporeGenerateWork *work, float *places, SporeStageC
 }
 
 static const SporeGenerateQuality qualities[] = {
-    {N_("Least angle"), "°", spore_generate_measure_angles, show_cells},
-    {N_("Radius ratio"), "", measure_ratios, show_cells},
-    {N_("Volume"), "mm³", measure_volumes, show_cells},
+    {N_("Least angle"), "°", FALSE, spore_generate_measure_angles, show_cells},
+    {N_("Radius ratio"), "", FALSE, measure_ratios, show_cells},
+    {N_("Volume"), "mm³", FALSE, measure_volumes, show_cells},
 };
 
 const SporeGenerateType spore_generate_tetrahedra = {

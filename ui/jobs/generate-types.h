@@ -9,6 +9,7 @@
 /* A quality of a result, by colours and as a histogram. */
 typedef struct SporeGenerateQuality {
   const char *label, *unit; /* label: N_ */
+  gboolean names;           /* the values number things: they are no measure of how good it is */
   /* Fills count, values and, where they differ, weights. */
   void (*measure)(const SporeGenerateWork *work, SporeQuality *quality);
   /* Shows them: places are the values on the scale of colours (spore_quality_place), taken. */

@@ -25,7 +25,7 @@ static double round_up(double value) {
 
 void spore_quality_of(const SporeGenerateWork *work, gsize which, SporeQuality *quality) {
   const SporeGenerateQuality *kind = &spore_generate_type(work->options.kind)->qualities[which];
-  *quality = (SporeQuality){.label = _(kind->label), .unit = kind->unit};
+  *quality = (SporeQuality){.label = _(kind->label), .unit = kind->unit, .names = kind->names};
   kind->measure(work, quality);
   double most = spore_quality_quantile(quality, 1 - BEYOND);
   quality->high = most > 0 ? round_up(most) : 1;

@@ -6,6 +6,7 @@
 
 typedef struct SporeQuality {
   const char *label, *unit; /* translated; of the values */
+  gboolean names;           /* the values number things: there is no mean and no scale of them */
   gsize count;
   double *values, *weights; /* count; weights NULL: all the same */
   double high; /* end of the scale, which begins at 0: a round number that all but a few values lie below */

@@ -104,8 +104,7 @@ static void show_result(SporeGeneratorPanel *self) {
   if (work) spore_quality_of(work, spore_generator_panel_get_quality(self), &quality);
   g_autofree char *facts = work ? spore_generate_type(work->options.kind)->facts(work) : g_strdup(_("Working…"));
   gtk_label_set_text(GTK_LABEL(self->facts), facts);
-  gboolean names = spore_generator_get_options(self->generator)->labels && quality.unit && !*quality.unit;
-  gtk_widget_set_visible(self->histogram, !names); /* the values are no figures */
+  gtk_widget_set_visible(self->histogram, !quality.names);
   spore_histogram_set_quality(SPORE_HISTOGRAM(self->histogram), &quality);
   spore_quality_clear(&quality);
 }

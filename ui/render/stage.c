@@ -225,6 +225,7 @@ gboolean spore_stage_camera(const SporeStage *stage, const char *name, double as
 }
 
 const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set) {
+  if (set->weights) return NULL; /* it is their sum that fits, which one alone says nothing of */
   float *fit = g_hash_table_lookup(stage->fit, set);
   if (fit) return fit;
   const char *name = spore_object_text(asset, "source");

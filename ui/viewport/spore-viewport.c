@@ -97,6 +97,12 @@ static void look_through_camera(SporeViewport *self) {
   self->through = spore_stage_has_camera(self->stage);
 }
 
+/* What comes where nothing was to be seen is looked at whole. */
+static void look_afresh(SporeViewport *self) {
+  if (!has_anything(self)) self->framed = FALSE;
+  else if (!self->framed) look_through_camera(self);
+}
+
 void spore_viewport_leave_scene_camera(SporeViewport *self) {
   self->through = FALSE;
   self->camera.roll = 0;
@@ -110,7 +116,7 @@ static gboolean rebuild(gpointer data) {
   spore_stage_rebuild(self->stage, simulation_of(self));
   spore_stage_set_options(self->stage, &self->options);
   spore_stage_set_selection(self->stage, spore_editor_document_get_selection(self->document));
-  if (!self->framed) look_through_camera(self);
+  look_afresh(self);
   spore_viewport_edit_refresh(self);
   update_stage(self);
   return G_SOURCE_REMOVE;
@@ -435,9 +441,10 @@ void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *cand
   if (self->stage) spore_stage_set_candidate(self->stage, candidate);
   spore_stage_candidate_free(self->candidate);
   self->candidate = candidate;
+  if (!has_anything(self)) self->framed = FALSE;
   show_welcome(self);
   clear_legend(self);
-  if (candidate && legend->count) {
+  if (candidate && legend->count && !legend->names) {
     self->legend = g_strdup(legend->label);
     self->legend_high = spore_quality_figure(legend, legend->high);
   }
