@@ -10,6 +10,7 @@
 #include "core/io/scene_xml.h"
 
 #define LEAST_SAID 5e-4 /* of the surface: what would be 0.0 % of it is left to --json */
+#define MANY 1.1        /* times as many cells as were asked for */
 
 typedef char *(*Formatter)(const SporeTetrahedralMesh *mesh, gsize *size);
 
@@ -63,7 +64,8 @@ static void say_left_out(SporeCli *cli, const SporeTetrahedraReport *report) {
     spore_cli_say(
         cli,
         _("%.1f %% of the surface are walls inside the solid, up to %.2f %% of the diagonal from its outside: "
-          "they are left out, and what they enclose is filled; turn their triangles round to have a cavity\n"),
+          "they are left out, and what they enclose is filled, without --fill too; to keep a lumen, turn the triangles "
+          "of its wall round in the mesh, or give the organ a wall by spore surface --wall\n"),
         100 * report->inner_share, 100 * report->inner_distance);
   if (report->thickened > 0)
     spore_cli_say(cli,
@@ -78,7 +80,23 @@ static void say_left_out(SporeCli *cli, const SporeTetrahedraReport *report) {
         100 * report->widened, 1e3 * report->thickness);
 }
 
-static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeTetrahedraReport *report) {
+/* What was asked for and did not come. */
+static void say_missed(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
+                       const SporeTetrahedraReport *report) {
+  if (options->cells && (double)mesh->tetrahedron_count > MANY * (double)options->cells)
+    spore_cli_say(cli,
+                  _("%zu cells were asked for: fewer than %zu would tear thin parts, or make cells too flat; ask for "
+                    "more, or give a plainer surface\n"),
+                  options->cells, mesh->tetrahedron_count);
+  if (options->fill && report->filled > 0)
+    spore_cli_say(cli, _("cavities of %.3g ml were filled\n"), 1e6 * report->filled);
+  else if (options->fill)
+    spore_cli_say(cli, _("--fill changed nothing: no cavity is closed off; openings narrower than M metres are closed "
+                         "by --gap M\n"));
+}
+
+static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
+                   const SporeTetrahedraReport *report) {
   const char *method = spore_tetrahedra_method_names[report->method];
   spore_cli_count(cli, "nodes", (gint64)mesh->vertex_count);
   spore_cli_count(cli, "tetrahedra", (gint64)mesh->tetrahedron_count);
@@ -93,6 +111,7 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   spore_cli_number(cli, "volume_change", report->volume_change);
   report_change(cli, "volume", report->volume, report->volume_given, report->volume_change);
   report_change(cli, "area", report->area, report->area_given, report->area_change);
+  spore_cli_number(cli, "filled_m3", report->filled);
   spore_cli_text(cli, "method", method);
   report_refused(cli, report);
   spore_cli_number(cli, "seconds", report->seconds);
@@ -104,6 +123,7 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
       100 * report->hausdorff, 100 * report->volume_change, 100 * report->area_change, method, report->seconds);
   report_pieces(cli, report);
   say_left_out(cli, report);
+  say_missed(cli, mesh, options, report);
 }
 
 static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,
@@ -119,7 +139,7 @@ static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOption
     g_autofree char *text = formatter_of(output)(&mesh, &size);
     done = spore_write_file(output, text, size, &error);
   }
-  if (done) report(cli, &mesh, &figures);
+  if (done) report(cli, &mesh, options, &figures);
   spore_triangle_mesh_clear(&surface);
   spore_tetrahedral_mesh_clear(&mesh);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
@@ -186,7 +206,7 @@ static gboolean make_in(SporeCli *cli, const char *file, const char *body, const
   done =
       spore_tetrahedra_from_mesh(from.source, scene->mesh, &options, &mesh, &figures, spore_cli_progress(cli), error) &&
       spore_edit_use_tetrahedra(scene->document, scene->body, &from, &mesh, error);
-  if (done) report(cli, &mesh, &figures);
+  if (done) report(cli, &mesh, &options, &figures);
   spore_tetrahedral_mesh_clear(&mesh);
   return done && spore_cli_save_body(cli, scene, file, error);
 }
@@ -276,6 +296,7 @@ static const SporeReportMember members[] = {
     {"volume_change", N_("share of the volume that was gained")},
     {"volume", N_("m^3: given (where the winding number is over one half), result, change")},
     {"area", N_("of what bounds it, m^2: given, result, change")},
+    {"filled_m3", N_("volume of cavities that --fill filled, m^3")},
     {"pieces", N_("that do not hang together")},
     {"pieces_given", N_("the same of the surface; with more of them than that nothing holds one to the other")},
     {"crumbs",

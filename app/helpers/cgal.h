@@ -27,9 +27,9 @@ bool spore_cgal_check(const SporeFlatMesh *surface, SporeHelperFailure *failure)
  */
 bool spore_cgal_repair(const SporeFlatMesh *surface, SporeFlatMesh *result, SporeHelperFailure *failure);
 /* Alpha wrapping (Portaneri et al. 2022, "Alpha wrapping with an offset"): gaps narrower than alpha are closed, the
- * result lies about `offset` outside. The result passes the check. */
-bool spore_cgal_wrap(const SporeFlatMesh *surface, double alpha, double offset, SporeFlatMesh *result,
-                     SporeHelperFailure *failure);
+ * result lies about `offset` outside. The result passes the check. Refused where it takes more than `most_vertices`. */
+bool spore_cgal_wrap(const SporeFlatMesh *surface, double alpha, double offset, size_t most_vertices,
+                     SporeFlatMesh *result, SporeHelperFailure *failure);
 
 /* Delaunay refinement of a surface that passes the check: circumradii of cells and of facets follow the sizing, and
  * facets lie within a tenth of it of the surface. Refused above `most_vertices`. */

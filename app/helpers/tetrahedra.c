@@ -59,7 +59,7 @@ static bool perform(const SporeTetrahedraRequest *head, const SporeFlatMesh *sur
     return spore_cgal_repair(surface, result, failure);
   case SPORE_TETRAHEDRA_WRAP:
     spore_helper_send_progress(0, N_("wrapping the surface"));
-    return spore_cgal_wrap(surface, head->alpha, head->offset, result, failure);
+    return spore_cgal_wrap(surface, head->alpha, head->offset, head->most_vertices, result, failure);
   case SPORE_TETRAHEDRA_MESH:
     return spore_cgal_mesh(surface, sizing, (SporeTetrahedraFinish)head->finish, head->most_vertices,
                            spore_helper_send_progress, result, failure);

@@ -12,7 +12,9 @@
 #define TOLERANCE 0.01 /* of the diagonal */
 #define LOOKING 0.05   /* share of the progress, before and after the work */
 #define MOST_WRAPS 3
-#define MOST_WRAPPED 40000.0 /* triangles: half the alpha makes four times as many */
+#define MOST_WRAPPED 40000.0 /* triangles of a closer wrap, */
+#define CLOSER 4             /* times as many by half the alpha, or more */
+#define MOST_FIRST 200000.0  /* of the first, or of that which closes openings */
 #define WRAPPED_NEAR 0.8     /* of the tolerance */
 #define PREPARED_SAMPLES 10000
 #define SURE 0.9        /* of the tolerance */
@@ -151,23 +153,40 @@ static double usual_alpha(const SporeTetrahedraWork *work) {
   return fmin(fmax(0.5 * edge, 1.0 / 150), 1.0 / 50);
 }
 
-/* Wraps tighter until the wrap follows the solid as closely as the cells shall. */
-static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GError **error) {
+static gboolean wrap_at(SporeTetrahedraWork *work, double alpha, double most_triangles, SporeTriangleMesh *surface,
+                        GError **error) {
   const double share = work->share;
-  double alpha = work->options.gap > 0 ? work->options.gap : usual_alpha(work);
-  for (int i = 0; i < MOST_WRAPS; i++) {
-    spore_triangle_mesh_clear(surface);
-    work->share = share * 0.1;
-    gboolean done = spore_tetrahedra_prepare(work, SPORE_TETRAHEDRA_WRAP, alpha, surface, error);
-    work->share = share;
-    if (!done) return FALSE;
-    g_debug("a wrap of alpha %.4g has %zu triangles", alpha, surface->triangle_count);
-    double room = MOST_WRAPPED / (double)surface->triangle_count;
-    if (work->options.gap > 0 || room < 4 || distance_to(work, surface) < WRAPPED_NEAR * work->options.tolerance) break;
-    alpha *= 0.5;
-  }
-  if (work->options.gap > 0) return TRUE;
+  work->share = share * 0.1;
+  gboolean done =
+      spore_tetrahedra_prepare(work, SPORE_TETRAHEDRA_WRAP, alpha, (size_t)(0.5 * most_triangles), surface, error);
+  work->share = share;
+  if (done) g_debug("a wrap of alpha %.4g has %zu triangles", alpha, surface->triangle_count);
+  return done;
+}
+
+/* Wraps tighter until the wrap follows the solid as closely as the cells shall, or that takes too many triangles. */
+static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GError **error) {
+  const bool by_gap = work->options.gap > 0;
+  double alpha = by_gap ? work->options.gap : usual_alpha(work);
+  if (!wrap_at(work, alpha, MOST_FIRST, surface, error)) return FALSE;
+  if (by_gap) return TRUE;
   double distance = distance_to(work, surface);
+  for (int i = 1; i < MOST_WRAPS && distance >= WRAPPED_NEAR * work->options.tolerance; i++) {
+    SporeTriangleMesh closer = {0};
+    GError *refusal = NULL;
+    alpha *= 0.5;
+    if (MOST_WRAPPED < CLOSER * (double)surface->triangle_count) break;
+    gboolean done = wrap_at(work, alpha, MOST_WRAPPED, &closer, &refusal);
+    if (!done && refusal->code != SPORE_ERROR_NUMERICAL) {
+      g_propagate_error(error, refusal);
+      return FALSE;
+    }
+    g_clear_error(&refusal);
+    if (!done) break;
+    spore_triangle_mesh_clear(surface);
+    *surface = closer;
+    distance = distance_to(work, surface);
+  }
   if (distance <= work->options.tolerance) return TRUE;
   return fail(error, _("the wrap is %.1f %% of the diagonal away from what was given"), 100 * distance);
 }
@@ -180,12 +199,18 @@ static gboolean prepare(SporeTetrahedraWork *work, SporeTetrahedraMethod method,
   SporeTetrahedraTask task = method == SPORE_TETRAHEDRA_DIRECT ? SPORE_TETRAHEDRA_CHECK : SPORE_TETRAHEDRA_REPAIR;
   const double share = work->share;
   work->share = share * 0.1;
-  gboolean done = spore_tetrahedra_prepare(work, task, 0, surface, error);
+  gboolean done = spore_tetrahedra_prepare(work, task, 0, 0, surface, error);
   work->share = share;
   if (!done || method == SPORE_TETRAHEDRA_DIRECT) return done;
   double distance = distance_to(work, surface);
   if (distance <= 0.5 * work->options.tolerance) return TRUE;
   return fail(error, _("the repaired surface is %.1f %% of the diagonal away from what was given"), 100 * distance);
+}
+
+static gboolean has_cgal(GError **error) {
+  return SPORE_HAVE_CGAL ||
+         spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, NULL,
+                           _("this build of SPORE is without CGAL; install libcgal-dev and build SPORE again"));
 }
 
 static gboolean attempt(SporeTetrahedraWork *work, SporeTetrahedraMethod method, SporeTetrahedralMesh *mesh,
@@ -194,14 +219,13 @@ static gboolean attempt(SporeTetrahedraWork *work, SporeTetrahedraMethod method,
   SporeError failure = SPORE_ERROR_INIT;
   if (method == SPORE_TETRAHEDRA_VOXELS)
     return spore_tetrahedra_voxels(work, mesh, &failure) || spore_error_propagate(&failure, error);
-  if (!SPORE_HAVE_CGAL)
-    return spore_error_raise(error, SPORE_ERROR_UNSUPPORTED, NULL,
-                             _("this build of SPORE is without CGAL; install libcgal-dev and build SPORE again"));
+  if (!has_cgal(error)) return FALSE;
   const double from = work->fraction, share = work->share;
   gboolean done = prepare(work, method, &surface, error);
   work->fraction = from + 0.1 * share;
   work->share = 0.9 * share;
-  if (done && work->options.fill && !spore_tetrahedra_fill(&surface, &failure))
+  work->prepared = work->prepared || done;
+  if (done && work->options.fill && !spore_tetrahedra_fill(&surface, &work->filled_by_method, &failure))
     done = spore_error_propagate(&failure, error);
   done = done && spore_tetrahedra_fit(work, &surface, mesh, error);
   work->fraction = from, work->share = share;
@@ -209,8 +233,9 @@ static gboolean attempt(SporeTetrahedraWork *work, SporeTetrahedraMethod method,
   return done;
 }
 
-/* How far a mesh is from the surface and its volume from the solid's, of what is allowed; below 0: it failed. */
-static double misfit_of(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, double *distance,
+/* How far a mesh is from the surface and its volume from the solid's, of what is allowed; parts: it falls into more
+ * pieces than the surface. Below 0: it failed. */
+static double misfit_of(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, bool parts, double *distance,
                         double *change, SporeError *error) {
   SporeTetrahedraQuality quality;
   double inner, area;
@@ -220,28 +245,36 @@ static double misfit_of(const SporeTetrahedraWork *work, const SporeTetrahedralM
   double over = log((double)mesh->tetrahedron_count / (double)work->options.cells) / (2 * SPORE_TETRAHEDRA_COUNT);
   bool flat = quality.min_dihedral_deg < SPORE_TETRAHEDRA_ANGLE;
   double lost = work->open ? 0 : fabs(*change) / MOST_CHANGE;
-  return fmax(fmax(*distance / (SURE * work->options.tolerance), lost), fmax(over, 0)) + flat;
+  return fmax(fmax(*distance / (SURE * work->options.tolerance), lost), fmax(over, 0)) + flat + parts;
 }
+
+static bool falls_apart(const SporeTetrahedraReport *report) { return report->pieces > report->pieces_given; }
 
 /* Where a mesher's cells are farther from the solid than they shall be, those of a coarsened lattice may be nearer: the
  * better of the two are kept. */
 static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeTetrahedraReport *report,
                                 GError **error) {
   SporeTetrahedralMesh other = {0};
+  SporeTetrahedraReport lattice = *report;
   SporeError failure = SPORE_ERROR_INIT;
-  double far, lost, near, change, before = misfit_of(work, mesh, &far, &lost, &failure);
+  double far, lost, near, change, before = misfit_of(work, mesh, falls_apart(report), &far, &lost, &failure);
   if (before < 0) return spore_error_propagate(&failure, error);
   if (before <= 1) return TRUE;
-  if (!spore_tetrahedra_voxels(work, &other, &failure))
+  if (!spore_tetrahedra_voxels(work, &other, &failure) ||
+      !spore_tetrahedra_drop_crumbs(work, &other, &lattice, &failure)) {
+    spore_tetrahedral_mesh_clear(&other);
     return failure.code != SPORE_ERROR_CANCELLED || spore_error_propagate(&failure, error);
-  double after = misfit_of(work, &other, &near, &change, &failure);
-  if (work->closed) before = misfit_of(work, mesh, &far, &lost, &failure); /* now that it is known what closes it */
+  }
+  double after = misfit_of(work, &other, falls_apart(&lattice), &near, &change, &failure);
+  if (work->closed) /* now that it is known what closes it */
+    before = misfit_of(work, mesh, falls_apart(report), &far, &lost, &failure);
   if (after >= 0 && before > 1 && after < BETTER * before) {
-    g_snprintf(report->refused[report->method], sizeof report->refused[report->method],
+    g_snprintf(lattice.refused[report->method], sizeof lattice.refused[report->method],
                _("its cells are %.2f %% of the diagonal away from what was given and change the volume by %+.1f %%; "
                  "those of %s %.2f %% and %+.1f %%"),
                100 * far, 100 * lost, spore_tetrahedra_method_names[SPORE_TETRAHEDRA_VOXELS], 100 * near, 100 * change);
-    report->method = SPORE_TETRAHEDRA_VOXELS;
+    lattice.method = SPORE_TETRAHEDRA_VOXELS;
+    *report = lattice;
     SporeTetrahedralMesh kept = *mesh;
     *mesh = other, other = kept;
   }
@@ -249,25 +282,36 @@ static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh 
   return (after >= 0 && before >= 0) || spore_error_propagate(&failure, error);
 }
 
+/* What is tried next: where a surface was fit for meshing and its cells were not what they shall be, another surface of
+ * the same shape will not help, but a lattice may. */
+static SporeTetrahedraMethod next_method(const SporeTetrahedraWork *work, const bool *tried) {
+  int method = 0;
+  if (work->prepared && !tried[SPORE_TETRAHEDRA_VOXELS]) return SPORE_TETRAHEDRA_VOXELS;
+  while (method < SPORE_TETRAHEDRA_METHODS && tried[method]) method++;
+  return (SporeTetrahedraMethod)method;
+}
+
 /* The first method that works, or the one that is asked for. */
 static gboolean run_methods(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
                             SporeTetrahedraReport *report, GError **error) {
   const SporeTetrahedraMethod asked = work->options.method;
   const gboolean all = asked == SPORE_TETRAHEDRA_METHODS;
-  GString *tried = g_string_new(NULL);
+  bool tried[SPORE_TETRAHEDRA_METHODS] = {false};
+  GString *reasons = g_string_new(NULL);
   gboolean done = FALSE, hopeless = FALSE;
-  for (int method = all ? 0 : (int)asked; method < SPORE_TETRAHEDRA_METHODS && !done && !hopeless; method++) {
+  for (SporeTetrahedraMethod method = all ? 0 : asked; method < SPORE_TETRAHEDRA_METHODS && !done && !hopeless;
+       method = all ? next_method(work, tried) : SPORE_TETRAHEDRA_METHODS) {
     GError *failure = NULL;
-    report->method = (SporeTetrahedraMethod)method;
-    done = attempt(work, report->method, mesh, &failure);
+    report->method = method;
+    tried[method] = true;
+    done = attempt(work, method, mesh, &failure);
     if (done) break;
     hopeless = failure->code == SPORE_ERROR_CANCELLED;
     if (hopeless) spore_error_raise(error, SPORE_ERROR_CANCELLED, place, "%s", failure->message);
     g_strlcpy(report->refused[method], failure->message, sizeof report->refused[method]);
-    g_string_append_printf(tried, "%s%s: %.*s", tried->len ? ", " : "", spore_tetrahedra_method_names[method],
+    g_string_append_printf(reasons, "%s%s: %.*s", reasons->len ? ", " : "", spore_tetrahedra_method_names[method],
                            (int)strcspn(failure->message, ";"), failure->message);
     g_error_free(failure);
-    if (!all) break;
   }
   if (!done && !hopeless)
     spore_error_raise(error, SPORE_ERROR_NUMERICAL, place,
@@ -275,9 +319,14 @@ static gboolean run_methods(SporeTetrahedraWork *work, const char *place, SporeT
                               "holes, simplify it, or ask for another number of cells")
                           : _("no tetrahedra could be made (%s); expected a surface that this method can fill; mend "
                               "it, or leave the choice of the method open"),
-                      tried->str);
-  g_string_free(tried, TRUE);
+                      reasons->str);
+  g_string_free(reasons, TRUE);
   return done;
+}
+
+/* Whether openings are to be closed first. */
+static bool wraps(const SporeTetrahedraOptions *options) {
+  return options->gap > 0 && options->method >= SPORE_TETRAHEDRA_WRAPPED;
 }
 
 /* The methods, and a second look at what came of them. */
@@ -285,12 +334,51 @@ static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTet
                           SporeTetrahedraReport *report, GError **error) {
   const SporeTetrahedraOptions *options = &work->options;
   const double from = work->fraction, share = work->share;
-  const gboolean looks = options->method == SPORE_TETRAHEDRA_METHODS && options->cells && !(options->gap > 0);
+  const gboolean looks = options->method == SPORE_TETRAHEDRA_METHODS && options->cells;
   if (looks) work->share = 0.6 * share;
+  SporeError failure = SPORE_ERROR_INIT;
   if (!run_methods(work, place, mesh, report, error)) return FALSE;
+  if (!spore_tetrahedra_drop_crumbs(work, mesh, report, &failure)) {
+    spore_error_at(&failure, place);
+    return spore_error_propagate(&failure, error);
+  }
   work->fraction = from + 0.6 * share, work->share = 0.4 * share;
   if (!looks || report->method == SPORE_TETRAHEDRA_VOXELS) return TRUE;
   return look_at_lattice(work, mesh, report, error);
+}
+
+/* Openings are closed by a wrap: what that encloses is filled like any other surface, by the mesher or by a lattice. */
+static gboolean run_closed(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
+                           SporeTetrahedraReport *report, GError **error) {
+  const double from = work->fraction, share = work->share;
+  SporeTetrahedraWork closed = {.options = work->options, .progress = work->progress, .share = 0.1};
+  SporeTetrahedraReport found = {0};
+  SporeError failure = SPORE_ERROR_INIT;
+  GError *refusal = NULL;
+  closed.options.gap = 0;
+  if (closed.options.method == SPORE_TETRAHEDRA_WRAPPED) closed.options.method = SPORE_TETRAHEDRA_DIRECT;
+  work->share = 0.3 * share;
+  if (!has_cgal(&refusal) || !wrap(work, &closed.surface, &refusal)) {
+    spore_error_raise(error, refusal->code, place, _("openings could not be closed: %s"), refusal->message);
+    g_error_free(refusal);
+    return FALSE;
+  }
+  closed.fraction = from + 0.3 * share, closed.share = 0.1 * share;
+  gboolean done = spore_tetrahedra_solid(&closed, &failure);
+  closed.fraction = from + 0.4 * share, closed.share = 0.6 * share;
+  if (!done) spore_error_at(&failure, place);
+  done = done ? run_chain(&closed, place, mesh, &found, error) : spore_error_propagate(&failure, error);
+  work->fraction = from, work->share = share;
+  work->filled_by_method = closed.filled + closed.filled_by_method;
+  *report = found;
+  if (found.method == SPORE_TETRAHEDRA_DIRECT) report->method = SPORE_TETRAHEDRA_WRAPPED;
+  g_strlcpy(report->refused[SPORE_TETRAHEDRA_WRAPPED], found.refused[SPORE_TETRAHEDRA_DIRECT],
+            sizeof report->refused[0]);
+  g_strlcpy(report->refused[SPORE_TETRAHEDRA_DIRECT], "", sizeof report->refused[0]);
+  work->thin = closed.thin;
+  closed.thin = (SporeTetrahedraThin){0};
+  clear(&closed);
+  return done;
 }
 
 /* What of the surface the solid does not show as it is. */
@@ -300,6 +388,7 @@ static void report_left_out(const SporeTetrahedraWork *work, SporeTetrahedraRepo
   if (report->method != SPORE_TETRAHEDRA_VOXELS) return;
   report->thickened = fmin((double)work->thin.wall_count / bounding, 1);
   report->widened = fmin((double)work->thin.slit_count / bounding, 1);
+  report->crumbs += work->thin.crumbs;
   report->thickness = report->thickened > 0 || report->widened > 0 ? 2 * work->thin.reach : 0;
 }
 
@@ -319,6 +408,7 @@ static void to_metres(SporeTetrahedraReport *report, const SporeTetrahedraWork *
   report->quality.volume *= pow(diagonal, 3);
   report->volume = report->quality.volume;
   report->volume_given = work->volume * pow(diagonal, 3);
+  report->filled = (work->filled + work->filled_by_method) * pow(diagonal, 3);
   report->area *= diagonal * diagonal;
   report->thickness *= diagonal;
   report->area_given = work->area * diagonal * diagonal;
@@ -333,9 +423,10 @@ static gboolean generate(SporeTetrahedraWork *work, const char *place, SporeTetr
   gboolean done = spore_tetrahedra_solid(work, &failure);
   if (done) {
     work->fraction = LOOKING, work->share = 1 - 2 * LOOKING;
-    if (!check_count(place, work, error) || !run_chain(work, place, result, report, error)) return FALSE;
+    if (!check_count(place, work, error)) return FALSE;
+    if (!(wraps(&work->options) ? run_closed : run_chain)(work, place, result, report, error)) return FALSE;
     work->fraction = 1 - LOOKING, work->share = LOOKING;
-    done = spore_tetrahedra_drop_crumbs(work, result, report, &failure) && measure(work, result, report, &failure);
+    done = measure(work, result, report, &failure);
   }
   if (done) return TRUE;
   spore_error_at(&failure, place);

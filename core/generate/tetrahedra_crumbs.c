@@ -67,6 +67,7 @@ bool spore_tetrahedra_drop_crumbs(const SporeTetrahedraWork *work, SporeTetrahed
   bool done = spore_triangle_mesh_pieces(&work->surface, &surface_pieces, &report->pieces_given, error);
   Piece *found = done ? SPORE_NEW_ARRAY(Piece, report->pieces) : NULL;
   if (done && !found) done = spore_mesh_no_memory(error);
+  report->crumbs = 0;
   if (done && report->pieces > 1) {
     size_t count = report->pieces;
     measure(work, mesh, pieces, surface_pieces, found);

@@ -47,6 +47,14 @@ static bool stuff(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *
   return true;
 }
 
+/* Before it is made coarser: a crumb would become one cell, as large as any. */
+static bool drop_crumbs(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error) {
+  SporeTetrahedraReport pieces;
+  bool done = spore_tetrahedra_drop_crumbs(work, mesh, &pieces, error);
+  work->thin.crumbs = done ? pieces.crumbs : 0;
+  return done;
+}
+
 /* A lattice that is near the surface; it gets finer while it is not. */
 static bool make_fine(SporeTetrahedraWork *work, double cells, SporeTetrahedralMesh *mesh, SporeError *error) {
   const double from = work->fraction, share = work->share;
@@ -57,7 +65,7 @@ static bool make_fine(SporeTetrahedraWork *work, double cells, SporeTetrahedralM
     done = stuff(work, edge_of(work, cells), mesh, error);
     if (done && mesh->tetrahedron_count) {
       double inner, area;
-      done = spore_tetrahedra_mend(mesh, error) &&
+      done = spore_tetrahedra_mend(mesh, error) && drop_crumbs(work, mesh, error) &&
              spore_tetrahedra_near(work, spore_tetrahedra_bounds(work), 1, mesh, error) &&
              spore_tetrahedra_distances(work, mesh, &distance, &inner, &area, error);
     }

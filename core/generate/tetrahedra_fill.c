@@ -1,4 +1,6 @@
 /* Cavities of a sound surface: its parts that are turned inside out. */
+#include <math.h>
+
 #include "core/base/memory.h"
 #include "core/generate/tetrahedra_parts.h"
 #include "core/mesh/common.h"
@@ -11,7 +13,7 @@ static uint32_t root_of(uint32_t *joined, uint32_t i) {
   return i;
 }
 
-bool spore_tetrahedra_fill(SporeTriangleMesh *surface, SporeError *error) {
+bool spore_tetrahedra_fill(SporeTriangleMesh *surface, double *filled, SporeError *error) {
   uint32_t *joined = SPORE_NEW_ARRAY(uint32_t, surface->vertex_count);
   double *volume = SPORE_NEW_ARRAY(double, surface->vertex_count);
   bool done = (joined && volume) || spore_mesh_no_memory(error);
@@ -28,6 +30,8 @@ bool spore_tetrahedra_fill(SporeTriangleMesh *surface, SporeError *error) {
                                         spore_mesh_vertex(surface->vertices, corner[2])));
   }
   size_t kept = 0;
+  *filled = 0;
+  for (size_t i = 0; done && i < surface->vertex_count; i++) *filled -= fmin(volume[i], 0) / 6;
   for (size_t t = 0; done && t < surface->triangle_count; t++) {
     const uint32_t *corner = surface->triangles + 3 * t;
     if (volume[root_of(joined, corner[0])] < 0) continue;

@@ -1,5 +1,6 @@
 /* The number of cells that is asked for, as near to the surface as that many can be: meshes are made and measured, the
  * size follows a secant on the logarithm of their number, and where one is too far from the surface it gets finer. */
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -18,6 +19,9 @@
 #define LEAST_VOLUME 0.75 /* of the surface's: a mesh below lost a part that is thinner than its cells */
 #define USUAL_SLOPE 2.8   /* by which the logarithm of the number falls with that of the size */
 #define EDGE_SCALE 0.7    /* circumradius bound of cells whose edges have length 1 */
+#define NEAR_COUNT (3 * SPORE_TETRAHEDRA_COUNT)
+#define HOPELESS 2.5 /* of the tolerance, by as many cells as are wanted that got finer where it was worst, */
+#define MANY 2.0     /* or by so many times as many */
 
 typedef struct {
   SporeTetrahedraWork *work;
@@ -26,8 +30,8 @@ typedef struct {
   double *points, *samples;         /* of it, of the mesh */
   SporeSizingPlan plan;
   double volume; /* of what it encloses */
-  double scale, known_scale, known_count, slope;
-  int refinements;
+  double scale, made_scale, known_scale, known_count, slope;
+  int refinements, tries_left;
   double *kept, *best; /* relative sizes of the plan: of the last mesh, of the best */
   size_t nodes;
 } Fit;
@@ -90,6 +94,15 @@ typedef struct {
   double scale, gap, distance; /* gap: of the logarithm of the number */
 } Found;
 
+static gboolean has_choice(const Fit *fit) { return fit->work->options.method == SPORE_TETRAHEDRA_METHODS; }
+
+/* Whether a lattice, which can be chosen as well, had better be: its cells keep thin parts that the mesher's miss. */
+static gboolean is_hopeless(const Fit *fit, double count, double distance) {
+  const SporeTetrahedraOptions *options = &fit->work->options;
+  const double least = fit->refinements > 1 ? 1 : MANY;
+  return has_choice(fit) && count >= least * (double)options->cells && distance > HOPELESS * options->tolerance;
+}
+
 static void keep_plan(Fit *fit) { memcpy(fit->kept, fit->plan.relative, fit->nodes * sizeof *fit->kept); }
 
 /* The number must be met first, then the tolerance; nearer is better still. */
@@ -101,51 +114,81 @@ static gboolean is_better(const Fit *fit, const Found *best, double gap, double 
   return distance < best->distance;
 }
 
+/* What came of a rough mesh; count 0: the mesher would not. */
+typedef struct {
+  double count, volume, gap, distance;
+  gboolean changed; /* the plan is finer now where it was too far */
+} Rough;
+
+static gboolean make_rough(Fit *fit, Rough *rough, GError **error) {
+  SporeTetrahedralMesh mesh = {0};
+  SporeTetrahedraQuality quality;
+  SporeError failure = SPORE_ERROR_INIT;
+  GError *refusal = NULL;
+  *rough = (Rough){0};
+  if (!mesh_at(fit, fit->scale, SPORE_TETRAHEDRA_ROUGH, &mesh, &refusal)) {
+    if (refusal->code != SPORE_ERROR_NUMERICAL || !fit->tries_left) {
+      g_propagate_error(error, refusal);
+      return FALSE;
+    }
+    g_error_free(refusal);
+    return TRUE;
+  }
+  spore_tetrahedral_mesh_quality(&mesh, &quality);
+  rough->count = (double)mesh.tetrahedron_count;
+  rough->volume = quality.volume;
+  rough->gap = fabs(log(rough->count / (double)fit->work->options.cells));
+  fit->made_scale = fit->scale;
+  rough->changed =
+      rough->gap < NEAR_COUNT && rough->volume >= LEAST_VOLUME * fit->volume && fit->refinements < MOST_REFINEMENTS;
+  keep_plan(fit);
+  rough->distance = distance_of(fit, &mesh, rough->changed, &failure);
+  rough->changed = rough->changed && rough->distance >= AIM * fit->work->options.tolerance;
+  spore_tetrahedral_mesh_clear(&mesh);
+  g_debug("size %.4g: %.0f cells, distance %.3f %%, refined %d times", fit->scale, rough->count, 100 * rough->distance,
+          fit->refinements);
+  return rough->distance >= 0 || spore_error_propagate(&failure, error);
+}
+
+/* What to try after that; FALSE: it is good enough. */
+static gboolean go_on(Fit *fit, const Rough *rough) {
+  if (!rough->count) fit->scale = fit->made_scale > 0 ? sqrt(fit->scale * fit->made_scale) : 1.6 * fit->scale;
+  else if (rough->volume < LEAST_VOLUME * fit->volume) fit->scale *= 0.8;
+  else {
+    step(fit, rough->count);
+    if (rough->changed) fit->refinements++, fit->known_scale = 0;
+    else if (rough->gap < 0.5 * SPORE_TETRAHEDRA_COUNT) return FALSE;
+  }
+  return TRUE;
+}
+
+static gboolean refuse(const Rough *rough, GError **error) {
+  return spore_error_raise(error, SPORE_ERROR_NUMERICAL, NULL,
+                           _("the mesher makes %.0f cells of it, %.1f %% of the diagonal away from what was given"),
+                           rough->count, 100 * rough->distance);
+}
+
 /* Finds the scale and the plan by rough meshes. */
 static gboolean search(Fit *fit, GError **error) {
   SporeTetrahedraWork *work = fit->work;
   const double from = work->fraction, share = work->share;
   Found best = {.distance = HUGE_VAL, .gap = HUGE_VAL};
-  for (int i = 0; i < MOST_TRIES; i++) {
-    SporeTetrahedralMesh mesh = {0};
-    SporeError failure = SPORE_ERROR_INIT;
-    GError *refusal = NULL;
-    work->fraction = from + 0.6 * share * i / MOST_TRIES;
+  Rough rough;
+  fit->tries_left = MOST_TRIES;
+  do {
+    work->fraction = from + 0.6 * share * (1 - (double)fit->tries_left-- / MOST_TRIES);
     work->share = 0.6 * share / MOST_TRIES;
-    gboolean made = mesh_at(fit, fit->scale, SPORE_TETRAHEDRA_ROUGH, &mesh, &refusal);
+    gboolean made = make_rough(fit, &rough, error);
     work->fraction = from, work->share = share;
-    if (!made) {
-      if (refusal->code != SPORE_ERROR_NUMERICAL || i + 1 == MOST_TRIES) {
-        g_propagate_error(error, refusal);
-        return FALSE;
-      }
-      g_error_free(refusal);
-      fit->scale *= 1.6;
-      continue;
-    }
-    SporeTetrahedraQuality quality;
-    spore_tetrahedral_mesh_quality(&mesh, &quality);
-    if (quality.volume < LEAST_VOLUME * fit->volume && i + 1 < MOST_TRIES) {
-      spore_tetrahedral_mesh_clear(&mesh);
-      fit->scale *= 0.8;
-      continue;
-    }
-    double count = (double)mesh.tetrahedron_count, gap = fabs(log(count / (double)work->options.cells));
-    gboolean change = gap < 3 * SPORE_TETRAHEDRA_COUNT && fit->refinements < MOST_REFINEMENTS;
-    keep_plan(fit);
-    double distance = distance_of(fit, &mesh, change, &failure);
-    if (distance >= 0 && is_better(fit, &best, gap, distance)) {
-      best = (Found){fit->scale, gap, distance};
+    if (!made) return FALSE;
+    if (is_hopeless(fit, rough.count, rough.distance)) return refuse(&rough, error);
+    if (rough.count && (rough.volume >= LEAST_VOLUME * fit->volume || !fit->tries_left) &&
+        is_better(fit, &best, rough.gap, rough.distance)) {
+      best = (Found){fit->scale, rough.gap, rough.distance};
       memcpy(fit->best, fit->kept, fit->nodes * sizeof *fit->best);
     }
-    spore_tetrahedral_mesh_clear(&mesh);
-    g_debug("size %.4g: %.0f cells, distance %.3f %%, refined %d times", fit->scale, count, 100 * distance,
-            fit->refinements);
-    if (distance < 0) return spore_error_propagate(&failure, error);
-    step(fit, count);
-    if (distance >= AIM * work->options.tolerance && change) fit->refinements++, fit->known_scale = 0;
-    else if (gap < 0.5 * SPORE_TETRAHEDRA_COUNT) break;
-  }
+  } while (go_on(fit, &rough) && fit->tries_left);
+  if (!(best.gap < (has_choice(fit) ? NEAR_COUNT : HUGE_VAL))) return refuse(&rough, error);
   fit->scale = best.scale;
   memcpy(fit->plan.relative, fit->best, fit->nodes * sizeof *fit->best);
   return TRUE;

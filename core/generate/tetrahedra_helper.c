@@ -92,10 +92,10 @@ static GBytes *ask(SporeTetrahedraWork *work, SporeTetrahedraRequest head, const
 }
 
 gboolean spore_tetrahedra_prepare(SporeTetrahedraWork *work, SporeTetrahedraTask task, double alpha,
-                                  SporeTriangleMesh *surface, GError **error) {
+                                  size_t most_vertices, SporeTriangleMesh *surface, GError **error) {
   double none = 1;
   SporeSizing sizing = {.count = {1, 1, 1}, .spacing = 1, .size = &none};
-  SporeTetrahedraRequest head = {.task = task, .alpha = alpha, .offset = alpha / 20};
+  SporeTetrahedraRequest head = {.task = task, .alpha = alpha, .offset = alpha / 20, .most_vertices = most_vertices};
   GBytes *answer = ask(work, head, &work->surface, &sizing, error);
   gboolean done = answer && read_surface(answer, surface, error);
   if (answer) g_bytes_unref(answer);

@@ -67,7 +67,12 @@ static bool fill_cavities(SporeBcc *lattice, size_t count, SporeError *error) {
       if (lattice->value[index] < 0) lattice->value[index] = 0, stack[waiting++] = (uint32_t)index;
     }
   }
-  for (size_t i = 0; i < count; i++) lattice->value[i] = lattice->value[i] ? 1 : -1;
+  size_t filled = 0;
+  for (size_t i = 0; i < count; i++) {
+    filled += lattice->value[i] < 0;
+    lattice->value[i] = lattice->value[i] ? 1 : -1;
+  }
+  lattice->filled = 0.5 * (double)filled * pow(lattice->edge, 3); /* two nodes a cube */
   spore_free(stack);
   return true;
 }

@@ -19,7 +19,7 @@ typedef struct SporeBccCut {
 } SporeBccCut;
 
 typedef struct SporeBcc {
-  double edge, lower[3];
+  double edge, lower[3], filled; /* filled: volume of cavities */
   size_t columns, rows, layers;
   int8_t *value;    /* of a node: 1 inside, -1 outside, 0 on the surface */
   uint32_t *moved;  /* of a node: its place in `places`, 1 on; 0: where the lattice has it */

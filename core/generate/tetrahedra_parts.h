@@ -18,6 +18,7 @@ typedef struct SporeTetrahedraThin {
   size_t wall_count, slit_count;
   SporeBvh *wall_tree, *slit_tree; /* of them; NULL: there are none */
   double reach;                    /* that far around them the lattice has solid, or a gap */
+  double crumbs;                   /* of the lattice's volume: small pieces that are left out */
 } SporeTetrahedraThin;
 
 typedef struct SporeTetrahedraWork {
@@ -31,6 +32,8 @@ typedef struct SporeTetrahedraWork {
   double *bounding, *inner;  /* points of the surface (count x 3) that bound the solid, and that lie inside it */
   size_t bounding_count, inner_count;
   SporeTetrahedraThin thin;
+  bool prepared;                   /* some surface was fit for the mesher */
+  double filled, filled_by_method; /* volume of cavities of the given surface, and of what a method made of it */
   const SporeProgress *progress;
   double fraction, share; /* of the progress, that the work in hand has */
 } SporeTetrahedraWork;
@@ -58,15 +61,15 @@ bool spore_tetrahedra_close(SporeTetrahedraWork *work, const SporeTetrahedralMes
 bool spore_tetrahedra_near(const SporeTetrahedraWork *work, const SporeBvh *surface, int turns,
                            SporeTetrahedralMesh *mesh, SporeError *error);
 
-/* By the helper. A surface that can be meshed; alpha: of a wrap. */
+/* By the helper. A surface that can be meshed; alpha, most_vertices: of a wrap. */
 gboolean spore_tetrahedra_prepare(SporeTetrahedraWork *work, SporeTetrahedraTask task, double alpha,
-                                  SporeTriangleMesh *surface, GError **error);
+                                  size_t most_vertices, SporeTriangleMesh *surface, GError **error);
 gboolean spore_tetrahedra_refine(SporeTetrahedraWork *work, const SporeTriangleMesh *surface, const SporeSizing *sizing,
                                  SporeTetrahedraFinish finish, size_t most_vertices, SporeTetrahedralMesh *mesh,
                                  GError **error);
 
-/* Drops the walls of cavities from a surface that is turned alike, and their vertices. */
-bool spore_tetrahedra_fill(SporeTriangleMesh *surface, SporeError *error);
+/* Drops the walls of cavities from a surface that is turned alike, and their vertices. *filled: their volume. */
+bool spore_tetrahedra_fill(SporeTriangleMesh *surface, double *filled, SporeError *error);
 
 /* A mesh in a prepared surface of the number of cells, or the size, that is asked for. */
 gboolean spore_tetrahedra_fit(SporeTetrahedraWork *work, const SporeTriangleMesh *surface, SporeTetrahedralMesh *mesh,
@@ -80,9 +83,9 @@ bool spore_tetrahedra_find_thin(SporeTetrahedraWork *work, const SporeTetrahedra
                                 double *farthest, SporeError *error);
 void spore_tetrahedra_clear_thin(SporeTetrahedraThin *thin);
 
-/* Cells of a lattice whose cubes have that edge, cut where the solid ends. None where it misses the solid. */
-bool spore_tetrahedra_stuff(const SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh,
-                            SporeError *error);
+/* Cells of a lattice whose cubes have that edge, cut where the solid ends. None where it misses the solid. Notes what
+ * cavities it fills. */
+bool spore_tetrahedra_stuff(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh, SporeError *error);
 /* Such a lattice, finer than the cells that are asked for, made coarser where that costs the least. */
 bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error);
 

@@ -95,7 +95,7 @@ bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error) {
       corner[1] = corner[2], corner[2] = kept;
     }
   work->open = report.boundary_edges > 0;
-  if (work->options.fill && !spore_tetrahedra_fill(&work->surface, error)) return false;
+  if (work->options.fill && !spore_tetrahedra_fill(&work->surface, &work->filled, error)) return false;
   work->tree = spore_bvh_create(&work->surface, error);
   if (!work->tree || !sort_samples(work, error) || !measure_volume(work, &report, error)) return false;
   if (work->volume > LEAST_VOLUME && work->bounding_count) return true;

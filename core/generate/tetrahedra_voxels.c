@@ -193,13 +193,13 @@ static bool stuff(Stuffing *stuffing, const SporeTetrahedraWork *work, SporeErro
   return true;
 }
 
-bool spore_tetrahedra_stuff(const SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh,
-                            SporeError *error) {
+bool spore_tetrahedra_stuff(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh, SporeError *error) {
   *mesh = (SporeTetrahedralMesh){0};
   SporeBcc lattice;
   if (!spore_bcc_create(&lattice, work, edge, error)) return false;
   Stuffing stuffing = {.lattice = &lattice, .work = work, .mesh = mesh};
   bool done = stuff(&stuffing, work, error);
+  work->filled_by_method = lattice.filled;
   spore_bcc_clear(&lattice);
   if (!done) spore_tetrahedral_mesh_clear(mesh);
   return done;

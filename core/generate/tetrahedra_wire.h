@@ -25,7 +25,7 @@ typedef enum SporeTetrahedraFinish {
 typedef struct SporeTetrahedraRequest {
   uint64_t task, finish;
   double alpha, offset;   /* of a wrap */
-  uint64_t most_vertices; /* of a mesh: it gives up above */
+  uint64_t most_vertices; /* of a mesh, and of a wrap: it gives up above */
   uint64_t sizing_count[3];
   double sizing_lower[3], sizing_spacing;
   uint64_t vertex_count, triangle_count;

@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *content, size_t size) {
   SporeSizing sizing = {.count = {1, 1, 1}, .spacing = 1, .size = &length};
   SporeTriangleMesh surface = {0};
   SporeTetrahedralMesh mesh = {0};
-  if (spore_tetrahedra_prepare(&work, SPORE_TETRAHEDRA_REPAIR, 0, &surface, &error))
+  if (spore_tetrahedra_prepare(&work, SPORE_TETRAHEDRA_REPAIR, 0, 0, &surface, &error))
     g_assert_true(spore_triangle_mesh_validate(&surface, NULL));
   else g_assert_nonnull(error);
   g_clear_error(&error);
