@@ -1017,6 +1017,12 @@ def tetrahedra_command():
     for name, mark in (("ball.vtu", "UnstructuredGrid"), ("ball.msh", "$MeshFormat"), ("ball.mesh", "Tetrahedra")):
         spore("tetrahedra", "ball.off", "--cells", 300, "--method", "voxels", "-o", name)
         assert mark in (WORK / name).read_text()
+    outer, inner = shapes.sphere(), shapes.sphere(radius=0.015)
+    turned = [tuple(corner + len(outer[0]) for corner in reversed(triangle)) for triangle in inner[1]]
+    file("hollow.off", shapes.off(outer[0] + inner[0], outer[1] + turned))
+    answer = report("tetrahedra", "hollow.off", "--cells", 300, "--fill")
+    assert abs(answer["filled_m3"] / (4 / 3 * math.pi * 0.015**3) - 1) < 0.1
+    assert "--fill changed nothing" in spore("tetrahedra", "ball.off", "--cells", 300, "--fill").stdout
     refuses("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.xyz", says=["ball.xyz", ".vtu"])
     refuses("tetrahedra", "ball.off", "--cells", 300, "--method", "magic", says=["magic", "voxels"])
     refuses("tetrahedra", "ball.off", "--cells", 300, "--curvature", 3, says=["--curvature", "5 to 90"])
