@@ -15,7 +15,8 @@
 #define MOST_SIDES 4
 #define MOST_GROWTH 0.3 /* edges: how far a border gives way for the volume */
 #define GRADIENT 0.25   /* edges */
-#define MEETINGS 3      /* turns on the way to where three labels meet */
+#define MEETINGS 6      /* turns on the way to where three labels meet */
+#define OF_A_PAIR 0.4   /* share that two labels have at least where they border */
 #define FEEDBACK 0.7    /* of what a border's area says */
 
 /* What a vertex lies between: labels, 0 for outside, ascending. */
@@ -34,7 +35,9 @@ typedef struct Fit {
   uint32_t *neighbours;   /* of cells */
   uint32_t *start, *star; /* cells around each vertex: star[start[v]] to star[start[v + 1]] */
   Border *border;
-  const double *wanted;           /* volume of each label, m^3 */
+  const double *wanted; /* volume of each label, m^3 */
+  SporeLabelPoints *points;
+  size_t face_count;
   double *volume, *area, *growth; /* of each label: now, m^3; of its border, m^2; how far that moves outward, m */
 } Fit;
 
@@ -93,6 +96,7 @@ static void note_shape(Fit *f, const uint32_t corner[3], uint16_t label, uint16_
   SporeVec3 a = vertex(f, corner[0]), b = vertex(f, corner[1]), c = vertex(f, corner[2]);
   SporeVec3 area =
       spore_vec3_scale(other > label ? 0.5 : -0.5, spore_vec3_cross(spore_vec3_sub(b, a), spore_vec3_sub(c, a)));
+  f->face_count++;
   f->area[label] += spore_vec3_length(area);
   f->area[other] += spore_vec3_length(area);
   for (int i = 0; i < 3; i++) {
@@ -107,13 +111,16 @@ static void note_shape(Fit *f, const uint32_t corner[3], uint16_t label, uint16_
   }
 }
 
-/* Share of the higher label less that of the lower one. */
+/* Share of the higher label less that of the lower one; against nothing, of all organs. */
 static double balance(const Fit *f, const Border *border, SporeVec3 p) {
-  uint16_t label[SPORE_LABEL_CORNERS];
-  double share[SPORE_LABEL_CORNERS], sum = 0;
-  spore_label_field_shares(f->field, p, label, share);
-  for (int i = 0; i < SPORE_LABEL_CORNERS; i++)
-    sum += label[i] == border->label[1] ? share[i] : label[i] == border->label[0] ? -share[i] : 0;
+  SporeLabelShare shares[SPORE_LABEL_MOST];
+  int count = spore_label_field_shares(f->field, p, shares);
+  double sum = 0;
+  for (int i = 0; i < count; i++) {
+    bool lower = shares[i].label == border->label[0],
+         higher = shares[i].label == border->label[1] || (border->label[0] == 0 && !lower);
+    sum += higher ? (double)shares[i].share : lower ? -(double)shares[i].share : 0;
+  }
   return sum;
 }
 
@@ -243,6 +250,7 @@ static bool run(Fit *f, const SporeProgress *progress, SporeError *error) {
       f->border[v].neighbours = 0;
     }
     for (int label = 0; label < 65536; label++) f->area[label] = 0;
+    f->face_count = 0;
     each_border_face(f, note_shape);
     if (round > 2) adjust_growth(f); /* once the borders are near their places */
     for (uint32_t v = 0; v < f->mesh->vertex_count; v++) {
@@ -256,11 +264,71 @@ static bool run(Fit *f, const SporeProgress *progress, SporeError *error) {
   return true;
 }
 
+/* Points of the borders. */
+
+static void add_point(SporeLabelPoints *points, const uint32_t host[3], const Border *between, SporeVec3 normal,
+                      SporeVec3 place) {
+  size_t at = points->points.count++;
+  memcpy(points->points.hosts + 3 * at, host, 3 * sizeof *host);
+  spore_vec3_store(points->points.places + 3 * at, place);
+  spore_vec3_store(points->normal + 3 * at, normal);
+  points->between[2 * at] = between->label[0];
+  points->between[2 * at + 1] = between->label[between->count == 2];
+}
+
+/* Whether no third label has most of the place: a border of two ends where others begin. */
+static bool is_between(const Fit *f, const Border *pair, SporeVec3 p) {
+  SporeLabelShare shares[SPORE_LABEL_MOST];
+  int count = spore_label_field_shares(f->field, p, shares);
+  double sum = 0;
+  for (int i = 0; i < count; i++)
+    if (shares[i].label == pair->label[0] || shares[i].label == pair->label[1]) sum += (double)shares[i].share;
+  return pair->label[0] == 0 || sum > OF_A_PAIR;
+}
+
+static void note_points(Fit *f, const uint32_t corner[3], uint16_t label, uint16_t other) {
+  SporeVec3 p[3], n, middle = {0, 0, 0};
+  const Border pair = {.label = {label < other ? label : other, label < other ? other : label}, .count = 2};
+  for (int k = 0; k < 3; k++) middle = spore_vec3_add_scaled(middle, 1.0 / 3, p[k] = vertex(f, corner[k]));
+  n = spore_vec3_normalise(spore_vec3_cross(spore_vec3_sub(p[1], p[0]), spore_vec3_sub(p[2], p[0])),
+                           spore_vec3(0, 0, 0));
+  if (other < label) n = spore_vec3_scale(-1, n);
+  SporeVec3 place = spore_vec3_add_scaled(middle, way_to_border(f, &pair, middle, n), n);
+  add_point(f->points, corner, &pair, n, is_between(f, &pair, place) ? place : middle);
+  for (int k = 0; k < 3; k++) { /* of the line where three meet, once for each face there */
+    const Border *border = f->border + corner[k];
+    if (border->count < 3 || !same_border(border, f->border + corner[(k + 1) % 3])) continue;
+    SporeVec3 half = spore_vec3_scale(0.5, spore_vec3_add(p[k], p[(k + 1) % 3]));
+    add_point(f->points, corner, border, n, meeting_place(f, border, half));
+  }
+}
+
+static bool make_points(Fit *f) {
+  SporeLabelPoints *made = f->points;
+  size_t most = 4 * f->face_count; /* a face and its sides */
+  *made =
+      (SporeLabelPoints){.between = SPORE_NEW_ARRAY(uint16_t, 2 * most), .normal = SPORE_NEW_ARRAY(double, 3 * most)};
+  made->points.places = SPORE_NEW_ARRAY(double, 3 * most);
+  made->points.hosts = SPORE_NEW_ARRAY(uint32_t, 3 * most);
+  made->points.off = SPORE_NEW_ARRAY(double, most);
+  if (!made->between || !made->normal || !made->points.places || !made->points.hosts || !made->points.off) return false;
+  each_border_face(f, note_points);
+  return true;
+}
+
+void spore_label_points_clear(SporeLabelPoints *points) {
+  spore_skin_points_clear(&points->points);
+  spore_free(points->between);
+  spore_free(points->normal);
+  *points = (SporeLabelPoints){0};
+}
+
 bool spore_label_fit(const SporeLabelField *field, SporeTetrahedralMesh *mesh, double edge, const double *volumes,
-                     const SporeProgress *progress, SporeError *error) {
+                     SporeLabelPoints *points, const SporeProgress *progress, SporeError *error) {
   Fit f = {.field = field,
            .mesh = mesh,
            .edge = edge,
+           .points = points,
            .wanted = volumes,
            .volume = SPORE_NEW_ARRAY(double, 65536),
            .area = SPORE_NEW_ARRAY(double, 65536),
@@ -268,9 +336,11 @@ bool spore_label_fit(const SporeLabelField *field, SporeTetrahedralMesh *mesh, d
            .border = SPORE_NEW_ARRAY(Border, mesh->vertex_count)};
   bool ready = f.volume && f.area && f.growth && f.border && spore_tetrahedral_mesh_neighbours(mesh, &f.neighbours) &&
                make_stars(&f);
-  bool done = ready ? run(&f, progress, error)
-                    : spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
-                                      _("there is not enough memory for the cells; close other programs"));
+  bool done = !ready || run(&f, progress, error);
+  if (!ready || (done && !make_points(&f)))
+    done = spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
+                           _("there is not enough memory for the cells; close other programs"));
+  if (!done) spore_label_points_clear(points);
   spore_free(f.neighbours);
   spore_free(f.volume);
   spore_free(f.area);

@@ -50,29 +50,17 @@ static bool cell_nodes(const Lattice *l, const size_t cube[3], int q, size_t nod
   return true;
 }
 
-/* The label with the largest share of the samples; of equal ones the larger number, so that organs win over nothing. */
-static uint16_t cell_label(const SporeLabelField *field, const SporeVec3 corner[4]) {
-  uint16_t label[SAMPLES * SPORE_LABEL_CORNERS];
-  double share[SAMPLES * SPORE_LABEL_CORNERS];
+uint16_t spore_label_of_cell(const SporeLabelField *field, const SporeVec3 corner[4]) {
+  SporeLabelShare sum[SAMPLES * SPORE_LABEL_MOST], shares[SPORE_LABEL_MOST];
   SporeVec3 middle = {0, 0, 0};
+  int labels = 0;
   for (int k = 0; k < 4; k++) middle = spore_vec3_add_scaled(middle, 0.25, corner[k]);
   for (int s = 0; s < SAMPLES; s++) {
     SporeVec3 p = s ? spore_vec3_scale(0.5, spore_vec3_add(middle, corner[s - 1])) : middle;
-    spore_label_field_shares(field, p, label + s * SPORE_LABEL_CORNERS, share + s * SPORE_LABEL_CORNERS);
+    int count = spore_label_field_shares(field, p, shares);
+    for (int i = 0; i < count; i++) labels = spore_label_add(sum, labels, shares[i]);
   }
-  uint16_t best = label[0];
-  bool alike = true;
-  for (int i = 1; i < SAMPLES * SPORE_LABEL_CORNERS; i++) alike = alike && label[i] == best;
-  if (alike) return best;
-  double most = -1;
-  for (int i = 0; i < SAMPLES * SPORE_LABEL_CORNERS; i++) {
-    double sum = 0;
-    for (int j = 0; j < SAMPLES * SPORE_LABEL_CORNERS; j++) sum += label[j] == label[i] ? share[j] : 0;
-    if (sum < most || (sum == most && label[i] <= best)) continue;
-    most = sum;
-    best = label[i];
-  }
-  return best;
+  return spore_label_winner(sum, labels);
 }
 
 /* Labels of all cells, CELLS_A_CUBE a cube; how many are above 0. */
@@ -91,7 +79,7 @@ static bool label_cells(const Lattice *l, const SporeLabelField *field, uint16_t
           uint16_t *label = &labels[CELLS_A_CUBE * cube_index(l, cube) + (size_t)q];
           if (!cell_nodes(l, cube, q, node)) continue;
           for (int c = 0; c < 4; c++) corner[c] = node_place(l, node[c]);
-          *label = cell_label(field, corner);
+          *label = spore_label_of_cell(field, corner);
           *count += *label > 0;
         }
     }

@@ -7,7 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/profile.h"
 #include "core/generate/label_parts.h"
-#include "core/generate/tetrahedra_improve.h"
+#include "core/mesh/common.h"
 
 #define MOST_CELLS 2000000u
 #define CELLS_A_VOLUME 12 /* in a cube of the lattice */
@@ -16,11 +16,9 @@
 #define FINE 24.0 /* cells of the lattice, of those that are asked for: of 5000 or fewer */
 #define USUAL 5000.0
 #define LEAST_FINE 2.0
-#define CELL 0.12        /* volume of a cell whose edges have length 1 */
-#define LEAST_ANGLE 11.0 /* degrees */
-#define ROUNDS 8         /* of moving the borders of the coarser cells */
-#define NEAR 0.02        /* edges: distances beyond count more than by their squares */
+#define CELL 0.12 /* volume of a cell whose edges have length 1 */
 #define SPIKE_ROUNDS 3
+#define TURNS 2        /* of moving the borders */
 #define MOST_SPIKES 20 /* an organ of fewer cells keeps them all */
 
 typedef struct Meshing {
@@ -102,13 +100,13 @@ static bool make_cells(Meshing *m, SporeTetrahedralMesh *mesh, SporeError *error
   size_t count = 0;
   m->edge = m->options->cells ? cbrt(CELLS_A_VOLUME * m->volume / wanted) : m->options->size;
   for (int attempt = 0; m->options->cells && attempt < ATTEMPTS; attempt++) {
-    m->stage.share = 0.15;
+    m->stage.share = 0.12;
     if (!spore_label_lattice(&m->field, m->lower, m->upper, m->edge, NULL, &count, &progress, error)) return false;
     m->stage.done += m->stage.share;
     if (fabs((double)count / wanted - 1) < NEAR_ENOUGH) break;
     m->edge *= cbrt(fmax((double)count, 1) / wanted);
   }
-  m->stage.share = 0.15;
+  m->stage.share = 0.12;
   if (!spore_label_lattice(&m->field, m->lower, m->upper, m->edge, mesh, &count, &progress, error)) return false;
   m->stage.done += m->stage.share;
   if (count > MOST_CELLS)
@@ -116,6 +114,41 @@ static bool make_cells(Meshing *m, SporeTetrahedralMesh *mesh, SporeError *error
                            _("that makes %zu cells; expected at most %u; ask for fewer or larger ones"), count,
                            MOST_CELLS);
   return remove_spikes(mesh, error) && spore_tetrahedral_mesh_drop_unused(mesh, error);
+}
+
+/* Cells that the border could not be moved past go over to whom they are of by now. */
+static void relabel(const Meshing *m, SporeTetrahedralMesh *mesh) {
+  size_t kept = 0;
+  g_autofree size_t *cells = g_new0(size_t, 65536);
+  for (size_t c = 0; c < mesh->tetrahedron_count; c++) cells[mesh->labels[c]]++;
+  for (size_t c = 0; c < mesh->tetrahedron_count; c++) {
+    const uint32_t *cell = mesh->tetrahedra + 4 * c;
+    SporeVec3 corner[4];
+    for (int k = 0; k < 4; k++) corner[k] = spore_mesh_vertex(mesh->vertices, cell[k]);
+    uint32_t own = mesh->labels[c], label = spore_label_of_cell(&m->field, corner);
+    if (cells[own] <= MOST_SPIKES) label = own;
+    cells[own] -= label != own;
+    if (!label) continue;
+    memmove(mesh->tetrahedra + 4 * kept, cell, 4 * sizeof *cell);
+    mesh->labels[kept++] = label;
+  }
+  mesh->tetrahedron_count = kept;
+}
+
+/* Moves the borders to their places. */
+static bool fit(Meshing *m, SporeTetrahedralMesh *mesh, SporeLabelPoints *points, SporeError *error) {
+  for (int turn = 0; turn < TURNS; turn++) {
+    SporeProgress progress = spore_progress_of_share(&m->stage);
+    m->stage.share = 0.1;
+    if (turn) {
+      spore_label_points_clear(points);
+      relabel(m, mesh);
+      if (!remove_spikes(mesh, error) || !spore_tetrahedral_mesh_drop_unused(mesh, error)) return false;
+    }
+    if (!spore_label_fit(&m->field, mesh, m->edge, m->volumes, points, &progress, error)) return false;
+    m->stage.done += m->stage.share;
+  }
+  return true;
 }
 
 static void measure_label(const SporeTetrahedralMesh *mesh, SporeLabelFigures *figures) {
@@ -178,20 +211,6 @@ static bool check(Meshing *m, const SporeLabelMap *map, SporeError *error) {
   return true;
 }
 
-/* Makes the cells as few as were asked for, the borders staying near those of the fine ones. */
-static bool coarsen(Meshing *m, SporeTetrahedralMesh *mesh, const SporeProgress *progress, SporeError *error) {
-  const size_t cells = m->options->cells;
-  double size = cbrt(m->volume / (CELL * (double)cells));
-  const SporeSizing sizing = {.count = {1, 1, 1}, .spacing = 1, .size = &size};
-  SporeSkinPoints points = {0};
-  bool done = spore_skin_points_of(&points, mesh, error) &&
-              spore_tetrahedra_coarsen(mesh, NULL, &points, &sizing, cells, LEAST_ANGLE, progress, error) &&
-              spore_tetrahedra_approach(mesh, NULL, &points, ROUNDS, NEAR * size, LEAST_ANGLE, error) &&
-              spore_tetrahedral_mesh_drop_unused(mesh, error);
-  spore_skin_points_clear(&points);
-  return done;
-}
-
 gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, const SporeLabelTetrahedraOptions *options,
                                 SporeTetrahedralMesh *result, SporeLabelTetrahedraReport *report,
                                 const SporeProgress *progress, GError **error) {
@@ -202,18 +221,26 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
   *report = (SporeLabelTetrahedraReport){0};
   m->options = options;
   m->stage.whole = progress;
-  bool done = check(m, map, &failure);
-  if (done) spore_label_field_init(&m->field, map, m->wanted);
+  m->stage.share = 0.1;
+  SporeProgress smoothing = spore_progress_of_share(&m->stage);
+  bool done = check(m, map, &failure) && spore_label_field_create(&m->field, map, m->wanted, &smoothing, &failure);
+  m->stage.done = m->stage.share;
   done = done && make_cells(m, result, &failure);
   if (done && !result->tetrahedron_count)
     done = spore_error_set(&failure, SPORE_ERROR_INPUT, NULL,
                            _("the organs are finer than the cells: there is not one; expected larger organs; ask for "
                              "more or smaller cells"));
+  SporeLabelPoints points = {0};
+  done = done && fit(m, result, &points, &failure);
   SporeProgress fitting = spore_progress_of_share(&m->stage);
   m->stage.share = 1 - m->stage.done;
-  done = done && spore_label_fit(&m->field, result, m->edge, m->volumes, &fitting, &failure) &&
-         (!options->cells || coarsen(m, result, &fitting, &failure)) &&
+  done = done &&
+         (!options->cells ||
+          spore_label_coarsen(result, &points, options->cells, cbrt(m->volume / (CELL * (double)options->cells)),
+                              m->volumes, &fitting, &failure)) &&
          spore_tetrahedral_mesh_validate(result, &failure) && measure(m, result, report, &failure);
+  spore_label_points_clear(&points);
+  spore_label_field_clear(&m->field);
   report->seconds = 1e-9 * (double)(spore_clock_ns() - started);
   if (done) return TRUE;
   spore_tetrahedral_mesh_clear(result);

@@ -27,12 +27,14 @@ typedef struct SporeLabelTetrahedraReport {
   double seconds;
 } SporeLabelTetrahedraReport;
 
-/* A body-centred cubic lattice whose cells take the label that has most of them; its vertices between labels then move
- * to where the labels' shares of the voxels around (trilinear) are alike, as far as no angle between faces gets nearer
- * than 15 degrees to flat or to nothing. Where a number of cells is asked for the lattice has up to 24 times as many,
- * and is made coarser where that moves the borders least: no angle gets below 11 degrees then. So every cell is sound,
- * and organs share the faces between them. result->labels says of which organ each tetrahedron is. An organ finer than
- * the lattice may have no cell: the figures say so. FALSE: nothing to mesh, too many cells, no memory, cancelled. */
+/* A body-centred cubic lattice whose cells take the label that has most of them, of the voxels' labels blurred by one
+ * voxel (no layer of a voxel is lost by that); its vertices between labels then move to where the labels' shares are
+ * alike (against nothing: where that has half), as far as no angle between faces gets nearer than 15 degrees to flat or
+ * to nothing; cells that the border could not pass change sides. Where a number of cells is asked for the lattice has
+ * up to 24 times as many, and is made coarser where that moves the borders least, which then give way a little for each
+ * label's volume: no angle gets below 11 degrees then. So every cell is sound, and organs share the faces between them.
+ * result->labels says of which organ each tetrahedron is. An organ finer than the lattice may have no cell: the figures
+ * say so. FALSE: nothing to mesh, too many cells, no memory, cancelled. */
 gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, const SporeLabelTetrahedraOptions *options,
                                 SporeTetrahedralMesh *result, SporeLabelTetrahedraReport *report,
                                 const SporeProgress *progress, GError **error);

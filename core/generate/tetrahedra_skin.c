@@ -125,22 +125,6 @@ bool spore_skin_points_create(SporeSkinPoints *points, const SporeTetrahedralMes
   return done;
 }
 
-bool spore_skin_points_of(SporeSkinPoints *points, const SporeTetrahedralMesh *mesh, SporeError *error) {
-  SporeSkin skin = {0};
-  bool done = list_faces(&skin, mesh);
-  const size_t count = skin.face_count;
-  *points = (SporeSkinPoints){count, SPORE_NEW_ARRAY(double, 3 * count), SPORE_NEW_ARRAY(uint32_t, 3 * count),
-                              SPORE_NEW_ARRAY(double, count)};
-  done = done && points->places && points->hosts && points->off;
-  for (size_t i = 0; done && i < 3 * count; i++) {
-    points->hosts[i] = skin.corners[i];
-    for (size_t k = 0; k < 3; k++) points->places[i / 3 * 3 + k] += mesh->vertices[3 * (size_t)skin.corners[i] + k] / 3;
-  }
-  spore_skin_clear(&skin);
-  if (!done) spore_skin_points_clear(points);
-  return done || spore_mesh_no_memory(error);
-}
-
 void spore_skin_points_clear(SporeSkinPoints *points) {
   spore_free(points->places);
   spore_free(points->hosts);

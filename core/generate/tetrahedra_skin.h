@@ -28,8 +28,6 @@ typedef struct SporeSkinPoints {
 /* At most `most` of the places (count x 3), evenly among them; hosts by distance alone. False: no memory. */
 bool spore_skin_points_create(SporeSkinPoints *points, const SporeTetrahedralMesh *mesh, const double *places,
                               size_t count, size_t most, SporeError *error);
-/* The middles of the skin's own faces. */
-bool spore_skin_points_of(SporeSkinPoints *points, const SporeTetrahedralMesh *mesh, SporeError *error);
 void spore_skin_points_clear(SporeSkinPoints *points);
 /* Valid until the mesh's cells change. A point whose host is gone goes to the nearest of its host's vertices' faces. */
 bool spore_skin_create(SporeSkin *skin, const SporeTetrahedralMesh *mesh, SporeSkinPoints *points, SporeError *error);

@@ -403,6 +403,35 @@ def tetrahedra_of_a_label_map():
 
 
 @check
+def labels_without_their_steps():
+    """A ball of two halves, by its voxels: the cells' outside lies within .7 of a voxel of the ball, each half keeps its
+    volume within half a percent, and so does a layer of two voxels."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without volumes")
+    middle, radius, n = (15.4, 15.9, 15.2), 12.3, 32
+    def label(i, j, k):
+        away = math.dist((i, j, k), middle)
+        return 0 if away > radius else 3 if away > radius - 2 else 1 if i + j < 31 else 2
+    file("halves.nii", shapes.nifti((n, n, n), shapes.labels((n, n, n), label)))
+    answer = report("tetrahedra", "halves.nii", "--cells", 3000, "-o", "halves.mesh")
+    assert answer["min_dihedral_deg"] >= 10
+    assert all(abs(row["volume_change"]) < 0.005 for row in answer["labels"]), answer["labels"]
+    vertices, cells = medit("halves.mesh")
+    faces = {}
+    for corners, _ in cells:
+        for k in range(4):
+            face = tuple(sorted(corners[:k] + corners[k + 1:]))
+            faces[face] = face not in faces
+    outer = [face for face, single in faces.items() if single]
+    off = []
+    for face in outer:
+        a, b, c = (vertices[i] for i in face)
+        for p in (a, b, c, tuple((x + y + z) / 3 for x, y, z in zip(a, b, c))):
+            off.append(abs(1000 * math.dist(p, (middle[0] / 1000, middle[2] / 1000, -middle[1] / 1000)) - radius))
+    assert max(off) < 0.7, max(off)
+
+
+@check
 def label_maps_of_each_kind():
     """NIfTI of both byte orders and kinds of numbers, NRRD raw and gzip: the same organs in the same place."""
     if "volumes" not in FEATURES:
