@@ -6,6 +6,7 @@
 #define SETTING_young_modulus(value) "young_modulus", #value,
 #define SETTING_poisson_ratio(value) "poisson_ratio", #value,
 #define SETTING_density(value) "density", #value,
+#define SETTING_stiffness_damping(value) "stiffness_damping", #value,
 #define SETTING_tear_strain(value)
 #define SETTING_friction(value)
 #define Q(quantity, typical, minimum, maximum, source) SETTING_##quantity(typical)

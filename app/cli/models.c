@@ -97,8 +97,19 @@ static void report_quantity(SporeCli *cli, const SporeTissueQuantity *quantity) 
   spore_cli_text(cli, "source", _(quantity->source));
   spore_cli_close(cli);
   g_autofree char *range = ranged ? g_strdup_printf("%g to %g", quantity->minimum, quantity->maximum) : g_strdup("-");
-  spore_cli_say(cli, "  %-16s %-7s %-10g %-18s %s\n", quantity->name, quantity->unit, quantity->typical.number[0],
+  spore_cli_say(cli, "  %-18s %-7s %-10g %-18s %s\n", quantity->name, quantity->unit, quantity->typical.number[0],
                 range, _(quantity->source));
+}
+
+/* What nobody was found to have measured is said, so that a model's own value is not taken for a tissue's. */
+static void report_unknown(SporeCli *cli, const SporeTissue *tissue) {
+  spore_cli_open_array(cli, "unknown");
+  for (const char *const *name = spore_tissue_wanted; *name; name++) {
+    if (spore_tissue_find(tissue, *name)) continue;
+    json_builder_add_string_value(cli->report, *name);
+    spore_cli_say(cli, "  %-26s %s\n", *name, _("no measurement was found: the model's own value, or yours"));
+  }
+  spore_cli_close_array(cli);
 }
 
 static void report_materials(SporeCli *cli) {
@@ -111,6 +122,7 @@ static void report_materials(SporeCli *cli) {
     spore_cli_open_array(cli, "quantities");
     for (const SporeTissueQuantity *one = tissue->quantities; one->name; one++) report_quantity(cli, one);
     spore_cli_close_array(cli);
+    report_unknown(cli, tissue);
     spore_cli_close(cli);
   }
   spore_cli_close_array(cli);
@@ -129,6 +141,7 @@ int spore_command_models(SporeCli *cli, int argc, char **argv) {
       {"materials.quantities",
        N_("each with name (of a parameter), unit, typical, minimum and maximum (null: not known), fills (whether a "
           "model takes it where its author says nothing) and source")},
+      {"materials.unknown", N_("names of quantities of which no measurement was found: the model's own value stands")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {"models", "[NAME]", N_("Lists models and their parameters."), 0, 1, members};
   gboolean materials = FALSE;

@@ -7,6 +7,7 @@
 #define UNIT_young_modulus "Pa"
 #define UNIT_poisson_ratio ""
 #define UNIT_density "kg/m^3"
+#define UNIT_stiffness_damping "s"
 #define UNIT_tear_strain ""
 #define UNIT_friction ""
 
@@ -19,6 +20,7 @@ const SporeTissue spore_tissues[] = {SPORE_TISSUES{0}};
 const char *const spore_material_names[] = {"none", SPORE_TISSUES NULL};
 #undef T
 #undef Q
+const char *const spore_tissue_wanted[] = {"young_modulus", "poisson_ratio", "density", "stiffness_damping", NULL};
 
 const SporeTissueQuantity *spore_tissue_find(const SporeTissue *tissue, const char *parameter) {
   for (const SporeTissueQuantity *quantity = tissue->quantities; quantity->name; quantity++)

@@ -887,6 +887,8 @@ def models_and_schema():
     materials = {m["name"]: {q["name"]: q for q in m["quantities"]} for m in report("models", "--materials")["materials"]}
     assert materials["liver"]["young_modulus"] | {"source": 0} == {"name": "young_modulus", "unit": "Pa", "typical": 5220,
                                                                    "minimum": 4060, "maximum": 6380, "fills": True, "source": 0}
+    unknown = {m["name"]: m["unknown"] for m in report("models", "--materials")["materials"]}
+    assert unknown["liver"] == [] and unknown["ovary"] == ["density", "stiffness_damping"]
     assert all(q["source"] for m in materials.values() for q in m.values()) and materials["fat"]["young_modulus"]["minimum"] is None
     assert "material" in spore("schema").stdout and "gallbladder" in spore("schema").stdout
     refuses("models", "rigid_boy", says=["rigid_boy", "rigid_body"])
