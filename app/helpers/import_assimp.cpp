@@ -138,7 +138,29 @@ void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, 
   for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], transform, mesh);
 }
 
+/* The importer counts the numbers of an OBJ's line by their first sign or digit: what begins with its point would be
+ * none. */
+std::string with_leading_zeros(const char *content, size_t size) {
+  std::string text;
+  text.reserve(size + size / 16);
+  bool vertex = false, number = false; /* in a line with coordinates; nothing of a number yet but its sign */
+  for (size_t i = 0; i < size; i++) {
+    const char c = content[i];
+    const bool begins = i == 0 || content[i - 1] == '\n' || content[i - 1] == '\r';
+    if (begins) vertex = c == 'v';
+    if (c == '.' && vertex && number) text += '0';
+    number = c == ' ' || c == '\t' || (number && (c == '-' || c == '+'));
+    text += c;
+  }
+  return text;
+}
+
 Mesh import(const char *extension, const void *content, size_t size) {
+  std::string zeros;
+  if (std::strcmp(extension, "obj") == 0) {
+    zeros = with_leading_zeros(static_cast<const char *>(content), size);
+    content = zeros.data(), size = zeros.size();
+  }
   const std::string name = std::string("mesh.") + extension;
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
   Assimp::DefaultLogger::get()->attachStream(new Listener, Assimp::Logger::Warn | Assimp::Logger::Err);

@@ -132,6 +132,17 @@ static void test_polygons(void) {
   spore_triangle_mesh_clear(&mesh);
 }
 
+/* Numbers that begin with their point, as some programs write them. */
+static void test_points_first(void) {
+  static const char text[] = "o ./.part\nv 0 0 0\nv .5 0 0\nv\t.5 +.5 -.25\nf 1 2 3\n";
+  SporeTriangleMesh mesh;
+  decode("points.obj", text, strlen(text), 0, 0, &mesh);
+  g_assert_cmpuint(mesh.triangle_count, ==, 1);
+  const double corner[] = {0.5, 0.5, -0.25};
+  for (int i = 0; i < 3; i++) g_assert_cmpfloat_with_epsilon(mesh.vertices[6 + i], corner[i], 1e-9);
+  spore_triangle_mesh_clear(&mesh);
+}
+
 /* One triangle with a corner on each axis, at 1, 2 and 3 units. */
 static void check_axes(int unit, int frame, const double expected[9]) {
   static const char text[] = "OFF\n3 1 0\n1 0 0\n0 2 0\n0 0 3\n3 0 1 2\n";
@@ -322,6 +333,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/mesh-import/ply", test_ply);
     g_test_add_func("/mesh-import/gltf", test_gltf);
     g_test_add_func("/mesh-import/polygons", test_polygons);
+    g_test_add_func("/mesh-import/points-first", test_points_first);
     g_test_add_func("/mesh-import/large", test_large);
     g_test_add_func("/mesh-import/truncated", test_truncated);
     g_test_add_func("/mesh-import/not-finite", test_not_finite);
