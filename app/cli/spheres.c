@@ -332,7 +332,9 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
           "directions in light contact are truer with balanced"),
        "MODE"},
       {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &r.regions,
-       N_("FACTOR times as many spheres within R metres of a place (several may be given)"), "X,Y,Z,R,FACTOR"},
+       N_("About FACTOR times as many spheres within R metres of a place, less where R is small (several may be "
+          "given); bounding sets hardly follow it"),
+       "X,Y,Z,R,FACTOR"},
       {"asymmetric", 0, 0, G_OPTION_ARG_NONE, &r.asymmetric, N_("Leave out that a symmetric mesh gets a symmetric set"),
        NULL},
       {"thickness", 0, 0, G_OPTION_ARG_DOUBLE, &r.thickness,
