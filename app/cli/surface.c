@@ -110,9 +110,10 @@ static int check_options(gint64 nodes, double size, double keep_angle_deg, const
                              "or --size in metres above 0, or a --wall in metres; give one of them"),
                            SPORE_MESH_MAXIMUM);
   if (wall->detail < 0 || wall->detail > SPORE_MOST_WALL_DETAIL || (wall->detail && !walled))
-    return spore_cli_usage(_("--detail %lld: not a number of steps in a wall; expected 1 to %d, with a "
-                             "--wall; give both, such as 8"),
-                           (long long)wall->detail, SPORE_MOST_WALL_DETAIL);
+    return spore_cli_usage(
+        _("--detail %lld: not how near a wall can be; expected 1 to %d, with a --wall; give both, such "
+          "as 32"),
+        (long long)wall->detail, SPORE_MOST_WALL_DETAIL);
   if (wall->inner && !walled)
     return spore_cli_usage(
         _("--inner %s: there is no inner surface; expected a --wall to have one; give its thickness"), wall->inner);
@@ -151,7 +152,7 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
                   "of a narrow part), inner_m (min, max: from the lumen to the outer surface), error (largest "
                   "distance of inner_m from the thickness asked for, of it), error_at_m (where), volume_m3, lumen_m3, "
                   "pieces of the "
-                  "lumen, its nodes and triangles, step_m (of the lattice that it was found on), seconds")},
+                  "lumen, its nodes and triangles, step_m (of the lattice that it was first found on), seconds")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "surface",
@@ -173,7 +174,8 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
       {"wall", 'w', 0, G_OPTION_ARG_DOUBLE, &thickness,
        N_("Make the organ hollow, with a wall of this thickness, m; -o takes the wall as one closed surface"), "M"},
       {"detail", 'd', 0, G_OPTION_ARG_INT64, &detail,
-       N_("Steps in the wall's thickness: twice as many halve its largest error (default 0: as the size asks for)"),
+       N_("How near the wall is to its thickness: twice as much halves the largest error, in more triangles (default "
+          "16: below 5 %)"),
        "N"},
       {"inner", 'i', 0, G_OPTION_ARG_FILENAME, &inner, N_("File to write the lumen's surface to: .off or .obj"), "F"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},

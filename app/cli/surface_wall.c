@@ -5,7 +5,8 @@
 #include "core/generate/wall.h"
 #include "core/io/scene_xml.h"
 
-static void report(SporeCli *cli, const SporeTriangleMesh *inner, double thickness, const SporeWallReport *report) {
+static void report(SporeCli *cli, const SporeTriangleMesh *inner, const SporeWallOptions *options,
+                   const SporeWallReport *report) {
   SporeVec3 at = report->error_at;
   spore_cli_open(cli, "wall");
   spore_cli_open(cli, "thickness_m");
@@ -36,9 +37,9 @@ static void report(SporeCli *cli, const SporeTriangleMesh *inner, double thickne
                 report->lumen_volume, report->pieces, inner->vertex_count, report->inner_min, report->inner_max,
                 report->seconds);
   spore_cli_say(cli,
-                _("farthest off the thickness asked for: %.1f %%, at (%.4g %.4g %.4g) m; a --detail above %.2g would "
+                _("farthest off the thickness asked for: %.1f %%, at (%.4g %.4g %.4g) m; a --detail above %d would "
                   "have it nearer, in more nodes\n"),
-                100 * report->error, at.x, at.y, at.z, thickness / report->step);
+                100 * report->error, at.x, at.y, at.z, options->detail > 0 ? (int)options->detail : SPORE_WALL_DETAIL);
 }
 
 static gboolean write_mesh(const char *file, const SporeTriangleMesh *mesh, GError **error) {
@@ -61,7 +62,7 @@ gboolean spore_surface_make_wall(SporeCli *cli, const char *file, const SporeTri
   }
   done = done && (!options->wall || write_mesh(options->wall, &wall, error)) &&
          (!options->inner || write_mesh(options->inner, &inner, error));
-  if (done) report(cli, &inner, options->thickness, &figures);
+  if (done) report(cli, &inner, options, &figures);
   spore_triangle_mesh_clear(&inner);
   spore_triangle_mesh_clear(&wall);
   return done;

@@ -6,7 +6,7 @@
 
 typedef struct SporeWallOptions {
   double thickness;         /* m */
-  gint64 detail;            /* steps of the lattice in it; 0: as the diagonal asks for */
+  gint64 detail;            /* see spore_wall_inner; 0: SPORE_WALL_DETAIL */
   const char *wall, *inner; /* files to write, NULL: none; suffixes that spore_surface_formatter knows */
 } SporeWallOptions;
 

@@ -34,28 +34,16 @@ static bool grow(Cells *cells) {
   return true;
 }
 
-/* A place whose depth is known: all that is nearer to it than the surface lies on its side. */
-typedef struct Known {
-  SporeVec3 place;
-  double depth; /* below 0 outside; 0 where nothing is known */
-} Known;
-
-/* Below 0 outside. */
-static double depth_at(const Cells *cells, SporeVec3 p, const Known *known) {
-  const SporeBvh *bvh = cells->solid->bvh;
-  if (spore_vec3_distance(p, known->place) >= fabs(known->depth)) return spore_bvh_depth(bvh, p);
-  return copysign(spore_bvh_distance(bvh, p, NULL, NULL), known->depth);
-}
-
 /* A point somewhere in the cell, for all of it, unless that lies too far outside. Where regions want more balls errors
  * weigh more, see spheres_sample.c. */
-static bool add_cell(Cells *cells, SporeVec3 middle, double edge, const Known *known) {
+static bool add_cell(Cells *cells, SporeVec3 middle, double edge, const SporeBvhKnown *known) {
   const SporeSolid *solid = cells->solid;
   double offset[3];
   if (cells->count == cells->capacity && !grow(cells)) return false;
   for (int k = 0; k < 3; k++) offset[k] = edge * (spore_random_unit(cells->random) - 0.5);
   SporeVec3 p = spore_vec3_add(middle, spore_vec3_load(offset));
-  double depth = depth_at(cells, p, known), factor = solid->region_count ? spore_solid_factor(solid, p) : 1;
+  double depth = spore_bvh_depth_beside(cells->solid->bvh, p, known),
+         factor = solid->region_count ? spore_solid_factor(solid, p) : 1;
   if (depth < -cells->far) return true;
   spore_vec3_store(cells->xyz + 3 * cells->count, spore_symmetry_fold(&solid->symmetry, p));
   cells->depth[cells->count] = depth;
@@ -63,13 +51,13 @@ static bool add_cell(Cells *cells, SporeVec3 middle, double edge, const Known *k
   return true;
 }
 
-static bool divide(Cells *cells, SporeVec3 middle, double edge, const Known *known) {
+static bool divide(Cells *cells, SporeVec3 middle, double edge, const SporeBvhKnown *known) {
   if (cells->visited++ % REPORT_EVERY == 0 &&
       !spore_progress_part(cells->progress, fmin(1, (double)cells->count / SAMPLES_MOST), _("Sampling the solid"),
                            cells->error))
     return false;
   if (edge <= 1.001 * cells->finest) return add_cell(cells, middle, edge, known);
-  Known here = {middle, depth_at(cells, middle, known)};
+  SporeBvhKnown here = {middle, spore_bvh_depth_beside(cells->solid->bvh, middle, known)};
   double reach = edge * (sqrt(3) / 2);
   if (here.depth < -cells->far - reach) return true;
   if (edge <= 2.001 * cells->finest && fabs(here.depth) > cells->near + reach)
@@ -95,7 +83,7 @@ static bool divide_all(Cells *cells) {
   SporeVec3 middle = spore_vec3_scale(0.5, spore_vec3_add(spore_vec3_load(lower), spore_vec3_load(upper)));
   double edge = cells->finest;
   while (edge < extent + 2 * cells->far) edge *= 2;
-  return divide(cells, middle, edge, &(Known){middle, 0});
+  return divide(cells, middle, edge, &(SporeBvhKnown){middle, 0});
 }
 
 static bool sort_cells(const Cells *cells, SporeSamples *samples) {

@@ -6,25 +6,33 @@
 #include "core/base/memory.h"
 #include "core/base/profile.h"
 #include "core/base/text.h"
-#include "core/generate/wall_parts.h"
 #include "core/mesh/bvh.h"
 #include "core/mesh/common.h"
 #include "core/mesh/isosurface.h"
+#include "core/mesh/simplify.h"
 
-#define STEPS 4        /* in the thickness */
-#define FINEST 0.01    /* of the diagonal: no finer is needed than this, unless the wall is thinner */
-#define SEARCHES 20000 /* places that are looked at for the deepest */
+#define FINEST 0.01        /* of the diagonal: no finer is needed than this, unless the wall is thinner */
+#define REFINED 0.56       /* of a thickness over the detail: how far off the cut surface may be */
+#define THINNED 0.32       /* of it: how far off triangles may be that take the place of smaller ones */
+#define SPACING (1.0 / 3)  /* of the thickness: between the points at which that is looked at */
+#define MEASURED (1.0 / 6) /* of it: and at which it is reported */
+#define MOST_PARTS 32      /* of a side, for that */
+#define SEARCHES 20000     /* places that are looked at for the deepest */
 
 typedef struct Depth {
   const SporeBvh *bvh;
   double thickness;
+  SporeBvhKnown known;
 } Depth;
 
 /* Negative in the lumen. */
 static double beyond_wall(void *data, SporeVec3 place) {
-  const Depth *depth = data;
-  return depth->thickness - spore_bvh_depth(depth->bvh, place);
+  Depth *depth = data;
+  depth->known = (SporeBvhKnown){place, spore_bvh_depth_beside(depth->bvh, place, &depth->known)};
+  return depth->thickness - depth->known.depth;
 }
+
+static double off_wall(void *data, SporeVec3 place) { return fabs(beyond_wall(data, place)); }
 
 /* Where of a lattice over the box it is deepest. */
 static double find_deepest(const SporeBvh *bvh, const SporeMeshReport *box, SporeVec3 *place) {
@@ -70,23 +78,29 @@ static void measure_outer(const SporeTriangleMesh *outer, const SporeBvh *inner,
   report->thickness_mean /= area;
 }
 
-/* From the inner one, at vertices, middles of edges and of triangles. */
+/* From the inner one, at points of each triangle and its sides. */
+static void measure_triangle(const SporeVec3 p[3], const SporeBvh *outer, double thickness, SporeWallReport *report) {
+  SporeVec3 one = spore_vec3_sub(p[1], p[0]), other = spore_vec3_sub(p[2], p[0]);
+  double longest = fmax(spore_vec3_distance(p[1], p[2]), fmax(spore_vec3_length(one), spore_vec3_length(other)));
+  int parts = (int)fmin(fmax(ceil(longest / (MEASURED * thickness)), 2), MOST_PARTS);
+  for (int i = 0; i <= parts; i++)
+    for (int j = 0; i + j <= parts; j++) {
+      SporeVec3 place =
+          spore_vec3_add_scaled(spore_vec3_add_scaled(p[0], (double)i / parts, one), (double)j / parts, other);
+      double at = spore_bvh_distance(outer, place, NULL, NULL), error = fabs(at / thickness - 1);
+      report->inner_min = fmin(report->inner_min, at);
+      report->inner_max = fmax(report->inner_max, at);
+      if (error > report->error) report->error = error, report->error_at = place;
+    }
+}
+
 static void measure_inner(const SporeTriangleMesh *inner, const SporeBvh *outer, double thickness,
                           SporeWallReport *report) {
   report->inner_min = HUGE_VAL;
   for (size_t t = 0; t < inner->triangle_count; t++) {
-    SporeVec3 p[7] = {{0, 0, 0}};
-    for (size_t k = 0; k < 3; k++) {
-      p[k + 1] = spore_mesh_vertex(inner->vertices, inner->triangles[3 * t + k]);
-      p[0] = spore_vec3_add_scaled(p[0], 1.0 / 3, p[k + 1]);
-    }
-    for (size_t k = 0; k < 3; k++) p[4 + k] = spore_vec3_scale(0.5, spore_vec3_add(p[1 + k], p[1 + (k + 1) % 3]));
-    for (size_t k = 0; k < 7; k++) {
-      double at = spore_bvh_distance(outer, p[k], NULL, NULL), error = fabs(at / thickness - 1);
-      report->inner_min = fmin(report->inner_min, at);
-      report->inner_max = fmax(report->inner_max, at);
-      if (error > report->error) report->error = error, report->error_at = p[k];
-    }
+    SporeVec3 p[3];
+    for (size_t k = 0; k < 3; k++) p[k] = spore_mesh_vertex(inner->vertices, inner->triangles[3 * t + k]);
+    measure_triangle(p, outer, thickness, report);
   }
 }
 
@@ -107,6 +121,17 @@ static bool report_wall(const SporeTriangleMesh *outer, const SporeBvh *bvh, con
   return true;
 }
 
+/* As near as the detail asks for, in as few triangles as keep to that. */
+static bool make_inner(Depth *depth, const SporeMeshReport *box, double step, double detail, SporeTriangleMesh *inner,
+                       const SporeProgress *progress, SporeError *error) {
+  double lower[3], upper[3], near = depth->thickness / (detail > 0 ? detail : SPORE_WALL_DETAIL);
+  for (int e = 0; e < 3; e++) lower[e] = box->lower[e] - 0.3 * step, upper[e] = box->upper[e] + 0.3 * step;
+  if (!spore_isosurface(lower, upper, step, REFINED * near, beyond_wall, depth, inner, progress, error)) return false;
+  if (inner->triangle_count == 0) return refuse(depth->bvh, box, depth->thickness, error);
+  const SporeSurfaceLimit limit = {off_wall, depth, THINNED * near, SPACING * depth->thickness};
+  return spore_triangle_mesh_thin(inner, &limit, progress, error);
+}
+
 bool spore_wall_inner(const SporeTriangleMesh *outer, double thickness, double detail, SporeTriangleMesh *inner,
                       SporeWallReport *report, const SporeProgress *progress, SporeError *error) {
   uint64_t start = spore_clock_ns();
@@ -116,16 +141,10 @@ bool spore_wall_inner(const SporeTriangleMesh *outer, double thickness, double d
   if (!spore_triangle_mesh_report_solid(outer, &box, error)) return false;
   SporeBvh *bvh = spore_bvh_create(outer, error);
   if (!bvh) return false;
-  Depth depth = {bvh, thickness};
-  double step = detail > 0 ? thickness / detail : fmin(FINEST * box.diagonal, thickness), lower[3], upper[3];
-  if (detail <= 0) step = fmax(step, fmin(thickness / STEPS, FINEST * box.diagonal));
-  for (int e = 0; e < 3; e++) lower[e] = box.lower[e] - 0.3 * step, upper[e] = box.upper[e] + 0.3 * step;
-  report->step = step;
-  bool made = spore_isosurface(lower, upper, step, beyond_wall, &depth, inner, progress, error);
-  if (made && inner->triangle_count == 0) made = refuse(bvh, &box, thickness, error);
-  if (made && !spore_wall_fit(bvh, thickness, step, inner))
-    made = spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the inner surface of a wall"));
-  made = made && report_wall(outer, bvh, &box, inner, thickness, report, error);
+  Depth depth = {.bvh = bvh, .thickness = thickness};
+  report->step = fmin(FINEST * box.diagonal, thickness);
+  bool made = make_inner(&depth, &box, report->step, detail, inner, progress, error) &&
+              report_wall(outer, bvh, &box, inner, thickness, report, error);
   spore_bvh_free(bvh);
   if (!made) spore_triangle_mesh_clear(inner);
   report->seconds = 1e-9 * (double)(spore_clock_ns() - start);

@@ -70,3 +70,8 @@ double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p) {
   double distance = spore_bvh_distance(bvh, p, NULL, NULL);
   return spore_bvh_winding(bvh, p) > 0.5 ? distance : -distance;
 }
+
+double spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const SporeBvhKnown *known) {
+  if (spore_vec3_distance(p, known->place) >= fabs(known->depth)) return spore_bvh_depth(bvh, p);
+  return copysign(spore_bvh_distance(bvh, p, NULL, NULL), known->depth);
+}

@@ -5,19 +5,19 @@
 
 #include "core/base/text.h"
 #include "core/mesh/common.h"
+#include "core/mesh/isosurface_parts.h"
 #include "core/mesh/sort.h"
 
 #define BLOCK 4 /* cubes, each way, that are left out together */
 #define MOST_POINTS 1000000000.
-#define ON                                                                                                             \
-  1e-9 /* of the step: as near to a lattice point counts as inside of it, so that no triangle is without size */
+#define WIDE 1.7321f                      /* steps: where the field is farther from 0, no surface goes through a cube */
+#define LATTICE_POINT (UINT64_C(1) << 63) /* key of a point of the lattice, beside those of edges */
+#define ROOTS 6                           /* tries, on an edge */
 
 typedef struct Lattice {
   size_t size[3]; /* points */
   double lower[3], step;
-  float *value;   /* per point, in steps; HUGE_VALF: not looked at */
-  uint64_t *edge; /* of each corner of a triangle: from its lower point x 8 + direction */
-  size_t corner_count, capacity;
+  float *value; /* per point, in steps; HUGE_VALF: not looked at */
 } Lattice;
 
 static size_t index_of(const Lattice *lattice, size_t i, size_t j, size_t k) {
@@ -47,8 +47,7 @@ static void sample_block(Lattice *lattice, const size_t from[3], SporeDistanceFi
       for (size_t k = from[2]; k <= to[2]; k++) {
         size_t at = index_of(lattice, i, j, k);
         if (lattice->value[at] < HUGE_VALF) continue;
-        float value = (float)(field(data, place_of(lattice, at)) / lattice->step);
-        lattice->value[at] = fabsf(value) < (float)ON ? (float)-ON : value;
+        lattice->value[at] = (float)(field(data, place_of(lattice, at)) / lattice->step);
       }
 }
 
@@ -64,122 +63,142 @@ static bool sample(Lattice *lattice, SporeDistanceField field, void *data, const
   return true;
 }
 
-/* Corner where the surface crosses from point a to b, whose places in the cube are the bits of low and high. */
-static uint64_t crossing(const Lattice *lattice, size_t cube, unsigned a, unsigned b) {
-  unsigned low = a & b, direction = a ^ b; /* of two on a path from corner 0 to 7 one is the other's lower */
-  size_t at =
-      cube + (low >> 2 & 1) * lattice->size[1] * lattice->size[2] + (low >> 1 & 1) * lattice->size[2] + (low & 1);
-  return (uint64_t)at * 8 + direction;
-}
+/* Cells. */
 
-static bool push(Lattice *lattice, const uint64_t corners[3]) {
-  if (lattice->corner_count + 3 > lattice->capacity) {
-    size_t capacity = 2 * lattice->capacity + 3072;
-    uint64_t *edge = spore_reallocate(lattice->edge, lattice->capacity, capacity, sizeof *edge);
-    if (!edge) return false;
-    lattice->edge = edge;
-    lattice->capacity = capacity;
-  }
-  memcpy(lattice->edge + lattice->corner_count, corners, 3 * sizeof *corners);
-  lattice->corner_count += 3;
-  return true;
-}
-
-/* An edge of a cube between two of its corners. */
-typedef struct Edge {
-  unsigned inside, outside;
-} Edge;
-
-static SporeVec3 corner_place(unsigned c) { return spore_vec3(c >> 2 & 1, c >> 1 & 1, c & 1); }
-
-/* Outward: which way round is told by the middles of the edges, whatever the values are. */
-static bool add_triangle(Lattice *lattice, size_t cube, const Edge edges[3]) {
-  SporeVec3 middle[3], out = {0, 0, 0};
-  uint64_t at[3];
-  for (int e = 0; e < 3; e++) {
-    SporeVec3 in = corner_place(edges[e].inside), beyond = corner_place(edges[e].outside);
-    middle[e] = spore_vec3_scale(0.5, spore_vec3_add(in, beyond));
-    out = spore_vec3_add(out, spore_vec3_sub(beyond, in));
-    at[e] = crossing(lattice, cube, edges[e].inside, edges[e].outside);
-  }
-  SporeVec3 normal = spore_vec3_cross(spore_vec3_sub(middle[1], middle[0]), spore_vec3_sub(middle[2], middle[0]));
-  const uint64_t turned[3] = {at[0], at[2], at[1]};
-  return push(lattice, spore_vec3_dot(normal, out) > 0 ? at : turned);
-}
-
-/* The surface in one tetrahedron of a cube's corners. */
-static bool cut_tetrahedron(Lattice *lattice, size_t cube, const unsigned corner[4], const float value[8]) {
-  unsigned in[4], out[4], n = 0, m = 0;
-  for (unsigned c = 0; c < 4; c++) {
-    if (value[corner[c]] < 0) in[n++] = corner[c];
-    else out[m++] = corner[c];
-  }
-  if (n == 0 || m == 0) return true;
-  if (n == 1) return add_triangle(lattice, cube, (const Edge[3]){{in[0], out[0]}, {in[0], out[1]}, {in[0], out[2]}});
-  if (n == 3) return add_triangle(lattice, cube, (const Edge[3]){{in[0], out[0]}, {in[1], out[0]}, {in[2], out[0]}});
-  return add_triangle(lattice, cube, (const Edge[3]){{in[0], out[0]}, {in[0], out[1]}, {in[1], out[1]}}) &&
-         add_triangle(lattice, cube, (const Edge[3]){{in[0], out[0]}, {in[1], out[1]}, {in[1], out[0]}});
+/* Numbers a point of the lattice, once. */
+static uint32_t point_of(const Lattice *lattice, SporeIsosurfaceCells *cells, size_t index) {
+  uint32_t *entry = spore_isosurface_entry(cells, LATTICE_POINT | index);
+  if (entry && *entry == UINT32_MAX)
+    *entry = spore_isosurface_add_point(cells, place_of(lattice, index), lattice->step * (double)lattice->value[index]);
+  return entry ? *entry : UINT32_MAX;
 }
 
 /* Along each path of three edges from corner 0 to corner 7, one tetrahedron (Freudenthal's). */
-static bool cut_cube(Lattice *lattice, size_t cube) {
+static bool add_cube(const Lattice *lattice, SporeIsosurfaceCells *cells, size_t cube) {
   static const unsigned paths[6][2] = {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}};
-  float value[8];
-  bool cut = true, any[2] = {false, false};
-  for (unsigned c = 0; c < 8; c++) {
-    value[c] =
-        lattice
-            ->value[cube + (c >> 2) * lattice->size[1] * lattice->size[2] + (c >> 1 & 1) * lattice->size[2] + (c & 1)];
-    if (!(value[c] < HUGE_VALF)) return true; /* the surface does not come near */
-    any[value[c] < 0] = true;
+  size_t at[8];
+  uint32_t point[8];
+  for (size_t c = 0; c < 8; c++) {
+    at[c] = cube + (c >> 2) * lattice->size[1] * lattice->size[2] + (c >> 1 & 1) * lattice->size[2] + (c & 1);
+    if (!(lattice->value[at[c]] < HUGE_VALF)) return true; /* the surface does not come near */
+    if (fabsf(lattice->value[at[c]]) > WIDE) return true;
   }
-  for (int t = 0; any[0] && any[1] && cut && t < 6; t++)
-    cut = cut_tetrahedron(lattice, cube, (const unsigned[4]){0, paths[t][0], paths[t][1], 7}, value);
-  return cut;
+  for (size_t c = 0; c < 8; c++) {
+    point[c] = point_of(lattice, cells, at[c]);
+    if (point[c] == UINT32_MAX) return false;
+  }
+  for (size_t t = 0; t < 6; t++) {
+    const SporeIsosurfaceCell cell = {.corner = {point[0], point[paths[t][0]], point[paths[t][1]], point[7]}, .tag = 3};
+    if (!spore_isosurface_add_cell(cells, &cell)) return false;
+  }
+  return true;
 }
 
-static SporeVec3 vertex_at(const Lattice *lattice, uint64_t edge) {
-  size_t low = (size_t)(edge / 8), direction = edge % 8;
-  size_t high = low + (direction >> 2 & 1) * lattice->size[1] * lattice->size[2] +
-                (direction >> 1 & 1) * lattice->size[2] + (direction & 1);
-  double a = (double)lattice->value[low], b = (double)lattice->value[high];
-  SporeVec3 from = place_of(lattice, low), to = place_of(lattice, high);
-  return spore_vec3_add_scaled(from, a / (a - b), spore_vec3_sub(to, from));
+static bool add_cubes(const Lattice *lattice, SporeIsosurfaceCells *cells, SporeError *error) {
+  for (size_t i = 0; i + 1 < lattice->size[0]; i++)
+    for (size_t j = 0; j + 1 < lattice->size[1]; j++)
+      for (size_t k = 0; k + 1 < lattice->size[2]; k++)
+        if (!add_cube(lattice, cells, index_of(lattice, i, j, k))) return spore_mesh_no_memory(error);
+  return true;
+}
+
+/* The surface. */
+
+typedef struct Corners {
+  uint64_t *edge; /* of each corner of a triangle: spore_isosurface_edge of what it lies on */
+  size_t count, capacity;
+} Corners;
+
+static bool push(Corners *corners, uint64_t edge) {
+  uint64_t *edges = spore_room_for_one(corners->edge, corners->count, &corners->capacity, 4096, sizeof *edges);
+  if (!edges) return false;
+  corners->edge = edges;
+  edges[corners->count++] = edge;
+  return true;
+}
+
+/* Outward: which way round is told by the middles of the edges, whatever the values are. */
+static bool add_triangle(const SporeIsosurfaceCells *cells, Corners *corners, uint32_t edges[3][2]) {
+  SporeVec3 middle[3], out = {0, 0, 0};
+  uint64_t at[3];
+  for (int e = 0; e < 3; e++) {
+    SporeVec3 in = cells->points[edges[e][0]].place, beyond = cells->points[edges[e][1]].place;
+    middle[e] = spore_vec3_scale(0.5, spore_vec3_add(in, beyond));
+    out = spore_vec3_add(out, spore_vec3_sub(beyond, in));
+    at[e] = spore_isosurface_edge(edges[e][0], edges[e][1]);
+  }
+  SporeVec3 normal = spore_vec3_cross(spore_vec3_sub(middle[1], middle[0]), spore_vec3_sub(middle[2], middle[0]));
+  bool turned = !(spore_vec3_dot(normal, out) > 0);
+  return push(corners, at[0]) && push(corners, at[1 + turned]) && push(corners, at[2 - turned]);
+}
+
+static bool cut_cells(const SporeIsosurfaceCells *cells, Corners *corners, SporeError *error) {
+  uint32_t triangles[2][3][2];
+  for (size_t i = 0; i < cells->cell_count; i++) {
+    size_t count = cells->cells[i].tag ? spore_isosurface_cut(cells, &cells->cells[i], triangles) : 0;
+    for (size_t t = 0; t < count; t++)
+      if (!add_triangle(cells, corners, triangles[t])) return spore_mesh_no_memory(error);
+  }
+  return true;
+}
+
+/* Where the field vanishes on an edge: by false position, between its ends whatever the field is. */
+static SporeVec3 vertex_at(const SporeIsosurfaceCells *cells, uint64_t edge) {
+  SporeIsosurfacePoint in = cells->points[edge >> 32], out = cells->points[(uint32_t)edge];
+  if (in.value > 0) {
+    SporeIsosurfacePoint swap = in;
+    in = out, out = swap;
+  }
+  SporeVec3 x = in.place;
+  bool was_in = false, was_out = false;
+  for (int k = 0; k < ROOTS; k++) {
+    x = spore_vec3_add_scaled(in.place, in.value / (in.value - out.value), spore_vec3_sub(out.place, in.place));
+    double value = cells->field(cells->data, x);
+    if (fabs(value) < SPORE_ISOSURFACE_ON * cells->step) break;
+    if (value < 0) in = (SporeIsosurfacePoint){x, value, 0}, out.value *= was_in ? 0.5 : 1;
+    else out = (SporeIsosurfacePoint){x, value, 0}, in.value *= was_out ? 0.5 : 1;
+    was_in = value < 0, was_out = !was_in;
+  }
+  return x;
 }
 
 /* One vertex for each edge that is crossed. */
-static bool make_mesh(const Lattice *lattice, SporeTriangleMesh *mesh, SporeError *error) {
-  size_t corners = lattice->corner_count, vertices = 0;
-  uint64_t *sorted = SPORE_NEW_ARRAY(uint64_t, corners);
-  uint32_t *order = SPORE_NEW_ARRAY(uint32_t, corners);
+static bool make_mesh(const SporeIsosurfaceCells *cells, const Corners *corners, SporeTriangleMesh *mesh,
+                      SporeError *error) {
+  size_t count = corners->count, vertices = 0;
+  uint64_t *sorted = SPORE_NEW_ARRAY(uint64_t, count);
+  uint32_t *order = SPORE_NEW_ARRAY(uint32_t, count);
   bool made = sorted && order;
-  for (size_t i = 0; made && i < corners; i++) sorted[i] = lattice->edge[i], order[i] = (uint32_t)i;
-  if (!made || !spore_sort_keys(sorted, order, corners)) made = spore_mesh_no_memory(error);
-  for (size_t i = 0; made && i < corners; i++) vertices += i == 0 || sorted[i] != sorted[i - 1];
-  made = made && spore_triangle_mesh_allocate(mesh, vertices, corners / 3, error);
+  for (size_t i = 0; made && i < count; i++) sorted[i] = corners->edge[i], order[i] = (uint32_t)i;
+  if (!made || !spore_sort_keys(sorted, order, count)) made = spore_mesh_no_memory(error);
+  for (size_t i = 0; made && i < count; i++) vertices += i == 0 || sorted[i] != sorted[i - 1];
+  made = made && spore_triangle_mesh_allocate(mesh, vertices, count / 3, error);
   uint32_t number = 0;
-  for (size_t i = 0; made && i < corners; i++) {
+  for (size_t i = 0; made && i < count; i++) {
     if (i > 0 && sorted[i] != sorted[i - 1]) number++;
     mesh->triangles[order[i]] = number;
     if (i == 0 || sorted[i] != sorted[i - 1])
-      spore_vec3_store(mesh->vertices + 3 * (size_t)number, vertex_at(lattice, sorted[i]));
+      spore_vec3_store(mesh->vertices + 3 * (size_t)number, vertex_at(cells, sorted[i]));
   }
   spore_free(sorted);
   spore_free(order);
   return made;
 }
 
-static bool cut_all(Lattice *lattice, SporeError *error) {
-  for (size_t i = 0; i + 1 < lattice->size[0]; i++)
-    for (size_t j = 0; j + 1 < lattice->size[1]; j++)
-      for (size_t k = 0; k + 1 < lattice->size[2]; k++)
-        if (!cut_cube(lattice, index_of(lattice, i, j, k))) return spore_mesh_no_memory(error);
-  return true;
+static bool cut(SporeIsosurfaceCells *cells, double tolerance, SporeTriangleMesh *mesh, const SporeProgress *progress,
+                SporeError *error) {
+  Corners corners = {0};
+  bool made = (isinf(tolerance) || spore_isosurface_refine(cells, tolerance, progress, error)) &&
+              cut_cells(cells, &corners, error) && (corners.count == 0 || make_mesh(cells, &corners, mesh, error));
+  spore_free(corners.edge);
+  return made;
 }
 
-bool spore_isosurface(const double lower[3], const double upper[3], double step, SporeDistanceField field, void *data,
-                      SporeTriangleMesh *mesh, const SporeProgress *progress, SporeError *error) {
+bool spore_isosurface(const double lower[3], const double upper[3], double step, double tolerance,
+                      SporeDistanceField field, void *data, SporeTriangleMesh *mesh, const SporeProgress *progress,
+                      SporeError *error) {
   Lattice lattice = {.step = step};
+  SporeIsosurfaceCells cells = {.field = field, .data = data, .step = step};
   double points = 1;
   *mesh = (SporeTriangleMesh){0};
   for (int e = 0; e < 3; e++) {
@@ -197,9 +216,9 @@ bool spore_isosurface(const double lower[3], const double upper[3], double step,
   bool made = lattice.value != NULL;
   for (size_t i = 0; made && i < (size_t)points; i++) lattice.value[i] = HUGE_VALF;
   if (!made) spore_mesh_no_memory(error);
-  made = made && sample(&lattice, field, data, progress, error) && cut_all(&lattice, error) &&
-         (lattice.corner_count == 0 || make_mesh(&lattice, mesh, error));
+  made = made && sample(&lattice, field, data, progress, error) && add_cubes(&lattice, &cells, error) &&
+         cut(&cells, tolerance, mesh, progress, error);
   spore_free(lattice.value);
-  spore_free(lattice.edge);
+  spore_isosurface_clear(&cells);
   return made;
 }

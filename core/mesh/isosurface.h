@@ -9,11 +9,14 @@
 typedef double (*SporeDistanceField)(void *data, SporeVec3 place);
 
 /* Cubes of side `step` (m) from `lower` to at least `upper`, outside of which the field is positive, are cut into six
- * tetrahedra each, alike on both sides of each face, and the surface through those is linear: closed, outward, and
+ * tetrahedra each, alike on both sides of each face. Those in which the surface between the crossed edges is farther
+ * than `tolerance` (m; HUGE_VAL: none) from where the field vanishes are bisected, with their neighbours, to a 64th of
+ * the step at least (Maubach 1995). One vertex where the field vanishes on each crossed edge: closed, outward, and
  * without intersections with itself. Where the field is farther from 0 than a block of cubes is wide, it is not looked
  * at there. *mesh is empty where nothing is inside. Refused: more than 1e9 cubes. False also: no memory, or
  * cancelled. */
-bool spore_isosurface(const double lower[3], const double upper[3], double step, SporeDistanceField field, void *data,
-                      SporeTriangleMesh *mesh, const SporeProgress *progress, SporeError *error);
+bool spore_isosurface(const double lower[3], const double upper[3], double step, double tolerance,
+                      SporeDistanceField field, void *data, SporeTriangleMesh *mesh, const SporeProgress *progress,
+                      SporeError *error);
 
 #endif

@@ -16,6 +16,7 @@
 #define GOOD_QUALITY 0.4    /* below it, a collapse costs more */
 #define LEAST_TURN 0.3      /* cosine by which a triangle may turn in a collapse */
 #define SMALL 0.05          /* of the length wanted of edges: what of features is smaller is none of them */
+#define LIKELY 0.2          /* of the vertices, that a limit leaves */
 #define SLIVER 0.1          /* quality of a triangle whose own normal says nothing */
 #define STEPS_A_REPORT 1024 /* collapses */
 
@@ -33,7 +34,8 @@ typedef struct Collapser {
   size_t count, capacity;
   double edge; /* length wanted */
   SporeShellNeighbours near;
-  bool crossing; /* what goes through something is let be */
+  const SporeSurfaceLimit *limit; /* NULL: none */
+  bool crossing;                  /* what goes through something is let be */
 } Collapser;
 
 /* Quadrics. */
@@ -259,6 +261,7 @@ static bool collapse(Collapser *work, const Candidate *candidate) {
     later.cost *= pow(GOOD_QUALITY / quality, 3);
     return push(work, later);
   }
+  if (work->limit && !spore_shell_limit_allows(shell, work->limit, a, b, x)) return true;
   if (!work->crossing && spore_shell_would_cross(&work->near, shell, a, b, x)) return true;
   spore_shell_collapse(shell, a, b, x);
   if (!work->crossing && !spore_shell_neighbours_add_ring(&work->near, shell, a)) return false;
@@ -285,23 +288,27 @@ static bool collapse_to(Collapser *work, size_t vertices, const SporeProgress *p
   return true;
 }
 
-bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeProgress *progress, SporeError *error) {
+bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeSurfaceLimit *limit,
+                             const SporeProgress *progress, SporeError *error) {
   Collapser work = {.shell = shell,
+                    .limit = limit,
                     .quadric = SPORE_NEW_ARRAY(SporeQuadric, shell->vertex_count),
                     .stamp = SPORE_NEW_ARRAY(uint32_t, shell->vertex_count)};
   bool done = (work.quadric && work.stamp) || spore_mesh_no_memory(error);
-  if (done) work.edge = sqrt(make_quadrics(&work) / (sqrt(3) / 2 * (double)vertices));
+  double likely = limit ? LIKELY * (double)shell->live : (double)vertices;
+  if (done) work.edge = sqrt(make_quadrics(&work) / (sqrt(3) / 2 * likely));
   /* Cells between the triangles there are and those there will be. */
-  double cell = work.edge * pow((double)vertices / (double)(shell->live + 1), 0.25);
+  double cell = work.edge * pow(likely / (double)(shell->live + 1), 0.25);
   if (done && shell->live > vertices) {
     done = spore_shell_neighbours_create(&work.near, shell, cell) || spore_mesh_no_memory(error);
     done = done && collapse_to(&work, vertices, progress, error);
     work.crossing = true; /* so many vertices are wanted all the same */
-    done = done && (shell->live <= vertices || collapse_to(&work, vertices, progress, error));
+    done = done && (limit || shell->live <= vertices || collapse_to(&work, vertices, progress, error));
     spore_shell_neighbours_clear(&work.near);
   }
-  done = done && (spore_shell_neighbours_create(&work.near, shell, work.edge) || spore_mesh_no_memory(error)) &&
-         spore_shell_improve(shell, work.quadric, &work.near, progress, error);
+  done = done &&
+         (limit || spore_shell_neighbours_create(&work.near, shell, work.edge) || spore_mesh_no_memory(error)) &&
+         (limit || spore_shell_improve(shell, work.quadric, &work.near, progress, error));
   spore_shell_neighbours_clear(&work.near);
   spore_free(work.quadric);
   spore_free(work.stamp);

@@ -33,6 +33,18 @@ bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimp
                                   SporeTriangleMesh *result, SporeSimplifyReport *report, const SporeProgress *progress,
                                   SporeError *error);
 
+/* How far a place is off the surface that is meant, m, and how far triangles may come to be where they were not so
+ * far before, at points `spacing` (m) apart. */
+typedef struct SporeSurfaceLimit {
+  double (*off)(void *data, SporeVec3 place);
+  void *data;
+  double most, spacing;
+} SporeSurfaceLimit;
+/* The same of a closed surface with as few vertices as the limit allows: *mesh is replaced. Nothing that goes through
+ * nothing goes through something then. False: no memory, or cancelled; *mesh is as it was. */
+bool spore_triangle_mesh_thin(SporeTriangleMesh *mesh, const SporeSurfaceLimit *limit, const SporeProgress *progress,
+                              SporeError *error);
+
 /* Of the angles of all triangles, degrees: the least, and the mean of each one's least. */
 void spore_triangle_mesh_angles(const SporeTriangleMesh *mesh, double *least, double *mean);
 

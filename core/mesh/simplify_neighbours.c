@@ -36,8 +36,8 @@ static Box box_of(const SporeVec3 p[3]) {
     double x[3];
     spore_vec3_store(x, p[k]);
     for (size_t e = 0; e < 3; e++) {
-      box.lower[e] = k ? fmin(box.lower[e], x[e]) : x[e];
-      box.upper[e] = k ? fmax(box.upper[e], x[e]) : x[e];
+      box.lower[e] = k && box.lower[e] < x[e] ? box.lower[e] : x[e];
+      box.upper[e] = k && box.upper[e] > x[e] ? box.upper[e] : x[e];
     }
   }
   return box;
@@ -102,20 +102,29 @@ static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, co
   Box box = box_of(p);
   size_t from[3], to[3];
   cells_of(near, &box, from, to);
-  near->asked++;
+  uint32_t first = near->asked + 1;
   for (size_t x = from[0]; x <= to[0]; x++)
     for (size_t y = from[1]; y <= to[1]; y++)
-      for (size_t z = from[2]; z <= to[2]; z++)
-        for (uint32_t i = near->head[(x * near->side + y) * near->side + z]; i != NONE; i = near->entries[2 * i + 1]) {
-          uint32_t other = near->entries[2 * i];
+      for (size_t z = from[2]; z <= to[2]; z++) {
+        near->asked++; /* in each cell: what comes twice in one, or is gone, is taken out of it */
+        uint32_t *link = &near->head[(x * near->side + y) * near->side + z];
+        while (*link != NONE) {
+          uint32_t other = near->entries[2 * (size_t)*link], *next = &near->entries[2 * (size_t)*link + 1];
           const uint32_t *m = shell->corner + 3 * (size_t)other;
-          if (near->seen[other] == near->asked || m[0] == SPORE_SHELL_NONE || has(m, a) || has(m, b)) continue;
+          bool met = near->seen[other] >= first;
+          if (near->seen[other] == near->asked || m[0] == SPORE_SHELL_NONE) {
+            *link = *next;
+            continue;
+          }
+          link = next;
           near->seen[other] = near->asked;
+          if (met || has(m, a) || has(m, b)) continue;
           SporeVec3 q[3];
           corners_of(shell, other, q);
           Box its = box_of(q);
           if (boxes_meet(&box, &its) && (edge_through(n, p, m, q) || edge_through(m, q, n, p))) return true;
         }
+      }
   return false;
 }
 

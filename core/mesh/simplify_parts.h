@@ -5,6 +5,7 @@
 #include "core/base/progress.h"
 #include "core/math/mat3.h"
 #include "core/mesh/shell.h"
+#include "core/mesh/simplify.h"
 
 /* Sum of weighted squared distances from planes, x' A x + 2 b' x + c, and of the weights. */
 typedef struct SporeQuadric {
@@ -28,7 +29,7 @@ typedef struct SporeShellNeighbours {
   uint32_t *head; /* first entry of each cell */
   size_t count, capacity;
   uint32_t *entries;     /* triangle, next entry: also those of before a triangle moved, or went */
-  uint32_t *seen, asked; /* of each triangle: the last question that met it */
+  uint32_t *seen, asked; /* of each triangle: the last look into a cell that met it */
 } SporeShellNeighbours;
 
 /* edge: length of an edge, as of most of the work. Clear it in either case. False: no memory. */
@@ -44,9 +45,15 @@ bool spore_shell_triangle_crosses(SporeShellNeighbours *near, const SporeShell *
 /* All triangles around a vertex. */
 bool spore_shell_neighbours_add_ring(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex);
 
-/* Collapses edges of a shell whose features are found, down to so many vertices, and betters it. False: no memory, or
- * cancelled. */
-bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeProgress *progress, SporeError *error);
+/* Whether the triangles around the edge a b, once it is collapsed to x, are as near as a limit asks for, or no farther
+ * off than they are. */
+bool spore_shell_limit_allows(const SporeShell *shell, const SporeSurfaceLimit *limit, uint32_t a, uint32_t b,
+                              SporeVec3 x);
+
+/* Collapses edges of a shell whose features are found, down to so many vertices, and betters it; limit: as few as it
+ * allows, no better; NULL: none. False: no memory, or cancelled. */
+bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeSurfaceLimit *limit,
+                             const SporeProgress *progress, SporeError *error);
 /* Turns edges and moves points along the surface, to widen angles, as long as the quadrics (one a vertex, of the planes
  * that it stands for) say that the surface stays as near as it is, and
  * nothing goes through what it did not. near: of the shell now. False: cancelled, or no memory. */

@@ -23,7 +23,7 @@ typedef struct SporeEnvironmentFields {
   double gravity[3]; /* m/s^2 */
 } SporeEnvironmentFields;
 
-#define SPORE_MOST_WALL_DETAIL 64 /* steps of the lattice in a thickness */
+#define SPORE_MOST_WALL_DETAIL 64 /* see spore_wall_inner */
 typedef struct SporeMeshFields {
   const char *name, *file;
   int unit, frame; /* as core/io/mesh_import.h counts them */

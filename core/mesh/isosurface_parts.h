@@ -1,0 +1,59 @@
+/* The parts of finding where a field vanishes: tetrahedra that are bisected where that is wanted. */
+#ifndef SPORE_MESH_ISOSURFACE_PARTS_H
+#define SPORE_MESH_ISOSURFACE_PARTS_H
+
+#include "core/mesh/isosurface.h"
+
+#define SPORE_ISOSURFACE_ON                                                                                            \
+  1e-9 /* of the step: as near to a point counts as inside of it, so that no triangle is without size */
+
+typedef struct SporeIsosurfacePoint {
+  SporeVec3 place;
+  double value;   /* m */
+  uint32_t stamp; /* the pass in which an edge of it was last split */
+} SporeIsosurfacePoint;
+
+/* A tetrahedron that the surface may go through: its next edge to be split is that from its first corner to corner
+ * `tag` (Maubach 1995). */
+typedef struct SporeIsosurfaceCell {
+  uint32_t corner[4];
+  uint8_t tag; /* 3, 2, 1; 0: gone */
+  uint8_t level;
+  bool settled; /* near enough */
+} SporeIsosurfaceCell;
+
+typedef struct SporeIsosurfaceCells {
+  SporeDistanceField field;
+  void *data;
+  double step;
+  SporeIsosurfacePoint *points;
+  size_t point_count, point_capacity;
+  SporeIsosurfaceCell *cells;
+  size_t cell_count, cell_capacity;
+  uint64_t *keys; /* of a hash table: edges that are split, see spore_isosurface_edge; UINT64_MAX: none */
+  uint32_t *entries;
+  size_t slots, used;
+  uint32_t pass;
+} SporeIsosurfaceCells;
+
+static inline uint64_t spore_isosurface_edge(uint32_t a, uint32_t b) {
+  return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
+}
+
+/* What a key stands for, UINT32_MAX where it is new: then fill it in. NULL: no memory. */
+uint32_t *spore_isosurface_entry(SporeIsosurfaceCells *cells, uint64_t key);
+/* The point's number, from then on; UINT32_MAX: no memory. */
+uint32_t spore_isosurface_add_point(SporeIsosurfaceCells *cells, SporeVec3 place, double value);
+/* Left out where no corner is so near the surface that it could go through. False: no memory. */
+bool spore_isosurface_add_cell(SporeIsosurfaceCells *cells, const SporeIsosurfaceCell *cell);
+/* Triangles of the surface in a cell, 0 to 2: each corner is the edge of two points that it lies on, inside first. */
+size_t spore_isosurface_cut(const SporeIsosurfaceCells *cells, const SporeIsosurfaceCell *cell,
+                            uint32_t triangles[2][3][2]);
+/* Where the field, taken as linear, vanishes between two points. */
+SporeVec3 spore_isosurface_between(const SporeIsosurfaceCells *cells, const uint32_t edge[2]);
+/* Bisects until the surface is within the tolerance (m). False: no memory, or cancelled. */
+bool spore_isosurface_refine(SporeIsosurfaceCells *cells, double tolerance, const SporeProgress *progress,
+                             SporeError *error);
+void spore_isosurface_clear(SporeIsosurfaceCells *cells);
+
+#endif
