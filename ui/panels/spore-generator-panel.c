@@ -136,9 +136,9 @@ static void refresh(SporeGeneratorPanel *self) {
   gtk_widget_set_visible(self->inside, spore_generate_type(options->kind)->cells);
   self->filling = TRUE;
   fill_qualities(self, options->kind);
+  show_result(self); /* before the options: of the tabs that stay, the histogram's comes to the front */
   show_options(self, options);
   self->filling = FALSE;
-  show_result(self);
 }
 
 static gboolean fit_columns(gpointer data) {

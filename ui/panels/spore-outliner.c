@@ -20,7 +20,8 @@ struct _SporeOutliner {
   SporeEditorDocument *document;
   guint rebuild;
   gboolean filling;
-  GHashTable *badges; /* id -> SporeSeverity + 1 */
+  GHashTable *badges;   /* id -> SporeSeverity + 1 */
+  GHashTable *problems; /* id -> char *: what the badge stands for */
 };
 
 G_DEFINE_FINAL_TYPE(SporeOutliner, spore_outliner, GTK_TYPE_BOX)
@@ -35,7 +36,9 @@ static const char *badge_of(SporeOutliner *self, guint32 id) {
 
 static void add_object(SporeOutliner *self, GtkTreeIter *group, SporeObject *object) {
   guint32 id = spore_object_id(object);
-  g_autofree char *hint = g_markup_escape_text(_(spore_object_type(object)->label), -1);
+  const char *problem = g_hash_table_lookup(self->problems, GUINT_TO_POINTER(id));
+  g_autofree char *hint = g_markup_printf_escaped("%s%s%s", _(spore_object_type(object)->label), problem ? "\n" : "",
+                                                  problem ? problem : "");
   gtk_tree_store_insert_with_values(self->store, NULL, group, -1, COLUMN_ID, id, COLUMN_NAME, spore_object_name(object),
                                     COLUMN_BADGE, badge_of(self, id), COLUMN_HINT, hint, COLUMN_EDITABLE, TRUE,
                                     COLUMN_WEIGHT, PANGO_WEIGHT_NORMAL, -1);
@@ -208,6 +211,7 @@ void spore_outliner_set_document(SporeOutliner *self, SporeEditorDocument *docum
   release_document(self);
   self->document = g_object_ref(document);
   g_hash_table_remove_all(self->badges);
+  g_hash_table_remove_all(self->problems);
   g_signal_connect_object(document, "changed", G_CALLBACK(document_changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(document, "selection-changed", G_CALLBACK(show_selection), self, G_CONNECT_SWAPPED);
   rebuild(self);
@@ -222,12 +226,14 @@ static guint32 named_ancestor(SporeDocument *document, guint32 id) {
 void spore_outliner_set_problems(SporeOutliner *self, GPtrArray *diagnostics) {
   SporeDocument *document = spore_editor_document_get(self->document);
   g_hash_table_remove_all(self->badges);
+  g_hash_table_remove_all(self->problems);
   for (guint i = 0; i < diagnostics->len; i++) {
     const SporeDiagnostic *diagnostic = g_ptr_array_index(diagnostics, i);
     gpointer id = GUINT_TO_POINTER(named_ancestor(document, diagnostic->object));
     int badge = (int)diagnostic->severity + 1;
-    if (id && badge > GPOINTER_TO_INT(g_hash_table_lookup(self->badges, id)))
-      g_hash_table_insert(self->badges, id, GINT_TO_POINTER(badge));
+    if (!id || badge <= GPOINTER_TO_INT(g_hash_table_lookup(self->badges, id))) continue;
+    g_hash_table_insert(self->badges, id, GINT_TO_POINTER(badge));
+    g_hash_table_insert(self->problems, id, g_strdup(diagnostic->message));
   }
   queue_rebuild(self);
 }
@@ -236,6 +242,7 @@ static void spore_outliner_dispose(GObject *object) {
   SporeOutliner *self = SPORE_OUTLINER(object);
   release_document(self);
   g_clear_pointer(&self->badges, g_hash_table_unref);
+  g_clear_pointer(&self->problems, g_hash_table_unref);
   G_OBJECT_CLASS(spore_outliner_parent_class)->dispose(object);
 }
 
@@ -258,6 +265,7 @@ static void spore_outliner_class_init(SporeOutlinerClass *class) {
 
 static void spore_outliner_init(SporeOutliner *self) {
   self->badges = g_hash_table_new(NULL, NULL);
+  self->problems = g_hash_table_new_full(NULL, NULL, NULL, g_free);
   gtk_widget_init_template(GTK_WIDGET(self));
   gtk_tree_model_filter_set_visible_func(self->filtered, row_visible, self, NULL);
   gtk_tree_selection_set_select_function(self->selection, may_select, self, NULL);

@@ -122,8 +122,9 @@ static gboolean rebuild(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
+/* After the panels, in a pass of its own, and before anything is drawn. */
 static void queue_rebuild(SporeViewport *self) {
-  if (!self->rebuild) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
+  if (!self->rebuild) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE + 5, rebuild, self, NULL);
 }
 
 static void ensure_stage(SporeViewport *self) {
