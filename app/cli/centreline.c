@@ -2,14 +2,15 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "app/cli/cli.h"
+#include "app/cli/scene.h"
+#include "app/cli/scene_body.h"
+#include "core/author/generated_edits.h"
 #include "core/base/number.h"
 #include "core/generate/centreline_scene.h"
 #include "core/generate/centreline.h"
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/io/scene_xml.h"
-
 
 static void report_branches(SporeCli *cli, const SporeCentrelineReport *report) {
   spore_cli_count(cli, "branches", (gint64)report->branches);
@@ -108,10 +109,7 @@ static gboolean write_scene(SporeCli *cli, const Input *input, const SporeCurve 
                                         .control_points = (size_t)output->control_points,
                                         .loops_apart = figures->approach > SPORE_CENTRELINE_APART};
   bool carried = spore_centreline_carries(curve, &input->mesh);
-  if (g_file_test(output->scene, G_FILE_TEST_EXISTS))
-    spore_cli_say(cli, _("%s: a new scene takes the place of the one that was there\n"), output->scene);
-  SporeDocument *document = spore_document_new(cli->schema);
-  spore_document_set_readers(document, &spore_io_readers);
+  SporeDocument *document = spore_cli_new_scene(cli, output->scene);
   gboolean done = make_body(document, input, curve, &options, carried, error) &&
                   spore_cli_make_folder_of(output->scene, error) && spore_scene_save(document, output->scene, error);
   spore_document_free(document);
@@ -157,6 +155,67 @@ static int generate(SporeCli *cli, const char *file, const SporeCentrelineOption
   if (input.content) g_bytes_unref(input.content);
   spore_curve_clear(&curve);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
+/* What the command line says goes before what the asset asks for. */
+static void override_fields(const SporeCentrelineOptions *options, SporeCurveFields *fields) {
+  if (options->points > 0 || options->tolerance > 0) {
+    fields->points = (int64_t)options->points;
+    fields->tolerance = options->tolerance > 0 ? options->tolerance : fields->tolerance;
+  }
+  if (!options->ends_given) return;
+  memcpy(fields->first_place, options->ends[0], sizeof fields->first_place);
+  memcpy(fields->last_place, options->ends[1], sizeof fields->last_place);
+}
+
+/* Of what a body of a scene shows, and for it. */
+static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCentrelineOptions *asked,
+                        const Output *output, SporeSceneBody *scene, GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeCurveFields fields;
+  SporeCurve curve = {0};
+  SporeCentrelineReport figures = {0};
+  int kind = spore_cli_choice("--as", output->as ? output->as : "tube", spore_centreline_body_names, error);
+  if (kind < 0 || !spore_cli_open_body(cli, file, body, "curve", spore_edit_body_curve, scene, &fields, error))
+    return FALSE;
+  override_fields(asked, &fields);
+  const SporeCentrelineOptions options = spore_edit_centreline_options(&fields);
+  if (!spore_centreline_from_mesh(scene->mesh, &options, &curve, &figures, spore_cli_progress(cli), &fault)) {
+    spore_error_at(&fault, spore_object_name(scene->source));
+    return spore_error_propagate(&fault, error);
+  }
+  const SporeGeneratedFrom from = {
+      .source = spore_object_name(scene->source), .source_hash = scene->source_hash, .fields = &fields};
+  const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)kind,
+                                            .control_points = (size_t)output->control_points,
+                                            .loops_apart = figures.approach > SPORE_CENTRELINE_APART};
+  gboolean done = spore_edit_use_curve(scene->document, scene->body, &from, &curve, &along, error);
+  if (done) {
+    report(cli, &curve, &figures);
+    done = spore_cli_save_body(cli, scene, file, error);
+  }
+  spore_curve_clear(&curve);
+  return done;
+}
+
+static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeCentrelineOptions *options,
+                       const Output *output) {
+  GError *error = NULL;
+  SporeSceneBody scene = {0};
+  gboolean done = make_in(cli, file, body, options, output, &scene, &error);
+  spore_cli_close_body(&scene);
+  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
+/* A scene says unit and axes, and takes the line itself. */
+static int check_scene(gboolean scene, const char *body, gboolean others) {
+  if (!scene && body)
+    return spore_cli_usage(_("spore centreline: --body is for scenes; expected a file F.spore with it; leave it out"));
+  if (scene && others)
+    return spore_cli_usage(_("spore centreline: a scene says unit and axes, and takes the line itself; expected none "
+                             "of --unit, --frame, --scene and --output with it; leave them out, or give the mesh's "
+                             "file"));
+  return SPORE_EXIT_DONE;
 }
 
 /* "X,Y,Z" */
@@ -206,10 +265,17 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
       {"branches", N_("number of branches left out: the line takes the longest way")},
       {"side_branches", N_("the longest of them: from (m along the line), length (m), end (m), kind (branch or loop)")},
       {"skin", N_("with --scene: mesh where the body carries the mesh, own where it shows a tube around the line")},
+      {"scene", N_("that was given: as written, and the name of the body along the line: body")},
       {NULL, NULL}};
-  static const SporeCommandInfo info = {
-      "centreline", "MESH", N_("Finds the middle line of a tubular organ, with its radius."), 1, 1, members};
-  char *unit = NULL, *frame = NULL, *ends = NULL;
+  static const SporeCommandInfo info = {"centreline",
+                                        "MESH|SCENE",
+                                        N_("Finds the middle line of a tubular organ, with its radius. Of a scene "
+                                           "(F.spore): from the mesh that a body of "
+                                           "it shows, which becomes a thread, tube or intestine."),
+                                        1,
+                                        1,
+                                        members};
+  char *unit = NULL, *frame = NULL, *ends = NULL, *body = NULL;
   Output output = {0};
   gint64 points = 0;
   double tolerance = 0;
@@ -229,11 +295,14 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
        N_("What the body is: a solid thread, a tube with a wall, or an intestine on its mesentery (default tube); it "
           "carries the mesh unless that joins loops of the line"),
        "thread, tube or intestine"},
+      SPORE_SCENE_BODY_ENTRY(&body),
       {"control-points", 0, 0, G_OPTION_ARG_INT64, &output.control_points,
        N_("Control points of the body (default: one each two radii)"), "N"},
       G_OPTION_ENTRY_NULL};
   g_autofree char *joined = join_ends(&argc, argv);
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
+  if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, unit || frame || output.curve || output.scene);
   if (status == SPORE_EXIT_DONE) {
     SporeCentrelineOptions options = {.points = (size_t)MAX(points, 0), .tolerance = tolerance};
     if (points < 0 || (points > 0 && tolerance != 0))
@@ -243,12 +312,13 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
     else if (ends && !parse_ends(ends, &options))
       status =
           spore_cli_usage(_("spore centreline: --ends '%s' is not two places; expected X,Y,Z X,Y,Z in metres"), ends);
-    else if (!output.scene && (output.as || output.control_points))
+    else if (!scene && !output.scene && (output.as || output.control_points))
       status = spore_cli_usage(_("spore centreline: --as and --control-points say what scene to write; expected "
                                  "--scene F.spore too; name it"));
     else if (output.control_points != 0 && (output.control_points < 4 || output.control_points > 100000))
       status = spore_cli_usage(_("spore centreline: --control-points %lld; expected 4 to 100000; give another number"),
                                (long long)output.control_points);
+    else if (scene) status = generate_in(cli, argv[1], body, &options, &output);
     else status = generate(cli, argv[1], &options, unit, frame, &output);
   }
   g_free(unit);
@@ -257,5 +327,6 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
   g_free(output.scene);
   g_free(output.as);
   g_free(ends);
+  g_free(body);
   return status;
 }

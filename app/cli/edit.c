@@ -13,11 +13,8 @@ typedef struct Request {
 } Request;
 
 static gboolean hold(SporeDocument *document, const char *name, GError **error) {
-  SporeObject *body = spore_document_find(document, "body", name);
-  if (!body)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, "--hold",
-                             _("there is no body \"%s\"; expected one of the scene's; correct the name"), name);
-  return spore_edit_add_pin(document, body, error) != NULL;
+  SporeObject *body = spore_cli_find_body(document, "--hold", name, error);
+  return body && spore_edit_add_pin(document, body, error) != NULL;
 }
 
 static gboolean apply(SporeDocument *document, const Request *request, GError **error) {

@@ -96,12 +96,8 @@ static void report(SporeCli *cli, SporeDocument *document, const SporeImport *im
 /* What the bodies are added to. */
 static SporeDocument *open_scene(SporeCli *cli, const char *output, gboolean add, GError **error) {
   if (add) return spore_scene_load(cli->schema, output, error);
-  SporeDocument *document = spore_document_new(cli->schema);
-  spore_document_set_readers(document, &spore_io_readers);
-  if (g_file_test(output, G_FILE_TEST_EXISTS))
-    spore_cli_say(cli, _("%s: a new scene takes the place of the one that was there; --add would have kept it\n"),
-                  output);
-  return document;
+  if (g_file_test(output, G_FILE_TEST_EXISTS)) spore_cli_say(cli, _("--add would have kept what is there:\n"));
+  return spore_cli_new_scene(cli, output);
 }
 
 static int import(SporeCli *cli, char **meshes, const SporeImportOptions *options, const char *output, gboolean add) {

@@ -32,6 +32,27 @@ gboolean spore_cli_set(SporeDocument *document, const char *setting, GError **er
   return spore_document_set_text(document, object, slash + 1, equals + 1, error);
 }
 
+SporeDocument *spore_cli_new_scene(SporeCli *cli, const char *file) {
+  SporeDocument *document = spore_document_new(cli->schema);
+  spore_document_set_readers(document, &spore_io_readers);
+  if (g_file_test(file, G_FILE_TEST_EXISTS))
+    spore_cli_say(cli, _("%s: a new scene takes the place of the one that was there\n"), file);
+  return document;
+}
+
+SporeObject *spore_cli_find_body(SporeDocument *document, const char *place, const char *name, GError **error) {
+  SporeObject *bodies = spore_document_section(document, "bodies");
+  g_autoptr(GString) names = g_string_new(NULL);
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    if (g_str_equal(spore_object_name(body), name)) return body;
+    g_string_append_printf(names, names->len ? ", %s" : "%s", spore_object_name(body));
+  }
+  spore_error_raise(error, SPORE_ERROR_INPUT, place, _("there is no body \"%s\"; expected one of: %s"), name,
+                    names->len ? names->str : _("none: import a mesh first"));
+  return NULL;
+}
+
 static gboolean apply(SporeDocument *document, const SporeSceneOptions *options, GError **error) {
   SporeObject *solver = spore_document_section(document, "solver");
   if (options->dt && !spore_document_set_text(document, solver, "time_step", options->dt, error)) return FALSE;

@@ -33,6 +33,11 @@ void spore_cli_diagnostic(SporeCli *cli, const char *place, const char *message,
 /* What there is to mend in a scene, into the open array of the report and for people. */
 void spore_cli_diagnostics(SporeCli *cli, SporeDocument *document);
 
+/* An empty scene to be written to that file; says so where one is there, whose place it takes. */
+SporeDocument *spore_cli_new_scene(SporeCli *cli, const char *file);
+/* NULL with an error that lists the scene's bodies. place: what named it, for the message. */
+SporeObject *spore_cli_find_body(SporeDocument *document, const char *place, const char *name, GError **error);
+
 /* Loads a scene and applies --set, --dt and --integrator. */
 SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneOptions *options, GError **error);
 

@@ -2,6 +2,7 @@
 
 #include <glib/gi18n.h>
 
+#include "app/cli/scene.h"
 #include "core/author/generated_edits.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/generated.h"
@@ -10,23 +11,20 @@ gboolean spore_cli_is_scene(const char *file) { return g_str_has_suffix(file, ".
 
 /* The body of that name; the only one that shows a mesh where none is named. */
 static SporeObject *choose_body(SporeDocument *document, const char *file, const char *name, GError **error) {
+  if (name) return spore_cli_find_body(document, file, name, error);
   SporeObject *bodies = spore_document_section(document, "bodies"), *only = NULL;
   g_autoptr(GString) names = g_string_new(NULL);
   guint count = 0;
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
-    if (g_strcmp0(spore_object_name(body), name) == 0) return body;
     if (!spore_object_child_of(body, "visual")) continue;
     g_string_append_printf(names, names->len ? ", %s" : "%s", spore_object_name(body));
     only = body;
     count++;
   }
-  if (!name && count == 1) return only;
-  const char *remedy = count ? names->str : _("none: import a mesh first");
-  if (name)
-    spore_error_raise(error, SPORE_ERROR_INPUT, file, _("there is no body \"%s\"; expected one of: %s"), name, remedy);
-  else
-    spore_error_raise(error, SPORE_ERROR_INPUT, file, _("no body is named; expected --body with one of: %s"), remedy);
+  if (count == 1) return only;
+  spore_error_raise(error, SPORE_ERROR_INPUT, file, _("no body is named; expected --body with one of: %s"),
+                    count ? names->str : _("none: import a mesh first"));
   return NULL;
 }
 
@@ -68,7 +66,7 @@ gboolean spore_cli_save_body(SporeCli *cli, SporeSceneBody *scene, const char *f
   if (!spore_scene_save(scene->document, file, error)) return FALSE;
   spore_cli_text(cli, "scene", file);
   spore_cli_text(cli, "body", spore_object_name(scene->body));
-  spore_cli_say(cli, _("%s: written; the body \"%s\" has them\n"), file, spore_object_name(scene->body));
+  spore_cli_say(cli, _("%s: written; the body \"%s\" has what was made\n"), file, spore_object_name(scene->body));
   return TRUE;
 }
 

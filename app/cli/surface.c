@@ -2,7 +2,9 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#include "app/cli/scene_body.h"
 #include "app/cli/surface_wall.h"
+#include "core/author/generated_edits.h"
 #include "core/generate/surface.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
@@ -65,9 +67,10 @@ static void report(SporeCli *cli, const SporeTriangleMesh *mesh, const SporeSurf
                          "it should hang together otherwise\n"));
 }
 
-/* With a wall, the surface is thinned only where that is asked for. */
+/* With a wall, the surface is thinned only where that is asked for. made: gets what was made, unless it is NULL. */
 static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *surface,
-                     const SporeSimplifyOptions *options, const SporeWallOptions *wall, GError **error) {
+                     const SporeSimplifyOptions *options, const SporeWallOptions *wall, SporeTriangleMesh *made,
+                     GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
   SporeTriangleMesh mesh = {0};
   SporeSurfaceReport figures;
@@ -77,15 +80,77 @@ static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *s
     return spore_error_propagate(&fault, error);
   }
   if (wall->thickness > 0) {
-    done = spore_surface_make_wall(cli, file, thin ? &mesh : surface, wall, error);
+    done = spore_surface_make_wall(cli, file, thin ? &mesh : surface, wall, made, error);
   } else if (wall->wall) {
     gsize size = 0;
     g_autofree char *text = spore_surface_formatter(wall->wall)(&mesh, &size);
     done = spore_write_file(wall->wall, text, size, error);
   }
   if (done && thin) report(cli, &mesh, &figures);
-  spore_triangle_mesh_clear(&mesh);
+  if (done && made && wall->thickness == 0) *made = mesh;
+  else spore_triangle_mesh_clear(&mesh);
   return done;
+}
+
+/* What the command line says goes before what the asset asks for. */
+static void override_fields(const SporeSimplifyOptions *options, const SporeWallOptions *wall,
+                            SporeMeshFields *fields) {
+  if (options->vertices > 0 || options->size > 0) {
+    fields->nodes = (int64_t)options->vertices;
+    fields->size = options->size;
+  }
+  if (fabs(options->keep_angle - SPORE_SIMPLIFY_KEEP_ANGLE) > 1e-9) /* not the default */
+    fields->keep_angle = options->keep_angle * 180 / G_PI;
+  if (wall->thickness > 0) fields->wall = wall->thickness;
+  if (wall->detail > 0) fields->wall_detail = wall->detail;
+}
+
+/* As SporeSurfaceUse. */
+static const char *const purposes[] = {"model", "visual_mesh", "asset", NULL};
+
+/* Of what a body of a scene shows, and for it. */
+static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeSimplifyOptions *asked,
+                        const SporeWallOptions *asked_wall, const char *as, SporeSceneBody *scene, GError **error) {
+  SporeMeshFields fields;
+  SporeTriangleMesh mesh = {0};
+  int use = as ? spore_cli_choice("--as", as, purposes, error) : -1;
+  if ((as && use < 0) || !spore_cli_open_body(cli, file, body, "mesh", spore_edit_body_surface, scene, &fields, error))
+    return FALSE;
+  override_fields(asked, asked_wall, &fields);
+  if (use < 0) use = fields.wall > 0 ? SPORE_SURFACE_SHOWN : SPORE_SURFACE_MODEL;
+  const SporeSimplifyOptions options = spore_edit_surface_options(&fields);
+  const SporeWallOptions wall = {.thickness = fields.wall, .detail = fields.wall_detail};
+  if (!options.vertices && !(options.size > 0) && !(wall.thickness > 0))
+    return spore_error_raise(error, SPORE_ERROR_INPUT, file,
+                             _("neither number of nodes nor size is known; expected --nodes, --size or --wall; give "
+                               "one of them"));
+  const SporeGeneratedFrom from = {
+      .source = spore_object_name(scene->source), .source_hash = scene->source_hash, .fields = &fields};
+  gboolean done = make(cli, from.source, scene->mesh, &options, &wall, &mesh, error) &&
+                  spore_edit_use_surface(scene->document, scene->body, &from, &mesh, (SporeSurfaceUse)use, error);
+  spore_triangle_mesh_clear(&mesh);
+  return done && spore_cli_save_body(cli, scene, file, error);
+}
+
+static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeSimplifyOptions *options,
+                       const SporeWallOptions *wall, const char *as) {
+  GError *error = NULL;
+  SporeSceneBody scene = {0};
+  gboolean done = make_in(cli, file, body, options, wall, as, &scene, &error);
+  spore_cli_close_body(&scene);
+  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+}
+
+/* A scene says unit and axes, and takes the result itself. */
+static int check_scene(gboolean scene, const char *body, const char *as, gboolean others) {
+  if (!scene && (body || as))
+    return spore_cli_usage(
+        _("spore surface: --body and --as are for scenes; expected a file F.spore with them; leave them out"));
+  if (scene && others)
+    return spore_cli_usage(_("spore surface: a scene says unit and axes, and takes the surface itself; expected none "
+                             "of --unit, --frame, --inner and --output with it; leave them out, or give the mesh's "
+                             "file"));
+  return SPORE_EXIT_DONE;
 }
 
 static int generate(SporeCli *cli, const char *file, const SporeSimplifyOptions *options, const char *unit,
@@ -95,17 +160,19 @@ static int generate(SporeCli *cli, const char *file, const SporeSimplifyOptions 
   gboolean done = (!wall->wall || spore_cli_has_room(wall->wall, file, &error)) &&
                   (!wall->inner || spore_cli_has_room(wall->inner, file, &error)) &&
                   spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
-                  make(cli, file, &surface, options, wall, &error);
+                  make(cli, file, &surface, options, wall, NULL, &error);
   spore_triangle_mesh_clear(&surface);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
 /* SPORE_EXIT_DONE where the options can be meant. */
-static int check_options(gint64 nodes, double size, double keep_angle_deg, const SporeWallOptions *wall) {
+static int check_options(gint64 nodes, double size, double keep_angle_deg, const SporeWallOptions *wall,
+                         gboolean scene) {
   gboolean walled = wall->thickness > 0 && isfinite(wall->thickness), sized = size > 0 && isfinite(size);
   if (wall->thickness != 0 && !walled)
     return spore_cli_usage(_("--wall %g: not a thickness; expected metres above 0, such as 0.003"), wall->thickness);
-  if (nodes < 0 || nodes > SPORE_MESH_MAXIMUM || (nodes > 0 && sized) || (nodes == 0 && !sized && !walled))
+  if (nodes < 0 || nodes > SPORE_MESH_MAXIMUM || (nodes > 0 && sized) ||
+      (nodes == 0 && !sized && !walled && (!scene || size != 0)))
     return spore_cli_usage(_("spore surface: neither number of nodes nor size is one; expected either --nodes 1 to %u "
                              "or --size in metres above 0, or a --wall in metres; give one of them"),
                            SPORE_MESH_MAXIMUM);
@@ -153,17 +220,19 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
                   "distance of inner_m from the thickness asked for, of it), error_at_m (where), volume_m3, lumen_m3, "
                   "pieces of the "
                   "lumen, its nodes and triangles, step_m (of the lattice that it was first found on), seconds")},
+      {"scene", N_("that was given: as written, and the name of the body that has the surface: body")},
       {NULL, NULL}};
   static const SporeCommandInfo info = {
       "surface",
-      "MESH",
+      "MESH|SCENE",
       N_("Makes a surface of fewer, well-shaped triangles, for a net, a deformable surface or a spline. Open edges, "
          "creases, thin parts, holes and handles are kept. Or makes a closed organ hollow: a wall of given thickness "
-         "around a lumen that does not cut itself."),
+         "around a lumen that does not cut itself. Of a scene (F.spore): from the mesh that a body of it shows, and "
+         "for it."),
       1,
       1,
       members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *inner = NULL;
+  char *unit = NULL, *frame = NULL, *output = NULL, *inner = NULL, *body = NULL, *as = NULL;
   gint64 nodes = 0, detail = 0;
   double size = 0, thickness = 0, keep_angle_deg = SPORE_SIMPLIFY_KEEP_ANGLE * 180 / G_PI;
   const GOptionEntry entries[] = {
@@ -180,18 +249,28 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
       {"inner", 'i', 0, G_OPTION_ARG_FILENAME, &inner, N_("File to write the lumen's surface to: .off or .obj"), "F"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
+      SPORE_SCENE_BODY_ENTRY(&body),
+      {"as", 'a', 0, G_OPTION_ARG_STRING, &as,
+       N_("Of a scene, what the body gets: model (default), what its model is made of; visual_mesh (default with a "
+          "wall), what it shows and generators start from; asset: nothing of it changes"),
+       "USE"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, in metres: .off or .obj"), "F"},
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   const SporeWallOptions wall = {thickness, detail, output, inner};
-  if (status == SPORE_EXIT_DONE) status = check_options(nodes, size, keep_angle_deg, &wall);
+  gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
+  if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, as, unit || frame || inner || output);
+  if (status == SPORE_EXIT_DONE) status = check_options(nodes, size, keep_angle_deg, &wall, scene);
   if (status == SPORE_EXIT_DONE) {
     SporeSimplifyOptions options = {(size_t)nodes, size, keep_angle_deg * G_PI / 180};
-    status = generate(cli, argv[1], &options, unit, frame, &wall);
+    status = scene ? generate_in(cli, argv[1], body, &options, &wall, as)
+                   : generate(cli, argv[1], &options, unit, frame, &wall);
   }
   g_free(unit);
   g_free(frame);
   g_free(output);
   g_free(inner);
+  g_free(body);
+  g_free(as);
   return status;
 }

@@ -49,7 +49,7 @@ static gboolean write_mesh(const char *file, const SporeTriangleMesh *mesh, GErr
 }
 
 gboolean spore_surface_make_wall(SporeCli *cli, const char *file, const SporeTriangleMesh *outer,
-                                 const SporeWallOptions *options, GError **error) {
+                                 const SporeWallOptions *options, SporeTriangleMesh *made, GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
   SporeTriangleMesh inner = {0}, wall = {0};
   SporeWallReport figures;
@@ -64,6 +64,7 @@ gboolean spore_surface_make_wall(SporeCli *cli, const char *file, const SporeTri
          (!options->inner || write_mesh(options->inner, &inner, error));
   if (done) report(cli, &inner, options, &figures);
   spore_triangle_mesh_clear(&inner);
-  spore_triangle_mesh_clear(&wall);
+  if (done && made) *made = wall;
+  else spore_triangle_mesh_clear(&wall);
   return done;
 }

@@ -14,8 +14,8 @@ typedef char *(*SporeSurfaceFormatter)(const SporeTriangleMesh *mesh, gsize *siz
 /* NULL: the file's name ends in nothing known. */
 SporeSurfaceFormatter spore_surface_formatter(const char *file);
 
-/* Reports the wall, and writes the files. */
+/* Reports the wall, and writes the files. made: gets the wall, unless it is NULL; the caller's to clear. */
 gboolean spore_surface_make_wall(SporeCli *cli, const char *file, const SporeTriangleMesh *outer,
-                                 const SporeWallOptions *options, GError **error);
+                                 const SporeWallOptions *options, SporeTriangleMesh *made, GError **error);
 
 #endif

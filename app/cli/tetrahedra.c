@@ -228,12 +228,20 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
   SporeLabelTetrahedraReport figures = {0};
   gboolean done =
       spore_cli_label_tetrahedra(cli, file, content, labels, options->cells, options->size, &mesh, &figures, &error);
-  if (done && output) {
-    gsize size = 0;
+  gsize size = 0, bytes_size;
+  const void *bytes = g_bytes_get_data(content, &bytes_size);
+  g_autoptr(GHashTable) names = spore_label_map_names(bytes, bytes_size);
+  if (done) spore_cli_report_labels(cli, &mesh, &figures, names);
+  if (done && output && spore_cli_is_scene(output)) {
+    const SporeLabelBodies organs = {.file = file,
+                                     .content = bytes_size <= SPORE_LABEL_MAP_KEPT ? content : NULL,
+                                     .mesh = &mesh,
+                                     .use = SPORE_LABELS_LINKED};
+    done = spore_cli_save_labels(cli, output, &organs, options->cells, options->size, &figures, names, &error);
+  } else if (done && output) {
     g_autofree char *text = formatter_of(output)(&mesh, &size);
     done = spore_write_file(output, text, size, &error);
   }
-  if (done) spore_cli_report_labels(cli, &mesh, &figures);
   g_clear_pointer(&figures.labels, g_array_unref);
   spore_tetrahedral_mesh_clear(&mesh);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
@@ -243,7 +251,8 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
 static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,
                         const char *frame, const char *labels, const char *output) {
   GError *error = NULL;
-  if (output && !spore_cli_has_room(output, file, &error)) return spore_cli_fail(error);
+  if (output && !(spore_cli_is_scene(output) ? spore_cli_keeps : spore_cli_has_room)(output, file, &error))
+    return spore_cli_fail(error);
   g_autoptr(GBytes) content = spore_cli_read_file(file, _("a mesh or a label map"), &error);
   if (!content) return spore_cli_fail(error);
   gsize size;
@@ -258,6 +267,10 @@ static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOp
                              "surfaces; %s is a label map; leave them out"),
                            file);
   if (is_map) return generate_labels(cli, file, content, options, labels, output);
+  if (output && spore_cli_is_scene(output))
+    return spore_cli_usage(_("-o %s: a scene is made of a label map, and %s is a surface; expected a name ending in "
+                             ".vtu, .msh or .mesh; or make a scene by spore import, and give it --body"),
+                           output, file);
   if (labels) return spore_cli_usage(_("spore tetrahedra: --labels is for label maps; %s is none; leave it out"), file);
   return generate(cli, file, options, unit, frame, output);
 }
@@ -277,8 +290,10 @@ static int check(const SporeTetrahedraOptions *options, gint64 cells, const char
                            options->tolerance);
   if (!(options->gap >= 0 && isfinite(options->gap)))
     return spore_cli_usage(_("--gap %g: out of range; expected a length in metres, 0 or more"), options->gap);
-  if (output && !formatter_of(output))
-    return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .vtu, .msh or .mesh"), output);
+  if (output && !formatter_of(output) && !spore_cli_is_scene(output))
+    return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .vtu, .msh or .mesh, or in "
+                             ".spore for the organs of a label map"),
+                           output);
   return SPORE_EXIT_DONE;
 }
 
@@ -305,8 +320,9 @@ static const SporeReportMember members[] = {
     {"refused", N_("methods that were tried before: method, reason")},
     {"seconds", N_("that it took")},
     {"shared_faces", N_("of a label map: between two organs")},
-    {"labels", N_("of a label map, of each organ: label, cells, volume_m3, voxel_volume_m3, volume_change, "
+    {"labels", N_("of a label map, of each organ: label, name, cells, volume_m3, voxel_volume_m3, volume_change, "
                   "min_dihedral_deg")},
+    {"seams", N_("of a label map, with -o F.spore: between bodies that share faces")},
     {"scene", N_("that was given: as written, and the name of the body that has the tetrahedra: body")},
     {NULL, NULL}};
 
@@ -354,7 +370,11 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
       {"labels", 'l', 0, G_OPTION_ARG_STRING, &labels, N_("Labels wanted of a label map (default: all above 0)"),
        "1,2,5"},
       SPORE_SCENE_BODY_ENTRY(&body),
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write: .vtu, .msh or .mesh"), "F"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output,
+       N_("File to write: .vtu, .msh or .mesh; of a label map also F.spore, a new scene with a soft body of each "
+          "organ, "
+          "joined by seams where they share faces"),
+       "F"},
       G_OPTION_ENTRY_NULL};
   SporeTetrahedraRegion balls[SPORE_TETRAHEDRA_REGIONS];
   GError *error = NULL;

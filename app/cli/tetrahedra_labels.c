@@ -2,6 +2,9 @@
 
 #include <glib/gi18n.h>
 
+#include "app/cli/scene.h"
+#include "core/io/scene_xml.h"
+
 /* "1,2,5"; NULL with an error. GArray of guint16. */
 static GArray *read_labels(const char *text, GError **error) {
   g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint16));
@@ -36,8 +39,47 @@ gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *con
   return done;
 }
 
-void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh,
-                             const SporeLabelTetrahedraReport *report) {
+static gboolean save(SporeCli *cli, const char *output, SporeLabelBodies *organs, size_t cells, double size,
+                     GError **error) {
+  SporeDocument *document = spore_cli_new_scene(cli, output);
+  const SporeObjectType *assets = spore_object_type(spore_document_section(document, "assets"));
+  SporeTetrahedraFields fields;
+  spore_parameters_set_initial(spore_object_type_child(assets, "tetrahedra")->table, &fields);
+  if (cells) fields.cells = (int64_t)cells;
+  fields.size = size;
+  organs->fields = &fields;
+  gboolean done = spore_edit_use_labels(document, organs, error) && spore_cli_make_folder_of(output, error) &&
+                  spore_scene_save(document, output, error);
+  guint seams = spore_object_child_count(spore_document_section(document, "links"));
+  spore_document_free(document);
+  if (!done) return FALSE;
+  spore_cli_text(cli, "scene", output);
+  spore_cli_count(cli, "seams", seams);
+  spore_cli_say(cli, _("%s: written; bodies: %zu, seams between them: %u\n"), output, organs->count, seams);
+  return TRUE;
+}
+
+gboolean spore_cli_save_labels(SporeCli *cli, const char *output, const SporeLabelBodies *organs, size_t cells,
+                               double size, const SporeLabelTetrahedraReport *report, GHashTable *names,
+                               GError **error) {
+  g_autoptr(GPtrArray) called = g_ptr_array_new_with_free_func(g_free);
+  g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint32));
+  for (guint i = 0; i < report->labels->len; i++) {
+    const SporeLabelFigures *figures = &g_array_index(report->labels, SporeLabelFigures, i);
+    guint32 label = figures->label;
+    if (!figures->cells) continue; /* finer than the cells */
+    g_ptr_array_add(called, spore_label_map_name(names, figures->label));
+    g_array_append_val(labels, label);
+  }
+  SporeLabelBodies bodies = *organs;
+  bodies.labels = (const guint32 *)(const void *)labels->data;
+  bodies.names = (char *const *)called->pdata;
+  bodies.count = labels->len;
+  return save(cli, output, &bodies, cells, size, error);
+}
+
+void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeLabelTetrahedraReport *report,
+                             GHashTable *names) {
   spore_cli_count(cli, "nodes", (gint64)mesh->vertex_count);
   spore_cli_count(cli, "tetrahedra", (gint64)mesh->tetrahedron_count);
   spore_cli_number(cli, "min_dihedral_deg", report->quality.min_dihedral_deg);
@@ -56,7 +98,9 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh,
     const SporeLabelFigures *figures = &g_array_index(report->labels, SporeLabelFigures, i);
     double change = figures->volume / figures->voxel_volume - 1;
     spore_cli_open(cli, NULL);
+    g_autofree char *name = spore_label_map_name(names, figures->label);
     spore_cli_count(cli, "label", figures->label);
+    spore_cli_text(cli, "name", name);
     spore_cli_count(cli, "cells", (gint64)figures->cells);
     spore_cli_number(cli, "volume_m3", figures->volume);
     spore_cli_number(cli, "voxel_volume_m3", figures->voxel_volume);
@@ -64,11 +108,9 @@ void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh,
     spore_cli_number(cli, "min_dihedral_deg", figures->min_dihedral_deg);
     spore_cli_close(cli);
     if (figures->cells)
-      spore_cli_say(cli, _("  label %u: %zu cells, %.4g cm3 (%+.2f %% of its voxels'), least angle %.1f degrees\n"),
-                    figures->label, figures->cells, 1e6 * figures->volume, 100 * change, figures->min_dihedral_deg);
-    else
-      spore_cli_say(cli, _("  label %u: finer than the cells, it has none; ask for more or smaller cells\n"),
-                    figures->label);
+      spore_cli_say(cli, _("  %s: %zu cells, %.4g cm3 (%+.2f %% of its voxels'), least angle %.1f degrees\n"), name,
+                    figures->cells, 1e6 * figures->volume, 100 * change, figures->min_dihedral_deg);
+    else spore_cli_say(cli, _("  %s: finer than the cells, it has none; ask for more or smaller cells\n"), name);
   }
   spore_cli_close_array(cli);
 }

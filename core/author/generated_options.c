@@ -87,3 +87,16 @@ SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields
                                   .regions = room,
                                   .region_count = count};
 }
+
+SporeCentrelineOptions spore_edit_centreline_options(const SporeCurveFields *fields) {
+  SporeCentrelineOptions options = {.points = (size_t)fields->points, .tolerance = fields->tolerance};
+  memcpy(options.ends[0], fields->first_place, sizeof options.ends[0]);
+  memcpy(options.ends[1], fields->last_place, sizeof options.ends[1]);
+  options.ends_given = memcmp(options.ends[0], options.ends[1], sizeof options.ends[0]) != 0;
+  return options;
+}
+
+SporeSimplifyOptions spore_edit_surface_options(const SporeMeshFields *fields) {
+  return (SporeSimplifyOptions){(size_t)fields->nodes, fields->nodes ? 0 : fields->size,
+                                fields->keep_angle * G_PI / 180};
+}

@@ -2,7 +2,9 @@
 #ifndef SPORE_AUTHOR_GENERATED_OPTIONS_H
 #define SPORE_AUTHOR_GENERATED_OPTIONS_H
 
+#include "core/generate/centreline.h"
 #include "core/generate/spheres.h"
+#include "core/generate/surface.h"
 #include "core/generate/tetrahedra.h"
 #include "core/scene/document.h"
 #include "core/scene/schema_fields.h"
@@ -28,6 +30,8 @@ SporeSpheresOptions spore_edit_spheres_options(const SporeSpheresFields *fields,
 SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields *fields,
                                                      const SporeGenerateRegion *regions, gsize count,
                                                      SporeTetrahedraRegion *room);
+SporeCentrelineOptions spore_edit_centreline_options(const SporeCurveFields *fields);
+SporeSimplifyOptions spore_edit_surface_options(const SporeMeshFields *fields);
 /* Index among the asset's methods. */
 int spore_edit_spheres_method(SporeSpheresMode mode);
 

@@ -9,6 +9,8 @@
 #include "core/math/vec3.h"
 #include "core/scene/error.h"
 
+#define SPORE_LABEL_MAP_KEPT ((gsize)64 << 20) /* bytes: a larger file is not kept in a scene */
+
 typedef struct SporeLabelMap {
   size_t size[3];
   uint16_t *labels; /* size[0] x size[1] x size[2], the first index fastest; 0: nothing */
@@ -29,6 +31,8 @@ void spore_label_map_list(const SporeLabelMap *map, GArray **labels, GArray **vo
 /* Names of labels that a file tells of (NRRD as 3D Slicer writes it): label -> char *; empty where it tells of none.
  * g_hash_table_unref. */
 GHashTable *spore_label_map_names(const void *content, gsize size);
+/* One of them, or one made of the number. g_free. */
+char *spore_label_map_name(GHashTable *names, guint16 label);
 double spore_label_map_voxel_volume(const SporeLabelMap *map); /* m^3 */
 
 static inline SporeVec3 spore_label_map_place(const SporeLabelMap *map, double i, double j, double k) {

@@ -1,5 +1,6 @@
 /* Names of labels that an NRRD's header tells of, as 3D Slicer writes its segmentations: "Segment0_Name:=liver" and
  * "Segment0_LabelValue:=3" (https://slicer.readthedocs.io, Segmentations: file format). */
+#include <glib/gi18n.h>
 #include <string.h>
 
 #include "core/io/label_map.h"
@@ -17,6 +18,11 @@ static gboolean read_line(const char *line, guint *segment, const char **key, co
   *key = end + 1;
   *value = is + 2;
   return TRUE;
+}
+
+char *spore_label_map_name(GHashTable *names, guint16 label) {
+  const char *name = g_hash_table_lookup(names, GUINT_TO_POINTER((guint)label));
+  return name ? g_strdup(name) : g_strdup_printf(_("label %u"), label);
 }
 
 GHashTable *spore_label_map_names(const void *content, gsize size) {

@@ -432,6 +432,53 @@ def labels_without_their_steps():
 
 
 @check
+def scene_of_a_label_map():
+    """A label map becomes a scene: a soft body of each organ, named as the file names it, joined by a seam; it runs."""
+    if "volumes" not in FEATURES:
+        raise Skip("built without volumes")
+    size, voxels = two_boxes()
+    content = shapes.nrrd(size, voxels, spacing=(1, 2, .5))
+    head, data = content.split(b"\n\n", 1)
+    named = head + b"\nSegment0_Name:=left lobe\nSegment0_LabelValue:=1\nSegment1_Name:=gall bladder\nSegment1_LabelValue:=2\n\n" + data
+    answer = report("tetrahedra", file("patient.seg.nrrd", named), "--cells", 600, "-o", "patient/patient.spore")
+    assert [row["name"] for row in answer["labels"]] == ["left lobe", "gall bladder"] and answer["seams"] == 1, answer
+    scene = xml.etree.ElementTree.parse(WORK / "patient/patient.spore").getroot()
+    assert [body.get("name") for body in scene.find("bodies")] == ["left_lobe", "gall_bladder"]
+    assert [(seam.get("body_a"), seam.get("body_b")) for seam in scene.find("links")] == [("left_lobe", "gall_bladder")]
+    assert scene.find("assets/label_map") is not None and scene.find("assets/tetrahedra").get("cells") == "600"
+    assert not any("stale" in d["message"] for d in report("check", "patient/patient.spore")["diagnostics"])
+    report("run", "patient/patient.spore", "--steps", 3)
+    again = spore("tetrahedra", "patient.seg.nrrd", "--cells", 600, "-o", "patient/patient.spore")
+    assert "takes the place" in again.stdout
+    file("surface.off", shapes.off(*shapes.sphere()))
+    refuses("tetrahedra", "surface.off", "--cells", 100, "-o", "x.spore", says=["x.spore", "surface", "--body"])
+
+
+@check
+def lines_and_surfaces_for_bodies():
+    """centreline and surface of a scene work for a body of it: a tube is carried along its line, a ball becomes a net, or hollow."""
+    file("gut.off", shapes.off(*shapes.tube(rings=40)))
+    file("sac.off", shapes.off(*shapes.sphere(rings=24, sectors=48)))
+    spore("import", "gut.off", "sac.off", "-o", "lines/lines.spore")
+    scene = "lines/lines.spore"
+    body = lambda name: next(b for b in xml.etree.ElementTree.parse(WORK / scene).getroot().find("bodies") if b.get("name") == name)
+    made = report("centreline", scene, "--body", "gut", "--as", "thread", "--points", 9)
+    assert made["points"] == 9 and made["body"] == "gut" and abs(made["length"] - 0.08) < 0.001
+    assert body("gut").find("mechanical/spline_1d") is not None and body("gut").find("mechanical").get("geometry") == "gut_line"
+    assert report("centreline", scene, "--body", "gut")["points"] == 9  # as its asset says
+    net = report("surface", scene, "--body", "sac", "--nodes", 150)
+    assert net["nodes"] <= 150 and body("sac").find("mechanical").get("geometry") == "sac_surface"
+    hollow = report("surface", scene, "--body", "sac", "--wall", 0.005, "--detail", 3)
+    assert abs(hollow["wall"]["thickness_m"]["mean"] / 0.005 - 1) < 0.1 and body("sac").find("visual").get("mesh") == "sac_surface"
+    report("run", scene, "--steps", 3)
+    refuses("centreline", scene, "--body", "gu", says=['no body "gu"', "gut, sac"])
+    refuses("edit", scene, "--hold", "gu", says=['no body "gu"', "gut, sac"])
+    refuses("centreline", scene, "--body", "gut", "-o", "x.curve", says=["--output"])
+    refuses("surface", scene, "--body", "sac", "--unit", "mm", says=["--unit"])
+    refuses("surface", "sac.off", "--nodes", 20, "--body", "sac", says=["--body", ".spore"])
+
+
+@check
 def label_maps_of_each_kind():
     """NIfTI of both byte orders and kinds of numbers, NRRD raw and gzip: the same organs in the same place."""
     if "volumes" not in FEATURES:

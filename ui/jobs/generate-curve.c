@@ -11,18 +11,9 @@ static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
     N_("What Apply makes: the curve alone, or of the body a solid thread, a tube with a wall, or an intestine on "
        "its mesentery."));
 
-static SporeCentrelineOptions options_of(const SporeGenerateWork *work) {
-  const SporeCurveFields *fields = &work->options.fields.curve;
-  SporeCentrelineOptions options = {.points = (size_t)fields->points, .tolerance = fields->tolerance};
-  memcpy(options.ends[0], fields->first_place, sizeof options.ends[0]);
-  memcpy(options.ends[1], fields->last_place, sizeof options.ends[1]);
-  options.ends_given = memcmp(options.ends[0], options.ends[1], sizeof options.ends[0]) != 0;
-  return options;
-}
-
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  SporeCentrelineOptions options = options_of(work);
+  SporeCentrelineOptions options = spore_edit_centreline_options(&work->options.fields.curve);
   if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure))
     return TRUE;
   spore_error_at(&failure, work->source);

@@ -12,12 +12,6 @@ static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
     N_("What Apply makes: what the body's model is built from, the mesh that the body shows and generators start "
        "from (a wall, to be filled with tetrahedra), or an asset alone."));
 
-static SporeSimplifyOptions options_of(const SporeGenerateWork *work) {
-  const SporeMeshFields *fields = &work->options.fields.surface;
-  return (SporeSimplifyOptions){(size_t)fields->nodes, fields->nodes ? 0 : fields->size,
-                                fields->keep_angle * G_PI / 180};
-}
-
 static bool make_wall(SporeGenerateWork *work, const SporeProgress *progress, SporeError *failure) {
   SporeTriangleMesh outer = work->surface, inner = {0};
   work->surface = (SporeTriangleMesh){0};
@@ -44,7 +38,7 @@ static bool measure(SporeGenerateWork *work, SporeError *failure) {
 
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  SporeSimplifyOptions options = options_of(work);
+  SporeSimplifyOptions options = spore_edit_surface_options(&work->options.fields.surface);
   gboolean thin = options.vertices > 0 || options.size > 0, wall = work->options.fields.surface.wall > 0;
   if (!thin && !wall)
     return spore_error_raise(error, SPORE_ERROR_INPUT, work->source,
@@ -61,7 +55,7 @@ static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GErr
 static gboolean price(const SporeGenerateWork *work, size_t count, double *error_percent, const SporeProgress *progress,
                       GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  SporeSimplifyOptions options = options_of(work);
+  SporeSimplifyOptions options = spore_edit_surface_options(&work->options.fields.surface);
   SporeTriangleMesh surface = {0};
   SporeSurfaceReport report;
   options.vertices = count;

@@ -4,8 +4,6 @@
 
 #include "core/generate/organ_import.h"
 
-#define MOST_KEPT ((gsize)64 << 20) /* bytes, that a scene is made larger by */
-
 struct SporeLabelSource {
   char *file;
   GBytes *content; /* NULL: not read yet, or too large to keep */
@@ -65,7 +63,7 @@ static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, 
                              _("it has %u labels above 0; expected 1 to %u; is it a segmentation?"), labels->len,
                              SPORE_LABEL_SOURCE_MOST);
   }
-  if (!source->content && size <= MOST_KEPT) source->content = g_bytes_ref(content);
+  if (!source->content && size <= SPORE_LABEL_MAP_KEPT) source->content = g_bytes_ref(content);
   source->names = spore_label_map_names(bytes, size);
   source->voxels = g_steal_pointer(&voxels);
   source->labels = g_steal_pointer(&labels);
@@ -90,7 +88,5 @@ double spore_label_source_volume(const SporeLabelSource *source, gsize i) {
 }
 
 char *spore_label_source_name(const SporeLabelSource *source, gsize i) {
-  guint16 label = spore_label_source_label(source, i);
-  const char *name = g_hash_table_lookup(source->names, GUINT_TO_POINTER((guint)label));
-  return name ? g_strdup(name) : g_strdup_printf(_("label %u"), label);
+  return spore_label_map_name(source->names, spore_label_source_label(source, i));
 }
