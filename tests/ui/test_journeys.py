@@ -165,8 +165,20 @@ def a_mesh_of_the_scene_is_changed():
         text = editor.text_of(editor.find("text", "^Log$"))  # which came to the front
         assert re.search("(?s)Fill holes:.*before: 522 triangles.*open edges: 8.*after: 528 triangles.*open edges: 0", text), text
         assert re.search("(?s)Smooth:.*before: .*after: .*moved by up to .* [µm]m", text), text
-        assert undo_all(editor) == 3
-        assert not editor.row("open")
+        editor.act("change-mesh-dialog", "s", "triangles")
+        spin = editor.find("spin button", "^triangles$")
+        assert editor.atspi.Value.get_current_value(spin) == 264, "fewer than there are"
+        editor.press(editor.find("push button", "^Apply$"))
+        editor.find("label", "^26[0-8] triangles, .*, closed")
+        editor.act("change-mesh", "(sd)", ("orient", 0.0))
+        ui.wait(lambda: "Orient:" in editor.text_of(editor.find("text", "^Log$")), "the orienting to end")
+        for triangles in (26, 528, 528):  # decimating, smoothing and filling, each taken back; what was oriented is no step
+            editor.find("label", f"^{triangles}.* triangles, ")
+            editor.act("undo")
+        editor.find("label", "^522 triangles, .*not closed")
+        editor.act("undo")
+        ui.wait(lambda: not editor.row("open"), "the import to be taken back")
+        assert not editor.enabled("undo")
 
 
 @check

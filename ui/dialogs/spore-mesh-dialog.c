@@ -42,6 +42,9 @@ GtkWidget *spore_mesh_dialog_new(GtkWindow *parent, const SporeMeshOperation *op
     gtk_label_set_xalign(GTK_LABEL(i ? state : about), 0);
   }
   gtk_container_add(GTK_CONTAINER(box), about);
+  /* As many as there are already would leave it as it is. */
+  if (operation == &spore_mesh_operations[SPORE_MESH_DECIMATE] && operation->usual >= (double)figures->triangles)
+    gtk_spin_button_set_value(GTK_SPIN_BUTTON(spin), floor(0.5 * (double)figures->triangles));
   if (spin) {
     GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
     gtk_container_add(GTK_CONTAINER(row), spin);
