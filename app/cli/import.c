@@ -215,7 +215,7 @@ int spore_command_import(SporeCli *cli, int argc, char **argv) {
   static const SporeCommandInfo info = {
       .name = "import",
       .arguments = "MESH|LABELS...",
-      .summary = N_("Makes a new scene from organ meshes, each a body, or label maps (NIfTI-1, NRRD), each label a "
+      .summary = N_("Makes a new scene from organ meshes, each a body, or label maps (NIfTI, NRRD), each label a "
                     "body. Operations on the meshes are done in the order "
                     "in which they are listed below, whatever the order of the options."),
       .minimum = 1,

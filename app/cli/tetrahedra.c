@@ -340,7 +340,7 @@ static int check_scene(gboolean scene, const char *body, gboolean others) {
 int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
   static const SporeCommandInfo info = {"tetrahedra",
                                         "MESH|LABELS|SCENE",
-                                        N_("Fills a mesh, or all organs of a label map (NIfTI-1, NRRD), with "
+                                        N_("Fills a mesh, or all organs of a label map (NIfTI, NRRD), with "
                                            "tetrahedra; organs share the faces where they touch. Of a scene (F.spore): "
                                            "the mesh that a body of it shows, which becomes soft."),
                                         1,

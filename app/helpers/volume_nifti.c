@@ -1,31 +1,49 @@
-/* NIfTI-1 in one file (.nii): nifti1.h of the NIfTI Data Format Working Group, 2005. */
+/* NIfTI-1 and NIfTI-2 in one file (.nii): nifti1.h and nifti2.h of the NIfTI Data Format Working Group, 2005 and 2011.
+ */
 #include <math.h>
 #include <string.h>
 
 #include "app/helpers/volume.h"
 
 #define N_(text) text
-#define HEADER 348
+#define HEADER_1 348
+#define HEADER_2 540
 
 typedef struct Header {
   const uint8_t *bytes;
-  bool swapped;
+  bool swapped, second; /* second: NIfTI-2, whose members are wider and lie elsewhere */
 } Header;
 
 static void take(const Header *header, size_t offset, void *value, size_t size) {
   uint8_t *to = value;
   for (size_t i = 0; i < size; i++) to[header->swapped ? size - 1 - i : i] = header->bytes[offset + i];
 }
-static int16_t take_i16(const Header *header, size_t offset) {
-  int16_t value;
-  take(header, offset, &value, sizeof value);
-  return value;
+
+/* Members by their offsets in either header: 16 bits and 64 (32 for codes), 32-bit reals and 64-bit ones. */
+static int64_t take_count(const Header *header, size_t first, size_t second) {
+  int16_t narrow;
+  int64_t wide;
+  if (header->second) take(header, second, &wide, sizeof wide);
+  else take(header, first, &narrow, sizeof narrow);
+  return header->second ? wide : narrow;
 }
-static double take_float(const Header *header, size_t offset) {
-  float value;
-  take(header, offset, &value, sizeof value);
-  return value;
+static int take_code(const Header *header, size_t first, size_t second) {
+  int16_t narrow;
+  int32_t wide;
+  if (header->second) take(header, second, &wide, sizeof wide);
+  else take(header, first, &narrow, sizeof narrow);
+  return header->second ? wide : narrow;
 }
+/* The i-th of an array. */
+static double take_real(const Header *header, size_t first, size_t second, size_t i) {
+  float narrow;
+  double wide;
+  if (header->second) take(header, second + i * sizeof wide, &wide, sizeof wide);
+  else take(header, first + i * sizeof narrow, &narrow, sizeof narrow);
+  return header->second ? wide : (double)narrow;
+}
+
+static double voxel_size(const Header *header, size_t k) { return take_real(header, 76, 104, k + 1); }
 
 static bool take_type(const Header *header, SporeVoxelType *type, SporeHelperFailure *failure) {
   static const struct {
@@ -35,7 +53,8 @@ static bool take_type(const Header *header, SporeVoxelType *type, SporeHelperFai
                {4, SPORE_VOXEL_INT16},     {768, SPORE_VOXEL_UINT32}, {8, SPORE_VOXEL_INT32},
                {1280, SPORE_VOXEL_UINT64}, {1024, SPORE_VOXEL_INT64}, {16, SPORE_VOXEL_FLOAT},
                {64, SPORE_VOXEL_DOUBLE}};
-  int16_t code = take_i16(header, 70);
+  int16_t code;
+  take(header, header->second ? 12 : 70, &code, sizeof code);
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (known[i].code == code) {
       *type = known[i].type;
@@ -49,14 +68,15 @@ static bool take_type(const Header *header, SporeVoxelType *type, SporeHelperFai
 
 /* More than three dimensions are taken where the others are one thick. */
 static bool take_size(const Header *header, uint64_t size[3], SporeHelperFailure *failure) {
-  int16_t dimensions = take_i16(header, 40);
+  int64_t dimensions = take_count(header, 40, 16);
   for (int i = 0; i < 7; i++) {
-    int16_t length = i < dimensions ? take_i16(header, 42 + 2 * (size_t)i) : 1;
+    int64_t length = i < dimensions ? take_count(header, 42 + 2 * (size_t)i, 24 + 8 * (size_t)i) : 1;
     if (dimensions < 1 || dimensions > 7 || length < 1 || (i >= 3 && length > 1))
       return spore_volume_fail(failure,
                                N_("its dimensions are not those of a volume; expected three of at least one "
                                   "voxel; save one volume of it"),
-                               "dim[%d] = %d", i < dimensions ? i + 1 : 0, i < dimensions ? length : dimensions);
+                               "dim[%d] = %lld", i < dimensions ? i + 1 : 0,
+                               (long long)(i < dimensions ? length : dimensions));
     if (i < 3) size[i] = (uint64_t)length;
   }
   return true;
@@ -64,7 +84,7 @@ static bool take_size(const Header *header, uint64_t size[3], SporeHelperFailure
 
 /* Method 2: a turn as a quaternion, voxel sizes and a shift. */
 static void axes_of_quaternion(const Header *header, double axes[12]) {
-  double b = take_float(header, 256), c = take_float(header, 260), d = take_float(header, 264);
+  double b = take_real(header, 256, 352, 0), c = take_real(header, 256, 352, 1), d = take_real(header, 256, 352, 2);
   double rest = 1 - (b * b + c * c + d * d);
   if (rest < 1e-7) { /* as the standard's own code does: a half turn */
     double length = 1 / sqrt(b * b + c * c + d * d);
@@ -75,44 +95,50 @@ static void axes_of_quaternion(const Header *header, double axes[12]) {
                           2 * (b * c + a * d),           a * a + c * c - b * b - d * d, 2 * (c * d - a * b),
                           2 * (b * d - a * c),           2 * (c * d + a * b),           a * a + d * d - c * c - b * b};
   for (int row = 0; row < 3; row++) {
-    for (int k = 0; k < 3; k++) axes[4 * row + k] = turn[3 * row + k] * take_float(header, 80 + 4 * (size_t)k);
-    axes[4 * row + 3] = take_float(header, 268 + 4 * (size_t)row);
+    for (int k = 0; k < 3; k++) axes[4 * row + k] = turn[3 * row + k] * voxel_size(header, (size_t)k);
+    axes[4 * row + 3] = take_real(header, 268, 376, (size_t)row);
   }
-  if (take_float(header, 76) < 0) /* qfac */
+  if (take_real(header, 76, 104, 0) < 0) /* qfac */
     for (int row = 0; row < 3; row++) axes[4 * row + 2] = -axes[4 * row + 2];
 }
 
+static int take_units(const Header *header) { return header->second ? take_code(header, 0, 500) : header->bytes[123]; }
+
 static void take_axes(const Header *header, double axes[12]) {
-  if (take_i16(header, 254) > 0)
-    for (size_t i = 0; i < 12; i++) axes[i] = take_float(header, 280 + 4 * i);
-  else if (take_i16(header, 252) > 0) axes_of_quaternion(header, axes);
+  if (take_code(header, 254, 348) > 0)
+    for (size_t i = 0; i < 12; i++) axes[i] = take_real(header, 280, 400, i);
+  else if (take_code(header, 252, 344) > 0) axes_of_quaternion(header, axes);
   else
-    for (size_t i = 0; i < 3; i++) axes[5 * i] = take_float(header, 80 + 4 * i); /* voxel sizes alone */
-  static const double units[8] = {1e-3, 1, 1e-3, 1e-6, 1e-3, 1e-3, 1e-3, 1e-3};  /* not said: mm */
-  for (int i = 0; i < 12; i++) axes[i] *= units[header->bytes[123] & 7];
+    for (size_t i = 0; i < 3; i++) axes[5 * i] = voxel_size(header, i);         /* voxel sizes alone */
+  static const double units[8] = {1e-3, 1, 1e-3, 1e-6, 1e-3, 1e-3, 1e-3, 1e-3}; /* not said: mm */
+  for (int i = 0; i < 12; i++) axes[i] *= units[take_units(header) & 7];
 }
 
 bool spore_nifti_head(const uint8_t *bytes, size_t size, SporeVolumeHead *head, SporeHelperFailure *failure) {
-  if (size < HEADER + 4)
+  Header header = {bytes};
+  if (size >= 8) header.second = memcmp(bytes + 4, "n+2", 4) == 0;
+  const int32_t whole = header.second ? HEADER_2 : HEADER_1;
+  if (size < (size_t)whole + 4)
     return spore_volume_fail(failure, N_("the NIfTI file is cut short; expected the whole file; copy it again"),
                              "%zu bytes", size);
-  Header header = {bytes, false};
   int32_t length;
   take(&header, 0, &length, sizeof length);
-  header.swapped = length != HEADER;
-  if (memcmp(bytes + 344, "n+1", 4) != 0)
+  header.swapped = length != whole;
+  if (!header.second && memcmp(bytes + 344, "n+1", 4) != 0)
     return spore_volume_fail(failure,
-                             N_("it is no NIfTI-1 volume in one file; expected .nii or .nii.gz with header and "
-                                "data together; save it so"),
+                             N_("it is no NIfTI-1 or NIfTI-2 volume in one file; expected .nii or .nii.gz with header "
+                                "and data together; save it so"),
                              "%s", "");
   *head = (SporeVolumeHead){.swapped = header.swapped};
   if (!take_type(&header, &head->type, failure) || !take_size(&header, head->answer.size, failure)) return false;
   take_axes(&header, head->answer.axes);
-  head->slope = take_float(&header, 112);
-  head->shift = take_float(&header, 116);
+  head->slope = take_real(&header, 112, 176, 0);
+  head->shift = take_real(&header, 116, 184, 0);
   if (head->slope == 0 || !isfinite(head->slope)) head->slope = 1, head->shift = 0; /* not given */
-  double offset = take_float(&header, 108);
-  if (!(offset >= HEADER && offset <= (double)size))
+  int64_t start = 0;
+  if (header.second) take(&header, 168, &start, sizeof start);
+  double offset = header.second ? (double)start : take_real(&header, 108, 0, 0);
+  if (!(offset >= whole && offset <= (double)size))
     return spore_volume_fail(failure,
                              N_("its voxels would begin outside the file; expected them behind the header; "
                                 "save it again"),

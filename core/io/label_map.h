@@ -17,9 +17,9 @@ typedef struct SporeLabelMap {
   double axes[12];  /* 3 x 4: from indices (i, j, k, 1) of a voxel's middle to SPORE's axes, m */
 } SporeLabelMap;
 
-/* Whether the content or, for gzip, the name is that of a volume (NIfTI-1, NRRD). */
+/* Whether the content or, for gzip, the name is that of a volume (NIfTI, NRRD). */
 gboolean spore_label_map_is(const char *file, const void *content, gsize size);
-/* NIfTI-1 in one file, plain or gzip, and NRRD with attached raw or gzip data, decoded in a helper process. Place and
+/* NIfTI-1 and -2 in one file, plain or gzip, and NRRD with attached raw or gzip data, decoded in a helper process. Place and
  * size of voxels come from the header (sform, else qform, else voxel sizes; NRRD's space), in mm where it says no unit.
  * Refused with a message: what is cut short, cannot be, is too large, or holds no labels from 0 to 65535. */
 gboolean spore_label_map_decode(const char *place, const void *content, gsize size, SporeLabelMap *map,

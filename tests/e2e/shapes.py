@@ -70,6 +70,13 @@ def nifti(size, voxels, spacing=(1, 1, 1), origin=(0, 0, 0), datatype=2, bits=8,
     return head + struct.pack("16s4s4x", b"", b"n+1") + voxels
 
 
+def nifti2(size, voxels, spacing=(1, 1, 1), origin=(0, 0, 0), sform=None, order="<", offset=544):
+    """NIfTI-2 in one file of uint8, voxels in mm: sform rows, else qform without a turn."""
+    head = struct.pack(order + "i8shh8q3d8dq", 540, b"n+2\0\r\n\x1a\n", 2, 8, 3, *size, 1, 1, 1, 1, 0, 0, 0, 1, *spacing, 0, 0, 0, 0, offset)
+    head += struct.pack(order + "6d2q104x2i6d12d", *[0] * 6, 0, 0, 0 if sform else 1, 1 if sform else 0, 0, 0, 0, *origin, *(sform or [0] * 12))
+    return head + struct.pack(order + "3i32x", 0, 2, 0) + bytes(4) + voxels
+
+
 def nrrd(size, voxels, spacing=(1, 1, 1), origin=(0, 0, 0), space="left-posterior-superior", encoding="raw", **fields):
     """NRRD with attached data of uint8, in mm."""
     lines = {"type": "uint8", "dimension": "3", "space": space, "sizes": "%d %d %d" % tuple(size),

@@ -480,7 +480,7 @@ def lines_and_surfaces_for_bodies():
 
 @check
 def label_maps_of_each_kind():
-    """NIfTI of both byte orders and kinds of numbers, NRRD raw and gzip: the same organs in the same place."""
+    """NIfTI 1 and 2 of both byte orders and kinds of numbers, NRRD raw and gzip: the same organs in the same place."""
     if "volumes" not in FEATURES:
         raise Skip("built without volumes")
     size, voxels = two_boxes()
@@ -489,6 +489,8 @@ def label_maps_of_each_kind():
     maps = {"q.nii": shapes.nifti(size, voxels, spacing=(1, 2, .5), origin=(10, 20, 30)),
             "s.nii": shapes.nifti(size, wide("<", "h"), datatype=4, bits=16, sform=ras),
             "big.nii": shapes.nifti(size, wide(">", "H"), datatype=512, bits=16, sform=ras, order=">"),
+            "two.nii": shapes.nifti2(size, voxels, spacing=(1, 2, .5), origin=(10, 20, 30)),
+            "two-big.nii.gz": gzip.compress(shapes.nifti2(size, voxels, sform=ras, order=">")),
             "f.nii": shapes.nifti(size, wide("<", "f"), datatype=16, bits=32, sform=ras),
             "raw.nrrd": shapes.nrrd(size, voxels, spacing=(-1, -2, .5), origin=(-10, -20, 30)),
             "gz.nrrd": shapes.nrrd(size, voxels, spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", encoding="gzip"),
@@ -528,7 +530,9 @@ def bad_label_maps():
     good, nrrd = shapes.nifti(size, voxels), shapes.nrrd(size, voxels)
     patch = lambda offset, form, *values: good[:offset] + struct.pack(form, *values) + good[offset + struct.calcsize(form):]
     bombs = gzip.compress(good + bytes(1 << 20))
-    cases = {"cut.nii": (good[:-100], "cut short"), "head.nii": (good[:200], "cut short"), "magic.nii": (patch(344, "4s", b"ni1\0"), "NIfTI-1"),
+    cases = {"cut.nii": (good[:-100], "cut short"), "head.nii": (good[:200], "cut short"), "cut2.nii": (shapes.nifti2(size, voxels)[:500], "cut short"), "far2.nii": (shapes.nifti2(size, voxels, offset=2 ** 62), "vox_offset"),
+             "wide2.nii": (shapes.nifti2((2 ** 40, 2 ** 40, 2), voxels), "268 million"), "minus2.nii": (shapes.nifti2((4, -4, 2), voxels), "dim[2]"),
+             "magic.nii": (patch(344, "4s", b"ni1\0"), "NIfTI-1"),
              "type.nii": (patch(70, "<h", 128), "datatype 128"), "dims.nii": (patch(40, "<h", 9), "dim"), "zero.nii": (patch(42, "<h", 0), "dim[1] = 0"),
              "huge.nii": (patch(42, "<3h", 32767, 32767, 32767), "268 million"), "minus.nii": (patch(44, "<h", -4), "dim[2]"),
              "nan.nii": (patch(80, "<f", float("nan")), "size"), "flat.nii": (patch(80, "<f", 0.0), "size"),
