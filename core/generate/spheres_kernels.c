@@ -85,10 +85,18 @@ static void slopes_of_samples(const SporeWeightedBlock *b, const float *sum, flo
   }
 }
 
+static float slope_of_level(const SporeWeightedBlock *b, const float *sum, const float *slope) {
+  float all[LANES] = {0};
+  for (size_t first = 0; first < SPORE_BLOCK; first += LANES)
+    for (int k = 0; k < LANES; k++) all[k] -= sum[first + k] > -b->level ? slope[first + k] : 0;
+  return sum_lanes(all);
+}
+
 void SPORE_LEVEL_NAME(spore_weighted_slopes)(const SporeWeightedBlock *b, float *restrict sum, float *restrict slopes) {
   float slope[SPORE_BLOCK];
   for (size_t first = 0; first < SPORE_BLOCK; first += LANES) sum_depths(b, first, sum);
   slopes_of_samples(b, sum, slope);
+  slopes[5 * b->count] = slope_of_level(b, sum, slope);
   for (size_t i = 0; i < b->count; i++) {
     float cx = b->x[i], cy = b->y[i], cz = b->z[i], r = b->r[i], w = b->weight[i];
     float sx[LANES] = {0}, sy[LANES] = {0}, sz[LANES] = {0}, sr[LANES] = {0}, sw[LANES] = {0};

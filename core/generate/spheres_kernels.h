@@ -41,9 +41,9 @@ typedef struct SporeWeightedBlock {
   float smoothing, level;
 } SporeWeightedBlock;
 
-/* sum[k] = sum_i w_i (r_i - d_i)+ - level of the samples. slopes: count x 5, by x, y, z, r, w, of the shares of the
- * samples times |sum - depth|, rounded below `smoothing`; outside, where the depth is below 0, only a sum above 0 is
- * wrong. */
+/* sum[k] = sum_i w_i (r_i - d_i)+ - level of the samples. slopes: count x 5, by x, y, z, r, w, and one by the level, of
+ * the shares of the samples times |sum - depth|, rounded below `smoothing`; outside, where the depth is below 0, only a
+ * sum above 0 is wrong, and where no ball reaches, no level is. */
 SPORE_DECLARE_KERNEL(void, spore_weighted_slopes, const SporeWeightedBlock *block, float *sum, float *slopes);
 
 /* Rays x, y, z from the origin, whole lanes of them; ball: centre and radius. from[k] becomes where the ray leaves the

@@ -15,7 +15,7 @@
 #define MOST_REPLACED 10 /* one ball in so many, in a trial */
 #define SAMPLES 4        /* times as many as a balanced fit takes: there is a fifth unknown, and fewer overlap */
 #define PART 60000       /* samples looked at in a round */
-#define LEVEL 0.2        /* of the typical radius */
+#define START_LEVEL 0.4  /* of the typical radius */
 #define REACH 2          /* of the samples' band, outside */
 #define SMOOTHING_FIRST 0.2
 #define SMOOTHING_LAST 0.01
@@ -35,7 +35,7 @@ SporeVec3 spore_weighted_confine(const SporeWeightedFit *fit, size_t ball, Spore
 }
 
 double spore_weighted_reach(const SporeWeightedFit *fit) {
-  return fit->level > 0 ? REACH * fit->samples.band : fit->samples.band;
+  return fit->levelled ? REACH * fit->samples.band : fit->samples.band;
 }
 
 /* The depth changes no faster than the centre moves. */
@@ -49,24 +49,35 @@ static double limit(SporeWeightedFit *fit, size_t ball, SporeVec3 centre, double
   return fmin(fmax(radius, LEAST_RADIUS * fit->samples.typical), least + reach);
 }
 
+/* How far a round goes, and the share of the running means that rounds have filled. */
+typedef struct Pace {
+  double rate, slopes, squares;
+} Pace;
+
+/* Of one unknown, and its running means. */
+static double change_of(double slope, double *mean, Pace pace) {
+  mean[0] = KEEP_SLOPE * mean[0] + (1 - KEEP_SLOPE) * slope;
+  mean[1] = KEEP_SQUARE * mean[1] + (1 - KEEP_SQUARE) * slope * slope;
+  return pace.rate * mean[0] / pace.slopes / (sqrt(mean[1] / pace.squares) + 1e-12);
+}
+
 /* done: rounds before this one. */
 static void step(SporeWeightedFit *fit, int done, double rate) {
-  double typical = fit->samples.typical, slopes = 1 - pow(KEEP_SLOPE, done + 1),
-         squares = 1 - pow(KEEP_SQUARE, done + 1);
+  Pace pace = {rate, 1 - pow(KEEP_SLOPE, done + 1), 1 - pow(KEEP_SQUARE, done + 1)};
+  double typical = fit->samples.typical;
   for (size_t i = 0; i < fit->balls.count; i++) {
     double change[SPORE_WEIGHTED_UNKNOWNS];
     for (size_t k = 0; k < SPORE_WEIGHTED_UNKNOWNS; k++) {
-      double s = fit->slope[SPORE_WEIGHTED_UNKNOWNS * i + k];
-      double *mean = fit->running + 2 * (SPORE_WEIGHTED_UNKNOWNS * i + k);
-      mean[0] = KEEP_SLOPE * mean[0] + (1 - KEEP_SLOPE) * s;
-      mean[1] = KEEP_SQUARE * mean[1] + (1 - KEEP_SQUARE) * s * s;
-      change[k] = rate * mean[0] / slopes / (sqrt(mean[1] / squares) + 1e-12);
+      size_t unknown = SPORE_WEIGHTED_UNKNOWNS * i + k;
+      change[k] = change_of(fit->slope[unknown], fit->running + 2 * unknown, pace);
     }
     SporeVec3 c = spore_vec3_add_scaled(spore_balls_centre(&fit->balls, i), -typical, spore_vec3_load(change));
     c = spore_weighted_confine(fit, i, c);
     spore_balls_set(&fit->balls, i, c, limit(fit, i, c, fit->balls.r[i] - typical * change[3]));
     fit->weights[i] = fmax(fit->weights[i] - change[4], SPORE_WEIGHT_LEAST);
   }
+  if (!fit->levelled) return;
+  fit->level = fmax(fit->level - typical * change_of(fit->level_slope, fit->level_running, pace), 0);
 }
 
 static bool fit_rounds(SporeWeightedFit *fit, const SporeProgressPart *progress, SporeError *error) {
@@ -109,7 +120,7 @@ static bool open_fit(SporeWeightedFit *fit, const SporeBalls *balls) {
   fit->near_group = SPORE_NEW_ARRAY(SporeWeightedImage, images);
   fit->near_block = SPORE_NEW_ARRAY(SporeWeightedImage, images);
   fit->columns = SPORE_NEW_ARRAY(float, SPORE_WEIGHTED_UNKNOWNS *images);
-  fit->slopes = SPORE_NEW_ARRAY(float, SPORE_WEIGHTED_UNKNOWNS *images);
+  fit->slopes = SPORE_NEW_ARRAY(float, SPORE_WEIGHTED_UNKNOWNS *images + 1);
   if (!spore_balls_create(&fit->balls, n) || !fit->weights || !fit->sum || !fit->slope || !fit->running ||
       !fit->known || !fit->near_group || !fit->near_block || !fit->columns || !fit->slopes)
     return false;
@@ -143,7 +154,8 @@ bool spore_spheres_weigh(const SporeSolid *solid, SporeBalls *balls, const uint8
   bool done = spore_samples_create(&fit.samples, solid, SAMPLES * images, &random, &sampling, error);
   if (done) {
     fit.samples.typical *= cbrt(SAMPLES), fit.samples.band *= cbrt(SAMPLES);
-    fit.level = balls->count > 1 ? LEVEL * fit.samples.typical : 0;
+    fit.levelled = balls->count > 1; /* of one, a level is a smaller radius */
+    fit.level = fit.levelled ? START_LEVEL * fit.samples.typical : 0;
     done = open_fit(&fit, balls) || spore_spheres_no_memory(error);
   }
   done = done && fit_rounds(&fit, &fitting, error);

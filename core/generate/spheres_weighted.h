@@ -4,10 +4,11 @@
 
 #include "core/generate/spheres_parts.h"
 
-/* Moves balls and finds their weights (balls->count, > 0) so that sum_i w_i max(0, r_i - |p - c_i|) - *level meets the
- * depth inside the solid and is next to nowhere above 0 outside, the balls standing for their images too (bound: as for
- * spore_spheres_fit). `balls` comes with a start. The level lets the sums' tails reach out unfelt, of which smooth
- * sides are made: without it they are either felt or missed inside. It is 0 of one ball. */
+/* Moves balls and finds their weights (balls->count, > 0) and the level, so that sum_i w_i max(0, r_i - |p - c_i|) -
+ * *level meets the depth inside the solid and is next to nowhere above 0 outside, the balls standing for their images
+ * too (bound: as for spore_spheres_fit). `balls` comes with a start. The level lets the sums' tails reach out unfelt,
+ * of which smooth sides are made: without it they are either felt or missed inside; how far it pays hangs on the shape.
+ * It is 0 of one ball. */
 bool spore_spheres_weigh(const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound, double *weights,
                          double *level, uint64_t seed, const SporeProgressPart *progress, SporeError *error);
 

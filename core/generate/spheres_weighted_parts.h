@@ -21,12 +21,14 @@ typedef struct SporeWeightedFit {
   double *weights;
   double *sum;                                 /* samples: the sum less the level, m */
   double *slope, *running;                     /* balls x UNKNOWNS, x 2: of the loss; means of it and its square */
+  double level_slope, level_running[2];        /* the same of the level */
   double *known;                               /* balls x 4: where a centre's depth was last asked for, and that */
   SporeWeightedImage *near_group, *near_block; /* images */
-  float *columns, *slopes;                     /* images x UNKNOWNS, of a block */
+  float *columns, *slopes;                     /* images x UNKNOWNS, of a block; and the level's slope */
   size_t image_count;                          /* most */
   SporeRandom random;
   double smoothing, level; /* m */
+  bool levelled;           /* the level is an unknown; else it is 0 */
 } SporeWeightedFit;
 
 /* The sum at the samples, and the slopes of the loss, of each `parts`th block, the first of them `part`. */

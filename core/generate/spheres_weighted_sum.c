@@ -34,6 +34,7 @@ static void add_slopes(SporeWeightedFit *fit, size_t count) {
         v = spore_vec3_add_scaled(v, -2 * spore_vec3_dot(v, symmetry->normal[k]), symmetry->normal[k]);
     to[0] += v.x, to[1] += v.y, to[2] += v.z, to[3] += (double)s[3], to[4] += (double)s[4];
   }
+  fit->level_slope += (double)fit->slopes[SPORE_WEIGHTED_UNKNOWNS * count];
 }
 
 /* The block's samples as columns of SPORE_BLOCK, lengths in `unit` from its middle. */
@@ -85,6 +86,7 @@ static void evaluate_block(SporeWeightedFit *fit, size_t b, size_t near) {
 
 void spore_weighted_evaluate(SporeWeightedFit *fit, size_t part, size_t parts) {
   const SporePoints *points = &fit->samples.points;
+  fit->level_slope = 0;
   memset(fit->slope, 0, SPORE_WEIGHTED_UNKNOWNS * fit->balls.count * sizeof *fit->slope);
   for (size_t g = 0; g < points->group_count; g++) {
     size_t near = gather_near(fit, g), end = (g + 1) * SPORE_GROUP;
