@@ -1,4 +1,4 @@
-/* The lattice as it is cut, before anything makes its cells better or fewer. */
+/* The lattice as it is cut, before anything makes its cells better or fewer; cavities that are filled. */
 #include <math.h>
 
 #include "cells.h"
@@ -65,9 +65,29 @@ static void test_rooms(void) {
   }
 }
 
+/* A hollow ball: filled, it has the volume of a whole one; else of the shell. By each method that may do it. */
+static void test_fill(void) {
+  for (int i = 0; i < 4; i++) {
+    const SporeTetrahedraMethod method = i < 2 ? SPORE_TETRAHEDRA_VOXELS : SPORE_TETRAHEDRA_METHODS;
+    SporeTriangleMesh surface = {0}, cavity = {0};
+    shape_ball(&surface, 0.05, 6);
+    shape_ball(&cavity, 0.025, 6);
+    shape_turn(&cavity);
+    shape_append(&surface, &cavity);
+    spore_triangle_mesh_clear(&cavity);
+    Result result = fill(&surface, (SporeTetrahedraOptions){.method = method, .cells = 400, .fill = i % 2},
+                         i < 2 ? "voxels" : "direct");
+    const double whole = 1.0 / (1 - 0.125); /* of the shell's volume */
+    g_assert_cmpfloat_with_epsilon(result.report.volume_change, i % 2 ? whole - 1 : 0, 0.06);
+    g_assert_cmpfloat(result.report.hausdorff, <, 0.02); /* a cavity that is filled does not count */
+    spore_tetrahedral_mesh_clear(&result.mesh);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tetrahedra/stuffing-angles", test_angles);
   g_test_add_func("/tetrahedra/stuffing-rooms", test_rooms);
+  g_test_add_func("/tetrahedra/fill", test_fill);
   return g_test_run();
 }
