@@ -670,6 +670,8 @@ def surface_of_fewer_nodes():
         plot = editor.find("drawing area", r"Error against number: 50: .* %; 100: .* %; 200: ", 60)
         errors = [float(number) for number in re.findall(r": ([\d.]+) %", plot.get_name())]
         assert errors[0] > errors[1] > errors[2], plot.get_name()
+        editor.find("push button", "^Measure numbers$", 60)
+        assert "e-" not in editor.find("drawing area", "^Error against number: 50: ").get_name(), "what has no error is no point"
         editor.act("apply-generated")
         ui.wait(lambda: editor.row("ball_surface"), "the surface")
         text = saved(editor, "surface")

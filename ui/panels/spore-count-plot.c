@@ -3,6 +3,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
+#define EXACT_PERCENT 1e-6 /* rounding: as many as what it is made from has, it has no error */
 #define MOST_POINTS 16
 #define LEFT 54
 #define RIGHT 12
@@ -88,7 +89,7 @@ static void draw_axes(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
     g_autofree char *number = g_strdup_printf("%zu", self->counts[i]);
     double x = x_of(f, self->counts[i]), half = 0.5 * text_width(widget, number);
     if (x - half < free_from) continue;
-    draw_text(widget, cr, x, f->top + f->height + 2, 0.5, number);
+    draw_text(widget, cr, fmin(x, gtk_widget_get_allocated_width(widget) - half), f->top + f->height + 2, 0.5, number);
     free_from = x + half + 6;
   }
   g_autofree char *high = g_strdup_printf("%.2g %%", exp(f->high_y)), *low = g_strdup_printf("%.2g %%", exp(f->low_y));
@@ -196,7 +197,7 @@ void spore_count_plot_set_points(SporeCountPlot *self, const size_t *counts, con
                                  size_t enough) {
   self->count = 0;
   for (gsize i = 0; i < count && self->count < MOST_POINTS; i++) {
-    if (!(errors[i] > 0)) continue; /* has no logarithm */
+    if (!(errors[i] > EXACT_PERCENT)) continue; /* its logarithm would leave no room for the others */
     self->counts[self->count] = counts[i];
     self->errors[self->count++] = errors[i];
   }
