@@ -13,7 +13,7 @@
 
 #define FEW 60                /* balls: so many sweep twice, half as many or fewer three times */
 #define WORK_PER_BALL 6000000 /* that goes into relocations, */
-#define WORK_MOST 190000000   /* of all balls: so that most solids take less than five seconds */
+#define WORK_MOST 180000000   /* of all balls: so that most solids take less than five seconds */
 #define GAP_VOLUME 0.3        /* of a cube: volume that an added point stands for */
 
 /* What the search does one after the other. */
@@ -95,7 +95,6 @@ static bool run_stages(SporeBoundingSearch *search, const SporeProgressPart *pro
                                  {SPORE_BOUNDING_HARD, 1.5e-3, 1.5e-3, 0.06, 8, false},
                                  {SPORE_BOUNDING_HARD, 3e-4, 7e-4, 0.06, 8, false},
                                  {SPORE_BOUNDING_HARD, 1e-4, 5e-4, 0.06, 5, false},
-                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, false},
                                  {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, false}};
   const size_t count = sizeof stages / sizeof *stages;
   double share[sizeof stages / sizeof *stages], sum = 0; /* of the time, about */

@@ -14,7 +14,7 @@
 #define MORE 1.2            /* after one that does */
 #define NEIGHBOURS_MOST 10  /* of a ball, that settle with it */
 #define PAIR_SWEEPS 3       /* of the two alone, */
-#define NEIGHBOURS_SWEEPS 2 /* and with their neighbours */
+#define NEIGHBOURS_SWEEPS 1 /* and with their neighbours; more of them, in the same work, end at dearer sets */
 #define BATCH_SWEEPS 12
 #define STEP 0.2         /* of a radius: of the first sweep */
 #define HALF_RADIUS 0.85 /* of the divided ball's: radius of its halves, at first */
