@@ -120,12 +120,17 @@ static void draw_points(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
   }
 }
 
+static GdkRGBA between(const GdkRGBA *a, const GdkRGBA *b) {
+  return (GdkRGBA){0.5 * (a->red + b->red), 0.5 * (a->green + b->green), 0.5 * (a->blue + b->blue), 1};
+}
+
 static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   SporeCountPlot *self = SPORE_COUNT_PLOT(widget);
   GtkStyleContext *style = gtk_widget_get_style_context(widget);
   GdkRGBA text, accent;
   gtk_style_context_get_color(style, gtk_style_context_get_state(style), &text);
   if (!gtk_style_context_lookup_color(style, "theme_selected_bg_color", &accent)) accent = text;
+  if (text.red + text.green + text.blue > 1.5) accent = between(&accent, &text); /* on a dark ground it is too dark */
   if (!self->count) {
     draw_invitation(widget, cr, _("Measure what other numbers give"));
     return FALSE;
