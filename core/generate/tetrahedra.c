@@ -17,9 +17,10 @@
 #define MOST_FIRST 200000.0  /* of the first, or of that which closes openings */
 #define WRAPPED_NEAR 0.8     /* of the tolerance */
 #define PREPARED_SAMPLES 10000
-#define SURE 0.9        /* of the tolerance */
-#define BETTER 0.95     /* of what a mesher is off: a lattice no nearer is not worth its shapes */
-#define MOST_CHANGE 0.1 /* of the volume */
+#define MOST_GIVEN 200000 /* triangles: of more, checking, repairing and wrapping take minutes, a lattice seconds */
+#define SURE 0.9          /* of the tolerance */
+#define BETTER 0.95       /* of what a mesher is off: a lattice no nearer is not worth its shapes */
+#define MOST_CHANGE 0.1   /* of the volume */
 
 const char *const spore_tetrahedra_method_names[] = {"direct", "repaired", "wrapped", "voxels", NULL};
 
@@ -194,6 +195,12 @@ static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GErr
 /* The surface that a method meshes. */
 static gboolean prepare(SporeTetrahedraWork *work, SporeTetrahedraMethod method, SporeTriangleMesh *surface,
                         GError **error) {
+  if (work->options.method == SPORE_TETRAHEDRA_METHODS && work->surface.triangle_count > MOST_GIVEN)
+    return fail(
+        error,
+        _("the surface has %zu triangles; expected at most %d, of more a lattice is the quicker; decimate it, or "
+          "ask for this method"),
+        work->surface.triangle_count, MOST_GIVEN);
   if (method == SPORE_TETRAHEDRA_WRAPPED) return wrap(work, surface, error);
   if (work->options.gap > 0) return fail(error, _("openings are to be closed, which wrapping alone does"));
   SporeTetrahedraTask task = method == SPORE_TETRAHEDRA_DIRECT ? SPORE_TETRAHEDRA_CHECK : SPORE_TETRAHEDRA_REPAIR;

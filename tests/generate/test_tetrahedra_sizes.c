@@ -1,5 +1,6 @@
 /* How large tetrahedra are, from place to place. */
 #include <math.h>
+#include <string.h>
 
 #include "cells.h"
 #include "core/base/memory.h"
@@ -85,11 +86,26 @@ static void test_curvature(void) {
   g_assert_cmpfloat(ratio[1], <, 0.8 * ratio[0]);
 }
 
+/* Of many triangles a lattice is made at once, and that is said. */
+static void test_many(void) {
+  SporeTriangleMesh surface = {0};
+  shape_ball(&surface, 0.05, 131);
+  g_assert_cmpuint(surface.triangle_count, >, 200000);
+  Result result = fill(&surface, (SporeTetrahedraOptions){CHAIN, .cells = 300}, "voxels");
+  check_cells(&result, 300);
+  g_assert_cmpfloat(result.report.hausdorff, <, 0.02);
+  if (SPORE_HAVE_CGAL)
+    for (int method = 0; method < SPORE_TETRAHEDRA_VOXELS; method++)
+      g_assert_nonnull(strstr(result.report.refused[method], "expected at most 200000"));
+  spore_tetrahedral_mesh_clear(&result.mesh);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   if (!SPORE_HAVE_CGAL) return g_test_run(); /* the mesher follows sizes */
   g_test_add_func("/tetrahedra/size", test_size);
   g_test_add_func("/tetrahedra/region", test_region);
   g_test_add_func("/tetrahedra/curvature", test_curvature);
+  g_test_add_func("/tetrahedra/many", test_many);
   return g_test_run();
 }
