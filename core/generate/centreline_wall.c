@@ -8,7 +8,7 @@
 #define RAYS 24    /* of a triangle, each side */
 #define RAY_STEP 7 /* their order: from steep to flat and again; no divisor in common with RAYS */
 #define HIDDEN 3   /* rays that go out: with fewer a triangle is seen from nowhere */
-#define OUTER 8    /* with as many it is of the outer wall: those of a lumen see less but at its very mouth */
+#define OUTER 13   /* with as many it is of the outer wall: at its very mouth a lumen sees half of its side */
 #define INNER_WALL                                                                                                     \
   0.1               /* share of the surface that is hidden in what may have a lumen; a few loops that touch hide less */
 #define ASTRAY 0.01 /* share of the surface that is seen from behind where its triangles are not turned alike */
