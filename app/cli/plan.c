@@ -47,7 +47,7 @@ static void report_choice(SporeCli *cli, const char *member, const SporeChoice *
   append_said(row, choice->name, choice->said_by);
 }
 
-static void report_method(SporeCli *cli, const char *body, const SporeMethod *method) {
+static void report_method(SporeCli *cli, const char *body, int width, const SporeMethod *method) {
   g_autoptr(GString) row = g_string_new(NULL);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "name", body);
@@ -61,20 +61,21 @@ static void report_method(SporeCli *cli, const char *body, const SporeMethod *me
   report_choice(cli, "nonlinear", &method->nonlinear, row);
   report_choice(cli, "linear", &method->linear, row);
   spore_cli_close(cli);
-  spore_cli_say(cli, "%-15s%s\n", body, g_strchomp(row->str));
+  spore_cli_say(cli, "%-*s%s\n", width, body, g_strchomp(row->str));
 }
 
 static void report_bodies(SporeCli *cli, const SporeWorld *world) {
   SporeMethod method;
   gboolean said = FALSE;
+  int width = spore_cli_body_width(world);
   spore_cli_open_array(cli, "bodies");
   for (guint body = 0; body < spore_world_body_count(world); body++) {
     if (!spore_world_body_method(world, body, &method)) continue;
     if (!said)
-      spore_cli_say(cli, "%-15s %-30s %-30s %-30s %s\n", _("body"), _("integrator (said by)"), _("substeps"),
+      spore_cli_say(cli, "%-*s %-30s %-30s %-30s %s\n", width, _("body"), _("integrator (said by)"), _("substeps"),
                     _("nonlinear"), _("linear"));
     said = TRUE;
-    report_method(cli, spore_world_body_name(world, body), &method);
+    report_method(cli, spore_world_body_name(world, body), width, &method);
   }
   spore_cli_close_array(cli);
 }

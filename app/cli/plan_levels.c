@@ -27,8 +27,9 @@ static void report_level(SporeCli *cli, const SporeWorld *world, guint32 body, S
   if (median_us >= 0) spore_cli_number(cli, "measured_us", median_us);
   spore_cli_close(cli);
   g_autofree char *time = median_us >= 0 ? g_strdup_printf("%.2f us", median_us) : g_strdup("-");
-  spore_cli_say(cli, "%-15s %c %-7s %7zu %7zu %12s\n", spore_world_body_name(world, body), active ? '*' : ' ',
-                spore_level_names[level], 3 * model->block_count, spore_world_body_sphere_count(world, body), time);
+  spore_cli_say(cli, "%-*s %c %-7s %7zu %7zu %12s\n", spore_cli_body_width(world), spore_world_body_name(world, body),
+                active ? '*' : ' ', spore_level_names[level], 3 * model->block_count,
+                spore_world_body_sphere_count(world, body), time);
 }
 
 static gboolean report_body(SporeCli *cli, SporeRun *run, guint32 body, int steps, GError **error) {
@@ -59,8 +60,8 @@ gboolean spore_plan_report_levels(SporeCli *cli, SporeRun *run, int steps, GErro
     if (!spore_world_level_state(world, body, &state)) continue;
     if (!any) {
       spore_cli_open_array(cli, "levels");
-      spore_cli_say(cli, "%-15s   %-7s %7s %7s %12s  %s\n", _("body"), _("level"), _("dof"), _("spheres"), _("a step"),
-                    _("(* active; the step is of the whole scene)"));
+      spore_cli_say(cli, "%-*s   %-7s %7s %7s %12s  %s\n", spore_cli_body_width(world), _("body"), _("level"), _("dof"),
+                    _("spheres"), _("a step"), _("(* active; the step is of the whole scene)"));
     }
     any = TRUE;
     done = report_body(cli, run, body, steps, error);

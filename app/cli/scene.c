@@ -118,3 +118,10 @@ void spore_run_free(SporeRun *run) {
   g_clear_pointer(&run->document, spore_document_free);
   g_free(run);
 }
+
+int spore_cli_body_width(const SporeWorld *world) {
+  int width = 15;
+  for (guint32 body = 0; body < spore_world_body_count(world); body++)
+    width = MAX(width, (int)strlen(spore_world_body_name(world, body)));
+  return width;
+}

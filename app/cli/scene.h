@@ -54,4 +54,7 @@ SporeRun *spore_run_open(SporeCli *cli, const char *file, const SporeSceneOption
 void spore_run_free(SporeRun *run);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeRun, spore_run_free)
 
+/* Width of a table's column of bodies' names. */
+int spore_cli_body_width(const SporeWorld *world);
+
 #endif
