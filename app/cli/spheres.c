@@ -9,6 +9,8 @@
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
+#define THIN 0.6 /* coverage below which a set needs a word */
+
 /* What the command line says. */
 typedef struct Request {
   char *unit, *frame, *output, *mode, *counts, *svg, *csv, *body;
@@ -100,6 +102,26 @@ static gboolean make_set(SporeCli *cli, const char *file, const SporeSpheresSour
   return spore_error_propagate(&fault, error);
 }
 
+/* Regions in which no sphere lies, not even in part: they are off the organ. */
+static void report_regions(SporeCli *cli, const SporeSpheresOptions *options, const SporeSphereSet *set) {
+  spore_cli_open_array(cli, "regions_missed");
+  for (gsize i = 0; i < options->region_count; i++) {
+    const SporeSpheresRegion *region = &options->regions[i];
+    gsize s = 0;
+    while (s < set->count &&
+           !(spore_vec3_distance(spore_vec3_load(set->spheres + 4 * s), spore_vec3_load(region->centre)) <
+             set->spheres[4 * s + 3] + region->radius))
+      s++;
+    if (s < set->count) continue;
+    spore_cli_count(cli, NULL, (gint64)i);
+    spore_cli_say(cli,
+                  _("The region about %g,%g,%g of %g m lies off the organ and has no effect; give its place in metres "
+                    "and SPORE's axes, as spore import says them.\n"),
+                  region->centre[0], region->centre[1], region->centre[2], region->radius);
+  }
+  spore_cli_close_array(cli);
+}
+
 static void report_set(SporeCli *cli, const SporeSpheresSource *source, const SporeSpheresOptions *options,
                        const SporeSphereSet *set, const SporeSpheresReport *report) {
   const char *hardest = options->count ? NULL : spore_spheres_hardest_aim(&options->aims, report, NULL);
@@ -108,6 +130,12 @@ static void report_set(SporeCli *cli, const SporeSpheresSource *source, const Sp
   if (source->sheet) say_sheet(cli, set, report, options->thickness > 0);
   else say_solid(cli, set, report);
   if (hardest) spore_cli_say(cli, _("Hardest to reach of what was asked for: %s.\n"), hardest);
+  if (!source->sheet && !source->curve && report->coverage < THIN)
+    spore_cli_say(cli,
+                  _("They hold little of the inside: walls are thin beside the spheres. Ask for more, or take it for "
+                    "a sheet by --thickness; of a hollow organ that is felt from outside alone, fill the lumen by "
+                    "spore tetrahedra --fill, and make spheres of that.\n"));
+  report_regions(cli, options, set);
   if (set->weights)
     spore_cli_say(cli, _("weighted sum: depth error %.4f, felt at %.1f %% of the places just outside\n"),
                   report->weighted_depth_error, 100 * report->felt_outside);
@@ -288,6 +316,7 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       {"weighted_depth_error", N_("the same of the weighted sum of the spheres' depths; 0 without weights")},
       {"felt_outside", N_("share of places up to 0.02 diagonals outside where that sum is not 0")},
       {"certified", N_("whether it is proven that all of the inside lies in a sphere")},
+      {"regions_missed", N_("which of the regions (from 0, those of the scene first) lie off the organ: no effect")},
       {"seconds", N_("that it took")},
       {"mirrors", N_("planes that mesh and spheres are symmetric about")},
       {"hardest", N_("of what was asked for, what takes so many: coverage, outside, distance or depth_error; null: "

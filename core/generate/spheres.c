@@ -291,6 +291,12 @@ static bool from_solid(Work *work, const SporeTriangleMesh *mesh, SporeSphereSet
   work->solid = &solid;
   bool done = make_set(fill_solid, work, set, report, progress, error);
   spore_solid_clear(&solid);
+  if (done && !(report->coverage > 0))
+    done = spore_error_set(
+        error, SPORE_ERROR_INPUT, NULL,
+        _("the spheres hold nothing of what the surface encloses; expected a closed one whose walls are not "
+          "too thin for so few; mend it (spore import --fill-holes), ask for more, or take it for a sheet "
+          "(spore spheres --thickness)"));
   return done;
 }
 

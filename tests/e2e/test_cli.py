@@ -455,6 +455,21 @@ def scene_of_a_label_map():
 
 
 @check
+def spheres_say_what_is_in_vain():
+    """A region off the organ and walls too thin for so few spheres get a word; a surface that encloses nothing is refused."""
+    ball = file("vain.off", shapes.off(*shapes.sphere()))
+    ask = lambda *regions: report("spheres", "vain.off", "--count", 12, *(x for r in regions for x in ("--region", r)))["regions_missed"]
+    assert ask("0,0.03,0,0.01,2", "3,0,0,0.01,2") == [1] and ask("0,0.03,0,0.01,2") == [] and ask() == []
+    said = spore("spheres", "vain.off", "--count", 12, "--region", "3,0,0,0.01,2").stdout
+    assert "3,0,0" in said and "no effect" in said and "hold little" not in said
+    shell = shapes.joined(shapes.sphere(), tuple((x, [t[::-1] for t in y]) for x, y in [shapes.sphere(radius=0.025)])[0])
+    assert "--thickness" in spore("spheres", file("shell.off", shapes.off(*shell)), "--count", 10).stdout
+    wings = ([(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, -0.1, 0.01), (0, 0.01, 0.1), (0, 0, -0.1)], [(0, 1, k) for k in (2, 3, 4, 5)])
+    refuses("spheres", file("wings.off", shapes.off(*wings)), "--count", 5, "-o", "wings.spheres", says=["wings.off", "hold nothing", "--thickness"])
+    assert not (WORK / "wings.spheres").exists()
+
+
+@check
 def lines_and_surfaces_for_bodies():
     """centreline and surface of a scene work for a body of it: a tube is carried along its line, a ball becomes a net, or hollow."""
     file("gut.off", shapes.off(*shapes.tube(rings=40)))
