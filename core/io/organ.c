@@ -6,9 +6,14 @@
 #include "core/io/mesh_import.h"
 
 char *spore_organ_name(const char *text) {
+  g_autofree char *plain = g_utf8_validate(text, -1, NULL) ? g_str_to_ascii(text, "C") : g_strdup(text);
   GString *name = g_string_new(NULL);
-  for (const char *c = text; *c; c++)
+  gboolean says = FALSE; /* any letter or digit */
+  for (const char *c = plain; *c; c++) {
+    says = says || g_ascii_isalnum(*c);
     g_string_append_c(name, g_ascii_isalnum(*c) || *c == '_' || *c == '-' || *c == '.' ? *c : '_');
+  }
+  if (!says) g_string_assign(name, "organ");
   if (name->len == 0 || !(g_ascii_isalpha(name->str[0]) || name->str[0] == '_')) g_string_prepend(name, "organ_");
   return g_string_free(name, FALSE);
 }

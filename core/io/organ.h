@@ -10,7 +10,8 @@
 SporeObject *spore_organ_insert(SporeDocument *document, const char *name, const char *file, GBytes *content, int unit,
                                 int frame, GError **error);
 
-/* A name of the form that the file format allows, from any text. g_free. */
+/* A name of the form that the file format allows, from any text: letters with marks lose them, where there are none of
+ * the Latin script it is "organ". g_free. */
 char *spore_organ_name(const char *text);
 
 /* Name of a file with this content, told apart from others of that name by a hash: "NAME-1a2b3c4d.EXTENSION". g_free.

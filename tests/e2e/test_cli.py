@@ -470,6 +470,17 @@ def spheres_say_what_is_in_vain():
 
 
 @check
+def names_from_any_script():
+    """Bodies are named after files in letters that the format has: marks go, what has none of them is an organ."""
+    names = ("vésicule biliaire.off", "Größe.off", "肝臓.off", "7.off")
+    for name in names:
+        file(name, shapes.off(*shapes.sphere()))
+    bodies = report("import", *names, "-o", "names/names.spore")["bodies"]
+    assert bodies == ["vesicule_biliaire", "Grosse", "organ", "organ_7"], bodies
+    report("check", "names/names.spore")
+
+
+@check
 def lines_and_surfaces_for_bodies():
     """centreline and surface of a scene work for a body of it: a tube is carried along its line, a ball becomes a net, or hollow."""
     file("gut.off", shapes.off(*shapes.tube(rings=40)))
