@@ -253,7 +253,8 @@ static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOp
   GError *error = NULL;
   if (output && !(spore_cli_is_scene(output) ? spore_cli_keeps : spore_cli_has_room)(output, file, &error))
     return spore_cli_fail(error);
-  g_autoptr(GBytes) content = spore_cli_read_file(file, _("a mesh or a label map"), &error);
+  g_autoptr(GBytes) given = spore_cli_read_file(file, _("a mesh or a label map"), &error);
+  g_autoptr(GBytes) content = given ? spore_label_map_whole(file, given, &error) : NULL;
   if (!content) return spore_cli_fail(error);
   gsize size;
   const void *bytes = g_bytes_get_data(content, &size);

@@ -12,7 +12,7 @@ static SporeObject *keep_map(SporeDocument *document, const char *name, const Sp
                              GError **error) {
   gsize size;
   gconstpointer bytes = g_bytes_get_data(organs->content, &size);
-  const char *extension = g_str_has_suffix(organs->file, ".nrrd") ? "nrrd"
+  const char *extension = size >= 4 && memcmp(bytes, "NRRD", 4) == 0 ? "nrrd"
                           : g_str_has_suffix(organs->file, ".gz") ? "nii.gz"
                                                                   : "nii";
   g_autofree char *file = spore_content_file_name(name, extension, bytes, size);

@@ -176,7 +176,10 @@ static gboolean add_file(Intake *intake, const char *path, GError **error) {
   g_ptr_array_add(intake->import->files, file);
   file->file = g_strdup(path);
   file->content = spore_import_read_content(path, error);
-  if (!file->content) return FALSE;
+  GBytes *whole = file->content ? spore_label_map_whole(path, file->content, error) : NULL;
+  if (!whole) return FALSE;
+  g_bytes_unref(file->content);
+  file->content = whole;
   gsize size;
   const void *bytes = g_bytes_get_data(file->content, &size);
   if (spore_label_map_is(path, bytes, size)) {

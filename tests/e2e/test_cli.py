@@ -521,6 +521,10 @@ def label_maps_of_each_kind():
             "raw.nrrd": shapes.nrrd(size, voxels, spacing=(-1, -2, .5), origin=(-10, -20, 30)),
             "gz.nrrd": shapes.nrrd(size, voxels, spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", encoding="gzip"),
             "short.nrrd": shapes.nrrd(size, wide(">", "h"), spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", type="short", endian="big")}
+    file("beside.raw", voxels)
+    file("pair.img", voxels)
+    maps["beside.nhdr"] = shapes.nrrd(size, b"", spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", **{"data file": "beside.raw"})
+    maps["pair.hdr"] = shapes.nifti(size, b"", sform=ras)[:344] + b"ni1\0"
     texts = set()
     for name, content in maps.items():
         spore("tetrahedra", file(name, content), "--cells", 400, "-o", "same.mesh")
@@ -558,7 +562,7 @@ def bad_label_maps():
     bombs = gzip.compress(good + bytes(1 << 20))
     cases = {"cut.nii": (good[:-100], "cut short"), "head.nii": (good[:200], "cut short"), "cut2.nii": (shapes.nifti2(size, voxels)[:500], "cut short"), "far2.nii": (shapes.nifti2(size, voxels, offset=2 ** 62), "vox_offset"),
              "wide2.nii": (shapes.nifti2((2 ** 40, 2 ** 40, 2), voxels), "268 million"), "minus2.nii": (shapes.nifti2((4, -4, 2), voxels), "dim[2]"),
-             "magic.nii": (patch(344, "4s", b"ni1\0"), "NIfTI-1"),
+             "magic.nii": (patch(344, "4s", b"ni1\0"), "magic.img"),
              "type.nii": (patch(70, "<h", 128), "datatype 128"), "dims.nii": (patch(40, "<h", 9), "dim"), "zero.nii": (patch(42, "<h", 0), "dim[1] = 0"),
              "huge.nii": (patch(42, "<3h", 32767, 32767, 32767), "268 million"), "minus.nii": (patch(44, "<h", -4), "dim[2]"),
              "nan.nii": (patch(80, "<f", float("nan")), "size"), "flat.nii": (patch(80, "<f", 0.0), "size"),
@@ -571,9 +575,11 @@ def bad_label_maps():
              "sizes.nrrd": (shapes.nrrd(size, voxels, sizes="40 24"), "sizes"), "over.nrrd": (shapes.nrrd(size, voxels, sizes="99999 99999 99999"), "268 million"),
              "many.nrrd": (shapes.nrrd(size, voxels, sizes="1e300 2 2"), "sizes"), "four.nrrd": (shapes.nrrd(size, voxels, dimension="4"), "dimension"),
              "space.nrrd": (shapes.nrrd(size, voxels, space="scanner-xyz"), "scanner-xyz"), "bzip.nrrd": (shapes.nrrd(size, voxels, encoding="bzip2"), "bzip2"),
-             "away.nrrd": (shapes.nrrd(size, voxels, **{"data file": "/etc/passwd"}), "data file"),
+             "away.nrrd": (shapes.nrrd(size, voxels, **{"data file": "/etc/passwd"}), "same folder"), "up.nrrd": (shapes.nrrd(size, voxels, **{"data file": "../x.raw"}), "same folder"),
+             "gone.nhdr": (shapes.nrrd(size, b"", **{"data file": "gone.raw"}), "not there"), "short.nhdr": (shapes.nrrd(size, b"", **{"data file": "short.raw"}), "cut short"),
              "nan.nrrd": (shapes.nrrd(size, voxels, **{"space directions": "(nan,0,0) (0,1,0) (0,0,1)"}), "size"),
              "order.nrrd": (shapes.nrrd(size, voxels * 2, type="short"), "endian"), "none.nrrd": (shapes.nrrd(size, voxels, sizes=None), "sizes")}
+    file("short.raw", voxels[:-1])
     for name, (content, says) in cases.items():
         refuses("tetrahedra", file(name, content), "--cells", 100, "-o", "bad.mesh", says=[name, says])
     refuses("import", "cut.nii", "-o", "bad/bad.spore", says=["cut.nii", "cut short"])

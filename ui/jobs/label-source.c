@@ -46,8 +46,9 @@ void spore_label_source_unref(SporeLabelSource *source) { g_atomic_rc_box_releas
 const char *spore_label_source_file(const SporeLabelSource *source) { return source->file; }
 
 static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, GError **error) {
-  g_autoptr(GBytes) content =
+  g_autoptr(GBytes) given =
       source->content ? g_bytes_ref(source->content) : spore_import_read_content(source->file, error);
+  g_autoptr(GBytes) content = given ? spore_label_map_whole(source->file, given, error) : NULL;
   if (!content) return FALSE;
   gsize size;
   const void *bytes = g_bytes_get_data(content, &size);
