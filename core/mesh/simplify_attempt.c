@@ -53,8 +53,10 @@ typedef struct Work {
 static bool make(const Work *work, double angle, Attempt *made, SporeError *error) {
   SporeShell shell;
   if (!spore_shell_create(&shell, work->original)) return spore_mesh_no_memory(error);
+  size_t from = shell.live;
   bool done = spore_shell_find_features(&shell, angle, &made->features) || spore_mesh_no_memory(error);
   done = done && spore_shell_collapse_to(&shell, work->vertices, NULL, work->progress, error) &&
+         (shell.live == from || spore_shell_fit(&shell, work->original, work->progress, error)) &&
          spore_shell_mesh(&shell, &made->mesh, error);
   made->reached = shell.live <= work->vertices;
   spore_shell_clear(&shell);

@@ -60,4 +60,9 @@ bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeSurf
 bool spore_shell_improve(SporeShell *shell, const SporeQuadric *quadric, SporeShellNeighbours *near,
                          const SporeProgress *progress, SporeError *error);
 
+/* Moves points, but those of features, so that the largest distance to the original and back gets smaller, as long as
+ * triangles are well shaped and nothing goes through what it did not. False: cancelled, or no memory. */
+bool spore_shell_fit(SporeShell *shell, const SporeTriangleMesh *original, const SporeProgress *progress,
+                     SporeError *error);
+
 #endif
