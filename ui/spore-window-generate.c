@@ -137,7 +137,8 @@ static void act_preview_labels_dialog(GSimpleAction *action, GVariant *parameter
       _("Choose a label map"), GTK_WINDOW(self), GTK_FILE_CHOOSER_ACTION_OPEN, _("_Open"), _("_Cancel"));
   GtkFileFilter *filter = gtk_file_filter_new();
   gtk_file_filter_set_name(filter, _("Label maps: NIfTI, NRRD"));
-  for (const char *const *pattern = (const char *const[]){"*.nii", "*.nii.gz", "*.nrrd", NULL}; *pattern; pattern++)
+  for (const char *const *pattern = (const char *const[]){"*.nii", "*.nii.gz", "*.nrrd", "*.nhdr", "*.hdr", NULL};
+       *pattern; pattern++)
     gtk_file_filter_add_pattern(filter, *pattern);
   gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(native), filter);
   if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(native)) != GTK_RESPONSE_ACCEPT) return;

@@ -201,8 +201,8 @@ static void add_file(SporeImportDialog *self, const char *file) {
 }
 
 static void add_files(GtkButton *button, SporeImportDialog *self) {
-  static const char *const patterns[] = {"*.stl", "*.obj", "*.ply",    "*.off",  "*.gltf",
-                                         "*.glb", "*.nii", "*.nii.gz", "*.nrrd", NULL};
+  static const char *const patterns[] = {"*.stl", "*.obj",    "*.ply",  "*.off",  "*.gltf", "*.glb",
+                                         "*.nii", "*.nii.gz", "*.nrrd", "*.nhdr", "*.hdr",  NULL};
   g_autoptr(GtkFileChooserNative) native = gtk_file_chooser_native_new(
       _("Choose meshes"), GTK_WINDOW(self), GTK_FILE_CHOOSER_ACTION_OPEN, _("_Add"), _("_Cancel"));
   GtkFileFilter *filter = gtk_file_filter_new(), *all = gtk_file_filter_new();
