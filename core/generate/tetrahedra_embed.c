@@ -111,7 +111,7 @@ static void size_edges(SporeSizingPlan *plan, const SporeTetrahedraWork *work, c
 static bool choose_fine(const SporeTetrahedraWork *work, double *cells, SporeError *error) {
   const SporeTetrahedraOptions *options = &work->options;
   double wanted = options->cells ? (double)options->cells : work->volume / (CELL * pow(options->size, 3));
-  double fine = wanted * fmin(fmax(FINE * sqrt(USUAL / wanted), LEAST_FINE), FINE), least = HUGE_VAL;
+  double fine = wanted * fmin(fmax(FINE * USUAL / wanted, LEAST_FINE), FINE), least = HUGE_VAL;
   for (size_t r = 0; r < options->region_count; r++) least = fmin(least, options->regions[r].size);
   *cells = fmax(fine, CELLS_A_CUBE * work->volume / pow(REGION * least, 3));
   if (*cells <= fmax(fine, MOST_FINE)) return true;
