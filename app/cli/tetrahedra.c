@@ -5,12 +5,9 @@
 #include "app/cli/scene_body.h"
 #include "app/cli/tetrahedra_labels.h"
 #include "core/author/generated_edits.h"
-#include "core/generate/tetrahedra.h"
+#include "core/generate/tetrahedra_remarks.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
-
-#define LEAST_SAID 5e-4 /* of the surface: what would be 0.0 % of it is left to --json */
-#define MANY 1.1        /* times as many cells as were asked for */
 
 typedef char *(*Formatter)(const SporeTetrahedralMesh *mesh, gsize *size);
 
@@ -43,58 +40,6 @@ static void report_refused(SporeCli *cli, const SporeTetrahedraReport *report) {
   spore_cli_close_array(cli);
 }
 
-/* Pieces that the surface does not have: nothing holds one to the other. */
-static void report_pieces(SporeCli *cli, const SporeTetrahedraReport *report) {
-  spore_cli_count(cli, "pieces", (gint64)report->pieces);
-  spore_cli_count(cli, "pieces_given", (gint64)report->pieces_given);
-  spore_cli_number(cli, "crumbs", report->crumbs);
-  if (report->crumbs > 0)
-    spore_cli_say(cli, _("left out: crumbs that hung together with nothing, %.2g %% of the volume\n"),
-                  100 * report->crumbs);
-  if (report->pieces > report->pieces_given)
-    spore_cli_say(cli,
-                  _("the cells fall into %zu pieces, the surface into %zu: parts are thinner than a cell; ask for more "
-                    "cells, or smaller ones there (--region)\n"),
-                  report->pieces, report->pieces_given);
-}
-
-/* Where the solid is not what the surface shows, and what to do about it. */
-static void say_left_out(SporeCli *cli, const SporeTetrahedraReport *report) {
-  if (report->inner_share >= LEAST_SAID)
-    spore_cli_say(
-        cli,
-        _("%.1f %% of the surface are walls inside the solid, up to %.2f %% of the diagonal from its outside: "
-          "they are left out, and what they enclose is filled, without --fill too; to keep a lumen, turn the triangles "
-          "of its wall round in the mesh, or give the organ a wall by spore surface --wall\n"),
-        100 * report->inner_share, 100 * report->inner_distance);
-  if (report->thickened > 0)
-    spore_cli_say(cli,
-                  _("%.1f %% of the surface bound walls that are too thin for the cells of the lattice: they are made "
-                    "about %.3g mm thick; ask for more cells, or for smaller ones there by --region\n"),
-                  100 * report->thickened, 1e3 * report->thickness);
-  if (report->widened > 0)
-    spore_cli_say(
-        cli,
-        _("%.1f %% of the surface bound slits that are too narrow for the cells of the lattice: they are made "
-          "about %.3g mm wide; ask for more cells, or for smaller ones there by --region\n"),
-        100 * report->widened, 1e3 * report->thickness);
-}
-
-/* What was asked for and did not come. */
-static void say_missed(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
-                       const SporeTetrahedraReport *report) {
-  if (options->cells && (double)mesh->tetrahedron_count > MANY * (double)options->cells)
-    spore_cli_say(cli,
-                  _("%zu cells were asked for: fewer than %zu would tear thin parts, or make cells too flat; ask for "
-                    "more, or give a plainer surface\n"),
-                  options->cells, mesh->tetrahedron_count);
-  if (options->fill && report->filled > 0)
-    spore_cli_say(cli, _("cavities of %.3g ml were filled\n"), 1e6 * report->filled);
-  else if (options->fill)
-    spore_cli_say(cli, _("--fill changed nothing: no cavity is closed off; openings narrower than M metres are closed "
-                         "by --gap M\n"));
-}
-
 static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
                    const SporeTetrahedraReport *report) {
   const char *method = spore_tetrahedra_method_names[report->method];
@@ -112,6 +57,9 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   report_change(cli, "volume", report->volume, report->volume_given, report->volume_change);
   report_change(cli, "area", report->area, report->area_given, report->area_change);
   spore_cli_number(cli, "filled_m3", report->filled);
+  spore_cli_count(cli, "pieces", (gint64)report->pieces);
+  spore_cli_count(cli, "pieces_given", (gint64)report->pieces_given);
+  spore_cli_number(cli, "crumbs", report->crumbs);
   spore_cli_text(cli, "method", method);
   report_refused(cli, report);
   spore_cli_number(cli, "seconds", report->seconds);
@@ -121,9 +69,8 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
         "the diagonal, volume %+.1f %%, surface %+.1f %%, %s, %.1f s\n"),
       mesh->tetrahedron_count, mesh->vertex_count, report->quality.min_dihedral_deg, report->quality.mean_dihedral_deg,
       100 * report->hausdorff, 100 * report->volume_change, 100 * report->area_change, method, report->seconds);
-  report_pieces(cli, report);
-  say_left_out(cli, report);
-  say_missed(cli, mesh, options, report);
+  g_autofree char *remarks = spore_tetrahedra_remarks(mesh, options, report);
+  spore_cli_say(cli, "%s", remarks);
 }
 
 static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,

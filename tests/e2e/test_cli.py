@@ -1136,7 +1136,7 @@ def tetrahedra_command():
     file("hollow.off", shapes.off(outer[0] + inner[0], outer[1] + turned))
     answer = report("tetrahedra", "hollow.off", "--cells", 300, "--fill")
     assert abs(answer["filled_m3"] / (4 / 3 * math.pi * 0.015**3) - 1) < 0.1
-    assert "--fill changed nothing" in spore("tetrahedra", "ball.off", "--cells", 300, "--fill").stdout
+    assert "nothing was filled: no cavity is closed off" in spore("tetrahedra", "ball.off", "--cells", 300, "--fill").stdout
     refuses("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.xyz", says=["ball.xyz", ".vtu"])
     refuses("tetrahedra", "ball.off", "--cells", 300, "--method", "magic", says=["magic", "voxels"])
     refuses("tetrahedra", "ball.off", "--cells", 300, "--curvature", 3, says=["--curvature", "5 to 90"])

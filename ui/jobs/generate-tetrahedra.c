@@ -2,6 +2,7 @@
 #include <glib/gi18n.h>
 
 #include "core/author/generated_edits.h"
+#include "core/generate/tetrahedra_remarks.h"
 #include "ui/jobs/generate-types.h"
 
 /* regions: gets those of the work. */
@@ -41,6 +42,14 @@ static const char *method_text(SporeTetrahedraMethod method) {
   return _(texts[method]);
 }
 
+/* As the command line says them, a line each. */
+static void append_remarks(GString *text, const SporeGenerateWork *work) {
+  SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS];
+  SporeTetrahedraOptions options = options_of(work, regions);
+  g_autofree char *remarks = spore_tetrahedra_remarks(&work->tetrahedra, &options, &work->tetrahedra_report);
+  if (*remarks) g_string_append_printf(text, "\n%s", g_strchomp(remarks));
+}
+
 static char *facts(const SporeGenerateWork *work) {
   const SporeTetrahedraReport *report = &work->tetrahedra_report;
   GString *text = g_string_new(NULL);
@@ -54,10 +63,7 @@ static char *facts(const SporeGenerateWork *work) {
                          100 * report->volume_change);
   g_string_append_c(text, '\n');
   g_string_append_printf(text, _("Surface %+.1f %%"), 100 * report->area_change);
-  if (report->pieces > report->pieces_given) {
-    g_string_append_c(text, '\n');
-    g_string_append_printf(text, _("In %zu pieces, the surface in %zu"), report->pieces, report->pieces_given);
-  }
+  append_remarks(text, work);
   for (int i = 0; i < SPORE_TETRAHEDRA_METHODS; i++)
     if (*report->refused[i]) {
       g_string_append_c(text, '\n');
