@@ -663,6 +663,13 @@ def surface_of_fewer_nodes():
         editor.act("preview-surface", "u", 60)
         editor.find("label", r"(?s)60 nodes, 116 triangles.*Distance .* %.*Least angle", 60)
         editor.find("drawing area", "Histogram of Surface distance: mean .* mm")
+        detail = editor.find("spin button", "^Wall detail$", showing=False)
+        assert editor.text_of(detail) == "", "what is not asked for is no number"
+        editor.set_number(detail, 20)
+        ui.wait(lambda: editor.text_of(detail) == "20", "the number")
+        editor.set_number(detail, 0)
+        ui.wait(lambda: editor.text_of(detail) == "", "no number again")
+        editor.find("label", r"(?s)60 nodes, 116 triangles.*Least angle", 60)
         editor.choose(editor.find("combo box", "^Show$"), "Least angle")
         editor.find("drawing area", "Histogram of Least angle: mean .*°")
         editor.press(editor.find("radio button", "^Numbers$"))

@@ -42,6 +42,17 @@ static gboolean pass_on(GtkWidget *widget, GdkEventScroll *event, gpointer data)
 
 void spore_ignore_wheel(GtkWidget *widget) { g_signal_connect(widget, "scroll-event", G_CALLBACK(pass_on), NULL); }
 
+static gboolean show_none(GtkSpinButton *spin, gpointer data) {
+  if (gtk_spin_button_get_value(spin) != 0) return FALSE;
+  if (*gtk_entry_get_text(GTK_ENTRY(spin))) gtk_entry_set_text(GTK_ENTRY(spin), "");
+  return TRUE;
+}
+
+void spore_spin_shows_none(GtkWidget *spin) {
+  gtk_entry_set_placeholder_text(GTK_ENTRY(spin), "–");
+  g_signal_connect(spin, "output", G_CALLBACK(show_none), NULL);
+}
+
 char *spore_label_of(const char *name) {
   g_autofree char *label = spore_label_of_name(name);
   return g_strdup(_(label));

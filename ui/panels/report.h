@@ -16,6 +16,8 @@ void spore_box_fit(GtkBox *box, int width);
 void spore_combo_shrinks(GtkWidget *combo, int least_chars, int most_chars);
 /* The wheel over this widget scrolls what holds it and never changes its value. */
 void spore_ignore_wheel(GtkWidget *widget);
+/* A number of which 0 is none asked for shows a dash then: its hint says what happens. */
+void spore_spin_shows_none(GtkWidget *spin);
 /* "Contact stiffness" of "contact_stiffness", translated. g_free. */
 char *spore_label_of(const char *name);
 /* "Implicit Euler" of "implicit_euler"; abbreviations such as mm or LPS stay as they are. g_free. */

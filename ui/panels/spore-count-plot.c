@@ -8,7 +8,8 @@
 #define LEFT 54
 #define RIGHT 12
 #define TOP 22
-#define BOTTOM 22
+#define BOTTOM 36 /* numbers, and what they are of */
+#define LINE 15
 #define NEAR_PIXELS 14
 
 struct _SporeCountPlot {
@@ -17,7 +18,7 @@ struct _SporeCountPlot {
   size_t counts[MOST_POINTS], enough, current;
   double errors[MOST_POINTS];
   size_t least, most; /* ends of the axis */
-  const char *label;
+  const char *label, *count_label;
 };
 
 G_DEFINE_FINAL_TYPE(SporeCountPlot, spore_count_plot, GTK_TYPE_DRAWING_AREA)
@@ -96,6 +97,7 @@ static void draw_axes(SporeCountPlot *self, cairo_t *cr, const Frame *f) {
   draw_text(widget, cr, f->left - 4, f->top - 4, 1, high);
   draw_text(widget, cr, f->left - 4, f->top + f->height - 12, 1, low);
   draw_text(widget, cr, f->left, 1, 0, self->label);
+  draw_text(widget, cr, f->left + f->width, f->top + f->height + 2 + LINE, 1, self->count_label);
 }
 
 static void draw_line_at(cairo_t *cr, const Frame *f, size_t count, gboolean dashed) {
@@ -212,10 +214,12 @@ void spore_count_plot_set_points(SporeCountPlot *self, const size_t *counts, con
   gtk_widget_queue_draw(GTK_WIDGET(self));
 }
 
-void spore_count_plot_set_axes(SporeCountPlot *self, size_t least, size_t most, const char *label) {
+void spore_count_plot_set_axes(SporeCountPlot *self, size_t least, size_t most, const char *label,
+                               const char *count_label) {
   self->least = least;
   self->most = most;
   self->label = label;
+  self->count_label = count_label;
   gtk_widget_queue_draw(GTK_WIDGET(self));
 }
 

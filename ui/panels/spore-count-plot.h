@@ -16,8 +16,9 @@ G_DECLARE_FINAL_TYPE(SporeCountPlot, spore_count_plot, SPORE, COUNT_PLOT, GtkDra
 /* errors in %; ascending counts; copied. enough: 0 for none. */
 void spore_count_plot_set_points(SporeCountPlot *self, const size_t *counts, const double *errors, gsize count,
                                  size_t enough);
-/* The numbers it reaches from and to, and what the error is called (kept, not copied). */
-void spore_count_plot_set_axes(SporeCountPlot *self, size_t least, size_t most, const char *label);
+/* The numbers it reaches from and to, what the error is called, and what they are numbers of (kept, not copied). */
+void spore_count_plot_set_axes(SporeCountPlot *self, size_t least, size_t most, const char *label,
+                               const char *count_label);
 void spore_count_plot_set_current(SporeCountPlot *self, size_t count);
 
 G_END_DECLS

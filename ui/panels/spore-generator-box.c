@@ -58,6 +58,7 @@ GtkWidget *spore_generator_box_new(const char *action, const char *label, guint 
   self->action = g_strdup(action);
   gtk_label_set_text(GTK_LABEL(self->label), label);
   gtk_spin_button_set_range(GTK_SPIN_BUTTON(self->count), MIN(count, 1), maximum);
+  if (!count) spore_spin_shows_none(self->count);
   gtk_spin_button_set_increments(GTK_SPIN_BUTTON(self->count), 10, 100);
   gtk_spin_button_set_value(GTK_SPIN_BUTTON(self->count), count);
   g_signal_connect(self->count, "value-changed", G_CALLBACK(generate), self);

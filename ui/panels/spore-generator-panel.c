@@ -58,7 +58,8 @@ static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *
   if (!type->counts) return;
   gsize last = 0;
   while (type->counts[last + 1]) last++;
-  spore_count_plot_set_axes(SPORE_COUNT_PLOT(self->plot), type->counts[0], type->counts[last], _(type->error_label));
+  spore_count_plot_set_axes(SPORE_COUNT_PLOT(self->plot), type->counts[0], type->counts[last], _(type->error_label),
+                            _(type->count_label));
   spore_count_plot_set_current(SPORE_COUNT_PLOT(self->plot), spore_generate_get_count(options));
 }
 

@@ -37,13 +37,6 @@ static void tell(SporeGeneratorRows *self) {
 
 /* Making. */
 
-/* A measure of 0 is none at all: the row's hint says what happens then. */
-static gboolean show_none(GtkSpinButton *spin, gpointer data) {
-  if (gtk_spin_button_get_value(spin) != 0) return FALSE;
-  if (*gtk_entry_get_text(GTK_ENTRY(spin))) gtk_entry_set_text(GTK_ENTRY(spin), "");
-  return TRUE;
-}
-
 static GtkWidget *new_number(const SporeParameter *parameter, double scale) {
   gboolean whole = parameter->type == SPORE_INTEGER;
   double least = MAX(parameter->minimum * scale, -MOST_SHOWN), most = MIN(parameter->maximum * scale, MOST_SHOWN);
@@ -51,10 +44,7 @@ static GtkWidget *new_number(const SporeParameter *parameter, double scale) {
   GtkWidget *spin = gtk_spin_button_new_with_range(least, most, step);
   gtk_spin_button_set_digits(GTK_SPIN_BUTTON(spin), whole ? 0 : DIGITS);
   gtk_spin_button_set_increments(GTK_SPIN_BUTTON(spin), step, 10 * step);
-  if (!whole && least == 0) {
-    gtk_entry_set_placeholder_text(GTK_ENTRY(spin), "–");
-    g_signal_connect(spin, "output", G_CALLBACK(show_none), NULL);
-  }
+  if (least == 0) spore_spin_shows_none(spin);
   gtk_spin_button_set_numeric(GTK_SPIN_BUTTON(spin), TRUE);
   gtk_entry_set_width_chars(GTK_ENTRY(spin), 5);
   gtk_entry_set_max_width_chars(GTK_ENTRY(spin), 5);
