@@ -150,6 +150,37 @@ static void test_overlays(void) {
   setting_close(&setting);
 }
 
+/* The asset of a body's collision spheres says which mesh they are of. */
+static void name_source(Setting *setting, const char *body, const char *mesh) {
+  const SporeObject *object = spore_document_find(setting->document, "body", body);
+  SporeObject *asset = spore_object_reference(spore_object_child_of(object, "collision"), "spheres");
+  g_assert_true(spore_document_set_text(setting->document, asset, "source", mesh, NULL));
+  spore_stage_rebuild(setting->stage, NULL);
+}
+
+/* The scale of the spheres' colours is that of what is shown: a length where one mesh says it, else a share. */
+static void test_sphere_scale(void) {
+  Setting setting = setting_open(MINIMAL);
+  const SporeStageOptions spheres = {.surfaces = TRUE, .spheres = TRUE};
+  SporeStageCandidate instead = {
+      .body = id_of(&setting, "ball"), .sphere_count = 1, .spheres = (double[]){0, 0, 0, 0.01}, .chosen = G_MAXSIZE};
+  spore_stage_set_options(setting.stage, &spheres);
+  g_assert_cmpfloat(spore_stage_sphere_scale(setting.stage).share, ==, 0); /* of no mesh: without colours */
+  name_source(&setting, "ball", "ball");
+  SporeSphereScale scale = spore_stage_sphere_scale(setting.stage);
+  g_assert_cmpfloat_with_epsilon(scale.share, 0.02, 1e-12);
+  g_assert_cmpfloat_with_epsilon(scale.high, 0.02 * 0.04 * sqrt(3), 1e-5); /* a ball of 2 cm */
+  spore_stage_set_candidate(setting.stage, &instead);
+  g_assert_cmpfloat(spore_stage_sphere_scale(setting.stage).share, ==, 0);
+  spore_stage_set_candidate(setting.stage, NULL);
+  name_source(&setting, "floor", "floor");
+  scale = spore_stage_sphere_scale(setting.stage);
+  g_assert_true(scale.share > 0 && scale.high == 0);
+  spore_stage_set_options(setting.stage, &(SporeStageOptions){.surfaces = TRUE});
+  g_assert_cmpfloat(spore_stage_sphere_scale(setting.stage).share, ==, 0);
+  setting_close(&setting);
+}
+
 /* The ball filled with a fluid whose collision unit names no spheres. */
 static void test_own_spheres(void) {
   Setting setting = setting_open(MINIMAL);
@@ -362,6 +393,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/render/stage/standing", test_standing);
   g_test_add_func("/render/stage/follows-the-simulation", test_follows_the_simulation);
+  g_test_add_func("/render/stage/sphere-scale", test_sphere_scale);
   g_test_add_func("/render/stage/spheres-alone", test_spheres_alone);
   g_test_add_func("/render/stage/overlays", test_overlays);
   g_test_add_func("/render/stage/weighted-spheres", test_weighted_spheres);

@@ -224,9 +224,9 @@ gboolean spore_stage_camera(const SporeStage *stage, const char *name, double as
   return TRUE;
 }
 
-const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set) {
+const SporeStageFit *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set) {
   if (set->weights) return NULL; /* it is their sum that fits, which one alone says nothing of */
-  float *fit = g_hash_table_lookup(stage->fit, set);
+  SporeStageFit *fit = g_hash_table_lookup(stage->fit, set);
   if (fit) return fit;
   const char *name = spore_object_text(asset, "source");
   SporeObject *source = name ? spore_document_find(stage->document, "mesh", name) : NULL;
@@ -234,13 +234,25 @@ const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeS
   SporeMeshReport report;
   SporeBvh *bvh = mesh && spore_triangle_mesh_report(mesh, &report, NULL) ? spore_bvh_create(mesh, NULL) : NULL;
   if (!bvh) return NULL;
-  fit = g_new(float, set->count);
+  fit = g_malloc(sizeof *fit + set->count * sizeof *fit->places);
+  fit->high = FIT_SCALE * report.diagonal;
   for (gsize i = 0; i < set->count; i++) {
     const double *sphere = set->spheres + 4 * i;
     double error = fabs(sphere[3] - spore_bvh_depth(bvh, spore_vec3_load(sphere)));
-    fit[i] = (float)MIN(error / (FIT_SCALE * report.diagonal), 1.0);
+    fit->places[i] = (float)MIN(error / fit->high, 1.0);
   }
   spore_bvh_free(bvh);
   g_hash_table_insert(stage->fit, (gpointer)set, fit);
   return fit;
+}
+
+SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage) {
+  SporeSphereScale scale = {0};
+  for (guint i = 0; i < stage->bodies->len; i++) {
+    const SporeStageBody *body = stage->bodies->pdata[i];
+    if (!body->fit_high || !spore_stage_body_shows_spheres(stage, body)) continue;
+    scale.high = scale.share && scale.high != body->fit_high ? 0 : body->fit_high;
+    scale.share = FIT_SCALE;
+  }
+  return scale;
 }

@@ -50,6 +50,13 @@ void spore_stage_set_options(SporeStage *stage, const SporeStageOptions *options
 void spore_stage_set_candidate(SporeStage *stage, const SporeStageCandidate *candidate);
 /* Borrowed until the next call; NULL: none. Not seen once time has gone on. */
 void spore_stage_set_marks(SporeStage *stage, const SporeStageMarks *marks);
+/* End of the scale, which begins at 0, by which the spheres that are shown are coloured: how far their radius is off
+ * the depth of their centre in the mesh that they were made from. */
+typedef struct SporeSphereScale {
+  double high;  /* m; 0: meshes of more than one size have it at different lengths, see share */
+  double share; /* the same of each mesh's diagonal; 0: no spheres with such colours are shown */
+} SporeSphereScale;
+SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage);
 void spore_stage_set_selection(SporeStage *stage, guint32 object_id);
 /* The scene's camera of that name (tools > camera); NULL: its first, else one that sees everything at this aspect.
  * Below 16:9 a camera of the scene opens wider, so that nothing is lost at the sides.

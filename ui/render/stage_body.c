@@ -198,9 +198,11 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   spore_spheres_radii(set, body->spheres + 3, 4);
   body->shown = set->count;
   body->solid = !body->surface_handle && !body->liquid;
-  const float *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
-  body->spheres_handle = spore_renderer_add_spheres(
-      stage->renderer, body->spheres, set->count, body->solid ? body->style.colour : sphere_colour, fit, !body->solid);
+  const SporeStageFit *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
+  body->fit_high = fit ? fit->high : 0;
+  body->spheres_handle = spore_renderer_add_spheres(stage->renderer, body->spheres, set->count,
+                                                    body->solid ? body->style.colour : sphere_colour,
+                                                    fit ? fit->places : NULL, !body->solid);
 }
 
 static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
@@ -353,19 +355,26 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
   if (body->wire_handle && stage->options.tetrahedra) place_wire(stage, body);
 }
 
+/* What is shown in place of what the body has; NULL: nothing. */
+static const SporeStageCandidate *candidate_for(const SporeStage *stage, const SporeStageBody *body) {
+  return stage->candidate && stage->candidate->body == body->object ? stage->candidate : NULL;
+}
+
+gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStageBody *body) {
+  const SporeStageCandidate *instead = candidate_for(stage, body);
+  if (!body->spheres_handle || (instead && (instead->sphere_count || instead->triangle_count))) return FALSE;
+  return stage->options.spheres || (body->solid && stage->options.surfaces);
+}
+
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {
   SporeRenderer *renderer = stage->renderer;
-  const SporeStageCandidate *instead =
-      stage->candidate && stage->candidate->body == body->object ? stage->candidate : NULL;
+  const SporeStageCandidate *instead = candidate_for(stage, body);
   if (body->surface_handle)
     spore_renderer_set_visible(renderer, body->surface_handle,
                                stage->options.surfaces && !(instead && instead->triangle_count));
   if (body->inside_handle) spore_renderer_set_visible(renderer, body->inside_handle, stage->options.surfaces);
   if (body->spheres_handle)
-    spore_renderer_set_visible(
-        renderer, body->spheres_handle,
-        (body->solid ? stage->options.surfaces || stage->options.spheres : stage->options.spheres) &&
-            !(instead && (instead->sphere_count || instead->triangle_count)));
+    spore_renderer_set_visible(renderer, body->spheres_handle, spore_stage_body_shows_spheres(stage, body));
   if (body->puffs_handle) spore_renderer_set_visible(renderer, body->puffs_handle, stage->options.surfaces);
   if (body->wire_handle) spore_renderer_set_visible(renderer, body->wire_handle, stage->options.tetrahedra);
 }

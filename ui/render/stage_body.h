@@ -46,6 +46,7 @@ typedef struct SporeStageBody {
   double *spheres;    /* centres.count x 4, world */
   gsize shown;        /* of the centres and spheres, those that are in the world come first */
   gboolean solid;     /* the spheres are all there is to see of the body */
+  double fit_high;    /* m: error at the end of the colours of the spheres; 0: they do not show one */
   guint spheres_handle;
 
   const SporeModel *smoke; /* shown by its puffs alone; NULL: is none */
@@ -66,7 +67,7 @@ struct SporeStage {
   SporeStageOptions options;
   guint32 selection; /* id of a body */
   GPtrArray *bodies; /* SporeStageBody * */
-  GHashTable *fit;   /* const SporeSphereSet * -> float *: error of each sphere, 0..1 */
+  GHashTable *fit;   /* const SporeSphereSet * -> SporeStageFit * */
   guint contact_handle;
   gsize cut_count; /* of the snapshot that is shown, and its cut_run */
   guint64 cut_run;
@@ -88,9 +89,15 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body);
 /* Moves what the options show to configuration body->q. */
 void spore_stage_body_place(SporeStage *stage, SporeStageBody *body);
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
-/* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|, 1 at a fiftieth of the
- * diagonal. NULL: no such mesh. Kept by the stage. */
-const float *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
+gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStageBody *body);
+
+/* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|. */
+typedef struct SporeStageFit {
+  double high;    /* m: what has the last colour of the scale, a fiftieth of the mesh's diagonal */
+  float places[]; /* on the scale, 0..1, one a sphere */
+} SporeStageFit;
+/* NULL: no such mesh. Kept by the stage. */
+const SporeStageFit *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
 
 /* Draws the candidate, or the marks, where their body stands at the start, anew. */
 void spore_stage_place_candidate(SporeStage *stage);

@@ -201,9 +201,9 @@ static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
 }
 
 /* A bar of the scale's colours with its ends, at the lower right. */
-static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height) {
+static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const char *label, const char *high) {
   const double bar = LEGEND_WIDTH, left = width - bar - LEGEND_MARGIN, top = height - LEGEND_HEIGHT;
-  if (!self->legend || width < bar + 2 * LEGEND_MARGIN) return;
+  if (width < bar + 2 * LEGEND_MARGIN) return;
   cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
   cairo_rectangle(cr, left - 10, top - 26, bar + 20, LEGEND_HEIGHT + 14);
   cairo_fill(cr);
@@ -217,7 +217,7 @@ static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height)
   const struct {
     const char *text;
     double y, align;
-  } lines[] = {{self->legend, top - 21, 0}, {"0", top + 13, 0}, {self->legend_high, top + 13, 1}};
+  } lines[] = {{label, top - 21, 0}, {"0", top + 13, 0}, {high, top + 13, 1}};
   cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
   for (gsize i = 0; i < G_N_ELEMENTS(lines); i++) {
     int wide;
@@ -225,6 +225,18 @@ static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height)
     pango_layout_get_pixel_size(layout, &wide, NULL);
     cairo_move_to(cr, left + lines[i].align * (bar - wide), lines[i].y);
     pango_cairo_show_layout(cr, layout);
+  }
+}
+
+/* Of the candidate's colours, else of those of the spheres that the bodies have. */
+static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height) {
+  SporeSphereScale scale = self->stage ? spore_stage_sphere_scale(self->stage) : (SporeSphereScale){0};
+  if (self->legend) {
+    draw_legend(self, cr, width, height, self->legend, self->legend_high);
+  } else if (scale.share > 0) {
+    g_autofree char *high = scale.high > 0 ? g_strdup_printf("%.3g mm", 1e3 * scale.high)
+                                           : g_strdup_printf(_("%g %% of the diagonal"), 100 * scale.share);
+    draw_legend(self, cr, width, height, _("Depth error"), high);
   }
 }
 
@@ -242,7 +254,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   cairo_restore(cr);
   draw_force(self, cr, width, height);
   draw_pull(self, cr, width, height);
-  draw_legend(self, cr, width, height);
+  draw_legends(self, cr, width, height);
   spore_viewport_edit_draw(self, cr);
   return FALSE;
 }
