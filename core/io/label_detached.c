@@ -1,19 +1,39 @@
 /* Label maps whose voxels lie in a file beside their header become one file, as the readers take them. */
+#include <errno.h>
+#include <fcntl.h>
 #include <glib/gi18n.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "core/io/label_map.h"
 
-#define MOST_BYTES ((goffset)1 << 30)
+#define MOST_BYTES ((off_t)1 << 30)
 #define MOST_HEADER ((gsize)1 << 20)
 #define NIFTI_HEADER 348
 #define NIFTI_MAGIC 344
 #define NIFTI_START 108 /* of its vox_offset, a float */
 #define NIFTI_DATA 352
 
-/* The voxels' file, in the header's own folder. */
-static GBytes *read_beside(const char *file, const char *name, GError **error) {
+/* The header and the file's bytes behind it; NULL: not a regular file that can be had whole. */
+static GBytes *join(const void *header, gsize size, int file) {
+  struct stat info;
+  gsize have = 0;
+  gssize got = 1;
+  if (fstat(file, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size > MOST_BYTES) return NULL;
+  const gsize wanted = (gsize)info.st_size;
+  char *whole = g_try_malloc(size + wanted + 1);
+  if (!whole) return NULL;
+  memcpy(whole, header, size);
+  while (have < wanted && got > 0)
+    if ((got = read(file, whole + size + have, wanted - have)) > 0) have += (gsize)got;
+  if (got >= 0) return g_bytes_new_take(whole, size + have);
+  g_free(whole);
+  return NULL;
+}
+
+/* Behind the header, the voxels of that file in its own folder. */
+static GBytes *join_beside(const char *file, const char *name, const void *header, gsize size, GError **error) {
   if (!*name || strpbrk(name, "/\\") || g_str_equal(name, "..") || g_str_has_prefix(name, "LIST")) {
     spore_error_raise(error, SPORE_ERROR_INPUT, file,
                       _("its voxels are said to be in \"%s\"; expected the name of one file in the same folder; put it "
@@ -21,31 +41,24 @@ static GBytes *read_beside(const char *file, const char *name, GError **error) {
                       name);
     return NULL;
   }
-  g_autofree char *folder = g_path_get_dirname(file), *path = g_build_filename(folder, name, NULL), *bytes = NULL;
-  g_autoptr(GError) cause = NULL;
-  gsize size = 0;
-  struct stat info;
-  gboolean there = lstat(path, &info) == 0;
-  if (!there || !S_ISREG(info.st_mode) || info.st_size > MOST_BYTES)
+  g_autofree char *folder = g_path_get_dirname(file), *path = g_build_filename(folder, name, NULL);
+  /* No link out of the folder is followed, and no pipe waited for. */
+  int voxels = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
+  int reason = errno;
+  GBytes *whole = voxels >= 0 ? join(header, size, voxels) : NULL;
+  if (voxels >= 0) close(voxels);
+  if (!whole && voxels < 0 && reason == ENOENT)
     spore_error_raise(error, SPORE_ERROR_FILE, file,
-                      there
-                          ? _("its voxels' file \"%s\" is no regular file, or has over 1 GiB; expected a smaller one "
-                              "in the same folder; copy it there, or crop it")
-                          : _("its voxels' file \"%s\" is not there; expected it in the same folder; copy both files"),
-                      name);
-  else if (!g_file_get_contents(path, &bytes, &size, &cause))
+                      _("its voxels' file \"%s\" is not there; expected it in the same folder; copy both files"), name);
+  else if (!whole && voxels < 0 && reason != ELOOP && reason != ENXIO)
     spore_error_raise(error, SPORE_ERROR_FILE, file, _("its voxels' file \"%s\" cannot be read (%s); check it"), name,
-                      cause->message);
-  return bytes ? g_bytes_new_take(g_steal_pointer(&bytes), size) : NULL;
-}
-
-static GBytes *joined(const void *header, gsize size, GBytes *data) {
-  gsize data_size;
-  const void *bytes = g_bytes_get_data(data, &data_size);
-  GByteArray *whole = g_byte_array_new();
-  g_byte_array_append(whole, header, (guint)size);
-  g_byte_array_append(whole, bytes, (guint)data_size);
-  return g_byte_array_free_to_bytes(whole);
+                      g_strerror(reason));
+  else if (!whole)
+    spore_error_raise(error, SPORE_ERROR_FILE, file,
+                      _("its voxels' file \"%s\" is no regular file, or has over 1 GiB; expected a smaller one in the "
+                        "same folder; copy it there, or crop it"),
+                      name);
+  return whole;
 }
 
 /* Value of a line "data file: NAME"; NULL: it is another. */
@@ -68,19 +81,22 @@ static GBytes *join_nrrd(const char *file, const char *bytes, gsize size, GError
   }
   if (!name) return NULL;
   g_string_append_c(header, '\n');
-  g_autoptr(GBytes) data = read_beside(file, name, error);
-  return data ? joined(header->str, header->len, data) : NULL;
+  return join_beside(file, name, header->str, header->len, error);
 }
 
-/* A .hdr with its .img: as a .nii. */
+/* A .hdr with its .img: as a .nii. The offset is one in the .img, then. */
 static GBytes *join_nifti(const char *file, const char *bytes, GError **error) {
   g_autofree char *base = g_path_get_basename(file), *name = NULL;
   char header[NIFTI_DATA] = {0};
   gint32 length;
+  guint32 start;
+  float at;
   memcpy(header, bytes, NIFTI_HEADER);
   memcpy(&length, bytes, sizeof length);
-  guint32 start;
-  const float at = NIFTI_DATA;
+  memcpy(&start, bytes + NIFTI_START, sizeof start);
+  if (length != NIFTI_HEADER) start = GUINT32_SWAP_LE_BE(start);
+  memcpy(&at, &start, sizeof at);
+  at += NIFTI_DATA;
   memcpy(&start, &at, sizeof start);
   if (length != NIFTI_HEADER) start = GUINT32_SWAP_LE_BE(start);
   memcpy(header + NIFTI_START, &start, sizeof start);
@@ -88,8 +104,7 @@ static GBytes *join_nifti(const char *file, const char *bytes, GError **error) {
   char *dot = strrchr(base, '.');
   if (dot) *dot = '\0';
   name = g_strdup_printf("%s.img", base);
-  g_autoptr(GBytes) data = read_beside(file, name, error);
-  return data ? joined(header, sizeof header, data) : NULL;
+  return join_beside(file, name, header, sizeof header, error);
 }
 
 GBytes *spore_label_map_whole(const char *file, GBytes *content, GError **error) {

@@ -20,6 +20,14 @@ static gboolean read_line(const char *line, guint *segment, const char **key, co
   return TRUE;
 }
 
+/* Without control characters, which a terminal would obey. */
+static char *printable(const char *name) {
+  char *text = g_strdup(name);
+  for (char *c = text; *c; c++)
+    if (g_ascii_iscntrl(*c)) *c = ' ';
+  return text;
+}
+
 char *spore_label_map_name(GHashTable *names, guint16 label) {
   const char *name = g_hash_table_lookup(names, GUINT_TO_POINTER((guint)label));
   return name ? g_strdup(name) : g_strdup_printf(_("label %u"), label);
@@ -46,7 +54,7 @@ GHashTable *spore_label_map_names(const void *content, gsize size) {
         !g_ascii_string_to_unsigned(value, 10, 1, 65535, &label, NULL))
       continue;
     const char *name = g_hash_table_lookup(of_segment, GUINT_TO_POINTER(segment));
-    if (name) g_hash_table_insert(names, GUINT_TO_POINTER((guint)label), g_strdup(name));
+    if (name) g_hash_table_insert(names, GUINT_TO_POINTER((guint)label), printable(name));
   }
   return names;
 }

@@ -522,9 +522,11 @@ def label_maps_of_each_kind():
             "gz.nrrd": shapes.nrrd(size, voxels, spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", encoding="gzip"),
             "short.nrrd": shapes.nrrd(size, wide(">", "h"), spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", type="short", endian="big")}
     file("beside.raw", voxels)
+    pair = lambda offset, order: (lambda head: head[:108] + struct.pack(order + "f", offset) + head[112:344] + b"ni1\0")(shapes.nifti(size, b"", sform=ras, order=order))
     file("pair.img", voxels)
+    file("later.img", bytes(16) + voxels)
     maps["beside.nhdr"] = shapes.nrrd(size, b"", spacing=(1, 2, .5), origin=(10, 20, 30), space="RAS", **{"data file": "beside.raw"})
-    maps["pair.hdr"] = shapes.nifti(size, b"", sform=ras)[:344] + b"ni1\0"
+    maps["pair.hdr"], maps["later.hdr"] = pair(0, "<"), pair(16, ">")
     texts = set()
     for name, content in maps.items():
         spore("tetrahedra", file(name, content), "--cells", 400, "-o", "same.mesh")
@@ -580,6 +582,9 @@ def bad_label_maps():
              "nan.nrrd": (shapes.nrrd(size, voxels, **{"space directions": "(nan,0,0) (0,1,0) (0,0,1)"}), "size"),
              "order.nrrd": (shapes.nrrd(size, voxels * 2, type="short"), "endian"), "none.nrrd": (shapes.nrrd(size, voxels, sizes=None), "sizes")}
     file("short.raw", voxels[:-1])
+    os.symlink("short.raw", WORK / "link.raw")
+    os.mkfifo(WORK / "pipe.raw")
+    cases |= {f"{name}.nhdr": (shapes.nrrd(size, b"", **{"data file": f"{name}.raw"}), "regular file") for name in ("link", "pipe")}
     for name, (content, says) in cases.items():
         refuses("tetrahedra", file(name, content), "--cells", 100, "-o", "bad.mesh", says=[name, says])
     refuses("import", "cut.nii", "-o", "bad/bad.spore", says=["cut.nii", "cut short"])
