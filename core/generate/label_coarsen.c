@@ -1,6 +1,7 @@
 #include <math.h>
 
 #include "core/base/memory.h"
+#include "core/base/text.h"
 #include "core/generate/label_parts.h"
 #include "core/generate/tetrahedra_improve.h"
 #include "core/mesh/common.h"
@@ -59,6 +60,9 @@ bool spore_label_coarsen(SporeTetrahedralMesh *mesh, SporeLabelPoints *points, s
   done = done && spore_tetrahedra_coarsen(mesh, NULL, &points->points, &sizing, cells, LEAST_ANGLE, progress, error);
   for (int turn = 0; done && turn < TURNS; turn++) {
     if (turn && !(done = measure(mesh, balance->volume, balance->area) || spore_mesh_no_memory(error))) break;
+    done = spore_progress(progress, 1, _("fitting the borders")) ||
+           spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    if (!done) break;
     if (turn) give_way(points, balance, volumes, MOST_GROWTH * size);
     done = spore_tetrahedra_approach(mesh, NULL, &points->points, ROUNDS, NEAR * size, LEAST_ANGLE, error);
   }

@@ -10,6 +10,7 @@
 #define WIDTH (2 * REACH + 1)
 #define GAIN 2.0 /* a voxel whose own label would lose by a margin wins by so many of it */
 #define ALL_LABELS 65536
+#define ROWS_A_REPORT 8
 
 /* Shares of all labels around one voxel. */
 typedef struct Gathering {
@@ -119,14 +120,13 @@ static void fill_row(Making *m, size_t j, size_t k, size_t at) {
 static bool pass_over(Making *m, bool fill, const SporeProgress *progress, SporeError *error) {
   SporeLabelField *field = m->field;
   const size_t *n = field->map->size;
-  for (size_t k = 0; k < n[2]; k++) {
-    if (!spore_progress(progress, 0.5 * (fill + (double)k / (double)n[2]), _("smoothing the labels")))
+  for (size_t row = 0; row < n[1] * n[2]; row++) {
+    if (row % ROWS_A_REPORT == 0 &&
+        !spore_progress(progress, 0.5 * (fill + (double)row / (double)(n[1] * n[2])), _("smoothing the labels")))
       return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
-    for (size_t j = 0; j < n[1]; j++) {
-      size_t row = k * n[1] + j, count = mark_row(field->map, j, k, m->differs, m->near);
-      if (fill) fill_row(m, j, k, field->row[row]);
-      else field->row[row + 1] = field->row[row] + count;
-    }
+    size_t j = row % n[1], k = row / n[1], count = mark_row(field->map, j, k, m->differs, m->near);
+    if (fill) fill_row(m, j, k, field->row[row]);
+    else field->row[row + 1] = field->row[row] + count;
   }
   return true;
 }

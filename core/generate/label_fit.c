@@ -337,10 +337,10 @@ bool spore_label_fit(const SporeLabelField *field, SporeTetrahedralMesh *mesh, d
   bool ready = f.volume && f.area && f.growth && f.border && spore_tetrahedral_mesh_neighbours(mesh, &f.neighbours) &&
                make_stars(&f);
   bool done = !ready || run(&f, progress, error);
-  if (!ready || (done && !make_points(&f)))
+  if (!ready || (done && points && !make_points(&f)))
     done = spore_error_set(error, SPORE_ERROR_MEMORY, NULL,
                            _("there is not enough memory for the cells; close other programs"));
-  if (!done) spore_label_points_clear(points);
+  if (!done && points) spore_label_points_clear(points);
   spore_free(f.neighbours);
   spore_free(f.volume);
   spore_free(f.area);

@@ -55,7 +55,7 @@ void spore_label_points_clear(SporeLabelPoints *points);
 
 /* Moves vertices between labels to where the labels meet, in rounds; borders then give way a little, so that each label
  * gets the volume it is to have. volumes: m^3, one for each of the 65536 labels. points: where the borders
- * are by the map alone, also where angles between faces hold vertices back; cleared by the caller. */
+ * are by the map alone, also where angles between faces hold vertices back; cleared by the caller; NULL: not wanted. */
 bool spore_label_fit(const SporeLabelField *field, SporeTetrahedralMesh *mesh, double edge, const double *volumes,
                      SporeLabelPoints *points, const SporeProgress *progress, SporeError *error);
 

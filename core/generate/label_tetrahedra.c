@@ -135,17 +135,17 @@ static void relabel(const Meshing *m, SporeTetrahedralMesh *mesh) {
   mesh->tetrahedron_count = kept;
 }
 
-/* Moves the borders to their places. */
+/* Moves the borders to their places. points: where cells are drawn together after that. */
 static bool fit(Meshing *m, SporeTetrahedralMesh *mesh, SporeLabelPoints *points, SporeError *error) {
   for (int turn = 0; turn < TURNS; turn++) {
     SporeProgress progress = spore_progress_of_share(&m->stage);
     m->stage.share = 0.1;
     if (turn) {
-      spore_label_points_clear(points);
       relabel(m, mesh);
       if (!remove_spikes(mesh, error) || !spore_tetrahedral_mesh_drop_unused(mesh, error)) return false;
     }
-    if (!spore_label_fit(&m->field, mesh, m->edge, m->volumes, points, &progress, error)) return false;
+    bool wanted = turn + 1 == TURNS && m->options->cells;
+    if (!spore_label_fit(&m->field, mesh, m->edge, m->volumes, wanted ? points : NULL, &progress, error)) return false;
     m->stage.done += m->stage.share;
   }
   return true;

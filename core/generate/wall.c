@@ -17,7 +17,8 @@
 #define SPACING (1.0 / 3)  /* of the thickness: between the points at which that is looked at */
 #define MEASURED (1.0 / 6) /* of it: and at which it is reported */
 #define MOST_PARTS 32      /* of a side, for that */
-#define SEARCHES 20000     /* places that are looked at for the deepest */
+#define TRIANGLES_A_REPORT 256
+#define SEARCHES 20000 /* places that are looked at for the deepest */
 
 typedef struct Depth {
   const SporeBvh *bvh;
@@ -58,11 +59,19 @@ static bool refuse(const SporeBvh *bvh, const SporeMeshReport *box, double thick
       thickness, deepest, place.x, place.y, place.z);
 }
 
+static bool go_on(const SporeProgress *progress, double fraction, SporeError *error) {
+  return spore_progress(progress, fraction, _("measuring the distance")) ||
+         spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+}
+
 /* From the outer surface, at vertices and middles of triangles. */
-static void measure_outer(const SporeTriangleMesh *outer, const SporeBvh *inner, SporeWallReport *report) {
+static bool measure_outer(const SporeTriangleMesh *outer, const SporeBvh *inner, SporeWallReport *report,
+                          const SporeProgress *progress, SporeError *error) {
   double area = 0;
   report->thickness_min = HUGE_VAL;
   for (size_t t = 0; t < outer->triangle_count; t++) {
+    if (t % TRIANGLES_A_REPORT == 0 && !go_on(progress, 0.5 * (double)t / (double)outer->triangle_count, error))
+      return false;
     SporeVec3 p[3], middle = {0, 0, 0};
     for (size_t k = 0; k < 3; k++) {
       p[k] = spore_mesh_vertex(outer->vertices, outer->triangles[3 * t + k]);
@@ -76,6 +85,7 @@ static void measure_outer(const SporeTriangleMesh *outer, const SporeBvh *inner,
     area += size;
   }
   report->thickness_mean /= area;
+  return true;
 }
 
 /* From the inner one, at points of each triangle and its sides. */
@@ -94,31 +104,35 @@ static void measure_triangle(const SporeVec3 p[3], const SporeBvh *outer, double
     }
 }
 
-static void measure_inner(const SporeTriangleMesh *inner, const SporeBvh *outer, double thickness,
-                          SporeWallReport *report) {
+static bool measure_inner(const SporeTriangleMesh *inner, const SporeBvh *outer, double thickness,
+                          SporeWallReport *report, const SporeProgress *progress, SporeError *error) {
   report->inner_min = HUGE_VAL;
   for (size_t t = 0; t < inner->triangle_count; t++) {
+    if (t % TRIANGLES_A_REPORT == 0 && !go_on(progress, 0.5 + 0.5 * (double)t / (double)inner->triangle_count, error))
+      return false;
     SporeVec3 p[3];
     for (size_t k = 0; k < 3; k++) p[k] = spore_mesh_vertex(inner->vertices, inner->triangles[3 * t + k]);
     measure_triangle(p, outer, thickness, report);
   }
+  return true;
 }
 
 static bool report_wall(const SporeTriangleMesh *outer, const SporeBvh *bvh, const SporeMeshReport *box,
-                        const SporeTriangleMesh *inner, double thickness, SporeWallReport *report, SporeError *error) {
+                        const SporeTriangleMesh *inner, double thickness, SporeWallReport *report,
+                        const SporeProgress *progress, SporeError *error) {
   SporeMeshReport lumen;
   SporeBvh *other = spore_bvh_create(inner, error);
   if (!other || !spore_triangle_mesh_report(inner, &lumen, error)) {
     spore_bvh_free(other);
     return false;
   }
-  measure_outer(outer, other, report);
-  measure_inner(inner, bvh, thickness, report);
+  bool done = measure_outer(outer, other, report, progress, error) &&
+              measure_inner(inner, bvh, thickness, report, progress, error);
   report->lumen_volume = lumen.volume;
   report->wall_volume = fabs(box->volume) - lumen.volume;
   report->pieces = lumen.components;
   spore_bvh_free(other);
-  return true;
+  return done;
 }
 
 /* As near as the detail asks for, in as few triangles as keep to that. */
@@ -144,7 +158,7 @@ bool spore_wall_inner(const SporeTriangleMesh *outer, double thickness, double d
   Depth depth = {.bvh = bvh, .thickness = thickness};
   report->step = fmin(FINEST * box.diagonal, thickness);
   bool made = make_inner(&depth, &box, report->step, detail, inner, progress, error) &&
-              report_wall(outer, bvh, &box, inner, thickness, report, error);
+              report_wall(outer, bvh, &box, inner, thickness, report, progress, error);
   spore_bvh_free(bvh);
   if (!made) spore_triangle_mesh_clear(inner);
   report->seconds = 1e-9 * (double)(spore_clock_ns() - start);

@@ -12,7 +12,8 @@
 #define MOST_POINTS 1000000000.
 #define WIDE 1.7321f                      /* steps: where the field is farther from 0, no surface goes through a cube */
 #define LATTICE_POINT (UINT64_C(1) << 63) /* key of a point of the lattice, beside those of edges */
-#define ROOTS 6                           /* tries, on an edge */
+#define VERTICES_A_REPORT 1024
+#define ROOTS 6 /* tries, on an edge */
 
 typedef struct Lattice {
   size_t size[3]; /* points */
@@ -51,11 +52,15 @@ static void sample_block(Lattice *lattice, const size_t from[3], SporeDistanceFi
       }
 }
 
+static bool go_on(const SporeProgress *progress, double fraction, SporeError *error) {
+  return spore_progress(progress, fraction, _("sampling the depth")) ||
+         spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+}
+
 static bool sample(Lattice *lattice, SporeDistanceField field, void *data, const SporeProgress *progress,
                    SporeError *error) {
   for (size_t i = 0; i + 1 < lattice->size[0]; i += BLOCK) {
-    if (!spore_progress(progress, (double)i / (double)lattice->size[0], _("sampling the depth")))
-      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    if (!go_on(progress, (double)i / (double)lattice->size[0], error)) return false;
     for (size_t j = 0; j + 1 < lattice->size[1]; j += BLOCK)
       for (size_t k = 0; k + 1 < lattice->size[2]; k += BLOCK)
         sample_block(lattice, (const size_t[3]){i, j, k}, field, data);
@@ -94,11 +99,14 @@ static bool add_cube(const Lattice *lattice, SporeIsosurfaceCells *cells, size_t
   return true;
 }
 
-static bool add_cubes(const Lattice *lattice, SporeIsosurfaceCells *cells, SporeError *error) {
-  for (size_t i = 0; i + 1 < lattice->size[0]; i++)
+static bool add_cubes(const Lattice *lattice, SporeIsosurfaceCells *cells, const SporeProgress *progress,
+                      SporeError *error) {
+  for (size_t i = 0; i + 1 < lattice->size[0]; i++) {
+    if (!go_on(progress, 1, error)) return false;
     for (size_t j = 0; j + 1 < lattice->size[1]; j++)
       for (size_t k = 0; k + 1 < lattice->size[2]; k++)
         if (!add_cube(lattice, cells, index_of(lattice, i, j, k))) return spore_mesh_no_memory(error);
+  }
   return true;
 }
 
@@ -164,7 +172,7 @@ static SporeVec3 vertex_at(const SporeIsosurfaceCells *cells, uint64_t edge) {
 
 /* One vertex for each edge that is crossed. */
 static bool make_mesh(const SporeIsosurfaceCells *cells, const Corners *corners, SporeTriangleMesh *mesh,
-                      SporeError *error) {
+                      const SporeProgress *progress, SporeError *error) {
   size_t count = corners->count, vertices = 0;
   uint64_t *sorted = SPORE_NEW_ARRAY(uint64_t, count);
   uint32_t *order = SPORE_NEW_ARRAY(uint32_t, count);
@@ -177,8 +185,9 @@ static bool make_mesh(const SporeIsosurfaceCells *cells, const Corners *corners,
   for (size_t i = 0; made && i < count; i++) {
     if (i > 0 && sorted[i] != sorted[i - 1]) number++;
     mesh->triangles[order[i]] = number;
-    if (i == 0 || sorted[i] != sorted[i - 1])
-      spore_vec3_store(mesh->vertices + 3 * (size_t)number, vertex_at(cells, sorted[i]));
+    if (i > 0 && sorted[i] == sorted[i - 1]) continue;
+    if (number % VERTICES_A_REPORT == 0) made = go_on(progress, (double)i / (double)count, error);
+    spore_vec3_store(mesh->vertices + 3 * (size_t)number, vertex_at(cells, sorted[i]));
   }
   spore_free(sorted);
   spore_free(order);
@@ -189,7 +198,8 @@ static bool cut(SporeIsosurfaceCells *cells, double tolerance, SporeTriangleMesh
                 SporeError *error) {
   Corners corners = {0};
   bool made = (isinf(tolerance) || spore_isosurface_refine(cells, tolerance, progress, error)) &&
-              cut_cells(cells, &corners, error) && (corners.count == 0 || make_mesh(cells, &corners, mesh, error));
+              cut_cells(cells, &corners, error) &&
+              (corners.count == 0 || make_mesh(cells, &corners, mesh, progress, error));
   spore_free(corners.edge);
   return made;
 }
@@ -216,7 +226,7 @@ bool spore_isosurface(const double lower[3], const double upper[3], double step,
   bool made = lattice.value != NULL;
   for (size_t i = 0; made && i < (size_t)points; i++) lattice.value[i] = HUGE_VALF;
   if (!made) spore_mesh_no_memory(error);
-  made = made && sample(&lattice, field, data, progress, error) && add_cubes(&lattice, &cells, error) &&
+  made = made && sample(&lattice, field, data, progress, error) && add_cubes(&lattice, &cells, progress, error) &&
          cut(&cells, tolerance, mesh, progress, error);
   spore_free(lattice.value);
   spore_isosurface_clear(&cells);
