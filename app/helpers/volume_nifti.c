@@ -118,17 +118,17 @@ bool spore_nifti_head(const uint8_t *bytes, size_t size, SporeVolumeHead *head, 
   Header header = {bytes};
   if (size >= 8) header.second = memcmp(bytes + 4, "n+2", 4) == 0;
   const int32_t whole = header.second ? HEADER_2 : HEADER_1;
+  if (!header.second && size >= HEADER_1 && memcmp(bytes + 344, "n+1", 4) != 0)
+    return spore_volume_fail(failure,
+                             N_("it is no NIfTI-1 or NIfTI-2 volume in one file; expected .nii or .nii.gz with header "
+                                "and data together; save it so"),
+                             "%s", "");
   if (size < (size_t)whole + 4)
     return spore_volume_fail(failure, N_("the NIfTI file is cut short; expected the whole file; copy it again"),
                              "%zu bytes", size);
   int32_t length;
   take(&header, 0, &length, sizeof length);
   header.swapped = length != whole;
-  if (!header.second && memcmp(bytes + 344, "n+1", 4) != 0)
-    return spore_volume_fail(failure,
-                             N_("it is no NIfTI-1 or NIfTI-2 volume in one file; expected .nii or .nii.gz with header "
-                                "and data together; save it so"),
-                             "%s", "");
   *head = (SporeVolumeHead){.swapped = header.swapped};
   if (!take_type(&header, &head->type, failure) || !take_size(&header, head->answer.size, failure)) return false;
   take_axes(&header, head->answer.axes);

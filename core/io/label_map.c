@@ -18,7 +18,8 @@ gboolean spore_label_map_is(const char *file, const void *content, gsize size) {
   if (size >= 348 && (memcmp(bytes + 344, "n+1", 4) == 0 || memcmp(bytes + 344, "ni1", 4) == 0)) return TRUE;
   if (size >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b) return TRUE; /* no mesh is read from gzip */
   g_autofree char *name = g_ascii_strdown(file, -1);
-  return g_str_has_suffix(name, ".nii") || g_str_has_suffix(name, ".nrrd") || g_str_has_suffix(name, ".nii.gz");
+  return g_str_has_suffix(name, ".nii") || g_str_has_suffix(name, ".nrrd") || g_str_has_suffix(name, ".nii.gz") ||
+         g_str_has_suffix(name, ".hdr"); /* Analyze, and NIfTI-2 in two files: what reads them says what to do */
 }
 
 void spore_label_map_clear(SporeLabelMap *map) {

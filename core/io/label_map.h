@@ -22,9 +22,10 @@ gboolean spore_label_map_is(const char *file, const void *content, gsize size);
 /* The content with the voxels of a header that names another file for them: NRRD's "data file", the .img of a NIfTI-1
  * .hdr; one regular file in the same folder. Others as they are. g_bytes_unref; NULL with an error. */
 GBytes *spore_label_map_whole(const char *file, GBytes *content, GError **error);
-/* NIfTI-1 and -2 in one file, plain or gzip, and NRRD with attached raw or gzip data, decoded in a helper process. Place and
- * size of voxels come from the header (sform, else qform, else voxel sizes; NRRD's space), in mm where it says no unit.
- * Refused with a message: what is cut short, cannot be, is too large, or holds no labels from 0 to 65535. */
+/* NIfTI-1 and -2 in one file, plain or gzip, and NRRD with attached raw or gzip data, decoded in a helper process.
+ * Place and size of voxels come from the header (sform, else qform, else voxel sizes; NRRD's space), in mm where it
+ * says no unit. Refused with a message: what is cut short, cannot be, is too large, or holds no labels from 0 to 65535.
+ */
 gboolean spore_label_map_decode(const char *place, const void *content, gsize size, SporeLabelMap *map,
                                 const SporeProgress *progress, GError **error);
 void spore_label_map_clear(SporeLabelMap *map);

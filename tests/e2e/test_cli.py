@@ -565,6 +565,7 @@ def bad_label_maps():
     cases = {"cut.nii": (good[:-100], "cut short"), "head.nii": (good[:200], "cut short"), "cut2.nii": (shapes.nifti2(size, voxels)[:500], "cut short"), "far2.nii": (shapes.nifti2(size, voxels, offset=2 ** 62), "vox_offset"),
              "wide2.nii": (shapes.nifti2((2 ** 40, 2 ** 40, 2), voxels), "268 million"), "minus2.nii": (shapes.nifti2((4, -4, 2), voxels), "dim[2]"),
              "magic.nii": (patch(344, "4s", b"ni1\0"), "magic.img"),
+             "analyze.hdr": (patch(344, "4s", b"")[:348], "one file"), "two.hdr": (good[:4] + b"ni2" + bytes(533), "one file"),
              "type.nii": (patch(70, "<h", 128), "datatype 128"), "dims.nii": (patch(40, "<h", 9), "dim"), "zero.nii": (patch(42, "<h", 0), "dim[1] = 0"),
              "huge.nii": (patch(42, "<3h", 32767, 32767, 32767), "268 million"), "minus.nii": (patch(44, "<h", -4), "dim[2]"),
              "nan.nii": (patch(80, "<f", float("nan")), "size"), "flat.nii": (patch(80, "<f", 0.0), "size"),
