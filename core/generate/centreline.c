@@ -38,7 +38,7 @@ static bool is_coiled(const SporeSolid *solid, bool *coiled, const SporeProgress
   SporeCentrelineReport report = {0};
   if (!spore_voxel_tube_create(&tube, solid, progress, error)) return false;
   bool done = spore_voxel_path_find(&path, &tube, NULL, &report, progress, error);
-  *coiled = done && report.cover >= COILED;
+  *coiled = done && tube.share * report.cover >= COILED;
   spore_voxel_path_clear(&path);
   spore_voxel_tube_clear(&tube);
   return done;
