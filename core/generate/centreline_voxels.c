@@ -51,27 +51,20 @@ static bool add_voxel(Filling *filling, uint64_t key, double depth) {
   return true;
 }
 
-/* Signed depth of a voxel of a boundary cell. Where the surface is farther from the voxel before, on the same row, than
- * that is from this one, both are on the same side. */
-static double depth_beside(const Filling *filling, SporeVec3 p, double before) {
-  if (fabs(before) <= filling->tube->edge) return spore_bvh_depth(filling->solid->bvh, p);
-  return copysign(spore_bvh_distance(filling->solid->bvh, p, NULL, NULL), before);
-}
-
 static bool fill_cell(Filling *filling, size_t cell) {
   const double *corner = filling->solid->cells + 4 * cell;
   const SporeVoxelTube *tube = filling->tube;
   uint64_t first[3], width = (uint64_t)llround(corner[3] / tube->edge);
-  double depth = 0;
+  SporeBvhKnown here = {.depth = 0};
   for (int k = 0; k < 3; k++) first[k] = (uint64_t)llround((corner[k] - tube->lower[k]) / tube->edge);
   for (uint64_t i = 0; i < width * width * width; i++) {
     uint64_t place[3] = {first[0] + i / (width * width), first[1] + i / width % width, first[2] + i % width};
     double at[3];
     for (int k = 0; k < 3; k++) at[k] = tube->lower[k] + ((double)place[k] + 0.5) * tube->edge;
     SporeVec3 p = spore_vec3_load(at);
-    if (filling->solid->cell_inside[cell]) depth = spore_bvh_distance(filling->solid->bvh, p, NULL, NULL);
-    else depth = depth_beside(filling, p, i % width ? depth : 0);
-    if (depth > 0 && !add_voxel(filling, key_of(place), depth)) return false;
+    if (filling->solid->cell_inside[cell]) here.depth = spore_bvh_distance(filling->solid->bvh, p, NULL, NULL);
+    else here = spore_bvh_depth_beside(filling->solid->bvh, p, &here);
+    if (here.depth > 0 && !add_voxel(filling, key_of(place), here.depth)) return false;
   }
   return true;
 }

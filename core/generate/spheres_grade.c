@@ -42,7 +42,7 @@ static bool add_cell(Cells *cells, SporeVec3 middle, double edge, const SporeBvh
   if (cells->count == cells->capacity && !grow(cells)) return false;
   for (int k = 0; k < 3; k++) offset[k] = edge * (spore_random_unit(cells->random) - 0.5);
   SporeVec3 p = spore_vec3_add(middle, spore_vec3_load(offset));
-  double depth = spore_bvh_depth_beside(cells->solid->bvh, p, known),
+  double depth = spore_bvh_depth_beside(cells->solid->bvh, p, known).depth,
          factor = solid->region_count ? spore_solid_factor(solid, p) : 1;
   if (depth < -cells->far) return true;
   spore_vec3_store(cells->xyz + 3 * cells->count, spore_symmetry_fold(&solid->symmetry, p));
@@ -57,7 +57,7 @@ static bool divide(Cells *cells, SporeVec3 middle, double edge, const SporeBvhKn
                            cells->error))
     return false;
   if (edge <= 1.001 * cells->finest) return add_cell(cells, middle, edge, known);
-  SporeBvhKnown here = {middle, spore_bvh_depth_beside(cells->solid->bvh, middle, known)};
+  SporeBvhKnown here = spore_bvh_depth_beside(cells->solid->bvh, middle, known);
   double reach = edge * (sqrt(3) / 2);
   if (here.depth < -cells->far - reach) return true;
   if (edge <= 2.001 * cells->finest && fabs(here.depth) > cells->near + reach)
@@ -83,7 +83,7 @@ static bool divide_all(Cells *cells) {
   SporeVec3 middle = spore_vec3_scale(0.5, spore_vec3_add(spore_vec3_load(lower), spore_vec3_load(upper)));
   double edge = cells->finest;
   while (edge < extent + 2 * cells->far) edge *= 2;
-  return divide(cells, middle, edge, &(SporeBvhKnown){middle, 0});
+  return divide(cells, middle, edge, &(SporeBvhKnown){.depth = 0});
 }
 
 static bool sort_cells(const Cells *cells, SporeSamples *samples) {

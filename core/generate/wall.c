@@ -29,11 +29,9 @@ typedef struct Depth {
 /* Negative in the lumen. */
 static double beyond_wall(void *data, SporeVec3 place) {
   Depth *depth = data;
-  depth->known = (SporeBvhKnown){place, spore_bvh_depth_beside(depth->bvh, place, &depth->known)};
+  depth->known = spore_bvh_depth_beside(depth->bvh, place, &depth->known);
   return depth->thickness - depth->known.depth;
 }
-
-static double off_wall(void *data, SporeVec3 place) { return fabs(beyond_wall(data, place)); }
 
 /* Where of a lattice over the box it is deepest. */
 static double find_deepest(const SporeBvh *bvh, const SporeMeshReport *box, SporeVec3 *place) {
@@ -142,7 +140,7 @@ static bool make_inner(Depth *depth, const SporeMeshReport *box, double step, do
   for (int e = 0; e < 3; e++) lower[e] = box->lower[e] - 0.3 * step, upper[e] = box->upper[e] + 0.3 * step;
   if (!spore_isosurface(lower, upper, step, REFINED * near, beyond_wall, depth, inner, progress, error)) return false;
   if (inner->triangle_count == 0) return refuse(depth->bvh, box, depth->thickness, error);
-  const SporeSurfaceLimit limit = {off_wall, depth, THINNED * near, SPACING * depth->thickness};
+  const SporeSurfaceLimit limit = {depth->bvh, depth->thickness, THINNED * near, SPACING * depth->thickness};
   return spore_triangle_mesh_thin(inner, &limit, progress, error);
 }
 

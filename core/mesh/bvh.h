@@ -20,13 +20,14 @@ double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, 
 double spore_bvh_winding(const SporeBvh *bvh, SporeVec3 p);
 /* Depth: distance where the winding number is over 0.5, minus distance elsewhere. */
 double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p);
-/* A place whose depth is known: all that is nearer to it than the surface lies on its side. */
+/* A place whose depth is known: all that is nearer to it than the surface lies on its side, and the surface is no
+ * farther from anywhere than that of it which is nearest to the place. */
 typedef struct SporeBvhKnown {
-  SporeVec3 place;
+  SporeVec3 place, nearest;
   double depth; /* below 0 outside; 0 where nothing is known */
 } SporeBvhKnown;
-/* The same depth, without the winding number where what is known tells the side. */
-double spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const SporeBvhKnown *known);
+/* The same depth, to the bit, sooner by what is known beside: without the winding number where that tells the side. */
+SporeBvhKnown spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const SporeBvhKnown *known);
 /* First hit of the ray p + t d, t >= 0; false: none. */
 bool spore_bvh_ray(const SporeBvh *bvh, SporeVec3 p, SporeVec3 d, double *t, uint32_t *triangle);
 

@@ -37,13 +37,14 @@ static double box_distance_squared(const SporeBvhNode *node, const double p[3]) 
   return sum;
 }
 
-double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, uint32_t *triangle) {
+double spore_bvh_distance_below(const SporeBvh *bvh, SporeVec3 p, double below, SporeVec3 *nearest,
+                                uint32_t *triangle) {
   struct {
     uint32_t node;
     double distance_squared;
   } stack[SPORE_BVH_DEPTH];
   int waiting = 0;
-  double x[3] = {p.x, p.y, p.z}, best = HUGE_VAL;
+  double x[3] = {p.x, p.y, p.z}, best = below * below;
   SporeVec3 best_point = p;
   uint32_t best_triangle = 0, index = 0;
   for (;;) {
@@ -71,6 +72,10 @@ double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, 
   if (nearest) *nearest = best_point;
   if (triangle) *triangle = best_triangle;
   return sqrt(best);
+}
+
+double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, uint32_t *triangle) {
+  return spore_bvh_distance_below(bvh, p, HUGE_VAL, nearest, triangle);
 }
 
 /* Nearest and farthest parameter of the ray in the box; false: it passes by. */

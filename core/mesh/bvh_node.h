@@ -30,4 +30,7 @@ struct SporeBvh {
   size_t node_count, triangle_count;
 };
 
+/* spore_bvh_distance where that is less than `below` (m), which it returns elsewhere. */
+double spore_bvh_distance_below(const SporeBvh *bvh, SporeVec3 p, double below, SporeVec3 *nearest, uint32_t *triangle);
+
 #endif

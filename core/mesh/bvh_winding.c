@@ -2,6 +2,8 @@
 
 #include "core/mesh/bvh_node.h"
 
+#define ROUND (1 + 1e-9)
+
 /* A sum of angles kept as the product of unit-like complex numbers and full turns: one atan2 a query. */
 typedef struct Angle {
   double real, imaginary;
@@ -71,7 +73,12 @@ double spore_bvh_depth(const SporeBvh *bvh, SporeVec3 p) {
   return spore_bvh_winding(bvh, p) > 0.5 ? distance : -distance;
 }
 
-double spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const SporeBvhKnown *known) {
-  if (spore_vec3_distance(p, known->place) >= fabs(known->depth)) return spore_bvh_depth(bvh, p);
-  return copysign(spore_bvh_distance(bvh, p, NULL, NULL), known->depth);
+SporeBvhKnown spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const SporeBvhKnown *known) {
+  SporeBvhKnown here = {.place = p};
+  double below = known->depth != 0 ? ROUND * spore_vec3_distance(p, known->nearest) : HUGE_VAL;
+  here.depth = spore_bvh_distance_below(bvh, p, below, &here.nearest, NULL);
+  if (here.depth >= below) here.depth = spore_bvh_distance(bvh, p, &here.nearest, NULL); /* both are of no size */
+  bool same = spore_vec3_distance(p, known->place) < fabs(known->depth);
+  if (same ? known->depth < 0 : spore_bvh_winding(bvh, p) <= 0.5) here.depth = -here.depth;
+  return here;
 }

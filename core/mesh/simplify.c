@@ -34,8 +34,8 @@ typedef struct Collapser {
   size_t count, capacity;
   double edge; /* length wanted */
   SporeShellNeighbours near;
-  const SporeSurfaceLimit *limit; /* NULL: none */
-  bool crossing;                  /* what goes through something is let be */
+  SporeShellLimit limit; /* its limit NULL: none */
+  bool crossing;         /* what goes through something is let be */
 } Collapser;
 
 /* Quadrics. */
@@ -261,9 +261,10 @@ static bool collapse(Collapser *work, const Candidate *candidate) {
     later.cost *= pow(GOOD_QUALITY / quality, 3);
     return push(work, later);
   }
-  if (work->limit && !spore_shell_limit_allows(shell, work->limit, a, b, x)) return true;
+  if (work->limit.limit && !spore_shell_limit_allows(&work->limit, shell, a, b, x)) return true;
   if (!work->crossing && spore_shell_would_cross(&work->near, shell, a, b, x)) return true;
   spore_shell_collapse(shell, a, b, x);
+  if (work->limit.limit) spore_shell_limit_moved(&work->limit, shell, a);
   if (!work->crossing && !spore_shell_neighbours_add_ring(&work->near, shell, a)) return false;
   work->quadric[a] = both;
   work->stamp[a]++;
@@ -291,10 +292,10 @@ static bool collapse_to(Collapser *work, size_t vertices, const SporeProgress *p
 bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeSurfaceLimit *limit,
                              const SporeProgress *progress, SporeError *error) {
   Collapser work = {.shell = shell,
-                    .limit = limit,
                     .quadric = SPORE_NEW_ARRAY(SporeQuadric, shell->vertex_count),
                     .stamp = SPORE_NEW_ARRAY(uint32_t, shell->vertex_count)};
-  bool done = (work.quadric && work.stamp) || spore_mesh_no_memory(error);
+  bool done = (work.quadric && work.stamp && (!limit || spore_shell_limit_create(&work.limit, shell, limit))) ||
+              spore_mesh_no_memory(error);
   double likely = limit ? LIKELY * (double)shell->live : (double)vertices;
   if (done) work.edge = sqrt(make_quadrics(&work) / (sqrt(3) / 2 * likely));
   /* Cells between the triangles there are and those there will be. */
@@ -310,6 +311,7 @@ bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeSurf
          (limit || spore_shell_neighbours_create(&work.near, shell, work.edge) || spore_mesh_no_memory(error)) &&
          (limit || spore_shell_improve(shell, work.quadric, &work.near, progress, error));
   spore_shell_neighbours_clear(&work.near);
+  spore_shell_limit_clear(&work.limit);
   spore_free(work.quadric);
   spore_free(work.stamp);
   spore_free(work.heap);

@@ -3,6 +3,7 @@
 #define SPORE_MESH_SIMPLIFY_H
 
 #include "core/base/progress.h"
+#include "core/mesh/bvh.h"
 #include "core/mesh/mesh.h"
 
 typedef struct SporeSimplifyOptions {
@@ -33,12 +34,11 @@ bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimp
                                   SporeTriangleMesh *result, SporeSimplifyReport *report, const SporeProgress *progress,
                                   SporeError *error);
 
-/* How far a place is off the surface that is meant, m, and how far triangles may come to be where they were not so
- * far before, at points `spacing` (m) apart. */
+/* The surface that is meant lies at a depth (m) in another; how far (m) off it triangles may come to be where they were
+ * not so far before, at points `spacing` (m) apart. */
 typedef struct SporeSurfaceLimit {
-  double (*off)(void *data, SporeVec3 place);
-  void *data;
-  double most, spacing;
+  const SporeBvh *bvh;
+  double depth, most, spacing;
 } SporeSurfaceLimit;
 /* The same of a closed surface with as few vertices as the limit allows: *mesh is replaced. Nothing that goes through
  * nothing goes through something then. False: no memory, or cancelled; *mesh is as it was. */

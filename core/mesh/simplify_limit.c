@@ -6,54 +6,119 @@
 
 #define MOST_PARTS 12 /* that a triangle's side is cut into */
 
-/* How far a triangle (m) is off, on its inside and on its first side; above `enough`, that may be said too soon. */
-static double off_triangle(const SporeSurfaceLimit *limit, const SporeVec3 corner[3], double enough) {
-  SporeVec3 one = spore_vec3_sub(corner[1], corner[0]), other = spore_vec3_sub(corner[2], corner[0]);
-  double far = 0, longest = fmax(spore_vec3_distance(corner[1], corner[2]),
-                                 fmax(spore_vec3_length(one), spore_vec3_length(other)));
+static SporeVec3 in_metres(const SporeShell *shell, SporeVec3 x) {
+  return spore_vec3_add_scaled(spore_vec3_load(shell->middle), shell->diagonal, x);
+}
+
+/* How far a place in a triangle is off; 0 where its corners tell that it is within the limit. Above: no farther from
+ * the surface than from what is nearest to a corner. Below: where D is its distance, s_i from the place to corner i and
+ * w_i the place's weights, corner i is within D + (along) + s_i^2 / (2 D) of what is nearest to the place; by weights
+ * the parts along it cancel, so that D + sum(w_i s_i^2) / (2 D) is no less than the corners' mean depth. */
+static double off_at(const SporeSurfaceLimit *limit, const SporeBvhKnown corner[3], const double weight[3]) {
+  const SporeBvhKnown *beside = corner;
+  SporeVec3 place = {0, 0, 0};
+  double above = HUGE_VAL, mean = 0, spread = 0, least = 0;
+  for (int k = 0; k < 3; k++) place = spore_vec3_add_scaled(place, weight[k], corner[k].place);
+  for (int k = 0; k < 3; k++) {
+    double gap = spore_vec3_distance(place, corner[k].nearest), apart = spore_vec3_distance(place, corner[k].place);
+    if (gap < above) above = gap, beside = corner + k;
+    mean += weight[k] * corner[k].depth;
+    spread += weight[k] * apart * apart;
+    least = fmax(least, corner[k].depth - apart);
+  }
+  double square = mean * mean - 2 * spread, below = square > 0 ? (mean + sqrt(square)) / 2 : 0;
+  bool near = above <= limit->depth + limit->most && below >= limit->depth - limit->most;
+  if (near && least > mean - below) return 0; /* not the lesser root, nor on the other side */
+  return fabs(limit->depth - spore_bvh_depth_beside(limit->bvh, place, beside).depth);
+}
+
+/* How far a triangle is off, on its inside and on its first side; above `enough`, that may be said too soon. */
+static double off_triangle(const SporeSurfaceLimit *limit, const SporeBvhKnown corner[3], double enough) {
+  double far = 0, longest = 0;
+  for (int k = 0; k < 3; k++) longest = fmax(longest, spore_vec3_distance(corner[k].place, corner[(k + 1) % 3].place));
   int parts = (int)fmin(fmax(ceil(longest / limit->spacing), 2), MOST_PARTS);
   /* Middles of the parts first: they are farthest off, most often; then corners of parts, but those of the last side
    * that a triangle beside it looks at. */
   for (int pass = 0; pass < 2; pass++)
     for (int i = pass; i < parts; i++)
       for (int j = 0; i + j < parts && far <= enough; j++) {
-        double at = pass ? 0 : 1. / 3;
-        SporeVec3 p = spore_vec3_add_scaled(corner[0], (i + at) / parts, one);
-        far = fmax(far, limit->off(limit->data, spore_vec3_add_scaled(p, (j + at) / parts, other)));
+        double at = pass ? 0 : 1. / 3, one = (i + at) / parts, other = (j + at) / parts;
+        far = fmax(far, off_at(limit, corner, (const double[3]){1 - one - other, one, other}));
       }
   return far;
 }
 
-static SporeVec3 in_metres(const SporeShell *shell, SporeVec3 x) {
-  return spore_vec3_add_scaled(spore_vec3_load(shell->middle), shell->diagonal, x);
+static const SporeBvhKnown *look(const SporeShellLimit *work, const SporeShell *shell, uint32_t vertex,
+                                 const SporeBvhKnown *beside) {
+  SporeBvhKnown *known = &work->vertex[vertex];
+  SporeVec3 place = in_metres(shell, spore_shell_at(shell, vertex));
+  if (known->depth == 0) *known = spore_bvh_depth_beside(work->limit->bvh, place, beside);
+  return known;
 }
 
-/* How far the triangles around a vertex are off with it at x; those that have `except` too are left out. */
-static double off_ring(const SporeShell *shell, const SporeSurfaceLimit *limit, uint32_t vertex, SporeVec3 x,
-                       uint32_t except, double enough) {
-  double far = limit->off(limit->data, in_metres(shell, x));
+static double off_vertex(const SporeShellLimit *work, const SporeBvhKnown *known) {
+  return fabs(work->limit->depth - known->depth);
+}
+
+/* How far the triangles around a vertex are off with it elsewhere; those that have `except` too are left out. */
+static double off_ring(const SporeShellLimit *work, const SporeShell *shell, uint32_t vertex,
+                       const SporeBvhKnown *elsewhere, uint32_t except, double enough) {
+  double far = off_vertex(work, elsewhere);
   for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE && far <= enough; c = shell->next[c]) {
     uint32_t n[2] = {shell->corner[spore_shell_after(c)], shell->corner[spore_shell_before(c)]};
     if (n[0] == except || n[1] == except) continue;
-    const SporeVec3 corner[3] = {in_metres(shell, x), in_metres(shell, spore_shell_at(shell, n[0])),
-                                 in_metres(shell, spore_shell_at(shell, n[1]))};
-    far = fmax(far, off_triangle(limit, corner, enough));
+    const SporeBvhKnown corner[3] = {*elsewhere, *look(work, shell, n[0], elsewhere),
+                                     *look(work, shell, n[1], elsewhere)};
+    far = fmax(far, off_triangle(work->limit, corner, enough));
   }
   return far;
 }
 
-static double off_collapsed(const SporeShell *shell, const SporeSurfaceLimit *limit, uint32_t a, uint32_t b,
-                            SporeVec3 x, double enough) {
-  double far = off_ring(shell, limit, a, x, b, enough);
-  return far > enough ? far : fmax(far, off_ring(shell, limit, b, x, a, enough));
+static double off_collapsed(const SporeShellLimit *work, const SporeShell *shell, uint32_t a, uint32_t b,
+                            const SporeBvhKnown *there, double enough) {
+  double far = off_ring(work, shell, a, there, b, enough);
+  return far > enough ? far : fmax(far, off_ring(work, shell, b, there, a, enough));
 }
 
-bool spore_shell_limit_allows(const SporeShell *shell, const SporeSurfaceLimit *limit, uint32_t a, uint32_t b,
-                              SporeVec3 x) {
-  if (off_collapsed(shell, limit, a, b, x, limit->most) <= limit->most) return true;
-  double now = fmax(off_ring(shell, limit, a, spore_shell_at(shell, a), SPORE_SHELL_NONE, HUGE_VAL),
-                    off_ring(shell, limit, b, spore_shell_at(shell, b), SPORE_SHELL_NONE, HUGE_VAL));
-  return now > limit->most && off_collapsed(shell, limit, a, b, x, now) <= now;
+/* How far the triangles around a vertex are off as it is. */
+static double off_now(const SporeShellLimit *work, const SporeShell *shell, uint32_t vertex) {
+  const SporeBvhKnown *here = look(work, shell, vertex, &work->last);
+  double far = off_vertex(work, here);
+  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c]) {
+    double *off = &work->off[c / 3];
+    SporeBvhKnown corner[3];
+    for (size_t k = 0; k < 3; k++) corner[k] = *look(work, shell, shell->corner[c / 3 * 3 + k], here);
+    if (*off < 0) *off = off_triangle(work->limit, corner, HUGE_VAL);
+    far = fmax(far, *off);
+  }
+  return far;
+}
+
+bool spore_shell_limit_allows(SporeShellLimit *work, const SporeShell *shell, uint32_t a, uint32_t b, SporeVec3 x) {
+  const SporeBvhKnown *here = look(work, shell, a, &work->last);
+  work->last = spore_bvh_depth_beside(work->limit->bvh, in_metres(shell, x), here);
+  double most = work->limit->most, far = off_collapsed(work, shell, a, b, &work->last, most);
+  if (far <= most) return true;
+  double now = fmax(off_now(work, shell, a), off_now(work, shell, b));
+  return now >= far && off_collapsed(work, shell, a, b, &work->last, now) <= now;
+}
+
+void spore_shell_limit_moved(const SporeShellLimit *work, const SporeShell *shell, uint32_t vertex) {
+  work->vertex[vertex] = work->last;
+  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c]) work->off[c / 3] = -1;
+}
+
+bool spore_shell_limit_create(SporeShellLimit *work, const SporeShell *shell, const SporeSurfaceLimit *limit) {
+  *work = (SporeShellLimit){.limit = limit,
+                            .vertex = SPORE_NEW_ARRAY(SporeBvhKnown, shell->vertex_count),
+                            .off = SPORE_NEW_ARRAY(double, shell->triangle_count)};
+  for (uint32_t t = 0; work->off && t < shell->triangle_count; t++) work->off[t] = -1;
+  return work->vertex && work->off;
+}
+
+void spore_shell_limit_clear(SporeShellLimit *work) {
+  spore_free(work->vertex);
+  spore_free(work->off);
 }
 
 bool spore_triangle_mesh_thin(SporeTriangleMesh *mesh, const SporeSurfaceLimit *limit, const SporeProgress *progress,

@@ -4,7 +4,7 @@
 #include "core/base/memory.h"
 #include "core/mesh/simplify_parts.h"
 
-#define MOST_CELLS 64 /* a side */
+#define MOST_CELLS 128 /* a side */
 #define NONE UINT32_MAX
 
 bool spore_shell_neighbours_create(SporeShellNeighbours *near, const SporeShell *shell, double edge) {

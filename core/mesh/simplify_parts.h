@@ -45,10 +45,22 @@ bool spore_shell_triangle_crosses(SporeShellNeighbours *near, const SporeShell *
 /* All triangles around a vertex. */
 bool spore_shell_neighbours_add_ring(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex);
 
+/* A limit, with what was seen on the way. */
+typedef struct SporeShellLimit {
+  const SporeSurfaceLimit *limit;
+  SporeBvhKnown *vertex; /* where each is; depth 0: not looked at */
+  double *off;           /* m, of each triangle, 0 within the limit; below 0: not looked at */
+  SporeBvhKnown last;    /* where the last edge asked about would go */
+} SporeShellLimit;
+
 /* Whether the triangles around the edge a b, once it is collapsed to x, are as near as a limit asks for, or no farther
  * off than they are. */
-bool spore_shell_limit_allows(const SporeShell *shell, const SporeSurfaceLimit *limit, uint32_t a, uint32_t b,
-                              SporeVec3 x);
+bool spore_shell_limit_allows(SporeShellLimit *work, const SporeShell *shell, uint32_t a, uint32_t b, SporeVec3 x);
+/* After the edge last asked about has become this vertex. */
+void spore_shell_limit_moved(const SporeShellLimit *work, const SporeShell *shell, uint32_t vertex);
+/* False: no memory. */
+bool spore_shell_limit_create(SporeShellLimit *work, const SporeShell *shell, const SporeSurfaceLimit *limit);
+void spore_shell_limit_clear(SporeShellLimit *work);
 
 /* Collapses edges of a shell whose features are found, down to so many vertices, and betters it; limit: as few as it
  * allows, no better; NULL: none. False: no memory, or cancelled. */
