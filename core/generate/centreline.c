@@ -12,6 +12,7 @@
 #define MOST_OFFSET 0.4   /* radii from the middle of its sections: what is more is no line in the middle of a tube */
 #define LEAST_COVER 0.4   /* of the volume of a tube, within two radii of its middle line */
 #define COILED 0.9 /* of a tube's volume, at its middle line, in what has no lumen: in a wall round one it is less */
+#define SKIN 0.1   /* of what it encloses together with its lumen: a wall of less is no tube by itself */
 #define BESIDE 1.5 /* voxels that an end may be from the organ */
 
 bool spore_centreline_no_memory(SporeError *error) {
@@ -28,6 +29,17 @@ static bool check_options(const SporeCentrelineOptions *options, SporeError *err
   return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                          _("the tolerance is %g; a fraction of the radius such as %g was expected; give one"),
                          options->tolerance, SPORE_CENTRELINE_TOLERANCE);
+}
+
+/* Whether a solid is so thin a wall around its lumen that voxels as fine as it would be too many. */
+static bool is_skin(const SporeSolid *solid, const SporeTriangleMesh *filled, bool *skin, SporeError *error) {
+  SporeSolid whole;
+  *skin = false;
+  if (!filled->triangle_count) return true;
+  if (!spore_solid_create(&whole, filled, error)) return false;
+  *skin = solid->volume < SKIN * whole.volume;
+  spore_solid_clear(&whole);
+  return true;
 }
 
 /* Whether a solid is a tube as it is, so that what is hidden of its surface lies between its coils and is no lumen's.
@@ -63,14 +75,15 @@ static bool make_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, const S
   SporeOuterWall wall;
   SporeProgressPart looking = {progress->whole, progress->first, progress->share / 2};
   SporeProgressPart trying = {progress->whole, progress->first + progress->share / 2, progress->share / 2};
-  bool coiled = true;
+  bool coiled = true, skin = false;
   if (!spore_solid_create(solid, mesh, error)) return false;
   bool done =
       spore_outer_wall(&solid->mesh, solid->bvh, &wall, &looking, error) && replace_solid(solid, &wall.solid, error);
   if (done && wall.hidden > 0) {
     if (curve) coiled = runs_inside(solid, curve);
-    else done = is_coiled(solid, &coiled, &trying, error);
+    else done = is_skin(solid, &wall.filled, &skin, error) && (skin || is_coiled(solid, &coiled, &trying, error));
   }
+  coiled = coiled && !skin;
   *inner_wall = coiled ? 0 : wall.hidden;
   done = done && (coiled || replace_solid(solid, &wall.filled, error));
   spore_outer_wall_clear(&wall);

@@ -170,8 +170,8 @@ static void open_ends(SporeTriangleMesh *mesh) {
 }
 
 /* A wall with a lumen that is open at both ends, without rims. */
-static void test_double_wall(void) {
-  SporeTriangleMesh mesh = tube_of(arc, even), lumen = tube_of(arc, inside);
+static void check_wall(double (*lumen_radius)(double)) {
+  SporeTriangleMesh mesh = tube_of(arc, even), lumen = tube_of(arc, lumen_radius);
   SporeCentrelineReport report;
   open_ends(&mesh);
   open_ends(&lumen);
@@ -188,6 +188,13 @@ static void test_double_wall(void) {
   spore_curve_clear(&line);
   spore_triangle_mesh_clear(&lumen);
   spore_triangle_mesh_clear(&mesh);
+}
+
+static double skin(double u) { return RADIUS - 5e-6; }
+
+static void test_double_wall(void) {
+  check_wall(inside);
+  check_wall(skin);
 }
 
 static SporeVec3 side(double u) { return spore_vec3(0.12, 0.01 + 0.07 * u, -0.02); }
