@@ -37,6 +37,8 @@ static void test_box_and_ball(void) {
     g_test_message("lumen %+.2f %%, %zu pieces, from it %.3f to %.3f mm, from outside %.3f to %.3f mm",
                    100 * (lumen.volume / volume[shape] - 1), report.pieces, 1e3 * report.inner_min,
                    1e3 * report.inner_max, 1e3 * report.thickness_min, 1e3 * report.thickness_max);
+    g_test_message("off by %.2f %%, %zu triangles", 100 * report.error, inner.triangle_count);
+    g_assert_cmpfloat(report.error, <, 0.05);
     g_assert_true(lumen.closed);
     g_assert_cmpuint(report.pieces, ==, 1);
     g_assert_cmpfloat(fabs(lumen.volume / volume[shape] - 1), <, 0.02);
@@ -93,6 +95,8 @@ static void test_ring_and_pair(void) {
   g_assert_true(spore_wall_inner(&ring, 0.005, 6, &inner, &report, NULL, &error));
   uint32_t *edges;
   size_t count;
+  g_test_message("ring: off by %.2f %%, %zu triangles", 100 * report.error, inner.triangle_count);
+  g_assert_cmpfloat(report.error, <, 0.05 * SPORE_WALL_DETAIL / 6);
   g_assert_true(report_of(&inner).closed);
   g_assert_true(spore_edges_of_triangles(inner.triangles, inner.triangle_count, &edges, &count));
   g_assert_cmpint((int)inner.vertex_count - (int)count + (int)inner.triangle_count, ==, 0);
