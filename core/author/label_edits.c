@@ -13,8 +13,8 @@ static SporeObject *keep_map(SporeDocument *document, const char *name, const Sp
   gsize size;
   gconstpointer bytes = g_bytes_get_data(organs->content, &size);
   const char *extension = size >= 4 && memcmp(bytes, "NRRD", 4) == 0 ? "nrrd"
-                          : g_str_has_suffix(organs->file, ".gz") ? "nii.gz"
-                                                                  : "nii";
+                          : g_str_has_suffix(organs->file, ".gz")    ? "nii.gz"
+                                                                     : "nii";
   g_autofree char *file = spore_content_file_name(name, extension, bytes, size);
   SporeObject *assets = spore_document_section(document, "assets");
   for (guint i = 0; i < spore_object_child_count(assets); i++) {
