@@ -362,7 +362,7 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
        "MODE"},
       {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &r.regions,
        N_("About FACTOR times as many spheres within R metres of a place, less where R is small (several may be "
-          "given); bounding sets hardly follow it"),
+          "given)"),
        "X,Y,Z,R,FACTOR"},
       {"asymmetric", 0, 0, G_OPTION_ARG_NONE, &r.asymmetric, N_("Leave out that a symmetric mesh gets a symmetric set"),
        NULL},

@@ -36,13 +36,20 @@ static bool add_point(Cells *cells, SporeVec3 p, double volume) {
   return true;
 }
 
-/* A point somewhere in the cell, which is of one side or so small that the point tells for all of it. */
+static double factor_at(const SporeSolid *solid, SporeVec3 p) {
+  return solid->region_count ? spore_solid_factor(solid, p) : 1;
+}
+
+/* A point somewhere in the cell, which is of one side or so small that the point tells for all of it. What a ball adds
+ * outside goes by the square of the surface that it is for, so that in a region it weighs by the square of the factor:
+ * the sum is least then where balls are as many times as dense. */
 static bool add_cell(Cells *cells, SporeVec3 middle, double edge, int side) {
   double offset[3];
   for (int k = 0; k < 3; k++) offset[k] = edge * (spore_random_unit(cells->random) - 0.5);
   SporeVec3 p = spore_vec3_add(middle, spore_vec3_load(offset));
   bool inside = side ? side > 0 : spore_bvh_winding(cells->solid->bvh, p) > 0.5;
-  return add_point(cells, p, inside ? -edge * edge * edge : edge * edge * edge);
+  double factor = factor_at(cells->solid, p), volume = edge * edge * edge * factor * factor;
+  return add_point(cells, p, inside ? -volume : volume);
 }
 
 static bool divide(Cells *cells, SporeVec3 middle, double edge) {
@@ -50,10 +57,11 @@ static bool divide(Cells *cells, SporeVec3 middle, double edge) {
       !spore_progress_part(cells->progress, fmin(1, (double)cells->visited / (4. * CELLS_MOST)),
                            _("Sampling the solid"), cells->error))
     return false;
-  double depth = spore_bvh_depth(cells->solid->bvh, middle), far = fabs(depth) - edge * (sqrt(3) / 2);
-  if (far > 0 && edge <= GRADE * far + (depth > 0 ? 3 : 1.5) * cells->finest)
+  double depth = spore_bvh_depth(cells->solid->bvh, middle), far = fabs(depth) - edge * (sqrt(3) / 2),
+         finest = cells->finest / sqrt(factor_at(cells->solid, middle));
+  if (far > 0 && edge <= GRADE * far + (depth > 0 ? 3 : 1.5) * finest)
     return add_cell(cells, middle, edge, depth > 0 ? 1 : -1);
-  if (edge <= 1.5 * cells->finest) return add_cell(cells, middle, edge, 0);
+  if (edge <= 1.5 * finest) return add_cell(cells, middle, edge, 0);
   for (int k = 0; k < 8; k++) {
     double quarter = edge / 4;
     SporeVec3 at = spore_vec3(middle.x + (k & 1 ? quarter : -quarter), middle.y + (k & 2 ? quarter : -quarter),

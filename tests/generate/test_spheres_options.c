@@ -58,8 +58,8 @@ static size_t count_above(const SporeSphereSet *set) {
   return above;
 }
 
-/* Eight times as many are asked for in one half of a long bar: eight of nine lie there, about, and the half is nearer.
- */
+/* Eight times as many are asked for in one half of a long bar: eight of nine lie there, about, and the half is nearer;
+ * four times as many that bound it: four of five. */
 static void test_region(void) {
   SporeTriangleMesh bar;
   SporeSpheresReport report;
@@ -71,6 +71,13 @@ static void test_region(void) {
   g_test_message("%zu of 60 spheres in the region, coverage %.3f", count_above(&set), report.coverage);
   g_assert_cmpuint(count_above(&set), >, 45);
   g_assert_cmpuint(count_above(&set), <, 58);
+  spore_sphere_set_clear(&set);
+  options.mode = SPORE_SPHERES_BOUNDING, options.count = 40, region.factor = 4;
+  g_assert_true(spore_spheres_from_mesh(&bar, &options, &set, &report, NULL, NULL));
+  g_test_message("%zu of 40 bounding spheres in the region", count_above(&set));
+  g_assert_true(report.certified);
+  g_assert_cmpuint(count_above(&set), >, 27);
+  g_assert_cmpuint(count_above(&set), <, 38);
   spore_sphere_set_clear(&set);
   region.factor = 0;
   SporeError error = SPORE_ERROR_INIT;
