@@ -70,9 +70,9 @@ void shape_append(SporeTriangleMesh *a, const SporeTriangleMesh *b) {
   SporeTriangleMesh both;
   g_assert_true(spore_triangle_mesh_allocate(&both, a->vertex_count + b->vertex_count,
                                              a->triangle_count + b->triangle_count, NULL));
-  memcpy(both.vertices, a->vertices, 3 * a->vertex_count * sizeof(double));
+  if (a->vertex_count) memcpy(both.vertices, a->vertices, 3 * a->vertex_count * sizeof(double));
   memcpy(both.vertices + 3 * a->vertex_count, b->vertices, 3 * b->vertex_count * sizeof(double));
-  memcpy(both.triangles, a->triangles, 3 * a->triangle_count * sizeof(uint32_t));
+  if (a->triangle_count) memcpy(both.triangles, a->triangles, 3 * a->triangle_count * sizeof(uint32_t));
   for (size_t i = 0; i < 3 * b->triangle_count; i++)
     both.triangles[3 * a->triangle_count + i] = b->triangles[i] + (uint32_t)a->vertex_count;
   spore_triangle_mesh_clear(a);
