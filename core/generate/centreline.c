@@ -31,23 +31,15 @@ static bool check_options(const SporeCentrelineOptions *options, SporeError *err
                          options->tolerance, SPORE_CENTRELINE_TOLERANCE);
 }
 
-/* Whether a solid is so thin a wall around its lumen that voxels as fine as it would be too many. */
-static bool is_skin(const SporeSolid *solid, const SporeTriangleMesh *filled, bool *skin, SporeError *error) {
-  SporeSolid whole;
-  *skin = false;
-  if (!filled->triangle_count) return true;
-  if (!spore_solid_create(&whole, filled, error)) return false;
-  *skin = solid->volume < SKIN * whole.volume;
-  spore_solid_clear(&whole);
-  return true;
-}
-
 /* Whether a solid is a tube as it is, so that what is hidden of its surface lies between its coils and is no lumen's.
- */
-static bool is_coiled(const SporeSolid *solid, bool *coiled, const SporeProgressPart *progress, SporeError *error) {
+ * filled: it with its lumen, as far as that is known; of so thin a wall the voxels would be too many to ask. */
+static bool is_coiled(const SporeSolid *solid, const SporeSolid *filled, bool *coiled,
+                      const SporeProgressPart *progress, SporeError *error) {
   SporeVoxelTube tube;
   SporeVoxelPath path = {0};
   SporeCentrelineReport report = {0};
+  *coiled = false;
+  if (solid->volume < SKIN * filled->volume) return true;
   if (!spore_voxel_tube_create(&tube, solid, progress, error)) return false;
   bool done = spore_voxel_path_find(&path, &tube, NULL, &report, progress, error);
   *coiled = done && tube.share * report.cover >= COILED;
@@ -73,19 +65,24 @@ static bool replace_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, Spor
 static bool make_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, const SporeCurve *curve, double *inner_wall,
                        const SporeProgressPart *progress, SporeError *error) {
   SporeOuterWall wall;
+  SporeSolid filled = {0};
   SporeProgressPart looking = {progress->whole, progress->first, progress->share / 2};
   SporeProgressPart trying = {progress->whole, progress->first + progress->share / 2, progress->share / 2};
-  bool coiled = true, skin = false;
   if (!spore_solid_create(solid, mesh, error)) return false;
   bool done =
       spore_outer_wall(&solid->mesh, solid->bvh, &wall, &looking, error) && replace_solid(solid, &wall.solid, error);
-  if (done && wall.hidden > 0) {
-    if (curve) coiled = runs_inside(solid, curve);
-    else done = is_skin(solid, &wall.filled, &skin, error) && (skin || is_coiled(solid, &coiled, &trying, error));
+  bool coiled = !done || !(wall.hidden > 0) || (curve && runs_inside(solid, curve));
+  if (!coiled) {
+    done = replace_solid(&filled, &wall.filled, error);
+    if (done && !curve) done = is_coiled(solid, &filled, &coiled, &trying, error);
   }
-  coiled = coiled && !skin;
   *inner_wall = coiled ? 0 : wall.hidden;
-  done = done && (coiled || replace_solid(solid, &wall.filled, error));
+  if (done && !coiled && filled.mesh.triangle_count) {
+    spore_solid_clear(solid);
+    *solid = filled;
+    filled = (SporeSolid){0};
+  }
+  spore_solid_clear(&filled);
   spore_outer_wall_clear(&wall);
   if (!done) spore_solid_clear(solid);
   return done;

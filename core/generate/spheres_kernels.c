@@ -136,6 +136,5 @@ void SPORE_LEVEL_NAME(spore_rays_volume)(const float *x, const float *y, const f
       leave = leave < to[first + k] ? leave : to[first + k];
       sums[k] += leave > f ? leave * leave * leave - f * f * f : 0;
     }
-  *sum = 0;
-  for (int k = 0; k < LANES; k++) *sum += sums[k];
+  *sum = sum_lanes(sums);
 }
