@@ -9,7 +9,7 @@
 #define SPORE_MODELS_CORE_H
 
 #include "core/math/simd.h"
-#include "core/sim/model.h"
+#include "core/body/model.h"
 #include "models/rigid_motion.h"
 
 /* Where a tie's blocks lie in the model's matrix: the node with itself, with the core's centre and turning, and back.

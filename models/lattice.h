@@ -20,8 +20,8 @@
 #ifndef SPORE_lattice_H
 #define SPORE_lattice_H
 
-#include "core/sim/mapping.h"
-#include "core/sim/region.h"
+#include "core/body/mapping.h"
+#include "core/body/region.h"
 #include "models/tetrahedra.h"
 #include "models/voxels.h"
 

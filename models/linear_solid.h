@@ -10,7 +10,7 @@
 #ifndef SPORE_MODELS_LINEAR_SOLID_H
 #define SPORE_MODELS_LINEAR_SOLID_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 #include "models/tetrahedra_elements.h"
 #include "models/tissues.h"
 

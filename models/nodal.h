@@ -2,7 +2,7 @@
 #ifndef SPORE_MODELS_NODAL_H
 #define SPORE_MODELS_NODAL_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 /* Node i at pose applied to rest (3 a node), moving with the frame. */
 void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q,

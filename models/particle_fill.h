@@ -3,7 +3,7 @@
 #define SPORE_MODELS_PARTICLE_FILL_H
 
 #include "core/mesh/mesh.h"
-#include "core/sim/mapping.h"
+#include "core/body/mapping.h"
 
 /* Centres inside a closed surface, on a face-centred cubic lattice with `wanted` places in the surface's volume, m^3:
  * so about that many. *points from spore_allocate. Refuses a surface that is open or holds no volume, and one too thin

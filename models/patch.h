@@ -5,7 +5,7 @@
 #include "core/linalg/block_matrix.h"
 #include "core/math/simd.h"
 #include "core/mesh/mesh.h"
-#include "core/sim/mapping.h"
+#include "core/body/mapping.h"
 
 #define SPORE_PATCH_POINTS 4     /* Gauss points a cell: two each way */
 #define SPORE_PATCH_FUNCTIONS 16 /* that are not 0 in a cell */

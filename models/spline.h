@@ -6,7 +6,7 @@
 #include "core/math/simd.h"
 #include "core/math/spline.h"
 #include "core/mesh/mesh.h"
-#include "core/sim/mapping.h"
+#include "core/body/mapping.h"
 
 #define SPORE_SPLINE_POINTS 2  /* Gauss points a span */
 #define SPORE_SPLINE_SAMPLES 8 /* a span, of what a spline is fitted to */

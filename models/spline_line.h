@@ -2,7 +2,7 @@
 #ifndef SPORE_MODELS_SPLINE_LINE_H
 #define SPORE_MODELS_SPLINE_LINE_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 #include "models/spline.h"
 
 /* What a line is across: a round tube, or solid. */

@@ -4,7 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "core/constraint/path.h"
+#include "core/body/path.h"
 #include "models/carry.h"
 #include "models/spline.h"
 

@@ -10,7 +10,7 @@
 #ifndef SPORE_MODELS_SPLINE_TWIST_H
 #define SPORE_MODELS_SPLINE_TWIST_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 #include "models/spline_line.h"
 
 #define SPORE_TWIST_NODES 6 /* of a span: its control points, the arms at its knots */

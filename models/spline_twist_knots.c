@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/constraint/path.h"
+#include "core/body/path.h"
 #include "models/spline_twist.h"
 
 static SporeVec3 unit(SporeVec3 a) { return spore_vec3_normalise(a, spore_vec3(1, 0, 0)); }

@@ -6,7 +6,7 @@
 #include "core/linalg/block_matrix.h"
 #include "core/math/simd.h"
 #include "core/math/vec3.h"
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 /* A spring between nodes at distance l pulls with stiffness (l - length) along the line between them, and damps the
  * speed of that distance. Where the nodes meet and there is no line, it works along that of rest.

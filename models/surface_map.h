@@ -3,7 +3,7 @@
 #define SPORE_MODELS_SURFACE_MAP_H
 
 #include "core/mesh/mesh.h"
-#include "core/sim/mapping.h"
+#include "core/body/mapping.h"
 
 /* A point on a vertex follows that vertex; points that are the vertices in their order make an identity mapping. A
  * point on a triangle follows its corners by barycentric weights. A point off the surface follows the nearest triangle

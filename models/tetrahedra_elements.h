@@ -3,7 +3,7 @@
 #define SPORE_MODELS_TETRAHEDRA_ELEMENTS_H
 
 #include "core/mesh/mesh.h"
-#include "core/sim/region.h"
+#include "core/body/region.h"
 #include "models/tetrahedra.h"
 
 /* A mesh and the nodes of its elements: the vertices, and for ten nodes an element the middles of the edges behind

@@ -2,7 +2,7 @@
 #ifndef SPORE_MODELS_TETRAHEDRA_HEAT_H
 #define SPORE_MODELS_TETRAHEDRA_HEAT_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 #include "models/tetrahedra.h"
 
 /* As they were, and what heat did since. An element's `volume` weighs its energy, and so takes its share of the

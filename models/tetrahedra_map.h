@@ -3,7 +3,7 @@
 #define SPORE_MODELS_TETRAHEDRA_MAP_H
 
 #include "core/mesh/mesh.h"
-#include "core/sim/mapping.h"
+#include "core/body/mapping.h"
 #include "models/tetrahedra_elements.h"
 
 /* Rows of the inverse of [b-a, c-a, d-a]: the gradients of the weights of corners 1, 2, 3 (1/m). Returns six times the

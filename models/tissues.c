@@ -1,6 +1,6 @@
 #include "models/tissues.h"
 
-#include "core/sim/tissue.h"
+#include "core/body/tissue.h"
 
 /* Of the quantities, those that solids have, as the file writes them. */
 #define SETTING_young_modulus(value) "young_modulus", #value,

@@ -3,7 +3,7 @@
 #define SPORE_MODELS_TISSUES_H
 
 #include "core/base/text.h"
-#include "core/sim/model.h"
+#include "core/body/model.h"
 #include "models/fields.h"
 
 /* Of models with young_modulus, poisson_ratio and density: the tissues of core/sim/tissue.h. */

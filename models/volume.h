@@ -4,7 +4,7 @@
 #ifndef SPORE_MODELS_VOLUME_H
 #define SPORE_MODELS_VOLUME_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 typedef struct SporeVolume {
   const SporeTriangleMesh *mesh; /* borrowed; closed; its vertices are the model's first nodes */

@@ -12,6 +12,8 @@ void *spore_allocate(size_t count, size_t size);
 /* Grows or shrinks; what is new is zeroed; the old block stays valid on NULL. old_count is what it held. */
 void *spore_reallocate(void *memory, size_t old_count, size_t count, size_t size);
 void spore_free(void *memory);
+/* A copy of the text, from spore_allocate; NULL: no memory. */
+char *spore_copy_text(const char *text);
 
 void *spore_grow(void *memory, size_t *capacity, size_t first, size_t size);
 
