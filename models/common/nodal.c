@@ -1,11 +1,14 @@
 #include "models/common/nodal.h"
 
+#include <assert.h>
 #include <stdio.h>
 
 #include "core/base/text.h"
 
 void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q,
                        double *v) {
+  assert(count == 0 || (rest && q && v));
+  assert(q != v || count == 0);
   SporeMat3 rotation = spore_quat_to_mat3(pose.orientation);
   for (size_t i = 0; i < count; i++) {
     SporeVec3 arm = spore_mat3_apply(rotation, spore_vec3_load(rest + 3 * i));
@@ -15,11 +18,15 @@ void spore_nodal_place(const double *rest, size_t count, SporePose pose, SporeVe
 }
 
 void spore_nodal_damp(const SporeModel *model, double coefficient, const double *v, double *f) {
+  assert(coefficient >= 0);
+  assert(f != v || model->block_count == 0);
   if (coefficient == 0) return;
   for (size_t i = 0; i < 3 * model->block_count; i++) f[i] -= coefficient * model->block_mass[i / 3] * v[i];
 }
 
 void spore_nodal_damp_jacobian(const SporeModel *model, double coefficient, SporeBlockMatrix *matrix) {
+  assert(coefficient >= 0);
+  assert(matrix->block_count >= model->block_count);
   if (coefficient == 0) return;
   for (size_t i = 0; i < model->block_count; i++)
     for (size_t k = 0; k < 3; k++)
@@ -27,6 +34,7 @@ void spore_nodal_damp_jacobian(const SporeModel *model, double coefficient, Spor
 }
 
 bool spore_nodal_check_mass(const SporeModel *model, const char *element, SporeError *error) {
+  assert(model->block_mass && element);
   for (size_t i = 0; i < model->block_count; i++) {
     if (model->block_mass[i] > 0) continue;
     char place[64];

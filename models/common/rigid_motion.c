@@ -1,5 +1,6 @@
 #include "models/common/rigid_motion.h"
 
+#include <assert.h>
 #include <math.h>
 
 #define EVEN 1e-12 /* moments that differ by no more, relative, are equal */
@@ -15,6 +16,7 @@ bool spore_inertia_init(SporeInertia *inertia, SporeMat3 tensor) {
 }
 
 SporeMat3 spore_inertia_turned(const SporeInertia *inertia, SporeQuat orientation) {
+  assert(inertia->moment[0] > 0);
   if (inertia->even) return inertia->tensor;
   SporeMat3 rotation = spore_quat_to_mat3(orientation);
   SporeMat3 turned =
@@ -38,6 +40,7 @@ typedef struct FreeTop {
 
 /* The body turns by `angle` about its principal axis k: p turns the other way. */
 static void turn_about(FreeTop *top, int k, double angle) {
+  assert(k >= 0 && k < 3);
   double ch = cos(0.5 * angle), sh = sin(0.5 * angle), c = 1 - 2 * sh * sh, s = 2 * sh * ch;
   double *i = &top->p[(k + 1) % 3], *j = &top->p[(k + 2) % 3], pi = *i, pj = *j;
   *i = c * pi + s * pj;
@@ -74,6 +77,7 @@ static void composed_step(FreeTop *top, const double inverse[3], double h) {
  * where its error is below rounding: for a body of revolution, or when it hardly turns. Above the cap of substeps the
  * motion stays stable and keeps its momentum, but loses phase. */
 static void turn(FreeTop *top, const double inverse[3], double h) {
+  assert(isfinite(h));
   double square = 0, energy2 = 0, size = fabs(h);
   for (int i = 0; i < 3; i++) square += top->p[i] * top->p[i], energy2 += top->p[i] * top->p[i] * inverse[i];
   double fast = size * fmin(sqrt(square), sqrt(energy2 / inverse[0])) * (inverse[0] - inverse[1]);
@@ -110,6 +114,8 @@ static SporeVec3 spin_of(const SporeInertia *inertia, const SporeMat3 *rotation,
 }
 
 void spore_inertia_drift(const SporeInertia *inertia, double h, SporeQuat *orientation, SporeVec3 *spin) {
+  assert(inertia->moment[0] > 0);
+  assert(isfinite(h));
   if (inertia->even) {
     SporeQuat by = spore_quat_from_rotation_vector(spore_vec3_scale(h, *spin));
     *orientation = spore_quat_normalise(spore_quat_multiply(by, *orientation));

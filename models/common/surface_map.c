@@ -1,5 +1,6 @@
 #include "models/common/surface_map.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -49,6 +50,7 @@ typedef struct Row {
 /* Makes a tetrahedron of the row's triangle and node i at d, to carry what lies at `offset` from the triangle. The sum
  * of the absolute weights, infinite where they cannot be. */
 static double lift_by(const SporeTriangleMesh *mesh, uint32_t i, SporeVec3 d, double offset, Row *row) {
+  assert(i <= mesh->vertex_count);
   double foot[3], height, sum;
   SporeVec3 unused;
   in_plane(vertex_at(mesh, row->block[0]), vertex_at(mesh, row->block[1]), vertex_at(mesh, row->block[2]), d, foot,
@@ -66,6 +68,7 @@ static double lift_by(const SporeTriangleMesh *mesh, uint32_t i, SporeVec3 d, do
 
 /* Puts the foot of p on triangle t into the row. Returns p's distance from its plane. */
 static double stand_on(const SporeTriangleMesh *mesh, size_t t, SporeVec3 p, Row *row) {
+  assert(t < mesh->triangle_count);
   SporeVec3 normal;
   double offset;
   memcpy(row->block, mesh->triangles + 3 * t, 3 * sizeof *row->block);
@@ -171,6 +174,8 @@ static bool map_points(const SporeTriangleMesh *mesh, const SporeVec3 *core, con
 
 bool spore_surface_map(const SporeTriangleMesh *mesh, const SporeVec3 *core, const double *points, size_t count,
                        double slack, SporeMapping *mapping, SporeError *error) {
+  assert(count == 0 || points);
+  assert(slack >= 0);
   if (is_identity(mesh, points, count)) return spore_mapping_init_identity(mapping, count);
   uint32_t *triangles, *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);

@@ -1,5 +1,6 @@
 #include "models/common/virtual_core.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -7,6 +8,7 @@
 #include "models/common/nodal.h"
 
 bool spore_core_allocate(SporeCore *core, size_t count) {
+  assert(count > 0);
   core->count = count;
   core->weight = SPORE_NEW_ARRAY(double, count);
   core->place = SPORE_NEW_ARRAY(double, 3 * count);
@@ -23,6 +25,8 @@ void spore_core_clear(SporeCore *core) {
 
 bool spore_core_spread(SporeCore *core, const double *rest, const double *node_mass, double mass, double radius,
                        SporeError *error) {
+  assert(core->count > 0 && rest && node_mass);
+  assert(mass > 0 && radius >= 0);
   SporeVec3 first = {0, 0, 0};
   double whole = 0;
   for (size_t i = 0; i < core->count; i++) {
@@ -55,6 +59,7 @@ bool spore_core_pattern(const SporeCore *core, SporeBlockPattern *pattern) {
 }
 
 void spore_core_find_blocks(SporeCore *core, const SporeBlockMatrix *matrix) {
+  assert(matrix->block_count >= core->count + 2);
   uint32_t centre = (uint32_t)core->count, turning = centre + 1;
   for (uint32_t i = 0; i < centre; i++)
     core->blocks[i] = (SporeCoreBlocks){.node = matrix->diagonal[i],
@@ -86,6 +91,7 @@ SporeMat3 spore_core_inertia(const SporeCore *core, const double *q) {
 }
 
 void spore_core_drift(const SporeCore *core, const double *q, const double *v, double h, double *q1, double *v1) {
+  assert(isfinite(h));
   size_t n = 3 * (core->count + 1);
   SporeQuat orientation = spore_quat_load(q + n);
   SporeVec3 spin = spore_vec3_load(v + n);
@@ -111,6 +117,7 @@ static State state_at(const SporeCore *core, const double *q) {
 
 /* s and d of node i. */
 static SporeVec3 place_of(const SporeCore *core, const State *state, size_t i) {
+  assert(i < core->count);
   return spore_mat3_apply(state->rotation, spore_vec3_load(core->place + 3 * i));
 }
 static SporeVec3 away(const State *state, const double *q, size_t i, SporeVec3 s) {
@@ -118,6 +125,7 @@ static SporeVec3 away(const State *state, const double *q, size_t i, SporeVec3 s
 }
 
 void spore_core_force(const SporeCore *core, const double *q, const double *shape, const double *v, double *f) {
+  assert(f != q && f != v);
   State state = state_at(core, q);
   SPORE_KERNEL(spore_core_ties)(core, &state.rotation, q, shape, v, f);
 }
@@ -147,6 +155,7 @@ typedef struct CoreSum {
 } CoreSum;
 
 static void add_tie(const SporeCore *core, size_t i, double k, SporeVec3 a, SporeBlockMatrix *matrix, CoreSum *sum) {
+  assert(i < core->count);
   const SporeCoreBlocks *blocks = &core->blocks[i];
   const SporeMat3 one = spore_mat3_identity();
   SporeMat3 skew = spore_mat3_skew(a);
@@ -208,6 +217,8 @@ static void damping_jacobian(const SporeCore *core, const double *q, double scal
 }
 
 void spore_core_jacobian(const SporeCore *core, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(at->stiffness_scale >= 0 && at->damping_scale >= 0);
+  assert(matrix->block_count >= core->count + 2);
   if (at->stiffness_scale != 0) shape_jacobian(core, at->q, at->stiffness_scale, at->whole, matrix);
   if (at->damping_scale != 0 && core->damping > 0) damping_jacobian(core, at->shape, at->damping_scale, matrix);
 }

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/math/simd_matrix.h"
@@ -41,6 +42,7 @@ typedef struct Rest {
 
 SPORE_INLINE void load_rest(Rest *rest, const SporeCore *ties, size_t i, size_t count, const double *q,
                             const double *shape, const double *v) {
+  assert(count < SPORE_WIDTH && i + count == ties->count);
   memset(rest, 0, sizeof *rest);
   memcpy(rest->weight, ties->weight + i, count * sizeof *q);
   memcpy(rest->place, ties->place + 3 * i, 3 * count * sizeof *q);
@@ -91,6 +93,8 @@ SPORE_INLINE void add_forces(const SporeCore *ties, const SporeMat3 *rotation, c
 
 void SPORE_LEVEL_NAME(spore_core_ties)(const SporeCore *core, const SporeMat3 *rotation, const double *q,
                                        const double *shape, const double *v, double *f) {
+  assert(core->count > 0);
+  assert(core->stiffness >= 0 && core->damping >= 0);
   if (core->damping > 0) add_forces(core, rotation, q, shape, v, true, f);
   else add_forces(core, rotation, q, shape, v, false, f);
 }

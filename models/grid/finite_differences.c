@@ -1,5 +1,7 @@
 /* Elasticity by finite differences on a regular grid inside a closed surface: Meseure et al. 2003 name it as future
  * work. What a cell does is in models/grid/lattice.h; here are the model's making and its parameters. */
+#include <assert.h>
+
 #include "core/base/memory.h"
 #include "models/common/nodal.h"
 #include "models/common/tissues.h"
@@ -96,6 +98,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_finite_differences);
   spore_nodal_place(((const Body *)model)->lattice.rest, model->block_count, pose, velocity, spin, q, v);
 }
 
@@ -123,6 +126,7 @@ static void add_slab_forces(void *data, size_t index) {
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+  assert(model->type == &spore_finite_differences);
   const Body *body = (const Body *)model;
   Loop loop = {.body = body, .q = q, .shape = shape, .v = v, .f = f};
   run(&loop, 10, add_slab_forces);
@@ -130,6 +134,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_finite_differences);
   const Body *body = (const Body *)model;
   return SPORE_KERNEL(spore_lattice_potential)(&body->lattice, body->elasticity, q);
 }
@@ -143,6 +148,8 @@ static void add_slab_jacobian(void *data, size_t index) {
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(model->type == &spore_finite_differences);
+  assert(matrix->block_count >= model->block_count);
   const Body *body = (const Body *)model;
   Loop loop = {.body = body,
                .q = q,
@@ -155,10 +162,12 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_finite_differences);
   return spore_lattice_map(&((const Body *)model)->lattice, points, count, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
+  assert(model->type == &spore_finite_differences);
   tune((Body *)model, fields);
   return true;
 }

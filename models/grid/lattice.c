@@ -1,5 +1,6 @@
 #include "models/grid/lattice.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -8,10 +9,12 @@
 #define NO_NODE UINT32_MAX
 
 static size_t place_of(const SporeVoxels *voxels, size_t i, size_t j, size_t k) {
+  assert(i <= voxels->size[0] && j <= voxels->size[1] && k <= voxels->size[2]);
   return (i * (voxels->size[1] + 1) + j) * (voxels->size[2] + 1) + k;
 }
 
 uint32_t spore_lattice_corner(const SporeLattice *lattice, size_t i, size_t j, size_t k, unsigned corner) {
+  assert(corner < 8);
   return lattice->node[place_of(&lattice->voxels, i + (corner >> 2), j + (corner >> 1 & 1), k + (corner & 1))];
 }
 
@@ -111,6 +114,7 @@ static void set_scales(SporeLattice *lattice) {
 }
 
 bool spore_lattice_create(SporeLattice *lattice, SporeVoxels *voxels) {
+  assert(voxels->share);
   *lattice = (SporeLattice){.voxels = *voxels};
   *voxels = (SporeVoxels){0};
   set_scales(lattice);
@@ -129,6 +133,7 @@ void spore_lattice_clear(SporeLattice *lattice) {
 
 /* Node of corner c of a run's cell. */
 static uint32_t corner_of(const SporeLatticeRun *run, size_t lane, unsigned c) {
+  assert(lane < run->count && c < 8);
   return run->row[c >> 1] + (uint32_t)lane + (c & 1);
 }
 
@@ -144,6 +149,7 @@ bool spore_lattice_pattern(const SporeLattice *lattice, SporeBlockPattern *patte
 }
 
 void spore_lattice_find_blocks(SporeLattice *lattice, const SporeBlockMatrix *matrix) {
+  assert(matrix->block_count == lattice->node_count);
   for (size_t r = 0; r < lattice->run_count; r++)
     for (size_t lane = 0; lane < lattice->runs[r].count; lane++)
       for (unsigned a = 0; a < 8; a++)
@@ -160,6 +166,7 @@ static SporeVec3 middle_of(const SporeLattice *lattice, const SporeLatticeRun *r
 }
 
 void spore_lattice_add_mass(SporeLattice *lattice, double total, const SporeRegions *regions, double *mass) {
+  assert(total > 0 && mass);
   double volume = 0;
   for (size_t r = 0; r < lattice->run_count; r++)
     for (size_t lane = 0; lane < lattice->runs[r].count; lane++) volume += lattice->runs[r].volume[lane];

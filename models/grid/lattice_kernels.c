@@ -1,4 +1,7 @@
 #include "models/grid/lattice.h"
+
+#include <assert.h>
+
 #include "models/tetrahedra/neo_hookean_law.h"
 
 #define MODES SPORE_LATTICE_MODES
@@ -10,6 +13,7 @@ typedef struct Rows {
 } Rows;
 
 SPORE_INLINE void rows_of(const SporeLatticeRun *run, const double *x, Rows *rows) {
+  assert(run->count > 0 && run->count <= SPORE_LANES);
   for (int r = 0; r < 4; r++) {
     rows->row[r] = x + 3 * (size_t)run->row[r];
     if (run->count == SPORE_LANES) continue;
@@ -121,6 +125,8 @@ SPORE_INLINE void add_run_forces(const SporeLattice *lattice, const SporeLattice
 
 void SPORE_LEVEL_NAME(spore_lattice_force)(const SporeLattice *lattice, size_t slab, SporeElasticity elasticity,
                                            const double *q, const double *shape, const double *v, double *f) {
+  assert(slab < lattice->voxels.size[0]);
+  assert(f != q && f != v);
   Law law = law_of(elasticity);
   for (size_t r = lattice->slab_start[slab]; r < lattice->slab_start[slab + 1]; r++)
     add_run_forces(lattice, lattice->runs + r, elasticity, law, q, shape, v, f);
@@ -216,6 +222,7 @@ static void spread(SporeVd33 mode[8]) {
  * what it is to the cell before it, where it is an odd corner, before what it is to the next, whatever the width. */
 static void add_blocks(const SporeLattice *lattice, size_t run, size_t lane, ModeBlocks blocks,
                        SporeBlockMatrix *matrix) {
+  assert(run < lattice->run_count && lane < SPORE_LANES);
   SporeBlockRows rows[8];
   size_t lanes = lattice->runs[run].count;
   lanes = lanes < lane ? 0 : lanes - lane < SPORE_WIDTH ? lanes - lane : SPORE_WIDTH;
@@ -270,6 +277,8 @@ static void add_run_matrix(const SporeLattice *lattice, size_t r, SporeElasticit
 void SPORE_LEVEL_NAME(spore_lattice_jacobian)(const SporeLattice *lattice, size_t slab, SporeElasticity elasticity,
                                               const double *q, const double *shape, double stiffness_scale,
                                               double damping_scale, SporeBlockMatrix *matrix) {
+  assert(slab < lattice->voxels.size[0]);
+  assert(stiffness_scale >= 0 && damping_scale >= 0);
   Law law = law_of(elasticity);
   for (size_t r = lattice->slab_start[slab]; r < lattice->slab_start[slab + 1]; r++)
     add_run_matrix(lattice, r, elasticity, law, q, shape, stiffness_scale, damping_scale, matrix);

@@ -1,4 +1,5 @@
 /* Points that follow the corners of a grid's cells. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -13,6 +14,7 @@ typedef struct Carried {
 } Carried;
 
 static bool is_filled(const SporeVoxels *voxels, const size_t cell[3]) {
+  assert(cell[0] < voxels->size[0] && cell[1] < voxels->size[1] && cell[2] < voxels->size[2]);
   return voxels->share[spore_voxels_at(voxels, cell[0], cell[1], cell[2])] > 0;
 }
 
@@ -72,6 +74,7 @@ static void weigh(const Carried *point, double weights[8]) {
 
 bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t count, SporeMapping *mapping,
                        SporeError *error) {
+  assert(count == 0 || points);
   if (count == lattice->node_count && !memcmp(points, lattice->rest, 3 * count * sizeof *points))
     return spore_mapping_init_identity(mapping, count);
   uint32_t *nodes = SPORE_NEW_ARRAY(uint32_t, 8 * count);

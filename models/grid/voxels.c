@@ -1,5 +1,6 @@
 #include "models/grid/voxels.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdint.h>
 
@@ -58,6 +59,7 @@ static SporeVec3 point_at(const SporeVoxels *voxels, double x, double y, double 
 
 /* By the depth in the middle of its parts: of a plane through one along an axis of the grid, exact. */
 static double share_of(const SporeVoxels *voxels, const SporeBvh *bvh, size_t i, size_t j, size_t k) {
+  assert(i < voxels->size[0] && j < voxels->size[1] && k < voxels->size[2]);
   const double *cell = voxels->cell;
   double depth = spore_bvh_depth(bvh, point_at(voxels, (double)i + 0.5, (double)j + 0.5, (double)k + 0.5));
   double reach = 0.5 * sqrt(cell[0] * cell[0] + cell[1] * cell[1] + cell[2] * cell[2]), sum = 0;
@@ -75,6 +77,7 @@ static double share_of(const SporeVoxels *voxels, const SporeBvh *bvh, size_t i,
 
 /* Marks what hangs together with a cell, by faces. Returns its volume, in cells. queue: as many as cells. */
 static double spread(const SporeVoxels *voxels, size_t from, uint32_t part, uint32_t *mark, size_t *queue) {
+  assert(from < spore_voxels_count(voxels) && part > 0);
   size_t reached = 1, strides[3] = {voxels->size[1] * voxels->size[2], voxels->size[2], 1};
   double volume = 0;
   queue[0] = from, mark[from] = part;
@@ -142,6 +145,7 @@ static bool check_parts(size_t parts, const SporeMeshReport *report, SporeError 
 }
 
 bool spore_voxels_create(SporeVoxels *voxels, const SporeTriangleMesh *surface, size_t cells, SporeError *error) {
+  assert(cells > 0);
   SporeMeshReport report;
   *voxels = (SporeVoxels){0};
   if (!spore_triangle_mesh_report_solid(surface, &report, error) || !fit(voxels, &report, cells, error)) return false;

@@ -2,6 +2,7 @@
  * mass points and springs, and a virtual rigid core that gives it back its shape (models/common/virtual_core.h). The
  * core touches nothing itself: the environment meets the surface, and points that lie off it, which a triangle and the
  * core's centre carry together. Nodes: the surface's vertices, then the core's centre; the frame is the core's. */
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -151,6 +152,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
   spore_core_place(&body->core, body->mesh.vertices, pose, velocity, spin, q, v);
 }
@@ -160,11 +162,14 @@ static SporeMat3 inertia(const SporeModel *model, const double *q) {
 }
 
 static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {
+  assert(model->type == &spore_deformable_surface);
   spore_core_drift(&((const Surface *)model)->core, q, v, h, q1, v1);
 }
 
 static void force_along(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
                         double *f) {
+  assert(model->type == &spore_deformable_surface);
+  assert(h >= 0);
   const Surface *body = (const Surface *)model;
   spore_springs_force(body->springs, KINDS, model->pool, q, shape, v, h, f);
   spore_core_force(&body->core, q, shape, v, f);
@@ -176,6 +181,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
   double sum = spore_core_potential(&body->core, q) + spore_volume_potential(&body->volume, q);
   for (int kind = 0; kind < KINDS; kind++) sum += spore_springs_potential(&body->springs[kind], q);
@@ -183,6 +189,7 @@ static double potential(const SporeModel *model, const double *q) {
 }
 
 static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
   spore_springs_jacobian(body->springs, KINDS, model->pool, at, matrix);
   spore_core_jacobian(&body->core, at, matrix);
@@ -201,11 +208,13 @@ static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
   return spore_surface_map(&body->mesh, &body->core.centre, points, count, model->map_slack, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
+  assert(model->type == &spore_deformable_surface);
   tune((Surface *)model, fields);
   return true;
 }

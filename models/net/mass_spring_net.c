@@ -1,5 +1,6 @@
 /* Mass-spring net: mass points at the vertices of a surface, springs between them. What a spring does is in
  * models/net/springs.c; here are the net's making and its parameters. */
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -139,12 +140,15 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_mass_spring_net);
   const Net *net = (const Net *)model;
   spore_nodal_place(net->rest, net->base.block_count, pose, velocity, spin, q, v);
 }
 
 static void force_along(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
                         double *f) {
+  assert(model->type == &spore_mass_spring_net);
+  assert(h >= 0);
   spore_springs_force(((const Net *)model)->springs, KINDS, model->pool, q, shape, v, h, f);
 }
 
@@ -153,6 +157,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_mass_spring_net);
   const Net *net = (const Net *)model;
   double sum = 0;
   for (int kind = 0; kind < KINDS; kind++) sum += spore_springs_potential(&net->springs[kind], q);
@@ -160,6 +165,7 @@ static double potential(const SporeModel *model, const double *q) {
 }
 
 static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(model->type == &spore_mass_spring_net);
   const Net *net = (const Net *)model;
   spore_springs_jacobian(net->springs, KINDS, model->pool, at, matrix);
 }
@@ -176,10 +182,12 @@ static bool skin(const SporeModel *model, uint32_t **triangles, size_t *count) {
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_mass_spring_net);
   return spore_surface_map(&((const Net *)model)->mesh, NULL, points, count, model->map_slack, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
+  assert(model->type == &spore_mass_spring_net);
   tune((Net *)model, fields);
   return true;
 }
@@ -195,17 +203,23 @@ static bool prepare_cut(SporeModel *model, size_t *edges) {
 }
 
 static size_t cut(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts) {
+  assert(model->type == &spore_mass_spring_net);
+  assert(((const Net *)model)->ties.gone);
   const SporeVec3 corners[3] = {spore_vec3_load(triangle), spore_vec3_load(triangle + 3),
                                 spore_vec3_load(triangle + 6)};
   return spore_net_ties_cut(&((Net *)model)->ties, q, corners, body, cuts);
 }
 
 static size_t tear(SporeModel *model, const double *q, uint32_t body, SporeCuts *cuts) {
+  assert(model->type == &spore_mass_spring_net);
+  assert(((const Net *)model)->ties.gone);
   Net *net = (Net *)model;
   return spore_net_ties_tear(&net->ties, q, net->tear_strain, body, cuts);
 }
 
 static SporeTie tie(const SporeModel *model, uint32_t a, uint32_t b) {
+  assert(a < model->block_count && b < model->block_count);
+  assert(((const Net *)model)->ties.gone);
   return spore_net_ties_between(&((const Net *)model)->ties, a, b);
 }
 
@@ -217,6 +231,8 @@ static bool prepare_heat(SporeModel *model) {
 }
 
 static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *heat) {
+  assert(((const Net *)model)->ties.gone);
+  assert(heat->radius >= 0);
   Net *net = (Net *)model;
   size_t count = 0;
   for (int kind = 0; kind < KINDS; kind++)

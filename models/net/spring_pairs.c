@@ -1,5 +1,7 @@
 #include "models/net/spring_pairs.h"
 
+#include <assert.h>
+
 #include "core/base/memory.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/sort.h"
@@ -14,6 +16,7 @@ void spore_pairs_clear(SporePairs *pairs) {
 }
 
 static bool append(SporePairs *pairs, uint32_t a, uint32_t b) {
+  assert(a != b);
   if (pairs->count == pairs->capacity) {
     size_t capacity = pairs->capacity ? 2 * pairs->capacity : 256;
     uint64_t *keys = spore_reallocate(pairs->keys, pairs->capacity, capacity, sizeof *keys);
@@ -53,6 +56,7 @@ bool spore_pairs_structural(SporePairs *pairs, const SporeTriangleMesh *mesh) {
 }
 
 bool spore_pairs_shear(SporePairs *pairs, const SporeTriangleMesh *mesh, const SporePairs *structural) {
+  assert(structural->count == 0 || structural->keys);
   SporeHalfEdges halves;
   if (!spore_half_edges_create(&halves, mesh->triangles, mesh->triangle_count)) return false;
   bool good = true;
@@ -90,6 +94,7 @@ static bool neighbours_of(const SporePairs *edges, size_t vertex_count, uint32_t
 }
 
 static bool is_straight(const double *vertices, uint32_t a, uint32_t middle, uint32_t b) {
+  assert(a != middle && b != middle);
   SporeVec3 m = spore_vec3_load(vertices + 3 * (size_t)middle);
   SporeVec3 da = spore_vec3_sub(spore_vec3_load(vertices + 3 * (size_t)a), m);
   SporeVec3 db = spore_vec3_sub(spore_vec3_load(vertices + 3 * (size_t)b), m);
@@ -98,6 +103,7 @@ static bool is_straight(const double *vertices, uint32_t a, uint32_t middle, uin
 
 bool spore_pairs_bending(SporePairs *pairs, const SporeTriangleMesh *mesh, const SporePairs *structural,
                          const SporePairs *shear) {
+  assert(structural->count == 0 || structural->keys);
   uint32_t *start, *neighbour;
   bool good = neighbours_of(structural, mesh->vertex_count, &start, &neighbour);
   for (size_t i = 0; good && i < mesh->vertex_count; i++)

@@ -1,5 +1,6 @@
 #include "models/net/springs.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -31,6 +32,13 @@ void spore_springs_clear(SporeSprings *springs) {
 static uint32_t first_of(uint64_t key) { return (uint32_t)(key >> 32); }
 static uint32_t second_of(uint64_t key) { return (uint32_t)key; }
 
+/* Whether each key names two different nodes, the lower one first. */
+static inline bool keys_are_pairs(const uint64_t *keys, size_t count, size_t node_count) {
+  for (size_t k = 0; k < count; k++)
+    if (first_of(keys[k]) >= second_of(keys[k]) || second_of(keys[k]) >= node_count) return false;
+  return true;
+}
+
 /* Where the nodes of each chunk that have springs begin among the groups. */
 static bool make_groups(SporeSprings *springs, const uint32_t *valence, size_t count) {
   springs->chunk_count = (count + SPORE_SPRINGS_CHUNK - 1) / SPORE_SPRINGS_CHUNK;
@@ -51,6 +59,7 @@ static bool make_groups(SporeSprings *springs, const uint32_t *valence, size_t c
  * `start` on; place[i]: that of node i. next: scratch, one number a valence, zero. */
 static void order_nodes(SporeSprings *springs, const uint32_t *valence, size_t first, size_t end, uint32_t start,
                         uint32_t most, uint32_t *next, uint32_t *place) {
+  assert(first <= end);
   for (size_t i = first; i < end; i++)
     if (valence[i] > 0) next[valence[i] - 1]++;
   for (size_t v = most; v-- > 0;) next[v] += next[v + 1];
@@ -113,6 +122,7 @@ static bool make_lines(SporeSprings *springs, size_t node_count) {
 }
 
 static void put(SporeSprings *springs, uint32_t place, uint32_t slot, uint32_t neighbour, double length) {
+  assert(place / SPORE_LANES < springs->group_count);
   size_t at = ((size_t)springs->slot_start[place / SPORE_LANES] + slot) * SPORE_LANES + place % SPORE_LANES;
   springs->neighbour[at] = neighbour;
   springs->length[at] = length;
@@ -144,6 +154,8 @@ static void find_runs(SporeSprings *springs) {
 
 bool spore_springs_create(SporeSprings *springs, const uint64_t *keys, size_t count, const double *rest,
                           size_t node_count) {
+  assert(node_count == 0 || rest);
+  assert(keys_are_pairs(keys, count, node_count));
   *springs = (SporeSprings){.rest = rest};
   uint32_t *valence = SPORE_NEW_ARRAY(uint32_t, node_count), *place = SPORE_NEW_ARRAY(uint32_t, node_count);
   bool made = valence && place && count <= UINT32_MAX / 2;
@@ -158,6 +170,7 @@ bool spore_springs_create(SporeSprings *springs, const uint64_t *keys, size_t co
 }
 
 bool spore_springs_pattern(const SporeSprings *springs, SporeBlockPattern *pattern) {
+  assert(springs->slot_start);
   for (size_t g = 0; g < springs->group_count; g++)
     for (size_t i = SPORE_LANES * (size_t)springs->slot_start[g]; i < SPORE_LANES * (size_t)springs->slot_start[g + 1];
          i++) {
@@ -168,6 +181,7 @@ bool spore_springs_pattern(const SporeSprings *springs, SporeBlockPattern *patte
 }
 
 void spore_springs_find_blocks(SporeSprings *springs, const SporeBlockMatrix *matrix) {
+  assert(springs->group_count == 0 || matrix->block_count > 0);
   for (size_t g = 0; g < springs->group_count; g++) {
     const uint32_t *node = springs->node + g * SPORE_LANES;
     for (size_t i = 0; i < SPORE_LANES; i++) springs->diagonal[g * SPORE_LANES + i] = matrix->diagonal[node[i]];
@@ -233,6 +247,8 @@ static void add_forces(void *data, size_t chunk) {
 
 void spore_springs_force(const SporeSprings *springs, size_t kinds, SporePool *pool, const double *q,
                          const double *shape, const double *v, double h, double *f) {
+  assert(kinds > 0 && h >= 0);
+  assert(f != q && f != v);
   Loop loop = {.springs = springs, .kinds = kinds, .q = q, .shape = shape, .v = v, .h = h, .f = f};
   begin_lines(&loop);
   spore_pool_run(spore_pool_for(pool, slot_count(springs, kinds)), springs->chunk_count, add_forces, &loop);
@@ -251,6 +267,8 @@ static void add_jacobian(void *data, size_t chunk) {
 
 void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const SporeTangent *at,
                             SporeBlockMatrix *matrix) {
+  assert(kinds > 0);
+  assert(at->stiffness_scale >= 0 && at->damping_scale >= 0);
   Loop loop = {.springs = springs, .kinds = kinds, .q = at->q, .shape = at->shape, .at = at, .matrix = matrix};
   begin_lines(&loop);
   spore_pool_run(spore_pool_for(pool, 4 * slot_count(springs, kinds)), springs->chunk_count, add_jacobian, &loop);

@@ -1,5 +1,6 @@
 /* Springs that change while they run: one that is gone is an empty slot, at both of its ends; a coagulated one gets
  * shorter and stiffer. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -29,6 +30,7 @@ bool spore_springs_keep(const SporeSprings *springs, size_t node_count, SporeSpr
 }
 
 void spore_springs_restore(SporeSprings *springs, const SporeSpringsWhole *whole) {
+  assert(whole->neighbour && whole->place);
   size_t lanes = lane_count(springs);
   memcpy(springs->neighbour, whole->neighbour, lanes * sizeof *whole->neighbour);
   memcpy(springs->block, whole->block, lanes * sizeof *whole->block);
@@ -48,6 +50,7 @@ void spore_springs_forget(SporeSpringsWhole *whole) {
 }
 
 size_t spore_springs_find(const SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, uint32_t b) {
+  assert(whole->place);
   uint32_t place = whole->place[a];
   if (place == UINT32_MAX || a == b) return SPORE_NO_SPRING;
   size_t g = place / SPORE_LANES;
@@ -71,6 +74,7 @@ void spore_springs_visit(const SporeSprings *springs, void (*visit)(void *data, 
 
 /* One end, at node a. */
 static void empty(SporeSprings *springs, const SporeSpringsWhole *whole, uint32_t a, size_t at) {
+  assert(whole->place[a] != UINT32_MAX);
   springs->neighbour[at] = a;
   springs->length[at] = -0.0;
   springs->block[at] = springs->diagonal[whole->place[a]];
@@ -86,6 +90,7 @@ bool spore_springs_part(SporeSprings *springs, const SporeSpringsWhole *whole, u
 }
 
 bool spore_springs_share(SporeSprings *springs) {
+  assert(!springs->share && !springs->dose);
   size_t lanes = lane_count(springs);
   springs->share = SPORE_NEW_ARRAY(double, lanes);
   springs->dose = SPORE_NEW_ARRAY(double, lanes);
@@ -99,6 +104,7 @@ static bool is_near(const double *q, uint32_t node, const SporeHeat *heat) {
 }
 
 static bool coagulate(SporeSprings *springs, const SporeSpringsWhole *whole, size_t at, const SporeHeat *heat) {
+  assert(springs->share && springs->dose);
   double dose = spore_heat_dose(heat, springs->dose[at]);
   springs->dose[at] += dose;
   springs->length[at] -= heat->shrinkage * dose * whole->length[at];
@@ -108,6 +114,7 @@ static bool coagulate(SporeSprings *springs, const SporeSpringsWhole *whole, siz
 
 size_t spore_springs_coagulate(SporeSprings *springs, const SporeSpringsWhole *whole, const double *q,
                                const SporeHeat *heat) {
+  assert(heat->radius >= 0);
   size_t ends = 0;
   for (size_t g = 0; g < springs->group_count; g++)
     for (size_t lane = 0; lane < springs->lanes[g]; lane++) {

@@ -1,5 +1,6 @@
 #include "models/net/springs.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "models/common/block_rows.h"
@@ -56,6 +57,7 @@ SPORE_INLINE size_t lanes_from(const SporeSprings *springs, size_t first) {
 
 /* Lanes of all groups of the chunks before. */
 SPORE_INLINE size_t lanes_before(const SporeSprings *springs, size_t chunk) {
+  assert(chunk <= springs->chunk_count);
   return SPORE_LANES * (size_t)springs->chunk_start[chunk];
 }
 
@@ -71,6 +73,7 @@ SPORE_INLINE void subtract_rows(const SporeSprings *springs, size_t first, Spore
 enum { UNDAMPED, DAMPED_AT_Q, DAMPED_ALONG_LINES, MOVED_FROM_LINES };
 
 SPORE_INLINE double *lines_at(const SporeSprings *springs, size_t slot) {
+  assert(slot < SPORE_LANES * (size_t)springs->slot_start[springs->group_count]);
   return springs->lines->along + 4 * (slot - slot % SPORE_LANES) + slot % SPORE_LANES;
 }
 SPORE_INLINE SporeVd3 load_line(const double *line) {
@@ -79,6 +82,7 @@ SPORE_INLINE SporeVd3 load_line(const double *line) {
 SPORE_INLINE SporeVd load_inverse_square(const double *line) { return spore_vd_load(line + 3 * SPORE_LANES); }
 
 void SPORE_LEVEL_NAME(spore_springs_chunk_lines)(const SporeSprings *springs, size_t chunk, const double *shape) {
+  assert(chunk < springs->chunk_count);
   for (size_t first = lanes_before(springs, chunk); first < lanes_before(springs, chunk + 1); first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
     SporeVd3 position = spore_vd3_gather(shape, node);
@@ -149,6 +153,8 @@ SPORE_INLINE void add_damped_forces(const SporeSprings *springs, size_t chunk, c
 
 void SPORE_LEVEL_NAME(spore_springs_chunk_force)(const SporeSprings *springs, size_t chunk, const double *q,
                                                  const double *v, bool along_lines, double h, double *f) {
+  assert(chunk < springs->chunk_count);
+  assert(springs->stiffness > 0 && h >= 0);
   if (springs->share) add_damped_forces(springs, chunk, q, v, along_lines, h, f, true);
   else add_damped_forces(springs, chunk, q, v, along_lines, h, f, false);
 }
@@ -173,6 +179,7 @@ double SPORE_LEVEL_NAME(spore_springs_potential)(const SporeSprings *springs, co
 }
 
 bool SPORE_LEVEL_NAME(spore_springs_exceed)(const SporeSprings *springs, const double *q, double strain) {
+  assert(strain > 0);
   double limit = (1 + strain) * (1 + strain);
   for (size_t first = 0; first < SPORE_LANES * springs->group_count; first += SPORE_WIDTH) {
     const uint32_t *node = springs->node + first, *start = springs->slot_start + first / SPORE_LANES;
@@ -266,6 +273,8 @@ SPORE_INLINE void add_damped_jacobian(const SporeSprings *springs, size_t chunk,
 
 void SPORE_LEVEL_NAME(spore_springs_chunk_jacobian)(const SporeSprings *springs, size_t chunk, const SporeTangent *at,
                                                     bool along_lines, SporeBlockMatrix *matrix) {
+  assert(chunk < springs->chunk_count);
+  assert(springs->stiffness > 0);
   if (springs->share) add_damped_jacobian(springs, chunk, at, along_lines, true, matrix);
   else add_damped_jacobian(springs, chunk, at, along_lines, false, matrix);
 }

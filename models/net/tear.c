@@ -1,6 +1,7 @@
 /* Where a net tears. Its strain is known at the beginning of a step: after the first spring gave way it is another one.
  * So a tear begins in one place at a time, where the strain is most, and goes on at its ends by one edge a step, where
  * the strain there is most: a line, and not all that a pull has strained. */
+#include <assert.h>
 #include <string.h>
 
 #include "models/net/ties.h"
@@ -54,6 +55,7 @@ static void find_sheared(void *data, uint32_t a, uint32_t b, double length) {
 }
 
 static bool is_more(const SporeNetTies *ties, uint32_t i, uint32_t than) {
+  assert(i > 0 && i <= ties->strained_count && than > 0 && than <= ties->strained_count);
   return ties->strained[i - 1].strain > ties->strained[than - 1].strain;
 }
 
@@ -70,6 +72,7 @@ static void find_most(SporeNetTies *ties) {
 /* Whether nothing at the node, nor at those that edges tie to it, is strained more than i; of what is strained alike
  * the first. */
 static bool is_most_around(const SporeNetTies *ties, uint32_t node, uint32_t i) {
+  assert(ties->whole[SPORE_NET_EDGES].place[node] != UINT32_MAX);
   const SporeSprings *edges = &ties->springs[SPORE_NET_EDGES];
   uint32_t place = ties->whole[SPORE_NET_EDGES].place[node];
   for (size_t s = edges->slot_start[place / SPORE_LANES]; s < edges->slot_start[place / SPORE_LANES + 1]; s++) {
@@ -90,6 +93,7 @@ static size_t grow(SporeNetTies *ties, uint32_t body, SporeCuts *cuts) {
 }
 
 static size_t begin(SporeNetTies *ties, uint32_t body, SporeCuts *cuts) {
+  assert(ties->strained_count > 0);
   const SporeNetStrained *most = ties->strained;
   for (size_t i = 1; i < ties->strained_count; i++)
     if (ties->strained[i].strain > most->strain) most = &ties->strained[i];
@@ -97,6 +101,8 @@ static size_t begin(SporeNetTies *ties, uint32_t body, SporeCuts *cuts) {
 }
 
 size_t spore_net_ties_tear(SporeNetTies *ties, const double *q, double strain, uint32_t body, SporeCuts *cuts) {
+  assert(ties->gone);
+  assert(strain > 0);
   const SporeSprings *springs = ties->springs;
   Search search = {.ties = ties, .q = q, .strain = strain};
   if (!SPORE_KERNEL(spore_springs_exceed)(&springs[SPORE_NET_EDGES], q, strain) &&

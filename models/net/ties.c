@@ -1,5 +1,6 @@
 #include "models/net/ties.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -13,12 +14,14 @@ static bool are_tied(const SporeNetTies *ties, uint32_t a, uint32_t b) {
 
 /* How many triangles the edge has left. */
 static uint32_t *left_at(const SporeNetTies *ties, uint32_t a, uint32_t b) {
+  assert(are_tied(ties, a, b) || spore_net_ties_between(ties, a, b) == SPORE_TIE_GONE);
   return &ties->left[spore_springs_find(&ties->springs[SPORE_NET_EDGES], &ties->whole[SPORE_NET_EDGES], lower(a, b),
                                         higher(a, b))];
 }
 
 /* Side k of triangle t; false: it is none. */
 static bool side_of(const SporeTriangleMesh *mesh, size_t t, int k, uint32_t *a, uint32_t *b) {
+  assert(t < mesh->triangle_count && k >= 0 && k < 3);
   *a = mesh->triangles[3 * t + (size_t)k];
   *b = mesh->triangles[3 * t + (size_t)(k + 1) % 3];
   return *a != *b;
@@ -71,12 +74,15 @@ void spore_net_ties_mend(SporeNetTies *ties) {
 }
 
 SporeTie spore_net_ties_between(const SporeNetTies *ties, uint32_t a, uint32_t b) {
+  assert(a < ties->mesh->vertex_count && b < ties->mesh->vertex_count);
   size_t at = spore_springs_find(&ties->springs[SPORE_NET_EDGES], &ties->whole[SPORE_NET_EDGES], a, b);
   if (at == SPORE_NO_SPRING) return SPORE_TIE_NONE;
   return ties->springs[SPORE_NET_EDGES].neighbour[at] == b ? SPORE_TIE_HOLDS : SPORE_TIE_GONE;
 }
 
 size_t spore_net_ties_part(SporeNetTies *ties, uint32_t a, uint32_t b, uint32_t body, SporeCuts *cuts) {
+  assert(a < ties->mesh->vertex_count && b < ties->mesh->vertex_count);
+  assert(cuts->count <= cuts->capacity);
   if (!spore_springs_part(&ties->springs[SPORE_NET_EDGES], &ties->whole[SPORE_NET_EDGES], a, b)) return 0;
   ties->lost[a] = ties->lost[b] = true;
   if (cuts->count < cuts->capacity) cuts->edges[cuts->count++] = (SporeCutEdge){body, lower(a, b), higher(a, b)};
@@ -84,6 +90,7 @@ size_t spore_net_ties_part(SporeNetTies *ties, uint32_t a, uint32_t b, uint32_t 
 }
 
 static bool lost_side(const SporeNetTies *ties, size_t t) {
+  assert(t < ties->mesh->triangle_count);
   const uint32_t *n = ties->mesh->triangles + 3 * t;
   uint32_t a, b;
   if (ties->lost[n[0]] + ties->lost[n[1]] + ties->lost[n[2]] < 2) return false;
@@ -102,6 +109,7 @@ static void drop_triangle(SporeNetTies *ties, size_t t) {
 }
 
 static bool hang_together(const SporeNetTies *ties, uint32_t a, uint32_t b) {
+  assert(ties->whole[SPORE_NET_EDGES].place[a] != UINT32_MAX);
   const SporeSprings *edges = &ties->springs[SPORE_NET_EDGES];
   uint32_t place = ties->whole[SPORE_NET_EDGES].place[a];
   for (size_t s = edges->slot_start[place / SPORE_LANES]; s < edges->slot_start[place / SPORE_LANES + 1]; s++) {
@@ -134,6 +142,7 @@ static void drop_loose(void *data, uint32_t a, uint32_t b, double length) {
 }
 
 size_t spore_net_ties_settle(SporeNetTies *ties, uint32_t body, SporeCuts *cuts) {
+  assert(ties->gone);
   Search search = {.ties = ties, .body = body, .cuts = cuts};
   const SporeTriangleMesh *mesh = ties->mesh;
   uint32_t a, b;
@@ -159,6 +168,7 @@ static void drop_crossing(void *data, uint32_t a, uint32_t b, double length) {
 
 size_t spore_net_ties_cut(SporeNetTies *ties, const double *q, const SporeVec3 triangle[3], uint32_t body,
                           SporeCuts *cuts) {
+  assert(ties->gone && q);
   Search search = {.ties = ties, .q = q, .triangle = triangle, .body = body, .cuts = cuts};
   for (; search.kind < SPORE_NET_KINDS; search.kind++)
     spore_springs_visit(&ties->springs[search.kind], drop_crossing, &search);

@@ -1,5 +1,6 @@
 #include "models/net/volume.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 #include "core/math/vector.h"
 
 bool spore_volume_create(SporeVolume *volume, const SporeTriangleMesh *mesh) {
+  assert(mesh->triangle_count > 0);
   *volume = (SporeVolume){.mesh = mesh};
   volume->blocks = SPORE_NEW_ARRAY(uint32_t, 6 * mesh->triangle_count);
   volume->gradient = SPORE_NEW_ARRAY(double, 3 * mesh->vertex_count);
@@ -30,6 +32,7 @@ bool spore_volume_pattern(const SporeVolume *volume, SporeBlockPattern *pattern)
 }
 
 void spore_volume_find_blocks(SporeVolume *volume, const SporeBlockMatrix *matrix) {
+  assert(matrix->block_count >= volume->mesh->vertex_count);
   const SporeTriangleMesh *mesh = volume->mesh;
   for (size_t h = 0; h < 3 * mesh->triangle_count; h++) {
     uint32_t a = mesh->triangles[h], b = mesh->triangles[h - h % 3 + (h + 1) % 3];
@@ -40,6 +43,7 @@ void spore_volume_find_blocks(SporeVolume *volume, const SporeBlockMatrix *matri
 
 /* Corners of a triangle, from the first vertex, so that no digits are lost far from the origin. */
 static void corners_at(const SporeVolume *volume, const double *q, size_t t, SporeVec3 corner[3]) {
+  assert(t < volume->mesh->triangle_count);
   SporeVec3 origin = spore_vec3_load(q);
   for (size_t k = 0; k < 3; k++)
     corner[k] = spore_vec3_sub(spore_vec3_load(q + 3 * (size_t)volume->mesh->triangles[3 * t + k]), origin);
@@ -56,6 +60,7 @@ double spore_volume_at(const SporeVolume *volume, const double *q) {
 }
 
 static double pressure(const SporeVolume *volume, double at) {
+  assert(volume->rest != 0);
   return -volume->stiffness * (at - volume->rest) / fabs(volume->rest);
 }
 
@@ -75,6 +80,7 @@ static double find_gradient(const SporeVolume *volume, const double *q) {
 }
 
 void spore_volume_force(const SporeVolume *volume, const double *q, double *f) {
+  assert(f != q);
   if (!(volume->stiffness > 0)) return;
   double push = pressure(volume, find_gradient(volume, q)) / 6;
   spore_vector_add_scaled(3 * volume->mesh->vertex_count, f, push, volume->gradient);
@@ -101,6 +107,8 @@ static void add_curvature(const SporeVolume *volume, const double *q, double sca
 }
 
 void spore_volume_jacobian(const SporeVolume *volume, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(matrix->direction);
+  assert(matrix->block_count >= volume->mesh->vertex_count);
   if (!(volume->stiffness > 0) || !(at->stiffness_scale > 0)) return;
   size_t count = 3 * volume->mesh->vertex_count;
   double at_q = find_gradient(volume, at->q);

@@ -1,5 +1,6 @@
 #include "models/particles/cluster_columns.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -25,6 +26,7 @@ static void insert_sort(SporeClusterRecord *records, size_t count) {
 }
 
 static void merge(const SporeClusterRecord *from, size_t start, size_t middle, size_t end, SporeClusterRecord *to) {
+  assert(start <= middle && middle <= end && from != to);
   if (middle >= end || is_before(&from[middle - 1], &from[middle])) { /* in order already */
     memcpy(to + start, from + start, (end - start) * sizeof *to);
     return;
@@ -66,6 +68,7 @@ static inline double whole_below(double x) {
 }
 
 int64_t spore_column_of(const SporeColumnGrid *columns, int axis, double x) {
+  assert(axis == 0 || axis == 1);
   double number = x * columns->per_side[axis];
   double least = columns->count[axis] ? 0 : -MIDDLE;
   double most = columns->count[axis] ? (double)(columns->count[axis] - 1) : MIDDLE;
@@ -100,6 +103,7 @@ static bool set_records(SporeClusterList *list, const SporeColumnGrid *columns, 
 }
 
 static void fill_lane(SporeClusterList *list, size_t cluster, size_t lane, const double *q, uint32_t particle) {
+  assert(cluster < list->particle_count && lane < SPORE_LANES);
   list->particle[cluster * SPORE_LANES + lane] = particle;
   for (size_t k = 0; k < 3; k++) {
     size_t at = cluster * SPORE_CLUSTER_DOUBLES + k * SPORE_LANES + lane;
@@ -113,6 +117,7 @@ static void fill_lane(SporeClusterList *list, size_t cluster, size_t lane, const
 }
 
 static void bound_cluster(SporeClusterList *list, size_t cluster) {
+  assert(cluster < list->cluster_count);
   size_t n = list->particle_count, lanes = 0;
   while (lanes < SPORE_LANES && list->particle[cluster * SPORE_LANES + lanes] != SPORE_NO_PARTICLE) lanes++;
   for (size_t k = 0; k < 3; k++) {
@@ -127,6 +132,7 @@ static void bound_cluster(SporeClusterList *list, size_t cluster) {
 }
 
 static void close_cluster(SporeClusterList *list, size_t lane, const double *q) {
+  assert(list->cluster_count > 0);
   size_t cluster = list->cluster_count - 1;
   for (; lane < SPORE_LANES; lane++) fill_lane(list, cluster, lane, q, SPORE_NO_PARTICLE);
   bound_cluster(list, cluster);
@@ -154,6 +160,7 @@ static void fill_clusters(SporeClusterList *list, const double *q) {
 }
 
 bool spore_cluster_fill(SporeClusterList *list, const SporeColumnGrid *columns, const double *q) {
+  assert(q || list->particle_count == 0);
   if (!set_records(list, columns, q)) return false;
   sort_records(list);
   fill_clusters(list, q);
@@ -174,6 +181,7 @@ static size_t find_column(const SporeClusterList *list, uint64_t key) {
 /* Columns that follow each other along y hold clusters that follow each other. */
 void spore_cluster_row(const SporeClusterList *list, int64_t cx, int64_t least, int64_t most, size_t *start,
                        size_t *end) {
+  assert(least <= most);
   size_t from = find_column(list, key_of(cx, least)), to = find_column(list, key_of(cx, most + 1));
   *start = from < to ? list->columns[from].start : 0;
   *end = from < to ? list->columns[to - 1].end : 0;

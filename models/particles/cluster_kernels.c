@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "models/particles/cluster_list.h"
@@ -28,6 +29,7 @@ SPORE_INLINE double greatest_way(const Ways *ways) {
 }
 
 double SPORE_LEVEL_NAME(spore_cluster_move)(SporeClusterList *list, const double *q) {
+  assert(list->made);
   Ways ways = {0};
   for (size_t c = 0; c < list->cluster_count; c++) {
     const uint32_t *particle = list->particle + c * SPORE_LANES;
@@ -46,6 +48,7 @@ double SPORE_LEVEL_NAME(spore_cluster_move)(SporeClusterList *list, const double
 }
 
 double SPORE_LEVEL_NAME(spore_cluster_way)(const SporeClusterList *list) {
+  assert(list->made);
   Ways ways = {0};
   for (size_t at = 0; at < list->cluster_count * SPORE_CLUSTER_DOUBLES; at += SPORE_CLUSTER_DOUBLES)
     add_ways(&ways, list->x + at, list->wide_at + at);
@@ -59,6 +62,8 @@ SPORE_INLINE SporeVd gap_to(double lower, double upper, SporeVd other_lower, Spo
 
 size_t SPORE_LEVEL_NAME(spore_cluster_search)(const SporeClusterList *list, size_t cluster, const double image[3],
                                               size_t from, size_t to, uint32_t *found) {
+  assert(cluster < list->cluster_count);
+  assert(from <= to && to <= list->cluster_count);
   size_t n = list->particle_count, count = 0;
   double far = list->wide.reach, lower[3], upper[3];
   for (size_t k = 0; k < 3; k++) {
@@ -83,6 +88,8 @@ size_t SPORE_LEVEL_NAME(spore_cluster_search)(const SporeClusterList *list, size
 size_t SPORE_LEVEL_NAME(spore_cluster_refine)(const SporeClusterList *list, double far, size_t group,
                                               const double image[3], const uint32_t *clusters, size_t count,
                                               uint32_t *found) {
+  assert(far > 0);
+  assert(group < SPORE_CLUSTER_GROUPS * list->cluster_count);
   const double *xi = list->x + group / SPORE_CLUSTER_GROUPS * SPORE_CLUSTER_DOUBLES +
                      group % SPORE_CLUSTER_GROUPS * SPORE_CLUSTER_ROWS;
   SporeVd row[SPORE_CLUSTER_ROWS][3], far2 = spore_vd_all(far * far);

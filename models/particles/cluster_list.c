@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -16,6 +17,9 @@ static bool init_pairs(SporeClusterPairs *pairs, size_t clusters, double reach) 
 }
 
 bool spore_cluster_list_init(SporeClusterList *list, size_t particle_count, const double box[3], double reach) {
+  assert(particle_count < SPORE_NO_PARTICLE);
+  assert(reach > 0);
+  assert(box[0] >= 0 && box[1] >= 0 && box[2] >= 0);
   size_t n = particle_count; /* no particle shares its cluster at worst */
   *list = (SporeClusterList){.particle_count = n, .reach = reach};
   memcpy(list->box, box, sizeof list->box);
@@ -63,6 +67,7 @@ void spore_cluster_list_clear(SporeClusterList *list) {
 
 /* Room for `count` more. */
 static bool reserve_indices(uint32_t **indices, size_t *capacity, size_t used, size_t count) {
+  assert(used <= *capacity);
   if (*capacity - used >= count) return true;
   size_t wanted = *capacity + *capacity / 2 + 2 * count;
   uint32_t *grown = spore_reallocate(*indices, *capacity, wanted, sizeof *grown);
@@ -91,6 +96,7 @@ typedef struct Search {
 } Search;
 
 static bool out_of_reach(const SporeClusterList *list, size_t cluster, const int image[3]) {
+  assert(cluster < list->cluster_count);
   size_t n = list->particle_count;
   double far = list->wide.reach;
   for (size_t k = 0; k < 3; k++) {
@@ -145,6 +151,7 @@ static bool search_cluster(SporeClusterList *list, const SporeColumnGrid *column
 /* To the runs of a row group: what of the run's clusters is within pairs->reach of it. There is room. */
 static void add_run(const SporeClusterList *list, SporeClusterPairs *pairs, size_t group, SporeClusterRun run,
                     const uint32_t *clusters) {
+  assert(run.start <= run.end);
   size_t start = pairs->entry_count;
   pairs->entry_count += SPORE_KERNEL(spore_cluster_refine)(list, pairs->reach, group, run.image, clusters + run.start,
                                                            run.end - run.start, pairs->entries + start);
@@ -210,6 +217,7 @@ bool spore_cluster_list_update(SporeClusterList *list, const double *q) {
 }
 
 bool spore_cluster_list_spare(SporeClusterList *list) {
+  assert(list->made);
   return reserve_pairs(&list->wide, list->wide.run_count, list->wide.entry_count) &&
          reserve_pairs(&list->near, list->wide.run_capacity, list->wide.entry_capacity) &&
          reserve_indices(&list->candidates, &list->candidate_capacity, list->candidate_capacity,
@@ -217,6 +225,7 @@ bool spore_cluster_list_spare(SporeClusterList *list) {
 }
 
 void spore_cluster_list_add_forces(const SporeClusterList *list, double *f) {
+  assert(list->made);
   for (size_t c = 0; c < list->cluster_count; c++)
     for (size_t lane = 0; lane < SPORE_LANES; lane++) {
       uint32_t particle = list->particle[c * SPORE_LANES + lane];

@@ -1,5 +1,6 @@
 #include "models/particles/fill.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -58,6 +59,7 @@ static bool fill_lattice(Fill *fill) {
 /* The lattice in the middle of the surface's bounds, with a layer of places there along the axes of `phase`. False: no
  * memory. */
 static bool fill_phase(Fill *fill, const SporeMeshReport *report, unsigned phase) {
+  assert(phase < 8);
   fill->count = 0;
   for (int k = 0; k < 3; k++) {
     double length = report->upper[k] - report->lower[k], cells = fmax(1, ceil(length / fill->cell - 1e-9));
@@ -70,6 +72,7 @@ static bool fill_phase(Fill *fill, const SporeMeshReport *report, unsigned phase
 
 /* In a narrow surface how many places lie inside hangs on where the lattice does: takes the nearest to `wanted`. */
 static bool fill_best(Fill *fill, const SporeMeshReport *report, size_t wanted) {
+  assert(wanted > 0);
   unsigned best = 0;
   double least = HUGE_VAL;
   for (unsigned phase = 0; phase < 8 && least > 0.01; phase++) {
@@ -82,6 +85,7 @@ static bool fill_best(Fill *fill, const SporeMeshReport *report, size_t wanted) 
 
 bool spore_particle_fill(const SporeTriangleMesh *surface, size_t wanted, double **points, size_t *count,
                          double *volume, SporeError *error) {
+  assert(wanted > 0);
   SporeMeshReport report;
   if (!spore_triangle_mesh_report_solid(surface, &report, error)) return false;
   *volume = fabs(report.volume);
@@ -114,6 +118,7 @@ typedef struct Corners {
 
 /* How far p is off the point, line or plane that the corners so far span. */
 static double distance_off(const Corners *corners, SporeVec3 p) {
+  assert(corners->count >= 1 && corners->count <= 3);
   SporeVec3 arm = spore_vec3_sub(p, corners->at[0]);
   if (corners->count == 1) return spore_vec3_length(arm);
   SporeVec3 along = spore_vec3_sub(corners->at[1], corners->at[0]);
@@ -123,6 +128,7 @@ static double distance_off(const Corners *corners, SporeVec3 p) {
 }
 
 static bool add_corner(Corners *corners, const double *particles, size_t count, double off, SporeVec3 p) {
+  assert(corners->count < 4);
   double least = HUGE_VAL;
   int next = corners->count;
   for (size_t i = 0; i < count; i++) {
@@ -179,6 +185,7 @@ static bool map_points(const double *particles, size_t particle_count, double sp
 
 bool spore_particle_map(const double *particles, size_t particle_count, double spacing, const double *points,
                         size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(spacing > 0 && (count == 0 || points));
   if (count == particle_count && memcmp(points, particles, 3 * count * sizeof *points) == 0)
     return spore_mapping_init_identity(mapping, count);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, 4 * count);

@@ -7,6 +7,7 @@
  * epsilon: gamma = 0.585 epsilon / sigma^2 at a temperature of 0.7 epsilon (J. Vrabec, G. K. Kedia, G. Fuchs, H. Hasse,
  * Molecular Physics 104, 2006: the potential cut off at 2.5 sigma). The particles are no molecules: their temperature
  * is how much they jostle. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -90,6 +91,7 @@ static double next_random(uint64_t *state) {
 
 /* Velocities near those of a gas, without momentum and of exactly the temperature (in units of epsilon). */
 static void set_heat(Fluid *fluid, double mass, double temperature) {
+  assert(mass > 0 && temperature >= 0);
   size_t n = fluid->base.block_count;
   uint64_t state = 1;
   double mean[3] = {0, 0, 0}, square = 0;
@@ -108,6 +110,7 @@ static void set_heat(Fluid *fluid, double mass, double temperature) {
 
 /* From the first particle to the last along axis k, m. */
 static double extent(const Fluid *fluid, int k) {
+  assert(k >= 0 && k < 3);
   double lower = INFINITY, upper = -INFINITY;
   for (size_t i = 0; i < fluid->base.block_count; i++) {
     lower = fmin(lower, fluid->rest[3 * i + (size_t)k]);
@@ -175,6 +178,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *data, Spore
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_lennard_jones);
   const Fluid *fluid = (const Fluid *)model;
   spore_nodal_place(fluid->rest, model->block_count, pose, velocity, spin, q, v);
   for (size_t i = 0; i < model->block_count; i++)
@@ -182,6 +186,8 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+  assert(model->type == &spore_lennard_jones);
+  assert(f != q && f != v);
   const Fluid *fluid = (const Fluid *)model;
   FluidMemory *memory = fluid->memory;
   if (!spore_cluster_list_update(&memory->list, q)) {
@@ -196,12 +202,14 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_lennard_jones);
   const Fluid *fluid = (const Fluid *)model;
   if (!spore_cluster_list_update(&fluid->memory->list, q)) return NAN;
   return SPORE_KERNEL(spore_lennard_jones_energy)(&fluid->memory->list, &fluid->law);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_lennard_jones);
   const Fluid *fluid = (const Fluid *)model;
   return spore_particle_map(fluid->rest, model->block_count, fluid->sigma, points, count, mapping, error);
 }
@@ -209,6 +217,7 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
 /* As wide as the distance at which two particles begin to repel each other more than they attract: sigma, where the
  * energy of a pair is that of particles far apart. */
 static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *error) {
+  assert(model->type == &spore_lennard_jones);
   const Fluid *fluid = (const Fluid *)model;
   if (!spore_sphere_set_allocate(set, model->block_count, error)) return false;
   for (size_t i = 0; i < model->block_count; i++) {
@@ -219,18 +228,23 @@ static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *er
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
+  assert(model->type == &spore_lennard_jones);
   ((Fluid *)model)->drag = ((const FluidFields *)fields)->drag;
   return true;
 }
 
 /* The stiffest that is reckoned with: a particle and five others, all in each other's cores. */
 static void rates(const SporeModel *model, double *frequency, double *damping) {
+  assert(model->type == &spore_lennard_jones);
   const Fluid *fluid = (const Fluid *)model;
   *frequency = sqrt(6 * fluid->law.core_stiffness / model->block_mass[0]);
   *damping = fluid->drag;
 }
 
-static void forget(SporeModel *model) { ((Fluid *)model)->memory->list.made = false; }
+static void forget(SporeModel *model) {
+  assert(model->type == &spore_lennard_jones);
+  ((Fluid *)model)->memory->list.made = false;
+}
 
 static const char *notice(const SporeModel *model, const double *q) {
   return ((const Fluid *)model)->memory->capped

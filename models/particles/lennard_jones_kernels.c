@@ -1,3 +1,5 @@
+#include <assert.h>
+
 #include "models/particles/lennard_jones_law.h"
 
 #define PARTS (SPORE_LANES / SPORE_WIDTH)
@@ -29,6 +31,7 @@ static const int64_t behind[SPORE_LANES][SPORE_LANES] = {
 
 /* Squared distances of a row to the cluster that it belongs to: beyond the cut-off where a pair is not to be seen. */
 SPORE_INLINE SporeVd see_once(const SporeLennardJonesLaw *law, SporeVd square, int row, int part) {
+  assert(row >= 0 && row < SPORE_LANES && part < PARTS);
   SporeVl seen = (SporeVl)spore_vd_load((const double *)(const void *)(behind[row] + part * SPORE_WIDTH));
   return spore_vd_select(seen, square, spore_vd_all(4 * law->cutoff2));
 }
@@ -73,6 +76,7 @@ SPORE_INLINE void meet(Rows *rows, const SporeLennardJonesLaw *law, const double
 /* One part of the lanes of all that the row group meets. */
 SPORE_INLINE void meet_all(const SporeClusterList *list, const SporeLennardJonesLaw *law, size_t group, int part,
                            Variant variant, Rows *rows) {
+  assert(group < list->cluster_count * SPORE_CLUSTER_GROUPS);
   const double *x = list->x + part * SPORE_WIDTH;
   double *f = list->f + part * SPORE_WIDTH;
   size_t cluster = group / SPORE_CLUSTER_GROUPS;
@@ -122,6 +126,8 @@ SPORE_INLINE double all_groups(const SporeClusterList *list, const SporeLennardJ
 
 /* Few pairs are ever capped: what that takes is done only where it turns out to be needed. */
 bool SPORE_LEVEL_NAME(spore_lennard_jones_force)(const SporeClusterList *list, const SporeLennardJonesLaw *law) {
+  assert(list->made);
+  assert(law->core2 < law->cutoff2);
   if (all_groups(list, law, PLAIN) >= law->core2) return false;
   all_groups(list, law, CAPPED);
   return true;
@@ -138,6 +144,7 @@ SPORE_INLINE SporeVd energy_of(const SporeLennardJonesLaw *law, SporeVd square) 
 }
 
 double SPORE_LEVEL_NAME(spore_lennard_jones_energy)(const SporeClusterList *list, const SporeLennardJonesLaw *law) {
+  assert(list->made);
   double lanes[SPORE_LANES];
   for (int part = 0; part < PARTS; part++) {
     SporeVd sum = {0};

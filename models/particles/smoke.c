@@ -7,6 +7,7 @@
  * keeps account of stays right. Parcels do not feel each other: a step costs as little as a spring each.
  *
  * What a parcel holds spreads by diffusion: its square of a radius grows by 4 D t, and what it holds thins out. */
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -92,11 +93,14 @@ static SporeModel *create(const SporeGeometry *geometry, const void *data, Spore
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_smoke);
   spore_nodal_place(((const Smoke *)model)->rest, model->node_count, pose, velocity, spin, q, v);
   for (size_t i = 0; i < model->node_count; i++) q[3 * model->node_count + i] = 0;
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+  assert(model->type == &spore_smoke);
+  assert(f != q && f != v);
   const Smoke *smoke = (const Smoke *)model;
   double drag = smoke->now.drag * model->block_mass[0], push = drag * smoke->now.swirl, k = smoke->wave;
   for (size_t i = 0; i < 3 * model->node_count; i++) f[i] -= drag * v[i];
@@ -111,6 +115,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_smoke);
   const Smoke *smoke = (const Smoke *)model;
   double k = smoke->wave, sum = 0;
   for (size_t i = 0; i < model->node_count; i++, q += 3)
@@ -120,17 +125,21 @@ static double potential(const SporeModel *model, const double *q) {
 
 /* Parcels grow older. */
 static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {
+  assert(model->type == &spore_smoke);
+  assert(isfinite(h));
   size_t n = model->node_count;
   for (size_t i = 0; i < 3 * n; i++) q1[i] = q[i] + h * v[i], v1[i] = v[i];
   for (size_t i = 3 * n; i < 4 * n; i++) q1[i] = q[i] + h;
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_smoke);
   const Smoke *smoke = (const Smoke *)model;
   return spore_particle_map(smoke->rest, model->node_count, smoke->spacing, points, count, mapping, error);
 }
 
 static bool retune(SporeModel *model, const void *data, SporeError *error) {
+  assert(model->type == &spore_smoke);
   Smoke *smoke = (Smoke *)model;
   const SmokeFields *fields = data;
   smoke->now.drag = fields->drag;
@@ -147,6 +156,8 @@ static void rates(const SporeModel *model, double *frequency, double *damping) {
 
 /* What it holds is spread over a wider disc and, towards the end, taken up by the air. */
 static void puff(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity) {
+  assert(model->type == &spore_smoke);
+  assert(particle < model->node_count);
   const SmokeFields *fields = &((const Smoke *)model)->now;
   double age = q[3 * model->node_count + particle], start = fields->radius * fields->radius;
   double square = start + 4 * fields->diffusivity * age;

@@ -1,5 +1,6 @@
 /* Rigid body. q = centre of mass (3), quaternion wxyz of the body's frame (4); v = velocity of the centre of mass (3),
  * angular velocity (3), world axes. Mass, centre and inertia come from the closed surface by exact integrals. */
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -63,6 +64,7 @@ static SporeVec3 middle_of(const SporeTriangleMesh *mesh) {
 /* A surface that is turned inside out holds the same solid: only the signs differ. */
 static bool set_inertia(RigidBody *body, const SporeTriangleMesh *mesh, const RigidBodyFields *fields,
                         SporeError *error) {
+  assert(mesh->vertex_count > 0 && mesh->triangle_count > 0);
   SporeVec3 origin = middle_of(mesh);
   Moments moments = moments_of(mesh, origin);
   double sign = moments.volume < 0 ? -1 : 1, volume = fabs(moments.volume);
@@ -106,6 +108,8 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_rigid_body);
+  assert(q && v);
   const RigidBody *body = (const RigidBody *)model;
   SporeVec3 arm = spore_quat_rotate(pose.orientation, body->centre);
   spore_vec3_store(q, spore_vec3_add(pose.position, arm));
@@ -115,6 +119,7 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 }
 
 static SporeMat3 inertia(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_rigid_body);
   return spore_inertia_turned(&((const RigidBody *)model)->inertia, spore_quat_load(q + 3));
 }
 
@@ -122,6 +127,8 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 static double potential(const SporeModel *model, const double *q) { return 0; }
 
 static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {
+  assert(model->type == &spore_rigid_body);
+  assert(isfinite(h));
   SporeQuat orientation = spore_quat_load(q + 3);
   SporeVec3 spin = spore_vec3_load(v + 3);
   spore_inertia_drift(&((const RigidBody *)model)->inertia, h, &orientation, &spin);
@@ -131,6 +138,8 @@ static void drift(const SporeModel *model, const double *q, const double *v, dou
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_rigid_body);
+  assert(count == 0 || points);
   const RigidBody *body = (const RigidBody *)model;
   double *shifted = SPORE_NEW_ARRAY(double, 3 * count);
   if (!shifted) return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);

@@ -1,5 +1,6 @@
 #include "models/spline/carry.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -7,6 +8,9 @@
 
 double spore_carry_offset(const double *points, size_t count, SporeVec3 offset, double nothing, double *weight,
                           double *work) {
+  assert(count > 0);
+  assert(weight != work);
+  assert(nothing >= 0);
   SporeVec3 centre = {0, 0, 0};
   for (size_t i = 0; i < count; i++)
     centre = spore_vec3_add_scaled(centre, 1 / (double)count, spore_vec3_load(points + 3 * i));
@@ -34,6 +38,7 @@ double spore_carry_offset(const double *points, size_t count, SporeVec3 offset, 
 }
 
 double spore_carry_size(const double *points, size_t count) {
+  assert(count > 0);
   double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < 3 * count; i++) {
     lower[i % 3] = fmin(lower[i % 3], points[i]);

@@ -3,6 +3,7 @@
  * drawn around it. The axis is a hollow spline (models/spline/spline.h). The mesentery ties each of its control points
  * to its place at rest in the frame of a core, the mesentery's root (models/common/virtual_core.h), with the part of
  * the line that the control point stands for. A pin at the root holds it in the belly. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -120,6 +121,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
   spore_core_place(&body->root, body->line.rest, pose, velocity, spin, q, v);
 }
@@ -129,16 +131,19 @@ static SporeMat3 inertia(const SporeModel *model, const double *q) {
 }
 
 static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {
+  assert(model->type == &spore_intestine);
   spore_core_drift(&((const Intestine *)model)->root, q, v, h, q1, v1);
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+  assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
   SPORE_KERNEL(spore_spline_force)(&body->line.spline, q, shape, v, f);
   spore_core_force(&body->root, q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
   return SPORE_KERNEL(spore_spline_potential)(&body->line.spline, q) + spore_core_potential(&body->root, q);
 }
@@ -150,6 +155,7 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
   SPORE_KERNEL(spore_spline_jacobian)(&body->line.spline, q, shape, stiffness_scale, damping_scale, matrix);
   const SporeTangent at = {
@@ -158,6 +164,7 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_intestine);
   return spore_spline_line_map(&((const Intestine *)model)->line, NULL, points, count, model->map_slack, false, mapping,
                                error);
 }
@@ -177,6 +184,7 @@ static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *er
 static SporeSplineKnots path(const SporeModel *model) { return ((const Intestine *)model)->line.knots; }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
+  assert(model->type == &spore_intestine);
   tune((Intestine *)model, fields);
   return true;
 }

@@ -1,5 +1,6 @@
 #include "models/spline/knots.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@
 bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLine *made, const SporeSplineTwist *twist,
                                const SporeCurve *curve, const SporeSplineDensity *density,
                                const SporeSplineSection *section) {
+  assert(density->most >= made->control_count);
   size_t most = density->most;
   *changes = (SporeSplineChanges){
       .made = made, .made_twist = twist, .most = most, .most_bend = density->most_bend, .section = *section};
@@ -69,6 +71,7 @@ void spore_spline_changes_undo(SporeSplineChanges *changes) {
 
 /* Control points x, three numbers each, with a knot in span more. */
 static void insert_points(double *x, size_t count, size_t span, const double ratio[3]) {
+  assert(span + 3 < count);
   memmove(x + 3 * (span + 4), x + 3 * (span + 3), 3 * (count - span - 3) * sizeof *x);
   for (size_t i = 3; i-- > 0;) {
     double *at = x + 3 * (span + 1 + i);
@@ -77,6 +80,7 @@ static void insert_points(double *x, size_t count, size_t span, const double rat
 }
 
 static void insert_number(double *x, size_t count, size_t at, double number) {
+  assert(at <= count);
   memmove(x + at + 1, x + at, (count - at) * sizeof *x);
   x[at] = number;
 }
@@ -119,6 +123,7 @@ static bool is_made(const SporeSplineLine *made, double at) {
 
 /* The spans before and behind the knot are halves of one. */
 static bool parts_halves(const SporeSplineChanges *changes, size_t knot) {
+  assert(knot > 0 && knot < changes->now.knots.span_count);
   const SporeSplineKnots knots = changes->now.knots;
   double width = spore_spline_width(knots, knot), at = spore_spline_break(knots, knot);
   if (width != spore_spline_width(knots, knot - 1) || is_made(changes->made, at)) return false;
@@ -145,6 +150,7 @@ static double merge_points(const double *x, size_t span, const double ratio[3], 
 
 /* The knots without one, in work. */
 static SporeSplineKnots knots_without(SporeSplineChanges *changes, size_t knot) {
+  assert(knot > 0 && knot < changes->now.knots.span_count);
   size_t spans = changes->now.knots.span_count;
   memcpy(changes->work, changes->now.breaks, knot * sizeof *changes->work);
   memcpy(changes->work + knot, changes->now.breaks + knot + 1, (spans - knot) * sizeof *changes->work);
@@ -203,6 +209,7 @@ static SporeVec3 combine(const double *x, const double weight[4][SPORE_LANES], s
 
 /* By how much a span turns, rad, by its Gauss points. */
 static double turn_of(const SporeSplineChanges *changes, const double *q, size_t span) {
+  assert(span < changes->now.knots.span_count);
   double turn = 0;
   for (size_t point = 0; point < SPORE_SPLINE_POINTS; point++) {
     const SporeSplineGauss *gauss = &changes->now.spline.gauss[span / SPORE_LANES * SPORE_SPLINE_POINTS + point];
@@ -215,6 +222,8 @@ static double turn_of(const SporeSplineChanges *changes, const double *q, size_t
 }
 
 bool spore_spline_changes_weigh(SporeSplineChanges *changes, double h, const double *q, const uint8_t *held) {
+  assert(changes->made);
+  assert(h >= 0);
   bool bends = false;
   for (size_t span = 0; span < changes->now.knots.span_count; span++) {
     changes->turn[span] = turn_of(changes, q, span);

@@ -1,5 +1,6 @@
 #include "models/spline/line.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,6 +43,7 @@ double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSec
  * Returns the length l for which it stands; 0 where the line turns back. */
 static double set_point(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section, size_t span,
                         int point) {
+  assert(span < line->knots.span_count && point >= 0 && point < SPORE_SPLINE_POINTS);
   SporeSpline *spline = &line->spline;
   double u = spore_spline_gauss_parameter(line->knots, span, point), width = spore_spline_width(line->knots, span);
   SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
@@ -84,6 +86,8 @@ static double between(const double at[SPORE_SPLINE_POINTS], double part) {
 }
 
 double spore_spline_line_polar(const SporeSplineLine *line, const SporeSplineLine *made, size_t span) {
+  assert(span < line->knots.span_count);
+  assert(made->weights);
   double width = spore_spline_width(line->knots, span), middle = spore_spline_break(line->knots, span) + 0.5 * width;
   size_t of = spore_spline_span(made->knots, middle);
   double part = (middle - spore_spline_break(made->knots, of)) / spore_spline_width(made->knots, of);
@@ -114,6 +118,7 @@ static void weigh(SporeSplineLine *line, const SporeSplineLine *made) {
 
 void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *made, const SporeCurve *curve,
                                const SporeSplineSection *section, double *lengths) {
+  assert(line->knots.span_count > 0 && made->weights);
   SporeSpline *spline = &line->spline;
   spline->span_count = line->knots.span_count;
   spline->group_count = (spline->span_count + SPORE_LANES - 1) / SPORE_LANES;
@@ -186,6 +191,7 @@ static bool set_spheres(SporeSplineLine *line, const SporeCurve *curve, SporeErr
 
 /* By how much a span turns, rad. */
 static double turn_of(const SporeSplineLine *line, size_t span) {
+  assert(span < line->knots.span_count);
   double turn = 0, width = spore_spline_width(line->knots, span);
   for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
     SporeSplineBasis basis =
@@ -216,6 +222,7 @@ static bool halve(SporeSplineLine *line, const SporeSplineDensity *density, doub
 }
 
 static bool fit(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineDensity *density) {
+  assert(density->count >= 4 && density->count <= density->most);
   line->knots = spore_spline_uniform(density->count - 3);
   if (!spore_spline_fit(curve, line->knots, line->rest)) return false;
   if (!(density->most_bend > 0)) return true;
@@ -243,6 +250,7 @@ static bool set_radii(SporeSplineLine *line, const SporeCurve *curve) {
 
 bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineDensity *density,
                             const SporeSplineSection *section, SporeError *error) {
+  assert(density->count >= 4 && density->count <= density->most);
   *line = (SporeSplineLine){.control_count = density->count};
   if (!curve || curve->count == 0)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
@@ -283,6 +291,7 @@ bool spore_spline_line_carry(const SporeSplineLine *line, const SporeModel *mode
 
 bool spore_spline_line_samples(const SporeSplineLine *line, const double *arms, size_t arm_count, double **points,
                                size_t *count, size_t *seen) {
+  assert(arm_count == 0 || arms);
   *points = spore_spline_sample(line->knots, line->rest, arm_count, count);
   *seen = *count;
   if (!*points) return false;

@@ -1,5 +1,6 @@
 #include "models/spline/patch.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -75,6 +76,7 @@ static void fit_line(size_t span_count, const double *samples, size_t stride, do
 /* The least squares of a tensor product are those of its lines, one way and then the other. */
 bool spore_patch_fit(const SporeTriangleMesh *mesh, const double *parameters, size_t span_u, size_t span_v,
                      double *control) {
+  assert(span_u > 0 && span_v > 0);
   size_t nodes_u = span_u + 3, most = (span_u > span_v ? span_u : span_v) + 3;
   Samples samples = {.count = {SAMPLES * span_u, SAMPLES * span_v}};
   double *rows = SPORE_NEW_ARRAY(double, 3 * nodes_u * samples.count[1]);
@@ -94,6 +96,7 @@ bool spore_patch_fit(const SporeTriangleMesh *mesh, const double *parameters, si
 
 /* Control point of a cell's function k. */
 static uint32_t node_of(const SporePatch *patch, size_t cell, size_t k) {
+  assert(cell < patch->cell_count && k < FUNCTIONS);
   size_t i = cell % patch->span_u + k % 4, j = cell / patch->span_u + k / 4;
   return (uint32_t)(j * (patch->span_u + 3) + i);
 }
@@ -127,6 +130,7 @@ static bool find_blocks(SporePatch *patch) {
 }
 
 bool spore_patch_allocate(SporePatch *patch, size_t span_u, size_t span_v) {
+  assert(span_u >= SPORE_PATCH_SPANS && span_v >= SPORE_PATCH_SPANS);
   patch->span_u = span_u, patch->span_v = span_v, patch->cell_count = span_u * span_v;
   patch->group_count = (patch->cell_count + SPORE_LANES - 1) / SPORE_LANES;
   patch->gauss = SPORE_NEW_ARRAY(SporePatchGauss, SPORE_PATCH_POINTS * patch->group_count);
@@ -255,6 +259,7 @@ static double set_point(SporePatch *patch, const double *control, size_t cell, i
 }
 
 size_t spore_patch_set_rest(SporePatch *patch, const double *control, double *share) {
+  assert(control && share);
   double whole = 0, least = HUGE_VAL;
   size_t where = 0;
   for (size_t cell = 0; cell < patch->cell_count; cell++)

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/math/simd_matrix.h"
@@ -21,6 +22,7 @@ SPORE_INLINE Material material_of(const SporePatch *patch) {
 
 SPORE_INLINE void gather(const SporePatch *patch, size_t group, size_t lane, const double *x,
                          SporeVd3 nodes[FUNCTIONS]) {
+  assert(group < patch->group_count && lane < SPORE_LANES);
   for (size_t k = 0; k < FUNCTIONS; k++)
     nodes[k] = spore_vd3_gather(x, patch->node + (group * FUNCTIONS + k) * SPORE_LANES + lane);
 }
@@ -183,6 +185,7 @@ SPORE_INLINE void add_viscous(Material by, double viscous, const SporePatchGauss
 
 /* Cells of the group that are none: behind the last. */
 SPORE_INLINE size_t cells_of(const SporePatch *patch, size_t group) {
+  assert(group < patch->group_count);
   size_t left = patch->cell_count - group * SPORE_LANES;
   return left < SPORE_LANES ? left : SPORE_LANES;
 }
@@ -236,6 +239,8 @@ SPORE_INLINE void add_forces(const SporePatch *patch, const double *q, const dou
 
 void SPORE_LEVEL_NAME(spore_patch_force)(const SporePatch *patch, const double *q, const double *shape, const double *v,
                                          double h, double *f) {
+  assert(f != q && f != v);
+  assert(h >= 0);
   bool damped = patch->viscous > 0;
   if (damped && shape != q) damp_along(patch, shape);
   if (!damped) add_forces(patch, q, v, 0, ELASTIC, f);
@@ -463,6 +468,8 @@ SPORE_INLINE void make_blocks(const SporePatch *patch, Material by, size_t group
 
 void SPORE_LEVEL_NAME(spore_patch_jacobian)(const SporePatch *patch, const double *q, const double *shape,
                                             double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(matrix->values);
   Material by = material_of(patch);
   double viscous = damping_scale * patch->viscous;
   Rows rows[PAIRS];

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -166,6 +167,8 @@ static bool map_points(Sheet *sheet, const double *points, size_t count, uint32_
 
 bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const double *points, size_t count,
                      double slack, SporeMapping *mapping, SporeError *error) {
+  assert(count == 0 || points);
+  assert(slack >= 0);
   Sheet sheet = {{span_u, span_v}, control, spore_carry_size(control, (span_u + 3) * (span_v + 3)), 0, NULL};
   sheet.drop = fmax(FLAT * sheet.size, slack);
   sheet.sample = SPORE_NEW_ARRAY(double, 3 * sample_count(&sheet));

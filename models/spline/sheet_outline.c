@@ -1,5 +1,6 @@
 #include "models/spline/sheet_outline.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -43,6 +44,7 @@ static bool before(SporeVec3 a, SporeVec3 b) { return a.x != b.x ? a.x < b.x : a
 
 /* Each vertex's two neighbours along the outline. False: an outline that touches itself. */
 static bool link_edge(uint32_t *neighbours, uint32_t a, uint32_t b) {
+  assert(a != b);
   for (int end = 0; end < 2; end++) {
     uint32_t *list = neighbours + 2 * (size_t)(end ? b : a), other = end ? a : b;
     if (list[0] == NONE) list[0] = other;
@@ -237,6 +239,7 @@ void spore_sheet_outline_clear(SporeSheetOutline *outline) {
 }
 
 bool spore_sheet_outline_square(SporeSheetOutline *outline, double *parameters, SporeError *error) {
+  assert(outline->count > 0);
   size_t corner[4] = {0};
   if (!lay_flat(outline) || !find_corners(outline, corner))
     return refuse(error, _("no four corners can be told apart along the sheet's edge; a spline's sheet is roughly a "

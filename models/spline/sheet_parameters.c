@@ -1,5 +1,6 @@
 #include "models/spline/sheet_parameters.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -23,6 +24,7 @@ typedef struct Means {
 
 /* Mean value weights of a triangle's corner c for the other two. */
 static void corner_weights(const SporeTriangleMesh *mesh, const uint32_t *corners, size_t c, double weight[2]) {
+  assert(c < 3);
   SporeVec3 at = vertex_at(mesh, corners[c]), side[2];
   for (size_t k = 0; k < 2; k++) side[k] = spore_vec3_sub(vertex_at(mesh, corners[(c + 1 + k) % 3]), at);
   double length[2] = {spore_vec3_length(side[0]), spore_vec3_length(side[1])};

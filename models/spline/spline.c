@@ -1,5 +1,6 @@
 #include "models/spline/spline.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -24,12 +25,14 @@ static size_t piece_at(const Line *line, double length) {
 }
 
 static SporeVec3 slope_of_piece(const Line *line, size_t i) {
+  assert(i + 1 < line->curve->count);
   return spore_vec3_scale(1 / (line->length[i + 1] - line->length[i]),
                           spore_vec3_sub(point(line->curve, i + 1), point(line->curve, i)));
 }
 
 /* Slope at a point, of the parabola through it and its neighbours. */
 static SporeVec3 slope_at(const Line *line, size_t i) {
+  assert(i < line->curve->count);
   size_t last = line->curve->count - 1, middle = i == 0 ? 1 : i == last ? last - 1 : i;
   if (last < 2) return slope_of_piece(line, 0);
   double before = line->length[middle] - line->length[middle - 1],
@@ -75,6 +78,7 @@ static void add_products(const Line *line, SporeSplineKnots knots, double *band,
 
 /* The ends are known: their columns go to the right-hand side, their rows become x = end. */
 static void hold(size_t count, size_t held, SporeVec3 at, double *band, double *control) {
+  assert(held < count);
   for (size_t k = 1; k < 4; k++) {
     double *ahead = held + k < count ? band + 4 * held + k : NULL, *back = held >= k ? band + 4 * (held - k) + k : NULL;
     if (ahead) {
@@ -93,6 +97,7 @@ static void hold(size_t count, size_t held, SporeVec3 at, double *band, double *
 }
 
 void spore_spline_solve_band(size_t count, double *band, double *x) {
+  assert(count == 0 || (band && x && band != x));
   for (size_t i = 0; i < count; i++) {
     double pivot = sqrt(band[4 * i]);
     for (size_t k = 0; k < 4; k++) band[4 * i + k] /= pivot;
@@ -110,6 +115,7 @@ void spore_spline_solve_band(size_t count, double *band, double *x) {
 }
 
 bool spore_spline_fit(const SporeCurve *curve, SporeSplineKnots knots, double *control) {
+  assert(curve->count > 1 && knots.span_count > 0);
   size_t count = knots.span_count + 3;
   Line line;
   double *band = SPORE_NEW_ARRAY(double, 4 * count);
@@ -127,6 +133,7 @@ bool spore_spline_fit(const SporeCurve *curve, SporeSplineKnots knots, double *c
 }
 
 double spore_spline_radius(const SporeCurve *curve, SporeSplineKnots knots, double parameter) {
+  assert(curve->count > 0);
   double left = parameter / spore_spline_end(knots) * spore_curve_length(curve);
   for (size_t i = 0; i + 1 < curve->count; i++) {
     double length = spore_vec3_distance(point(curve, i), point(curve, i + 1));
@@ -139,6 +146,7 @@ double spore_spline_radius(const SporeCurve *curve, SporeSplineKnots knots, doub
 }
 
 bool spore_spline_allocate(SporeSpline *spline, size_t span_count) {
+  assert(span_count > 0);
   spline->span_count = span_count;
   spline->group_count = (span_count + SPORE_LANES - 1) / SPORE_LANES;
   spline->gauss = SPORE_NEW_ARRAY(SporeSplineGauss, SPORE_SPLINE_POINTS * spline->group_count);
@@ -162,6 +170,7 @@ bool spore_spline_pattern(const SporeSpline *spline, SporeBlockPattern *pattern)
 }
 
 void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matrix) {
+  assert(matrix->block_count >= spline->span_count + 3);
   size_t count = spline->span_count + 3;
   for (uint32_t i = 0; i < count; i++)
     for (uint32_t k = 0; k < 4 && i + k < count; k++) {

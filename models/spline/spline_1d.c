@@ -1,5 +1,6 @@
 /* A thread or a tube: a cubic B-spline with mass, stretch and bending (Qin and Terzopoulos 1996; Lenoir et al. 2002).
  * Its nodes are the control points; the mass of each is the integral of its function. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -124,10 +125,12 @@ static void settle(SporeModel *model, const SporeBlockMatrix *matrix) {
 }
 
 static bool weigh_nodes(SporeModel *model, double h, const double *q, const uint8_t *held) {
+  assert(((const Spline1d *)model)->changes.made);
   return spore_spline_changes_weigh(&((Spline1d *)model)->changes, h, q, held);
 }
 
 static void change_nodes(SporeModel *model, double *q, double *v, uint8_t *held) {
+  assert(((const Spline1d *)model)->changes.made);
   Spline1d *body = (Spline1d *)model;
   spore_spline_changes_make(&body->changes, q, v, held);
   use_points(body);
@@ -202,6 +205,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_spline_1d);
   const Spline1d *body = (const Spline1d *)model;
   size_t count = body->line.control_count;
   spore_nodal_place(body->line.rest, count, pose, velocity, spin, q, v);
@@ -209,11 +213,14 @@ static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, S
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+  assert(model->type == &spore_spline_1d);
+  assert(f != q && f != v);
   SPORE_KERNEL(spore_spline_force)(&line_now(model)->spline, q, shape, v, f);
   spore_spline_twist_force(twist_now(model), q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_spline_1d);
   return SPORE_KERNEL(spore_spline_potential)(&line_now(model)->spline, q) +
          spore_spline_twist_potential(twist_now(model), q);
 }
@@ -224,6 +231,8 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(model->type == &spore_spline_1d);
+  assert(stiffness_scale >= 0 && damping_scale >= 0);
   SPORE_KERNEL(spore_spline_jacobian)(&line_now(model)->spline, q, shape, stiffness_scale, damping_scale, matrix);
   spore_spline_twist_jacobian(twist_now(model), q, shape, stiffness_scale, damping_scale, matrix);
 }
@@ -239,6 +248,7 @@ static const char *notice(const SporeModel *model, const double *q) {
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_spline_1d);
   const Spline1d *body = (const Spline1d *)model;
   return spore_spline_line_map(&body->line, body->twist.rest, points, count, model->map_slack,
                                body->changes.made != NULL, mapping, error);
@@ -261,6 +271,7 @@ static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *er
 static SporeSplineKnots path(const SporeModel *model) { return line_now(model)->knots; }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
+  assert(model->type == &spore_spline_1d);
   tune((Spline1d *)model, fields);
   return true;
 }

@@ -3,6 +3,7 @@
  * takes a mass a node, by which gravity pulls and contacts weigh; the matrix itself, of which two banded solutions
  * would be the inverse, has no place there. What that costs is second order in the spacing: see /spline_2d/first-mode
  * in tests/stability/test_spline_2d.c. */
+#include <assert.h>
 #include <stdio.h>
 
 #include "core/base/memory.h"
@@ -111,11 +112,14 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_spline_2d);
   spore_nodal_place(((const Spline2d *)model)->rest, model->block_count, pose, velocity, spin, q, v);
 }
 
 static void force_along(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
                         double *f) {
+  assert(model->type == &spore_spline_2d);
+  assert(h >= 0);
   SPORE_KERNEL(spore_patch_force)(&((const Spline2d *)model)->patch, q, shape, v, h, f);
 }
 
@@ -124,6 +128,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_spline_2d);
   return SPORE_KERNEL(spore_patch_potential)(&((const Spline2d *)model)->patch, q);
 }
 
@@ -133,11 +138,13 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(model->type == &spore_spline_2d);
   SPORE_KERNEL(spore_patch_jacobian)
   (&((const Spline2d *)model)->patch, q, shape, stiffness_scale, damping_scale, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_spline_2d);
   const Spline2d *sheet = (const Spline2d *)model;
   return spore_patch_map(sheet->patch.span_u, sheet->patch.span_v, sheet->rest, points, count, model->map_slack,
                          mapping, error);
@@ -151,6 +158,7 @@ static bool samples(const SporeModel *model, double **points, size_t *count, siz
 }
 
 static bool retune(SporeModel *model, const void *fields, SporeError *error) {
+  assert(model->type == &spore_spline_2d);
   tune((Spline2d *)model, fields);
   return true;
 }

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/math/simd_matrix.h"
@@ -8,6 +9,7 @@
 
 /* The group's control points, with zeros behind the last. */
 SPORE_INLINE void load_nodes(const SporeSpline *spline, size_t group, const double *x, double nodes[3 * NODES]) {
+  assert(group < spline->group_count);
   size_t first = group * SPORE_LANES, left = spline->span_count + 3 - first;
   if (left >= NODES) memcpy(nodes, x + 3 * first, 3 * NODES * sizeof *nodes);
   else {
@@ -99,6 +101,8 @@ SPORE_INLINE void elastic_forces(const SporeSpline *spline, const SporeSplineGau
 
 void SPORE_LEVEL_NAME(spore_spline_force)(const SporeSpline *spline, const double *q, const double *shape,
                                           const double *v, double *f) {
+  assert(f != q && f != v);
+  assert(spline->viscous >= 0);
   double position[3 * NODES], before[3 * NODES], speed[3 * NODES], pull[4][3 * SPORE_LANES];
   for (size_t group = 0; group < spline->group_count; group++) {
     load_nodes(spline, group, q, position);
@@ -247,6 +251,8 @@ SPORE_INLINE void flush(const SporeSpline *spline, size_t first, size_t count, B
 
 void SPORE_LEVEL_NAME(spore_spline_jacobian)(const SporeSpline *spline, const double *q, const double *shape,
                                              double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(matrix->values);
   bool drags = damping_scale * spline->viscous > 0;
   double position[3 * NODES], before[3 * NODES], lanes[PAIRS][6][SPORE_LANES];
   Band band = {0};

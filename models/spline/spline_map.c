@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -25,6 +26,7 @@ typedef struct Row {
 } Row;
 
 static SporeVec3 node(const Spline *spline, uint32_t index) {
+  assert(index < spline->knots.span_count + 3 || spline->arms);
   size_t count = spline->knots.span_count + 3;
   return spore_vec3_load(index < count ? spline->control + 3 * (size_t)index : spline->arms + 3 * (index - count));
 }
@@ -44,6 +46,7 @@ static SporeVec3 missing(const Spline *spline, const Row *row, SporeVec3 p) {
 
 /* Control points about the span, `width` of them or all. Returns where the span's begin among them. */
 static size_t take_points(const Spline *spline, size_t span, size_t width, Row *row) {
+  assert(width >= 4 && span < spline->knots.span_count);
   size_t count = spline->knots.span_count + 3, used = width < count ? width : count, before = (used - 4) / 2;
   size_t first = span < before ? 0 : span - before;
   if (first + used > count) first = count - used;
@@ -54,6 +57,7 @@ static size_t take_points(const Spline *spline, size_t span, size_t width, Row *
 
 /* The span's, and the arms at its knots and at so many before and behind. */
 static size_t take_arms(const Spline *spline, size_t span, size_t more, Row *row) {
+  assert(spline->arms && span < spline->knots.span_count);
   size_t first = take_points(spline, span, 4, row), from = span > more ? span - more : 0;
   for (size_t knot = from; knot <= span + 1 + more && knot <= spline->knots.span_count; knot++)
     row->block[row->used++] = (uint32_t)(spline->knots.span_count + 3 + knot);
@@ -120,6 +124,7 @@ static bool give_room(SporeMapping *mapping) {
 }
 
 void spore_spline_map_follow(SporeSplineKnots knots, const double *control, const double *arms, SporeMapping *mapping) {
+  assert(mapping->anchors);
   double size = spore_carry_size(control, knots.span_count + 3);
   Spline spline = {knots, control, arms, size, WRITTEN * size}, onto = spline;
   onto.slack = HUGE_VAL;
@@ -141,6 +146,8 @@ void spore_spline_map_follow(SporeSplineKnots knots, const double *control, cons
 
 bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
                       size_t count, double slack, bool follows, SporeMapping *mapping, SporeError *error) {
+  assert(count == 0 || points);
+  assert(slack >= 0);
   Spline spline = {knots, control, arms, spore_carry_size(control, knots.span_count + 3), slack};
   spline.slack = fmax(slack, WRITTEN * spline.size);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);

@@ -1,5 +1,6 @@
 #include "models/spline/twist.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,6 +15,7 @@ typedef struct Knot {
 
 static Knot knot_of(const SporeSplineTwist *twist, const SporeTwistSpan *span, int end,
                     const SporeVec3 x[SPORE_TWIST_NODES]) {
+  assert(end == 0 || end == 1);
   SporeVec3 place = {0, 0, 0}, slope = {0, 0, 0};
   for (int i = 0; i < 4; i++) {
     place = spore_vec3_add_scaled(place, span->value[end][i], x[i]);
@@ -64,6 +66,7 @@ static void set_twist(const SporeTwistSpan *span, const Knot knot[2], double arm
 
 /* The arm stays across the line and keeps its length. */
 static void set_arm(const Knot *knot, int end, double arm, Scalar *lean, Scalar *length) {
+  assert(arm > 0);
   SporeVec3 zero = {0, 0, 0};
   lean->value = spore_vec3_dot(knot->d, knot->t);
   lean->of_arm[end] = knot->t, lean->of_slope[end] = spore_vec3_scale(knot->inverse, across(knot->d, knot->t));
@@ -74,6 +77,7 @@ static void set_arm(const Knot *knot, int end, double arm, Scalar *lean, Scalar 
 
 /* An arm is counted with the span behind it; the last one with the last span. */
 static int scalars_of(const SporeSplineTwist *twist, size_t index, const double *from, Scalar out[SCALARS]) {
+  assert(index < twist->span_count);
   const SporeTwistSpan *span = &twist->spans[index];
   SporeVec3 x[SPORE_TWIST_NODES];
   load_nodes(span, from, x);
@@ -121,6 +125,7 @@ static void add_drag(const SporeSplineTwist *twist, size_t index, const double *
 
 void spore_spline_twist_force(const SporeSplineTwist *twist, const double *q, const double *shape, const double *v,
                               double *f) {
+  assert(f != q && f != v);
   for (size_t index = 0; index < twist->span_count; index++) {
     Scalar scalars[SCALARS];
     SporeVec3 gradient[SPORE_TWIST_NODES];
@@ -163,6 +168,7 @@ static void add_stiffness(const SporeTwistSpan *span, const Scalar *scalar, doub
 
 void spore_spline_twist_jacobian(const SporeSplineTwist *twist, const double *q, const double *shape,
                                  double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(stiffness_scale >= 0 && damping_scale >= 0);
   double drag = damping_scale * twist->viscous;
   for (size_t index = 0; index < twist->span_count; index++) {
     const SporeTwistSpan *span = &twist->spans[index];

@@ -1,4 +1,5 @@
 /* Arms of a twisted line whose knots come and go: a new one halves the angle between its neighbours. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -37,6 +38,7 @@ static SporeVec3 carry(const Place *from, SporeVec3 tangent, double angle, doubl
 }
 
 bool spore_spline_twist_reserve(SporeSplineTwist *now, const SporeSplineTwist *made, size_t most) {
+  assert(most >= made->span_count);
   *now = (SporeSplineTwist){.modulus = made->modulus,
                             .arm = made->arm,
                             .spans = SPORE_NEW_ARRAY(SporeTwistSpan, most),
@@ -47,6 +49,7 @@ bool spore_spline_twist_reserve(SporeSplineTwist *now, const SporeSplineTwist *m
 
 /* The angle over a span of the line as it was made, turns and all. */
 static double whole_angle(const SporeSplineTwist *made, const SporeSplineLine *line, size_t span) {
+  assert(span < made->span_count);
   Place a = place_of(line->knots, line->rest, spore_spline_break(line->knots, span), made->rest + 3 * span);
   Place b = place_of(line->knots, line->rest, spore_spline_break(line->knots, span + 1), made->rest + 3 * (span + 1));
   return angle_between(&a, &b, made->spans[span].rest);
@@ -115,6 +118,8 @@ static SporeVec3 spin_of(const Place arm[2], const SporeVec3 speed[2]) {
 
 void spore_spline_twist_insert(const SporeSplineTwist *now, SporeSplineKnots knots, size_t span, double parameter,
                                const double *q, const double *v, double arm_q[3], double arm_v[3]) {
+  assert(span < knots.span_count);
+  assert(arm_q && arm_v);
   size_t count = knots.span_count + 3;
   Place arm[2], here = place_of(knots, q, parameter, NULL);
   SporeVec3 speed[2];

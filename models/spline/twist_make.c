@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -27,6 +28,7 @@ static SporeVec3 combine(const double *control, size_t span, const double weight
 
 /* The functions of a span at one of its knots: those of the span behind it hold for the one before, one further. */
 static void set_knot(const SporeSplineTwist *twist, SporeSplineKnots knots, size_t index, int end) {
+  assert(index < twist->span_count && (end == 0 || end == 1));
   size_t at;
   SporeTwistSpan *span = &twist->spans[index];
   SporeSplineBasis basis = spore_spline_basis(knots, spore_spline_break(knots, index + (size_t)end), &at);
@@ -41,6 +43,7 @@ static void set_knot(const SporeSplineTwist *twist, SporeSplineKnots knots, size
 /* How the span resists twist, by both Gauss points. */
 static void set_polar(SporeSplineTwist *twist, const SporeSplineLine *line, const SporeCurve *curve,
                       const SporeSplineSection *section, size_t index) {
+  assert(index < twist->span_count);
   double soft = 0;
   for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
     size_t span;
@@ -56,6 +59,7 @@ static void set_polar(SporeSplineTwist *twist, const SporeSplineLine *line, cons
 
 void spore_spline_twist_set_spans(SporeSplineTwist *twist, SporeSplineLine *line, const SporeSplineLine *made,
                                   const SporeCurve *curve, const SporeSplineSection *section) {
+  assert(twist->span_count > 0 && twist->arm > 0);
   memset(twist->mass, 0, (twist->span_count + 1) * sizeof *twist->mass);
   for (size_t index = 0; index < twist->span_count; index++) {
     SporeTwistSpan *span = &twist->spans[index];
@@ -130,6 +134,7 @@ static bool check_turns(const SporeSplineTwist *twist, double turns, SporeError 
 
 bool spore_spline_twist_init(SporeSplineTwist *twist, SporeSplineLine *line, const SporeCurve *curve,
                              const SporeSplineSection *section, double modulus, double turns, SporeError *error) {
+  assert(modulus > 0 && isfinite(turns));
   size_t spans = line->spline.span_count;
   *twist = (SporeSplineTwist){.span_count = spans,
                               .modulus = modulus,
@@ -156,6 +161,7 @@ bool spore_spline_twist_pattern(const SporeSplineTwist *twist, SporeBlockPattern
 }
 
 void spore_spline_twist_find_blocks(SporeSplineTwist *twist, const SporeBlockMatrix *matrix) {
+  assert(twist->span_count == 0 || matrix->block_count > 2 * twist->span_count + 3);
   for (size_t index = 0; index < twist->span_count; index++) {
     SporeTwistSpan *span = &twist->spans[index];
     for (size_t i = 0; i < SPORE_TWIST_NODES; i++)

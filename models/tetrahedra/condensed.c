@@ -2,6 +2,7 @@
  * surgery simulation using finite elements and condensation"): with the nodes inside eliminated once,
  *   K* = K_ss - K_si K_ii^-1 K_is,
  * the surface alone is computed, and in balance it moves exactly as that of the whole solid does. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -87,6 +88,7 @@ static bool create_dense(SporeLinearSolid *body) {
 
 /* Moves node j along an axis by 1 m with the inner nodes in balance: work->moved, and what pulls then, work->pull. */
 static void move_one(Condensation *work, uint32_t j, int axis) {
+  assert(j < work->full.block_count && axis >= 0 && axis < 3);
   size_t n = work->full.block_count, unit = 3 * (size_t)work->vertex[j] + (size_t)axis;
   memset(work->moved, 0, 3 * n * sizeof(double));
   memset(work->pull, 0, 3 * n * sizeof(double));
@@ -102,6 +104,7 @@ static void move_one(Condensation *work, uint32_t j, int axis) {
 /* Column by column. shares: of each vertex and node, what the vertex inside follows the node by; those of a vertex add
  * up to 1. */
 static void condense(SporeLinearSolid *body, Condensation *work, double *shares) {
+  assert(body->stiffness.block_count == body->surface.vertex_count);
   size_t count = body->surface.vertex_count;
   for (uint32_t j = 0; j < count; j++)
     for (int axis = 0; axis < 3; axis++) {
@@ -130,6 +133,7 @@ static void share_masses(SporeLinearSolid *body, const Condensation *work, doubl
 
 /* Rounding aside K* is symmetric; what solves with it counts on that to the last bit. */
 static void make_symmetric(SporeBlockMatrix *matrix) {
+  assert(matrix->row_start[matrix->block_count] == matrix->block_count * matrix->block_count);
   size_t count = matrix->block_count;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j <= i; j++)
@@ -184,6 +188,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_condensed_tetrahedra);
   return spore_surface_map(&((const SporeLinearSolid *)model)->surface, NULL, points, count, model->map_slack, mapping,
                            error);
 }

@@ -1,5 +1,6 @@
 #include "models/tetrahedra/cut.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -109,6 +110,7 @@ static void set_masses(SporeTetrahedraCut *cut, const SporeTetrahedronNodes *nod
 
 bool spore_tetrahedra_cut_create(SporeTetrahedraCut *cut, const SporeTetrahedronNodes *nodes,
                                  const SporeTetrahedra *tetrahedra, double density, size_t spare_count) {
+  assert(nodes->per_element == 4);
   size_t count = nodes->mesh.tetrahedron_count;
   *cut = (SporeTetrahedraCut){
       .count = count, .node_count = nodes->count, .spare_count = spare_count, .whole = nodes->nodes};
@@ -149,12 +151,14 @@ static bool crosses(SporeVec3 p, SporeVec3 r, const SporeVec3 corner[3]) {
 }
 
 static uint32_t side_against(const SporeTetrahedraCut *cut, uint32_t tetrahedron, uint32_t other) {
+  assert(tetrahedron < cut->count && other < cut->count);
   uint32_t k = 0;
   while (k < 3 && cut->neighbour[4 * (size_t)tetrahedron + k] != other) k++;
   return k;
 }
 
 static bool is_closed(const SporeTetrahedraCut *cut, uint32_t tetrahedron, uint32_t k) {
+  assert(tetrahedron < cut->count && k < 4);
   return cut->neighbour[4 * (size_t)tetrahedron + k] != NONE && !(cut->open[tetrahedron] >> k & 1);
 }
 
@@ -165,6 +169,7 @@ static bool keeps_another(const SporeTetrahedraCut *cut, uint32_t tetrahedron, u
 }
 
 static bool open_face(SporeTetrahedraCut *cut, uint32_t a, uint32_t k) {
+  assert(is_closed(cut, a, k));
   uint32_t b = cut->neighbour[4 * (size_t)a + k], l = side_against(cut, b, a);
   if (!keeps_another(cut, a, k) || !keeps_another(cut, b, l)) return false;
   cut->open[a] |= (uint8_t)(1u << k);
@@ -196,6 +201,7 @@ static bool is_beside(const double *p, const double *r, const double *triangle) 
 }
 
 size_t spore_tetrahedra_cut_open(SporeTetrahedraCut *cut, const double *q, const double *triangle) {
+  assert(cut->count > 0 && q && triangle);
   const SporeVec3 corners[3] = {spore_vec3_load(triangle), spore_vec3_load(triangle + 3),
                                 spore_vec3_load(triangle + 6)};
   size_t opened = 0;
@@ -214,6 +220,7 @@ size_t spore_tetrahedra_cut_open(SporeTetrahedraCut *cut, const double *q, const
 /* Parting. */
 
 static uint32_t corner_of(const SporeTetrahedraCut *cut, uint32_t tetrahedron, uint32_t node) {
+  assert(tetrahedron < cut->count && node < cut->node_count);
   uint32_t k = 0;
   while (k < 3 && cut->whole[4 * (size_t)tetrahedron + k] != node) k++;
   return k;
@@ -227,11 +234,13 @@ typedef struct Fan {
 } Fan;
 
 static Fan fan_of(SporeTetrahedraCut *cut, uint32_t node) {
+  assert(node < cut->node_count);
   uint32_t start = cut->fan_start[node], count = cut->fan_start[node + 1] - start;
   return (Fan){cut, node, count, cut->fan + start, cut->part};
 }
 
 static uint32_t copy_in(const Fan *fan, uint32_t i) {
+  assert(i < fan->count);
   uint32_t t = fan->tetrahedra[i];
   return fan->cut->corner[4 * (size_t)t + corner_of(fan->cut, t, fan->node)];
 }
@@ -244,6 +253,7 @@ static uint32_t place_in(const Fan *fan, uint32_t tetrahedron) {
 
 /* Gives the i-th and all that it hangs together with the number of the first. */
 static void spread(const Fan *fan, uint32_t i, uint32_t first) {
+  assert(fan->part[i] == NONE);
   uint32_t t = fan->tetrahedra[i], own = corner_of(fan->cut, t, fan->node);
   fan->part[i] = first;
   for (uint32_t k = 0; k < 4; k++) {
@@ -272,6 +282,7 @@ static bool keeps_node(const Fan *fan, uint32_t first) {
 
 /* In the tables and the batches, there also in the lanes without a tetrahedron, which repeat the first. */
 static void set_corner(SporeTetrahedraCut *cut, SporeTetrahedra *tetrahedra, uint32_t t, uint32_t k, uint32_t node) {
+  assert(t < cut->count && k < 4);
   uint32_t batch = cut->lane[t] / SPORE_LANES, lane = cut->lane[t] % SPORE_LANES;
   cut->corner[4 * (size_t)t + k] = node;
   tetrahedra->batches[batch].node[k][lane] = node;
@@ -316,6 +327,8 @@ static size_t part_fan(const Fan *fan, SporeTetrahedra *tetrahedra, double *q, d
 
 size_t spore_tetrahedra_cut_part(SporeTetrahedraCut *cut, SporeTetrahedra *tetrahedra, double *masses, double *q,
                                  double *v) {
+  assert(cut->count > 0);
+  assert(masses && q && v);
   size_t made = 0;
   for (uint32_t node = 0; node < cut->node_count; node++) {
     if (!cut->touched[node]) continue;

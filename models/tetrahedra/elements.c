@@ -1,5 +1,6 @@
 #include "models/tetrahedra/elements.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -58,6 +59,7 @@ bool spore_tetrahedra_check_mesh(const SporeTetrahedralMesh *mesh, SporeError *e
 
 /* The node on the middle of an edge, by bisection in the sorted edges. */
 static uint32_t middle_of(const uint32_t *edges, size_t count, uint32_t a, uint32_t b) {
+  assert(count > 0);
   uint64_t wanted = a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
   size_t low = 0, high = count;
   while (high - low > 1) {
@@ -69,6 +71,7 @@ static uint32_t middle_of(const uint32_t *edges, size_t count, uint32_t a, uint3
 }
 
 static void set_middles(SporeTetrahedronNodes *nodes, const uint32_t *edges, size_t count) {
+  assert(nodes->per_element == 10);
   static const uint8_t pairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   const SporeTetrahedralMesh *mesh = &nodes->mesh;
   for (size_t e = 0; e < count; e++)
@@ -98,6 +101,7 @@ static bool find_factors(SporeTetrahedronNodes *nodes, const SporeRegions *regio
 
 bool spore_tetrahedron_nodes_create(SporeTetrahedronNodes *nodes, const SporeTetrahedralMesh *mesh, bool middles,
                                     const SporeRegions *regions) {
+  assert(mesh->tetrahedron_count > 0);
   uint32_t *edges = NULL;
   size_t edge_count = 0, tetrahedra = mesh->tetrahedron_count, per = middles ? 10 : 4;
   *nodes = (SporeTetrahedronNodes){.per_element = per};
@@ -128,6 +132,7 @@ void spore_tetrahedron_nodes_clear(SporeTetrahedronNodes *nodes) {
 }
 
 void spore_tetrahedron_nodes_add_mass(const SporeTetrahedronNodes *nodes, double density, double *masses) {
+  assert(density > 0 && masses);
   const SporeTetrahedralMesh *mesh = &nodes->mesh;
   bool middles = nodes->per_element > 4;
   for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
@@ -152,6 +157,7 @@ bool spore_tetrahedron_nodes_pattern(const SporeTetrahedronNodes *nodes, SporeBl
 
 static void set_element(SporeTetrahedra *tetrahedra, size_t at, size_t lane, const uint32_t *nodes,
                         const SporeVec3 gradient[3], double volume) {
+  assert(at < tetrahedra->batch_count && lane < SPORE_LANES);
   SporeTetrahedronBatch *batch = tetrahedra->batches + at;
   for (int k = 0; k < 4; k++) batch->node[k][lane] = nodes[k];
   for (int k = 0; tetrahedra->middles && k < 6; k++) tetrahedra->middles[at].node[k][lane] = nodes[4 + k];
@@ -183,6 +189,7 @@ static bool allocate(SporeTetrahedra *tetrahedra, const SporeSlabs *slabs, size_
 /* Rest shape of a slab's elements. */
 static void set_slab(SporeTetrahedra *tetrahedra, const SporeTetrahedronNodes *nodes, size_t slab,
                      const uint32_t *order, size_t count) {
+  assert(slab < tetrahedra->slab_count);
   size_t start = tetrahedra->slab_start[slab], batches = tetrahedra->slab_start[slab + 1] - start;
   for (size_t i = 0; i < count; i++) {
     const uint32_t *of = nodes->nodes + nodes->per_element * order[i];
@@ -196,6 +203,7 @@ static void set_slab(SporeTetrahedra *tetrahedra, const SporeTetrahedronNodes *n
 }
 
 bool spore_tetrahedra_create(SporeTetrahedra *tetrahedra, const SporeTetrahedronNodes *nodes) {
+  assert(nodes->per_element == 4 || nodes->per_element == 10);
   const SporeTetrahedralMesh *mesh = &nodes->mesh;
   size_t wanted = mesh->tetrahedron_count / SLAB;
   wanted = wanted < 1 ? 1 : wanted < SLABS_MAXIMUM ? wanted : SLABS_MAXIMUM;
@@ -219,10 +227,12 @@ void spore_tetrahedra_clear(SporeTetrahedra *tetrahedra) {
 }
 
 static uint32_t node_of(const SporeTetrahedra *tetrahedra, size_t batch, size_t lane, size_t a) {
+  assert(batch < tetrahedra->batch_count && lane < SPORE_LANES);
   return a < 4 ? tetrahedra->batches[batch].node[a][lane] : tetrahedra->middles[batch].node[a - 4][lane];
 }
 
 void spore_tetrahedra_find_blocks(SporeTetrahedra *tetrahedra, const SporeBlockMatrix *matrix) {
+  assert(matrix->block_count > 0);
   size_t per = tetrahedra->middles ? 10 : 4;
   uint32_t *place = tetrahedra->blocks;
   for (size_t n = 0; n < tetrahedra->batch_count; n++)

@@ -1,10 +1,12 @@
 #include "models/tetrahedra/heat.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 
 bool spore_tetrahedra_heat_create(SporeTetrahedraHeat *heated, const SporeTetrahedra *tetrahedra) {
+  assert(!heated->whole);
   size_t batches = tetrahedra->batch_count, lanes = batches * SPORE_LANES;
   heated->whole = SPORE_NEW_ARRAY(SporeTetrahedronBatch, batches);
   heated->dose = SPORE_NEW_ARRAY(double, lanes);
@@ -33,12 +35,14 @@ static SporeVec3 middle_of(const SporeTetrahedronBatch *batch, size_t lane, cons
 /* With energy density W at F of a shape l times as long, in its volume: l^3 k V W(F / l). */
 static void set_shape(SporeTetrahedronBatch *batch, size_t lane, const SporeTetrahedronBatch *whole, double length,
                       double stiffness) {
+  assert(length > 0 && stiffness > 0);
   for (int k = 0; k < 9; k++) batch->inverse[k][lane] = whole->inverse[k][lane] / length;
   batch->volume[lane] = whole->volume[lane] * stiffness * length * length * length;
 }
 
 static bool coagulate(SporeTetrahedra *tetrahedra, SporeTetrahedraHeat *heated, size_t n, size_t lane,
                       const SporeHeat *heat) {
+  assert(n < tetrahedra->batch_count && lane < tetrahedra->lanes[n]);
   size_t at = n * SPORE_LANES + lane;
   double dose = spore_heat_dose(heat, heated->dose[at]);
   if (dose <= 0) return false;
@@ -51,6 +55,7 @@ static bool coagulate(SporeTetrahedra *tetrahedra, SporeTetrahedraHeat *heated, 
 
 size_t spore_tetrahedra_coagulate(SporeTetrahedra *tetrahedra, SporeTetrahedraHeat *heated, const double *q,
                                   const SporeHeat *heat) {
+  assert(heated->whole && heat->radius >= 0);
   size_t count = 0;
   for (size_t n = 0; n < tetrahedra->batch_count; n++)
     for (size_t lane = 0; lane < tetrahedra->lanes[n]; lane++)

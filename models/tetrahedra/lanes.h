@@ -3,6 +3,8 @@
 #ifndef SPORE_MODELS_TETRAHEDRA_LANES_H
 #define SPORE_MODELS_TETRAHEDRA_LANES_H
 
+#include <assert.h>
+
 #include "core/math/mat3.h"
 #include "core/math/simd_matrix.h"
 #include "models/common/block_rows.h"
@@ -17,6 +19,8 @@ typedef struct SporePart {
 } SporePart;
 
 SPORE_INLINE SporePart spore_part_of(const SporeTetrahedra *tetrahedra, size_t batch, size_t lane) {
+  assert(batch < tetrahedra->batch_count);
+  assert(lane < SPORE_LANES && lane % SPORE_WIDTH == 0);
   SporePart part = {.batch = tetrahedra->batches + batch, .index = batch, .lane = lane};
   SPORE_UNROLL for (int k = 0; k < 9; k++) part.inverse.m[k] = spore_vd_load(part.batch->inverse[k] + lane);
   part.volume = spore_vd_load(part.batch->volume + lane);
@@ -105,6 +109,7 @@ typedef struct SporeParts {
 } SporeParts;
 
 SPORE_INLINE SporeParts spore_parts_of_slab(const SporeTetrahedra *tetrahedra, size_t slab) {
+  assert(slab < tetrahedra->slab_count);
   const uint32_t *start = tetrahedra->slab_start + slab;
   return (SporeParts){spore_parts_before(start[0]), spore_parts_before(start[1])};
 }
@@ -129,6 +134,7 @@ SPORE_INLINE void spore_chunk_solve(SporeChunk *chunk) {
 
 SPORE_INLINE void spore_chunk_begin(const SporeTetrahedra *tetrahedra, size_t first, size_t end, const double *q,
                                     SporeChunk *chunk) {
+  assert(first < end);
   size_t left = end - first;
   chunk->count = left < SPORE_TOGETHER ? left : SPORE_TOGETHER;
   for (size_t n = 0; n < SPORE_TOGETHER; n++) { /* behind the last part: that again */
@@ -141,6 +147,7 @@ SPORE_INLINE void spore_chunk_begin(const SporeTetrahedra *tetrahedra, size_t fi
 /* R of F = R S from the root i: with II_S = s1 s2 + s2 s3 + s3 s1 and C = F^T F, the derivative of the quartic is
  * R = (F ((II_S + I) 1 - C) + i cof F) / (i II_S - J). */
 SPORE_INLINE SporeRotation spore_chunk_rotation(const SporeChunk *chunk, size_t n) {
+  assert(n < SPORE_TOGETHER);
   const SporeVd33 *f = &chunk->gradient[n], *c = &chunk->cofactor[n];
   SporeInvariants of = chunk->invariants[n];
   SporeRotation rotation = {.sum = chunk->sum[n]};
@@ -322,6 +329,7 @@ typedef struct SporeBulk {
 SPORE_INLINE double spore_bulk_local(double k, double mu) { return k < 2.5 * mu ? k : 2.5 * mu; }
 
 SPORE_INLINE SporeBulk spore_bulk(double k, double balance, double still, double mu) {
+  assert(k >= 0 && mu > 0);
   return (SporeBulk){k, balance, still, spore_bulk_local(k, mu)};
 }
 

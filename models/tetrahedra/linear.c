@@ -1,6 +1,8 @@
 /* Linear tetrahedra by mass tensors (Cotin, Delingette and Ayache 2000, "A hybrid elastic model for real-time cutting,
  * deformations, and force feedback for surgery training and simulation"): the stiffness of each edge and vertex is made
  * once, and a force is one product with it. */
+#include <assert.h>
+
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "models/common/nodal.h"
@@ -35,6 +37,7 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_linear_tetrahedra);
   return spore_tetrahedra_map(&((const SporeLinearSolid *)model)->nodes, points, count, mapping, error);
 }
 

@@ -1,3 +1,5 @@
+#include <assert.h>
+
 #include "core/math/mat3.h"
 #include "core/math/simd_matrix.h"
 #include "models/common/block_rows.h"
@@ -10,6 +12,7 @@ SPORE_INLINE SporeVd33 turned(const SporeVd33 *rotation, const SporeVd33 *block,
 
 void SPORE_LEVEL_NAME(spore_linear_turn)(size_t count, const double *blocks, SporeMat3 rotation, SporeMat3 back,
                                          double *matrix) {
+  assert(blocks != matrix || count == 0);
   uint32_t thrice[SPORE_WIDTH];
   SporeVd33 left, right, block;
   double rows[3][4 * SPORE_WIDTH];

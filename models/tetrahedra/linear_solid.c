@@ -1,5 +1,6 @@
 #include "models/tetrahedra/linear_solid.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -54,6 +55,7 @@ SporeModel *spore_linear_solid_create(SporeLinearBuild *build, const SporeGeomet
 /* Blocks V (mu (g_a . g_b) I + mu g_b g_a^T + lambda g_a g_b^T) of an element, g the gradients of its corners. */
 static void add_element(SporeBlockMatrix *matrix, const uint32_t *corners, const double *vertices, double mu,
                         double lambda) {
+  assert(mu > 0 && lambda >= 0);
   SporeVec3 g[4];
   double volume = spore_tetrahedron_gradients(vertices, corners, g + 1) / 6;
   g[0] = spore_vec3_scale(-1, spore_vec3_add(g[1], spore_vec3_add(g[2], g[3])));
@@ -68,6 +70,8 @@ static void add_element(SporeBlockMatrix *matrix, const uint32_t *corners, const
 }
 
 bool spore_linear_stiffness(const SporeTetrahedronNodes *nodes, double poisson_ratio, SporeBlockMatrix *matrix) {
+  assert(nodes->per_element == 4);
+  assert(poisson_ratio >= 0 && poisson_ratio < 0.5);
   double mu = 1 / (2 * (1 + poisson_ratio)), lambda = poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
   SporeBlockPattern pattern;
   spore_block_pattern_init(&pattern, nodes->count);
@@ -100,6 +104,8 @@ static void tune(SporeLinearSolid *body, const SporeLinearFields *fields) {
 }
 
 bool spore_linear_solid_finish(SporeLinearSolid *body, const SporeLinearFields *fields) {
+  assert(body->stiffness.block_count == body->base.block_count);
+  assert(body->surface.vertex_count == body->base.block_count);
   size_t n = body->base.block_count;
   body->place = SPORE_NEW_ARRAY(double, 3 * n);
   body->u = SPORE_NEW_ARRAY(double, 3 * n);
@@ -193,6 +199,7 @@ static void add_pull(const SporeLinearSolid *body, const Frame *frame, const dou
 
 void spore_linear_solid_force(const SporeModel *model, const double *q, const double *shape, const double *v,
                               double *f) {
+  assert(f != q && f != v);
   const SporeLinearSolid *body = (const SporeLinearSolid *)model;
   size_t n = 3 * body->base.block_count;
   Frame frame = frame_of(body, q);
@@ -232,6 +239,7 @@ bool spore_linear_solid_pattern(const SporeModel *model, SporeBlockPattern *patt
 
 /* matrix += scale R K R^T; both have the same pattern. */
 static void add_turned(const SporeLinearSolid *body, const Frame *frame, double scale, SporeBlockMatrix *matrix) {
+  assert(matrix->block_count == body->stiffness.block_count);
   SporeMat3 rotation = spore_mat3_scale(scale * body->young_modulus, frame->rotation);
   SPORE_KERNEL(spore_linear_turn)
   (body->stiffness.row_start[body->stiffness.block_count], body->stiffness.values, rotation, frame->back,
@@ -240,6 +248,7 @@ static void add_turned(const SporeLinearSolid *body, const Frame *frame, double 
 
 void spore_linear_solid_jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                                  double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(stiffness_scale >= 0 && damping_scale >= 0);
   const SporeLinearSolid *body = (const SporeLinearSolid *)model;
   double viscous = damping_scale * body->viscosity;
   Frame frame = frame_of(body, q);

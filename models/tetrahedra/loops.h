@@ -12,6 +12,8 @@
 #ifndef SPORE_MODELS_TETRAHEDRA_LOOPS_H
 #define SPORE_MODELS_TETRAHEDRA_LOOPS_H
 
+#include <assert.h>
+
 #include "models/tetrahedra/quadratic.h"
 
 #define SPORE_JOIN_MATERIAL(material, what) spore_##material##_##what
@@ -222,6 +224,8 @@ SPORE_INLINE void each_ten(const Work *work, SporeParts parts, VisitTen visit) {
 
 void SPORE_MATERIAL_NAME(force)(const SporeTetrahedra *tetrahedra, size_t slab, SporeElasticity elasticity,
                                 const double *q, const double *shape, const double *v, double *f) {
+  assert(f != q && f != v);
+  assert(elasticity.viscosity >= 0);
   SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   Work work = {.tetrahedra = tetrahedra, .elasticity = elasticity, .law = law_of(elasticity), q, shape, v, f};
   if (tetrahedra->middles) each_ten(&work, parts, add_ten_forces);
@@ -240,6 +244,8 @@ double SPORE_MATERIAL_NAME(potential)(const SporeTetrahedra *tetrahedra, SporeEl
 void SPORE_MATERIAL_NAME(jacobian)(const SporeTetrahedra *tetrahedra, size_t slab, SporeElasticity elasticity,
                                    const double *q, const double *shape, double stiffness_scale, double damping_scale,
                                    SporeBlockMatrix *matrix) {
+  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(matrix->values);
   SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   Work work = {.tetrahedra = tetrahedra,
                .elasticity = elasticity,

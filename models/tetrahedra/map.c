@@ -1,5 +1,6 @@
 #include "models/tetrahedra/map.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -30,6 +31,7 @@ static void grid_clear(Grid *grid) {
 }
 
 static size_t cell_along(const Grid *grid, int axis, double x) {
+  assert(grid->cell > 0);
   double at = floor((x - grid->lower[axis]) / grid->cell);
   return at < 0 ? 0 : at >= (double)grid->size[axis] ? grid->size[axis] - 1 : (size_t)at;
 }
@@ -37,6 +39,7 @@ static size_t cell_along(const Grid *grid, int axis, double x) {
 /* Calls for each cell that tetrahedron t may touch: counts (member NULL) or fills. */
 static void visit_cells(const Grid *grid, const SporeTetrahedralMesh *mesh, uint32_t t, uint32_t *fill,
                         uint32_t *member) {
+  assert(t < mesh->tetrahedron_count);
   size_t low[3], high[3];
   for (int axis = 0; axis < 3; axis++) {
     double least = HUGE_VAL, most = -HUGE_VAL;
@@ -110,6 +113,7 @@ static double locate(const Grid *grid, const SporeTetrahedralMesh *mesh, SporeVe
 
 /* Weights of the corners of a tetrahedron for p. */
 static void weigh_corners(const SporeTetrahedralMesh *mesh, uint32_t tetrahedron, SporeVec3 p, double weights[4]) {
+  assert(tetrahedron < mesh->tetrahedron_count);
   const uint32_t *corners = mesh->tetrahedra + 4 * (size_t)tetrahedron;
   SporeVec3 gradient[3], arm = spore_vec3_sub(p, spore_vec3_load(mesh->vertices + 3 * (size_t)corners[0]));
   spore_tetrahedron_gradients(mesh->vertices, corners, gradient);
@@ -133,6 +137,7 @@ static void weigh_ten(const double l[4], const double p[4], double weights[10]) 
 /* at: the place of p, or where the tetrahedron is nearest to it. */
 static void weigh(const SporeTetrahedronNodes *nodes, uint32_t tetrahedron, SporeVec3 at, SporeVec3 p, uint32_t *blocks,
                   double *weights) {
+  assert(nodes->per_element == 4 || nodes->per_element == 10);
   size_t per = nodes->per_element;
   memcpy(blocks, nodes->nodes + per * tetrahedron, per * sizeof *blocks);
   if (per == 4) {
@@ -176,6 +181,7 @@ static bool map_points(const SporeTetrahedronNodes *nodes, const Grid *grid, con
 
 bool spore_tetrahedra_map(const SporeTetrahedronNodes *nodes, const double *points, size_t count, SporeMapping *mapping,
                           SporeError *error) {
+  assert(count == 0 || points);
   if (count == nodes->count && !memcmp(points, nodes->rest, 3 * count * sizeof *points))
     return spore_mapping_init_identity(mapping, count);
   Grid grid = {0};

@@ -5,6 +5,8 @@
 #ifndef SPORE_MODELS_TETRAHEDRA_QUADRATIC_H
 #define SPORE_MODELS_TETRAHEDRA_QUADRATIC_H
 
+#include <assert.h>
+
 #include "models/tetrahedra/lanes.h"
 
 /* Point g has L_g = (5 + 3 sqrt 5)/20 and the others (5 - sqrt 5)/20, and a quarter of the volume. */
@@ -14,6 +16,7 @@
 static const int spore_ten_edges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 SPORE_INLINE double spore_ten_weight(int point, int corner) {
+  assert(point >= 0 && point < SPORE_TEN_POINTS);
   return corner == point ? 0.58541019662496845446 : 0.13819660112501051518;
 }
 
@@ -23,6 +26,7 @@ typedef struct SporeTen {
 } SporeTen;
 
 SPORE_INLINE SporeTen spore_ten_gather(const SporeTetrahedra *tetrahedra, const SporePart *part, const double *x) {
+  assert(tetrahedra->middles);
   const SporeMiddleBatch *middles = tetrahedra->middles + part->index;
   SporeTen ten;
   for (int a = 0; a < 4; a++) ten.node[a] = spore_vd3_gather(x, part->batch->node[a] + part->lane);
@@ -92,6 +96,7 @@ typedef struct SporeTenFactor {
 } SporeTenFactor;
 
 SPORE_INLINE SporeTenFactor spore_ten_factor(int point, int a) {
+  assert(a >= 0 && a < 10);
   if (a < 4) return (SporeTenFactor){{a, a}, 1, {4 * spore_ten_weight(point, a) - 1, 0}};
   int i = spore_ten_edges[a - 4][0], j = spore_ten_edges[a - 4][1];
   return (SporeTenFactor){{i, j}, 2, {4 * spore_ten_weight(point, j), 4 * spore_ten_weight(point, i)}};

@@ -4,6 +4,8 @@
  * 1976, "An algorithm for reducing the bandwidth and profile of a sparse matrix"), levels are many and small. */
 #include "models/tetrahedra/slabs.h"
 
+#include <assert.h>
+
 #include "core/base/memory.h"
 
 #define UNSEEN UINT32_MAX
@@ -40,6 +42,7 @@ static bool search_init(Search *search, const uint32_t *corners, size_t count, s
 
 /* Numbers all that hangs together with `node`, which gets `level`. Returns the nodes reached, in the queue. */
 static size_t spread(Search *search, uint32_t node, uint32_t level) {
+  assert(node < search->node_count);
   size_t reached = 1;
   search->queue[0] = node;
   search->level[node] = level;
@@ -58,6 +61,7 @@ static size_t spread(Search *search, uint32_t node, uint32_t level) {
 
 /* The same from the node that is reached last from the one reached last. Returns the level behind. */
 static uint32_t spread_from_end(Search *search, uint32_t node, uint32_t level) {
+  assert(node < search->node_count && search->level[node] == UNSEEN);
   for (int round = 0; round < 2; round++) {
     size_t reached = spread(search, node, level);
     node = search->queue[reached - 1];
@@ -75,6 +79,7 @@ static uint32_t set_levels(Search *search) {
 }
 
 static uint32_t level_of(const Search *search, size_t tetrahedron) {
+  assert(tetrahedron < search->count);
   uint32_t least = UNSEEN;
   for (int k = 0; k < 4; k++) {
     uint32_t level = search->level[search->corners[4 * tetrahedron + (size_t)k]];
@@ -103,6 +108,7 @@ static void divide(SporeSlabs *slabs, const Search *search, uint32_t *size, uint
 }
 
 bool spore_slabs_create(SporeSlabs *slabs, const uint32_t *corners, size_t count, size_t node_count, size_t wanted) {
+  assert(count > 0 && wanted > 0);
   Search search;
   *slabs = (SporeSlabs){0};
   bool made = search_init(&search, corners, count, node_count);

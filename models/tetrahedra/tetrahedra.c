@@ -1,6 +1,7 @@
 /* Solids of tetrahedra that deform as much as they like: the mesh's vertices are nodes, and where the author chooses
  * quadratic elements the middles of its edges too. What an element does is in models/tetrahedra/tetrahedra.h; here are
  * the models' making, assembly and parameters. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -139,6 +140,7 @@ static SporeModel *create(const SporeModelType *type, const Material *material, 
 }
 
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(((const Body *)model)->material);
   const Body *body = (const Body *)model;
   spore_nodal_place(body->nodes.rest, body->base.block_count, pose, velocity, spin, q, v);
 }
@@ -168,6 +170,8 @@ static void add_slab_forces(void *data, size_t index) {
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+  assert(((const Body *)model)->material);
+  assert(f != q && f != v);
   const Body *body = (const Body *)model;
   Loop loop = {.body = body, .q = q, .shape = shape, .v = v, .f = f};
   run(&loop, 10, add_slab_forces);
@@ -175,6 +179,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 }
 
 static double potential(const SporeModel *model, const double *q) {
+  assert(((const Body *)model)->material);
   const Body *body = (const Body *)model;
   return body->material->potential[spore_cpu_level()](&body->tetrahedra, body->elasticity, q);
 }
@@ -188,6 +193,8 @@ static void add_slab_jacobian(void *data, size_t index) {
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+  assert(((const Body *)model)->material);
+  assert(stiffness_scale >= 0 && damping_scale >= 0);
   const Body *body = (const Body *)model;
   Loop loop = {.body = body,
                .q = q,
@@ -226,6 +233,7 @@ static bool prepare_heat(SporeModel *model) {
 }
 
 static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *heat) {
+  assert(((const Body *)model)->heated.whole);
   Body *body = (Body *)model;
   return spore_tetrahedra_coagulate(&body->tetrahedra, &body->heated, q, heat);
 }
@@ -234,6 +242,7 @@ static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *hea
 #define SPARE_MASS 1e-18
 
 static bool add_spares(Body *body, size_t count) {
+  assert(body->base.spare_count == 0);
   SporeModel *base = &body->base;
   size_t n = body->nodes.count;
   double *masses = spore_reallocate(base->block_mass, n, n + count, sizeof *masses);
@@ -266,10 +275,12 @@ static bool reserve(SporeModel *model, SporeError *error) {
 }
 
 static size_t cut(SporeModel *model, const double *q, const double *triangle, uint32_t index, SporeCuts *cuts) {
+  assert(((const Body *)model)->cut.count > 0);
   return spore_tetrahedra_cut_open(&((Body *)model)->cut, q, triangle);
 }
 
 static size_t divide(SporeModel *model, double *q, double *v, const uint32_t **from) {
+  assert(((const Body *)model)->cut.count > 0);
   Body *body = (Body *)model;
   size_t made = spore_tetrahedra_cut_part(&body->cut, &body->tetrahedra, model->block_mass, q, v);
   model->spare_count -= made;
