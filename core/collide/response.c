@@ -33,7 +33,7 @@ static SporeMat3 compose(SporeVec3 n, double along, double plane, double slide, 
 
 SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactState *state, double stiffness_scale,
                                  double damping_scale, SporeVec3 *drag) {
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   const SporeVec3 none = *drag = (SporeVec3){0, 0, 0};
   SporeContactNormal normal = spore_contact_normal(law, state->depth, spore_vec3_dot(state->normal, state->velocity));
   double along = stiffness_scale * normal.stiffness + damping_scale * normal.damping;

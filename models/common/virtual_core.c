@@ -217,7 +217,7 @@ static void damping_jacobian(const SporeCore *core, const double *q, double scal
 }
 
 void spore_core_jacobian(const SporeCore *core, const SporeTangent *at, SporeBlockMatrix *matrix) {
-  assert(at->stiffness_scale >= 0 && at->damping_scale >= 0);
+  assert(at->stiffness_scale >= 0);
   assert(matrix->block_count >= core->count + 2);
   if (at->stiffness_scale != 0) shape_jacobian(core, at->q, at->stiffness_scale, at->whole, matrix);
   if (at->damping_scale != 0 && core->damping > 0) damping_jacobian(core, at->shape, at->damping_scale, matrix);

@@ -278,7 +278,7 @@ void SPORE_LEVEL_NAME(spore_lattice_jacobian)(const SporeLattice *lattice, size_
                                               const double *q, const double *shape, double stiffness_scale,
                                               double damping_scale, SporeBlockMatrix *matrix) {
   assert(slab < lattice->voxels.size[0]);
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   Law law = law_of(elasticity);
   for (size_t r = lattice->slab_start[slab]; r < lattice->slab_start[slab + 1]; r++)
     add_run_matrix(lattice, r, elasticity, law, q, shape, stiffness_scale, damping_scale, matrix);

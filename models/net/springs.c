@@ -268,7 +268,7 @@ static void add_jacobian(void *data, size_t chunk) {
 void spore_springs_jacobian(const SporeSprings *springs, size_t kinds, SporePool *pool, const SporeTangent *at,
                             SporeBlockMatrix *matrix) {
   assert(kinds > 0);
-  assert(at->stiffness_scale >= 0 && at->damping_scale >= 0);
+  assert(at->stiffness_scale >= 0);
   Loop loop = {.springs = springs, .kinds = kinds, .q = at->q, .shape = at->shape, .at = at, .matrix = matrix};
   begin_lines(&loop);
   spore_pool_run(spore_pool_for(pool, 4 * slot_count(springs, kinds)), springs->chunk_count, add_jacobian, &loop);

@@ -468,7 +468,7 @@ SPORE_INLINE void make_blocks(const SporePatch *patch, Material by, size_t group
 
 void SPORE_LEVEL_NAME(spore_patch_jacobian)(const SporePatch *patch, const double *q, const double *shape,
                                             double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   assert(matrix->values);
   Material by = material_of(patch);
   double viscous = damping_scale * patch->viscous;

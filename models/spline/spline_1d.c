@@ -232,7 +232,7 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   assert(model->type == &spore_spline_1d);
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   SPORE_KERNEL(spore_spline_jacobian)(&line_now(model)->spline, q, shape, stiffness_scale, damping_scale, matrix);
   spore_spline_twist_jacobian(twist_now(model), q, shape, stiffness_scale, damping_scale, matrix);
 }

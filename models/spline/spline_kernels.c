@@ -251,7 +251,7 @@ SPORE_INLINE void flush(const SporeSpline *spline, size_t first, size_t count, B
 
 void SPORE_LEVEL_NAME(spore_spline_jacobian)(const SporeSpline *spline, const double *q, const double *shape,
                                              double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   assert(matrix->values);
   bool drags = damping_scale * spline->viscous > 0;
   double position[3 * NODES], before[3 * NODES], lanes[PAIRS][6][SPORE_LANES];

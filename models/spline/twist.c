@@ -168,7 +168,7 @@ static void add_stiffness(const SporeTwistSpan *span, const Scalar *scalar, doub
 
 void spore_spline_twist_jacobian(const SporeSplineTwist *twist, const double *q, const double *shape,
                                  double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   double drag = damping_scale * twist->viscous;
   for (size_t index = 0; index < twist->span_count; index++) {
     const SporeTwistSpan *span = &twist->spans[index];

@@ -248,7 +248,7 @@ static void add_turned(const SporeLinearSolid *body, const Frame *frame, double 
 
 void spore_linear_solid_jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                                  double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   const SporeLinearSolid *body = (const SporeLinearSolid *)model;
   double viscous = damping_scale * body->viscosity;
   Frame frame = frame_of(body, q);

@@ -244,7 +244,7 @@ double SPORE_MATERIAL_NAME(potential)(const SporeTetrahedra *tetrahedra, SporeEl
 void SPORE_MATERIAL_NAME(jacobian)(const SporeTetrahedra *tetrahedra, size_t slab, SporeElasticity elasticity,
                                    const double *q, const double *shape, double stiffness_scale, double damping_scale,
                                    SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   assert(matrix->values);
   SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   Work work = {.tetrahedra = tetrahedra,

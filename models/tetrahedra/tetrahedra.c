@@ -194,7 +194,7 @@ static void add_slab_jacobian(void *data, size_t index) {
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   assert(((const Body *)model)->material);
-  assert(stiffness_scale >= 0 && damping_scale >= 0);
+  assert(stiffness_scale >= 0);
   const Body *body = (const Body *)model;
   Loop loop = {.body = body,
                .q = q,
