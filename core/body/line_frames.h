@@ -5,7 +5,7 @@
  *
  * Normals are carried from station to station by the least turn of the tangent (Bishop 1975; Bergou, Wardetzky,
  * Robinson, Audoly and Grinspun 2008). What tells how far the material has rolled about the line:
- *   arms    of a line that resists twist: the nodes at its knots (models/spline_twist.h);
+ *   arms    of a line that resists twist: the nodes at its knots (models/spline/twist.h);
  *   a root  that turns with the body: sections are drawn to where its turn and the least turn of their tangent put
  * them; nothing but the line: the same with the turn that fits the line best to how it was at rest; of a line that is
  *           straight at rest the least turn of its direction, and its roll about that is not known.

@@ -1,5 +1,6 @@
 #include "core/body/path.h"
 
+#include <assert.h>
 #include <math.h>
 
 #define SAMPLES 8      /* a span, of the search for the nearest of all */
@@ -14,6 +15,7 @@ static SporeVec3 combine(const double *points, size_t first, const double weight
 }
 
 SporePathPlace spore_path_at(SporeSplineKnots knots, const double *points, double parameter) {
+  assert(knots.span_count > 0 && points);
   SporePathPlace place = {.parameter = fmin(fmax(parameter, 0), spore_spline_end(knots))};
   SporeSplineBasis basis = spore_spline_basis(knots, place.parameter, &place.first);
   for (size_t k = 0; k < SPORE_PATH_WIDTH; k++) {
@@ -38,6 +40,7 @@ static double newton_step(SporeSplineKnots knots, const double *points, double p
 }
 
 SporePathPlace spore_path_follow(SporeSplineKnots knots, const double *points, double start, SporeVec3 p) {
+  assert(isfinite(start));
   double low = fmax(start - SPORE_PATH_REACH, 0), high = fmin(start + SPORE_PATH_REACH, spore_spline_end(knots)),
          parameter = start;
   for (int round = 0; round < ROUNDS; round++) {
@@ -50,6 +53,7 @@ SporePathPlace spore_path_follow(SporeSplineKnots knots, const double *points, d
 }
 
 SporePathPlace spore_path_seek(SporeSplineKnots knots, const double *points, SporeVec3 p) {
+  assert(knots.span_count > 0);
   double best = 0, least = HUGE_VAL;
   for (size_t i = 0; i <= SAMPLES * knots.span_count; i++) {
     SporePathPlace place = spore_path_at(knots, points, spore_spline_part(knots, SAMPLES, i));
@@ -61,6 +65,7 @@ SporePathPlace spore_path_seek(SporeSplineKnots knots, const double *points, Spo
 
 /* Within one span. */
 static double part_length(SporeSplineKnots knots, const double *points, double from, double to) {
+  assert(from < to);
   static const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   double sum = 0;
   for (int g = 0; g < 3; g++) {
