@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""circles.py BUILD [ROOT]: finds circles of files that call each other, and calls against the layers, in a built folder.
+"""circles.py BUILD [ROOT]: finds circles of files that call each other, and calls against the layers, in a build.
 
 A file uses another one when its object names a symbol that the other one's object defines. A file that is compiled
 several times, as a kernel is for each level of processor, counts once. Files that reach each other on such ways make a
@@ -69,7 +69,8 @@ def reachable(graph, start):
 def circles(graph):
     """Lists of files that all reach each other, the largest first."""
     reach = {file: reachable(graph, file) for file in graph}
-    found = {tuple(sorted(other for other in reach[file] if file in reach[other])) for file in graph if file in reach[file]}
+    found = {tuple(sorted(other for other in reach[file] if file in reach[other]))
+             for file in graph if file in reach[file]}
     return sorted(found, key=lambda circle: (-len(circle), circle))
 
 
@@ -83,7 +84,8 @@ def describe(graph, circle):
     """The circle's files, and which of them uses which by what."""
     print(f"a circle of {len(circle)} files in {', '.join(sorted({room(file) for file in circle}))}:")
     for file in circle:
-        print(f"  {file} ->", ", ".join(f"{other} ({symbol})" for other, symbol in graph[file].items() if other in circle))
+        uses = [f"{other} ({symbol})" for other, symbol in graph[file].items() if other in circle]
+        print(f"  {file} -> {', '.join(uses)}")
 
 
 def main(build, root=layers.ROOT):
