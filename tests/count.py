@@ -1,21 +1,22 @@
 #!/usr/bin/python3
-"""count.py BUILD...: adds up the checks of the last `meson test` in each build folder, lists what failed, and ends with
-one line `N passed, N failed`. A test program that died before it could report counts as one failure."""
+"""count.py BUILD...: adds up the checks of the last `meson test` in each build folder, lists what failed and what took
+longest, and ends with one line `N passed, N failed`. A test program that died before it could report counts as one
+failure."""
 import json
 import pathlib
 import sys
 import xml.etree.ElementTree as xml
 
 
+SLOWEST = 10  # programs that are listed with the time they took
 # What meson says of a program that did not end well; its report of checks does not always tell.
 BROKEN = ("FAIL", "ERROR", "TIMEOUT", "INTERRUPT")
 
 
-def broken_programs(build):
-    """Names, as the report has them, of the programs that did not end well."""
+def programs(build):
+    """What meson noted of each program: its name as the report has it, result, duration in seconds."""
     log = pathlib.Path(build, "meson-logs", "testlog.json")
-    programs = [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
-    return [program["name"] for program in programs if program["result"] in BROKEN]
+    return [json.loads(line) for line in log.read_text().splitlines()] if log.exists() else []
 
 
 def checks(build):
@@ -24,17 +25,26 @@ def checks(build):
     if not report.exists():
         yield f"{build}: no test report", True
         return
-    broken = broken_programs(build)
+    broken = [program["name"] for program in programs(build) if program["result"] in BROKEN]
     for suite in xml.parse(report).getroot().iter("testsuite"):
         cases = list(suite.iter("testcase"))
         for case in cases:
             if case.find("skipped") is not None:
                 continue
-            failed = case.find("failure") is not None or case.find("error") is not None
+            # A program without checks of its own is a case by its own name.
+            failed = case.find("failure") is not None or case.find("error") is not None or case.get("name") in broken
             yield f"{build}: {suite.get('name')}: {case.get('name')}", failed
         died = any(suite.get("name").endswith(name) for name in broken)
         if died and not any(case.find("failure") is not None or case.find("error") is not None for case in cases):
             yield f"{build}: {suite.get('name')}: died", True
+
+
+def print_slowest(builds):
+    """The programs that took longest, of all builds."""
+    took = [(program["duration"], build, program["name"]) for build in builds for program in programs(build)]
+    print(f"the slowest of {len(took)} programs, which took {sum(seconds for seconds, *_ in took):.0f} s together:")
+    for seconds, build, name in sorted(took, reverse=True)[:SLOWEST]:
+        print(f"{seconds:7.1f} s  {build}  {name.rsplit(' / ')[-1]}")
 
 
 def main():
@@ -47,6 +57,7 @@ def main():
             log = pathlib.Path(build, "test.log")
             if log.exists():
                 sys.stdout.write("".join(log.read_text(errors="replace").splitlines(keepends=True)[-150:]))
+    print_slowest(sys.argv[1:])
     print(f"{len(results) - len(failures)} passed, {len(failures)} failed")
     return 1 if failures or not results else 0
 

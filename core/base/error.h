@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+/* What kind of thing went wrong: what a program can decide by. */
 typedef enum SporeErrorCode {
   SPORE_ERROR_NONE = 0,
   SPORE_ERROR_INPUT,       /* a value, mesh or file content the user can mend */
@@ -23,6 +24,7 @@ typedef struct SporeError {
   char message[512];
 } SporeError;
 
+/* An error in which nothing is said yet. */
 #define SPORE_ERROR_INIT ((SporeError){SPORE_ERROR_NONE, "", ""})
 
 /* Fills *error (which may be NULL) and returns false, so that a caller can write `return spore_error_set(...)`.
@@ -36,7 +38,9 @@ void spore_error_at(SporeError *error, const char *place);
 /* The kernel has no catalogue of its own: a program that translates hands in its gettext.
  * Without one, texts come out as they are written. */
 typedef const char *(*SporeTranslate)(const char *text);
+/* Hands in the translator of all messages, before the first call that could fail; NULL: none. */
 void spore_set_translate(SporeTranslate translate);
+/* The text as the user reads it; the text itself where there is no translator. */
 const char *spore_translate(const char *text) __attribute__((format_arg(1)));
 
 #endif

@@ -6,7 +6,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The seed of a hash that follows no other. */
 #define SPORE_HASH_INIT UINT64_C(0xcbf29ce484222325)
+/* Hash of `size` bytes; the seed is SPORE_HASH_INIT, or the hash of what came before them. */
 uint64_t spore_hash(uint64_t seed, const void *bytes, size_t size);
 
 #endif

@@ -11,10 +11,13 @@
 void *spore_allocate(size_t count, size_t size);
 /* Grows or shrinks; what is new is zeroed; the old block stays valid on NULL. old_count is what it held. */
 void *spore_reallocate(void *memory, size_t old_count, size_t count, size_t size);
+/* Frees memory that one of the functions here gave; NULL is allowed. */
 void spore_free(void *memory);
 /* A copy of the text, from spore_allocate; NULL: no memory. */
 char *spore_copy_text(const char *text);
 
+/* Memory for twice *capacity elements of `size` bytes, or for `first`, in place of `memory`; *capacity is set, and
+ * what is new is zeroed. NULL: no memory; the old block stays valid. See spore_room_for_one. */
 void *spore_grow(void *memory, size_t *capacity, size_t first, size_t size);
 
 /* `memory` with room for one more than `count` elements: itself, or in its place one of twice *capacity elements, or of
@@ -23,7 +26,9 @@ static inline void *spore_room_for_one(void *memory, size_t count, size_t *capac
   return count < *capacity ? memory : spore_grow(memory, capacity, first, size);
 }
 
+/* One zeroed structure; NULL: no memory. */
 #define SPORE_NEW(Type) ((Type *)spore_allocate(1, sizeof(Type)))
+/* `count` zeroed structures; NULL: no memory. */
 #define SPORE_NEW_ARRAY(Type, count) ((Type *)spore_allocate((count), sizeof(Type)))
 
 /* For tests. Number of calls of spore_allocate and spore_reallocate by this process so far. */

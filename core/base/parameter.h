@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 
+/* What a parameter holds, and the C type of its field. */
 typedef enum SporeParameterType {
   SPORE_REAL,      /* double */
   SPORE_INTEGER,   /* int64_t */
@@ -28,6 +29,7 @@ typedef enum SporeParameterChange {
   SPORE_CHANGE_RESTART  /* the simulation starts again from time 0 */
 } SporeParameterChange;
 
+/* One parameter: a row of the table. */
 typedef struct SporeParameter {
   const char *name; /* as in the file: lower case, words joined by _ */
   SporeParameterType type;
@@ -43,6 +45,7 @@ typedef struct SporeParameter {
   const char *doc; /* one sentence, translatable (N_) */
 } SporeParameter;
 
+/* All parameters of one structure. */
 typedef struct SporeParameterTable {
   const SporeParameter *parameters;
   size_t count;
@@ -62,6 +65,7 @@ int spore_parameter_find(const SporeParameterTable *table, const char *name);
 /* The name in the table nearest to `name` by edit distance, or NULL when none is near. */
 const char *spore_parameter_nearest(const SporeParameterTable *table, const char *name);
 
+/* Frees the text; the value is then free to be overwritten. */
 void spore_value_clear(SporeValue *value);
 bool spore_value_copy(SporeValue *to, const SporeValue *from);    /* `to` holds nothing before; false: no memory */
 bool spore_value_equal(const SporeValue *a, const SporeValue *b); /* bitwise for numbers */
@@ -84,6 +88,7 @@ int spore_parameter_format(const SporeParameter *parameter, const SporeValue *va
 void spore_parameters_set_initial(const SporeParameterTable *table, void *fields); /* texts: initial_text */
 void spore_parameter_store(const SporeParameter *parameter, const SporeValue *value, void *fields); /* borrows text */
 SporeValue spore_parameter_load(const SporeParameter *parameter, const void *fields);               /* borrowing text */
+/* spore_parameter_check of every field of the structure; the message names the parameter. */
 bool spore_parameters_check(const SporeParameterTable *table, const void *fields, SporeError *error);
 
 #endif

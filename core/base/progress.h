@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Where long work reports to. */
 typedef struct SporeProgress {
   /* fraction 0..1; stage: translated, may be NULL. Returns false to cancel. Called often from the working thread. */
   bool (*report)(void *data, double fraction, const char *stage);

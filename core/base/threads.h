@@ -4,11 +4,14 @@
 
 #include <stddef.h>
 
+/* The workers; opaque. */
 typedef struct SporePool SporePool;
 
 /* threads counts the caller: 1 makes no worker. NULL: no memory or no threads to be had. */
 SporePool *spore_pool_create(int threads);
+/* Ends the workers and waits for them; they must have no work. NULL is allowed. */
 void spore_pool_free(SporePool *pool);
+/* How many threads compute, the caller among them; 1 for NULL. */
 int spore_pool_threads(const SporePool *pool);
 
 /* Calls work(data, i) for each i in 0..count-1, in any order on any thread, and returns when all are done.

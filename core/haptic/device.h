@@ -26,8 +26,10 @@ typedef struct SporeDeviceCommand {
   double grip_N;
 } SporeDeviceCommand;
 
+/* A device; its type's own structure begins with one. */
 typedef struct SporeDevice SporeDevice;
 
+/* What every device of a kind can do. */
 typedef struct SporeDeviceType {
   const char *name;
   const char *doc; /* translatable */

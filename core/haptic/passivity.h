@@ -11,6 +11,7 @@
 
 #include <stdbool.h>
 
+/* What is known of the device that a hand holds. */
 typedef struct SporePassivityLimits {
   double force;      /* N: the most that the device can give */
   double mass;       /* kg: of the device alone, the least that a force can move */

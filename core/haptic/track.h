@@ -8,6 +8,7 @@
 
 #include "core/haptic/device.h"
 
+/* What was recorded of one active body. */
 typedef struct SporeTrackChannel {
   char *name; /* of the active body */
   size_t count, capacity;
@@ -15,6 +16,7 @@ typedef struct SporeTrackChannel {
   SporeDeviceState *states; /* count */
 } SporeTrackChannel;
 
+/* A recording. All zero is an empty one. */
 typedef struct SporeTrack {
   size_t channel_count;
   SporeTrackChannel *channels;
@@ -24,12 +26,15 @@ typedef struct SporeTrack {
  * duplicate channels, orientations that are not of unit length (to 1e-3), more than 10 million rows; place is
  * "PLACE:LINE:COLUMN" and *track untouched then. */
 bool spore_track_parse(SporeTrack *track, const char *place, const char *text, size_t size, SporeError *error);
+/* Frees what the track holds and zeroes it. */
 void spore_track_clear(SporeTrack *track);
+/* The channel of that name; NULL: there is none. Owned by the track. */
 SporeTrackChannel *spore_track_channel(const SporeTrack *track, const char *name);
-/* Recording. Adds a channel (NULL: no memory, not a name, or there already), which moves the others: pointers to
- * channels hold only until the next is added. Appends a sample: false where its time is not after the last and within
- * 0..1e9 s, it is not finite, or there is no memory. Both may allocate: never inside a step. */
+/* For recording: adds a channel, owned by the track. Pointers to channels hold only until the next one is added. NULL:
+ * no memory, not a name, or there already. Allocates: never inside a step. */
 SporeTrackChannel *spore_track_add_channel(SporeTrack *track, const char *name);
+/* Appends a sample. False: its time is not after the last one and within 0..1e9 s, it is not finite, or there is no
+ * memory. May allocate: never inside a step. */
 bool spore_track_append(SporeTrackChannel *channel, double time_s, const SporeDeviceState *state);
 /* Text of the whole track, from spore_allocate; numbers round-trip exactly. NULL: no memory. */
 char *spore_track_format(const SporeTrack *track, size_t *size);

@@ -15,6 +15,7 @@ typedef struct SporeBlockPattern {
   bool direction;  /* the matrix has one, see there */
 } SporeBlockPattern;
 
+/* A pattern of the diagonal alone; takes no memory yet. */
 void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count);
 /* Both (i, j) and (j, i) will exist; repeats are harmless. False: no memory or an index out of range. */
 bool spore_block_pattern_add(SporeBlockPattern *pattern, uint32_t i, uint32_t j);
@@ -22,8 +23,10 @@ bool spore_block_pattern_add(SporeBlockPattern *pattern, uint32_t i, uint32_t j)
 static inline void spore_block_pattern_empty(SporeBlockPattern *pattern) { pattern->pair_count = 0; }
 /* Memory for so many pairs, which adding them then does not take. False: no memory. */
 bool spore_block_pattern_reserve(SporeBlockPattern *pattern, size_t pairs);
+/* Frees the pairs and zeroes the pattern. */
 void spore_block_pattern_clear(SporeBlockPattern *pattern);
 
+/* The matrix; block k of `values` is in column[k]. */
 typedef struct SporeBlockMatrix {
   size_t block_count;
   size_t block_room;   /* blocks that there is memory for: more where the pattern may change */
@@ -37,7 +40,9 @@ typedef struct SporeBlockMatrix {
   bool directed;     /* d is not 0 */
 } SporeBlockMatrix;
 
+/* A zero matrix of the pattern, which may be cleared then. False: no memory; the matrix is then empty. */
 bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern);
+/* Frees the arrays and zeroes the matrix. */
 void spore_block_matrix_clear(SporeBlockMatrix *matrix);
 
 /* What laying out a pattern needs meanwhile, for patterns that change while they run. */
@@ -49,11 +54,13 @@ typedef struct SporeBlockRoom {
  * then empty. */
 bool spore_block_matrix_create_roomy(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, size_t blocks,
                                      size_t pairs, SporeBlockRoom *room);
+/* Frees the arrays and zeroes the room. */
 void spore_block_room_clear(SporeBlockRoom *room);
 /* Gives such a matrix another pattern; its values are left open. Allocates nothing. False, and nothing changed: the
  * pattern has more blocks or pairs. */
 bool spore_block_matrix_lay_out(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room);
 
+/* Sets all values to 0, and the direction too. */
 void spore_block_matrix_zero(SporeBlockMatrix *matrix);
 /* Position of block (i, j) in values, in blocks; SIZE_MAX where the pattern has none. Models look their blocks up
  * once, at create: the pattern of a model is its own, rows 0..block_count-1. */

@@ -18,12 +18,16 @@ typedef struct SporeSplineKnots {
   const double *breaks; /* span_count + 1, borrowed */
 } SporeSplineKnots;
 
+/* Spans of length 1. */
 static inline SporeSplineKnots spore_spline_uniform(size_t span_count) { return (SporeSplineKnots){span_count, NULL}; }
+/* Parameter at which span i begins; of i = span_count, where the line ends. */
 static inline double spore_spline_break(SporeSplineKnots knots, size_t i) {
   assert(i <= knots.span_count);
   return knots.breaks ? knots.breaks[i] : (double)i;
 }
+/* Parameter at which the line ends. */
 static inline double spore_spline_end(SporeSplineKnots knots) { return spore_spline_break(knots, knots.span_count); }
+/* Length of a span in the parameter. */
 static inline double spore_spline_width(SporeSplineKnots knots, size_t span) {
   return spore_spline_break(knots, span + 1) - spore_spline_break(knots, span);
 }

@@ -5,31 +5,44 @@
 #include <math.h>
 #include <stdbool.h>
 
+/* A point, direction or force; units are those of what it is used for. */
 typedef struct SporeVec3 {
   double x, y, z;
 } SporeVec3;
 
+/* The vector of these components. */
 static inline SporeVec3 spore_vec3(double x, double y, double z) { return (SporeVec3){x, y, z}; }
+/* From three numbers of an array. */
 static inline SporeVec3 spore_vec3_load(const double *p) { return (SporeVec3){p[0], p[1], p[2]}; }
+/* To three numbers of an array. */
 static inline void spore_vec3_store(double *p, SporeVec3 a) { p[0] = a.x, p[1] = a.y, p[2] = a.z; }
+/* Adds a to three numbers of an array. */
 static inline void spore_vec3_accumulate(double *p, SporeVec3 a) { p[0] += a.x, p[1] += a.y, p[2] += a.z; }
+/* a + b */
 static inline SporeVec3 spore_vec3_add(SporeVec3 a, SporeVec3 b) {
   return (SporeVec3){a.x + b.x, a.y + b.y, a.z + b.z};
 }
+/* a - b */
 static inline SporeVec3 spore_vec3_sub(SporeVec3 a, SporeVec3 b) {
   return (SporeVec3){a.x - b.x, a.y - b.y, a.z - b.z};
 }
+/* s a */
 static inline SporeVec3 spore_vec3_scale(double s, SporeVec3 a) { return (SporeVec3){s * a.x, s * a.y, s * a.z}; }
 /* a + s b */
 static inline SporeVec3 spore_vec3_add_scaled(SporeVec3 a, double s, SporeVec3 b) {
   return (SporeVec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
+/* a . b */
 static inline double spore_vec3_dot(SporeVec3 a, SporeVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/* a x b */
 static inline SporeVec3 spore_vec3_cross(SporeVec3 a, SporeVec3 b) {
   return (SporeVec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/* |a| */
 static inline double spore_vec3_length(SporeVec3 a) { return sqrt(spore_vec3_dot(a, a)); }
+/* |a - b| */
 static inline double spore_vec3_distance(SporeVec3 a, SporeVec3 b) { return spore_vec3_length(spore_vec3_sub(a, b)); }
+/* No component is infinite or not a number. */
 static inline bool spore_vec3_is_finite(SporeVec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 /* Unit vector; `fallback` where a is too short to have a direction. */
 static inline SporeVec3 spore_vec3_normalise(SporeVec3 a, SporeVec3 fallback) {

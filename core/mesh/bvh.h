@@ -4,10 +4,12 @@
 
 #include "core/mesh/mesh.h"
 
+/* A hierarchy of boxes around the triangles of a mesh; opaque. */
 typedef struct SporeBvh SporeBvh;
 
 /* Copies what it needs of a valid mesh. NULL: no memory. */
 SporeBvh *spore_bvh_create(const SporeTriangleMesh *mesh, SporeError *error);
+/* Frees the hierarchy; NULL is allowed. */
 void spore_bvh_free(SporeBvh *bvh);
 
 /* Point of a triangle (3 x 3) nearest to p. */

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/math/vec3.h"
 
+/* A surface of triangles, open or closed. */
 typedef struct SporeTriangleMesh {
   size_t vertex_count, triangle_count;
   double *vertices;    /* vertex_count x 3 */
@@ -16,6 +17,7 @@ typedef struct SporeTriangleMesh {
   bool reoriented;     /* so only since it was read: its file has some the other way round */
 } SporeTriangleMesh;
 
+/* A solid of tetrahedra. */
 typedef struct SporeTetrahedralMesh {
   size_t vertex_count, tetrahedron_count;
   double *vertices;     /* vertex_count x 3 */
@@ -23,6 +25,7 @@ typedef struct SporeTetrahedralMesh {
   uint32_t *labels;     /* tetrahedron_count: of which organ each is; NULL: of one */
 } SporeTetrahedralMesh;
 
+/* Spheres that stand for a body where it is touched. */
 typedef struct SporeSphereSet {
   size_t count;
   double *spheres; /* count x 4: x y z r */
@@ -41,16 +44,25 @@ typedef struct SporeCurve {
  * SPORE_MESH_MAXIMUM are refused everywhere. */
 #define SPORE_MESH_MAXIMUM 20000000u
 
+/* A mesh of so many zeroed vertices and triangles. False: no memory, or too many; the mesh is then empty. */
 bool spore_triangle_mesh_allocate(SporeTriangleMesh *mesh, size_t vertices, size_t triangles, SporeError *error);
+/* *to is overwritten. False: no memory; *to is then empty. */
 bool spore_triangle_mesh_copy(SporeTriangleMesh *to, const SporeTriangleMesh *from, SporeError *error);
+/* Frees the arrays and zeroes the mesh. */
 void spore_triangle_mesh_clear(SporeTriangleMesh *mesh);
+/* A mesh of so many zeroed vertices and tetrahedra, without labels. False: no memory, or too many; it is then empty. */
 bool spore_tetrahedral_mesh_allocate(SporeTetrahedralMesh *mesh, size_t vertices, size_t tetrahedra, SporeError *error);
+/* Frees the arrays and zeroes the mesh. */
 void spore_tetrahedral_mesh_clear(SporeTetrahedralMesh *mesh);
+/* A set of so many zeroed spheres without weights. False: no memory, or too many; the set is then empty. */
 bool spore_sphere_set_allocate(SporeSphereSet *set, size_t count, SporeError *error);
 /* Weights of 0, to be filled. */
 bool spore_sphere_set_add_weights(SporeSphereSet *set, SporeError *error);
+/* Frees the arrays and zeroes the set. */
 void spore_sphere_set_clear(SporeSphereSet *set);
+/* A curve of so many zeroed points. False: no memory, or too many; the curve is then empty. */
 bool spore_curve_allocate(SporeCurve *curve, size_t count, SporeError *error);
+/* Frees the points and zeroes the curve. */
 void spore_curve_clear(SporeCurve *curve);
 
 /* Finite coordinates (|x| <= 1e9 m), indices in range, at least one element; for tetrahedra positive volume above
@@ -58,8 +70,11 @@ void spore_curve_clear(SporeCurve *curve);
  * level; for curves r > 0, two points or more and no two neighbours in the same place. The message names the first
  * offending element (0-based). */
 bool spore_triangle_mesh_validate(const SporeTriangleMesh *mesh, SporeError *error);
+/* See spore_triangle_mesh_validate. */
 bool spore_tetrahedral_mesh_validate(const SporeTetrahedralMesh *mesh, SporeError *error);
+/* See spore_triangle_mesh_validate. */
 bool spore_sphere_set_validate(const SporeSphereSet *set, SporeError *error);
+/* See spore_triangle_mesh_validate. */
 bool spore_curve_validate(const SporeCurve *curve, SporeError *error);
 
 /* Length of the straight pieces, m. */
@@ -79,6 +94,7 @@ bool spore_particle_skin(const double *centres, size_t count, double spacing, Sp
  * Refused, mesh untouched, when nothing would be left. */
 bool spore_triangle_mesh_weld(SporeTriangleMesh *mesh, double relative, SporeError *error);
 
+/* Size and faults of a triangle mesh. */
 typedef struct SporeMeshReport {
   double lower[3], upper[3], diagonal; /* m */
   double area, volume;                 /* m^2, signed m^3 (meaningful when closed) */
@@ -86,6 +102,7 @@ typedef struct SporeMeshReport {
   size_t components, boundary_edges, nonmanifold_edges, misoriented_edges, degenerate_triangles;
   bool closed; /* no boundary edge, no non-manifold edge, oriented alike */
 } SporeMeshReport;
+/* Fills *report. False: no memory. */
 bool spore_triangle_mesh_report(const SporeTriangleMesh *mesh, SporeMeshReport *report, SporeError *error);
 
 /* The report of a mesh that a solid can be made of: valid, closed, with one outside, around a volume, whichever way its
@@ -105,6 +122,7 @@ double spore_triangle_mesh_share_area(const SporeTriangleMesh *mesh, double *are
 
 /* Unique undirected edges, pairs (smaller, larger), sorted. *edges from spore_allocate. */
 bool spore_edges_of_triangles(const uint32_t *triangles, size_t count, uint32_t **edges, size_t *edge_count);
+/* The same of tetrahedra. */
 bool spore_edges_of_tetrahedra(const uint32_t *tetrahedra, size_t count, uint32_t **edges, size_t *edge_count);
 
 /* The corners of the face opposite each corner of a tetrahedron, counter-clockwise seen from outside. */
@@ -125,6 +143,7 @@ bool spore_tetrahedral_mesh_pieces(const SporeTetrahedralMesh *mesh, uint32_t **
 /* Vertices that are in no tetrahedron go, the order of the others is kept. False only without memory. */
 bool spore_tetrahedral_mesh_drop_unused(SporeTetrahedralMesh *mesh, SporeError *error);
 
+/* Size and shape of the cells of a tetrahedral mesh. */
 typedef struct SporeTetrahedraQuality {
   double volume;                              /* m^3 */
   double min_dihedral_deg, mean_dihedral_deg; /* least of all; mean of each tetrahedron's least */
@@ -133,6 +152,7 @@ typedef struct SporeTetrahedraQuality {
 /* One figure for the shape of a cell, to compare: its least dihedral angle (degrees), or 150 over its R / 3r where that
  * is less, as it is of needles; below 0 where its volume is not above 0. */
 double spore_tetrahedron_quality(const SporeVec3 corner[4]);
+/* Fills *quality, of all cells. */
 void spore_tetrahedral_mesh_quality(const SporeTetrahedralMesh *mesh, SporeTetrahedraQuality *quality);
 
 #endif

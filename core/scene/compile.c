@@ -143,6 +143,7 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
   compiler.tools = g_array_new(FALSE, TRUE, sizeof(SporeToolDescription));
   compiler.emitters = g_array_new(FALSE, TRUE, sizeof(SporeEmitterDescription));
   compiler.spheres = g_ptr_array_new_with_free_func(free_spheres);
+  compiler.fields = g_ptr_array_new_with_free_func(g_free);
   SporeSimulation *simulation = assemble(&compiler, pool, input);
   g_ptr_array_unref(compiler.objects);
   g_array_unref(compiler.bodies);
@@ -150,6 +151,7 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
   g_array_unref(compiler.tools);
   g_array_unref(compiler.emitters);
   g_ptr_array_unref(compiler.spheres);
+  g_ptr_array_unref(compiler.fields);
   return simulation;
 }
 

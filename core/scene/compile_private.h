@@ -14,6 +14,7 @@ typedef struct SporeCompiler {
   GArray *tools;      /* of SporeToolDescription */
   GArray *emitters;   /* of SporeEmitterDescription */
   GPtrArray *spheres; /* of SporeSphereSet: models' own */
+  GPtrArray *fields;  /* of tools, whose descriptions borrow them */
   GError **error;
 } SporeCompiler;
 

@@ -1,60 +1,29 @@
-#include "core/scene/compile_private.h"
-
+/* Tools and effects of a document, described to the world that is to be made. */
 #include <string.h>
 
-static gboolean add_jaws(SporeCompiler *compiler, const SporeObject *object, SporeToolKind kind) {
-  SporeJawToolFields fields = {0};
-  spore_object_fields(object, &fields);
-  SporeToolDescription tool = {.name = fields.name,
-                               .kind = kind,
-                               .hinge = spore_vec3_load(fields.hinge),
-                               .axis = spore_vec3_load(fields.axis),
-                               .point = spore_vec3_load(fields.tip),
-                               .jaws = fields.jaws};
-  if (!spore_compiler_body_index(compiler, object, "body", &tool.body) ||
-      !spore_compiler_body_index(compiler, object, "jaw_a", &tool.jaw_a) ||
-      !spore_compiler_body_index(compiler, object, "jaw_b", &tool.jaw_b))
-    return FALSE;
-  g_array_append_val(compiler->tools, tool);
+#include "core/scene/compile_private.h"
+
+/* The bodies that the type's parameters refer to, in their order. */
+static gboolean find_bodies(SporeCompiler *compiler, const SporeObject *object, SporeToolDescription *tool) {
+  const SporeParameterTable *table = &tool->type->parameters;
+  guint count = 0;
+  for (gsize i = 0; i < table->count; i++) {
+    const SporeParameter *parameter = &table->parameters[i];
+    if (parameter->type != SPORE_REFERENCE || strcmp(parameter->references, "body") != 0) continue;
+    if (!spore_compiler_body_index(compiler, object, parameter->name, &tool->bodies[count++])) return FALSE;
+  }
+  while (count < SPORE_TOOL_BODIES) tool->bodies[count++] = SPORE_NO_BODY;
   return TRUE;
 }
 
-static gboolean add_suction(SporeCompiler *compiler, const SporeObject *object) {
-  SporeSuctionToolFields fields = {0};
-  spore_object_fields(object, &fields);
-  SporeToolDescription tool = {.name = fields.name,
-                               .kind = SPORE_TOOL_SUCTION,
-                               .point = spore_vec3_load(fields.point),
-                               .suction = fields.suction};
-  if (!spore_compiler_body_index(compiler, object, "body", &tool.body)) return FALSE;
-  g_array_append_val(compiler->tools, tool);
-  return TRUE;
-}
-
-static gboolean add_bipolar(SporeCompiler *compiler, const SporeObject *object) {
-  SporeBipolarToolFields fields = {0};
-  spore_object_fields(object, &fields);
-  SporeToolDescription tool = {.name = fields.name,
-                               .kind = SPORE_TOOL_BIPOLAR,
-                               .point = spore_vec3_load(fields.point),
-                               .bipolar = fields.bipolar};
-  if (!spore_compiler_body_index(compiler, object, "body", &tool.body)) return FALSE;
-  g_array_append_val(compiler->tools, tool);
-  return TRUE;
-}
-
-static gboolean add_needle(SporeCompiler *compiler, const SporeObject *object) {
-  SporeNeedleToolFields fields = {0};
-  spore_object_fields(object, &fields);
-  SporeToolDescription tool = {.name = fields.name,
-                               .kind = SPORE_TOOL_NEEDLE,
-                               .point = spore_vec3_load(fields.tip),
-                               .middle = spore_vec3_load(fields.middle),
-                               .swage = spore_vec3_load(fields.swage),
-                               .needle = fields.needle};
-  if (!spore_compiler_body_index(compiler, object, "body", &tool.body) ||
-      !spore_compiler_body_index(compiler, object, "thread", &tool.thread))
-    return FALSE;
+gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *object) {
+  SporeToolDescription tool = {.type = spore_tool_type_find(spore_object_type(object)->element)};
+  if (!tool.type) return TRUE; /* a probe does no more than move its body, a camera is for viewers */
+  gpointer fields = g_malloc0(tool.type->parameters.size);
+  g_ptr_array_add(compiler->fields, fields);
+  spore_object_fields(object, fields);
+  tool.fields = fields;
+  if (!find_bodies(compiler, object, &tool)) return FALSE;
   g_array_append_val(compiler->tools, tool);
   return TRUE;
 }
@@ -70,16 +39,5 @@ gboolean spore_compiler_add_emitter(SporeCompiler *compiler, const SporeObject *
       !spore_compiler_body_index(compiler, object, "source", &emitter.source))
     return FALSE;
   g_array_append_val(compiler->emitters, emitter);
-  return TRUE;
-}
-
-gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *object) {
-  const char *element = spore_object_type(object)->element;
-  if (strcmp(element, "grasper") == 0) return add_jaws(compiler, object, SPORE_TOOL_GRASPER);
-  if (strcmp(element, "clamp") == 0) return add_jaws(compiler, object, SPORE_TOOL_CLAMP);
-  if (strcmp(element, "scissors") == 0) return add_jaws(compiler, object, SPORE_TOOL_SCISSORS);
-  if (strcmp(element, "bipolar") == 0) return add_bipolar(compiler, object);
-  if (strcmp(element, "suction") == 0) return add_suction(compiler, object);
-  if (strcmp(element, "needle") == 0) return add_needle(compiler, object);
   return TRUE;
 }

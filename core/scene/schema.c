@@ -68,11 +68,22 @@ static void add_element(SporeSchema *schema, const SporeElement *element) {
   finish_table(entry, entry->parameters, element->count + extra, element->size);
 }
 
-static void add_model(SporeSchema *schema, const SporeModelType *model, SchemaType *mechanical) {
-  SchemaType *entry = add_type(schema, model->name, model->label, model->doc);
-  entry->type.model = model;
-  finish_table(entry, model->parameters.parameters, model->parameters.count, model->parameters.size);
-  g_ptr_array_add(mechanical->type.children, &entry->type);
+/* An element of a kind that a registry lists, as a child of `parent`. */
+static SchemaType *add_kind(SporeSchema *schema, const char *parent, const char *element, const char *label,
+                            const char *doc, const SporeParameterTable *table) {
+  SchemaType *entry = add_type(schema, element, label, doc);
+  finish_table(entry, table->parameters, table->count, table->size);
+  SchemaType *above = g_hash_table_lookup(schema->by_element, parent);
+  g_ptr_array_add(above->type.children, &entry->type);
+  return entry;
+}
+
+static void add_model(SporeSchema *schema, const SporeModelType *model) {
+  add_kind(schema, "mechanical", model->name, model->label, model->doc, &model->parameters)->type.model = model;
+}
+
+static void add_tool(SporeSchema *schema, const SporeToolType *tool) {
+  add_kind(schema, "tools", tool->element, tool->label, tool->doc, &tool->parameters);
 }
 
 static const char **integrator_choices(void) {
@@ -103,8 +114,8 @@ SporeSchema *spore_schema_new(SporeModelRegistry registry) {
   for (gsize p = 0; p < G_N_ELEMENTS(parts); p++)
     for (const SporeElement *element = parts[p]; element->element; element++) add_children(schema, element);
   ((SchemaType *)g_hash_table_lookup(schema->by_element, "collision"))->type.defaults = "contact";
-  SchemaType *mechanical = g_hash_table_lookup(schema->by_element, "mechanical");
-  for (SporeModelRegistry model = registry; *model; model++) add_model(schema, *model, mechanical);
+  for (SporeModelRegistry model = registry; *model; model++) add_model(schema, *model);
+  for (const SporeToolType *const *tool = spore_tool_types; *tool; tool++) add_tool(schema, *tool);
   return schema;
 }
 

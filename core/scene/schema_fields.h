@@ -141,31 +141,6 @@ typedef struct SporeProbeFields {
   const char *name, *body, *device;
 } SporeProbeFields;
 
-/* Of a grasper, clamp or scissors. */
-typedef struct SporeJawToolFields {
-  const char *name, *body, *device, *jaw_a, *jaw_b;
-  double hinge[3], axis[3], tip[3]; /* tip: of scissors */
-  SporeJawFields jaws;
-} SporeJawToolFields;
-
-typedef struct SporeSuctionToolFields {
-  const char *name, *body, *device;
-  double point[3];
-  SporeSuctionFields suction;
-} SporeSuctionToolFields;
-
-typedef struct SporeBipolarToolFields {
-  const char *name, *body, *device;
-  double point[3];
-  SporeBipolarFields bipolar;
-} SporeBipolarToolFields;
-
-typedef struct SporeNeedleToolFields {
-  const char *name, *body, *device, *thread;
-  double tip[3], middle[3], swage[3];
-  SporeNeedleFields needle;
-} SporeNeedleToolFields;
-
 typedef struct SporeWoundFields {
   const char *name, *body, *source;
   double point[3], direction[3];

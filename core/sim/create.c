@@ -47,13 +47,6 @@ static bool check_body(const SporeBodyDescription *body, SporeError *error) {
   return true;
 }
 
-static bool check_tool_fields(const SporeToolDescription *tool, SporeError *error) {
-  if (tool->kind == SPORE_TOOL_SUCTION) return spore_parameters_check(&spore_suction_parameters, &tool->suction, error);
-  if (tool->kind == SPORE_TOOL_BIPOLAR) return spore_parameters_check(&spore_bipolar_parameters, &tool->bipolar, error);
-  if (tool->kind == SPORE_TOOL_NEEDLE) return spore_parameters_check(&spore_needle_parameters, &tool->needle, error);
-  return spore_parameters_check(&spore_jaw_parameters, &tool->jaws, error);
-}
-
 static bool check_description(const SporeWorldDescription *description, SporeError *error) {
   if (!spore_parameters_check(&spore_solver_parameters, &description->solver, error)) {
     spore_error_at(error, "solver");
@@ -66,7 +59,7 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
     if (!check_body(&description->bodies[i], error)) return false;
   for (size_t i = 0; i < description->tool_count; i++) {
     const SporeToolDescription *tool = &description->tools[i];
-    if (!check_tool_fields(tool, error)) return false;
+    if (!spore_parameters_check(&tool->type->parameters, tool->fields, error)) return false;
   }
   for (size_t i = 0; i < description->emitter_count; i++)
     if (!spore_parameters_check(&spore_emitter_parameters, &description->emitters[i].fields, error)) return false;
@@ -266,7 +259,7 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   world->solver = description->solver;
   world->state.gravity = description->gravity;
   world->schedule.profile.name = "step";
-  world->links.hold_count = spore_tools_hold_count(description);
+  world->links.hold_count = spore_tools_spring_count(description);
   bool made = create_bodies(world, description, error) && create_spheres(world, description, error) &&
               spore_world_create_links(world, description, error) &&
               spore_world_create_tools(world, description, error) &&

@@ -37,7 +37,7 @@ static bool may_break(const SporeWorld *world) {
 
 static bool has_holds(const SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++)
-    if (world->tools.all[i].fields.holds > 0) return true;
+    if (world->tools.all[i]->type->tear) return true;
   return false;
 }
 

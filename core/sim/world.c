@@ -109,8 +109,8 @@ SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body) { return
 uint32_t spore_world_hand(const SporeWorld *world, uint32_t body) {
   if (world->bodies[body].role != SPORE_ACTIVE) return SPORE_NO_BODY;
   for (size_t i = 0; i < world->tools.count; i++)
-    for (int side = 0; side < 2; side++)
-      if (world->tools.all[i].jaws[side].body == body) return world->tools.all[i].body;
+    for (int part = 1; part < SPORE_TOOL_BODIES; part++)
+      if (world->tools.all[i]->bodies[part] == body) return world->tools.all[i]->bodies[0];
   return body;
 }
 const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body) { return world->bodies[body].model; }

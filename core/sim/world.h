@@ -12,6 +12,7 @@
 #include "core/haptic/device.h"
 #include "core/integrate/solver.h"
 #include "core/body/model.h"
+#include "core/sim/tool/tool_type.h"
 
 typedef struct SporeWorld SporeWorld;
 
@@ -114,88 +115,6 @@ typedef struct SporeLinkDescription {
   double friction;           /* slide, port: Coulomb coefficient along the line */
   int ends;                  /* slide, port: SporeEnds, of a body's own line */
 } SporeLinkDescription;
-
-/* What an instrument does besides being there. Its parts are active bodies: the device moves `body`, the tool the rest.
- *   grasper  two jaws on a hinge close while the device says so, and hold what they press
- *   clamp    the same, and stays closed once it has pressed something, until the second button opens it
- *   scissors blades on a hinge that cut what they close on along the way of the blades: nets, and tetrahedra along
- *            faces near it; they need no jaws
- *   suction  takes the particles of fluids away that come into its mouth
- *   bipolar  coagulates nets and tetrahedra near its point while the first button is down: they shrink and stiffen
- *            there, for good
- *   needle   pierces the surfaces that its tip is pushed through, and draws its thread after it; it has no spheres */
-typedef enum SporeToolKind {
-  SPORE_TOOL_GRASPER,
-  SPORE_TOOL_CLAMP,
-  SPORE_TOOL_SCISSORS,
-  SPORE_TOOL_SUCTION,
-  SPORE_TOOL_BIPOLAR,
-  SPORE_TOOL_NEEDLE
-} SporeToolKind;
-
-typedef enum SporeTrigger {
-  SPORE_TRIGGER_GRIP,  /* opening is the device's grip angle */
-  SPORE_TRIGGER_BUTTON /* closed while the first button is down */
-} SporeTrigger;
-
-/* How jaws close and hold. The table is spore_jaw_parameters. */
-typedef struct SporeJawFields {
-  double opening;   /* rad, between the jaws, at most */
-  double speed;     /* rad/s */
-  double torque;    /* N m about the hinge, on each jaw, at most */
-  double stiffness; /* N/m, of each hold */
-  double strength;  /* N: a hold lets go above */
-  int64_t holds;    /* spheres that can be held at a time */
-  int trigger;      /* SporeTrigger */
-} SporeJawFields;
-extern const SporeParameterTable spore_jaw_parameters;
-
-typedef enum SporeFlowTrigger { SPORE_FLOW_ALWAYS, SPORE_FLOW_BUTTON } SporeFlowTrigger;
-
-/* The table is spore_suction_parameters. */
-typedef struct SporeSuctionFields {
-  double radius; /* m, of the mouth */
-  double rate;   /* particles a second, at most */
-  int trigger;   /* SporeFlowTrigger */
-} SporeSuctionFields;
-extern const SporeParameterTable spore_suction_parameters;
-
-/* The table is spore_bipolar_parameters. */
-typedef struct SporeBipolarFields {
-  double radius;     /* m, about its point */
-  double rate;       /* 1/s: the part of the tissue there that coagulates in a second */
-  double least;      /* part of their length that coagulated tissue keeps */
-  double stiffening; /* its stiffness against what it was */
-} SporeBipolarFields;
-extern const SporeParameterTable spore_bipolar_parameters;
-
-/* The table is spore_needle_parameters. */
-typedef struct SporeNeedleFields {
-  double force;     /* N of the tip, that pierces */
-  double depth;     /* m that the tip pushes a surface before it, at most */
-  double stiffness; /* N/m, of each place that needle or thread goes through, and of the thread's end at the needle */
-  double friction;  /* Coulomb coefficient there */
-  double strength;  /* N: a stitch tears out above; 0: never */
-  int64_t stitches; /* places at a time */
-  bool knot;        /* the thread's other end does not go through */
-} SporeNeedleFields;
-extern const SporeParameterTable spore_needle_parameters;
-
-typedef struct SporeToolDescription {
-  const char *name;
-  SporeToolKind kind;
-  uint32_t body;         /* active */
-  uint32_t jaw_a, jaw_b; /* active, without a device; closed at time 0; of scissors SPORE_NO_BODY: none */
-  SporeVec3 hinge, axis; /* world, at time 0: jaw_a opens by turning about the axis, jaw_b against it */
-  SporeJawFields jaws;   /* of what has jaws */
-  SporeVec3 point; /* of suction: middle of its mouth; of bipolar: between its tips; of scissors: end of the closed
-                      blades; of a needle: its tip; world, at time 0 */
-  SporeBipolarFields bipolar;
-  SporeSuctionFields suction;
-  SporeNeedleFields needle;
-  SporeVec3 middle, swage; /* of a needle: on its arc, and where it ends and the thread begins; world, at time 0 */
-  uint32_t thread;         /* of a needle: a body along a curve; SPORE_NO_BODY: none */
-} SporeToolDescription;
 
 /* Where particles of a fluid come from while it runs: a wound that bleeds. The fluid keeps `reserve` of its particles
  * back at time 0; those, and what suction takes away, come out again. The table is spore_emitter_parameters. */
@@ -325,17 +244,6 @@ size_t spore_world_link_count(const SporeWorld *world);
 SporeLinkState spore_world_link_state(const SporeWorld *world, size_t link);
 
 /* Tools, in the order of the description. */
-typedef struct SporeToolState {
-  const char *name;
-  double opening;    /* rad */
-  double squeeze;    /* torque against closing, on the jaw where it is more, N m */
-  size_t held, lost; /* spheres that it holds; that tore away since it last opened */
-  size_t taken;      /* particles that suction took away so far */
-  size_t cut;        /* ties that scissors cut so far */
-  size_t pierced;    /* surfaces that a needle pierced so far */
-  size_t stitches;   /* places that it or its thread goes through now */
-  size_t coagulated; /* ties and elements that bipolar coagulated in the last step */
-} SporeToolState;
 size_t spore_world_tool_count(const SporeWorld *world);
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
 

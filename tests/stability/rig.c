@@ -26,6 +26,8 @@ Rig *rig_new(void) {
   Rig *rig = g_new0(Rig, 1);
   rig->bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
   rig->links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));
+  rig->tools = g_array_new(FALSE, TRUE, sizeof(SporeToolDescription));
+  rig->fields = g_ptr_array_new_with_free_func(g_free);
   rig->sets = g_ptr_array_new_with_free_func(free_set);
   spore_parameters_set_initial(&spore_solver_parameters, &rig->description.solver);
   return rig;
@@ -41,6 +43,8 @@ void rig_free(Rig *rig) {
   }
   g_array_unref(rig->bodies);
   g_array_unref(rig->links);
+  g_array_unref(rig->tools);
+  g_ptr_array_unref(rig->fields);
   g_ptr_array_unref(rig->sets);
   g_free(rig);
 }
@@ -212,6 +216,8 @@ static SporeWorld *build(Rig *rig, SporePool *pool, SporeError *error) {
   rig->description.body_count = rig->bodies->len;
   rig->description.links = (const SporeLinkDescription *)(const void *)rig->links->data;
   rig->description.link_count = rig->links->len;
+  rig->description.tools = (const SporeToolDescription *)(const void *)rig->tools->data;
+  rig->description.tool_count = rig->tools->len;
   return rig->world = spore_world_create(&rig->description, pool, error);
 }
 
@@ -279,3 +285,15 @@ gboolean rig_said(const SporeWorld *world, const char *start) {
     if (g_str_has_prefix(monitor->messages[i].text, start)) return TRUE;
   return FALSE;
 }
+
+SporeToolDescription *rig_tool(Rig *rig, const SporeToolType *type, const char *name, uint32_t body) {
+  SporeToolFields *fields = g_malloc0(type->parameters.size);
+  spore_parameters_set_initial(&type->parameters, fields);
+  fields->name = name;
+  g_ptr_array_add(rig->fields, fields);
+  SporeToolDescription tool = {type, {body, SPORE_NO_BODY, SPORE_NO_BODY}, fields};
+  g_array_append_val(rig->tools, tool);
+  return &g_array_index(rig->tools, SporeToolDescription, rig->tools->len - 1);
+}
+
+void *rig_tool_fields(const SporeToolDescription *tool) { return (void *)(uintptr_t)tool->fields; }

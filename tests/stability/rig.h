@@ -8,7 +8,9 @@
 
 typedef struct Rig {
   GArray *bodies, *links; /* SporeBodyDescription, SporeLinkDescription: may be changed until rig_build */
+  GArray *tools;          /* SporeToolDescription, likewise */
   GPtrArray *sets;        /* SporeSphereSet *, kept until rig_free */
+  GPtrArray *fields;      /* of tools, likewise */
   SporeWorldDescription description;
   SporeWorld *world;
 } Rig;
@@ -51,6 +53,10 @@ SporeWorld *rig_build(Rig *rig);                     /* never NULL */
 SporeWorld *rig_build_on(Rig *rig, SporePool *pool); /* likewise, on the pool's threads */
 /* At one point of the world, 1e5 N/m, along y where the kind has a direction; the caller may change it. */
 SporeLinkDescription *rig_link(Rig *rig, const char *name, SporeLinkKind kind, uint32_t a, uint32_t b, SporeVec3 at);
+/* A tool of default parameters; the first of its bodies is `body`, it has no others. Description and fields may be
+ * changed until the world is built. */
+SporeToolDescription *rig_tool(Rig *rig, const SporeToolType *type, const char *name, uint32_t body);
+void *rig_tool_fields(const SporeToolDescription *tool);
 SporeWorld *rig_try_build(Rig *rig, SporeError *error);
 
 /* Sum of all but gravity's reference; NAN where a state is not finite. */

@@ -122,21 +122,15 @@ static void pedal_close(SporeDevice *device) {}
 static const SporeDeviceType pedal_type = {
     .name = "pedal", .doc = "", .exchange = pedal_exchange, .close = pedal_close};
 
-static Rig *block_and_forceps(const SporeModelType *type, SporeToolDescription *tool) {
+static Rig *block_and_forceps(const SporeModelType *type) {
   Rig *rig = rig_new();
   SporeTetrahedralMesh block;
   shape_block(&block, 8, 4, 4, spore_vec3(0.04, 0.02, 0.02));
   rig_passive(rig, "block", rig_solid_model(type, &block, "stiffness_damping", 0.01, NULL), NULL);
   rig_active(rig, "shaft", NULL)->pose.position = spore_vec3(0.02, 0.03, 0.01);
-  *tool = (SporeToolDescription){.name = "forceps",
-                                 .kind = SPORE_TOOL_BIPOLAR,
-                                 .body = 1,
-                                 .jaw_a = SPORE_NO_BODY,
-                                 .jaw_b = SPORE_NO_BODY,
-                                 .point = {0.02, 0.02, 0.01},
-                                 .bipolar = {.radius = 0.008, .rate = 2, .least = LEAST, .stiffening = STIFFENING}};
-  rig->description.tools = tool;
-  rig->description.tool_count = 1;
+  SporeBipolarFields *fields = rig_tool_fields(rig_tool(rig, &spore_bipolar, "forceps", 1));
+  spore_vec3_store(fields->point, spore_vec3(0.02, 0.02, 0.01));
+  fields->radius = 0.008, fields->rate = 2, fields->least = LEAST, fields->stiffening = STIFFENING;
   return rig;
 }
 
@@ -159,8 +153,7 @@ static double drift_of(const Rig *rig) {
 /* A free block shrinks where it is heated: it bends, does not move as a whole, and its energy comes little by little,
  * no more in a step than the dose allows. */
 static void check_block(const SporeModelType *type) {
-  SporeToolDescription tool;
-  Rig *rig = block_and_forceps(type, &tool);
+  Rig *rig = block_and_forceps(type);
   SporeDevice pedal = {&pedal_type};
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, 1, &pedal);

@@ -30,7 +30,6 @@ static const SporeDeviceType cutter_type = {
 
 typedef struct Bar {
   Rig *rig;
-  SporeToolDescription tool;
   SporeTetrahedralMesh mesh;
   SporeDevice cutter;
 } Bar;
@@ -51,19 +50,12 @@ static Bar *bar_new(const SporeModelType *type, double reserve) {
       rig_spheres(bar->rig, points, NX, 0.002));
   rig_active(bar->rig, "shaft", NULL)->pose.position = spore_vec3(CUT_AT, -0.01, 0.5 * SIDE);
   rig_unmovable(bar->rig, "far", rig_sphere(bar->rig, 0.01))->pose.position = spore_vec3(1, 1, 1);
-  bar->tool = (SporeToolDescription){.name = "scissors",
-                                     .kind = SPORE_TOOL_SCISSORS,
-                                     .body = 1,
-                                     .jaw_a = SPORE_NO_BODY,
-                                     .jaw_b = SPORE_NO_BODY,
-                                     .hinge = {CUT_AT, -0.01, 0.5 * SIDE},
-                                     .axis = {1, 0, 0},
-                                     .point = {CUT_AT, 0.04, 0.5 * SIDE}};
-  spore_parameters_set_initial(&spore_jaw_parameters, &bar->tool.jaws);
-  bar->tool.jaws.speed = 20;
-  bar->tool.jaws.opening = 1.2;
-  bar->rig->description.tools = &bar->tool;
-  bar->rig->description.tool_count = 1;
+  SporeJawFields *fields = rig_tool_fields(rig_tool(bar->rig, &spore_scissors, "scissors", 1));
+  spore_vec3_store(fields->hinge, spore_vec3(CUT_AT, -0.01, 0.5 * SIDE));
+  spore_vec3_store(fields->axis, spore_vec3(1, 0, 0));
+  spore_vec3_store(fields->tip, spore_vec3(CUT_AT, 0.04, 0.5 * SIDE));
+  fields->speed = 20;
+  fields->opening = 1.2;
   return bar;
 }
 

@@ -9,7 +9,6 @@
 
 /* A drop of blood, weightless, about the origin; `tools` and `emitters` may be 0. */
 static Rig *drop(size_t tools, size_t emitters, int64_t reserve, double rate) {
-  static SporeToolDescription suction;
   static SporeEmitterDescription wound;
   Rig *rig = rig_new();
   rig->description.solver.time_step = 5e-4;
@@ -18,12 +17,11 @@ static Rig *drop(size_t tools, size_t emitters, int64_t reserve, double rate) {
   shape_box(&box, spore_vec3(0, 0, 0), spore_vec3(0.01, 0.01, 0.01));
   rig_passive(rig, "blood", rig_fluid_model(&box, PARTICLES, "drag", 5.0, NULL), NULL);
   rig_active(rig, "sucker", rig_sphere(rig, 0.0005))->pose.position = spore_vec3(0, 0.02, 0);
-  suction = (SporeToolDescription){.name = "suction", .kind = SPORE_TOOL_SUCTION, .body = 1};
-  spore_parameters_set_initial(&spore_suction_parameters, &suction.suction);
-  suction.suction.rate = rate;
-  suction.suction.radius = 0.004;
-  rig->description.tools = &suction;
-  rig->description.tool_count = tools;
+  if (tools > 0) {
+    SporeSuctionFields *fields = rig_tool_fields(rig_tool(rig, &spore_suction, "suction", 1));
+    fields->rate = rate;
+    fields->radius = 0.004;
+  }
   wound = (SporeEmitterDescription){
       .name = "wound", .body = 0, .source = SPORE_NO_BODY, .point = {0.02, 0, 0}, .direction = {0, 1, 0}};
   spore_parameters_set_initial(&spore_emitter_parameters, &wound.fields);
@@ -55,7 +53,6 @@ static void run_to(SporeWorld *world, double time_s) {
 /* It takes as many as it can in a second, of those that are in its mouth, and the rest stays a drop. */
 static void test_suction(void) {
   Rig *rig = drop(1, 0, 0, 100);
-  rig->description.tools = memcpy(g_new(SporeToolDescription, 1), rig->description.tools, sizeof(SporeToolDescription));
   SporeWorld *world = rig_build(rig);
   size_t start = particles(world);
   g_assert_cmpuint(start, ==, spore_world_body_model(world, 0)->node_count);
@@ -74,7 +71,6 @@ static void test_suction(void) {
   g_assert_cmpuint(particles(world), ==, start);
   run_to(world, 0.6);
   g_assert_cmpuint(spore_world_hash(world), ==, hash);
-  g_free((SporeToolDescription *)(uintptr_t)rig->description.tools);
   rig_free(rig);
 }
 
@@ -102,9 +98,8 @@ static void test_emitter(void) {
 /* What is taken comes again: bleeding and suction together go on for ever. */
 static void test_circle(void) {
   Rig *rig = drop(1, 1, 20, 200);
-  SporeToolDescription suction = rig->description.tools[0];
-  suction.point = spore_vec3(0.02, 0.004, 0);
-  rig->description.tools = &suction;
+  SporeSuctionFields *suction = rig_tool_fields(&g_array_index(rig->tools, SporeToolDescription, 0));
+  spore_vec3_store(suction->point, spore_vec3(0.02, 0.004, 0));
   SporeWorld *world = rig_build(rig);
   run_to(world, 2);
   size_t taken = spore_world_tool_state(world, 0).taken;

@@ -1,5 +1,5 @@
 /* Each trouble that the monitor knows, provoked: what it does about it, counts and says. Forces that are not finite and
- * bodies that are too fast are in tests/kernel/test_sim_world.c. */
+ * bodies that are too fast are in tests/sim/test_world.c. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -47,7 +47,7 @@ static void add_flap(Rig *rig, const char *name, double x) {
 }
 
 /* Two flaps, whose free edges are a wound along z; held at their other three. A needle of half a circle above them. */
-static Rig *wound(SporeToolDescription *tool) {
+static Rig *wound(void) {
   double width = (COLUMNS - 1) * SPACING;
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, 0, 0);
@@ -74,18 +74,16 @@ static Rig *wound(SporeToolDescription *tool) {
               rig_curve_model(&spore_spline_1d, &curve, "control_points", 70.0, "young_modulus", 4e8, "bending_scale",
                               1.0, "straight_at_rest", 1.0, NULL),
               NULL);
-  *tool = (SporeToolDescription){.name = "suture",
-                                 .kind = SPORE_TOOL_NEEDLE,
-                                 .body = NEEDLE,
-                                 .thread = THREAD,
-                                 .point = on_circle(10),
-                                 .middle = on_circle(100),
-                                 .swage = swage};
-  spore_parameters_set_initial(&spore_needle_parameters, &tool->needle);
-  rig->description.tools = tool;
-  rig->description.tool_count = 1;
+  SporeToolDescription *tool = rig_tool(rig, &spore_needle, "suture", NEEDLE);
+  tool->bodies[SPORE_TOOL_THREAD] = THREAD;
+  SporeNeedleFields *fields = rig_tool_fields(tool);
+  spore_vec3_store(fields->tip, on_circle(10));
+  spore_vec3_store(fields->middle, on_circle(100));
+  spore_vec3_store(fields->swage, swage);
   return rig;
 }
+
+static SporeToolDescription *tool_of(const Rig *rig) { return &g_array_index(rig->tools, SporeToolDescription, 0); }
 
 static void run_to(SporeWorld *world, double time_s) {
   while (spore_world_time_s(world) < time_s - 1e-9) spore_world_step(world);
@@ -108,9 +106,8 @@ static void say(const SporeWorld *world) {
 /* It goes through both flaps and draws the thread after it; the knot holds at the first, and the edges come together.
  */
 static void test_suture(void) {
-  SporeToolDescription tool;
   Hand hand = {.base = {&hand_type}, .turn_s = 1, .draw_s = 1.15, .drawn = 0.115};
-  Rig *rig = wound(&tool);
+  Rig *rig = wound();
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, NEEDLE, &hand.base);
   g_assert_cmpfloat_with_epsilon(gap(world), GAP, 1e-9);
@@ -135,13 +132,14 @@ static void test_suture(void) {
 
 /* What it does with the first flap within `time_s`, by how the needle is. */
 static SporeToolState first_flap(SporeNeedleFields change, bool thread, double time_s, double *when_s) {
-  SporeToolDescription tool;
   Hand hand = {.base = {&hand_type}, .turn_s = 1, .draw_s = 1, .drawn = 0};
-  Rig *rig = wound(&tool);
-  if (change.force > 0) tool.needle.force = change.force;
-  if (change.depth > 0) tool.needle.depth = change.depth;
-  tool.needle.strength = change.strength;
-  if (!thread) tool.thread = SPORE_NO_BODY;
+  Rig *rig = wound();
+  SporeToolDescription *tool = tool_of(rig);
+  SporeNeedleFields *fields = rig_tool_fields(tool);
+  if (change.force > 0) fields->force = change.force;
+  if (change.depth > 0) fields->depth = change.depth;
+  fields->strength = change.strength;
+  if (!thread) tool->bodies[SPORE_TOOL_THREAD] = SPORE_NO_BODY;
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, NEEDLE, &hand.base);
   *when_s = 0;
@@ -186,9 +184,8 @@ static void test_comes_off(void) {
 
 /* The same again after a reset, bit for bit. */
 static void test_repeats(void) {
-  SporeToolDescription tool;
   Hand hand = {.base = {&hand_type}, .turn_s = 1, .draw_s = 1, .drawn = 0.1};
-  Rig *rig = wound(&tool);
+  Rig *rig = wound();
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, NEEDLE, &hand.base);
   run_to(world, 0.7);
@@ -204,12 +201,13 @@ static void test_repeats(void) {
 static void test_refused(void) {
   static const char *const words[] = {"not active", "is no thread", "at the needle's swage", "along an arc"};
   for (int fault = 0; fault < 4; fault++) {
-    SporeToolDescription tool;
-    Rig *rig = wound(&tool);
-    if (fault == 0) tool.body = LEFT;
-    if (fault == 1) tool.thread = RIGHT;
-    if (fault == 2) tool.swage = on_circle(160);
-    if (fault == 3) tool.middle = tool.point;
+    Rig *rig = wound();
+    SporeToolDescription *tool = tool_of(rig);
+    SporeNeedleFields *fields = rig_tool_fields(tool);
+    if (fault == 0) tool->bodies[0] = LEFT;
+    if (fault == 1) tool->bodies[SPORE_TOOL_THREAD] = RIGHT;
+    if (fault == 2) spore_vec3_store(fields->swage, on_circle(160));
+    if (fault == 3) memcpy(fields->middle, fields->tip, sizeof fields->middle);
     SporeError error = SPORE_ERROR_INIT;
     g_assert_null(rig_try_build(rig, &error));
     g_test_message("%s: %s", error.place, error.message);
@@ -221,9 +219,8 @@ static void test_refused(void) {
 
 /* A ball of tetrahedra is pierced where the needle goes in, and where it comes out. */
 static void test_solid(void) {
-  SporeToolDescription tool;
   Hand hand = {.base = {&hand_type}, .turn_s = 1, .draw_s = 1, .drawn = 0};
-  Rig *rig = wound(&tool);
+  Rig *rig = wound();
   SporeTetrahedralMesh block;
   shape_block(&block, 6, 3, 3, spore_vec3(0.008, 0.004, 0.006));
   SporeBodyDescription *body = &g_array_index(rig->bodies, SporeBodyDescription, RIGHT);
@@ -232,7 +229,7 @@ static void test_solid(void) {
   body->pose = (SporePose){{-0.004, HEIGHT - RADIUS - 0.002, -0.003}, {1, 0, 0, 0}}; /* below, where it goes level */
   g_array_set_size(rig->links, 0);
   rig_pin(rig, RIGHT, spore_vec3(0, HEIGHT - RADIUS - 0.002, 0), 0.005);
-  tool.needle.depth = 0.001;
+  ((SporeNeedleFields *)rig_tool_fields(tool_of(rig)))->depth = 0.001;
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, NEEDLE, &hand.base);
   run_to(world, 0.4);

@@ -29,8 +29,7 @@ static void hand_close(SporeDevice *device) {}
 static const SporeDeviceType hand_type = {.name = "hand", .doc = "", .exchange = hand_exchange, .close = hand_close};
 
 /* A block of tissue of 10 x 20 x 10 mm on the floor, and jaws that reach down on both sides of it. */
-static Rig *scene(SporeToolKind kind, double strength, SporePool *pool) {
-  static SporeToolDescription tool;
+static Rig *scene(const SporeToolType *type, double strength, SporePool *pool) {
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, -9.81, 0);
   rig->description.solver.time_step = 0.004;
@@ -48,18 +47,14 @@ static Rig *scene(SporeToolKind kind, double strength, SporePool *pool) {
   rig_active(rig, "left", jaw)->pose.position = spore_vec3(0.002, 0.06, 0);
   rig_active(rig, "right", jaw)->pose.position = spore_vec3(-0.002, 0.06, 0);
   rig_unmovable(rig, "floor", rig_floor(rig, 8, 8, 0.004, 0.004));
-  tool = (SporeToolDescription){.name = "grasper",
-                                .kind = kind,
-                                .body = SHAFT,
-                                .jaw_a = JAW_A,
-                                .jaw_b = JAW_B,
-                                .hinge = {0, 0.06, 0},
-                                .axis = {0, 0, 1}};
-  spore_parameters_set_initial(&spore_jaw_parameters, &tool.jaws);
-  tool.jaws.strength = strength;
-  tool.jaws.torque = 0.004;
-  rig->description.tools = &tool;
-  rig->description.tool_count = 1;
+  SporeToolDescription *tool = rig_tool(rig, type, "grasper", SHAFT);
+  tool->bodies[SPORE_TOOL_JAW_A] = JAW_A;
+  tool->bodies[SPORE_TOOL_JAW_B] = JAW_B;
+  SporeJawFields *fields = rig_tool_fields(tool);
+  spore_vec3_store(fields->hinge, spore_vec3(0, 0.06, 0));
+  spore_vec3_store(fields->axis, spore_vec3(0, 0, 1));
+  fields->strength = strength;
+  fields->torque = 0.004;
   return rig;
 }
 
@@ -85,7 +80,7 @@ static void say(const SporeWorld *world, const char *when) {
 
 static void test_grasper(void) {
   Hand hand = {.base = {&hand_type}, .open_s = 1.8};
-  Rig *rig = scene(SPORE_TOOL_GRASPER, 2, NULL);
+  Rig *rig = scene(&spore_grasper, 2, NULL);
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, SHAFT, &hand.base);
   run_to(world, 0.5);
@@ -114,7 +109,7 @@ static void test_grasper(void) {
 /* What can hold next to nothing loses it when it lifts. */
 static void test_loses(void) {
   Hand hand = {.base = {&hand_type}, .open_s = 9};
-  Rig *rig = scene(SPORE_TOOL_GRASPER, 1e-4, NULL);
+  Rig *rig = scene(&spore_grasper, 1e-4, NULL);
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, SHAFT, &hand.base);
   run_to(world, 1.7);
@@ -127,7 +122,7 @@ static void test_loses(void) {
 /* A clamp stays closed though the hand opens, until its second button. */
 static void test_clamp(void) {
   Hand hand = {.base = {&hand_type}, .open_s = 1.4, .buttons = 2};
-  Rig *rig = scene(SPORE_TOOL_CLAMP, 2, NULL);
+  Rig *rig = scene(&spore_clamp, 2, NULL);
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, SHAFT, &hand.base);
   run_to(world, 0.5);
@@ -147,7 +142,7 @@ static void test_repeats(void) {
   uint64_t hashes[2];
   for (int threads = 1; threads <= 2; threads++) {
     Hand hand = {.base = {&hand_type}, .open_s = 1.8};
-    Rig *rig = scene(SPORE_TOOL_GRASPER, 2, NULL);
+    Rig *rig = scene(&spore_grasper, 2, NULL);
     SporePool *pool = threads > 1 ? spore_pool_create(threads) : NULL;
     SporeError error = SPORE_ERROR_INIT;
     rig->description.bodies = (const SporeBodyDescription *)(void *)rig->bodies->data;
@@ -165,12 +160,11 @@ static void test_repeats(void) {
 
 static void test_refused(void) {
   for (int fault = 0; fault < 3; fault++) {
-    Rig *rig = scene(SPORE_TOOL_GRASPER, 2, NULL);
-    SporeToolDescription tool = rig->description.tools[0];
-    if (fault == 0) tool.body = TISSUE;
-    if (fault == 1) tool.jaw_b = JAW_A;
-    if (fault == 2) tool.axis = spore_vec3(0, 0, 0);
-    rig->description.tools = &tool;
+    Rig *rig = scene(&spore_grasper, 2, NULL);
+    SporeToolDescription *tool = &g_array_index(rig->tools, SporeToolDescription, 0);
+    if (fault == 0) tool->bodies[0] = TISSUE;
+    if (fault == 1) tool->bodies[SPORE_TOOL_JAW_B] = JAW_A;
+    if (fault == 2) spore_vec3_store(((SporeJawFields *)rig_tool_fields(tool))->axis, spore_vec3(0, 0, 0));
     SporeError error = SPORE_ERROR_INIT;
     g_assert_null(rig_try_build(rig, &error));
     g_assert_cmpstr(error.place, ==, "tools/grasper");
@@ -191,8 +185,8 @@ static bool cutter_exchange(SporeDevice *device, double time_s, const SporeDevic
 static const SporeDeviceType cutter_type = {
     .name = "cutter", .doc = "", .exchange = cutter_exchange, .close = hand_close};
 
-/* A net that is held at its left edge, with spheres between its nodes, and scissors that cut it through. */
-static Rig *net_and_scissors(SporeToolDescription *tool) {
+/* A net that is held at its left edge, with spheres between its nodes, and a tool on a shaft before it. */
+static Rig *net_and_tool(const SporeToolType *type) {
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, 0, 0);
   rig->description.solver.time_step = 0.004;
@@ -206,25 +200,18 @@ static Rig *net_and_scissors(SporeToolDescription *tool) {
   for (int i = 0; i < COLUMNS; i++) rig_pin(rig, 0, spore_vec3(0, 0.01 * i, 0), 1e-4);
   rig_active(rig, "shaft", NULL)->pose.position = spore_vec3(0.035, -0.01, 0);
   rig_unmovable(rig, "far", rig_sphere(rig, 0.01))->pose.position = spore_vec3(1, 1, 1); /* something to touch */
-  *tool = (SporeToolDescription){.name = "scissors",
-                                 .kind = SPORE_TOOL_SCISSORS,
-                                 .body = 1,
-                                 .jaw_a = SPORE_NO_BODY,
-                                 .jaw_b = SPORE_NO_BODY,
-                                 .hinge = {0.035, -0.01, 0},
-                                 .axis = {1, 0, 0},
-                                 .point = {0.035, 0.025, 0}};
-  spore_parameters_set_initial(&spore_jaw_parameters, &tool->jaws);
-  tool->jaws.speed = 20;
-  rig->description.tools = tool;
-  rig->description.tool_count = 1;
+  rig_tool(rig, type, "tool", 1);
   return rig;
 }
 
 /* Cut through, one half hangs on, and the other falls freely, with its spheres; whole again after a reset. */
 static void test_scissors(void) {
-  SporeToolDescription tool;
-  Rig *rig = net_and_scissors(&tool);
+  Rig *rig = net_and_tool(&spore_scissors);
+  SporeJawFields *fields = rig_tool_fields(&g_array_index(rig->tools, SporeToolDescription, 0));
+  spore_vec3_store(fields->hinge, spore_vec3(0.035, -0.01, 0));
+  spore_vec3_store(fields->axis, spore_vec3(1, 0, 0));
+  spore_vec3_store(fields->tip, spore_vec3(0.035, 0.025, 0));
+  fields->speed = 20;
   SporeDevice cutter = {&cutter_type};
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, 1, &cutter);
@@ -289,11 +276,10 @@ static double apart(const SporeWorld *world, int a, int b) {
 
 /* A net shrinks where it is coagulated, to what is left of it and no more; elsewhere it keeps its length. */
 static void test_bipolar(void) {
-  SporeToolDescription tool;
-  Rig *rig = net_and_scissors(&tool);
-  tool.kind = SPORE_TOOL_BIPOLAR;
-  tool.point = spore_vec3(0.04, 0.03, 0);
-  tool.bipolar = (SporeBipolarFields){.radius = 0.015, .rate = 2, .least = 0.6, .stiffening = 3};
+  Rig *rig = net_and_tool(&spore_bipolar);
+  SporeBipolarFields *fields = rig_tool_fields(&g_array_index(rig->tools, SporeToolDescription, 0));
+  spore_vec3_store(fields->point, spore_vec3(0.04, 0.03, 0));
+  fields->radius = 0.015, fields->rate = 2, fields->least = 0.6, fields->stiffening = 3;
   SporeDevice pedal = {&pedal_type};
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, 1, &pedal);

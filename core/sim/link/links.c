@@ -29,7 +29,7 @@ static const char *particles_fault(const SporeWorld *world, const SporeWorldDesc
   if (model->life_s > 0)
     return _("the link hangs on particles that dissolve; expected a body that stays; choose another");
   for (size_t i = 0; i < description->tool_count; i++)
-    if (description->tools[i].kind == SPORE_TOOL_SUCTION)
+    if (description->tools[i].type->takes_particles)
       return _("the link hangs on particles that a suction may take; expected a body that stays; choose another, or "
                "remove the suction");
   for (size_t i = 0; i < description->emitter_count; i++)

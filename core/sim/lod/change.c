@@ -18,7 +18,8 @@
 static bool is_sewn(const SporeWorld *world, uint32_t index) {
   const SporeMapping *spheres = &world->bodies[index].collision.spheres;
   for (size_t i = 0; i < world->tools.count; i++)
-    if (world->tools.all[i].needle && world->tools.all[i].needle->thread == index) return true;
+    for (int part = 1; part < SPORE_TOOL_BODIES; part++)
+      if (world->tools.all[i]->bodies[part] == index) return true;
   for (size_t i = world->links.term_count; i < world->links.term_count + world->links.hold_count; i++) {
     const SporeEnd *end = &world->links.springs[i].a;
     if (world->links.active[i] && end->body == index && end->mapping != spheres) return true;

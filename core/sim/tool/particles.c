@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "core/base/memory.h"
+#include "core/base/parameter_rows.h"
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
@@ -12,53 +13,9 @@
 #define NEAREST 1.1 /* of that distance: as near another a particle may come into the world without being thrown */
 #define TRIES 8     /* places in an emitter's mouth that are looked at in a step, for a particle */
 
-static const char *const flow_triggers[] = {"always", "button", NULL};
-
-#define TRIGGER(Type, text)                                                                                            \
-  {                                                                                                                    \
-    .name = "trigger", .type = SPORE_CHOICE, .unit = "", .minimum = 0, .maximum = 1, .choices = flow_triggers,         \
-    .offset = offsetof(Type, trigger), .change = SPORE_CHANGE_REBUILD, .doc = text                                     \
-  }
-
-#define REAL(Type, field, unit_text, least, most, start, text)                                                         \
-  {                                                                                                                    \
-    .name = #field, .type = SPORE_REAL, .unit = unit_text, .minimum = least, .maximum = most, .initial = {start},      \
-    .offset = offsetof(Type, field), .change = SPORE_CHANGE_REBUILD, .doc = text                                       \
-  }
-
-static const SporeParameter suction_parameters[] = {
-    REAL(SporeSuctionFields, radius, "m", 1e-6, 1, 0.003,
-         N_("Radius of the mouth: what comes so near to its middle is taken.")),
-    REAL(SporeSuctionFields, rate, "1/s", 0, 1e9, 200, N_("Particles that it takes in a second, at most.")),
-    TRIGGER(SporeSuctionFields, N_("When it sucks: always, or while the device's first button is down.")),
-};
-const SporeParameterTable spore_suction_parameters = {
-    suction_parameters, sizeof suction_parameters / sizeof *suction_parameters, sizeof(SporeSuctionFields)};
-
-static const SporeParameter emitter_parameters[] = {
-    REAL(SporeEmitterFields, rate, "1/s", 0, 1e9, 50,
-         N_("Particles that come out in a second, at most: none comes where one still is.")),
-    REAL(SporeEmitterFields, speed, "m/s", 0, 100, 0.05, N_("How fast they come out.")),
-    REAL(SporeEmitterFields, radius, "m", 0, 1, 0.001, N_("Radius of the mouth that they come out of.")),
-    REAL(SporeEmitterFields, start, "s", 0, 1e9, 0, N_("When the first comes out.")),
-    {.name = "reserve",
-     .type = SPORE_INTEGER,
-     .unit = "",
-     .minimum = 0,
-     .maximum = 1e6,
-     .initial = {100},
-     .offset = offsetof(SporeEmitterFields, reserve),
-     .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("Particles of the fluid that are kept back at the start, to come out here.")},
-    TRIGGER(SporeEmitterFields, N_("When they come out: always, or while the first button is down on the device of the "
-                                   "instrument that the mouth is in.")),
-};
-const SporeParameterTable spore_emitter_parameters = {
-    emitter_parameters, sizeof emitter_parameters / sizeof *emitter_parameters, sizeof(SporeEmitterFields)};
-
 /* Parking. */
 
-static bool is_fluid(const SporeBody *body) { return body->model && body->model->type->particles; }
+bool spore_body_is_fluid(const SporeBody *body) { return body->model && body->model->type->particles; }
 
 static SporeVec3 parking_place(const SporeBody *body, size_t particle) {
   return (SporeVec3){PARKING_M + body->parking_gap * (double)particle, 0, 0};
@@ -118,7 +75,7 @@ static void put(SporeWorld *world, SporeBody *body, size_t particle, SporeVec3 a
   body->history.step_s = 0;
 }
 
-static void take_out(SporeWorld *world, SporeBody *body, size_t particle) {
+void spore_world_take_particle(SporeWorld *world, SporeBody *body, size_t particle) {
   body->held.blocks[body->held.count++] = (uint32_t)particle;
   put(world, body, particle, parking_place(body, particle), (SporeVec3){0, 0, 0});
 }
@@ -131,49 +88,25 @@ static void dissolve(SporeWorld *world, SporeBody *body) {
   double *q = world->state.next_q + body->q_offset;
   if (body->sleep.asleep || body->frozen) return; /* nor does it grow older */
   for (size_t i = 0; i < body->block_count; i++)
-    if (*age_of(body, q, i) >= body->model->life_s && !spore_particle_is_out(q + 3 * i)) take_out(world, body, i);
+    if (*age_of(body, q, i) >= body->model->life_s && !spore_particle_is_out(q + 3 * i))
+      spore_world_take_particle(world, body, i);
 }
 
-/* Suction. */
-
-static SporePose pose_of(const SporeWorld *world, uint32_t body) {
+SporePose spore_world_next_pose(const SporeWorld *world, uint32_t body) {
   if (body == SPORE_NO_BODY) return spore_pose_identity();
   if (world->bodies[body].role == SPORE_UNMOVABLE) return world->bodies[body].rest_pose;
   const double *q = world->state.next_q + world->bodies[body].q_offset;
   return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
 }
 
-static void suck_from(SporeWorld *world, SporeTool *tool, uint32_t index, SporeVec3 mouth) {
-  SporeBody *body = &world->bodies[index];
-  const double *state =
-      body->sleep.asleep ? world->state.q : world->state.next_q; /* of one that sleeps, the next is not written */
-  for (size_t i = 0; i < body->block_count && tool->due >= 1; i++) {
-    const double *q = state + body->q_offset + 3 * i;
-    if (spore_vec3_distance(spore_vec3_load(q), mouth) > tool->suction.radius) continue;
-    if (body->sleep.asleep) {
-      spore_world_wake(world, index); /* and is taken from after the next step */
-      return;
-    }
-    take_out(world, body, i);
-    tool->due--;
-    tool->taken++;
-  }
-}
-
 /* Whether the trigger of what is in a body is pulled. */
-static bool flows(const SporeWorld *world, int trigger, uint32_t index) {
-  const SporeBody *holder = index == SPORE_NO_BODY ? NULL : &world->bodies[index];
-  return trigger == SPORE_FLOW_ALWAYS || (holder && holder->device.has_input && (holder->device.input.buttons & 1u));
+static bool flows(const SporeWorld *world, int trigger, uint32_t body) {
+  return trigger == SPORE_FLOW_ALWAYS || spore_tool_button(world, body);
 }
 
-static void suck(SporeWorld *world, SporeTool *tool) {
-  bool on = flows(world, tool->suction.trigger, tool->body);
-  double most = tool->suction.rate * world->solver.time_step;
-  tool->due = on ? fmin(tool->due + most, fmax(most, 1)) : 0;
-  if (tool->due < 1) return;
-  SporeVec3 mouth = spore_pose_apply(pose_of(world, tool->body), tool->point);
-  for (uint32_t b = 0; b < world->body_count; b++)
-    if (is_fluid(&world->bodies[b]) && !world->bodies[b].frozen) suck_from(world, tool, b, mouth);
+double spore_flow_due(const SporeWorld *world, double rate, int trigger, uint32_t body, double due) {
+  double most = rate * world->solver.time_step;
+  return flows(world, trigger, body) ? fmin(due + most, fmax(most, 1)) : 0;
 }
 
 /* Emission. */
@@ -212,17 +145,15 @@ static bool find_place(const SporeWorld *world, SporeEmitter *emitter, const Spo
 static void emit(SporeWorld *world, SporeEmitter *emitter) {
   SporeBody *body = &world->bodies[emitter->body];
   const SporeEmitterFields *fields = &emitter->fields;
-  double time_s = (double)(world->state.step + 1) * world->solver.time_step,
-         most = fields->rate * world->solver.time_step;
+  double time_s = (double)(world->state.step + 1) * world->solver.time_step;
   if (time_s < fields->start || body->frozen || body->held.count == body->held.pin_count) return;
-  bool on = flows(world, fields->trigger, emitter->source);
-  emitter->due = on ? fmin(emitter->due + most, fmax(most, 1)) : 0;
+  emitter->due = spore_flow_due(world, fields->rate, fields->trigger, emitter->source, emitter->due);
   if (emitter->due < 1) return;
   if (body->sleep.asleep) {
     spore_world_wake(world, emitter->body); /* and is given to after the next step */
     return;
   }
-  SporePose frame = pose_of(world, emitter->source);
+  SporePose frame = spore_world_next_pose(world, emitter->source);
   SporeVec3 velocity = spore_quat_rotate(frame.orientation, spore_vec3_scale(fields->speed, emitter->direction));
   SporeVec3 at;
   while (emitter->due >= 1 && body->held.count > body->held.pin_count && find_place(world, emitter, &frame, &at)) {
@@ -233,7 +164,7 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
 
 bool spore_world_exchanges_particles(const SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++)
-    if (world->tools.all[i].kind == SPORE_TOOL_SUCTION) return true;
+    if (world->tools.all[i]->type->takes_particles) return true;
   for (size_t b = 0; b < world->body_count; b++)
     if (dissolves(&world->bodies[b])) return true;
   return world->tools.emitter_count > 0;
@@ -243,7 +174,7 @@ void spore_world_exchange_particles(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++)
     if (dissolves(&world->bodies[b])) dissolve(world, &world->bodies[b]);
   for (size_t i = 0; i < world->tools.count; i++)
-    if (world->tools.all[i].kind == SPORE_TOOL_SUCTION) suck(world, &world->tools.all[i]);
+    if (world->tools.all[i]->type->exchange) world->tools.all[i]->type->exchange(world, world->tools.all[i]);
   for (size_t i = 0; i < world->tools.emitter_count; i++) emit(world, &world->tools.emitters[i]);
 }
 
@@ -259,7 +190,7 @@ void spore_world_reset_particles(SporeWorld *world) {
 /* Setting up. */
 
 static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDescription *from) {
-  if (from->body >= world->body_count || !is_fluid(&world->bodies[from->body]))
+  if (from->body >= world->body_count || !spore_body_is_fluid(&world->bodies[from->body]))
     return _("what comes out is not a fluid of particles; expected a body with such a model; choose one");
   bool to_world = from->source == SPORE_NO_BODY;
   if (!to_world && (from->source >= world->body_count ||
@@ -312,13 +243,14 @@ static void make_emitter(SporeWorld *world, SporeEmitter *emitter, const SporeEm
 
 static bool make_parkings(SporeWorld *world, const SporeWorldDescription *description) {
   bool sucks = false, made = true;
-  for (size_t i = 0; i < world->tools.count; i++) sucks |= world->tools.all[i].kind == SPORE_TOOL_SUCTION;
+  for (size_t i = 0; i < world->tools.count; i++) sucks |= world->tools.all[i]->type->takes_particles;
   for (size_t b = 0; made && b < world->body_count; b++)
-    if ((sucks && is_fluid(&world->bodies[b])) || dissolves(&world->bodies[b]))
+    if ((sucks && spore_body_is_fluid(&world->bodies[b])) || dissolves(&world->bodies[b]))
       made = make_parking(world, &world->bodies[b]);
   for (size_t i = 0; made && i < description->emitter_count; i++) {
     uint32_t fluid = description->emitters[i].body;
-    if (fluid < world->body_count && is_fluid(&world->bodies[fluid])) made = make_parking(world, &world->bodies[fluid]);
+    if (fluid < world->body_count && spore_body_is_fluid(&world->bodies[fluid]))
+      made = make_parking(world, &world->bodies[fluid]);
   }
   return made;
 }
@@ -334,3 +266,21 @@ bool spore_world_create_particles(SporeWorld *world, const SporeWorldDescription
   }
   return true;
 }
+
+/* The parameters of emitters. */
+
+const char *const spore_flow_triggers[] = {"always", "button", NULL};
+
+static const SporeParameter rows[] = {
+    SPORE_ROW_REAL(SporeEmitterFields, rate, "1/s", 0, 1e9, 50,
+                   N_("Particles that come out in a second, at most: none comes where one still is.")),
+    SPORE_ROW_REAL(SporeEmitterFields, speed, "m/s", 0, 100, 0.05, N_("How fast they come out.")),
+    SPORE_ROW_REAL(SporeEmitterFields, radius, "m", 0, 1, 0.001, N_("Radius of the mouth that they come out of.")),
+    SPORE_ROW_REAL(SporeEmitterFields, start, "s", 0, 1e9, 0, N_("When the first comes out.")),
+    SPORE_ROW_COUNT(SporeEmitterFields, reserve, 0, 1e6, 100,
+                    N_("Particles of the fluid that are kept back at the start, to come out here.")),
+    SPORE_ROW_CHOICE(SporeEmitterFields, trigger, spore_flow_triggers,
+                     N_("When they come out: always, or while the first button is down on the device of the instrument "
+                        "that the mouth is in.")),
+};
+const SporeParameterTable spore_emitter_parameters = SPORE_TABLE(rows, SporeEmitterFields);

@@ -1,17 +1,25 @@
 /* Scissors: what they take from bodies. The way of a blade in a step is two triangles; a model says itself what of it
  * crosses them. */
+#include "core/base/text.h"
+#include "core/sim/tool/jaws.h"
 #include "core/sim/world_private.h"
 
+typedef struct SporeScissors {
+  SporeJaws jaws;
+  SporeVec3 tip; /* end of the closed blades, in the frame of the tool's body, m */
+  size_t cut;    /* ties so far */
+} SporeScissors;
+
 /* The end of a blade, world. */
-static SporeVec3 blade_tip(const SporeTool *tool, const double *shaft, double half) {
+static SporeVec3 blade_tip(const SporeScissors *scissors, const double *shaft, double half) {
   const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
-  SporeQuat turn = spore_quat_from_rotation_vector(spore_vec3_scale(half, tool->axis));
-  SporeVec3 arm = spore_quat_rotate(turn, spore_vec3_sub(tool->point, tool->hinge));
-  return spore_pose_apply(frame, spore_vec3_add(tool->hinge, arm));
+  SporeQuat turn = spore_quat_from_rotation_vector(spore_vec3_scale(half, scissors->jaws.axis));
+  SporeVec3 arm = spore_quat_rotate(turn, spore_vec3_sub(scissors->tip, scissors->jaws.hinge));
+  return spore_pose_apply(frame, spore_vec3_add(scissors->jaws.hinge, arm));
 }
 
-static SporeVec3 blade_root(const SporeTool *tool, const double *shaft) {
-  return spore_pose_apply((SporePose){spore_vec3_load(shaft), spore_quat_load(shaft + 3)}, tool->hinge);
+static SporeVec3 blade_root(const SporeScissors *scissors, const double *shaft) {
+  return spore_pose_apply((SporePose){spore_vec3_load(shaft), spore_quat_load(shaft + 3)}, scissors->jaws.hinge);
 }
 
 static void store_triangle(double *triangle, SporeVec3 a, SporeVec3 b, SporeVec3 c) {
@@ -20,14 +28,14 @@ static void store_triangle(double *triangle, SporeVec3 a, SporeVec3 b, SporeVec3
   spore_vec3_store(triangle + 6, c);
 }
 
-static void cut_all(SporeWorld *world, SporeTool *tool, const double *triangle) {
+static void cut_all(SporeWorld *world, SporeScissors *scissors, const double *triangle) {
   for (uint32_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (!spore_body_can_be_cut(body)) continue;
     size_t count =
         body->model->type->cut(body->model, world->state.q + body->q_offset, triangle, b, &world->topology.cuts);
     if (count > 0) spore_body_was_cut(world, b);
-    tool->cut += count;
+    scissors->cut += count;
   }
 }
 
@@ -35,21 +43,79 @@ static void cut_all(SporeWorld *world, SporeTool *tool, const double *triangle) 
  * that nothing slips past. */
 #define OVERLAP_RAD 0.1
 
-void spore_scissors_cut(SporeWorld *world, SporeTool *tool, double from, double to) {
-  from = fmin(tool->stroke, from + OVERLAP_RAD);
-  size_t at = world->bodies[tool->body].q_offset;
+/* The blades, half of the angle each, go with their body from the last state to its target, and close from one opening
+ * to another. */
+static void cut_between(SporeWorld *world, SporeScissors *scissors, double from, double to) {
+  from = fmin(scissors->jaws.stroke, from + OVERLAP_RAD);
+  size_t at = world->bodies[scissors->jaws.tool.bodies[0]].q_offset;
   const double *before = world->state.q + at, *after = world->state.target_q + at;
-  SporeVec3 root = blade_root(tool, before), next_root = blade_root(tool, after);
+  SporeVec3 root = blade_root(scissors, before), next_root = blade_root(scissors, after);
   double triangle[9];
   for (int side = -1; side <= 1; side += 2) {
-    SporeVec3 tip = blade_tip(tool, before, 0.5 * side * from), next_tip = blade_tip(tool, after, 0.5 * side * to);
+    SporeVec3 tip = blade_tip(scissors, before, 0.5 * side * from),
+              next_tip = blade_tip(scissors, after, 0.5 * side * to);
     store_triangle(triangle, root, tip, next_tip);
-    cut_all(world, tool, triangle);
+    cut_all(world, scissors, triangle);
     store_triangle(triangle, root, next_tip, next_root);
-    cut_all(world, tool, triangle);
+    cut_all(world, scissors, triangle);
   }
   if (to > 0) return;
   /* What lies just where the blades meet is on the way of neither. */
-  store_triangle(triangle, root, blade_tip(tool, before, 0.5 * from), blade_tip(tool, before, -0.5 * from));
-  cut_all(world, tool, triangle);
+  store_triangle(triangle, root, blade_tip(scissors, before, 0.5 * from), blade_tip(scissors, before, -0.5 * from));
+  cut_all(world, scissors, triangle);
 }
+
+/* Blades alone, without bodies that are seen and felt of them, are scissors too. */
+static const char *fault(const SporeWorld *world, const SporeToolDescription *from) {
+  const SporeJawFields *fields = from->fields;
+  if (!spore_vec3_is_finite(spore_vec3_load(fields->tip)))
+    return _("a point of the tool is not finite; expected it in m; correct it");
+  bool bare = from->bodies[SPORE_TOOL_JAW_A] == SPORE_NO_BODY && from->bodies[SPORE_TOOL_JAW_B] == SPORE_NO_BODY;
+  return bare ? spore_hinge_fault(fields) : spore_jaws_fault(world, from);
+}
+
+static bool make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
+  SporeScissors *scissors = (SporeScissors *)tool;
+  const SporeJawFields *fields = from->fields;
+  scissors->tip = spore_world_to_frame(world, tool->bodies[0], spore_vec3_load(fields->tip));
+  return spore_jaws_make(world, tool, from);
+}
+
+static void use(SporeWorld *world, SporeTool *tool) {
+  SporeScissors *scissors = (SporeScissors *)tool;
+  double before = scissors->jaws.opening;
+  spore_jaws_use(world, tool);
+  if (scissors->jaws.opening < before) cut_between(world, scissors, before, scissors->jaws.opening);
+}
+
+static void reset(SporeWorld *world, SporeTool *tool) {
+  spore_jaws_reset(world, tool);
+  ((SporeScissors *)tool)->cut = 0;
+}
+
+static void state(const SporeTool *tool, SporeToolState *now) {
+  spore_jaws_state(tool, now);
+  now->cut = ((const SporeScissors *)tool)->cut;
+}
+
+static const SporeParameter rows[] = {
+    SPORE_JAW_BODY_ROWS,
+    SPORE_ROW_PLACE(SporeJawFields, tip, N_("Where the blades end at the start, closed, in the scene.")),
+    SPORE_JAW_ROWS,
+};
+
+const SporeToolType spore_scissors = {
+    .element = "scissors",
+    .label = N_("Scissors"),
+    .doc = N_("Blades that cut nets and tetrahedra where they close; jaws are the bodies that are seen and felt of "
+              "them, and may be left out."),
+    .parameters = SPORE_TABLE(rows, SporeJawFields),
+    .cuts = true,
+    .size = sizeof(SporeScissors),
+    .make = make,
+    .fault = fault,
+    .clear = spore_jaws_clear,
+    .reset = reset,
+    .use = use,
+    .feed_back = spore_jaws_feed_back,
+    .state = state};

@@ -1,5 +1,5 @@
-/* Tools: what instruments do besides being there. They act between sensing and mapping, on what the last step did, so
- * that a run is repeated by its input alone. */
+/* Tools of a world: made, used and asked of by the slots of their types. They act between reading the devices and
+ * mapping the spheres, on what the last step did, so that a run is repeated by its input alone. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,89 +7,99 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-static size_t hold_count(const SporeToolDescription *from) {
-  if (from->kind == SPORE_TOOL_NEEDLE) return spore_needle_term_count(from);
-  return spore_tool_kind_holds(from->kind) ? (size_t)from->jaws.holds : 0;
+static size_t spring_count(const SporeToolDescription *from) {
+  return from->type->spring_count ? from->type->spring_count(from->fields) : 0;
 }
 
-size_t spore_tools_hold_count(const SporeWorldDescription *description) {
+size_t spore_tools_spring_count(const SporeWorldDescription *description) {
   size_t count = 0;
-  for (size_t i = 0; i < description->tool_count; i++) count += hold_count(&description->tools[i]);
+  for (size_t i = 0; i < description->tool_count; i++) count += spring_count(&description->tools[i]);
   return count;
 }
 
 static const char *tool_fault(const SporeWorld *world, const SporeToolDescription *from) {
-  if (from->body >= world->body_count || world->bodies[from->body].role != SPORE_ACTIVE)
+  if (from->bodies[0] >= world->body_count || world->bodies[from->bodies[0]].role != SPORE_ACTIVE)
     return _("the tool's body is not active; expected a body that a device moves; choose one");
-  if (!spore_vec3_is_finite(from->point)) return _("a point of the tool is not finite; expected it in m; correct it");
-  if (from->kind == SPORE_TOOL_NEEDLE) return spore_needle_fault(world, from);
-  return from->kind >= SPORE_TOOL_SUCTION ? NULL : spore_jaws_fault(world, from);
+  return from->type->fault ? from->type->fault(world, from) : NULL;
 }
 
-static bool make_tool(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
-  tool->name = spore_copy_text(from->name ? from->name : "");
-  tool->kind = from->kind;
-  tool->body = from->body;
-  if (spore_tool_has_jaws(tool)) return tool->name && spore_jaws_make(world, tool, from);
-  if (from->kind == SPORE_TOOL_NEEDLE) return tool->name && spore_needle_make(world, tool, from);
-  const SporePose *frame = &world->bodies[from->body].rest_pose;
-  tool->suction = from->suction;
-  tool->bipolar = from->bipolar;
-  tool->point =
-      spore_quat_rotate(spore_quat_conjugate(frame->orientation), spore_vec3_sub(from->point, frame->position));
-  return tool->name != NULL;
+static const char *name_of(const SporeToolDescription *from) {
+  const char *name = ((const SporeToolFields *)from->fields)->name;
+  return name ? name : "";
+}
+
+static SporeTool *make_tool(SporeWorld *world, const SporeToolDescription *from, size_t spring_start) {
+  SporeTool *tool = spore_allocate(1, from->type->size);
+  if (!tool) return NULL;
+  world->tools.all[world->tools.count++] = tool;
+  tool->type = from->type;
+  tool->name = spore_copy_text(name_of(from));
+  memcpy(tool->bodies, from->bodies, sizeof tool->bodies);
+  tool->spring_start = spring_start;
+  tool->spring_count = spring_count(from);
+  return tool->name && from->type->make(world, tool, from) ? tool : NULL;
+}
+
+static void prepare_heat(SporeModel *model, void *user) {
+  bool *made = user;
+  *made = *made && model->type->prepare_heat(model);
+}
+
+/* Room in the models that can be heated. */
+static bool prepare_models(SporeWorld *world, bool heats) {
+  bool made = true;
+  for (size_t b = 0; heats && made && b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->model && body->model->type->coagulate) spore_body_each_model(body, prepare_heat, &made);
+  }
+  return made;
 }
 
 bool spore_world_create_tools(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
-  size_t hold = world->links.term_count;
-  world->tools.all = SPORE_NEW_ARRAY(SporeTool, description->tool_count);
-  bool made = world->tools.all != NULL;
+  size_t spring_start = world->links.term_count;
+  world->tools.all = SPORE_NEW_ARRAY(SporeTool *, description->tool_count);
+  bool made = world->tools.all != NULL, heats = false;
   for (size_t i = 0; made && i < description->tool_count; i++) {
     const SporeToolDescription *from = &description->tools[i];
     char place[200];
-    snprintf(place, sizeof place, "tools/%s", from->name ? from->name : "");
+    snprintf(place, sizeof place, "tools/%s", name_of(from));
     const char *fault = tool_fault(world, from);
     if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
-    SporeTool *tool = &world->tools.all[world->tools.count++];
-    tool->hold_start = hold;
-    hold += hold_count(from);
-    made = make_tool(world, tool, from);
+    const SporeTool *tool = make_tool(world, from, spring_start);
+    if (tool) spring_start += tool->spring_count;
+    made = tool != NULL;
+    heats |= from->type->heats;
   }
-  made = made && spore_world_create_cutting(world) && spore_world_create_splitting(world) &&
-         spore_world_create_coagulation(world);
+  made =
+      made && spore_world_create_cutting(world) && spore_world_create_splitting(world) && prepare_models(world, heats);
   return made || spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the tools"));
 }
 
 static void count_tools(SporeWorld *world) {
   SporeToolCounts counts = {0};
   for (size_t i = 0; i < world->tools.count; i++) {
-    const SporeTool *tool = &world->tools.all[i];
-    counts.cut += tool->cut;
-    if (!tool->needle) continue;
-    counts.pierced += tool->needle->pierced;
-    counts.stitches += spore_needle_stitch_count(tool->needle);
+    SporeToolState state = spore_world_tool_state(world, i);
+    counts.cut += state.cut;
+    counts.pierced += state.pierced;
+    counts.stitches += state.stitches;
   }
   world->tools.counts = counts;
 }
 
 void spore_world_reset_tools(SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++) {
-    SporeTool *tool = &world->tools.all[i];
-    spore_jaws_let_go(world, tool);
-    tool->opening = tool->squeeze = tool->stroke = 0;
-    tool->latched = false;
-    tool->due = 0;
-    if (tool->needle) spore_needle_reset(world, tool);
-    tool->taken = tool->cut = tool->coagulated = 0;
+    SporeTool *tool = world->tools.all[i];
+    if (tool->type->reset) tool->type->reset(world, tool);
   }
   count_tools(world);
 }
 
 void spore_world_clear_tools(SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++) {
-    spore_free(world->tools.all[i].name);
-    spore_free(world->tools.all[i].holds);
-    spore_needle_clear(world->tools.all[i].needle);
+    SporeTool *tool = world->tools.all[i];
+    if (tool->type->clear) tool->type->clear(tool);
+    spore_free(tool->name);
+    spore_free(tool);
   }
   spore_free(world->tools.all);
   spore_free(world->tools.emitters);
@@ -97,41 +107,41 @@ void spore_world_clear_tools(SporeWorld *world) {
 
 void spore_world_use_tools(SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++) {
-    SporeTool *tool = &world->tools.all[i];
-    if (spore_tool_has_jaws(tool)) spore_jaws_use(world, tool);
-    if (tool->kind == SPORE_TOOL_BIPOLAR) spore_bipolar_use(world, tool);
-    if (tool->needle) spore_needle_use(world, tool);
+    SporeTool *tool = world->tools.all[i];
+    if (tool->type->use) tool->type->use(world, tool);
   }
   count_tools(world);
 }
 
 void spore_world_tear_holds(SporeWorld *world) {
-  for (size_t i = 0; i < world->tools.count; i++)
-    if (spore_tool_has_jaws(&world->tools.all[i])) spore_jaws_tear(world, &world->tools.all[i]);
+  for (size_t i = 0; i < world->tools.count; i++) {
+    SporeTool *tool = world->tools.all[i];
+    if (tool->type->tear) tool->type->tear(world, tool);
+  }
 }
 
 void spore_world_feed_back_tools(SporeWorld *world) {
-  for (size_t i = 0; i < world->tools.count; i++)
-    if (spore_tool_has_jaws(&world->tools.all[i])) spore_jaws_feed_back(world, &world->tools.all[i]);
+  for (size_t i = 0; i < world->tools.count; i++) {
+    const SporeTool *tool = world->tools.all[i];
+    if (tool->type->feed_back) tool->type->feed_back(world, tool);
+  }
+}
+
+SporeVec3 spore_tool_direction(const SporeWorld *world, uint32_t body, const double direction[3]) {
+  SporeQuat back = spore_quat_conjugate(world->bodies[body].rest_pose.orientation);
+  return spore_quat_rotate(back, spore_vec3_normalise(spore_vec3_load(direction), (SporeVec3){0, 0, 0}));
+}
+
+bool spore_tool_button(const SporeWorld *world, uint32_t body) {
+  const SporeBodyDevice *device = body == SPORE_NO_BODY ? NULL : &world->bodies[body].device;
+  return device && device->has_input && (device->input.buttons & 1u);
 }
 
 size_t spore_world_tool_count(const SporeWorld *world) { return world->tools.count; }
 
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
-  const SporeTool *tool = &world->tools.all[index];
-  SporeToolState state = {.name = tool->name,
-                          .opening = tool->opening,
-                          .squeeze = tool->squeeze,
-                          .taken = tool->taken,
-                          .cut = tool->cut,
-                          .coagulated = tool->coagulated};
-  if (tool->needle) {
-    state.pierced = tool->needle->pierced;
-    state.stitches = spore_needle_stitch_count(tool->needle);
-  }
-  for (size_t i = 0; i < (size_t)tool->fields.holds; i++) {
-    state.held += tool->holds[i].state == SPORE_HOLD_TIED;
-    state.lost += tool->holds[i].state == SPORE_HOLD_LOST;
-  }
+  const SporeTool *tool = world->tools.all[index];
+  SporeToolState state = {.name = tool->name};
+  if (tool->type->state) tool->type->state(tool, &state);
   return state;
 }

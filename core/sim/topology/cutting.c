@@ -33,7 +33,7 @@ static bool prepare_body(SporeWorld *world, SporeBody *body) {
 
 bool spore_world_create_cutting(SporeWorld *world) {
   bool cuts = false, made = true;
-  for (size_t i = 0; i < world->tools.count; i++) cuts |= world->tools.all[i].kind == SPORE_TOOL_SCISSORS;
+  for (size_t i = 0; i < world->tools.count; i++) cuts |= world->tools.all[i]->type->cuts;
   for (size_t b = 0; made && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!spore_body_can_be_cut(body) || !body->model->type->prepare_cut || !(cuts || body->model->tears)) continue;

@@ -14,7 +14,7 @@
 
 static bool has_scissors(const SporeWorldDescription *description) {
   for (size_t i = 0; i < description->tool_count; i++)
-    if (description->tools[i].kind == SPORE_TOOL_SCISSORS) return true;
+    if (description->tools[i].type->cuts) return true;
   return false;
 }
 

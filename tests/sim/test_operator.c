@@ -7,7 +7,7 @@
 #include "core/base/memory.h"
 #include "core/linalg/pcg.h"
 #include "core/sim/solve/island_system.h"
-#include "tests/kernel/chain_model.h"
+#include "tests/sim/chain_model.h"
 
 #define PARTICLES 4
 #define N (2 * 3 * PARTICLES)

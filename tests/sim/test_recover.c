@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/sim/world_private.h"
-#include "tests/kernel/chain_model.h"
+#include "tests/sim/chain_model.h"
 
 #define PARTICLES 12
 #define N (3 * PARTICLES)

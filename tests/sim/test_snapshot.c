@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tests/kernel/chain_model.h"
+#include "tests/sim/chain_model.h"
 
 /* Chains that swing, come to rest one after the other and are woken again, and a body that a device might move. Two
  * chains that do not lie next to each other are tied together. */

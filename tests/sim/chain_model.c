@@ -1,4 +1,4 @@
-#include "tests/kernel/chain_model.h"
+#include "tests/sim/chain_model.h"
 
 #include <math.h>
 #include <string.h>

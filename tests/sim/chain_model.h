@@ -1,7 +1,7 @@
 /* A model small enough to know everything about: particles in a row, springs between neighbours, each particle also
  * tied to its rest place. For tests of the world that need no model of the program. */
-#ifndef TESTS_KERNEL_CHAIN_MODEL_H
-#define TESTS_KERNEL_CHAIN_MODEL_H
+#ifndef TESTS_SIM_CHAIN_MODEL_H
+#define TESTS_SIM_CHAIN_MODEL_H
 
 #include "core/sim/world.h"
 

@@ -5,7 +5,7 @@
 
 #include "core/integrate/integrator.h"
 #include "core/sim/world_private.h"
-#include "tests/kernel/chain_model.h"
+#include "tests/sim/chain_model.h"
 
 #define GRAVITY ((SporeVec3){0, -9.81, 0})
 #define COUNT 4                       /* particles of the chain */

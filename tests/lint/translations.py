@@ -4,7 +4,7 @@ import pathlib
 import re
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDERS = ("app", "core", "models", "ui")
 MARKS = {suffix: re.compile(r'\bN?_\(\s*"') for suffix in (".c", ".h", ".cpp", ".hpp")}
 MARKS[".ui"] = re.compile(r'translatable="(yes|true|1)"')

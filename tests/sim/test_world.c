@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "tests/kernel/chain_model.h"
+#include "tests/sim/chain_model.h"
 
 #define GRAVITY ((SporeVec3){0, -9.81, 0})
 

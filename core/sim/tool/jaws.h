@@ -1,0 +1,72 @@
+/* Jaws: two active bodies on a hinge of a third, which graspers, clamps and scissors have. */
+#ifndef SPORE_SIM_JAWS_H
+#define SPORE_SIM_JAWS_H
+
+#include "core/base/parameter_rows.h"
+#include "core/sim/tool/tool.h"
+
+/* A sphere between jaws, tied to one of them by a spring. */
+typedef enum SporeHoldState { SPORE_HOLD_FREE, SPORE_HOLD_TIED, SPORE_HOLD_LOST } SporeHoldState;
+typedef struct SporeHold {
+  SporeHoldState state;
+  uint32_t sphere; /* of the world */
+} SporeHold;
+
+typedef struct SporeJaw {
+  uint32_t body;    /* SPORE_NO_BODY: none, of scissors */
+  SporePose closed; /* in the frame of the tool's body */
+  double side;      /* 1, -1: how it opens about the axis */
+} SporeJaw;
+
+typedef struct SporeJaws {
+  SporeTool tool;
+  SporeJawFields fields;
+  SporeVec3 hinge, axis; /* in the frame of the tool's body */
+  SporeJaw jaw[2];
+  bool latches, latched; /* of a clamp */
+  SporeHold *holds;      /* tool.spring_count */
+  double opening;        /* rad */
+  double squeeze;        /* torque against closing, N m */
+  double held_at;        /* opening at which the jaws began to hold; negative: they hold nothing */
+  double stroke;         /* opening at which they began to close, rad */
+} SporeJaws;
+
+/* What is wrong with the jaws' bodies or hinge, or with the hinge alone; translated, or NULL. */
+const char *spore_jaws_fault(const SporeWorld *world, const SporeToolDescription *from);
+const char *spore_hinge_fault(const SporeJawFields *fields);
+/* The slots of a SporeToolType that all jaws share. */
+bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from);
+void spore_jaws_clear(SporeTool *tool);
+void spore_jaws_reset(SporeWorld *world, SporeTool *tool);
+void spore_jaws_use(SporeWorld *world, SporeTool *tool);
+void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool);
+void spore_jaws_state(const SporeTool *tool, SporeToolState *state);
+
+extern const char *const spore_jaw_triggers[3]; /* choices of `trigger`, NULL at the end */
+
+/* Rows of every tool with jaws; `name` to `axis` come first, then those of the tool's own. */
+#define SPORE_JAW_BODY_ROWS                                                                                            \
+  SPORE_ROW_NAME(SporeJawFields, tool.name, N_("Name of the tool.")),                                                  \
+      SPORE_ROW_BODY(SporeJawFields, body, tool.body, N_("Active body that the tool moves: the shaft.")),              \
+      SPORE_ROW_DEVICE(SporeJawFields),                                                                                \
+      SPORE_ROW_BODY(SporeJawFields, jaw_a, jaw_a, N_("Active body of the first jaw, where it is when closed.")),      \
+      SPORE_ROW_BODY(SporeJawFields, jaw_b, jaw_b, N_("Active body of the second jaw, where it is when closed.")),     \
+      SPORE_ROW_PLACE(SporeJawFields, hinge, N_("Where the jaws are hinged at the start, in the scene.")),             \
+      SPORE_ROW_DIRECTION(SporeJawFields, axis, 1, 0, 0,                                                               \
+                          N_("Axis of the hinge at the start, in the scene: the first jaw opens by turning about it, " \
+                             "the second against it."))
+#define SPORE_JAW_ROWS                                                                                                 \
+  SPORE_ROW_REAL(SporeJawFields, opening, "rad", 0.01, 3.1, 1, N_("Angle between the jaws when they are wide open.")), \
+      SPORE_ROW_REAL(SporeJawFields, speed, "rad/s", 0.01, 100, 5,                                                     \
+                     N_("How fast the angle between the jaws changes at most.")),                                      \
+      SPORE_ROW_REAL(SporeJawFields, torque, "N m", 1e-6, 10, 0.02,                                                    \
+                     N_("Torque with which each jaw closes at most; half of it holds what is between them.")),         \
+      SPORE_ROW_REAL(SporeJawFields, stiffness, "N/m", 1e-3, 1e9, 500,                                                 \
+                     N_("How firmly each sphere between the jaws is held.")),                                          \
+      SPORE_ROW_REAL(SporeJawFields, strength, "N", 0, 1e6, 2,                                                         \
+                     N_("Force above which a sphere tears away from the jaws.")),                                      \
+      SPORE_ROW_COUNT(SporeJawFields, holds, 1, 1000, 32, N_("Spheres that the jaws can hold at a time.")),            \
+      SPORE_ROW_CHOICE(SporeJawFields, trigger, spore_jaw_triggers,                                                    \
+                       N_("What closes the jaws: grip, the device's own angle; button, its first button."))
+
+#endif
