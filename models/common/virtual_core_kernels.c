@@ -19,9 +19,9 @@ typedef struct Core { /* at q, and in the shape that is damped along */
 
 /* What the ties of the nodes from i on pull with; *torque += what that does to the core. Weights of nodes that there
  * are not are 0. */
-SPORE_INLINE SporeVd3 pull(const SporeCore *ties, const Core *core, const SporeMat3 *rotation, const double *place,
-                           const double *weight, const double *q, const double *shape, const double *v, bool damped,
-                           SporeVd3 *torque) {
+SPORE_INLINE SporeVd3 pull(const SporeVirtualCore *ties, const Core *core, const SporeMat3 *rotation,
+                           const double *place, const double *weight, const double *q, const double *shape,
+                           const double *v, bool damped, SporeVd3 *torque) {
   SporeVd w = spore_vd_load(weight), k = ties->stiffness * w, b = ties->damping * w;
   SporeVd3 s = turn(rotation->m, spore_vd3_load(place));
   SporeVd3 away = spore_vd3_sub(spore_vd3_sub(spore_vd3_load(q), core->centre), s);
@@ -40,7 +40,7 @@ typedef struct Rest {
   double weight[SPORE_WIDTH], place[3 * SPORE_WIDTH], q[3 * SPORE_WIDTH], shape[3 * SPORE_WIDTH], v[3 * SPORE_WIDTH];
 } Rest;
 
-SPORE_INLINE void load_rest(Rest *rest, const SporeCore *ties, size_t i, size_t count, const double *q,
+SPORE_INLINE void load_rest(Rest *rest, const SporeVirtualCore *ties, size_t i, size_t count, const double *q,
                             const double *shape, const double *v) {
   assert(count < SPORE_WIDTH && i + count == ties->count);
   memset(rest, 0, sizeof *rest);
@@ -58,8 +58,8 @@ SPORE_INLINE void store_lanes(double lanes[3][SPORE_LANES], size_t first, SporeV
 }
 
 /* Sums of each lane are kept apart, by its place in a group of SPORE_LANES. */
-SPORE_INLINE void add_forces(const SporeCore *ties, const SporeMat3 *rotation, const double *q, const double *shape,
-                             const double *v, bool damped, double *f) {
+SPORE_INLINE void add_forces(const SporeVirtualCore *ties, const SporeMat3 *rotation, const double *q,
+                             const double *shape, const double *v, bool damped, double *f) {
   size_t n = ties->count;
   const Core core = {all(q + 3 * n), all(shape + 3 * n), all(v + 3 * n), all(v + 3 * n + 3)};
   double forces[3][SPORE_LANES], torques[3][SPORE_LANES];
@@ -91,8 +91,8 @@ SPORE_INLINE void add_forces(const SporeCore *ties, const SporeMat3 *rotation, c
   }
 }
 
-void SPORE_LEVEL_NAME(spore_core_ties)(const SporeCore *core, const SporeMat3 *rotation, const double *q,
-                                       const double *shape, const double *v, double *f) {
+void SPORE_LEVEL_NAME(spore_virtual_core_ties)(const SporeVirtualCore *core, const SporeMat3 *rotation, const double *q,
+                                               const double *shape, const double *v, double *f) {
   assert(core->count > 0);
   assert(core->stiffness >= 0 && core->damping >= 0);
   if (core->damping > 0) add_forces(core, rotation, q, shape, v, true, f);

@@ -17,8 +17,8 @@
  * The viscous force is that of tetrahedra (models/tetrahedra/tetrahedra.h), and along the rates of F^T W, which neither
  * change when all turns. A cell that the surface cuts has the stiffness and mass of the share that lies inside, so that
  * what lies outside neither weighs nor holds, and the surface is free as it should be. */
-#ifndef SPORE_lattice_H
-#define SPORE_lattice_H
+#ifndef SPORE_MODELS_GRID_LATTICE_H
+#define SPORE_MODELS_GRID_LATTICE_H
 
 #include "core/sim/mapping.h"
 #include "core/sim/region.h"

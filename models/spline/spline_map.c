@@ -6,7 +6,7 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/constraint/path.h"
-#include "models/spline/carry.h"
+#include "models/spline/offset_weights.h"
 #include "models/spline/spline.h"
 
 #define WIDTH 16       /* control points of a row, at most */
@@ -31,11 +31,11 @@ static SporeVec3 node(const Spline *spline, uint32_t index) {
   return spore_vec3_load(index < count ? spline->control + 3 * (size_t)index : spline->arms + 3 * (index - count));
 }
 
-/* spore_carry_offset of the row's points. */
-static double carry(const Spline *spline, SporeVec3 offset, const Row *row, double *weight) {
+/* spore_offset_weights of the row's points. */
+static double offset_weights(const Spline *spline, SporeVec3 offset, const Row *row, double *weight) {
   double work[WIDTH], points[3 * WIDTH];
   for (size_t i = 0; i < row->used; i++) spore_vec3_store(points + 3 * i, node(spline, row->block[i]));
-  return spore_carry_offset(points, row->used, offset, ROUNDING * spline->size, weight, work);
+  return spore_offset_weights(points, row->used, offset, ROUNDING * spline->size, weight, work);
 }
 
 /* From where the row puts the point to p. */
@@ -69,15 +69,15 @@ static bool fill_row(const Spline *spline, SporeVec3 p, const SporePathPlace *pl
                      Row *row) {
   SporeVec3 offset = spore_vec3_sub(p, place->position);
   bool on = spore_vec3_length(offset) <= ROUNDING * spline->size;
-  double sum = on ? 0 : carry(spline, offset, row, row->weight);
-  if (last && sum > SPORE_CARRY_LIGHT && spore_vec3_length(offset) <= spline->slack) {
+  double sum = on ? 0 : offset_weights(spline, offset, row, row->weight);
+  if (last && sum > SPORE_OFFSET_WEIGHTS_LIGHT && spore_vec3_length(offset) <= spline->slack) {
     memset(row->weight, 0, sizeof row->weight);
     on = true;
     sum = 0;
   }
-  if (sum > (last ? SPORE_CARRY_AT_MOST : SPORE_CARRY_LIGHT)) return false;
+  if (sum > (last ? SPORE_OFFSET_WEIGHTS_MOST : SPORE_OFFSET_WEIGHTS_LIGHT)) return false;
   for (size_t k = 0; k < 4; k++) row->weight[first + k] += place->weight[k];
-  if (!on) carry(spline, missing(spline, row, p), row, row->weight); /* what rounding took */
+  if (!on) offset_weights(spline, missing(spline, row, p), row, row->weight); /* what rounding took */
   for (size_t i = row->used; i < WIDTH; i++) row->block[i] = row->block[0];
   return true;
 }
@@ -125,7 +125,7 @@ static bool give_room(SporeMapping *mapping) {
 
 void spore_spline_map_follow(SporeSplineKnots knots, const double *control, const double *arms, SporeMapping *mapping) {
   assert(mapping->anchors);
-  double size = spore_carry_size(control, knots.span_count + 3);
+  double size = spore_points_size(control, knots.span_count + 3);
   Spline spline = {knots, control, arms, size, WRITTEN * size}, onto = spline;
   onto.slack = HUGE_VAL;
   uint32_t filled = 0;
@@ -148,7 +148,7 @@ bool spore_spline_map(SporeSplineKnots knots, const double *control, const doubl
                       size_t count, double slack, bool follows, SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   assert(slack >= 0);
-  Spline spline = {knots, control, arms, spore_carry_size(control, knots.span_count + 3), slack};
+  Spline spline = {knots, control, arms, spore_points_size(control, knots.span_count + 3), slack};
   spline.slack = fmax(slack, WRITTEN * spline.size);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);

@@ -249,20 +249,20 @@ typedef struct SporeElementBlocks {
 SPORE_INLINE void spore_add_viscosity(SporeVd weight, double mu_, double lambda_, const SporeVd33 *inverse,
                                       const SporeVd33 *f, SporeElementBlocks *blocks) {
   SporeVd mu = weight * mu_, lambda = weight * lambda_;
-  SporeVd3 gradient[3], carried[3];
+  SporeVd3 gradient[3], pushed[3];
   SporeVd33 square;
   SPORE_UNROLL for (int i = 0; i < 3; i++) SPORE_UNROLL for (int j = 0; j < 3; j++) square.m[3 * i + j] =
       spore_vd3_dot(spore_vd33_row(f, i), spore_vd33_row(f, j));
   SPORE_UNROLL for (int a = 0; a < 3; a++) {
     gradient[a] = spore_vd33_row(inverse, a);
-    carried[a] = spore_vd33_apply(f, gradient[a]);
+    pushed[a] = spore_vd33_apply(f, gradient[a]);
   }
   int n = 0;
   SPORE_UNROLL for (int a = 0; a < 3; a++) SPORE_UNROLL for (int b = a; b < 3; b++, n++) {
     SporeVd same = mu * spore_vd3_dot(gradient[a], gradient[b]);
     SPORE_UNROLL for (int i = 0; i < 9; i++) blocks->m[n].m[i] += same * square.m[i];
-    spore_vd33_add_outer(&blocks->m[n], spore_vd3_scale(mu, carried[b]), carried[a]);
-    spore_vd33_add_outer(&blocks->m[n], spore_vd3_scale(lambda, carried[a]), carried[b]);
+    spore_vd33_add_outer(&blocks->m[n], spore_vd3_scale(mu, pushed[b]), pushed[a]);
+    spore_vd33_add_outer(&blocks->m[n], spore_vd3_scale(lambda, pushed[a]), pushed[b]);
   }
 }
 

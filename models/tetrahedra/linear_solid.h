@@ -30,7 +30,7 @@ typedef struct SporeLinearSolid {
   SporeBlockMatrix stiffness;                    /* K for a Young's modulus of 1 Pa */
   double young_modulus, viscosity, mass_damping; /* Pa, s, 1/s */
   bool locks;
-  double *u, *pull, *carried; /* block_count x 3 each: what a force is computed in */
+  double *u, *pull, *rate; /* block_count x 3 each: what a force is computed in */
 } SporeLinearSolid;
 
 /* K of four-node elements on the model's pattern, for 1 Pa; the matrix is created. False: no memory. */
