@@ -1,3 +1,4 @@
+/* Points of a path, the nearest of them, and lengths along it. */
 #include "core/constraint/path.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* The list of integrators. */
 #include "core/integrate/integrator.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* A surface that is edited: its lists of corners, features, and changes. */
 #include "core/mesh/shell.h"
 
 #include <assert.h>

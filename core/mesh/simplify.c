@@ -1,3 +1,4 @@
+/* Collapsing edges of a surface, the cheapest first. */
 #include "core/mesh/simplify.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Tetrahedral meshes: checks, boundary, neighbours, connected pieces. */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* The virtual core: its inertia, motion, ties and Jacobian. */
 #include "models/common/virtual_core.h"
 
 #include <assert.h>

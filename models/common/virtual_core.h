@@ -1,10 +1,10 @@
-/* A virtual rigid core that nodes are tied to: it touches nothing and gives the body back its shape (Meseure and
- * Chaillou 2000). Each node has its place in the core's frame and is tied to it by a spring of no length; what the
- * spring pulls with acts on the core too, as force and torque, so that both momenta are kept. With x a node, c the
- * centre and s = R r its place in the core's frame, d = x - c - s:
+/* A virtual rigid core that nodes are tied to (Meseure and Chaillou 2000). The core touches nothing; it gives the body
+ * back its shape. Each node has a place in the core's frame and is tied to that place by a spring of no length. The
+ * force of the spring acts on the core too, as force and torque, so that both momenta are kept. With x a node, c the
+ * centre of the core, s = R r the place of the node in the core's frame, and d = x - c - s:
  *   on the node  -k d - b (v - V - w x (x - c)),   on the core the opposite at x.
- * The tied nodes are the model's first; the core's centre is the node behind them, and the model's frame is the core's.
- */
+ * The tied nodes are the first nodes of the model, the core's centre is the node behind them, and the frame of the
+ * model is the frame of the core. */
 #ifndef SPORE_MODELS_COMMON_VIRTUAL_CORE_H
 #define SPORE_MODELS_COMMON_VIRTUAL_CORE_H
 

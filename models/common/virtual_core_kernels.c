@@ -1,3 +1,4 @@
+/* Forces of the ties between nodes and a virtual core. */
 #include <assert.h>
 #include <string.h>
 
@@ -17,8 +18,8 @@ typedef struct Core { /* at q, and in the shape that is damped along */
   SporeVd3 centre, shape_centre, velocity, spin;
 } Core;
 
-/* What the ties of the nodes from i on pull with; *torque += what that does to the core. Weights of nodes that there
- * are not are 0. */
+/* Forces of the ties of the nodes from i on; *torque += their torque on the core. Lanes behind the last node have
+ * weight 0. */
 SPORE_INLINE SporeVd3 pull(const SporeVirtualCore *ties, const Core *core, const SporeMat3 *rotation,
                            const double *place, const double *weight, const double *q, const double *shape,
                            const double *v, bool damped, SporeVd3 *torque) {
@@ -35,7 +36,7 @@ SPORE_INLINE SporeVd3 pull(const SporeVirtualCore *ties, const Core *core, const
   return spore_vd3_add(elastic, viscous);
 }
 
-/* Nodes behind the last whole vector of them, with as many that weigh nothing. */
+/* The nodes behind the last whole vector, filled up with nodes of weight 0. */
 typedef struct Rest {
   double weight[SPORE_WIDTH], place[3 * SPORE_WIDTH], q[3 * SPORE_WIDTH], shape[3 * SPORE_WIDTH], v[3 * SPORE_WIDTH];
 } Rest;
@@ -57,7 +58,8 @@ SPORE_INLINE void store_lanes(double lanes[3][SPORE_LANES], size_t first, SporeV
   spore_vd_store(lanes[2] + first, a.z);
 }
 
-/* Sums of each lane are kept apart, by its place in a group of SPORE_LANES. */
+/* Each lane has a sum of its own, by its place in a group of SPORE_LANES, so that the result does not depend on the
+ * width of a vector. */
 SPORE_INLINE void add_forces(const SporeVirtualCore *ties, const SporeMat3 *rotation, const double *q,
                              const double *shape, const double *v, bool damped, double *f) {
   size_t n = ties->count;

@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "models/grid/lattice.h"
 
-/* A point in cells from the grid's first corner, and the filled cell that is to carry it. */
+/* A point in units of cells from the first corner of the grid, and the filled cell that the point follows. */
 typedef struct Located {
   double at[3];
   size_t cell[3];
@@ -52,7 +52,7 @@ static Located locate(const SporeVoxels *voxels, const double *p) {
   return point;
 }
 
-/* Trilinear weights where the point is nearest to the cell, carried on from there by their gradients. */
+/* Trilinear weights at the place of the cell nearest to the point, extended from there by their gradients. */
 static void weigh(const Located *point, double weights[8]) {
   double upper[3], beyond[3];
   for (int k = 0; k < 3; k++) {

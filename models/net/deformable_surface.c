@@ -1,7 +1,8 @@
 /* Deformable surface body (Meseure and Chaillou 2000, "A deformable body model for surgical simulation"): a surface of
- * mass points and springs, and a virtual rigid core that gives it back its shape (models/common/virtual_core.h). The
- * core touches nothing itself: the environment meets the surface, and points that lie off it, which a triangle and the
- * core's centre carry together. Nodes: the surface's vertices, then the core's centre; the frame is the core's. */
+ * mass points and springs, and a virtual rigid core that gives the surface back its shape
+ * (models/common/virtual_core.h). The core touches nothing. The environment touches the surface, and points off the
+ * surface, which follow a triangle and the core's centre. Nodes: the vertices of the surface, then the core's centre;
+ * the frame is the frame of the core. */
 #include <assert.h>
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* Weights that reproduce an offset from a line or a sheet. */
 #include "models/spline/offset_weights.h"
 
 #include <assert.h>

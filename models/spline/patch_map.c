@@ -1,3 +1,4 @@
+/* Points that follow a sheet, and samples of the sheet. */
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* Points that follow a line, and samples of the line. */
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -38,7 +39,7 @@ static double offset_weights(const Spline *spline, SporeVec3 offset, const Row *
   return spore_offset_weights(points, row->used, offset, ROUNDING * spline->size, weight, work);
 }
 
-/* From where the row puts the point to p. */
+/* From the place that the row gives to p. */
 static SporeVec3 missing(const Spline *spline, const Row *row, SporeVec3 p) {
   for (size_t i = 0; i < row->used; i++) p = spore_vec3_add_scaled(p, -row->weight[i], node(spline, row->block[i]));
   return p;
@@ -55,7 +56,7 @@ static size_t take_points(const Spline *spline, size_t span, size_t width, Row *
   return span - first;
 }
 
-/* The span's, and the arms at its knots and at so many before and behind. */
+/* The control points of the span, and the arms at its knots and at `more` knots before and behind. */
 static size_t take_arms(const Spline *spline, size_t span, size_t more, Row *row) {
   assert(spline->arms && span < spline->knots.span_count);
   size_t first = take_points(spline, span, 4, row), from = span > more ? span - more : 0;
@@ -64,7 +65,8 @@ static size_t take_arms(const Spline *spline, size_t span, size_t more, Row *row
   return first;
 }
 
-/* A row that carries the offset; false: those points do not. `last`: there are none to take in their place. */
+/* Fills a row that reproduces the offset. False: the points of the row cannot. `last`: there are no more points to
+ * try. */
 static bool fill_row(const Spline *spline, SporeVec3 p, const SporePathPlace *place, size_t first, bool last,
                      Row *row) {
   SporeVec3 offset = spore_vec3_sub(p, place->position);
@@ -82,7 +84,7 @@ static bool fill_row(const Spline *spline, SporeVec3 p, const SporePathPlace *pl
   return true;
 }
 
-/* A row for the point, whose place on the line is known; false: nothing carries it. */
+/* Finds a row for the point, whose place on the line is known. False: no row reproduces the point. */
 static bool find_row(const Spline *spline, SporeVec3 p, const SporePathPlace *place, Row *row) {
   size_t count = spline->knots.span_count + 3;
   bool last = false;

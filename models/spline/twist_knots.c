@@ -21,7 +21,7 @@ static Place place_of(SporeSplineKnots knots, const double *control, double para
   return (Place){at.position, unit(at.slope), arm};
 }
 
-/* From the one arm, carried along, to the other; the angle nearest to `about`. */
+/* The angle from one arm, transported along the line, to the other; of all turns the one nearest to `about`. */
 static double angle_between(const Place *a, const Place *b, double about) {
   SporeVec3 from = spore_vec3_transport(across(a->arm, a->tangent), a->tangent, b->tangent);
   SporeVec3 to = across(b->arm, b->tangent);
@@ -29,7 +29,7 @@ static double angle_between(const Place *a, const Place *b, double about) {
   return angle + 2 * M_PI * rint((about - angle) / (2 * M_PI));
 }
 
-/* Of this length, turned by the angle from where the other is carried to. */
+/* The arm of this length at the angle from where `from` is transported to. */
 static SporeVec3 turned_arm(const Place *from, SporeVec3 tangent, double angle, double length) {
   SporeVec3 arm = unit(spore_vec3_transport(across(from->arm, from->tangent), from->tangent, tangent));
   SporeVec3 turned =

@@ -1,3 +1,4 @@
+/* A solid of constant stiffness in a frame that turns with the body. */
 #include "models/tetrahedra/linear_solid.h"
 
 #include <assert.h>
@@ -179,7 +180,7 @@ static void add_rates(const SporeLinearSolid *body, const Frame *frame, const do
   }
 }
 
-/* f -= what K u pulls in the frame at q. */
+/* f -= the force of K u, in the frame at q. */
 static void add_pull(const SporeLinearSolid *body, const Frame *frame, const double *q, const double *u, double *f) {
   size_t n = body->base.block_count;
   double *g = body->pull;

@@ -31,7 +31,7 @@ typedef struct Work {
   SporeBlockMatrix *matrix;
 } Work;
 
-/* Tetrahedra of four nodes. */
+/* Linear tetrahedra (four nodes). */
 
 typedef void (*VisitPart)(const Work *work, const SporePart *part, const SporePoint *point);
 
@@ -85,7 +85,7 @@ SPORE_INLINE void add_part_matrix(const Work *work, const SporePart *part, const
   spore_part_add_blocks(work->tetrahedra, part, &blocks, work->matrix);
 }
 
-/* Tetrahedra of ten nodes. */
+/* Quadratic tetrahedra (ten nodes). */
 
 SPORE_INLINE void quadratic_points(const Work *work, const SporePart *part, int turns,
                                    SporePoint point[SPORE_QUADRATIC_POINTS]) {
@@ -117,7 +117,7 @@ SPORE_INLINE SporeVd quadratic_pressure(Law law, const QuadraticVolume *volume, 
   return pressure_of(law, volume->mean) + law.bulk.local * (volume->at[g] - volume->mean);
 }
 
-/* F and its rate at the points, and the rates of volume that viscosity is to resist there. */
+/* F and its rate at the points, and the rates of volume that viscosity resists there. */
 typedef struct QuadraticRates {
   SporeVd33 gradient[SPORE_QUADRATIC_POINTS], rate[SPORE_QUADRATIC_POINTS];
   SporeVd volume[SPORE_QUADRATIC_POINTS];

@@ -1,7 +1,8 @@
-/* Tetrahedra of ten nodes, one a lane: the corners and the middles of the edges, straight at rest; for kernel files.
+/* Quadratic tetrahedra (ten nodes: the corners and the middles of the edges, straight at rest), one a lane; for kernel
+ * files.
  *
- * With the weights L of the corners, shape functions are L_i (2 L_i - 1) and 4 L_i L_j. Their gradients are those of
- * the four L, which are constant, times numbers of the point. */
+ * With the weights L of the corners, the shape functions are L_i (2 L_i - 1) and 4 L_i L_j. Their gradients are the
+ * gradients of the four L, which are constant, times numbers that depend on the point. */
 #ifndef SPORE_MODELS_TETRAHEDRA_QUADRATIC_H
 #define SPORE_MODELS_TETRAHEDRA_QUADRATIC_H
 
@@ -20,7 +21,7 @@ SPORE_INLINE double spore_quadratic_weight(int point, int corner) {
   return corner == point ? 0.58541019662496845446 : 0.13819660112501051518;
 }
 
-/* A vector a node, or a gradient of one. */
+/* A vector for each node, or the gradient of a vector by each node. */
 typedef struct SporeQuadraticNodes {
   SporeVd3 node[10];
 } SporeQuadraticNodes;
@@ -92,7 +93,7 @@ typedef struct SporeQuadraticBlocks {
   SporeVd33 m[SPORE_QUADRATIC_PAIRS];
 } SporeQuadraticBlocks;
 
-/* A node's gradient at a point: at most two of the corners', each times a number. */
+/* The gradient of a node at a point: the gradients of one or two corners, each times a number. */
 typedef struct SporeQuadraticFactor {
   int corner[2], count;
   double by[2];
@@ -124,7 +125,7 @@ SPORE_INLINE void spore_quadratic_corners(const SporeElementBlocks *blocks, Spor
   }
 }
 
-/* blocks += what the corners' blocks at a point make of the nodes' */
+/* blocks += the nodes' blocks that follow from the corners' blocks at a point */
 SPORE_INLINE void spore_quadratic_expand(const SporeElementBlocks *corners, int point, SporeQuadraticBlocks *blocks) {
   SporeVd33 all[4][4];
   spore_quadratic_corners(corners, all);
