@@ -1,3 +1,4 @@
+/* The list of models. */
 #include "models/registry.h"
 
 const SporeModelType *const spore_model_registry[] = {&spore_rigid_body,

@@ -1,3 +1,4 @@
+/* Which instruction sets this processor has, and which one the kernels use. */
 #include "core/base/cpu.h"
 
 #include <stdatomic.h>

@@ -1,3 +1,4 @@
+/* Filling in an error, and the translation of its message. */
 #include "core/base/error.h"
 
 #include <stdarg.h>

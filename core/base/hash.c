@@ -1,3 +1,4 @@
+/* A 64-bit hash of bytes. */
 #include "core/base/hash.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Allocation, with counters and refusals for tests. */
 #include "core/base/memory.h"
 
 #include <stdatomic.h>

@@ -1,3 +1,4 @@
+/* The form of names, and the distance between two spellings. */
 #include "core/base/name.h"
 
 #include <stdint.h>

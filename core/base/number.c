@@ -1,3 +1,4 @@
+/* Numbers to text and back, whatever the locale. */
 #include "core/base/number.h"
 
 #include <math.h>

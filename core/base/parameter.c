@@ -1,3 +1,4 @@
+/* Reading, checking, storing and formatting parameters by their table. */
 #include "core/base/parameter.h"
 
 #include <math.h>

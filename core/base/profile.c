@@ -1,3 +1,4 @@
+/* Time by phase. */
 #include "core/base/profile.h"
 
 #include <time.h>

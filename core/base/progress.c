@@ -1,3 +1,4 @@
+/* Progress of a part of longer work. */
 #include "core/base/progress.h"
 
 static bool report_share(void *data, double fraction, const char *stage) {

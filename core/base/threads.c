@@ -1,3 +1,4 @@
+/* A pool of workers that share the indices of a loop. */
 #include "core/base/threads.h"
 
 #include <pthread.h>

@@ -1,3 +1,4 @@
+/* Points of a path, the nearest of them, and lengths along it. */
 #include "core/body/path.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Hashed regular grids: spheres are put in cells, and cells are found by their place. */
 #include "core/collide/cells.h"
 
 #include <assert.h>
@@ -5,16 +6,18 @@
 
 #include "core/base/memory.h"
 
-/* Cells are wider than they must be by this part, so that no rounding of a coordinate makes neighbours seem farther. */
+/* Cells are wider than needed by this part, so that rounding of a coordinate never makes neighbours seem farther
+ * apart. */
 #define SLACK 1e-6
 /* Least width of a cell in radii of its spheres. 2 is enough to find every pair; at 4 a sheet of 400 spheres takes
  * 30 us instead of 79, since far fewer empty cells are looked for, and packed spheres take no longer. */
 #define CELL_RADII 4
 #define ROUNDING 1e-15 /* of a coordinate */
-/* Cells along an axis, either way from the origin; what lies farther out goes to a wider class. */
+/* Cells along an axis, either way from the origin; a sphere farther out goes to a class of wider cells. */
 #define FARTHEST 1073741824.0 /* 2^30 */
 
-/* A k >= 0 with ratio <= 2^k, the smallest but for powers of two; none is large enough where the ratio is huge. */
+/* A k >= 0 with ratio <= 2^k: the smallest one, unless the ratio is a power of two. No class is wide enough where the
+ * ratio is huge. */
 static int class_of_ratio(double ratio) {
   if (ratio <= 1) return 0;
   if (!(ratio < 1e300)) return SPORE_CELL_CLASSES;

@@ -11,14 +11,14 @@
 #define SPORE_CELL_NONE UINT32_MAX
 #define SPORE_CELL_MIXED UINT32_MAX /* in place of a body: spheres of several */
 
-/* Class k has cells of width[k] = width[0] 2^k, laid out from origin, which lies among the spheres so that cells are
- * exact far from the scene's origin too. */
+/* Class k has cells of width[k] = width[0] 2^k. The cells are laid out from origin, which lies among the spheres, so
+ * that cells are exact far from the origin of the scene too. */
 typedef struct SporeCellScale {
   SporeVec3 origin;
   double width[SPORE_CELL_CLASSES], inverse[SPORE_CELL_CLASSES];
 } SporeCellScale;
 
-/* Class 0 is made for spheres of the smallest radius, and some class fits those of the usual radius tightly. */
+/* Class 0 fits spheres of the smallest radius; some class fits spheres of the usual radius tightly. */
 SporeCellScale spore_cell_scale(SporeVec3 origin, double smallest_radius, double usual_radius);
 
 typedef struct SporeCell {
@@ -39,8 +39,8 @@ typedef struct SporeCellSlot {
 typedef struct SporeCells {
   size_t capacity, cell_count;
   SporeCell *cells; /* capacity */
-  /* Spheres sorted by cell. A sphere's reach is the radius of the ball about the middle of its way through the step
-   * that it stays in. */
+  /* Spheres sorted by cell. The reach of a sphere is the radius of a ball about the middle of its way through the step;
+   * the sphere stays in that ball. */
   double *middle;   /* 4 a sphere: x y z reach, m */
   uint32_t *sphere; /* index in SporeSpheres */
   uint32_t *body;

@@ -1,3 +1,4 @@
+/* Making and evaluating a smooth depth from a set of spheres. */
 #include "core/collide/depth_field.h"
 
 #include <assert.h>
@@ -252,10 +253,10 @@ bool spore_depth_field_create(SporeDepthField *field, const double *centre, cons
   return false;
 }
 
-/* Part of the way from n to where the field says out is, next in the search. What is off of the normal of a sphere of
- * radius r comes back -ahead/r times as large, seen from the deepest point of a ball of radius `ahead`: so much less is
- * taken at first, and then what the last step has shown (J. Barzilai and J. M. Borwein, "Two-Point Step Size Gradient
- * Methods", IMA Journal of Numerical Analysis 8, 1988). */
+/* The part of the way from n to the direction of the field that the next round of the search takes. An error across the
+ * normal of a sphere of radius r comes back -ahead/r times as large, seen from the deepest point of a ball of radius
+ * `ahead`: the first round takes a part that allows for that, and later rounds take what the last round has shown (J.
+ * Barzilai and J. M. Borwein, "Two-Point Step Size Gradient Methods", IMA Journal of Numerical Analysis 8, 1988). */
 static double search_step(double least, SporeVec3 moved, SporeVec3 change) {
   double along = spore_vec3_dot(moved, change);
   return along > 0 ? fmin(fmax(spore_vec3_dot(moved, moved) / along, least), 1) : least;
@@ -267,8 +268,8 @@ double spore_depth_field_ball(const SporeDepthField *field, uint32_t nearest, Sp
   assert(radius >= 0);
   SporeVec3 offset = spore_vec3_sub(centre, centre_of(field, nearest));
   SporeVec3 n = spore_vec3_normalise(offset, spore_vec3(0, 1, 0)), before = n, wrong_before = {0, 0, 0};
-  /* The field is looked at in the ball's deepest point, but not beyond the middle of the sphere, where out is the other
-   * way. */
+  /* The field is evaluated at the deepest point of the ball, but not beyond the middle of the sphere, where the
+   * gradient points the other way. */
   double farthest = spore_vec3_length(offset) - BEFORE_MIDDLE * radius_of(field, nearest);
   double ahead = fmin(radius, fmax(farthest, 0)), depth = 0;
   double least = radius_of(field, nearest) / (radius_of(field, nearest) + ahead);

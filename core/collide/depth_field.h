@@ -2,12 +2,13 @@
  *
  *   g(x) = (sum_i w_i max(0, m + r_i - d_i(x))^4)^(1/4) - m
  *
- * with d_i the distance to centre i and m the mean radius: a weighted sum of sphere depths, as in the depth fields of
- * Meseure and Chaillou, whose spheres reach m beyond themselves and whose fourth power lets the nearest lead. For a
- * sphere alone it is the depth in that sphere. The weights are such that g is 0 where a sphere stands out most among
- * its neighbours; what lies between spheres is filled to about that height.
+ * with d_i the distance to centre i and m the mean radius. It is a weighted sum of sphere depths, as in the depth
+ * fields of Meseure and Chaillou; the spheres reach m beyond themselves, and the fourth power lets the nearest sphere
+ * lead. For a single sphere it is the depth in that sphere. The weights are such that g is 0 where a sphere stands out
+ * most among its neighbours; the gaps between spheres are filled to about that height.
  *
- * Spheres that come with weights of their own were fitted for the paper's plain sum, felt where it is above a level:
+ * Spheres that come with weights of their own were fitted for the plain sum of that paper, which counts where it is
+ * above a level:
  *
  *   g(x) = sum_i w_i max(0, r_i - d_i(x)) - level */
 #ifndef SPORE_COLLIDE_DEPTH_FIELD_H

@@ -1,3 +1,4 @@
+/* The grid from outside: creation, lists of near pairs, contacts. */
 #include "core/collide/grid_private.h"
 
 #include <assert.h>
@@ -11,9 +12,9 @@
 #define LARGEST 1e9 /* m: of radii and of the coordinates of what never moves */
 #define SMALLEST_RADIUS 1e-9
 
-/* Pairs are looked for among balls that are larger than the spheres need by a skin, and the list of them serves for as
- * long as every sphere stays within its ball: the narrow phase alone decides what touches, so that the contacts are
- * those of a fresh search. */
+/* Pairs are looked for among balls that are larger than the spheres need by a skin. The list of pairs holds for as long
+ * as every sphere stays within its ball. The narrow phase alone decides what touches, so that the contacts are those of
+ * a fresh search. */
 #define SKIN_STEPS                                                                                                     \
   12 /* the skin lasts for so many steps at the speed of now, however fast: one stray is enough to end a list */
 #define SKIN_SMALLEST 0.1 /* of the radius */
@@ -23,7 +24,8 @@
 
 /* Lists. */
 
-/* The balls of this step with a skin: steps at the speed of now, or what a slow sphere needs; steps = 0: none. */
+/* The balls of this step with a skin: the way of so many steps at the present speed, or what a slow sphere needs. steps
+ * = 0: no skin. */
 static void add_skins(SporeGrid *grid, const SporeSpheres *spheres, double steps) {
   size_t moving = grid->count - grid->static_count;
   const double *ball = grid->balls + 4 * grid->static_count, *radius = spheres->radius + grid->static_count;
@@ -53,7 +55,7 @@ static void list_pairs(SporeGrid *grid, const SporeSpheres *spheres, double skin
   spore_grid_find_pairs(grid, spheres);
 }
 
-/* Without lists for a while: they do not pay, or have no room. */
+/* Does without lists for a while, because they do not pay or have no room. */
 static void pause_lists(SporeGrid *grid) {
   grid->pause_left = grid->pause;
   if (grid->pause < PAUSE_LONGEST) grid->pause *= 2;
@@ -233,8 +235,8 @@ static bool take_exclusions(SporeGrid *grid, const SporeGrid *rest) {
   return true;
 }
 
-/* The pairs to exclude are those that a grid finds at rest among spheres that are larger by the margin, when bodies
- * collide with nothing but themselves. */
+/* The pairs to exclude are the pairs at rest among spheres that are larger by the margin; in the grid that finds them,
+ * bodies collide only with themselves. */
 static bool build_exclusions(SporeGrid *grid, const SporeSpheres *rest, double *still, double *wider,
                              unsigned char *selves) {
   SporeSpheres spheres = *rest;

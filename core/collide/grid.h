@@ -1,14 +1,15 @@
 /* Broad and narrow phase: which spheres of a world touch.
  *
- * Spheres lie in hashed regular grids of cells, one grid for each class of radius (cells of a class are twice as wide
- * as those of the class below and at least as wide as the spheres in them), so that any mixture of radii costs O(n)
- * time and memory. Table entries carry the number of the step that wrote them and count as empty in any other: the
- * table is never emptied. Unmovable spheres have a table of their own, filled at creation. A pair is looked for from
- * its smaller class, among unmovable spheres from the moving one, and so is found exactly once.
+ * Spheres lie in hashed regular grids of cells, one grid for each class of radius. Cells of a class are twice as wide
+ * as those of the class below, and at least as wide as the spheres in them, so that any mixture of radii costs O(n)
+ * time and memory. An entry of the table carries the number of the step that wrote it and counts as empty in any other
+ * step: the table is never emptied. Unmovable spheres have a table of their own, filled at creation. A pair is looked
+ * for from its sphere of the smaller class, and a pair with an unmovable sphere from the moving one: each pair is found
+ * exactly once.
  *
- * The grid remembers pairs that are near and looks for new ones only when a sphere has moved out of the ball that it
- * was near in (L. Verlet, "Computer 'Experiments' on Classical Fluids I", Phys. Rev. 159, 1967); what it finds does not
- * depend on that. */
+ * The grid remembers near pairs, and looks for new pairs only when a sphere has left the ball in which its near pairs
+ * were looked for (L. Verlet, "Computer 'Experiments' on Classical Fluids I", Phys. Rev. 159, 1967). The contacts found
+ * do not depend on that. */
 #ifndef SPORE_COLLIDE_GRID_H
 #define SPORE_COLLIDE_GRID_H
 

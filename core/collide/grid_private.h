@@ -22,9 +22,9 @@ struct SporeGrid {
   SporeCellScale scale;
   SporeCells unmovable, moving; /* moving.unsorted: balls with their skins */
   double *balls;                /* count x 4: ball that a sphere stays in during this step; reach < 0: not finite */
-  /* Spheres outside their body's region, the part of space that it shares with bodies it pairs with, need no cell.
-   * Regions are looked for only where there are so few bodies that trying every pair of them costs no more than
-   * the spheres do; else NULL. */
+  /* A sphere outside the region of its body needs no cell; the region is the part of space that the body shares with
+   * bodies it pairs with. Regions are computed only where there are so few bodies that trying every pair of bodies
+   * costs no more than the spheres do; else NULL. */
   SporeBounds *bounds, *regions; /* body_count */
   /* Pairs of one body that touch at rest: for sphere a, those b > a, ascending. NULL: no body collides with itself. */
   uint32_t *excluded_start; /* count + 1 */

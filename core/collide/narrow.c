@@ -1,3 +1,4 @@
+/* The contact of two spheres, overlapping or on their way to meet. */
 #include "core/collide/narrow.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* The contact law's Jacobian, slip and energy. */
 #include "core/collide/response.h"
 
 #include <assert.h>

@@ -1,21 +1,21 @@
-/* The penalty law of a contact, as a pure function of the contact's state: what explicit steps call for forces and
- * implicit ones for stiffness and damping too.
+/* The penalty law of a contact, as a pure function of the state of the contact: explicit steps ask for forces, implicit
+ * steps for stiffness and damping too.
  *
  * With unit normal n (from b to a), depth d, relative velocity w = va - vb, gap speed g = n.w, w_t = w - g n, and the
- * stretch s, how far a has moved along b since they have held each other:
+ * stretch s, how far a has moved along b since the contact holds:
  *
  *   N = max(0, k d e(g) - c s(d) g)                       for d > 0, else 0
  *   T = k s + c s(d) w_t, cut to the length mu N
  *   force on a = N n - T, on b the opposite
  *
- * s(d) is a C1 step from 0 at d = 0 to 1 at `damping_depth`: the damping force starts from nothing at first touch.
- * e(g) is 1 up to half of SPORE_CONTACT_EXIT_SPEED and falls, C1, to 0 at it: a spring that is deeply compressed, such
- * as bodies that overlap at the start, cannot throw them out faster than that. Both only ever take energy away from
- * that of the springs, k (d^2 + s^2) / 2. A cap on the depth that pushes would bound the energy but not the speed, and
- * would let heavy bodies sink in.
+ * s(d) is a C1 step from 0 at d = 0 to 1 at `damping_depth`: the damping force starts at zero when bodies touch first.
+ * e(g) is 1 up to half of SPORE_CONTACT_EXIT_SPEED and falls, C1, to 0 at that speed: a deeply compressed spring, as
+ * between bodies that overlap at the start, cannot throw bodies out faster than that. Both functions only take energy
+ * away from that of the springs, k (d^2 + s^2) / 2. A cap on the depth would bound the energy but not the speed, and
+ * heavy bodies would sink in.
  *
  * Friction is a spring that slips (P. A. Cundall and O. D. L. Strack, "A discrete numerical model for granular
- * assemblies", Geotechnique 29, 1979): within the cone it holds for good, and what rests comes to rest. */
+ * assemblies", Geotechnique 29, 1979): within the cone the contact holds, and a body at rest stays at rest. */
 #ifndef SPORE_COLLIDE_RESPONSE_H
 #define SPORE_COLLIDE_RESPONSE_H
 

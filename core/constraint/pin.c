@@ -1,3 +1,4 @@
+/* Choosing held points, and clearing the entries of held blocks. */
 #include "core/constraint/pin.h"
 
 #include <assert.h>

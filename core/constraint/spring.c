@@ -1,3 +1,4 @@
+/* Force, friction, Jacobian and energy of a damped spring. */
 #include "core/constraint/spring.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Limits on what a device asks of the simulation, and on what the simulation asks of the hand. */
 #include "core/haptic/guard.h"
 
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* Interpolation between two device states. */
 #include "core/haptic/motion.h"
 
 static SporeQuat unit_quat(const double q[4]) { return spore_quat_normalise(spore_quat_load(q)); }

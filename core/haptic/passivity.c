@@ -1,3 +1,4 @@
+/* The energy tank of a device, and the force that it leaves. */
 #include "core/haptic/passivity.h"
 
 #include <math.h>

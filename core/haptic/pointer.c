@@ -1,3 +1,4 @@
+/* A device that another thread moves. */
 #include "core/haptic/pointer.h"
 
 #include <math.h>

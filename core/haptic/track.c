@@ -1,3 +1,4 @@
+/* Reading, recording and writing tracks of device input. */
 #include "core/haptic/track.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* A device that plays a recorded track. */
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/haptic/motion.h"

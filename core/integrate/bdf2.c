@@ -1,3 +1,4 @@
+/* The second-order backward differentiation formula. */
 #include <assert.h>
 #include <string.h>
 

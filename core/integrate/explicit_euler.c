@@ -1,3 +1,4 @@
+/* Explicit Euler. */
 #include <assert.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Implicit Euler: one stage over the whole step. */
 #include <assert.h>
 
 #include "core/base/text.h"

@@ -1,3 +1,4 @@
+/* The implicit midpoint rule: one stage over half of the step. */
 #include <assert.h>
 
 #include "core/base/text.h"

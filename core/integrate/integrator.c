@@ -1,3 +1,4 @@
+/* The list of integrators. */
 #include "core/integrate/integrator.h"
 
 #include <assert.h>
@@ -18,14 +19,4 @@ size_t spore_integrator_scratch(void) {
   for (size_t i = 0; i < SPORE_INTEGRATOR_COUNT; i++)
     if (integrators[i]->scratch > most) most = integrators[i]->scratch;
   return most;
-}
-
-void spore_step_result_add(SporeStepResult *total, const SporeStepResult *part) {
-  total->converged &= part->converged;
-  total->newton_iterations += part->newton_iterations;
-  total->linear_iterations += part->linear_iterations;
-  total->force_evaluations += part->force_evaluations;
-  total->linearisations += part->linearisations;
-  total->unsolved += part->unsolved;
-  if (!(part->residual <= total->residual)) total->residual = part->residual;
 }

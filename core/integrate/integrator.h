@@ -13,7 +13,15 @@ typedef struct SporeStepResult {
 } SporeStepResult;
 
 /* Adds the counts of a part of a step; the worst residual stays. */
-void spore_step_result_add(SporeStepResult *total, const SporeStepResult *part);
+static inline void spore_step_result_add(SporeStepResult *total, const SporeStepResult *part) {
+  total->converged &= part->converged;
+  total->newton_iterations += part->newton_iterations;
+  total->linear_iterations += part->linear_iterations;
+  total->force_evaluations += part->force_evaluations;
+  total->linearisations += part->linearisations;
+  total->unsolved += part->unsolved;
+  if (!(part->residual <= total->residual)) total->residual = part->residual;
+}
 
 /* What a multistep or adaptive method remembers of the step before, at the q0 of this one. The vectors, 3 block_count
  * each, mean what the method says. */

@@ -1,3 +1,4 @@
+/* The classical Runge-Kutta method of fourth order, in momentum. */
 #include <assert.h>
 #include <string.h>
 

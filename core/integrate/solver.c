@@ -1,3 +1,4 @@
+/* Names and parameter table of the solver's settings. */
 #include "core/integrate/solver.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* One implicit stage as a nonlinear system, its first guess, and its solution. */
 #include "core/integrate/stage.h"
 
 #include <assert.h>
@@ -53,9 +54,9 @@ static SporeLinearResult solve(void *data, const double *r, double tolerance, do
   return spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
 }
 
-/* Friction that slips is stiff across itself, along what presses, and nothing like that the other way: where contacts
- * hold one another, as in a knot, Newton's method without that term creeps, or never arrives. By A alone where that is
- * all, or where the whole cannot be solved. */
+/* Slipping friction adds a term to the Jacobian that is not symmetric: friction changes with the pressing force, and
+ * not the other way round. Where contacts hold one another, as in a knot, Newton's method without that term converges
+ * slowly or not at all. A alone is used where there is no such term, or where the whole system cannot be solved. */
 static SporeLinearResult solve_whole(void *data, const double *r, double tolerance, double *dv) {
   Stage *stage = data;
   const SporeDynamics *dynamics = stage->dynamics;
@@ -70,8 +71,7 @@ static SporeLinearResult solve_whole(void *data, const double *r, double toleran
   return part;
 }
 
-/* A factor of a linearisation that is not the present one: applied once, it serves a quasi-Newton method as well as the
- * exact solution. */
+/* A factor of an earlier linearisation, applied once, serves a quasi-Newton method as well as an exact solution. */
 static SporeLinearResult approximate(void *data, const double *r, double *dv) {
   Stage *stage = data;
   const SporeDynamics *dynamics = stage->dynamics;
@@ -150,12 +150,13 @@ static void set_start(const Stage *stage, Start start, const double *change, dou
   }
 }
 
-/* The guess: changing as in the step before, where that is known, going on as before, or standing still, whichever is
- * nearest to the answer. Where the step is long for the stiffness, going on stretches what is stiff: what changed the
- * speed so that it did not stretch is needed again, and where that is of no use only standing still starts with no more
- * energy than there was. One that misses no more than gravity's part stretches nothing and is taken as it is; but not
- * at a speed below `slow`, which may be no more than what the answers before missed by: what rests is to be found at
- * rest. r: the residual there. Returns evaluations. */
+/* The first guess. Of three candidates the one nearest to the answer is taken: the velocity changes as in the step
+ * before, where that is known; the velocity stays; or the body stands still. Where the step is long for the stiffness,
+ * keeping the velocity stretches what is stiff: the change of the last step is then needed again, and where that is of
+ * no use, only standing still starts with no more energy than there was. A candidate whose residual is within that of
+ * gravity stretches nothing and is taken at once, unless the speed is below `slow`: such a speed may be only the error
+ * of earlier answers, and a body at rest is to be found at rest. r: the residual at the guess. Returns the number of
+ * evaluations. */
 static size_t guess(Stage *stage, const double *change, double gravity, double slow, double *v, double *r) {
   double speed = sqrt(kinetic_dot(stage, stage->va, stage->va)), least = INFINITY;
   Start best = START_STILL, first = speed == 0 ? START_STILL : change && speed > slow ? START_CHANGING : START_GOING;

@@ -1,3 +1,4 @@
+/* Balance of forces in place of motion. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -55,7 +56,8 @@ static double dual_norm(void *data, const double *r) {
   return sqrt(sum);
 }
 
-/* H after a step of the line search: it follows the residual down, and shrinks where the step had to. */
+/* The pseudo-step H after a step of the line search: H grows as the residual falls, and shrinks where the step was
+ * cut. */
 static void change_pseudo_step(Balance *balance, double length, double before, double after) {
   assert(length > 0);
   double factor = length < 1 ? SHRINKING : fmin(fmax(before / after, GROWTH_MINIMUM), GROWTH_MAXIMUM);
@@ -101,11 +103,12 @@ static bool balance_load(Balance *balance, const SporeSolverFields *fields, doub
     move(balance, trial);
     change_pseudo_step(balance, length, norm, after);
   }
-  /* No better than rounding allows: the linearisation tells. */
+  /* Whether the residual is down to rounding, by the last linearisation. */
   return result->linearisations > 0 && norm <= dynamics->rounding(dynamics->data, balance->h, true);
 }
 
-/* What nothing holds has no balance. It creeps: each step it starts from rest, and gains what one step gives it. */
+/* A body that nothing holds has no balance. It creeps: each step starts from rest and keeps the displacement of that
+ * one step. */
 static SporeStepResult creep(const SporeDynamics *dynamics, const SporeSolverFields *fields, double h, const double *q0,
                              double *q1, double *v1, double *scratch) {
   size_t n = 3 * dynamics->block_count;

@@ -1,3 +1,4 @@
+/* Symplectic Euler. */
 #include <assert.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* TR-BDF2: the trapezoidal rule and BDF2 in one step, with an error estimate and adaptive parts. */
 #include "core/integrate/tr_bdf2.h"
 
 #include <assert.h>
@@ -65,16 +66,16 @@ SporeStepResult spore_tr_bdf2_step(const SporeDynamics *dynamics, const SporeSol
     for (size_t i = 0; i < n; i++) work[i] = D * (va[i] - start[i]) - 2 * W * (v[i] - start[i]);
     dynamics->carry(data, work, q1, extra->mean);
   }
-  /* Against the third-order formula with weights (1 - W)/3, (3 W + 1)/3, D/3. It needs no filter for what is stiff: its
-   * terms are velocities, which stay bounded. */
+  /* The error against the third-order formula with weights (1 - W)/3, (3 W + 1)/3, D/3. No filter for stiff components
+   * is needed: the terms are velocities, which stay bounded. */
   if (extra->error)
     for (size_t i = 0; i < n; i++)
       extra->error[i] = h * (2 * D / 3 * (v[i] - start[i]) - D / (3 * W) * (va[i] - start[i]));
   return result;
 }
 
-/* Parts of the step, each as large as its share of the tolerance allows: the estimate is of third order, so that of a
- * part's share is of second. */
+/* Takes the step in parts, each as large as its share of the tolerance allows. The estimate is of third order, so that
+ * the estimate of a part against its share is of second order. */
 static SporeStepResult adaptive_step(const SporeDynamics *dynamics, const SporeSolverFields *fields,
                                      SporeHistory *history, double h, const double *q0, const double *v0, double *q1,
                                      double *v1, double *scratch) {

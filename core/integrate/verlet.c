@@ -1,3 +1,4 @@
+/* Velocity Verlet. */
 #include <assert.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Stabilised biconjugate gradients. */
 #include "core/linalg/bicgstab.h"
 
 #include <assert.h>

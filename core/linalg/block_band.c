@@ -1,3 +1,4 @@
+/* Order, layout and memory of a factor near the diagonal. */
 #include "core/linalg/block_band.h"
 
 #include <assert.h>
@@ -27,8 +28,9 @@ static uint32_t degree_of(const SporeBlockMatrix *pattern, uint32_t i) {
   return pattern->row_start[i + 1] - pattern->row_start[i];
 }
 
-/* Goes through what hangs together with `root`, nearest first, and of a block's neighbours those of least degree first.
- * sequence: from `start` on; mark: to be `stamp` where it has been. Returns the end of the sequence. */
+/* Visits all blocks that hang together with `root`, the nearest first, and of the neighbours of a block those of least
+ * degree first. sequence: filled from `start` on; mark: set to `stamp` for visited blocks. Returns the end of the
+ * sequence. */
 static size_t walk(const SporeBlockMatrix *pattern, uint32_t root, uint32_t *sequence, size_t start, uint32_t *mark,
                    uint32_t stamp) {
   assert(root < pattern->block_count && start < pattern->block_count);
@@ -52,8 +54,8 @@ static size_t walk(const SporeBlockMatrix *pattern, uint32_t root, uint32_t *seq
   return end;
 }
 
-/* Cuthill and McKee's order: each part from a block that is far from others, found by walking twice. What reversing it
- * spares a sparse factor is nothing to a band. */
+/* Cuthill and McKee's order. Each connected part starts at a block that is far from others, found by walking twice.
+ * Reversing the order, which saves fill in a sparse factor, does nothing for a band. */
 static bool order_by_distance(const SporeBlockMatrix *pattern, uint32_t *place) {
   size_t n = pattern->block_count, end = 0;
   uint32_t *sequence = SPORE_NEW_ARRAY(uint32_t, n), *mark = SPORE_NEW_ARRAY(uint32_t, n);

@@ -1,10 +1,10 @@
 /* Factor of a symmetric positive definite matrix whose 3x3 blocks lie near its diagonal: chains and splines.
  *
- * Blocks of L D L^T, L with identities and D with 3x3 blocks S on its diagonal. What is kept of a column is S^-1 and
- * its blocks of L: a solution then waits, from block to block, for one product and no more. Columns are eliminated from
- * both ends at once, which the processor overlaps, and those where the two meet last (S. Parter's "burn at both ends";
- * J. J. Dongarra and others, LINPACK Users' Guide, 1979, chapter 7). There are no lists of rows, and no more zeros than
- * the band has. */
+ * The factor is L D L^T in blocks: L has identities on its diagonal, D has 3x3 blocks S. For each column S^-1 and the
+ * blocks of L are stored, so that a solution waits for one product from block to block. Columns are eliminated from
+ * both ends at once, which the processor overlaps; the columns where the two ends meet come last (S. Parter's "burn at
+ * both ends"; J. J. Dongarra and others, LINPACK Users' Guide, 1979, chapter 7). There are no lists of rows, and no
+ * zeros but those of the band. */
 #ifndef SPORE_LINALG_BLOCK_BAND_H
 #define SPORE_LINALG_BLOCK_BAND_H
 

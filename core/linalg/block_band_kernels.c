@@ -1,3 +1,4 @@
+/* Factorising and solving near the diagonal, from both ends at once. */
 #include "core/linalg/block_band_kernels.h"
 
 #include <assert.h>
@@ -84,7 +85,7 @@ SPORE_INLINE void eliminate_from_end(Factoring *f, size_t width, size_t at, size
   eliminate(f, width, before + at, p, &ring[at % RING]);
 }
 
-/* The q-th of those between: what both ends and those before it take from it. */
+/* The q-th column between both ends: takes the updates of both ends and of the columns between that came before. */
 SPORE_INLINE void eliminate_between(Factoring *f, size_t width, size_t q) {
   const SporeBlockBand *band = f->band;
   size_t between = band->block_count - band->top - band->bottom, at = band->top + q;

@@ -1,3 +1,4 @@
+/* Numbers of a sparse factor: assembling fronts, eliminating them, solving. */
 #include "core/linalg/block_cholesky.h"
 
 #include <assert.h>
@@ -54,10 +55,11 @@ static void assemble(const SporeBlockCholesky *factor, const SporeSupernode *nod
   }
 }
 
-/* How much of a pivot may have cancelled away for single precision still to hold what is left. */
+/* How much of a pivot may have cancelled, so that single precision still holds the rest. */
 #define CANCELLED 1e-4
 
-/* Keeps an eliminated front, rounded where its pivots are not small against the diagonal that they came from. */
+/* Stores an eliminated front, rounded to single precision where its pivots are not small against the diagonal they came
+ * from. */
 static void keep(SporeBlockCholesky *factor, SporeSupernode *node, const double *diagonal) {
   size_t columns = columns_of(node), ldt = spore_cholesky_pad(columns);
   size_t size = columns * (ldt + spore_cholesky_pad(rows_of(node)));
@@ -75,7 +77,8 @@ static const SporeSupernode *child_before(const SporeBlockCholesky *factor, cons
   return child->sibling == UINT32_MAX ? NULL : factor->supernodes + child->sibling;
 }
 
-/* What the children take from a front goes in before it is eliminated, what they take from its update behind it. */
+/* The updates of the children that fall into this front are added before the front is eliminated; the rest goes into
+ * the update of this front afterwards. */
 static bool eliminate(SporeBlockCholesky *factor, const SporeSupernode *node, double *t) {
   size_t columns = node->column_count, ldt = spore_cholesky_pad(columns_of(node)),
          ld = spore_cholesky_pad(rows_of(node));

@@ -207,8 +207,8 @@ static void tie_to_parents(const Analysis *analysis, SporeBlockCholesky *factor)
   }
 }
 
-/* Updates of one generation lie on one stack, those of the next on the other: what a supernode takes from its parent's
- * front is put down while what its children take from its own still lies there. Returns the size of both. */
+/* Updates of one generation of the tree lie on one stack, those of the next generation on the other: the update of a
+ * supernode is written while the updates of its children are still needed. Returns the size of both stacks. */
 static size_t place_updates(const Analysis *analysis, SporeBlockCholesky *factor) {
   uint32_t *odd = analysis->mark;
   size_t height[2] = {0, 0}, most[2] = {0, 0};
@@ -322,7 +322,7 @@ static bool create_sparse(SporeBlockCholesky *factor, const SporeBlockMatrix *pa
   return made;
 }
 
-/* A flop takes so much less in a band, where no supernode is begun and none is added to another. */
+/* A flop costs this part of its usual time in a band, where no supernodes are begun or added up. */
 #define BAND_FLOP 0.4
 
 static void count_band(SporeBlockCholesky *factor) {

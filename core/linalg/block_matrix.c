@@ -1,3 +1,4 @@
+/* Patterns and matrices of 3x3 blocks. */
 #include "core/linalg/block_matrix.h"
 
 #include <assert.h>

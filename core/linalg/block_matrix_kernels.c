@@ -1,3 +1,4 @@
+/* The product of a block matrix and a vector. */
 #include "core/linalg/block_matrix_kernels.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Dense work on one supernode: elimination, rounding, and both halves of a solution. */
 #include "core/linalg/cholesky_kernels.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Approximate minimum degree on the quotient graph. */
 #include "core/linalg/minimum_degree.h"
 
 #include <assert.h>
@@ -7,8 +8,8 @@
 
 #define NONE UINT32_MAX
 
-/* The quotient graph. What is left of a variable's neighbours stands in its row of the pattern: variables from the
- * front, elements from the back. An element is an eliminated variable, and knows the variables around it. */
+/* The quotient graph. The row of a variable in the pattern holds its remaining neighbours: variables from the front,
+ * elements from the back. An element is an eliminated variable; it knows the variables around it. */
 typedef struct Graph {
   uint32_t count;
   uint32_t *row_start, *row;            /* count + 1; neighbours */
@@ -96,7 +97,8 @@ static bool reserve(Graph *graph) {
   return true;
 }
 
-/* Makes the pivot an element: around it is what is around it and around the elements it touches, which it absorbs. */
+/* Makes the pivot an element. The variables around the element are those around the pivot and those around the elements
+ * that the pivot touches; these elements are absorbed. */
 static bool eliminate(Graph *graph, uint32_t pivot) {
   assert(pivot < graph->count && !graph->eliminated[pivot]);
   if (!reserve(graph)) return false;
@@ -133,7 +135,8 @@ static void measure_outside(Graph *graph, uint32_t pivot) {
   }
 }
 
-/* Drops from the row of a variable around the pivot what the new element covers; returns the degree. */
+/* Removes from the row of a variable around the pivot what the new element covers; returns the degree of the
+ * variable. */
 static uint32_t prune(Graph *graph, uint32_t i, uint32_t pivot) {
   assert(graph->mark[i] == pivot + 1 && graph->around_size[pivot] > 0);
   uint32_t *row = graph->row + graph->row_start[i], *back = graph->row + graph->row_start[i + 1];

@@ -1,3 +1,4 @@
+/* Preconditioned conjugate gradients. */
 #include "core/linalg/pcg.h"
 
 #include <assert.h>
@@ -5,7 +6,7 @@
 #include <string.h>
 
 static double dot(size_t n, const double *a, const double *b) {
-  /* Four sums: as fast as the adder allows, and always added up in the same order. */
+  /* Four sums hide the latency of the adder; they are always added up in the same order. */
   double s[4] = {0, 0, 0, 0};
   size_t i = 0;
   for (; i + 4 <= n; i += 4)

@@ -1,3 +1,4 @@
+/* Inverse, eigenvectors and polar decomposition of 3x3 matrices. */
 #include "core/math/mat3.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Quaternions to matrices, rotation vectors and back. */
 #include "core/math/quat.h"
 
 #include <float.h>

@@ -1,3 +1,4 @@
+/* Basis functions of cubic B-splines, and the insertion of a knot. */
 #include "core/math/spline.h"
 
 #include <assert.h>

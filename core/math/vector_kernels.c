@@ -1,3 +1,4 @@
+/* Sums and products of long vectors. */
 #include "core/math/vector.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Which point of a curve each vertex of a surface belongs to. */
 #include "core/mesh/attach.h"
 
 #include <assert.h>

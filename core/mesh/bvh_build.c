@@ -1,3 +1,4 @@
+/* Building a bounding volume hierarchy over triangles, with the moments for winding numbers. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>

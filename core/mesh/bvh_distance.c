@@ -1,3 +1,4 @@
+/* Distances to a surface, and rays through it. */
 #include <assert.h>
 #include <math.h>
 

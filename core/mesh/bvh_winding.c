@@ -1,3 +1,4 @@
+/* Winding numbers, and the signed depth that follows from them. */
 #include <math.h>
 
 #include "core/mesh/bvh_node.h"

@@ -1,3 +1,4 @@
+/* The faces of cells that are seen when a tetrahedral mesh is cut open or drawn apart. */
 #include "core/mesh/cell_faces.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Repair of triangles without area, and of double vertices. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>

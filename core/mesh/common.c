@@ -1,3 +1,4 @@
+/* Checks and bounds that the files of this room share. */
 #include "core/mesh/common.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Pairs of triangles of one surface that go through each other. */
 #include "core/mesh/crossings.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Curves with radii, and the tube around a curve. */
 #include <assert.h>
 #include <math.h>
 

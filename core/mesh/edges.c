@@ -1,3 +1,4 @@
+/* The edges of triangles and tetrahedra, each once. */
 #include <assert.h>
 
 #include "core/mesh/common.h"

@@ -1,3 +1,4 @@
+/* The half-edges of a surface, sorted by edge. */
 #include "core/mesh/half_edges.h"
 
 #include "core/base/memory.h"

@@ -1,3 +1,4 @@
+/* Filling the holes of a surface. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>

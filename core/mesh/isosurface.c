@@ -1,3 +1,4 @@
+/* The surface where a distance field is zero: sampling on a lattice, and meshing. */
 #include "core/mesh/isosurface.h"
 
 #include <assert.h>

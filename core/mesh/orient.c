@@ -1,3 +1,4 @@
+/* Turning the triangles of a surface so that they look outwards. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>

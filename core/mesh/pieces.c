@@ -1,3 +1,4 @@
+/* The connected pieces of a surface; taking one out, and appending a surface. */
 #include <assert.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Quality of tetrahedra: dihedral angles and radius ratio. */
 #include <math.h>
 
 #include "core/mesh/common.h"

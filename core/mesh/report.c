@@ -1,3 +1,4 @@
+/* A report on a surface: closed or open, faults, volume, pieces. */
 #include <math.h>
 
 #include "core/base/text.h"

@@ -1,3 +1,4 @@
+/* A surface that is edited: its lists of corners, features, and changes. */
 #include "core/mesh/shell.h"
 
 #include <assert.h>
@@ -9,6 +10,8 @@
 #include "core/mesh/half_edges.h"
 
 #define NONE SPORE_SHELL_NONE
+#define LEAST_TURN 0.3 /* cosine by which a triangle may turn when one of its corners moves */
+#define SLIVER 0.1     /* quality of a triangle whose own normal says nothing */
 
 void spore_shell_clear(SporeShell *shell) {
   spore_free(shell->x);
@@ -168,6 +171,32 @@ double spore_shell_quality(SporeVec3 a, SporeVec3 b, SporeVec3 c) {
   SporeVec3 ab = spore_vec3_sub(b, a), ac = spore_vec3_sub(c, a), bc = spore_vec3_sub(c, b);
   double sides = spore_vec3_dot(ab, ab) + spore_vec3_dot(ac, ac) + spore_vec3_dot(bc, bc);
   return sides > 0 ? 2 * sqrt(3) * spore_vec3_length(spore_vec3_cross(ab, ac)) / sides : 0;
+}
+
+/* The mean normal around, by area. */
+static SporeVec3 normal_around(const SporeShell *shell, uint32_t vertex) {
+  SporeVec3 sum = {0, 0, 0};
+  for (uint32_t c = shell->head[vertex]; c != NONE; c = shell->next[c])
+    sum = spore_vec3_add(sum, spore_shell_normal(shell, c / 3));
+  return sum;
+}
+
+double spore_shell_moved_quality(const SporeShell *shell, uint32_t vertex, SporeVec3 x, uint32_t except) {
+  SporeVec3 at = spore_shell_at(shell, vertex);
+  double worst = 1;
+  for (uint32_t c = shell->head[vertex]; c != NONE; c = shell->next[c]) {
+    uint32_t n[2] = {shell->corner[spore_shell_after(c)], shell->corner[spore_shell_before(c)]};
+    if (n[0] == except || n[1] == except) continue;
+    SporeVec3 b = spore_shell_at(shell, n[0]), d = spore_shell_at(shell, n[1]);
+    double was = spore_shell_quality(at, b, d), quality = spore_shell_quality(x, b, d);
+    SporeVec3 before = was < SLIVER ? normal_around(shell, vertex)
+                                    : spore_vec3_cross(spore_vec3_sub(b, at), spore_vec3_sub(d, at)),
+              after = spore_vec3_cross(spore_vec3_sub(b, x), spore_vec3_sub(d, x));
+    double both = spore_vec3_length(before) * spore_vec3_length(after);
+    if (!(spore_vec3_dot(before, after) >= LEAST_TURN * both)) return 0;
+    if (quality < was) worst = fmin(worst, quality);
+  }
+  return worst;
 }
 
 size_t spore_shell_between(const SporeShell *shell, uint32_t a, uint32_t b, uint32_t corners[2]) {

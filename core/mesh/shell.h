@@ -47,6 +47,9 @@ static inline SporeVec3 spore_shell_at(const SporeShell *shell, uint32_t vertex)
 SporeVec3 spore_shell_normal(const SporeShell *shell, uint32_t triangle);
 /* 4 sqrt 3 area over the sum of the squared sides: 1 of an equilateral triangle. */
 double spore_shell_quality(SporeVec3 a, SporeVec3 b, SporeVec3 c);
+/* The worst quality among the triangles around a vertex, those with vertex `except` left out, that become worse when it
+ * is moved to x; 1: none does; 0: one turns over. */
+double spore_shell_moved_quality(const SporeShell *shell, uint32_t vertex, SporeVec3 x, uint32_t except);
 
 /* Triangles that have both vertices: up to two corners at a, each in one of them; how many there are. */
 size_t spore_shell_between(const SporeShell *shell, uint32_t a, uint32_t b, uint32_t corners[2]);

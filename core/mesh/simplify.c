@@ -1,3 +1,4 @@
+/* Collapsing edges of a surface, the cheapest first. */
 #include "core/mesh/simplify.h"
 
 #include <assert.h>
@@ -15,10 +16,8 @@
 #define LINE_WEIGHT 10      /* of a plane along a feature edge, to those of triangles */
 #define LEAST_QUALITY 0.002 /* of a triangle that a collapse makes, unless it was worse before */
 #define GOOD_QUALITY 0.4    /* below it, a collapse costs more */
-#define LEAST_TURN 0.3      /* cosine by which a triangle may turn in a collapse */
 #define SMALL 0.05          /* of the length wanted of edges: what of features is smaller is none of them */
 #define LIKELY 0.2          /* of the vertices, that a limit leaves */
-#define SLIVER 0.1          /* quality of a triangle whose own normal says nothing */
 #define STEPS_A_REPORT 1024 /* collapses */
 
 typedef struct Candidate {
@@ -220,32 +219,6 @@ static bool keeps_shape(SporeShell *shell, uint32_t a, uint32_t b) {
     if (spore_shell_count(shell, c) <= (is_open(shell, c) ? 1 : 3)) return false;
   }
   return true;
-}
-
-/* The mean normal around, by area. */
-static SporeVec3 normal_around(const SporeShell *shell, uint32_t vertex) {
-  SporeVec3 sum = {0, 0, 0};
-  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c])
-    sum = spore_vec3_add(sum, spore_shell_normal(shell, c / 3));
-  return sum;
-}
-
-double spore_shell_moved_quality(const SporeShell *shell, uint32_t vertex, SporeVec3 x, uint32_t except) {
-  SporeVec3 at = spore_shell_at(shell, vertex);
-  double worst = 1;
-  for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c]) {
-    uint32_t n[2] = {shell->corner[spore_shell_after(c)], shell->corner[spore_shell_before(c)]};
-    if (n[0] == except || n[1] == except) continue;
-    SporeVec3 b = spore_shell_at(shell, n[0]), d = spore_shell_at(shell, n[1]);
-    double was = spore_shell_quality(at, b, d), quality = spore_shell_quality(x, b, d);
-    SporeVec3 before = was < SLIVER ? normal_around(shell, vertex)
-                                    : spore_vec3_cross(spore_vec3_sub(b, at), spore_vec3_sub(d, at)),
-              after = spore_vec3_cross(spore_vec3_sub(b, x), spore_vec3_sub(d, x));
-    double both = spore_vec3_length(before) * spore_vec3_length(after);
-    if (!(spore_vec3_dot(before, after) >= LEAST_TURN * both)) return 0;
-    if (quality < was) worst = fmin(worst, quality);
-  }
-  return worst;
 }
 
 /* What would make narrow triangles is put off until all else costs as much. False: no memory. */

@@ -1,4 +1,5 @@
-/* A simplified surface, with its creases or without where so few vertices come nearer so. */
+/* Simplifying a surface as a whole: with its creases, or without them where so few vertices then come nearer to the
+ * surface; and thinning a closed surface as far as a limit allows. */
 #include <math.h>
 #include <string.h>
 
@@ -107,4 +108,17 @@ bool spore_triangle_mesh_simplify(const SporeTriangleMesh *mesh, const SporeSimp
   if (!done) spore_triangle_mesh_clear(&best.mesh);
   *result = best.mesh;
   return done;
+}
+
+bool spore_triangle_mesh_thin(SporeTriangleMesh *mesh, const SporeSurfaceLimit *limit, const SporeProgress *progress,
+                              SporeError *error) {
+  SporeShell shell;
+  SporeTriangleMesh thin = {0};
+  if (!spore_shell_create(&shell, mesh)) return spore_mesh_no_memory(error);
+  bool done = spore_shell_collapse_to(&shell, 4, limit, progress, error) && spore_shell_mesh(&shell, &thin, error);
+  spore_shell_clear(&shell);
+  if (!done) return false;
+  spore_triangle_mesh_clear(mesh);
+  *mesh = thin;
+  return true;
 }

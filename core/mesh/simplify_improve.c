@@ -1,3 +1,4 @@
+/* Turning edges and moving points so that angles get wider. */
 #include <math.h>
 #include <string.h>
 

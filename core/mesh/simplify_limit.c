@@ -120,16 +120,3 @@ void spore_shell_limit_clear(SporeShellLimit *work) {
   spore_free(work->vertex);
   spore_free(work->off);
 }
-
-bool spore_triangle_mesh_thin(SporeTriangleMesh *mesh, const SporeSurfaceLimit *limit, const SporeProgress *progress,
-                              SporeError *error) {
-  SporeShell shell;
-  SporeTriangleMesh thin = {0};
-  if (!spore_shell_create(&shell, mesh)) return spore_mesh_no_memory(error);
-  bool done = spore_shell_collapse_to(&shell, 4, limit, progress, error) && spore_shell_mesh(&shell, &thin, error);
-  spore_shell_clear(&shell);
-  if (!done) return false;
-  spore_triangle_mesh_clear(mesh);
-  *mesh = thin;
-  return true;
-}

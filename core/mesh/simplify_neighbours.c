@@ -1,3 +1,4 @@
+/* Triangles by the cells of a grid, so that a change that makes triangles cross is found. */
 #include <math.h>
 #include <string.h>
 

@@ -19,10 +19,6 @@ static inline double spore_quadric_at(const SporeQuadric *quadric, SporeVec3 x) 
   return value > 0 ? value : 0;
 }
 
-/* The worst quality among the triangles around a vertex, those with vertex `except` left out, that become worse when it
- * is moved to x; 1: none does; 0: one turns over. */
-double spore_shell_moved_quality(const SporeShell *shell, uint32_t vertex, SporeVec3 x, uint32_t except);
-
 /* Triangles of a shell by the cells of a grid that they reach into, so that those near another are found. */
 typedef struct SporeShellNeighbours {
   size_t side;    /* cells a side, over the shell's box */

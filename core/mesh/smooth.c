@@ -1,3 +1,4 @@
+/* Smoothing of a surface that keeps the volume of each piece. */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Radix sort of 64-bit keys. */
 #include "core/mesh/sort.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Sets of spheres. */
 #include <assert.h>
 #include <math.h>
 

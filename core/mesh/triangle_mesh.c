@@ -1,3 +1,4 @@
+/* Triangle meshes: memory, checks, normals, areas. */
 #include <assert.h>
 #include <string.h>
 

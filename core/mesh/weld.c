@@ -1,3 +1,4 @@
+/* Welding vertices that lie at the same place. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Broyden's method with limited memory. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>

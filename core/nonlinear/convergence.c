@@ -1,3 +1,4 @@
+/* The test for convergence. */
 #include "core/nonlinear/convergence.h"
 
 #include <assert.h>
@@ -17,9 +18,9 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
   return result->finite;
 }
 
-/* A residual down to rounding counts as solved only where that is this part of what there was to solve: where rounding
- * is as large as the load itself, nothing has been computed, and it must be said. Where nothing loads the system, as in
- * a body at rest that nothing pulls or touches, rounding is all there is. */
+/* A residual down to rounding counts as solved only where it is at most this part of the load: where rounding is as
+ * large as the load, nothing has been computed, and that is reported. Where nothing loads the system, as in a body at
+ * rest that nothing pulls or touches, there is nothing but rounding. */
 #define ROUNDING_OF_LOAD 0.1
 
 static bool within_load(const SporeConvergence *test) { return test->norm <= ROUNDING_OF_LOAD * test->scale_r; }

@@ -1,3 +1,4 @@
+/* The line search. */
 #include "core/nonlinear/line_search.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Newton's method with inexact linear solutions, a line search and a watchdog. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -16,11 +17,12 @@ static double forcing_term(double norm, double previous, double target) {
   return fmin(fmax(eta, 0.1 * target / norm), LOOSEST);
 }
 
-/* A full step may climb far and yet be the way: where springs are very stiff it stretches them, and only the steps
- * after it show how little was missing. Such a step is taken on trust, which goes on while the steps get shorter; where
- * they have not made it good, Newton goes back and searches along the line (watchdog: R. M. Chamberlain, M. J. D.
- * Powell, C. Lemarechal, H. C. Pedersen, Mathematical Programming Study 16, 1982). Not where forces set in and end:
- * there it is the next contact that was missed, and the step beyond says nothing. */
+/* A full step may increase the residual and still be right: where springs are very stiff the step stretches them, and
+ * only later steps show how little was missing. Such a step is taken on trust. Trust goes on while the steps get
+ * shorter; where the residual has not become good by then, Newton's method goes back and searches along the line
+ * (watchdog: R. M. Chamberlain, M. J. D. Powell, C. Lemarechal, H. C. Pedersen, Mathematical Programming Study 16,
+ * 1982). No trust is given where forces set in and end: there the step may have missed the next contact, and later
+ * steps tell nothing. */
 typedef struct Trust {
   bool given;
   double *x, *d, *r; /* where it was given: point, direction, residual */

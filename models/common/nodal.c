@@ -1,3 +1,4 @@
+/* Mass points: placing, damping by mass, and checks. */
 #include "models/common/nodal.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Inertia of a solid, and its free rotation. */
 #include "models/common/rigid_motion.h"
 
 #include <assert.h>
@@ -72,10 +73,11 @@ static void composed_step(FreeTop *top, const double inverse[3], double h) {
   turn_about(top, 0, 0.5 * before * a * top->p[0]);
 }
 
-/* Turns the top for h seconds, in substeps in which neither partial rotation passes 0.2 rad, by bounds that free motion
- * keeps (their number must not change along it): the error of one is then below 1e-14. One step of second order does
- * where its error is below rounding: for a body of revolution, or when it hardly turns. Above the cap of substeps the
- * motion stays stable and keeps its momentum, but loses phase. */
+/* Turns the top for h seconds, in substeps in which neither partial rotation exceeds 0.2 rad; the error of one substep
+ * is then below 1e-14. The bounds on the rotations are constants of free motion, so that the number of substeps does
+ * not change along the motion. One step of second order is enough where its error is below rounding: for a body of
+ * revolution, or for a body that hardly turns. Above the maximum number of substeps the motion stays stable and keeps
+ * its momentum, but loses phase. */
 static void turn(FreeTop *top, const double inverse[3], double h) {
   assert(isfinite(h));
   double square = 0, energy2 = 0, size = fabs(h);
@@ -90,8 +92,8 @@ static void turn(FreeTop *top, const double inverse[3], double h) {
   for (int i = 0; i < (int)count; i++) composed_step(top, inverse, h / count);
 }
 
-/* Orthonormal to rounding, also where the quaternion's length is off by some: else what a step loses by that, the next
- * loses too. */
+/* Orthonormal to rounding, also where the length of the quaternion is off by rounding: an error of one step would
+ * otherwise be repeated by the next. */
 static SporeMat3 rotation_of(SporeQuat q) {
   double s = 2 / (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   double x = s * q.x, y = s * q.y, z = s * q.z;
@@ -131,8 +133,9 @@ void spore_inertia_drift(const SporeInertia *inertia, double h, SporeQuat *orien
   axes = spore_quat_multiply(about_momentum, top.orientation);
   *orientation = spore_quat_normalise(spore_quat_multiply(axes, spore_quat_conjugate(inertia->principal_quat)));
 
-  /* Back from the world's angular momentum, which stays, and not from p, which has gathered rounding: in the axes from
-   * which the next step will find it again, and once more for what it would miss. */
+  /* The spin is computed from the world's angular momentum, which is constant, and not from p, which has gathered
+   * rounding. The axes are those from which the next step will compute the momentum again; one correction takes away
+   * what rounding leaves. */
   rotation = rotation_of(spore_quat_multiply(*orientation, inertia->principal_quat));
   *spin = spin_of(inertia, &rotation, momentum);
   SporeVec3 missed = spore_vec3_sub(momentum, momentum_of(inertia, &rotation, *spin));

@@ -1,3 +1,4 @@
+/* Points that follow a surface: the nearest triangle, and a fourth node for what lies off the surface. */
 #include "models/common/surface_map.h"
 
 #include <assert.h>
@@ -47,8 +48,8 @@ typedef struct Row {
   double weight[WIDTH];
 } Row;
 
-/* Makes a tetrahedron of the row's triangle and node i at d, to carry what lies at `offset` from the triangle. The sum
- * of the absolute weights, infinite where they cannot be. */
+/* Makes a tetrahedron of the row's triangle and node i at d, which reproduces what lies at `offset` from the triangle.
+ * Returns the sum of the absolute weights; infinite where there are no such weights. */
 static double lift_by(const SporeTriangleMesh *mesh, uint32_t i, SporeVec3 d, double offset, Row *row) {
   assert(i <= mesh->vertex_count);
   double foot[3], height, sum;
@@ -79,8 +80,9 @@ static double stand_on(const SporeTriangleMesh *mesh, size_t t, SporeVec3 p, Row
   return offset;
 }
 
-/* The core with the row's triangle, the nearest; else with that of all triangles that makes the best tetrahedron, such
- * as the one that the point lies below as the core sees it. False: the weights pass LIGHT_WEIGHTS. */
+/* Tries the core with the row's triangle, the nearest one; and then the core with each other triangle, such as the
+ * triangle on the line from the core through the point. Takes the best tetrahedron. False: its weights exceed
+ * LIGHT_WEIGHTS. */
 static bool lift_by_core(const SporeTriangleMesh *mesh, SporeVec3 core, SporeVec3 p, double offset, Row *row) {
   Row result = *row;
   uint32_t node = (uint32_t)mesh->vertex_count;
@@ -96,8 +98,8 @@ static bool lift_by_core(const SporeTriangleMesh *mesh, SporeVec3 core, SporeVec
   return true;
 }
 
-/* Finds what makes the best tetrahedron with the row's triangle: the core where it does, else a vertex. False: nothing
- * is good enough. */
+/* Finds the node that makes the best tetrahedron with the row's triangle: the core where that is good enough, else a
+ * vertex. False: no node is good enough. */
 static bool lift(const SporeTriangleMesh *mesh, const SporeVec3 *core, SporeVec3 p, double offset, double size,
                  double most, Row *row) {
   if (core && lift_by_core(mesh, *core, p, offset, row)) return true;

@@ -1,3 +1,4 @@
+/* The presets of solids, from the table of tissues. */
 #include "models/common/tissues.h"
 
 #include "core/body/tissue.h"

@@ -1,3 +1,4 @@
+/* The virtual core: its inertia, motion, ties and Jacobian. */
 #include "models/common/virtual_core.h"
 
 #include <assert.h>
@@ -7,24 +8,24 @@
 #include "core/base/text.h"
 #include "models/common/nodal.h"
 
-bool spore_core_allocate(SporeCore *core, size_t count) {
+bool spore_virtual_core_allocate(SporeVirtualCore *core, size_t count) {
   assert(count > 0);
   core->count = count;
   core->weight = SPORE_NEW_ARRAY(double, count);
   core->place = SPORE_NEW_ARRAY(double, 3 * count);
-  core->blocks = SPORE_NEW_ARRAY(SporeCoreBlocks, count);
+  core->blocks = SPORE_NEW_ARRAY(SporeVirtualCoreBlocks, count);
   return core->weight && core->place && core->blocks;
 }
 
-void spore_core_clear(SporeCore *core) {
+void spore_virtual_core_clear(SporeVirtualCore *core) {
   spore_free(core->weight);
   spore_free(core->place);
   spore_free(core->blocks);
-  *core = (SporeCore){0};
+  *core = (SporeVirtualCore){0};
 }
 
-bool spore_core_spread(SporeCore *core, const double *rest, const double *node_mass, double mass, double radius,
-                       SporeError *error) {
+bool spore_virtual_core_spread(SporeVirtualCore *core, const double *rest, const double *node_mass, double mass,
+                               double radius, SporeError *error) {
   assert(core->count > 0 && rest && node_mass);
   assert(mass > 0 && radius >= 0);
   SporeVec3 first = {0, 0, 0};
@@ -51,22 +52,22 @@ bool spore_core_spread(SporeCore *core, const double *rest, const double *node_m
       core->inertia.moment[0]);
 }
 
-bool spore_core_pattern(const SporeCore *core, SporeBlockPattern *pattern) {
+bool spore_virtual_core_pattern(const SporeVirtualCore *core, SporeBlockPattern *pattern) {
   uint32_t centre = (uint32_t)core->count, turning = centre + 1;
   for (uint32_t i = 0; i < centre; i++)
     if (!spore_block_pattern_add(pattern, i, centre) || !spore_block_pattern_add(pattern, i, turning)) return false;
   return spore_block_pattern_add(pattern, centre, turning);
 }
 
-void spore_core_find_blocks(SporeCore *core, const SporeBlockMatrix *matrix) {
+void spore_virtual_core_find_blocks(SporeVirtualCore *core, const SporeBlockMatrix *matrix) {
   assert(matrix->block_count >= core->count + 2);
   uint32_t centre = (uint32_t)core->count, turning = centre + 1;
   for (uint32_t i = 0; i < centre; i++)
-    core->blocks[i] = (SporeCoreBlocks){.node = matrix->diagonal[i],
-                                        .centre = (uint32_t)spore_block_matrix_find(matrix, i, centre),
-                                        .turning = (uint32_t)spore_block_matrix_find(matrix, i, turning),
-                                        .from_centre = (uint32_t)spore_block_matrix_find(matrix, centre, i),
-                                        .from_turning = (uint32_t)spore_block_matrix_find(matrix, turning, i)};
+    core->blocks[i] = (SporeVirtualCoreBlocks){.node = matrix->diagonal[i],
+                                               .centre = (uint32_t)spore_block_matrix_find(matrix, i, centre),
+                                               .turning = (uint32_t)spore_block_matrix_find(matrix, i, turning),
+                                               .from_centre = (uint32_t)spore_block_matrix_find(matrix, centre, i),
+                                               .from_turning = (uint32_t)spore_block_matrix_find(matrix, turning, i)};
   core->centre_block = matrix->diagonal[centre];
   core->turning_block = matrix->diagonal[turning];
   core->across = (uint32_t)spore_block_matrix_find(matrix, centre, turning);
@@ -75,8 +76,8 @@ void spore_core_find_blocks(SporeCore *core, const SporeBlockMatrix *matrix) {
 
 /* State. */
 
-void spore_core_place(const SporeCore *core, const double *rest, SporePose pose, SporeVec3 velocity, SporeVec3 spin,
-                      double *q, double *v) {
+void spore_virtual_core_place(const SporeVirtualCore *core, const double *rest, SporePose pose, SporeVec3 velocity,
+                              SporeVec3 spin, double *q, double *v) {
   double centre[3];
   spore_nodal_place(rest, core->count, pose, velocity, spin, q, v);
   q += 3 * core->count, v += 3 * core->count;
@@ -86,11 +87,12 @@ void spore_core_place(const SporeCore *core, const double *rest, SporePose pose,
   spore_vec3_store(v + 3, spin);
 }
 
-SporeMat3 spore_core_inertia(const SporeCore *core, const double *q) {
+SporeMat3 spore_virtual_core_inertia(const SporeVirtualCore *core, const double *q) {
   return spore_inertia_turned(&core->inertia, spore_quat_load(q + 3 * (core->count + 1)));
 }
 
-void spore_core_drift(const SporeCore *core, const double *q, const double *v, double h, double *q1, double *v1) {
+void spore_virtual_core_drift(const SporeVirtualCore *core, const double *q, const double *v, double h, double *q1,
+                              double *v1) {
   assert(isfinite(h));
   size_t n = 3 * (core->count + 1);
   SporeQuat orientation = spore_quat_load(q + n);
@@ -110,13 +112,13 @@ typedef struct State {
   SporeMat3 rotation;
 } State;
 
-static State state_at(const SporeCore *core, const double *q) {
+static State state_at(const SporeVirtualCore *core, const double *q) {
   q += 3 * core->count;
   return (State){spore_vec3_load(q), spore_quat_to_mat3(spore_quat_load(q + 3))};
 }
 
 /* s and d of node i. */
-static SporeVec3 place_of(const SporeCore *core, const State *state, size_t i) {
+static SporeVec3 place_of(const SporeVirtualCore *core, const State *state, size_t i) {
   assert(i < core->count);
   return spore_mat3_apply(state->rotation, spore_vec3_load(core->place + 3 * i));
 }
@@ -124,13 +126,14 @@ static SporeVec3 away(const State *state, const double *q, size_t i, SporeVec3 s
   return spore_vec3_sub(spore_vec3_sub(spore_vec3_load(q + 3 * i), state->centre), s);
 }
 
-void spore_core_force(const SporeCore *core, const double *q, const double *shape, const double *v, double *f) {
+void spore_virtual_core_force(const SporeVirtualCore *core, const double *q, const double *shape, const double *v,
+                              double *f) {
   assert(f != q && f != v);
   State state = state_at(core, q);
-  SPORE_KERNEL(spore_core_ties)(core, &state.rotation, q, shape, v, f);
+  SPORE_KERNEL(spore_virtual_core_ties)(core, &state.rotation, q, shape, v, f);
 }
 
-double spore_core_potential(const SporeCore *core, const double *q) {
+double spore_virtual_core_potential(const SporeVirtualCore *core, const double *q) {
   State state = state_at(core, q);
   double sum = 0;
   for (size_t i = 0; i < core->count; i++) {
@@ -154,9 +157,10 @@ typedef struct CoreSum {
   SporeMat3 turning; /* of k [a]x^T [a]x */
 } CoreSum;
 
-static void add_tie(const SporeCore *core, size_t i, double k, SporeVec3 a, SporeBlockMatrix *matrix, CoreSum *sum) {
+static void add_tie(const SporeVirtualCore *core, size_t i, double k, SporeVec3 a, SporeBlockMatrix *matrix,
+                    CoreSum *sum) {
   assert(i < core->count);
-  const SporeCoreBlocks *blocks = &core->blocks[i];
+  const SporeVirtualCoreBlocks *blocks = &core->blocks[i];
   const SporeMat3 one = spore_mat3_identity();
   SporeMat3 skew = spore_mat3_skew(a);
   add(matrix, blocks->node, k, &one);
@@ -169,7 +173,7 @@ static void add_tie(const SporeCore *core, size_t i, double k, SporeVec3 a, Spor
   sum->turning = spore_mat3_sub(sum->turning, spore_mat3_scale(k, spore_mat3_multiply(skew, skew)));
 }
 
-static void add_core(const SporeCore *core, const CoreSum *sum, SporeBlockMatrix *matrix) {
+static void add_core(const SporeVirtualCore *core, const CoreSum *sum, SporeBlockMatrix *matrix) {
   const SporeMat3 one = spore_mat3_identity();
   add(matrix, core->centre_block, sum->weight, &one);
   add(matrix, core->turning_block, 1, &sum->turning);
@@ -190,7 +194,8 @@ static SporeMat3 positive_part(SporeMat3 a) {
 }
 
 /* Elastic ties; turning the core also turns the places, which adds the symmetric part of k ((d.s) 1 - s d^T). */
-static void shape_jacobian(const SporeCore *core, const double *q, double scale, bool whole, SporeBlockMatrix *matrix) {
+static void shape_jacobian(const SporeVirtualCore *core, const double *q, double scale, bool whole,
+                           SporeBlockMatrix *matrix) {
   State state = state_at(core, q);
   CoreSum sum = {0};
   SporeMat3 bent = spore_mat3_diagonal(0, 0, 0);
@@ -207,7 +212,7 @@ static void shape_jacobian(const SporeCore *core, const double *q, double scale,
   add_core(core, &sum, matrix);
 }
 
-static void damping_jacobian(const SporeCore *core, const double *q, double scale, SporeBlockMatrix *matrix) {
+static void damping_jacobian(const SporeVirtualCore *core, const double *q, double scale, SporeBlockMatrix *matrix) {
   SporeVec3 centre = spore_vec3_load(q + 3 * core->count);
   CoreSum sum = {0};
   for (size_t i = 0; i < core->count; i++)
@@ -216,7 +221,7 @@ static void damping_jacobian(const SporeCore *core, const double *q, double scal
   add_core(core, &sum, matrix);
 }
 
-void spore_core_jacobian(const SporeCore *core, const SporeTangent *at, SporeBlockMatrix *matrix) {
+void spore_virtual_core_jacobian(const SporeVirtualCore *core, const SporeTangent *at, SporeBlockMatrix *matrix) {
   assert(at->stiffness_scale >= 0);
   assert(matrix->block_count >= core->count + 2);
   if (at->stiffness_scale != 0) shape_jacobian(core, at->q, at->stiffness_scale, at->whole, matrix);

@@ -1,3 +1,4 @@
+/* Forces of the ties between nodes and a virtual core. */
 #include <assert.h>
 #include <string.h>
 
@@ -17,11 +18,11 @@ typedef struct Core { /* at q, and in the shape that is damped along */
   SporeVd3 centre, shape_centre, velocity, spin;
 } Core;
 
-/* What the ties of the nodes from i on pull with; *torque += what that does to the core. Weights of nodes that there
- * are not are 0. */
-SPORE_INLINE SporeVd3 pull(const SporeCore *ties, const Core *core, const SporeMat3 *rotation, const double *place,
-                           const double *weight, const double *q, const double *shape, const double *v, bool damped,
-                           SporeVd3 *torque) {
+/* Forces of the ties of the nodes from i on; *torque += their torque on the core. Lanes behind the last node have
+ * weight 0. */
+SPORE_INLINE SporeVd3 pull(const SporeVirtualCore *ties, const Core *core, const SporeMat3 *rotation,
+                           const double *place, const double *weight, const double *q, const double *shape,
+                           const double *v, bool damped, SporeVd3 *torque) {
   SporeVd w = spore_vd_load(weight), k = ties->stiffness * w, b = ties->damping * w;
   SporeVd3 s = turn(rotation->m, spore_vd3_load(place));
   SporeVd3 away = spore_vd3_sub(spore_vd3_sub(spore_vd3_load(q), core->centre), s);
@@ -35,12 +36,12 @@ SPORE_INLINE SporeVd3 pull(const SporeCore *ties, const Core *core, const SporeM
   return spore_vd3_add(elastic, viscous);
 }
 
-/* Nodes behind the last whole vector of them, with as many that weigh nothing. */
+/* The nodes behind the last whole vector, filled up with nodes of weight 0. */
 typedef struct Rest {
   double weight[SPORE_WIDTH], place[3 * SPORE_WIDTH], q[3 * SPORE_WIDTH], shape[3 * SPORE_WIDTH], v[3 * SPORE_WIDTH];
 } Rest;
 
-SPORE_INLINE void load_rest(Rest *rest, const SporeCore *ties, size_t i, size_t count, const double *q,
+SPORE_INLINE void load_rest(Rest *rest, const SporeVirtualCore *ties, size_t i, size_t count, const double *q,
                             const double *shape, const double *v) {
   assert(count < SPORE_WIDTH && i + count == ties->count);
   memset(rest, 0, sizeof *rest);
@@ -57,9 +58,10 @@ SPORE_INLINE void store_lanes(double lanes[3][SPORE_LANES], size_t first, SporeV
   spore_vd_store(lanes[2] + first, a.z);
 }
 
-/* Sums of each lane are kept apart, by its place in a group of SPORE_LANES. */
-SPORE_INLINE void add_forces(const SporeCore *ties, const SporeMat3 *rotation, const double *q, const double *shape,
-                             const double *v, bool damped, double *f) {
+/* Each lane has a sum of its own, by its place in a group of SPORE_LANES, so that the result does not depend on the
+ * width of a vector. */
+SPORE_INLINE void add_forces(const SporeVirtualCore *ties, const SporeMat3 *rotation, const double *q,
+                             const double *shape, const double *v, bool damped, double *f) {
   size_t n = ties->count;
   const Core core = {all(q + 3 * n), all(shape + 3 * n), all(v + 3 * n), all(v + 3 * n + 3)};
   double forces[3][SPORE_LANES], torques[3][SPORE_LANES];
@@ -91,8 +93,8 @@ SPORE_INLINE void add_forces(const SporeCore *ties, const SporeMat3 *rotation, c
   }
 }
 
-void SPORE_LEVEL_NAME(spore_core_ties)(const SporeCore *core, const SporeMat3 *rotation, const double *q,
-                                       const double *shape, const double *v, double *f) {
+void SPORE_LEVEL_NAME(spore_virtual_core_ties)(const SporeVirtualCore *core, const SporeMat3 *rotation, const double *q,
+                                               const double *shape, const double *v, double *f) {
   assert(core->count > 0);
   assert(core->stiffness >= 0 && core->damping >= 0);
   if (core->damping > 0) add_forces(core, rotation, q, shape, v, true, f);

@@ -1,3 +1,4 @@
+/* Making a lattice: nodes, runs of cells, places in the matrix, masses. */
 #include "models/grid/lattice.h"
 
 #include <assert.h>

@@ -1,24 +1,25 @@
 /* Finite differences of the displacement on a regular lattice, written as the gradient of an energy.
  *
- * A cell's eight corners have eight modes: the sums of what they are, each times the product of some of the signs
- * that tell on which side of the cell's middle the corner lies. The mode without a sign is the mean; those with one are
- * the central differences at the middle of the cell, so F; those with two or three are how the differences vary within
- * the cell. With W the modes of more than one sign, in units of the strain's root mean square over the cell:
+ * The eight corners of a cell have eight modes. A mode is the sum over the corners, each times the product of some of
+ * the signs that tell on which side of the cell's middle the corner lies. The mode without a sign is the mean. The
+ * modes with one sign are the central differences at the middle of the cell, so F. The modes with two or three signs
+ * tell how the differences vary within the cell. With W the modes of more than one sign, in units of the root mean
+ * square of the strain over the cell:
  *   U = sum over cells of volume (law(F) + modulus / 2 (|W_ij|^2 + |W_jk|^2 + |W_ki|^2 + |W_ijk|^2))
- * F and the lengths of W do not change when all turns, so momentum and angular momentum are exact; for small strains
- * the forces are central differences of Navier's equation (lambda + mu) grad div u + mu laplace u, to second order.
- * Differences at the middle alone would leave the W without stiffness (Flanagan and Belytschko 1981, "A uniform strain
- * hexahedron and quadrilateral with orthogonal hourglass control"); shear and volume that vary within a cell would
- * make it too stiff (Belytschko and Bindeman 1993, "Assumed strain stabilization of the eight node hexahedral
- * element"): W has the stiffness of bending instead. Of a bent bar the length varies by W, and the width too, by
- * Poisson's ratio nu times as much, so with young / (1 + nu^2) both together have Young's modulus. A bar of a single
- * cell across does not vary in width and bends 1 + nu^2 times too far.
+ * F^T F and the lengths of W do not change when the cell is rotated, so momentum and angular momentum are exact; for
+ * small strains the forces are central differences of Navier's equation (lambda + mu) grad div u + mu laplace u, to
+ * second order. Differences at the middle alone would leave W without stiffness (Flanagan and Belytschko 1981, "A
+ * uniform strain hexahedron and quadrilateral with orthogonal hourglass control"); shear and volume that vary within a
+ * cell would make the cell too stiff (Belytschko and Bindeman 1993, "Assumed strain stabilization of the eight node
+ * hexahedral element"). W has the stiffness of bending instead. In a bent bar the length varies by W, and the width
+ * varies too, by Poisson's ratio nu times as much; with young / (1 + nu^2) both together have Young's modulus. A bar of
+ * a single cell across does not vary in width and bends 1 + nu^2 times too far.
  *
- * The viscous force is that of tetrahedra (models/tetrahedra/tetrahedra.h), and along the rates of F^T W, which neither
- * change when all turns. A cell that the surface cuts has the stiffness and mass of the share that lies inside, so that
- * what lies outside neither weighs nor holds, and the surface is free as it should be. */
-#ifndef SPORE_lattice_H
-#define SPORE_lattice_H
+ * The viscous force is that of tetrahedra (models/tetrahedra/tetrahedra.h), and acts along the rates of F^T W, which do
+ * not change when the cell is rotated. A cell that the surface cuts has the stiffness and mass of its share inside, so
+ * that the part outside has neither weight nor stiffness, and the surface is free as it should be. */
+#ifndef SPORE_MODELS_GRID_LATTICE_H
+#define SPORE_MODELS_GRID_LATTICE_H
 
 #include "core/body/mapping.h"
 #include "core/body/region.h"

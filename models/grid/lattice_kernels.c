@@ -1,3 +1,4 @@
+/* Forces, energy and Jacobian of a lattice. */
 #include "models/grid/lattice.h"
 
 #include <assert.h>
@@ -154,7 +155,7 @@ double SPORE_LEVEL_NAME(spore_lattice_potential)(const SporeLattice *lattice, Sp
   return spore_lanes_sum(lanes);
 }
 
-/* What the modes' stresses are derived by the modes, scaled: [m][n], 1..7 each, and [n][m] is the transpose. */
+/* The derivatives of the stresses of the modes by the modes, scaled: [m][n], 1..7 each; [n][m] is the transpose. */
 typedef SporeVd33 ModeBlocks[8][8];
 
 SPORE_INLINE void set_pair(ModeBlocks blocks, unsigned m, unsigned n, const SporeVd33 *block, SporeVd scale) {
@@ -218,8 +219,9 @@ static void spread(SporeVd33 mode[8]) {
     }
 }
 
-/* From modes to corners on both sides; blocks: [m][n] becomes that of corner m and mode n and then of both. A node gets
- * what it is to the cell before it, where it is an odd corner, before what it is to the next, whatever the width. */
+/* From modes to corners on both sides: blocks [m][n] become those of corner m and mode n, and then those of two
+ * corners. Corners are added in descending order, so that a node gets its entries in the same order whatever the width
+ * of a vector. */
 static void add_blocks(const SporeLattice *lattice, size_t run, size_t lane, ModeBlocks blocks,
                        SporeBlockMatrix *matrix) {
   assert(run < lattice->run_count && lane < SPORE_LANES);

@@ -7,11 +7,11 @@
 #include "core/base/text.h"
 #include "models/grid/lattice.h"
 
-/* A point in cells from the grid's first corner, and the filled cell that is to carry it. */
-typedef struct Carried {
+/* A point in units of cells from the first corner of the grid, and the filled cell that the point follows. */
+typedef struct Located {
   double at[3];
   size_t cell[3];
-} Carried;
+} Located;
 
 static bool is_filled(const SporeVoxels *voxels, const size_t cell[3]) {
   assert(cell[0] < voxels->size[0] && cell[1] < voxels->size[1] && cell[2] < voxels->size[2]);
@@ -29,7 +29,7 @@ static double distance(const SporeVoxels *voxels, const double at[3], const size
 }
 
 /* Looks through all cells: few points lie in none. */
-static void find_nearest(const SporeVoxels *voxels, Carried *point) {
+static void find_nearest(const SporeVoxels *voxels, Located *point) {
   double least = HUGE_VAL;
   size_t cell[3];
   for (cell[0] = 0; cell[0] < voxels->size[0]; cell[0]++)
@@ -42,8 +42,8 @@ static void find_nearest(const SporeVoxels *voxels, Carried *point) {
       }
 }
 
-static Carried locate(const SporeVoxels *voxels, const double *p) {
-  Carried point;
+static Located locate(const SporeVoxels *voxels, const double *p) {
+  Located point;
   for (int k = 0; k < 3; k++) {
     point.at[k] = (p[voxels->axis[k]] - voxels->lower[k]) / voxels->cell[k];
     point.cell[k] = (size_t)fmin(fmax(floor(point.at[k]), 0), (double)voxels->size[k] - 1);
@@ -52,8 +52,8 @@ static Carried locate(const SporeVoxels *voxels, const double *p) {
   return point;
 }
 
-/* Trilinear weights where the point is nearest to the cell, carried on from there by their gradients. */
-static void weigh(const Carried *point, double weights[8]) {
+/* Trilinear weights at the place of the cell nearest to the point, extended from there by their gradients. */
+static void weigh(const Located *point, double weights[8]) {
   double upper[3], beyond[3];
   for (int k = 0; k < 3; k++) {
     double local = point->at[k] - (double)point->cell[k];
@@ -82,7 +82,7 @@ bool spore_lattice_map(const SporeLattice *lattice, const double *points, size_t
   bool made = nodes && weights;
   if (!made) spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for %zu points"), count);
   for (size_t i = 0; made && i < count; i++) {
-    Carried point = locate(&lattice->voxels, points + 3 * i);
+    Located point = locate(&lattice->voxels, points + 3 * i);
     for (unsigned c = 0; c < 8; c++)
       nodes[8 * i + c] = spore_lattice_corner(lattice, point.cell[0], point.cell[1], point.cell[2], c);
     weigh(&point, weights + 8 * i);

@@ -1,3 +1,4 @@
+/* Which cells of a regular grid a closed surface fills, and how far. */
 #include "models/grid/voxels.h"
 
 #include <assert.h>
@@ -75,7 +76,7 @@ static double share_of(const SporeVoxels *voxels, const SporeBvh *bvh, size_t i,
   return share > 1 - 1e-9 ? 1 : share < LEAST ? 0 : share;
 }
 
-/* Marks what hangs together with a cell, by faces. Returns its volume, in cells. queue: as many as cells. */
+/* Marks the cells that hang together with a cell by faces. Returns their volume, in cells. queue: as many as cells. */
 static double spread(const SporeVoxels *voxels, size_t from, uint32_t part, uint32_t *mark, size_t *queue) {
   assert(from < spore_voxels_count(voxels) && part > 0);
   size_t reached = 1, strides[3] = {voxels->size[1] * voxels->size[2], voxels->size[2], 1};
@@ -96,7 +97,7 @@ static double spread(const SporeVoxels *voxels, size_t from, uint32_t part, uint
   return volume;
 }
 
-/* Keeps what hangs together and empties crumbs beside it. */
+/* Keeps the largest connected part, and empties small loose parts beside it. */
 static bool find_parts(SporeVoxels *voxels) {
   size_t count = spore_voxels_count(voxels), *queue = SPORE_NEW_ARRAY(size_t, count);
   uint32_t *mark = SPORE_NEW_ARRAY(uint32_t, count), parts = 0, greatest = 0;

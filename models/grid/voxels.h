@@ -15,10 +15,10 @@ typedef struct SporeVoxels {
   double volume;            /* of the surface, m^3 */
 } SporeVoxels;
 
-/* Fits `cells` of them to the longest side of the surface's box and as many to the others as make them nearly cubes.
- * What lies inside is told by the winding number. Cells of which less than a twentieth does are empty, as are loose
- * ones that make up less than a hundredth of all. Refuses a surface that is open or holds no volume, one thinner than a
- * cell, and more cells than a model is made of. */
+/* Fits `cells` cells to the longest side of the surface's box, and to the other sides as many as make the cells nearly
+ * cubes. The winding number tells what lies inside. A cell is empty where less than a twentieth of it lies inside.
+ * Loose cells that make up less than a hundredth of all cells are emptied too. Refuses a surface that is open or holds
+ * no volume, a surface thinner than a cell, and more cells than a model may have. */
 bool spore_voxels_create(SporeVoxels *voxels, const SporeTriangleMesh *surface, size_t cells, SporeError *error);
 void spore_voxels_clear(SporeVoxels *voxels);
 

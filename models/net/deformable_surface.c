@@ -1,7 +1,8 @@
 /* Deformable surface body (Meseure and Chaillou 2000, "A deformable body model for surgical simulation"): a surface of
- * mass points and springs, and a virtual rigid core that gives it back its shape (models/common/virtual_core.h). The
- * core touches nothing itself: the environment meets the surface, and points that lie off it, which a triangle and the
- * core's centre carry together. Nodes: the surface's vertices, then the core's centre; the frame is the core's. */
+ * mass points and springs, and a virtual rigid core that gives the surface back its shape
+ * (models/common/virtual_core.h). The core touches nothing. The environment touches the surface, and points off the
+ * surface, which follow a triangle and the core's centre. Nodes: the vertices of the surface, then the core's centre;
+ * the frame is the frame of the core. */
 #include <assert.h>
 #include <math.h>
 
@@ -30,7 +31,7 @@ typedef struct Surface {
   size_t count;           /* of vertices; the core's centre is the node behind them */
   SporeSprings springs[KINDS];
   SporeVolume volume;
-  SporeCore core; /* ties weighted by area: a third of the triangles of each vertex, m^2 */
+  SporeVirtualCore core; /* ties weighted by area: a third of the triangles of each vertex, m^2 */
 } Surface;
 
 static const SporeParameter parameters[] = {
@@ -64,7 +65,7 @@ static void destroy(SporeModel *model) {
   Surface *body = (Surface *)model;
   spore_triangle_mesh_clear(&body->mesh);
   for (int kind = 0; kind < KINDS; kind++) spore_springs_clear(&body->springs[kind]);
-  spore_core_clear(&body->core);
+  spore_virtual_core_clear(&body->core);
   spore_volume_clear(&body->volume);
   spore_model_clear(&body->base);
   spore_free(body);
@@ -80,7 +81,7 @@ static bool set_masses(Surface *body, const SurfaceFields *fields, double volume
   body->base.block_mass[body->count] = core_mass;
   body->base.block_mass[body->count + 1] = 1; /* while it is checked that each node has mass */
   bool good = spore_nodal_check_mass(&body->base, "triangle", error) &&
-              spore_core_spread(&body->core, body->mesh.vertices, body->base.block_mass, core_mass, 0, error);
+              spore_virtual_core_spread(&body->core, body->mesh.vertices, body->base.block_mass, core_mass, 0, error);
   body->base.block_mass[body->count + 1] = 0;
   return good;
 }
@@ -110,7 +111,7 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   const Surface *body = (const Surface *)model;
   for (int kind = 0; kind < KINDS; kind++)
     if (!spore_springs_pattern(&body->springs[kind], blocks)) return false;
-  return spore_volume_pattern(&body->volume, blocks) && spore_core_pattern(&body->core, blocks);
+  return spore_volume_pattern(&body->volume, blocks) && spore_virtual_core_pattern(&body->core, blocks);
 }
 
 /* Looks up blocks once, in a matrix of the pattern that the world will make too. */
@@ -118,7 +119,7 @@ static bool find_blocks(Surface *body) {
   SporeBlockMatrix matrix;
   if (!spore_model_matrix_create(&body->base, &matrix)) return false;
   for (int kind = 0; kind < KINDS; kind++) spore_springs_find_blocks(&body->springs[kind], &matrix);
-  spore_core_find_blocks(&body->core, &matrix);
+  spore_virtual_core_find_blocks(&body->core, &matrix);
   spore_volume_find_blocks(&body->volume, &matrix);
   spore_block_matrix_clear(&matrix);
   return true;
@@ -130,7 +131,7 @@ static bool build(Surface *body, const SporeTriangleMesh *mesh, const SurfaceFie
   if (!spore_model_init(&body->base, &spore_deformable_surface, body->count + 1, true, error) ||
       !spore_triangle_mesh_copy(&body->mesh, mesh, error))
     return false;
-  if (!spore_core_allocate(&body->core, body->count) || !spore_volume_create(&body->volume, &body->mesh))
+  if (!spore_virtual_core_allocate(&body->core, body->count) || !spore_volume_create(&body->volume, &body->mesh))
     return no_memory(error);
   if (!set_masses(body, fields, volume, error)) return false;
   if (!make_springs(body) || !find_blocks(body)) return no_memory(error);
@@ -154,16 +155,16 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
   assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
-  spore_core_place(&body->core, body->mesh.vertices, pose, velocity, spin, q, v);
+  spore_virtual_core_place(&body->core, body->mesh.vertices, pose, velocity, spin, q, v);
 }
 
 static SporeMat3 inertia(const SporeModel *model, const double *q) {
-  return spore_core_inertia(&((const Surface *)model)->core, q);
+  return spore_virtual_core_inertia(&((const Surface *)model)->core, q);
 }
 
 static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {
   assert(model->type == &spore_deformable_surface);
-  spore_core_drift(&((const Surface *)model)->core, q, v, h, q1, v1);
+  spore_virtual_core_drift(&((const Surface *)model)->core, q, v, h, q1, v1);
 }
 
 static void force_along(const SporeModel *model, const double *q, const double *shape, const double *v, double h,
@@ -172,7 +173,7 @@ static void force_along(const SporeModel *model, const double *q, const double *
   assert(h >= 0);
   const Surface *body = (const Surface *)model;
   spore_springs_force(body->springs, KINDS, model->pool, q, shape, v, h, f);
-  spore_core_force(&body->core, q, shape, v, f);
+  spore_virtual_core_force(&body->core, q, shape, v, f);
   spore_volume_force(&body->volume, q, f);
 }
 
@@ -183,7 +184,7 @@ static void force(const SporeModel *model, const double *q, const double *shape,
 static double potential(const SporeModel *model, const double *q) {
   assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
-  double sum = spore_core_potential(&body->core, q) + spore_volume_potential(&body->volume, q);
+  double sum = spore_virtual_core_potential(&body->core, q) + spore_volume_potential(&body->volume, q);
   for (int kind = 0; kind < KINDS; kind++) sum += spore_springs_potential(&body->springs[kind], q);
   return sum;
 }
@@ -192,7 +193,7 @@ static void tangent(const SporeModel *model, const SporeTangent *at, SporeBlockM
   assert(model->type == &spore_deformable_surface);
   const Surface *body = (const Surface *)model;
   spore_springs_jacobian(body->springs, KINDS, model->pool, at, matrix);
-  spore_core_jacobian(&body->core, at, matrix);
+  spore_virtual_core_jacobian(&body->core, at, matrix);
   spore_volume_jacobian(&body->volume, at, matrix);
 }
 

@@ -1,3 +1,4 @@
+/* Pairs of vertices that springs join: along edges, across edges, and over a vertex. */
 #include "models/net/spring_pairs.h"
 
 #include <assert.h>

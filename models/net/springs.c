@@ -1,3 +1,4 @@
+/* Making springs, laid out by node, and their loops over chunks of nodes. */
 #include "models/net/springs.h"
 
 #include <assert.h>
@@ -55,8 +56,9 @@ static bool make_groups(SporeSprings *springs, const uint32_t *valence, size_t c
   return springs->node && springs->lanes;
 }
 
-/* Of the nodes first..end-1 those that have springs, the ones with most first and otherwise in their order, from
- * `start` on; place[i]: that of node i. next: scratch, one number a valence, zero. */
+/* Orders the nodes first..end-1 that have springs: those with the most springs first, else in the order of their
+ * numbers. The ordered nodes begin at `start`; place[i] is the place of node i. next: scratch, one number a valence,
+ * zero. */
 static void order_nodes(SporeSprings *springs, const uint32_t *valence, size_t first, size_t end, uint32_t start,
                         uint32_t most, uint32_t *next, uint32_t *place) {
   assert(first <= end);
@@ -213,7 +215,7 @@ static bool damps_along_lines(const SporeSprings *springs, const double *q, cons
   return springs->stiffness > 0 && springs->damping > 0 && shape != q;
 }
 
-/* Copies the shape, but for lines that are of it already. */
+/* Copies the shape, unless the lines are those of this shape already. */
 static void begin_lines(const Loop *loop) {
   for (size_t k = 0; k < loop->kinds; k++) {
     SporeSpringsLines *lines = loop->springs[k].lines;
@@ -228,7 +230,8 @@ static void end_lines(const Loop *loop) {
     if (damps_along_lines(&loop->springs[k], loop->q, loop->shape)) loop->springs[k].lines->ready = true;
 }
 
-/* Whether a chunk's springs of a kind are damped along their lines, which are then found. */
+/* Whether the springs of a kind in a chunk are damped along the lines of the shape. Finds these lines where they are
+ * not known. */
 static bool find_lines(const Loop *loop, const SporeSprings *springs, size_t chunk) {
   if (!damps_along_lines(springs, loop->q, loop->shape)) return false;
   if (!springs->lines->ready) SPORE_KERNEL(spore_springs_chunk_lines)(springs, chunk, loop->shape);

@@ -8,18 +8,18 @@
 #include "core/math/vec3.h"
 #include "core/body/model.h"
 
-/* A spring between nodes at distance l pulls with stiffness (l - length) along the line between them, and damps the
- * speed of that distance. Where the nodes meet and there is no line, it works along that of rest.
+/* A spring between nodes at distance l pulls with stiffness (l - length) along the line between the nodes, and damps
+ * the rate of that distance. Where the nodes meet and there is no line, the line at rest takes its place.
  *
- * Each node's springs lie together, so that its force is added up in registers and written once: every spring is
- * computed at both of its ends, which costs less than two ends that wait for each other in memory. Nodes with as many
- * springs are put in groups of SPORE_LANES; a slot of a group holds one spring of each of its nodes. A group's nodes
- * are all of one chunk, SPORE_SPRINGS_CHUNK nodes of the model that follow one another: what belongs to a chunk is
- * written by its groups alone, whatever the kind of springs, so that chunks may be computed on several threads. */
+ * The springs of a node lie together, so that the force of the node is added up in registers and written once: every
+ * spring is computed at both of its ends, which costs less than adding to both ends in memory. Nodes with equally many
+ * springs are put in groups of SPORE_LANES; a slot of a group holds one spring of each of its nodes. The nodes of a
+ * group belong to one chunk: SPORE_SPRINGS_CHUNK consecutive nodes of the model. The entries of a chunk are written by
+ * its own groups alone, whatever the kind of springs, so that chunks may be computed on several threads. */
 #define SPORE_SPRINGS_CHUNK 512
 
-/* Where the springs lay in the shape that they were last damped along: an implicit step asks for that again and again.
- */
+/* The directions of the springs in the shape along which they were damped last. An implicit step evaluates forces at
+ * one shape many times. */
 typedef struct SporeSpringsLines {
   bool ready;
   size_t count;  /* of entries of shape */

@@ -1,5 +1,5 @@
-/* Springs that change while they run: one that is gone is an empty slot, at both of its ends; a coagulated one gets
- * shorter and stiffer. */
+/* Springs that change while they run. A removed spring becomes an empty slot at both of its ends; a coagulated spring
+ * gets shorter and stiffer. */
 #include <assert.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Forces, energy and Jacobian of springs. */
 #include "models/net/springs.h"
 
 #include <assert.h>
@@ -8,7 +9,7 @@
 /* Below this part of the rest length a spring has no direction of its own. */
 #define SHORT 1e-9
 
-/* Lines of the lanes that have none: that of rest, at a length at which nothing is lost to rounding. */
+/* Directions of springs that have none: the direction at rest, at a length that loses nothing to rounding. */
 static __attribute__((noinline)) SporeVd3 lines_at_rest(const SporeSprings *springs, const uint32_t *node, size_t slot,
                                                         SporeVd3 line, SporeVl is_short) {
   for (int i = 0; i < SPORE_WIDTH; i++) {
@@ -22,14 +23,14 @@ static __attribute__((noinline)) SporeVd3 lines_at_rest(const SporeSprings *spri
   return line;
 }
 
-/* What x (three entries a node) says of the neighbours in the slot. */
+/* The values of x (three entries a node) at the neighbours in the slot. */
 SPORE_INLINE SporeVd3 at_neighbours(const SporeSprings *springs, size_t slot, const double *x) {
   const uint32_t *neighbour = springs->neighbour + slot;
   return springs->is_run[slot / SPORE_LANES] ? spore_vd3_load(x + 3 * (size_t)*neighbour)
                                              : spore_vd3_gather(x, neighbour);
 }
 
-/* The line, or that of rest where it is none; *square: of its length, not 0. */
+/* The line, or the line at rest where the line is too short; *square: the square of its length, above 0. */
 SPORE_INLINE SporeVd3 not_short(const SporeSprings *springs, const uint32_t *node, size_t slot, SporeVd3 line,
                                 SporeVd length, SporeVd *square) {
   *square = spore_vd3_dot(line, line);
@@ -218,8 +219,8 @@ SPORE_INLINE Symmetric stiffness_of(SporeVd3 line, SporeVd inverse, SporeVd leng
   return (Symmetric){ax * nx + across, ax * ny, ax * nz, ay * ny + across, ay * nz, az * nz + across};
 }
 
-/* damping: along the lines at q; drag: along lines->along. promised: the tension is that which linearising at `from`
- * gives at q, k (n . d - L) with the direction n of there. */
+/* damping: along the lines at q; drag: along lines->along. promised: the tension is the one that the linearisation at
+ * `from` predicts for q, k (n . d - L) with the direction n at `from`. */
 SPORE_INLINE void add_jacobian(const SporeSprings *springs, size_t chunk, const SporeTangent *at, double damping,
                                double drag, int damped, bool promised, bool shared, SporeBlockMatrix *matrix) {
   double rows[3][4 * SPORE_WIDTH], stiffness = at->stiffness_scale * springs->stiffness;

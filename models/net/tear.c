@@ -1,6 +1,7 @@
-/* Where a net tears. Its strain is known at the beginning of a step: after the first spring gave way it is another one.
- * So a tear begins in one place at a time, where the strain is most, and goes on at its ends by one edge a step, where
- * the strain there is most: a line, and not all that a pull has strained. */
+/* Where a net tears. Strain is known at the beginning of a step only: after the first spring is removed, the strain
+ * changes. So a tear begins at one place at a time, where the strain is greatest, and grows at its ends by one edge a
+ * step, where the strain around the end is greatest. The tear is a line, and not the whole region that a pull has
+ * strained. */
 #include <assert.h>
 #include <string.h>
 
@@ -13,7 +14,7 @@ typedef struct Search {
   size_t count; /* shear springs that went by themselves */
 } Search;
 
-/* Negative: of no length at rest, which has no strain. */
+/* Negative for a spring of no length at rest, which has no strain. */
 static double strain_of(const double *q, uint32_t a, uint32_t b, double length) {
   if (!(length > 0)) return -1;
   return spore_vec3_distance(spore_vec3_load(q + 3 * (size_t)a), spore_vec3_load(q + 3 * (size_t)b)) / length - 1;
@@ -29,7 +30,7 @@ static void find_edge(void *data, uint32_t a, uint32_t b, double length) {
   if (strain > search->strain) add(search->ties, a, b, strain);
 }
 
-/* The nodes of the edge that the shear spring between a and b crosses, and that still is tied to both. */
+/* The ends of the edge that the shear spring between a and b crosses, where edges still tie both ends to a and to b. */
 static bool edge_under(const SporeNetTies *ties, uint32_t a, uint32_t b, uint32_t edge[2]) {
   const SporeSprings *edges = &ties->springs[SPORE_NET_EDGES];
   const SporeSpringsWhole *whole = &ties->whole[SPORE_NET_EDGES];
@@ -59,7 +60,7 @@ static bool is_more(const SporeNetTies *ties, uint32_t i, uint32_t than) {
   return ties->strained[i - 1].strain > ties->strained[than - 1].strain;
 }
 
-/* Of those at each node the one strained most, the first of equal ones. */
+/* At each node the edge of the greatest strain, the first of equal ones. */
 static void find_most(SporeNetTies *ties) {
   memset(ties->most, 0, ties->mesh->vertex_count * sizeof *ties->most);
   for (uint32_t i = 1; i <= ties->strained_count; i++) {
@@ -69,8 +70,8 @@ static void find_most(SporeNetTies *ties) {
   }
 }
 
-/* Whether nothing at the node, nor at those that edges tie to it, is strained more than i; of what is strained alike
- * the first. */
+/* Whether edge i has the greatest strain at the node and at the neighbours of the node; of equal strains the first edge
+ * counts as the greatest. */
 static bool is_most_around(const SporeNetTies *ties, uint32_t node, uint32_t i) {
   assert(ties->whole[SPORE_NET_EDGES].place[node] != UINT32_MAX);
   const SporeSprings *edges = &ties->springs[SPORE_NET_EDGES];

@@ -1,3 +1,4 @@
+/* Cutting a net: edges, the triangles that lose them, and the springs that go with those. */
 #include "models/net/ties.h"
 
 #include <assert.h>
@@ -19,7 +20,7 @@ static uint32_t *left_at(const SporeNetTies *ties, uint32_t a, uint32_t b) {
                                         higher(a, b))];
 }
 
-/* Side k of triangle t; false: it is none. */
+/* Side k of triangle t. False: both ends are the same vertex. */
 static bool side_of(const SporeTriangleMesh *mesh, size_t t, int k, uint32_t *a, uint32_t *b) {
   assert(t < mesh->triangle_count && k >= 0 && k < 3);
   *a = mesh->triangles[3 * t + (size_t)k];

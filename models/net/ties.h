@@ -1,8 +1,8 @@
-/* What of a net goes together when it is cut or tears.
+/* What is removed from a net together when it is cut or tears.
  *
- * Edges of its triangles carry it. A triangle that lost an edge is gone; an edge whose triangles are all gone goes too;
- * and a shear or bending spring goes when there is no node left that edges tie to both of its ends. So no spring holds
- * what is not seen to hang together. */
+ * The net hangs together by the edges of its triangles. A triangle that lost an edge is removed. An edge whose
+ * triangles are all removed is removed too. A shear or bending spring is removed when no node is left that edges tie to
+ * both of its ends. So no spring holds together what the drawn surface shows as parted. */
 #ifndef SPORE_MODELS_NET_TIES_H
 #define SPORE_MODELS_NET_TIES_H
 
@@ -39,12 +39,14 @@ void spore_net_ties_mend(SporeNetTies *ties);
  */
 size_t spore_net_ties_cut(SporeNetTies *ties, const double *q, const SporeVec3 triangle[3], uint32_t body,
                           SporeCuts *cuts);
-/* Tears, at q, where edges or shear springs are longer by more than this part of their length at rest: what is strained
- * most at each end of a tear, or, where none grows, of the whole net. */
+/* Tears the net at q, where edges or shear springs are longer than at rest by more than this part of their length: at
+ * each end of a tear the edge of the greatest strain, or, where no tear grows, the edge of the greatest strain of the
+ * whole net. */
 size_t spore_net_ties_tear(SporeNetTies *ties, const double *q, double strain, uint32_t body, SporeCuts *cuts);
 SporeTie spore_net_ties_between(const SporeNetTies *ties, uint32_t a, uint32_t b);
 
-/* For the two above: takes an edge away; and, when all are, what goes with them. How many springs. */
+/* For the two functions above. The first removes an edge; the second, called when all such edges are removed, removes
+ * what goes with them. Both return how many springs were removed. */
 size_t spore_net_ties_part(SporeNetTies *ties, uint32_t a, uint32_t b, uint32_t body, SporeCuts *cuts);
 size_t spore_net_ties_settle(SporeNetTies *ties, uint32_t body, SporeCuts *cuts);
 

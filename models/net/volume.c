@@ -1,3 +1,4 @@
+/* The pressure that keeps the volume of a closed surface. */
 #include "models/net/volume.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Sorting particles into columns, and along each column into clusters. */
 #include "models/particles/cluster_columns.h"
 
 #include <assert.h>
@@ -35,7 +36,8 @@ static void merge(const SporeClusterRecord *from, size_t start, size_t middle, s
     to[k] = b >= end || (a < middle && is_before(&from[a], &from[b])) ? from[a++] : from[b++];
 }
 
-/* From the bottom up; the order of before is near, and what is in order is only copied. */
+/* Merge sort from the bottom up. The records are nearly in order from the time before, and a run that is in order is
+ * only copied. */
 static void sort_records(SporeClusterList *list) {
   size_t n = list->particle_count;
   for (size_t i = 0; i < n; i += RUNS_SORTED) insert_sort(list->records + i, n - i < RUNS_SORTED ? n - i : RUNS_SORTED);
@@ -138,8 +140,8 @@ static void close_cluster(SporeClusterList *list, size_t lane, const double *q) 
   bound_cluster(list, cluster);
 }
 
-/* Clusters are filled from column to column as long as these lie side by side along y: only the last one of such a row
- * may have lanes without a particle. */
+/* Clusters are filled from column to column while the columns follow each other along y: only the last cluster of such
+ * a row of columns may have lanes without a particle. */
 static void fill_clusters(SporeClusterList *list, const double *q) {
   size_t lane = SPORE_LANES; /* of the cluster being filled */
   list->cluster_count = list->column_count = 0;

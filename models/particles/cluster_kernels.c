@@ -1,3 +1,4 @@
+/* Distances between clusters, and how far particles have moved. */
 #include <assert.h>
 #include <string.h>
 

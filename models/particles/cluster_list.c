@@ -1,3 +1,4 @@
+/* The list of near pairs of clusters, and when it is made again. */
 #include <assert.h>
 #include <string.h>
 
@@ -106,8 +107,8 @@ static bool out_of_reach(const SporeClusterList *list, size_t cluster, const int
   return false;
 }
 
-/* Everything moved by the image: of a pair of clusters only the later one is a candidate, of a cluster and its own
- * image only one of the two ways. */
+/* Searches one periodic image. Of a pair of clusters only the later one is a candidate; of a cluster and its own image
+ * only one of the two directions. */
 static bool search_image(SporeClusterList *list, const SporeColumnGrid *columns, Search *search, const int image[3]) {
   if (out_of_reach(list, search->cluster, image)) return true;
   SporeClusterRun run = {.start = (uint32_t)search->candidate_count};
@@ -200,8 +201,8 @@ static bool pick_near(SporeClusterList *list) {
   return true;
 }
 
-/* Whether the wide list holds every pair that the near one needs: two particles that were not in its reach may have
- * come nearer by twice the way of one. */
+/* Whether the wide list holds every pair that the near list needs: two particles outside the reach of the wide list may
+ * have approached by twice the distance that one particle has moved. */
 static bool is_wide_enough(const SporeClusterList *list) {
   double way = 0.5 * (list->wide.reach - list->near.reach);
   return SPORE_KERNEL(spore_cluster_way)(list) <= way * way;

@@ -1,12 +1,12 @@
 /* Pairs of particles that are near each other, for forces of short reach: a Verlet list of clusters.
  *
- * Particles are sorted into columns and, along them, into clusters of SPORE_LANES (after S. Pall and B. Hess, "A
+ * Particles are sorted into columns and, along each column, into clusters of SPORE_LANES (after S. Pall and B. Hess, "A
  * flexible algorithm for calculating pair interactions on SIMD architectures", 2013). A row group is two particles of a
- * cluster, which meet whole clusters. Each pair is listed once, however its clusters lie. There are two
- * lists: the near one, which forces go through, is good until a particle has moved by half a thin skin, and then is
- * picked out of the wide one, which takes longer to make and lasts longer (after S. Pall, A. Zhmurov, P. Bauer et al.,
- * "Heterogeneous parallelization and acceleration of molecular dynamics simulations in GROMACS", 2020). Which pairs
- * they hold, and in which order, follows from the positions at these times alone. */
+ * cluster; it meets whole clusters. Each pair is listed once. There are two lists. Forces go through the near list,
+ * which holds until a particle has moved by half of a thin skin. The near list is then picked out of the wide list,
+ * which takes longer to make and lasts longer (after S. Pall, A. Zhmurov, P. Bauer et al., "Heterogeneous
+ * parallelization and acceleration of molecular dynamics simulations in GROMACS", 2020). The pairs in the lists, and
+ * their order, follow from the positions at the times when the lists were made, and from nothing else. */
 #ifndef SPORE_MODELS_PARTICLES_CLUSTER_LIST_H
 #define SPORE_MODELS_PARTICLES_CLUSTER_LIST_H
 

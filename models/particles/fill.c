@@ -1,3 +1,4 @@
+/* Particles on a lattice inside a solid, and points that follow them. */
 #include "models/particles/fill.h"
 
 #include <assert.h>
@@ -34,7 +35,7 @@ static bool add_point(Fill *fill, SporeVec3 p) {
   return true;
 }
 
-/* A row of the lattice along z; where the surface is far, as much of it is passed over. */
+/* Fills a row of the lattice along z. Where the surface is far, the row is passed over by that distance. */
 static bool fill_row(Fill *fill, size_t x, size_t y, const double part[3]) {
   for (size_t z = 0; z < fill->cells[2];) {
     SporeVec3 p = {fill->lower[0] + ((double)x + part[0]) * fill->cell,
@@ -70,7 +71,8 @@ static bool fill_phase(Fill *fill, const SporeMeshReport *report, unsigned phase
   return fill_lattice(fill);
 }
 
-/* In a narrow surface how many places lie inside hangs on where the lattice does: takes the nearest to `wanted`. */
+/* In a narrow surface the number of places inside depends on where the lattice lies: takes the lattice whose number is
+ * nearest to `wanted`. */
 static bool fill_best(Fill *fill, const SporeMeshReport *report, size_t wanted) {
   assert(wanted > 0);
   unsigned best = 0;

@@ -1,3 +1,4 @@
+/* Lennard-Jones forces and energy on a list of clusters. */
 #include <assert.h>
 
 #include "models/particles/lennard_jones_law.h"
@@ -124,7 +125,7 @@ SPORE_INLINE double all_groups(const SporeClusterList *list, const SporeLennardJ
   return least;
 }
 
-/* Few pairs are ever capped: what that takes is done only where it turns out to be needed. */
+/* Capping is rarely needed: the forces are computed without it first, and again with it where a pair is too near. */
 bool SPORE_LEVEL_NAME(spore_lennard_jones_force)(const SporeClusterList *list, const SporeLennardJonesLaw *law) {
   assert(list->made);
   assert(law->core2 < law->cutoff2);

@@ -1,12 +1,14 @@
-/* Smoke and steam: parcels of warm gas that the air bears up, slows and drives about, and that dissolve in it.
+/* Smoke and steam: parcels of warm gas that rise in the air, are slowed and driven about by it, and dissolve.
  *
- * A parcel of mass m weighs (1 - b) m g, with b the weight of the air that it displaces over its own; drag d m v, as of
- * small parcels, whose drag goes with the speed, lets it rise at (b - 1) g / d. That the air is uneven is a pressure
- * that stands still in the scene, U = -(m d s / k) (sin kx cos ky + sin ky cos kz + sin kz cos kx) with k = 2 pi over
- * the size of an eddy: it drives parcels about at speeds near s, as a force that has an energy, so that what the world
- * keeps account of stays right. Parcels do not feel each other: a step costs as little as a spring each.
+ * A parcel of mass m weighs (1 - b) m g, with b the weight of the displaced air over the weight of the parcel. Drag d m
+ * v, linear in the speed as for small parcels, lets the parcel rise at (b - 1) g / d. The unevenness of the air is a
+ * pressure that stands still in the scene,
+ *   U = -(m d s / k) (sin kx cos ky + sin ky cos kz + sin kz cos kx),
+ * with k = 2 pi over the size of an eddy. It drives parcels about at speeds near s, by a force that has an energy, so
+ * that the energy account of the world stays right. Parcels do not interact: a step costs as little as one spring for
+ * each parcel.
  *
- * What a parcel holds spreads by diffusion: its square of a radius grows by 4 D t, and what it holds thins out. */
+ * The content of a parcel spreads by diffusion: the square of its radius grows by 4 D t, and its opacity falls. */
 #include <assert.h>
 #include <math.h>
 

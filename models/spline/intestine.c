@@ -22,7 +22,7 @@ typedef struct IntestineFields {
 typedef struct Intestine {
   SporeModel base;
   SporeSplineLine line;
-  SporeCore root;
+  SporeVirtualCore root;
 } Intestine;
 
 static const SporeParameter parameters[] = {
@@ -66,7 +66,7 @@ static bool no_memory(SporeError *error) {
 static void destroy(SporeModel *model) {
   Intestine *body = (Intestine *)model;
   spore_spline_line_clear(&body->line);
-  spore_core_clear(&body->root);
+  spore_virtual_core_clear(&body->root);
   spore_model_clear(&body->base);
   spore_free(body);
 }
@@ -82,13 +82,13 @@ static void tune(Intestine *body, const IntestineFields *fields) {
 static bool make_root(Intestine *body, const SporeCurve *curve, double mass_per_length, SporeError *error) {
   const SporeSplineLine *line = &body->line;
   double length = 0, radius = 0;
-  if (!spore_core_allocate(&body->root, line->control_count)) return no_memory(error);
+  if (!spore_virtual_core_allocate(&body->root, line->control_count)) return no_memory(error);
   memcpy(body->base.block_mass, line->mass, line->control_count * sizeof(double));
   memcpy(body->root.weight, line->length, line->control_count * sizeof(double));
   for (size_t i = 0; i < line->control_count; i++) length += line->length[i];
   for (size_t i = 0; i < curve->count; i++) radius += curve->points[4 * i + 3] / (double)curve->count;
   body->base.block_mass[line->control_count] = mass_per_length * length;
-  return spore_core_spread(&body->root, line->rest, line->mass, mass_per_length * length, radius, error);
+  return spore_virtual_core_spread(&body->root, line->rest, line->mass, mass_per_length * length, radius, error);
 }
 
 static bool build(Intestine *body, const SporeCurve *curve, const IntestineFields *fields, SporeError *error) {
@@ -103,7 +103,7 @@ static bool build(Intestine *body, const SporeCurve *curve, const IntestineField
     return false;
   if (!spore_model_matrix_create(&body->base, &matrix)) return no_memory(error);
   spore_spline_find_blocks(&body->line.spline, &matrix);
-  spore_core_find_blocks(&body->root, &matrix);
+  spore_virtual_core_find_blocks(&body->root, &matrix);
   spore_block_matrix_clear(&matrix);
   tune(body, fields);
   return true;
@@ -123,34 +123,34 @@ static SporeModel *create(const SporeGeometry *geometry, const void *fields, Spo
 static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
   assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
-  spore_core_place(&body->root, body->line.rest, pose, velocity, spin, q, v);
+  spore_virtual_core_place(&body->root, body->line.rest, pose, velocity, spin, q, v);
 }
 
 static SporeMat3 inertia(const SporeModel *model, const double *q) {
-  return spore_core_inertia(&((const Intestine *)model)->root, q);
+  return spore_virtual_core_inertia(&((const Intestine *)model)->root, q);
 }
 
 static void drift(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1) {
   assert(model->type == &spore_intestine);
-  spore_core_drift(&((const Intestine *)model)->root, q, v, h, q1, v1);
+  spore_virtual_core_drift(&((const Intestine *)model)->root, q, v, h, q1, v1);
 }
 
 static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
   assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
   SPORE_KERNEL(spore_spline_force)(&body->line.spline, q, shape, v, f);
-  spore_core_force(&body->root, q, shape, v, f);
+  spore_virtual_core_force(&body->root, q, shape, v, f);
 }
 
 static double potential(const SporeModel *model, const double *q) {
   assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
-  return SPORE_KERNEL(spore_spline_potential)(&body->line.spline, q) + spore_core_potential(&body->root, q);
+  return SPORE_KERNEL(spore_spline_potential)(&body->line.spline, q) + spore_virtual_core_potential(&body->root, q);
 }
 
 static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   const Intestine *body = (const Intestine *)model;
-  return spore_spline_pattern(&body->line.spline, blocks) && spore_core_pattern(&body->root, blocks);
+  return spore_spline_pattern(&body->line.spline, blocks) && spore_virtual_core_pattern(&body->root, blocks);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
@@ -160,7 +160,7 @@ static void jacobian(const SporeModel *model, const double *q, const double *sha
   SPORE_KERNEL(spore_spline_jacobian)(&body->line.spline, q, shape, stiffness_scale, damping_scale, matrix);
   const SporeTangent at = {
       .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
-  spore_core_jacobian(&body->root, &at, matrix);
+  spore_virtual_core_jacobian(&body->root, &at, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {

@@ -1,3 +1,4 @@
+/* Choosing, inserting and removing knots of a line while it runs. */
 #include "models/spline/knots.h"
 
 #include <assert.h>
@@ -98,13 +99,13 @@ void spore_spline_line_lead(const SporeSplineLine *made, SporeSplineKnots knots,
   }
 }
 
-/* What is held of the four points of a span, and of the five that a knot in it makes of them. */
+/* Which of five control points are held that a knot inserted in a span makes of four. */
 static void hold_five(const uint8_t four[4], uint8_t five[5]) {
   five[0] = four[0], five[4] = four[3];
   for (int i = 0; i < 3; i++) five[1 + i] = four[i] && four[i + 1];
 }
 
-/* As many places are held then as before, at least. */
+/* Whether at least as many control points are held after the span is halved as before. */
 static bool may_halve(const uint8_t *held, size_t span) {
   uint8_t five[5];
   int before = 0, after = 0;
@@ -130,8 +131,8 @@ static bool parts_halves(const SporeSplineChanges *changes, size_t knot) {
   return fmod(spore_spline_break(knots, knot - 1), 2 * width) == 0;
 }
 
-/* The two points that `x` has in place of the three about the knot, in `two`; the most by which one of those would be
- * moved, which the line is not by more. */
+/* The two control points, in `two`, that take the place of three about the knot. Returns the greatest distance by which
+ * one of the three would be moved; the line moves by no more. */
 static double merge_points(const double *x, size_t span, const double ratio[3], double two[6]) {
   const double *p = x + 3 * span;
   double a = ratio[0], b = 1 - ratio[1], c = ratio[1], d = 1 - ratio[2], apart[3] = {0};
@@ -167,7 +168,7 @@ static bool may_drop(SporeSplineChanges *changes, const double *q, const uint8_t
   return merge_points(q, knot - 1, ratio, two) <= SPORE_KNOTS_SLACK * radius;
 }
 
-/* The first knot that can go; and how long each could. */
+/* The first knot that can be removed. Counts for each knot how long its two spans have been straight. */
 static size_t find_drop(SporeSplineChanges *changes, double h, const double *q, const uint8_t *held) {
   size_t drop = 0;
   for (size_t knot = 1; knot < changes->now.knots.span_count; knot++) {
@@ -237,7 +238,8 @@ bool spore_spline_changes_weigh(SporeSplineChanges *changes, double h, const dou
   return changes->insert_count > 0 || changes->drop > 0;
 }
 
-/* Behind the control points, of which there are to be one more (or one less), room for another arm (or none for it). */
+/* Makes room for an arm among the arms, which lie behind the control points; or, below, takes an arm out. The number of
+ * control points changes by one at the same time. */
 static void open_arms(void *nodes, size_t size, size_t spans, size_t arm) {
   uint8_t *arms = (uint8_t *)nodes + (spans + 3) * size;
   memmove(arms + (arm + 2) * size, arms + arm * size, (spans + 1 - arm) * size);

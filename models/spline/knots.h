@@ -1,10 +1,10 @@
-/* Knots of a line that come and go while it runs.
+/* Inserting and removing knots of a line while it runs.
  *
  * A span that turns by more than most_bend is halved: a knot is inserted in its middle, which changes neither the line
- * nor its velocity (spore_spline_insert). Two halves that turn together by less than a third of that for CALM seconds
- * become one span again, where the line with a knot less, nearest to what it was in the mean square of its control
- * points, is nowhere further from it than SLACK of its radius there. Knots of creation stay, and so do those beside
- * what is held: a constraint is neither lost nor won. The parameter of a material point is ever the same. */
+ * nor its velocity (spore_spline_insert). Two halves that together turn by less than a third of most_bend for
+ * SPORE_KNOTS_CALM seconds become one span again, where that moves the line by no more than SPORE_KNOTS_SLACK of its
+ * radius; the control points are then the nearest ones in the mean square. The knots of creation stay, and so do knots
+ * beside what is held, so that no constraint is lost or gained. The parameter of a material point never changes. */
 #ifndef SPORE_MODELS_SPLINE_KNOTS_H
 #define SPORE_MODELS_SPLINE_KNOTS_H
 

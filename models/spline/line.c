@@ -1,3 +1,4 @@
+/* A line made from a curve: control points, masses, stiffness, spheres. */
 #include "models/spline/line.h"
 
 #include <assert.h>
@@ -72,7 +73,7 @@ static double set_point(SporeSplineLine *line, const SporeCurve *curve, const Sp
   return length;
 }
 
-/* What is straight but for rounding. */
+/* Sets the rest curvature of points to 0 that are straight but for rounding. */
 static void straighten(SporeSpline *spline) {
   for (size_t i = 0; i < SPORE_SPLINE_POINTS * spline->group_count; i++)
     for (size_t lane = 0; lane < SPORE_LANES; lane++)
@@ -94,8 +95,8 @@ double spore_spline_line_polar(const SporeSplineLine *line, const SporeSplineLin
   return width * between(made->weights[of].polar, part);
 }
 
-/* Gauss' rule of three points is exact for a linear weight times a cubic, so that what the functions of one set of
- * knots weigh is what those of another do of which they are made. */
+/* Gauss' rule of three points is exact for a linear weight times a cubic. So the integrals for one set of knots agree
+ * exactly with those for a set of knots that contains it. */
 static void weigh(SporeSplineLine *line, const SporeSplineLine *made) {
   static const double share[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   memset(line->mass, 0, line->control_count * sizeof *line->mass);

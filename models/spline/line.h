@@ -12,8 +12,8 @@ typedef struct SporeSplineSection {
   bool straight_at_rest;           /* would be straight if nothing bent it */
 } SporeSplineSection;
 
-/* How many control points a line gets: `count` evenly along it, and then, while a span turns by more than most_bend
- * (rad; 0: none does), a knot in its middle, up to `most` in all. */
+/* How many control points a line gets: `count` evenly along it; then, while some span turns by more than most_bend
+ * (rad; 0: without limit), a knot in the middle of that span, up to `most` control points in all. */
 #define SPORE_SPLINE_NARROWEST (1. / 64) /* of an even span, that is still halved where the line bends */
 typedef struct SporeSplineDensity {
   size_t count, most;
@@ -47,9 +47,9 @@ typedef struct SporeSplineLine {
 bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineDensity *density,
                             const SporeSplineSection *section, SporeError *error);
 void spore_spline_line_clear(SporeSplineLine *line);
-/* All that follows from the knots and control points of a line: stiffness, and mass and length as `made` weighs, whose
- * knots are among them. In arrays that are there. lengths: at rest, for which each Gauss point stands, of a span next
- * to each other, m. */
+/* Sets all that follows from the knots and control points of a line, in arrays that are there: stiffness, mass and
+ * length. Mass and length are integrals of the weights of `made`, whose knots are among the knots of the line. lengths:
+ * the length at rest for which each Gauss point stands, the points of a span next to each other, m. */
 void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *made, const SporeCurve *curve,
                                const SporeSplineSection *section, double *lengths);
 /* Polar inertia of a span of the line about itself, as `made` weighs, kg m^2. */

@@ -1,3 +1,4 @@
+/* A sheet made from a mesh: control points, Gauss points, places in the matrix. */
 #include "models/spline/patch.h"
 
 #include <assert.h>
@@ -190,8 +191,9 @@ static Derivatives derive(const SporePatch *patch, const double *control, size_t
   return all;
 }
 
-/* From derivatives by u and v to those by s1 (along dr/du) and s2 (across it), the second ones without the part in the
- * sheet: d2/dadb less what moves r along s1 and s2. Returns the area of a unit of u and v. */
+/* From derivatives by u and v to derivatives by s1 (along dr/du) and s2 (across it). The second derivatives are taken
+ * without their part in the sheet, that is, less what moves r along s1 and s2. Returns the area of a unit of u and
+ * v. */
 static double by_length(const Derivatives *all, double first[2][FUNCTIONS], double second[3][FUNCTIONS],
                         double curvature[3]) {
   SporeVec3 cross = spore_vec3_cross(all->r[0], all->r[1]);

@@ -62,8 +62,9 @@ bool spore_patch_pattern(const SporePatch *patch, SporeBlockPattern *pattern);
  * the cell that has no area, or SIZE_MAX. */
 size_t spore_patch_set_rest(SporePatch *patch, const double *control, double *share);
 
-/* Rows of points by control points (in the body's frame): a point on the sheet by its cell's sixteen; one off it by as
- * few more around as carry its offset. Refused where the sheet is too flat to carry it. */
+/* Rows that give points by control points (in the body's frame). A point on the sheet follows the sixteen control
+ * points of its cell; a point off the sheet follows as few more control points around it as reproduce its offset.
+ * Refused where the sheet is too flat for that. */
 bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const double *points, size_t count,
                      double slack, SporeMapping *mapping, SporeError *error);
 /* Points of the sheet, 3 each, even by its parameters and four a span each way. False: no memory. */

@@ -1,3 +1,4 @@
+/* Forces, energy and Jacobian of a sheet. */
 #include <assert.h>
 #include <string.h>
 

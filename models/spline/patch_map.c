@@ -1,3 +1,4 @@
+/* Points that follow a sheet, and samples of the sheet. */
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -5,7 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
-#include "models/spline/carry.h"
+#include "models/spline/offset_weights.h"
 #include "models/spline/patch.h"
 #include "models/spline/spline.h"
 
@@ -134,9 +135,9 @@ static bool map_point(const Sheet *sheet, const double *point, size_t index, Row
     bool last = side + 2 > SIDE || side >= most;
     begin_row(sheet, &place, side, row);
     if (off <= nothing) return true;
-    double sum = spore_carry_offset(row->point, row->used, missing(row, p), nothing, row->weight, work);
-    if (sum <= SPORE_CARRY_LIGHT || (last && sum <= SPORE_CARRY_AT_MOST && off > sheet->drop)) {
-      spore_carry_offset(row->point, row->used, missing(row, p), nothing, row->weight, work); /* what rounding took */
+    double sum = spore_offset_weights(row->point, row->used, missing(row, p), nothing, row->weight, work);
+    if (sum <= SPORE_OFFSET_WEIGHTS_LIGHT || (last && sum <= SPORE_OFFSET_WEIGHTS_MOST && off > sheet->drop)) {
+      spore_offset_weights(row->point, row->used, missing(row, p), nothing, row->weight, work); /* what rounding took */
       return true;
     }
     if (last) break;
@@ -169,7 +170,7 @@ bool spore_patch_map(size_t span_u, size_t span_v, const double *control, const 
                      double slack, SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   assert(slack >= 0);
-  Sheet sheet = {{span_u, span_v}, control, spore_carry_size(control, (span_u + 3) * (span_v + 3)), 0, NULL};
+  Sheet sheet = {{span_u, span_v}, control, spore_points_size(control, (span_u + 3) * (span_v + 3)), 0, NULL};
   sheet.drop = fmax(FLAT * sheet.size, slack);
   sheet.sample = SPORE_NEW_ARRAY(double, 3 * sample_count(&sheet));
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);

@@ -1,3 +1,4 @@
+/* The outline of an open sheet, and its four corners. */
 #include "models/spline/sheet_outline.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Two parameters for each vertex of an open sheet, by mean value weights. */
 #include "models/spline/sheet_parameters.h"
 
 #include <assert.h>

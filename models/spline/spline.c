@@ -1,3 +1,4 @@
+/* Fitting a spline to a curve; memory and pattern of a spline. */
 #include "models/spline/spline.h"
 
 #include <assert.h>

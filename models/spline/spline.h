@@ -46,10 +46,11 @@ bool spore_spline_pattern(const SporeSpline *spline, SporeBlockPattern *pattern)
 /* In a matrix of the model's whole pattern; the control points are its first blocks. */
 void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matrix);
 
-/* Rows of points by control points (in the body's frame): a point on the line by its section's four; one off the line
- * by the arms of its twist (ends at each knot, the nodes behind the control points; NULL: it has none), or by as few
- * more points around it as span its offset. Where the line is too straight to carry that, a point no further off than
- * slack (m) is put onto it, and any other refused. follows: the rows may be made anew for other knots. */
+/* Rows that give points by control points (in the body's frame). A point on the line follows the four control points of
+ * its span. A point off the line follows the arms of the twist too (their ends at each knot, which are the nodes behind
+ * the control points; NULL: the line has none), or as few more control points around it as span its offset. Where the
+ * line is too straight for that, a point no further off than slack (m) is put onto the line, and any other point is
+ * refused. follows: the rows may be made anew for other knots. */
 bool spore_spline_map(SporeSplineKnots knots, const double *control, const double *arms, const double *points,
                       size_t count, double slack, bool follows, SporeMapping *mapping, SporeError *error);
 /* Makes them, for the same line and arms by other knots. Allocates nothing. */

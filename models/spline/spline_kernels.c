@@ -1,3 +1,4 @@
+/* Forces, energy and Jacobian of a line. */
 #include <assert.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Points that follow a line, and samples of the line. */
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -6,7 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/body/path.h"
-#include "models/spline/carry.h"
+#include "models/spline/offset_weights.h"
 #include "models/spline/spline.h"
 
 #define WIDTH 16       /* control points of a row, at most */
@@ -31,14 +32,14 @@ static SporeVec3 node(const Spline *spline, uint32_t index) {
   return spore_vec3_load(index < count ? spline->control + 3 * (size_t)index : spline->arms + 3 * (index - count));
 }
 
-/* spore_carry_offset of the row's points. */
-static double carry(const Spline *spline, SporeVec3 offset, const Row *row, double *weight) {
+/* spore_offset_weights of the row's points. */
+static double offset_weights(const Spline *spline, SporeVec3 offset, const Row *row, double *weight) {
   double work[WIDTH], points[3 * WIDTH];
   for (size_t i = 0; i < row->used; i++) spore_vec3_store(points + 3 * i, node(spline, row->block[i]));
-  return spore_carry_offset(points, row->used, offset, ROUNDING * spline->size, weight, work);
+  return spore_offset_weights(points, row->used, offset, ROUNDING * spline->size, weight, work);
 }
 
-/* From where the row puts the point to p. */
+/* From the place that the row gives to p. */
 static SporeVec3 missing(const Spline *spline, const Row *row, SporeVec3 p) {
   for (size_t i = 0; i < row->used; i++) p = spore_vec3_add_scaled(p, -row->weight[i], node(spline, row->block[i]));
   return p;
@@ -55,7 +56,7 @@ static size_t take_points(const Spline *spline, size_t span, size_t width, Row *
   return span - first;
 }
 
-/* The span's, and the arms at its knots and at so many before and behind. */
+/* The control points of the span, and the arms at its knots and at `more` knots before and behind. */
 static size_t take_arms(const Spline *spline, size_t span, size_t more, Row *row) {
   assert(spline->arms && span < spline->knots.span_count);
   size_t first = take_points(spline, span, 4, row), from = span > more ? span - more : 0;
@@ -64,25 +65,26 @@ static size_t take_arms(const Spline *spline, size_t span, size_t more, Row *row
   return first;
 }
 
-/* A row that carries the offset; false: those points do not. `last`: there are none to take in their place. */
+/* Fills a row that reproduces the offset. False: the points of the row cannot. `last`: there are no more points to
+ * try. */
 static bool fill_row(const Spline *spline, SporeVec3 p, const SporePathPlace *place, size_t first, bool last,
                      Row *row) {
   SporeVec3 offset = spore_vec3_sub(p, place->position);
   bool on = spore_vec3_length(offset) <= ROUNDING * spline->size;
-  double sum = on ? 0 : carry(spline, offset, row, row->weight);
-  if (last && sum > SPORE_CARRY_LIGHT && spore_vec3_length(offset) <= spline->slack) {
+  double sum = on ? 0 : offset_weights(spline, offset, row, row->weight);
+  if (last && sum > SPORE_OFFSET_WEIGHTS_LIGHT && spore_vec3_length(offset) <= spline->slack) {
     memset(row->weight, 0, sizeof row->weight);
     on = true;
     sum = 0;
   }
-  if (sum > (last ? SPORE_CARRY_AT_MOST : SPORE_CARRY_LIGHT)) return false;
+  if (sum > (last ? SPORE_OFFSET_WEIGHTS_MOST : SPORE_OFFSET_WEIGHTS_LIGHT)) return false;
   for (size_t k = 0; k < 4; k++) row->weight[first + k] += place->weight[k];
-  if (!on) carry(spline, missing(spline, row, p), row, row->weight); /* what rounding took */
+  if (!on) offset_weights(spline, missing(spline, row, p), row, row->weight); /* what rounding took */
   for (size_t i = row->used; i < WIDTH; i++) row->block[i] = row->block[0];
   return true;
 }
 
-/* A row for the point, whose place on the line is known; false: nothing carries it. */
+/* Finds a row for the point, whose place on the line is known. False: no row reproduces the point. */
 static bool find_row(const Spline *spline, SporeVec3 p, const SporePathPlace *place, Row *row) {
   size_t count = spline->knots.span_count + 3;
   bool last = false;
@@ -125,7 +127,7 @@ static bool give_room(SporeMapping *mapping) {
 
 void spore_spline_map_follow(SporeSplineKnots knots, const double *control, const double *arms, SporeMapping *mapping) {
   assert(mapping->anchors);
-  double size = spore_carry_size(control, knots.span_count + 3);
+  double size = spore_points_size(control, knots.span_count + 3);
   Spline spline = {knots, control, arms, size, WRITTEN * size}, onto = spline;
   onto.slack = HUGE_VAL;
   uint32_t filled = 0;
@@ -148,7 +150,7 @@ bool spore_spline_map(SporeSplineKnots knots, const double *control, const doubl
                       size_t count, double slack, bool follows, SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   assert(slack >= 0);
-  Spline spline = {knots, control, arms, spore_carry_size(control, knots.span_count + 3), slack};
+  Spline spline = {knots, control, arms, spore_points_size(control, knots.span_count + 3), slack};
   spline.slack = fmax(slack, WRITTEN * spline.size);
   uint32_t *blocks = SPORE_NEW_ARRAY(uint32_t, WIDTH * count);
   double *weights = SPORE_NEW_ARRAY(double, WIDTH *count);

@@ -1,3 +1,4 @@
+/* Forces, energy and Jacobian of twist. */
 #include "models/spline/twist.h"
 
 #include <assert.h>
@@ -39,7 +40,8 @@ typedef struct Scalar {
   int end;
 } Scalar;
 
-/* The angle from the first arm, carried along, to the second, less that at rest; within half a turn. */
+/* The angle from the first arm, transported along the line, to the second, less the angle at rest; within half a
+ * turn. */
 static double twist_angle(const SporeTwistSpan *span, const Knot knot[2]) {
   SporeVec3 a = spore_vec3_transport(across(knot[0].d, knot[0].t), knot[0].t, knot[1].t);
   SporeVec3 b = across(knot[1].d, knot[1].t);
@@ -47,8 +49,8 @@ static double twist_angle(const SporeTwistSpan *span, const Knot knot[2]) {
   return angle - 2 * M_PI * rint(angle / (2 * M_PI));
 }
 
-/* By an arm, that angle changes as the arm turns; by a tangent, as half the binormal of the span's bend, and as an arm
- * that leans over the line swings about it. */
+/* The angle changes with an arm as the arm turns; with a tangent by half the binormal of the bend of the span, and by
+ * the swing of an arm that leans over the line. */
 static void set_twist(const SporeTwistSpan *span, const Knot knot[2], double arm, Scalar *scalar) {
   double cosine = fmax(spore_vec3_dot(knot[0].t, knot[1].t), -1 + 1e-6);
   SporeVec3 bend = spore_vec3_scale(1 / (1 + cosine), spore_vec3_cross(knot[0].t, knot[1].t));

@@ -1,12 +1,13 @@
-/* Twist of a spline: at each knot an arm across the line, a node of its own, tells how far the material has turned
- * about the line ("ghost points": Umetani, Schmidt and Stam 2014, "Position-based elastic rods"). Of neighbouring arms
- * one is carried along the line to the other by the least turn of the tangent, and the angle m between them is the
- * twist of their span, writhe included (Bergou, Wardetzky, Robinson, Audoly and Grinspun 2008, "Discrete elastic
- * rods"). With d an arm, t its tangent and a its length at rest:
+/* Twist of a spline. At each knot an arm across the line, a node of its own, tells how far the material has turned
+ * about the line ("ghost points": Umetani, Schmidt and Stam 2014, "Position-based elastic rods"). The first of two
+ * neighbouring arms is transported along the line to the other by the least rotation of the tangent; the angle m
+ * between the two is then the twist of their span, writhe included (Bergou, Wardetzky, Robinson, Audoly and Grinspun
+ * 2008, "Discrete elastic rods"). With d an arm, t the tangent at the arm, and a the length of the arm at rest:
  *   U = sum over spans G J / l  m^2 / 2  +  sum over arms k ((d . t)^2 + ((d . d - a^2) / 2 a)^2) / 2
- * All of it is made of places, so that both momenta are kept, and what holds an arm holds the line from turning. An arm
- * has the polar inertia of its piece of the line; k is what makes it swing as fast as twist runs over a span. Arms of
- * neighbouring knots stand at a right angle, so that between them they carry any point beside the line. */
+ * The energy depends on places alone, so that both momenta are kept, and what holds an arm holds the line from turning.
+ * An arm has the polar inertia of its piece of the line; k is such that the arm swings as fast as twist runs over a
+ * span. The arms of neighbouring knots stand at a right angle, so that together they reproduce any point beside the
+ * line. */
 #ifndef SPORE_MODELS_SPLINE_TWIST_H
 #define SPORE_MODELS_SPLINE_TWIST_H
 
@@ -43,8 +44,8 @@ bool spore_spline_twist_pattern(const SporeSplineTwist *twist, SporeBlockPattern
 /* In a matrix of the model's whole pattern. */
 void spore_spline_twist_find_blocks(SporeSplineTwist *twist, const SporeBlockMatrix *matrix);
 
-/* What follows from the knots of the line but the rest angles: where the spans' nodes are and how they resist, and what
- * arms weigh, as `made` weighs, of which the mass of the line's control points is relieved. */
+/* Sets what follows from the knots of the line, without the rest angles: nodes and stiffness of the spans, and the mass
+ * of the arms by the weights of `made`. That mass is taken from the control points of the line. */
 void spore_spline_twist_set_spans(SporeSplineTwist *twist, SporeSplineLine *line, const SporeSplineLine *made,
                                   const SporeCurve *curve, const SporeSplineSection *section);
 

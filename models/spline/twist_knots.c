@@ -21,7 +21,7 @@ static Place place_of(SporeSplineKnots knots, const double *control, double para
   return (Place){at.position, unit(at.slope), arm};
 }
 
-/* From the one arm, carried along, to the other; the angle nearest to `about`. */
+/* The angle from one arm, transported along the line, to the other; of all turns the one nearest to `about`. */
 static double angle_between(const Place *a, const Place *b, double about) {
   SporeVec3 from = spore_vec3_transport(across(a->arm, a->tangent), a->tangent, b->tangent);
   SporeVec3 to = across(b->arm, b->tangent);
@@ -29,8 +29,8 @@ static double angle_between(const Place *a, const Place *b, double about) {
   return angle + 2 * M_PI * rint((about - angle) / (2 * M_PI));
 }
 
-/* Of this length, turned by the angle from where the other is carried to. */
-static SporeVec3 carry(const Place *from, SporeVec3 tangent, double angle, double length) {
+/* The arm of this length at the angle from where `from` is transported to. */
+static SporeVec3 turned_arm(const Place *from, SporeVec3 tangent, double angle, double length) {
   SporeVec3 arm = unit(spore_vec3_transport(across(from->arm, from->tangent), from->tangent, tangent));
   SporeVec3 turned =
       spore_vec3_add_scaled(spore_vec3_scale(cos(angle), arm), sin(angle), spore_vec3_cross(tangent, arm));
@@ -68,7 +68,7 @@ void spore_spline_twist_lead(const SporeSplineTwist *made, const SporeSplineLine
     double part = (at - from) / spore_spline_width(line->knots, of);
     Place before = place_of(line->knots, line->rest, from, made->rest + 3 * of);
     Place here = place_of(line->knots, line->rest, at, NULL);
-    SporeVec3 arm = carry(&before, here.tangent, part * whole_angle(made, line, of), made->arm);
+    SporeVec3 arm = turned_arm(&before, here.tangent, part * whole_angle(made, line, of), made->arm);
     spore_vec3_store(arms + 3 * knot, spore_vec3_add(here.position, arm));
   }
 }
@@ -131,7 +131,7 @@ void spore_spline_twist_insert(const SporeSplineTwist *now, SporeSplineKnots kno
   }
   double angle = angle_between(&arm[0], &arm[1], now->spans[span].rest);
   double length = 0.5 * (spore_vec3_length(arm[0].arm) + spore_vec3_length(arm[1].arm));
-  SporeVec3 d = carry(&arm[0], here.tangent, 0.5 * angle, length);
+  SporeVec3 d = turned_arm(&arm[0], here.tangent, 0.5 * angle, length);
   SporeVec3 u = spore_vec3_add(spore_path_at(knots, v, parameter).position, spore_vec3_cross(spin_of(arm, speed), d));
   spore_vec3_store(arm_q, spore_vec3_add(here.position, d));
   spore_vec3_store(arm_v, u);

@@ -1,3 +1,4 @@
+/* Making the arms of a line: their mass, length and place at rest. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -26,7 +27,8 @@ static SporeVec3 combine(const double *control, size_t span, const double weight
   return sum;
 }
 
-/* The functions of a span at one of its knots: those of the span behind it hold for the one before, one further. */
+/* The basis functions of a span at one of its knots. At the last knot of the span the functions are those of the next
+ * span, shifted by one. */
 static void set_knot(const SporeSplineTwist *twist, SporeSplineKnots knots, size_t index, int end) {
   assert(index < twist->span_count && (end == 0 || end == 1));
   size_t at;
@@ -94,7 +96,7 @@ static SporeVec3 any_across(SporeVec3 t) {
   return spore_vec3_normalise(spore_vec3_cross(t, axis), axis);
 }
 
-/* Arms along the line, each turned by so much more than where the one before is carried to. */
+/* Sets arms along the line, each turned by an angle from where the arm before is transported to. */
 static void set_arms(SporeSplineTwist *twist, const SporeSplineLine *line, double turns) {
   double soft = 0;
   SporeVec3 before = {0, 0, 0}, arm = {0, 0, 0};

@@ -1,9 +1,9 @@
 /* Stiffness of an isotropic material in the axes of F = U diag(s) V^T; for kernel files.
  *
- * With the derivatives p_i of the energy density by the stretches, it is their derivatives among each other, and of the
- * shears in the plane across axis k, between the others i and j: twists, with the eigenvalue (p_i + p_j)/(s_i + s_j),
- * and flips, (p_i - p_j)/(s_i - s_j) (Smith, De Goes and Kim 2019, "Analytic eigensystems for isotropic distortion
- * energies"). What is negative in it is left out. */
+ * With p_i the derivatives of the energy density by the stretches, the stiffness consists of the derivatives of p_i by
+ * the stretches, and of the shears in the plane across axis k, between the other two axes i and j: twists, with the
+ * eigenvalue (p_i + p_j)/(s_i + s_j), and flips, with (p_i - p_j)/(s_i - s_j) (Smith, De Goes and Kim 2019, "Analytic
+ * eigensystems for isotropic distortion energies"). Negative eigenvalues are left out. */
 #ifndef SPORE_MODELS_TETRAHEDRA_AXES_H
 #define SPORE_MODELS_TETRAHEDRA_AXES_H
 

@@ -86,7 +86,8 @@ static bool create_dense(SporeLinearSolid *body) {
   return made;
 }
 
-/* Moves node j along an axis by 1 m with the inner nodes in balance: work->moved, and what pulls then, work->pull. */
+/* Moves node j along an axis by 1 m with the inner nodes in balance: the displacements go to work->moved, the forces to
+ * work->pull. */
 static void move_one(Condensation *work, uint32_t j, int axis) {
   assert(j < work->full.block_count && axis >= 0 && axis < 3);
   size_t n = work->full.block_count, unit = 3 * (size_t)work->vertex[j] + (size_t)axis;
@@ -101,8 +102,8 @@ static void move_one(Condensation *work, uint32_t j, int axis) {
   spore_block_matrix_multiply_add(&work->full, work->moved, work->pull);
 }
 
-/* Column by column. shares: of each vertex and node, what the vertex inside follows the node by; those of a vertex add
- * up to 1. */
+/* Column by column. shares: for each vertex and node, how much the inner vertex follows the node; the shares of a
+ * vertex add up to 1. */
 static void condense(SporeLinearSolid *body, Condensation *work, double *shares) {
   assert(body->stiffness.block_count == body->surface.vertex_count);
   size_t count = body->surface.vertex_count;
@@ -118,8 +119,8 @@ static void condense(SporeLinearSolid *body, Condensation *work, double *shares)
     }
 }
 
-/* The mass of a vertex inside goes to the nodes that it follows, by their shares; a few of those come out below 0 and
- * get nothing. */
+/* The mass of an inner vertex goes to the nodes that the vertex follows, by their shares. A few shares are negative and
+ * count as 0. */
 static void share_masses(SporeLinearSolid *body, const Condensation *work, double *shares, const double *mass) {
   size_t count = body->surface.vertex_count;
   for (size_t i = 0; i < work->full.block_count; i++) {
@@ -131,7 +132,7 @@ static void share_masses(SporeLinearSolid *body, const Condensation *work, doubl
   }
 }
 
-/* Rounding aside K* is symmetric; what solves with it counts on that to the last bit. */
+/* K* is symmetric but for rounding; solvers need symmetry to the last bit. */
 static void make_symmetric(SporeBlockMatrix *matrix) {
   assert(matrix->row_start[matrix->block_count] == matrix->block_count * matrix->block_count);
   size_t count = matrix->block_count;

@@ -1,3 +1,4 @@
+/* Corotated linear elasticity: the law, and its kernels. */
 #include "models/tetrahedra/lanes.h"
 
 #define SPORE_MATERIAL corotation

@@ -1,3 +1,4 @@
+/* Cutting tetrahedra: opening faces along the way of a blade, and splitting nodes. */
 #include "models/tetrahedra/cut.h"
 
 #include <assert.h>
@@ -69,7 +70,8 @@ static bool find_fans(SporeTetrahedraCut *cut) {
   return cut->part != NULL;
 }
 
-/* Elements come into lanes in an order of their own: found by their nodes, which no two have in common. */
+/* Finds the lane of each element. Elements lie in lanes in an order of their own and are found by their nodes: no two
+ * elements have the same four nodes. */
 static int compare_nodes(const uint32_t *a, const uint32_t *b) { return memcmp(a, b, 4 * sizeof *a); }
 
 typedef struct Lane {
@@ -141,8 +143,8 @@ void spore_tetrahedra_cut_clear(SporeTetrahedraCut *cut) {
 
 /* Opening faces. */
 
-/* A triangle that is none opens nothing. What lies just on its plane counts as above it, so that of the faces around
- * some are opened. */
+/* A degenerate triangle opens nothing. A point on the plane of the triangle counts as above it, so that some of the
+ * faces around such a point are opened. */
 static bool crosses(SporeVec3 p, SporeVec3 r, const SporeVec3 corner[3]) {
   const SporeVec3 a = corner[0], b = corner[1], c = corner[2];
   if ((spore_vec3_volume(a, b, c, p) >= 0) == (spore_vec3_volume(a, b, c, r) >= 0)) return false;
@@ -251,7 +253,7 @@ static uint32_t place_in(const Fan *fan, uint32_t tetrahedron) {
   return i;
 }
 
-/* Gives the i-th and all that it hangs together with the number of the first. */
+/* Gives tetrahedron i, and all that it hangs together with through closed faces, the number of the first. */
 static void spread(const Fan *fan, uint32_t i, uint32_t first) {
   assert(fan->part[i] == NONE);
   uint32_t t = fan->tetrahedra[i], own = corner_of(fan->cut, t, fan->node);
@@ -269,7 +271,8 @@ static uint32_t size_of(const Fan *fan, uint32_t first) {
   return size;
 }
 
-/* Whether the part keeps the node that it has: no other with the same is larger, or as large and before it. */
+/* Whether the part keeps the node that it has: no other part with the same node is larger, or as large and before
+ * it. */
 static bool keeps_node(const Fan *fan, uint32_t first) {
   uint32_t copy = copy_in(fan, first), size = size_of(fan, first);
   for (uint32_t i = 0; i < fan->count; i++) {
@@ -280,7 +283,8 @@ static bool keeps_node(const Fan *fan, uint32_t first) {
   return true;
 }
 
-/* In the tables and the batches, there also in the lanes without a tetrahedron, which repeat the first. */
+/* Sets the node in the tables and in the batches; also in the lanes without a tetrahedron, which repeat the first
+ * lane. */
 static void set_corner(SporeTetrahedraCut *cut, SporeTetrahedra *tetrahedra, uint32_t t, uint32_t k, uint32_t node) {
   assert(t < cut->count && k < 4);
   uint32_t batch = cut->lane[t] / SPORE_LANES, lane = cut->lane[t] % SPORE_LANES;
@@ -297,13 +301,13 @@ static void give_node(const Fan *fan, SporeTetrahedra *tetrahedra, uint32_t firs
   }
 }
 
-/* In the order of the mesh, as when it was whole. */
+/* Adds up the masses in the order of the mesh, as when the mesh was whole. */
 static void weigh(const Fan *fan, double *masses) {
   for (uint32_t i = 0; i < fan->count; i++) masses[copy_in(fan, i)] = 0;
   for (uint32_t i = 0; i < fan->count; i++) masses[copy_in(fan, i)] += fan->cut->mass[fan->tetrahedra[i]];
 }
 
-/* A node for each part that keeps none: the largest of those that have one in common is never among them. */
+/* Gives a node to each part that keeps none. Of the parts with a common node the largest keeps it. */
 static size_t part_fan(const Fan *fan, SporeTetrahedra *tetrahedra, double *q, double *v) {
   SporeTetrahedraCut *cut = fan->cut;
   size_t before = cut->made;

@@ -1,12 +1,11 @@
-/* Tetrahedra that scissors part while they run.
+/* Tetrahedra that scissors cut while they run.
  *
- * A blade opens the faces between two tetrahedra whose middles lie on both sides of its way: the cut runs along faces,
- * no element changes its shape, so that none is ever worse than the mesh's own, and volume and mass stay what they are.
- * A tetrahedron keeps at least one neighbour: no crumbs come loose. Where the faces opened part the tetrahedra around a
- * node, so that one cannot go around from one to the other through faces that are closed, each part but the largest
- * gets a node of its own, made from a reserve, at the same place with the same velocity, and its tetrahedra's share of
- * the mass: momentum stays too. Where faces are open but the tetrahedra around a node hang together still, it is the
- * end of the cut. */
+ * A blade opens the faces between two tetrahedra whose middles lie on both sides of its way. The cut runs along faces,
+ * and no element changes its shape: no element is ever worse than in the mesh, and volume and mass stay. A tetrahedron
+ * keeps at least one neighbour, so that no loose tetrahedra arise. Open faces may divide the tetrahedra around a node
+ * into parts that no longer hang together through closed faces. Each part but the largest then gets a node of its own
+ * from a reserve, with the same place and velocity, and with the share of the mass of its tetrahedra: momentum stays
+ * too. Where the tetrahedra around a node still hang together, the node is at the end of the cut and stays one. */
 #ifndef SPORE_MODELS_TETRAHEDRA_CUT_H
 #define SPORE_MODELS_TETRAHEDRA_CUT_H
 
@@ -36,11 +35,11 @@ bool spore_tetrahedra_cut_create(SporeTetrahedraCut *cut, const SporeTetrahedron
 void spore_tetrahedra_cut_clear(SporeTetrahedraCut *cut);
 /* Opens the faces that a blade goes through whose way is the triangle, 9 doubles, at q; returns their number. */
 size_t spore_tetrahedra_cut_open(SporeTetrahedraCut *cut, const double *q, const double *triangle);
-/* Makes nodes where tetrahedra were parted since; sets masses of all nodes concerned, and the new ones in q and v.
- * Returns how many: they follow one another. */
+/* Splits nodes where tetrahedra were divided since the last call; sets the masses of all nodes concerned, and the new
+ * nodes in q and v. Returns how many nodes were made; they follow one another. */
 size_t spore_tetrahedra_cut_part(SporeTetrahedraCut *cut, SporeTetrahedra *tetrahedra, double *masses, double *q,
                                  double *v);
-/* Whole again; of the masses those of nodes that are no spares. */
+/* Undoes all cuts; sets the masses of the nodes that are not spares. */
 void spore_tetrahedra_cut_mend(SporeTetrahedraCut *cut, SporeTetrahedra *tetrahedra, double *masses);
 bool spore_tetrahedra_cut_pattern(const SporeTetrahedraCut *cut, SporeBlockPattern *pattern);
 

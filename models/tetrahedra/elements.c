@@ -1,3 +1,4 @@
+/* Nodes, masses and rest shapes of the elements of a mesh. */
 #include "models/tetrahedra/elements.h"
 
 #include <assert.h>

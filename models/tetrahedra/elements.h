@@ -6,8 +6,8 @@
 #include "core/body/region.h"
 #include "models/tetrahedra/tetrahedra.h"
 
-/* A mesh and the nodes of its elements: the vertices, and for ten nodes an element the middles of the edges behind
- * them, in the order of spore_edges_of_tetrahedra. */
+/* A mesh and the nodes of its elements: the vertices, and for quadratic elements (ten nodes) the middles of the edges
+ * behind the vertices, in the order of spore_edges_of_tetrahedra. */
 typedef struct SporeTetrahedronNodes {
   SporeTetrahedralMesh mesh;
   size_t count, per_element;   /* nodes; 4 or 10 */

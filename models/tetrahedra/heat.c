@@ -1,3 +1,4 @@
+/* Coagulation of tetrahedra. */
 #include "models/tetrahedra/heat.h"
 
 #include <assert.h>
@@ -32,7 +33,8 @@ static SporeVec3 middle_of(const SporeTetrahedronBatch *batch, size_t lane, cons
   return spore_vec3_scale(0.25, sum);
 }
 
-/* With energy density W at F of a shape l times as long, in its volume: l^3 k V W(F / l). */
+/* The energy density W(F / l) of a shape l times as long, in the volume of that shape, k times as stiff: l^3 k V W(F /
+ * l). */
 static void set_shape(SporeTetrahedronBatch *batch, size_t lane, const SporeTetrahedronBatch *whole, double length,
                       double stiffness) {
   assert(length > 0 && stiffness > 0);

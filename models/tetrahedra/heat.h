@@ -1,12 +1,12 @@
-/* Tetrahedra that coagulate while they run: they get smaller at rest, and stiffer. */
+/* Tetrahedra that coagulate while they run: at rest they get smaller, and they get stiffer. */
 #ifndef SPORE_MODELS_TETRAHEDRA_HEAT_H
 #define SPORE_MODELS_TETRAHEDRA_HEAT_H
 
 #include "core/body/model.h"
 #include "models/tetrahedra/tetrahedra.h"
 
-/* As they were, and what heat did since. An element's `volume` weighs its energy, and so takes its share of the
- * stiffness; its lengths at rest are in its inverse. */
+/* The elements as they were, and what heat has done since. The stiffening of an element is in its `volume`, which
+ * weighs its energy; its shrinking is in its inverse. */
 typedef struct SporeTetrahedraHeat {
   SporeTetrahedronBatch *whole;      /* batch_count; NULL: never heated */
   double *dose, *length, *stiffness; /* batch_count x SPORE_LANES: 0 to 1; parts of what was */

@@ -43,8 +43,8 @@ typedef struct SporeRotation {
   SporeVd sum; /* of stretches, tr S */
 } SporeRotation;
 
-/* By the general decomposition, where stretches are so near to being opposite that the closed form has too few digits
- * left, or so far from 1 that it would overflow. */
+/* By the general decomposition: for lanes where stretches are nearly opposite, so that the closed form has too few
+ * digits left, or where stretches are so far from 1 that the closed form would overflow. */
 static __attribute__((noinline)) void spore_rotate_one_by_one(const SporeVd33 *f, SporeVl lanes,
                                                               SporeRotation *rotation) {
   for (int i = 0; i < SPORE_WIDTH; i++) {
@@ -67,11 +67,12 @@ SPORE_INLINE SporeInvariants spore_invariants_of(const SporeVd33 *f, const Spore
                            f->m[0] * c->m[0] + f->m[1] * c->m[1] + f->m[2] * c->m[2]};
 }
 
-/* Parts whose roots are sought together: each round waits long for its own result, and not for the others'. */
+/* Parts whose roots are sought together: the rounds of one part depend on each other, the rounds of different parts do
+ * not. */
 #define SPORE_TOGETHER 4
 
-/* The greatest roots, by Newton's method from the right, where it is monotonous: no root is greater than (3 I)^1/2. A
- * lane that is done stays as it is, whatever its neighbours need. */
+/* The greatest roots by Newton's method from the right, where it is monotonic: no root is greater than (3 I)^1/2. A
+ * lane that has converged stays as it is, whatever its neighbours need. */
 SPORE_INLINE void spore_greatest_roots(const SporeInvariants of[SPORE_TOGETHER], SporeVd sum[SPORE_TOGETHER],
                                        SporeVl failed[SPORE_TOGETHER]) {
   SPORE_UNROLL for (int n = 0; n < SPORE_TOGETHER; n++) {
@@ -210,7 +211,7 @@ SPORE_INLINE size_t spore_part_lanes(const SporeTetrahedra *tetrahedra, const Sp
 
 typedef double SporeTwo __attribute__((vector_size(16), aligned(8), may_alias));
 
-/* pull[k] = volume P Dm^-T of corner k; of corner 0 what makes the sum nothing. */
+/* pull[k] = volume P Dm^-T of corner k; corner 0 takes the value that makes the sum zero. */
 SPORE_INLINE void spore_corner_pulls(const SporeVd33 *inverse, SporeVd volume, const SporeVd33 *stress,
                                      SporeVd3 pull[4]) {
   const SporeVd *p = stress->m;
@@ -244,25 +245,25 @@ typedef struct SporeElementBlocks {
   SporeVd33 m[6];
 } SporeElementBlocks;
 
-/* -df/dv of the viscous force between corners a and b, with F b_a the carried gradients:
- * V eta (mu (b_a . b_b) F F^T + mu (F b_b)(F b_a)^T + lambda (F b_a)(F b_b)^T); weight is V eta. */
+/* -df/dv of the viscous force between corners a and b, with F b_a the gradients pushed forward:
+ *   V eta (mu (b_a . b_b) F F^T + mu (F b_b)(F b_a)^T + lambda (F b_a)(F b_b)^T); weight is V eta. */
 SPORE_INLINE void spore_add_viscosity(SporeVd weight, double mu_, double lambda_, const SporeVd33 *inverse,
                                       const SporeVd33 *f, SporeElementBlocks *blocks) {
   SporeVd mu = weight * mu_, lambda = weight * lambda_;
-  SporeVd3 gradient[3], carried[3];
+  SporeVd3 gradient[3], pushed[3];
   SporeVd33 square;
   SPORE_UNROLL for (int i = 0; i < 3; i++) SPORE_UNROLL for (int j = 0; j < 3; j++) square.m[3 * i + j] =
       spore_vd3_dot(spore_vd33_row(f, i), spore_vd33_row(f, j));
   SPORE_UNROLL for (int a = 0; a < 3; a++) {
     gradient[a] = spore_vd33_row(inverse, a);
-    carried[a] = spore_vd33_apply(f, gradient[a]);
+    pushed[a] = spore_vd33_apply(f, gradient[a]);
   }
   int n = 0;
   SPORE_UNROLL for (int a = 0; a < 3; a++) SPORE_UNROLL for (int b = a; b < 3; b++, n++) {
     SporeVd same = mu * spore_vd3_dot(gradient[a], gradient[b]);
     SPORE_UNROLL for (int i = 0; i < 9; i++) blocks->m[n].m[i] += same * square.m[i];
-    spore_vd33_add_outer(&blocks->m[n], spore_vd3_scale(mu, carried[b]), carried[a]);
-    spore_vd33_add_outer(&blocks->m[n], spore_vd3_scale(lambda, carried[a]), carried[b]);
+    spore_vd33_add_outer(&blocks->m[n], spore_vd3_scale(mu, pushed[b]), pushed[a]);
+    spore_vd33_add_outer(&blocks->m[n], spore_vd3_scale(lambda, pushed[a]), pushed[b]);
   }
 }
 
@@ -272,7 +273,7 @@ SPORE_INLINE void spore_store_block(SporeBlockRows *rows, const SporeVd33 *block
   SPORE_UNROLL for (int i = 0; i < 3; i++) spore_vd3_store_rows((*rows)[i], spore_vd33_row(block, i));
 }
 
-/* All 16 blocks of the elements' matrices. Rows and columns add up to nothing, which gives what belongs to corner 0. */
+/* All 16 blocks of the elements' matrices. Rows and columns add up to zero, which gives the blocks of corner 0. */
 SPORE_INLINE void spore_store_blocks(SporeBlockRows rows[16], const SporeElementBlocks *blocks) {
   static const int place[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
   SporeVd33 corner = {0};
@@ -303,7 +304,7 @@ SPORE_INLINE void spore_part_add_blocks(const SporeTetrahedra *tetrahedra, const
   }
 }
 
-/* A place where a material is asked: F, cof F, and where the caller needs it the rotation of F. */
+/* A point at which a material is evaluated: F, cof F, and where the caller needs it the rotation of F. */
 typedef struct SporePoint {
   SporeVd33 f, c;
   SporeRotation rotation;
@@ -317,10 +318,10 @@ SPORE_INLINE SporePoint spore_chunk_point(const SporeChunk *chunk, size_t n) {
   return (SporePoint){chunk->gradient[n], chunk->cofactor[n], spore_chunk_rotation(chunk, n)};
 }
 
-/* The part of a material that resists the change of volume: energy density k/2 (t - balance)^2, less that at t = still,
- * where the material is at rest. An element of several points takes the mean of t there, and adds local/2 times the
- * mean square of what t differs from it: without that, its points could swell and shrink against each other for
- * nothing. */
+/* The part of a material that resists the change of volume: energy density k/2 (t - balance)^2, less its value at t =
+ * still, where the material is at rest. An element of several points takes the mean of t, and adds local/2 times the
+ * mean square of the deviations from that mean: otherwise its points could swell and shrink against each other at no
+ * cost. */
 typedef struct SporeBulk {
   double k, balance, still, local;
 } SporeBulk;

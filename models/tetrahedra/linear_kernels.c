@@ -1,3 +1,4 @@
+/* Rotating the blocks of a constant stiffness. */
 #include <assert.h>
 
 #include "core/math/mat3.h"

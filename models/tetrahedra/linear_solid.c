@@ -1,3 +1,4 @@
+/* A solid of constant stiffness in a frame that turns with the body. */
 #include "models/tetrahedra/linear_solid.h"
 
 #include <assert.h>
@@ -32,7 +33,7 @@ void spore_linear_solid_destroy(SporeModel *model) {
   spore_free(body->place);
   spore_free(body->u);
   spore_free(body->pull);
-  spore_free(body->carried);
+  spore_free(body->rate);
   spore_model_clear(&body->base);
   spore_free(body);
 }
@@ -110,8 +111,8 @@ bool spore_linear_solid_finish(SporeLinearSolid *body, const SporeLinearFields *
   body->place = SPORE_NEW_ARRAY(double, 3 * n);
   body->u = SPORE_NEW_ARRAY(double, 3 * n);
   body->pull = SPORE_NEW_ARRAY(double, 3 * n);
-  body->carried = SPORE_NEW_ARRAY(double, 3 * n);
-  if (!body->place || !body->u || !body->pull || !body->carried) return false;
+  body->rate = SPORE_NEW_ARRAY(double, 3 * n);
+  if (!body->place || !body->u || !body->pull || !body->rate) return false;
   body->centre = mass_centre(body, body->surface.vertices);
   for (size_t i = 0; i < n; i++)
     spore_vec3_store(body->place + 3 * i,
@@ -179,7 +180,7 @@ static void add_rates(const SporeLinearSolid *body, const Frame *frame, const do
   }
 }
 
-/* f -= what K u pulls in the frame at q. */
+/* f -= the force of K u, in the frame at q. */
 static void add_pull(const SporeLinearSolid *body, const Frame *frame, const double *q, const double *u, double *f) {
   size_t n = body->base.block_count;
   double *g = body->pull;
@@ -209,9 +210,9 @@ void spore_linear_solid_force(const SporeModel *model, const double *q, const do
   add_pull(body, &frame, q, body->u, f);
   if (shape != q && body->viscosity > 0) {
     Frame held = frame_of(body, shape);
-    memset(body->carried, 0, n * sizeof *body->carried);
-    add_rates(body, &held, shape, v, body->viscosity, body->carried);
-    add_pull(body, &held, shape, body->carried, f);
+    memset(body->rate, 0, n * sizeof *body->rate);
+    add_rates(body, &held, shape, v, body->viscosity, body->rate);
+    add_pull(body, &held, shape, body->rate, f);
   }
   spore_nodal_damp(model, body->mass_damping, v, f);
 }

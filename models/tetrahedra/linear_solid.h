@@ -1,12 +1,12 @@
 /* A solid of linear elasticity with a constant stiffness, in a frame that turns with the body as a whole.
  *
- * The frame stands at the centre of mass c, and its rotation R is that of A = sum m (q - c) X^T = R S, with X the
- * places at rest from the centre of mass (as in B. Mueller et al. 2005, "Meshless deformations based on shape
- * matching"). With p = R^T (q - c) and u = p - X the energy is 1/2 u . K u, and with its rate u' the viscous force is
- * that of K u' times a time. As R follows the nodes, forces get a part that hinders the body from turning itself: g = K
- * (u + time u'),  y = (tr S I - S)^-1 sum p x g,  f = -R (g - m y x X), so that both momenta are kept. The stiffness R
- * K R^T is exact where u is 0: this is a model for small strains, and for small rotations of one part of the body
- * against another. */
+ * The frame stands at the centre of mass c. Its rotation R is the rotation of A = sum m (q - c) X^T = R S, with X the
+ * places at rest relative to the centre of mass (as in M. Mueller et al. 2005, "Meshless deformations based on shape
+ * matching"). With p = R^T (q - c) and u = p - X the energy is 1/2 u . K u; the viscous force is that of K u' times a
+ * time, with u' the rate of u. R follows the nodes, so that forces get a part that takes away the torque on the body:
+ *   g = K (u + time u'),  y = (tr S I - S)^-1 sum p x g,  f = -R (g - m y x X),
+ * and both momenta are kept. The stiffness R K R^T is exact where u is 0: this is a model for small strains, and for
+ * small rotations of one part of the body against another. */
 #ifndef SPORE_MODELS_TETRAHEDRA_LINEAR_SOLID_H
 #define SPORE_MODELS_TETRAHEDRA_LINEAR_SOLID_H
 
@@ -30,7 +30,7 @@ typedef struct SporeLinearSolid {
   SporeBlockMatrix stiffness;                    /* K for a Young's modulus of 1 Pa */
   double young_modulus, viscosity, mass_damping; /* Pa, s, 1/s */
   bool locks;
-  double *u, *pull, *carried; /* block_count x 3 each: what a force is computed in */
+  double *u, *pull, *rate; /* block_count x 3 each: what a force is computed in */
 } SporeLinearSolid;
 
 /* K of four-node elements on the model's pattern, for 1 Pa; the matrix is created. False: no memory. */

@@ -31,7 +31,7 @@ typedef struct Work {
   SporeBlockMatrix *matrix;
 } Work;
 
-/* Tetrahedra of four nodes. */
+/* Linear tetrahedra (four nodes). */
 
 typedef void (*VisitPart)(const Work *work, const SporePart *part, const SporePoint *point);
 
@@ -85,40 +85,43 @@ SPORE_INLINE void add_part_matrix(const Work *work, const SporePart *part, const
   spore_part_add_blocks(work->tetrahedra, part, &blocks, work->matrix);
 }
 
-/* Tetrahedra of ten nodes. */
+/* Quadratic tetrahedra (ten nodes). */
 
-SPORE_INLINE void ten_points(const Work *work, const SporePart *part, int turns, SporePoint point[SPORE_TEN_POINTS]) {
-  SporeTen x = spore_ten_gather(work->tetrahedra, part, work->q);
-  SporeChunk chunk = {.count = SPORE_TEN_POINTS};
-  for (int g = 0; g < SPORE_TEN_POINTS; g++) chunk.gradient[g] = spore_ten_gradient(&x, g, &part->inverse);
+SPORE_INLINE void quadratic_points(const Work *work, const SporePart *part, int turns,
+                                   SporePoint point[SPORE_QUADRATIC_POINTS]) {
+  SporeQuadraticNodes x = spore_quadratic_gather(work->tetrahedra, part, work->q);
+  SporeChunk chunk = {.count = SPORE_QUADRATIC_POINTS};
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) chunk.gradient[g] = spore_quadratic_gradient(&x, g, &part->inverse);
   if (turns) spore_chunk_solve(&chunk);
-  for (int g = 0; g < SPORE_TEN_POINTS; g++)
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++)
     point[g] = turns ? spore_chunk_point(&chunk, (size_t)g) : spore_point_of(&chunk.gradient[g]);
 }
 
 /* t at the points, and its mean. */
-typedef struct TenVolume {
-  SporeVd at[SPORE_TEN_POINTS], mean;
-} TenVolume;
+typedef struct QuadraticVolume {
+  SporeVd at[SPORE_QUADRATIC_POINTS], mean;
+} QuadraticVolume;
 
-SPORE_INLINE SporeVd ten_mean(const SporeVd at[SPORE_TEN_POINTS]) { return 0.25 * ((at[0] + at[1]) + (at[2] + at[3])); }
+SPORE_INLINE SporeVd quadratic_mean(const SporeVd at[SPORE_QUADRATIC_POINTS]) {
+  return 0.25 * ((at[0] + at[1]) + (at[2] + at[3]));
+}
 
-SPORE_INLINE TenVolume ten_volume(Law law, const SporePoint point[SPORE_TEN_POINTS]) {
-  TenVolume volume;
-  for (int g = 0; g < SPORE_TEN_POINTS; g++) volume.at[g] = law_volume(law, &point[g]);
-  volume.mean = ten_mean(volume.at);
+SPORE_INLINE QuadraticVolume quadratic_volume(Law law, const SporePoint point[SPORE_QUADRATIC_POINTS]) {
+  QuadraticVolume volume;
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) volume.at[g] = law_volume(law, &point[g]);
+  volume.mean = quadratic_mean(volume.at);
   return volume;
 }
 
-SPORE_INLINE SporeVd ten_pressure(Law law, const TenVolume *volume, int g) {
+SPORE_INLINE SporeVd quadratic_pressure(Law law, const QuadraticVolume *volume, int g) {
   return pressure_of(law, volume->mean) + law.bulk.local * (volume->at[g] - volume->mean);
 }
 
-/* F and its rate at the points, and the rates of volume that viscosity is to resist there. */
-typedef struct TenRates {
-  SporeVd33 gradient[SPORE_TEN_POINTS], rate[SPORE_TEN_POINTS];
-  SporeVd volume[SPORE_TEN_POINTS];
-} TenRates;
+/* F and its rate at the points, and the rates of volume that viscosity resists there. */
+typedef struct QuadraticRates {
+  SporeVd33 gradient[SPORE_QUADRATIC_POINTS], rate[SPORE_QUADRATIC_POINTS];
+  SporeVd volume[SPORE_QUADRATIC_POINTS];
+} QuadraticRates;
 
 /* Part of the viscosity against the change of volume that is local. */
 SPORE_INLINE double local_part(SporeElasticity elasticity) {
@@ -126,94 +129,95 @@ SPORE_INLINE double local_part(SporeElasticity elasticity) {
   return spore_bulk_local(elasticity.lambda, elasticity.mu) / elasticity.lambda;
 }
 
-SPORE_INLINE void ten_rates(const Work *work, const SporePart *part, TenRates *rates) {
-  SporeTen shape = spore_ten_gather(work->tetrahedra, part, work->shape);
-  SporeTen v = spore_ten_gather(work->tetrahedra, part, work->v);
-  for (int g = 0; g < SPORE_TEN_POINTS; g++) {
-    rates->gradient[g] = spore_ten_gradient(&shape, g, &part->inverse);
-    rates->rate[g] = spore_ten_gradient(&v, g, &part->inverse);
+SPORE_INLINE void quadratic_rates(const Work *work, const SporePart *part, QuadraticRates *rates) {
+  SporeQuadraticNodes shape = spore_quadratic_gather(work->tetrahedra, part, work->shape);
+  SporeQuadraticNodes v = spore_quadratic_gather(work->tetrahedra, part, work->v);
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) {
+    rates->gradient[g] = spore_quadratic_gradient(&shape, g, &part->inverse);
+    rates->rate[g] = spore_quadratic_gradient(&v, g, &part->inverse);
     rates->volume[g] = spore_vd33_product(&rates->gradient[g], &rates->rate[g]);
   }
-  SporeVd mean = ten_mean(rates->volume);
+  SporeVd mean = quadratic_mean(rates->volume);
   double local = local_part(work->elasticity);
-  for (int g = 0; g < SPORE_TEN_POINTS; g++) rates->volume[g] = mean + local * (rates->volume[g] - mean);
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) rates->volume[g] = mean + local * (rates->volume[g] - mean);
 }
 
-SPORE_INLINE void add_ten_forces(const Work *work, const SporePart *part) {
-  SporePoint point[SPORE_TEN_POINTS];
-  TenRates rates;
-  SporeTen pull = {0};
-  ten_points(work, part, SPORE_LAW_TURNS, point);
-  TenVolume volume = ten_volume(work->law, point);
-  if (work->elasticity.viscosity > 0) ten_rates(work, part, &rates);
-  for (int g = 0; g < SPORE_TEN_POINTS; g++) {
-    SporeVd33 stress = law_stress(work->law, &point[g], ten_pressure(work->law, &volume, g));
+SPORE_INLINE void add_quadratic_forces(const Work *work, const SporePart *part) {
+  SporePoint point[SPORE_QUADRATIC_POINTS];
+  QuadraticRates rates;
+  SporeQuadraticNodes pull = {0};
+  quadratic_points(work, part, SPORE_LAW_TURNS, point);
+  QuadraticVolume volume = quadratic_volume(work->law, point);
+  if (work->elasticity.viscosity > 0) quadratic_rates(work, part, &rates);
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) {
+    SporeVd33 stress = law_stress(work->law, &point[g], quadratic_pressure(work->law, &volume, g));
     if (work->elasticity.viscosity > 0)
       spore_add_viscous(work->elasticity, &rates.gradient[g], &rates.rate[g], rates.volume[g], &stress);
-    spore_ten_spread(&part->inverse, part->volume / SPORE_TEN_POINTS, &stress, g, &pull);
+    spore_quadratic_spread(&part->inverse, part->volume / SPORE_QUADRATIC_POINTS, &stress, g, &pull);
   }
-  spore_ten_add_forces(work->tetrahedra, part, &pull, work->f);
+  spore_quadratic_add_forces(work->tetrahedra, part, &pull, work->f);
 }
 
-SPORE_INLINE void add_ten_energy(const Work *work, const SporePart *part) {
-  SporePoint point[SPORE_TEN_POINTS];
-  SporeVd density[SPORE_TEN_POINTS];
-  ten_points(work, part, SPORE_LAW_TURNS, point);
-  TenVolume volume = ten_volume(work->law, point);
-  for (int g = 0; g < SPORE_TEN_POINTS; g++) {
+SPORE_INLINE void add_quadratic_energy(const Work *work, const SporePart *part) {
+  SporePoint point[SPORE_QUADRATIC_POINTS];
+  SporeVd density[SPORE_QUADRATIC_POINTS];
+  quadratic_points(work, part, SPORE_LAW_TURNS, point);
+  QuadraticVolume volume = quadratic_volume(work->law, point);
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) {
     SporeVd apart = volume.at[g] - volume.mean;
     density[g] = law_density(work->law, &point[g]) + 0.5 * work->law.bulk.local * apart * apart;
   }
   double *lane = work->f + part->lane;
   spore_vd_store(lane, spore_vd_load(lane) +
-                           part->volume * (ten_mean(density) + spore_bulk_density(work->law.bulk, volume.mean)));
+                           part->volume * (quadratic_mean(density) + spore_bulk_density(work->law.bulk, volume.mean)));
 }
 
-SPORE_INLINE void add_ten_stiffness(const Work *work, const SporePart *part, SporeTenBlocks *blocks) {
-  SporePoint point[SPORE_TEN_POINTS];
-  SporeVd share = part->volume * (work->stiffness_scale / SPORE_TEN_POINTS);
-  SporeTen spread = {0}; /* mean of T b_a */
+SPORE_INLINE void add_quadratic_stiffness(const Work *work, const SporePart *part, SporeQuadraticBlocks *blocks) {
+  SporePoint point[SPORE_QUADRATIC_POINTS];
+  SporeVd share = part->volume * (work->stiffness_scale / SPORE_QUADRATIC_POINTS);
+  SporeQuadraticNodes spread = {0}; /* mean of T b_a */
   SporeBulk bulk = work->law.bulk;
-  ten_points(work, part, 1, point);
-  TenVolume volume = ten_volume(work->law, point);
-  for (int g = 0; g < SPORE_TEN_POINTS; g++) {
+  quadratic_points(work, part, 1, point);
+  QuadraticVolume volume = quadratic_volume(work->law, point);
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) {
     SporeElementBlocks corners = {0};
-    law_add_stiffness(work->law, share, &part->inverse, &point[g], ten_pressure(work->law, &volume, g), bulk.local,
-                      &corners);
-    spore_ten_expand(&corners, g, blocks);
+    law_add_stiffness(work->law, share, &part->inverse, &point[g], quadratic_pressure(work->law, &volume, g),
+                      bulk.local, &corners);
+    spore_quadratic_expand(&corners, g, blocks);
     SporeVd33 t = law_spread(work->law, &point[g]);
-    spore_ten_spread(&part->inverse, spore_vd_all(1.0 / SPORE_TEN_POINTS), &t, g, &spread);
+    spore_quadratic_spread(&part->inverse, spore_vd_all(1.0 / SPORE_QUADRATIC_POINTS), &t, g, &spread);
   }
   if (bulk.k > bulk.local)
-    spore_ten_add_outer(part->volume * (work->stiffness_scale * (bulk.k - bulk.local)), &spread, blocks);
+    spore_quadratic_add_outer(part->volume * (work->stiffness_scale * (bulk.k - bulk.local)), &spread, blocks);
 }
 
-SPORE_INLINE void add_ten_viscosity(const Work *work, const SporePart *part, double viscous, SporeTenBlocks *blocks) {
-  SporeTen shape = spore_ten_gather(work->tetrahedra, part, work->shape), spread = {0};
+SPORE_INLINE void add_quadratic_viscosity(const Work *work, const SporePart *part, double viscous,
+                                          SporeQuadraticBlocks *blocks) {
+  SporeQuadraticNodes shape = spore_quadratic_gather(work->tetrahedra, part, work->shape), spread = {0};
   double local = local_part(work->elasticity) * work->elasticity.lambda;
-  for (int g = 0; g < SPORE_TEN_POINTS; g++) {
+  for (int g = 0; g < SPORE_QUADRATIC_POINTS; g++) {
     SporeElementBlocks corners = {0};
-    SporeVd33 gradient = spore_ten_gradient(&shape, g, &part->inverse);
-    spore_add_viscosity(part->volume * (viscous / SPORE_TEN_POINTS), work->elasticity.mu, local, &part->inverse,
+    SporeVd33 gradient = spore_quadratic_gradient(&shape, g, &part->inverse);
+    spore_add_viscosity(part->volume * (viscous / SPORE_QUADRATIC_POINTS), work->elasticity.mu, local, &part->inverse,
                         &gradient, &corners);
-    spore_ten_expand(&corners, g, blocks);
-    spore_ten_spread(&part->inverse, spore_vd_all(1.0 / SPORE_TEN_POINTS), &gradient, g, &spread);
+    spore_quadratic_expand(&corners, g, blocks);
+    spore_quadratic_spread(&part->inverse, spore_vd_all(1.0 / SPORE_QUADRATIC_POINTS), &gradient, g, &spread);
   }
   if (work->elasticity.lambda > local)
-    spore_ten_add_outer(part->volume * (viscous * (work->elasticity.lambda - local)), &spread, blocks);
+    spore_quadratic_add_outer(part->volume * (viscous * (work->elasticity.lambda - local)), &spread, blocks);
 }
 
-SPORE_INLINE void add_ten_matrix(const Work *work, const SporePart *part) {
-  SporeTenBlocks blocks = {0};
+SPORE_INLINE void add_quadratic_matrix(const Work *work, const SporePart *part) {
+  SporeQuadraticBlocks blocks = {0};
   double viscous = work->damping_scale * work->elasticity.viscosity;
-  if (work->stiffness_scale != 0) add_ten_stiffness(work, part, &blocks);
-  if (viscous != 0) add_ten_viscosity(work, part, viscous, &blocks);
-  spore_ten_add_blocks(work->tetrahedra, part, &blocks, work->matrix);
+  if (work->stiffness_scale != 0) add_quadratic_stiffness(work, part, &blocks);
+  if (viscous != 0) add_quadratic_viscosity(work, part, viscous, &blocks);
+  spore_quadratic_add_blocks(work->tetrahedra, part, &blocks, work->matrix);
 }
 
-typedef void (*VisitTen)(const Work *work, const SporePart *part);
+typedef void (*VisitQuadratic)(const Work *work, const SporePart *part);
 
-SPORE_INLINE void each_ten(const Work *work, SporeParts parts, VisitTen visit) {
+SPORE_INLINE void each_quadratic(const Work *work, SporeParts parts, VisitQuadratic visit) {
   for (size_t n = parts.first; n < parts.end; n++) {
     SporePart part = spore_part_at(work->tetrahedra, n);
     visit(work, &part);
@@ -228,7 +232,7 @@ void SPORE_MATERIAL_NAME(force)(const SporeTetrahedra *tetrahedra, size_t slab, 
   assert(elasticity.viscosity >= 0);
   SporeParts parts = spore_parts_of_slab(tetrahedra, slab);
   Work work = {.tetrahedra = tetrahedra, .elasticity = elasticity, .law = law_of(elasticity), q, shape, v, f};
-  if (tetrahedra->middles) each_ten(&work, parts, add_ten_forces);
+  if (tetrahedra->middles) each_quadratic(&work, parts, add_quadratic_forces);
   else each_part(&work, parts, SPORE_LAW_TURNS, add_part_forces);
 }
 
@@ -236,7 +240,7 @@ double SPORE_MATERIAL_NAME(potential)(const SporeTetrahedra *tetrahedra, SporeEl
   double lanes[SPORE_LANES] = {0};
   SporeParts parts = spore_parts_of_all(tetrahedra);
   Work work = {.tetrahedra = tetrahedra, .law = law_of(elasticity), .q = q, .f = lanes};
-  if (tetrahedra->middles) each_ten(&work, parts, add_ten_energy);
+  if (tetrahedra->middles) each_quadratic(&work, parts, add_quadratic_energy);
   else each_part(&work, parts, SPORE_LAW_TURNS, add_part_energy);
   return spore_lanes_sum(lanes);
 }
@@ -255,7 +259,7 @@ void SPORE_MATERIAL_NAME(jacobian)(const SporeTetrahedra *tetrahedra, size_t sla
                .stiffness_scale = stiffness_scale,
                .damping_scale = damping_scale,
                .matrix = matrix};
-  if (tetrahedra->middles) each_ten(&work, parts, add_ten_matrix);
+  if (tetrahedra->middles) each_quadratic(&work, parts, add_quadratic_matrix);
   else each_part(&work, parts, 1, add_part_matrix);
 }
 

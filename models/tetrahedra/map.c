@@ -1,3 +1,4 @@
+/* Points that follow a tetrahedral mesh. */
 #include "models/tetrahedra/map.h"
 
 #include <assert.h>
@@ -124,8 +125,8 @@ static void weigh_corners(const SporeTetrahedralMesh *mesh, uint32_t tetrahedron
   }
 }
 
-/* Shape functions of ten nodes at corner weights l, carried on affinely to those of p. */
-static void weigh_ten(const double l[4], const double p[4], double weights[10]) {
+/* Shape functions of ten nodes at corner weights l, extended affinely to the corner weights p. */
+static void weigh_quadratic(const double l[4], const double p[4], double weights[10]) {
   static const int edges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   for (int i = 0; i < 4; i++) weights[i] = l[i] * (2 * l[i] - 1) + (4 * l[i] - 1) * (p[i] - l[i]);
   for (int e = 0; e < 6; e++) {
@@ -147,7 +148,7 @@ static void weigh(const SporeTetrahedronNodes *nodes, uint32_t tetrahedron, Spor
   double inside[4], outside[4];
   weigh_corners(&nodes->mesh, tetrahedron, at, inside);
   weigh_corners(&nodes->mesh, tetrahedron, p, outside);
-  weigh_ten(inside, outside, weights);
+  weigh_quadratic(inside, outside, weights);
 }
 
 static SporeBvh *boundary_of(const SporeTetrahedralMesh *mesh, SporeError *error) {

@@ -1,3 +1,4 @@
+/* Stable neo-Hookean elasticity: its kernels. */
 #include "models/tetrahedra/neo_hookean_law.h"
 
 #define SPORE_MATERIAL neo_hookean

@@ -1,3 +1,4 @@
+/* St Venant-Kirchhoff elasticity: the law, and its kernels. */
 #include "models/tetrahedra/axes.h"
 
 #define SPORE_MATERIAL saint_venant_kirchhoff

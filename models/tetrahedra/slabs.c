@@ -1,7 +1,8 @@
-/* Nodes get the number of edges that lie between them and one at the end of the mesh as their level. A tetrahedron's
- * nodes are of one level or of two that follow each other, so that slabs made of whole levels touch their neighbours
- * alone. From a node at the end, found as the last that a search from the last reaches (Gibbs, Poole and Stockmeyer
- * 1976, "An algorithm for reducing the bandwidth and profile of a sparse matrix"), levels are many and small. */
+/* Dividing a mesh into slabs. The level of a node is the number of edges between the node and a node at the end of the
+ * mesh. The nodes of a tetrahedron have one level, or two consecutive levels, so that slabs of whole levels touch only
+ * the slabs beside them. The node at the end is found by searching twice, each time from the node that was reached
+ * last: then there are many small levels (Gibbs, Poole and Stockmeyer 1976, "An algorithm for reducing the bandwidth
+ * and profile of a sparse matrix"). */
 #include "models/tetrahedra/slabs.h"
 
 #include <assert.h>
@@ -59,7 +60,8 @@ static size_t spread(Search *search, uint32_t node, uint32_t level) {
   return reached;
 }
 
-/* The same from the node that is reached last from the one reached last. Returns the level behind. */
+/* The same, but from the last node of a search that starts at the last node of a search from `node`. Returns the level
+ * behind the last one. */
 static uint32_t spread_from_end(Search *search, uint32_t node, uint32_t level) {
   assert(node < search->node_count && search->level[node] == UNSEEN);
   for (int round = 0; round < 2; round++) {
@@ -88,7 +90,8 @@ static uint32_t level_of(const Search *search, size_t tetrahedron) {
   return least;
 }
 
-/* Ends a slab where a level ends and its share is reached. size: levels, tetrahedra in each; becomes their slab. */
+/* Ends a slab where a level ends and the slab has its share of tetrahedra. size: on entry the tetrahedra of each level,
+ * on return the slab of each level. */
 static void cut(SporeSlabs *slabs, uint32_t *size, uint32_t levels, size_t count, size_t wanted) {
   size_t taken = 0;
   for (uint32_t l = 0; l < levels; l++) {

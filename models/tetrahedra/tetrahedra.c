@@ -238,7 +238,7 @@ static size_t coagulate(SporeModel *model, const double *q, const SporeHeat *hea
   return spore_tetrahedra_coagulate(&body->tetrahedra, &body->heated, q, heat);
 }
 
-/* Their mass is so little that rounding hides it. */
+/* The mass of a spare node, as a part of the mass of the body: so small that rounding hides it. */
 #define SPARE_MASS 1e-18
 
 static bool add_spares(Body *body, size_t count) {

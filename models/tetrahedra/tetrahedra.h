@@ -44,10 +44,10 @@ typedef struct SporeMiddleBatch {
   uint32_t node[6][SPORE_LANES];
 } SporeMiddleBatch;
 
-/* Slabs of the mesh: no two even ones have a node in common, nor two odd ones, so that those may be computed on several
- * threads, and what is added to a node is added in the same order on any number. Of n batches in a slab, its
- * tetrahedron t lies in batch t % n, lane t / n: neighbours, which push on the same nodes, come one after the other and
- * not together. */
+/* Slabs of the mesh: two even slabs have no node in common, nor have two odd ones. So all even slabs may be computed at
+ * once on several threads, then all odd ones, and the sums at a node are added in the same order on any number of
+ * threads. Of n batches in a slab, tetrahedron t of the slab lies in batch t % n, lane t / n: neighbours, which add to
+ * the same nodes, then lie in different batches. */
 typedef struct SporeTetrahedra {
   size_t slab_count, batch_count;
   uint32_t *slab_start; /* slab_count + 1: its first batch */

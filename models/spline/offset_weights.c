@@ -1,4 +1,5 @@
-#include "models/spline/carry.h"
+/* Weights that reproduce an offset from a line or a sheet. */
+#include "models/spline/offset_weights.h"
 
 #include <assert.h>
 #include <math.h>
@@ -6,8 +7,8 @@
 
 #include "core/math/mat3.h"
 
-double spore_carry_offset(const double *points, size_t count, SporeVec3 offset, double nothing, double *weight,
-                          double *work) {
+double spore_offset_weights(const double *points, size_t count, SporeVec3 offset, double nothing, double *weight,
+                            double *work) {
   assert(count > 0);
   assert(weight != work);
   assert(nothing >= 0);
@@ -37,7 +38,7 @@ double spore_carry_offset(const double *points, size_t count, SporeVec3 offset, 
   return isfinite(sum) ? sum : HUGE_VAL;
 }
 
-double spore_carry_size(const double *points, size_t count) {
+double spore_points_size(const double *points, size_t count) {
   assert(count > 0);
   double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < 3 * count; i++) {
