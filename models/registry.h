@@ -2,7 +2,7 @@
 #ifndef SPORE_MODELS_REGISTRY_H
 #define SPORE_MODELS_REGISTRY_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 extern const SporeModelType spore_rigid_body, spore_mass_spring_net, spore_corotational_tetrahedra,
     spore_neo_hookean_tetrahedra, spore_saint_venant_kirchhoff_tetrahedra, spore_linear_tetrahedra,

@@ -25,8 +25,8 @@
 #include "core/math/vec3.h"
 #include "core/mesh/bvh.h"
 #include "core/mesh/mesh.h"
-#include "core/sim/mapping.h"
-#include "core/sim/model.h"
+#include "core/body/mapping.h"
+#include "core/body/model.h"
 #include "core/sim/world.h"
 #include "models/registry.h"
 

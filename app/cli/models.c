@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "app/cli/cli.h"
-#include "core/sim/tissue.h"
+#include "core/body/tissue.h"
 
 static const char *type_name(SporeParameterType type) {
   static const char *const names[] = {"real", "integer", "boolean",   "vector", "choice",

@@ -21,15 +21,15 @@ static void report_stage(SporeCli *cli, const SporePlanStage *stage, gboolean me
   if (median_us >= 0) spore_cli_number(cli, "measured_us", median_us);
   spore_cli_close(cli);
   g_autofree char *time = median_us >= 0 ? g_strdup_printf("%.2f us", median_us) : g_strdup("-");
-  spore_cli_say(cli, "%-11s %-4s %7zu %12s  %s\n", stage->name, stage->included ? _("yes") : _("no"), stage->items,
+  spore_cli_say(cli, "%-14s %-4s %7zu %12s  %s\n", stage->name, stage->included ? _("yes") : _("no"), stage->items,
                 time, stage->reason);
 }
 
-static const char *const said_by_names[] = {"body", "scene", "automatic", "monitor"}; /* by SporeSaidBy */
-static const char *const said_by_words[] = {N_("body"), N_("scene"), N_("automatic"), N_("monitor")};
+static const char *const source_names[] = {"body", "scene", "automatic", "monitor"}; /* by SporeMethodSource */
+static const char *const source_words[] = {N_("body"), N_("scene"), N_("automatic"), N_("monitor")};
 
-static void append_said(GString *row, const char *what, SporeSaidBy said_by) {
-  g_autofree char *text = g_strdup_printf("%s (%s)", what, _(said_by_words[said_by]));
+static void append_source(GString *row, const char *what, SporeMethodSource source) {
+  g_autofree char *text = g_strdup_printf("%s (%s)", what, _(source_words[source]));
   g_string_append_printf(row, " %-30s", text);
 }
 
@@ -42,9 +42,9 @@ static void report_choice(SporeCli *cli, const char *member, const SporeChoice *
   }
   spore_cli_open(cli, member);
   spore_cli_text(cli, "name", choice->name);
-  spore_cli_text(cli, "said_by", said_by_names[choice->said_by]);
+  spore_cli_text(cli, "said_by", source_names[choice->source]);
   spore_cli_close(cli);
-  append_said(row, choice->name, choice->said_by);
+  append_source(row, choice->name, choice->source);
 }
 
 static void report_method(SporeCli *cli, const char *body, int width, const SporeMethod *method) {
@@ -54,10 +54,10 @@ static void report_method(SporeCli *cli, const char *body, int width, const Spor
   report_choice(cli, "integrator", &method->integrator, row);
   spore_cli_open(cli, "substeps");
   spore_cli_count(cli, "count", (gint64)method->substeps);
-  spore_cli_text(cli, "said_by", said_by_names[method->substeps_said_by]);
+  spore_cli_text(cli, "said_by", source_names[method->substeps_source]);
   spore_cli_close(cli);
   g_autofree char *substeps = g_strdup_printf("%zu", method->substeps);
-  append_said(row, substeps, method->substeps_said_by);
+  append_source(row, substeps, method->substeps_source);
   report_choice(cli, "nonlinear", &method->nonlinear, row);
   report_choice(cli, "linear", &method->linear, row);
   spore_cli_close(cli);
@@ -91,7 +91,7 @@ static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
 
 static void report(SporeCli *cli, const SporeWorld *world, gboolean measured) {
   const SporePlan *plan = spore_world_plan(world);
-  spore_cli_say(cli, "%-11s %-4s %7s %12s  %s\n", _("stage"), _("in?"), _("items"), _("measured"), _("why"));
+  spore_cli_say(cli, "%-14s %-4s %7s %12s  %s\n", _("stage"), _("in?"), _("items"), _("measured"), _("why"));
   spore_cli_open_array(cli, "stages");
   for (gsize i = 0; i < plan->stage_count; i++) report_stage(cli, &plan->stages[i], measured);
   spore_cli_close_array(cli);

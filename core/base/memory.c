@@ -72,3 +72,8 @@ void spore_free(void *memory) {
 uint64_t spore_allocation_count(void) { return atomic_load(&allocation_count); }
 
 void spore_allocation_fail_at(uint64_t n) { atomic_store(&allocations_until_failure, n); }
+
+char *spore_copy_text(const char *text) {
+  char *copy = SPORE_NEW_ARRAY(char, strlen(text) + 1);
+  return copy ? strcpy(copy, text) : NULL;
+}

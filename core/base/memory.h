@@ -13,6 +13,8 @@ void *spore_allocate(size_t count, size_t size);
 void *spore_reallocate(void *memory, size_t old_count, size_t count, size_t size);
 /* Frees memory that one of the functions here gave; NULL is allowed. */
 void spore_free(void *memory);
+/* A copy of the text, from spore_allocate; NULL: no memory. */
+char *spore_copy_text(const char *text);
 
 /* Memory for twice *capacity elements of `size` bytes, or for `first`, in place of `memory`; *capacity is set, and
  * what is new is zeroed. NULL: no memory; the old block stays valid. See spore_room_for_one. */

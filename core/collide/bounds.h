@@ -2,6 +2,7 @@
 #ifndef SPORE_COLLIDE_BOUNDS_H
 #define SPORE_COLLIDE_BOUNDS_H
 
+#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -13,6 +14,7 @@ typedef struct SporeBounds {
 
 /* ball: x y z radius */
 static inline void spore_bounds_add_ball(SporeBounds *bounds, const double *ball) {
+  assert(ball[3] >= 0);
   for (int k = 0; k < 3; k++) {
     double lower = ball[k] - ball[3], upper = ball[k] + ball[3];
     if (lower < bounds->lower[k]) bounds->lower[k] = lower;
@@ -21,6 +23,7 @@ static inline void spore_bounds_add_ball(SporeBounds *bounds, const double *ball
 }
 
 static inline bool spore_bounds_touch_ball(const SporeBounds *bounds, const double *ball) {
+  assert(ball[3] >= 0);
   for (int k = 0; k < 3; k++)
     if (ball[k] + ball[3] < bounds->lower[k] || ball[k] - ball[3] > bounds->upper[k]) return false;
   return true;
@@ -34,6 +37,7 @@ static inline bool spore_bounds_touch(const SporeBounds *a, const SporeBounds *b
 
 /* Widens bounds by what a and b, which touch, have in common. */
 static inline void spore_bounds_add_common(SporeBounds *bounds, const SporeBounds *a, const SporeBounds *b) {
+  assert(spore_bounds_touch(a, b));
   for (int k = 0; k < 3; k++) {
     double lower = a->lower[k] > b->lower[k] ? a->lower[k] : b->lower[k];
     double upper = a->upper[k] < b->upper[k] ? a->upper[k] : b->upper[k];

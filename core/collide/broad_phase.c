@@ -1,4 +1,5 @@
 /* Which pairs of balls touch, and are let through by the filter. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/collide/grid_private.h"
@@ -8,6 +9,7 @@
 /* Pair filter. */
 
 static inline bool bodies_pair(const SporeGrid *grid, uint32_t a, uint32_t b) {
+  assert(a < grid->body_count && b < grid->body_count);
   if (a == b) return grid->bodies[a] & SPORE_GRID_SELF;
   if (grid->group && grid->group[a] && grid->group[a] == grid->group[b]) return false;
   unsigned one = grid->bodies[a], other = grid->bodies[b];
@@ -15,6 +17,7 @@ static inline bool bodies_pair(const SporeGrid *grid, uint32_t a, uint32_t b) {
 }
 
 static bool touched_at_rest(const SporeGrid *grid, uint32_t a, uint32_t b) {
+  assert(a < b && b < grid->count);
   if (!grid->excluded_start) return false;
   for (uint32_t k = grid->excluded_start[a]; k < grid->excluded_start[a + 1] && grid->excluded[k] <= b; k++)
     if (grid->excluded[k] == b) return true;
@@ -22,6 +25,7 @@ static bool touched_at_rest(const SporeGrid *grid, uint32_t a, uint32_t b) {
 }
 
 static void add_pair(SporeGrid *grid, uint32_t body_a, uint32_t sphere_a, uint32_t body_b, uint32_t sphere_b) {
+  assert(sphere_a != sphere_b);
   if (!bodies_pair(grid, body_a, body_b)) return;
   uint32_t a = sphere_a < sphere_b ? sphere_a : sphere_b, b = sphere_a < sphere_b ? sphere_b : sphere_a;
   if (body_a == body_b && touched_at_rest(grid, a, b)) return;
@@ -101,6 +105,8 @@ static void keep_to_neighbours(CellRange *range, const SporeCell *cell) {
 
 /* Pairs of a moving cell with all those of one class of `others`. */
 static void pair_with_class(SporeGrid *grid, const SporeCell *cell, const SporeCells *others, int class) {
+  assert(class >= 0 && class < SPORE_CELL_CLASSES);
+  assert(others->classes >> class & 1);
   CellRange range = range_of(grid, cell, others->class_reach[class], class);
   if (class == cell->class) keep_to_neighbours(&range, cell);
   if (range.count > others->class_count[class]) { /* fewer cells exist than the range spans */
@@ -133,6 +139,7 @@ static void find_pairs_of_cells(SporeGrid *grid) {
 
 void spore_grid_add_bounds(SporeBounds *bounds, const SporeSpheres *spheres, size_t first, size_t count,
                            const double *balls) {
+  assert(first + count <= spheres->count);
   for (size_t i = 0; i < count; i++)
     if (balls[4 * i + 3] >= 0) spore_bounds_add_ball(&bounds[spheres->body[first + i]], balls + 4 * i);
 }
@@ -153,6 +160,7 @@ static void find_regions(SporeGrid *grid, const SporeSpheres *spheres) {
 }
 
 void spore_grid_find_pairs(SporeGrid *grid, const SporeSpheres *spheres) {
+  assert(spheres->count == grid->count && spheres->static_count == grid->static_count);
   if (grid->regions) find_regions(grid, spheres);
   spore_cells_fill(&grid->moving, &grid->scale, spheres, grid->static_count, grid->count - grid->static_count,
                    grid->regions);
@@ -164,6 +172,7 @@ void spore_grid_find_pairs(SporeGrid *grid, const SporeSpheres *spheres) {
 static inline uint32_t key_of(const SporePair *pair, bool by_a) { return by_a ? pair->a : pair->b; }
 
 static void counting_sort(SporeGrid *grid, const SporePair *from, SporePair *to, bool by_a) {
+  assert(from != to || grid->pair_count == 0);
   memset(grid->bucket, 0, (grid->count + 1) * sizeof *grid->bucket);
   for (size_t i = 0; i < grid->pair_count; i++) grid->bucket[key_of(&from[i], by_a) + 1]++;
   for (size_t i = 0; i < grid->count; i++) grid->bucket[i + 1] += grid->bucket[i];

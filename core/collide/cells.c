@@ -1,5 +1,6 @@
 #include "core/collide/cells.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -21,6 +22,7 @@ static int class_of_ratio(double ratio) {
 }
 
 SporeCellScale spore_cell_scale(SporeVec3 origin, double smallest_radius, double usual_radius) {
+  assert(smallest_radius > 0 && smallest_radius <= usual_radius && isfinite(usual_radius));
   /* A little room, so that slow motion does not push the usual sphere into the next class. */
   double usual_width = 1.1 * CELL_RADII * usual_radius;
   SporeCellScale scale = {.origin = origin};
@@ -33,6 +35,7 @@ SporeCellScale spore_cell_scale(SporeVec3 origin, double smallest_radius, double
 }
 
 int32_t spore_cell_index(double coordinate, double inverse_width) {
+  assert(inverse_width > 0);
   double position = coordinate * inverse_width;
   if (position >= 2147483000.0) return 2147483000;
   if (!(position > -2147483000.0)) return -2147483000;
@@ -84,11 +87,13 @@ static SporeCellSlot *find_slot(const SporeCells *cells, int32_t x, int32_t y, i
 }
 
 uint32_t spore_cells_find(const SporeCells *cells, int32_t x, int32_t y, int32_t z, int32_t class) {
+  assert(class >= 0 && class < SPORE_CELL_CLASSES);
   const SporeCellSlot *slot = find_slot(cells, x, y, z, class);
   return slot->stamp == cells->stamp ? slot->cell : SPORE_CELL_NONE;
 }
 
 static uint32_t find_or_add(SporeCells *cells, int32_t x, int32_t y, int32_t z, int32_t class) {
+  assert(class >= 0 && class < SPORE_CELL_CLASSES);
   SporeCellSlot *slot = find_slot(cells, x, y, z, class);
   if (slot->stamp == cells->stamp) return slot->cell;
   uint32_t index = (uint32_t)cells->cell_count++;
@@ -107,6 +112,8 @@ static uint32_t find_or_add(SporeCells *cells, int32_t x, int32_t y, int32_t z, 
 }
 
 void spore_cells_find_balls(const SporeSpheres *spheres, size_t first, size_t count, double dt_s, double *balls) {
+  assert(first + count <= spheres->count);
+  assert(dt_s >= 0);
   for (size_t i = first; i < first + count; i++, balls += 4) {
     SporeVec3 velocity = spore_vec3_load(spheres->velocity + 3 * i);
     SporeVec3 middle = spore_vec3_add_scaled(spore_vec3_load(spheres->centre + 3 * i), 0.5 * dt_s, velocity);
@@ -120,6 +127,7 @@ void spore_cells_find_balls(const SporeSpheres *spheres, size_t first, size_t co
 
 /* Puts a ball in its cell; SPORE_CELL_NONE where no class is wide enough. */
 static uint32_t place_ball(SporeCells *cells, const SporeCellScale *scale, const double ball[4]) {
+  assert(ball[3] >= 0);
   double x = ball[0] - scale->origin.x, y = ball[1] - scale->origin.y, z = ball[2] - scale->origin.z;
   double distance = fmax(fabs(x), fmax(fabs(y), fabs(z)));
   int class = class_of_ratio(CELL_RADII * (1 + SLACK) * ball[3] * scale->inverse[0]);
@@ -159,6 +167,8 @@ static void sort_by_cell(SporeCells *cells, const SporeSpheres *spheres, size_t 
 
 void spore_cells_fill(SporeCells *cells, const SporeCellScale *scale, const SporeSpheres *spheres, size_t first,
                       size_t count, const SporeBounds *regions) {
+  assert(first + count <= spheres->count);
+  assert(count <= cells->capacity);
   cells->stamp++;
   cells->cell_count = 0;
   cells->classes = 0;

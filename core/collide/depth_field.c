@@ -1,5 +1,6 @@
 #include "core/collide/depth_field.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -119,6 +120,7 @@ static double choose_margin(const SporeDepthField *field) {
 
 /* sum w_i max(0, m + r_i - d_i)^4, and a quarter of its gradient. */
 static double sum_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 point, SporeVec3 *gradient) {
+  assert(nearest < field->count);
   double sum = 0;
   *gradient = (SporeVec3){0, 0, 0};
   for (uint32_t k = field->start[nearest]; k < field->start[nearest + 1]; k++) {
@@ -135,6 +137,7 @@ static double sum_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 p
 
 /* sum w_i max(0, r_i - d_i) - level, and its gradient. */
 static double plain_sum_at(const SporeDepthField *field, uint32_t nearest, SporeVec3 point, SporeVec3 *gradient) {
+  assert(nearest < field->count);
   double sum = -field->level;
   *gradient = (SporeVec3){0, 0, 0};
   for (uint32_t k = field->start[nearest]; k < field->start[nearest + 1]; k++) {
@@ -204,6 +207,7 @@ static bool weigh(SporeDepthField *field) {
 
 /* Along one direction; 0 where others reach out over it. */
 static double felt_along(const SporeDepthField *field, uint32_t sphere, SporeVec3 direction) {
+  assert(sphere < field->count);
   SporeVec3 unused, centre = centre_of(field, sphere);
   double inner = 0, outer = radius_of(field, sphere), step = outer / OUTWARD_STEPS;
   if (spore_depth_field_at(field, sphere, spore_vec3_add_scaled(centre, outer, direction), &unused) > 0) return 0;
@@ -220,6 +224,7 @@ static double felt_along(const SporeDepthField *field, uint32_t sphere, SporeVec
 }
 
 double spore_depth_field_felt_radius(const SporeDepthField *field, uint32_t sphere) {
+  assert(field->plain && sphere < field->count);
   double farthest = LEAST_FELT * radius_of(field, sphere);
   for (int d = 0; d < DIRECTIONS; d++) farthest = fmax(farthest, felt_along(field, sphere, direction_of(d)));
   return farthest;
@@ -227,6 +232,7 @@ double spore_depth_field_felt_radius(const SporeDepthField *field, uint32_t sphe
 
 bool spore_depth_field_create(SporeDepthField *field, const double *centre, const double *radius, const double *weight,
                               double level, size_t count) {
+  assert(count > 0 && centre && radius);
   bool made = allocate(field, count);
   field->plain = weight;
   field->level = weight ? level : 0;
@@ -257,6 +263,8 @@ static double search_step(double least, SporeVec3 moved, SporeVec3 change) {
 
 double spore_depth_field_ball(const SporeDepthField *field, uint32_t nearest, SporeVec3 centre, double radius,
                               SporeVec3 *normal) {
+  assert(nearest < field->count);
+  assert(radius >= 0);
   SporeVec3 offset = spore_vec3_sub(centre, centre_of(field, nearest));
   SporeVec3 n = spore_vec3_normalise(offset, spore_vec3(0, 1, 0)), before = n, wrong_before = {0, 0, 0};
   /* The field is looked at in the ball's deepest point, but not beyond the middle of the sphere, where out is the other

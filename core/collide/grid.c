@@ -1,5 +1,6 @@
 #include "core/collide/grid_private.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -74,6 +75,7 @@ static void renew_list(SporeGrid *grid, const SporeSpheres *spheres) {
 }
 
 void spore_grid_set_asleep(SporeGrid *grid, uint32_t body, bool asleep) {
+  assert(body < grid->body_count);
   unsigned char flags = grid->bodies[body];
   if ((flags & SPORE_GRID_ASLEEP) == (asleep ? SPORE_GRID_ASLEEP : 0)) return;
   grid->bodies[body] = flags ^ SPORE_GRID_ASLEEP;
@@ -105,6 +107,8 @@ static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double
 }
 
 size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
+  assert(dt_s >= 0 && isfinite(dt_s));
+  assert(spheres->count == grid->count && spheres->static_count == grid->static_count);
   spore_cells_find_balls(spheres, grid->static_count, grid->count - grid->static_count, dt_s,
                          grid->balls + 4 * grid->static_count);
   if (!grid->listed || !list_serves(grid)) renew_list(grid, spheres);
@@ -217,6 +221,7 @@ static SporeGrid *create_plain(const SporeSpheres *spheres, const unsigned char 
 
 /* Fills the exclusion list from the sorted pairs of a grid. */
 static bool take_exclusions(SporeGrid *grid, const SporeGrid *rest) {
+  assert(grid->count == rest->count);
   grid->excluded_start = SPORE_NEW_ARRAY(uint32_t, grid->count + 1);
   grid->excluded = SPORE_NEW_ARRAY(uint32_t, rest->pair_count);
   if (!grid->excluded_start || !grid->excluded) return false;
@@ -278,6 +283,7 @@ static bool take_groups(SporeGrid *grid, const SporeGridBody *bodies) {
 
 SporeGrid *spore_grid_create(const SporeSpheres *rest, const SporeGridBody *bodies, size_t body_count,
                              size_t contact_capacity, SporeError *error) {
+  assert(body_count == 0 || bodies);
   if (!check_spheres(rest, body_count, error)) return NULL;
   unsigned char *flags = SPORE_NEW_ARRAY(unsigned char, body_count);
   for (size_t i = 0; flags && i < body_count; i++) flags[i] = flags_of(&bodies[i]);

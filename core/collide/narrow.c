@@ -1,5 +1,7 @@
 #include "core/collide/narrow.h"
 
+#include <assert.h>
+
 /* Of centres nearer than this part of the radii, the direction means nothing. */
 #define COINCIDENT 1e-12
 
@@ -16,6 +18,8 @@ static double time_of_touch(SporeVec3 p, SporeVec3 w, double r) {
 }
 
 bool spore_narrow_contact(const SporeSpheres *spheres, uint32_t a, uint32_t b, double dt_s, SporeContact *contact) {
+  assert(a < b && b < spheres->count);
+  assert(dt_s >= 0);
   SporeVec3 offset = spore_vec3_sub(spore_vec3_load(spheres->centre + 3 * a), spore_vec3_load(spheres->centre + 3 * b));
   SporeVec3 velocity =
       spore_vec3_sub(spore_vec3_load(spheres->velocity + 3 * a), spore_vec3_load(spheres->velocity + 3 * b));

@@ -1,9 +1,14 @@
 #include "core/collide/response.h"
 
+#include <assert.h>
+
 static double in_series(double a, double b) { return a > 0 && b > 0 ? 1 / (1 / a + 1 / b) : 0; }
 
 SporeContactLaw spore_contact_law(const SporeContactMaterial *a, const SporeContactMaterial *b, double radius_a,
                                   double radius_b) {
+  assert(a->stiffness >= 0 && a->damping >= 0 && a->friction >= 0);
+  assert(b->stiffness >= 0 && b->damping >= 0 && b->friction >= 0);
+  assert(radius_a > 0 && radius_b > 0);
   return (SporeContactLaw){
       .stiffness = in_series(a->stiffness, b->stiffness),
       .damping = in_series(a->damping, b->damping),
@@ -28,6 +33,7 @@ static SporeMat3 compose(SporeVec3 n, double along, double plane, double slide, 
 
 SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactState *state, double stiffness_scale,
                                  double damping_scale, SporeVec3 *drag) {
+  assert(stiffness_scale >= 0);
   const SporeVec3 none = *drag = (SporeVec3){0, 0, 0};
   SporeContactNormal normal = spore_contact_normal(law, state->depth, spore_vec3_dot(state->normal, state->velocity));
   double along = stiffness_scale * normal.stiffness + damping_scale * normal.damping;

@@ -19,6 +19,8 @@
 #ifndef SPORE_COLLIDE_RESPONSE_H
 #define SPORE_COLLIDE_RESPONSE_H
 
+#include <assert.h>
+
 #include "core/math/mat3.h"
 
 #define SPORE_CONTACT_EXIT_SPEED 2.0     /* m/s */
@@ -55,6 +57,7 @@ typedef struct SporeContactNormal {
 
 /* C1 step from 0 at x <= 0 to 1 at x >= width, and its slope. */
 static inline double spore_contact_step(double x, double width, double *slope) {
+  assert(width > 0);
   *slope = 0;
   if (x <= 0) return 0;
   if (x >= width) return 1;
@@ -88,6 +91,7 @@ static inline SporeVec3 spore_contact_hold(const SporeContactLaw *law, const Spo
 
 /* Cuts T to the cone of the normal force N. */
 static inline SporeVec3 spore_contact_cut(const SporeContactLaw *law, SporeVec3 hold, double pressing) {
+  assert(pressing >= 0);
   double square = spore_vec3_dot(hold, hold), longest = law->friction * pressing;
   return square > longest * longest ? spore_vec3_scale(longest / sqrt(square), hold) : hold;
 }

@@ -1,7 +1,10 @@
 #include "core/constraint/spring.h"
 
+#include <assert.h>
+
 /* Length l and direction n from b to a. */
 static double span(const SporeSpring *spring, SporeVec3 a, SporeVec3 b, SporeVec3 *n) {
+  assert(spring->rest_length > 0);
   SporeVec3 d = spore_vec3_sub(a, b);
   double length = spore_vec3_length(d);
   *n = length > 1e-9 * spring->rest_length && length > 0 ? spore_vec3_scale(1 / length, d) : spring->fallback;
@@ -30,11 +33,13 @@ static double uncut_friction(const SporeSpring *spring, double stretch, double s
 }
 
 double spore_spring_friction(const SporeSpring *spring, double stretch, double speed, double held) {
+  assert(spring->friction >= 0 && held >= 0);
   double most = spring->friction * held;
   return fmin(fmax(uncut_friction(spring, stretch, speed), -most), most);
 }
 
 bool spore_spring_slips(const SporeSpring *spring, double stretch, double speed, double held) {
+  assert(spring->friction >= 0 && held >= 0);
   return fabs(uncut_friction(spring, stretch, speed)) > spring->friction * held;
 }
 

@@ -1,6 +1,6 @@
 /* A wall that is felt must not give the hand more energy than the hand gave it, however stiff it is and however late
  * the force comes. The world does this for each device that pushes a hand, between reading where it is and telling it
- * its force (core/sim/sense.c).
+ * its force (core/sim/devices.c).
  *
  * The force is held until the next tick, so the work of the last one is known exactly afterwards (B. Hannaford and
  * J.-H. Ryu, "Time-domain passivity control of haptic interfaces", IEEE Transactions on Robotics and Automation 18,

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/text.h"
@@ -9,6 +10,8 @@
  * velocities; it starts with a step of TR-BDF2, which is of second order too. */
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
+  assert(h > 0 && q0 != q1 && v0 != v1);
+  assert(history->a && history->b);
   void *data = dynamics->data;
   size_t n = 3 * dynamics->block_count;
   if (history->step_s != h) {

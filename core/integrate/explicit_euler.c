@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/text.h"
@@ -7,6 +8,7 @@
  * q at once, or no softening could hold them. */
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
+  assert(h > 0 && q0 != q1 && v0 != v1);
   void *data = dynamics->data;
   size_t n = 3 * dynamics->block_count;
   double *force = scratch, *pushed = force + n, *change = pushed + n;

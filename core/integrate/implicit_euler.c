@@ -1,9 +1,12 @@
+#include <assert.h>
+
 #include "core/base/text.h"
 #include "core/integrate/stage.h"
 
 /* The history's a is how the last step changed v: the next one's guess. */
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
+  assert(h > 0 && q0 != q1 && v0 != v1);
   double *v = scratch, *work = v + 3 * dynamics->block_count;
   dynamics->set_shape(dynamics->data, q0, h);
   const double *change = history->step_s == h ? history->a : NULL;

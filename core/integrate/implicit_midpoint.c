@@ -1,3 +1,5 @@
+#include <assert.h>
+
 #include "core/base/text.h"
 #include "core/integrate/stage.h"
 
@@ -5,6 +7,7 @@
  */
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
+  assert(h > 0 && q0 != q1 && v0 != v1);
   size_t n = 3 * dynamics->block_count;
   double *v = scratch, *work = v + n;
   dynamics->set_time(dynamics->data, 0.5 * h);

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/text.h"
@@ -31,6 +32,7 @@ static void carry(const Stage *stage, double a, const double *x, double b, const
  * p_4)/12 for h, to the end. p is a vector that forces add to, so that its steps are the classical ones. */
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
+  assert(h > 0 && q0 != q1 && v0 != v1);
   void *data = dynamics->data;
   size_t n = 3 * dynamics->block_count;
   double *q = scratch, *q2 = q + 2 * n, *k1 = q2 + 2 * n, *k2 = k1 + n, *k3 = k2 + n, *k4 = k3 + n;

@@ -1,5 +1,6 @@
 #include "core/integrate/stage.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -185,6 +186,10 @@ static SporeNonlinearResult solve_system(const SporeSystem *system, const SporeS
 SporeStepResult spore_stage_solve(const SporeDynamics *dynamics, const SporeSolverFields *fields, double c,
                                   const double *qa, const double *va, const double *change, double *v,
                                   double *scratch) {
+  assert(c > 0 && isfinite(c));
+  assert(fields->newton_iterations > 0 && fields->linear_iterations > 0);
+  assert(qa && va && v && scratch);
+  assert(v != va);
   size_t n = 3 * dynamics->block_count;
   Stage stage = {.dynamics = dynamics, .qa = qa, .va = va, .c = c};
   stage.linear_iterations = (size_t)fields->linear_iterations;

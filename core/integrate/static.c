@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -56,6 +57,7 @@ static double dual_norm(void *data, const double *r) {
 
 /* H after a step of the line search: it follows the residual down, and shrinks where the step had to. */
 static void change_pseudo_step(Balance *balance, double length, double before, double after) {
+  assert(length > 0);
   double factor = length < 1 ? SHRINKING : fmin(fmax(before / after, GROWTH_MINIMUM), GROWTH_MAXIMUM);
   balance->pseudo_step = fmin(balance->pseudo_step * factor, PSEUDO_STEP_MAXIMUM * balance->h);
 }
@@ -69,6 +71,7 @@ static size_t most_iterations(const SporeSolverFields *fields) {
  * solver. */
 static bool balance_load(Balance *balance, const SporeSolverFields *fields, double wanted, double *scratch,
                          SporeStepResult *result) {
+  assert(balance->pseudo_step > 0 && balance->load > 0 && balance->load <= 1);
   const SporeDynamics *dynamics = balance->dynamics;
   size_t n = 3 * dynamics->block_count;
   double *rest = scratch, *d = rest + n, *r = d + n, *trial = r + n, *trial_r = trial + n, *linear = trial_r + n;
@@ -115,6 +118,7 @@ static SporeStepResult creep(const SporeDynamics *dynamics, const SporeSolverFie
 
 static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFields *fields, SporeHistory *history,
                             double h, const double *q0, const double *v0, double *q1, double *v1, double *scratch) {
+  assert(h > 0);
   if (!dynamics->held) return creep(dynamics, fields, h, q0, q1, v1, scratch);
   size_t n = 3 * dynamics->block_count;
   Balance balance = {.dynamics = dynamics, .h = h};

@@ -1,5 +1,6 @@
 #include "core/integrate/tr_bdf2.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -19,6 +20,9 @@
 SporeStepResult spore_tr_bdf2_step(const SporeDynamics *dynamics, const SporeSolverFields *fields,
                                    const SporeTrBdf2Extra *extra, double h, const double *q0, const double *v0,
                                    double *q1, double *v1, double *scratch) {
+  assert(h > 0);
+  assert(q0 != q1 && v0 != v1);
+  assert(!extra->change == !extra->mean);
   void *data = dynamics->data;
   size_t n = 3 * dynamics->block_count;
   double *qa = scratch, *va = qa + 2 * n, *v = va + n, *start = v + n, *middle = start + n, *work = middle + n;
@@ -74,6 +78,7 @@ SporeStepResult spore_tr_bdf2_step(const SporeDynamics *dynamics, const SporeSol
 static SporeStepResult adaptive_step(const SporeDynamics *dynamics, const SporeSolverFields *fields,
                                      SporeHistory *history, double h, const double *q0, const double *v0, double *q1,
                                      double *v1, double *scratch) {
+  assert(fields->error_tolerance > 0);
   size_t n = 3 * dynamics->block_count;
   double *q = scratch, *v = q + 2 * n, *error = v + n, *work = error + n;
   memcpy(q, q0, dynamics->q_count * sizeof *q);

@@ -1,5 +1,6 @@
 #include "core/linalg/bicgstab.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -15,6 +16,9 @@ static double relative(double rz, double start) { return rz >= 0 && isfinite(rz)
 /* For each vector w of residual kind, as r, there is wz = P^-1 w. r and z become s, then the next r. */
 SporeLinearResult spore_bicgstab(const SporeLinearOperator *operator, const double * b, double tolerance,
                                  size_t iterations, double *x, double *scratch) {
+  assert(operator->multiply && operator->precondition);
+  assert(tolerance >= 0);
+  assert(x != b || operator->count == 0);
   size_t n = operator->count;
   double *r = scratch, *z = r + n, *p = z + n, *v = p + n, *vz = v + n, *t = vz + n, *tz = t + n, *shadow = tz + n;
   memset(x, 0, n * sizeof *x);

@@ -1,5 +1,6 @@
 #include "core/linalg/block_band.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,6 +31,8 @@ static uint32_t degree_of(const SporeBlockMatrix *pattern, uint32_t i) {
  * sequence: from `start` on; mark: to be `stamp` where it has been. Returns the end of the sequence. */
 static size_t walk(const SporeBlockMatrix *pattern, uint32_t root, uint32_t *sequence, size_t start, uint32_t *mark,
                    uint32_t stamp) {
+  assert(root < pattern->block_count && start < pattern->block_count);
+  assert(mark[root] != stamp);
   size_t end = start;
   sequence[end++] = root;
   mark[root] = stamp;
@@ -70,6 +73,7 @@ static bool order_by_distance(const SporeBlockMatrix *pattern, uint32_t *place) 
 
 /* Where the column that stands at `at` is eliminated. */
 static size_t column_of(const SporeBlockBand *band, size_t at) {
+  assert(at < band->block_count);
   if (at < band->top) return at;
   if (at < band->block_count - band->bottom) return at + band->bottom;
   return band->top + (band->block_count - 1 - at);
@@ -92,6 +96,8 @@ static void fill_in(SporeBlockBand *band, const SporeBlockMatrix *pattern, const
 
 /* In arrays that are there. */
 static void lay_out(SporeBlockBand *band, const SporeBlockMatrix *pattern, const uint32_t *place) {
+  assert(pattern->block_count > 0 && pattern->block_count <= band->block_room);
+  assert(band->width >= 1 && band->width <= SPORE_BAND_WIDEST);
   size_t n = pattern->block_count, width = band->width, between = width < n ? width : n;
   band->block_count = n;
   band->top = (n - between + 1) / 2;
@@ -103,6 +109,7 @@ static void lay_out(SporeBlockBand *band, const SporeBlockMatrix *pattern, const
 }
 
 static bool build(SporeBlockBand *band, const SporeBlockMatrix *pattern, const uint32_t *place) {
+  assert(pattern->block_room >= pattern->block_count);
   size_t room = pattern->block_room, width = band->width;
   band->block_room = room;
   band->order = SPORE_NEW_ARRAY(uint32_t, room);
@@ -145,9 +152,12 @@ void spore_block_band_clear(SporeBlockBand *band) {
 
 bool spore_block_band_factorise(SporeBlockBand *band, const SporeBlockMatrix *matrix, const double *diagonal,
                                 const uint8_t *held) {
+  assert(band->block_count > 0 && band->block_count == matrix->block_count);
   return SPORE_KERNEL(spore_band_factorise)(band, matrix, diagonal, held);
 }
 
 void spore_block_band_solve(SporeBlockBand *band, const double *b, double *x) {
+  assert(band->block_count > 0);
+  assert(b && x);
   SPORE_KERNEL(spore_band_solve)(band, b, x);
 }

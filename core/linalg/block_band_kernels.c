@@ -1,5 +1,6 @@
 #include "core/linalg/block_band_kernels.h"
 
+#include <assert.h>
 #include <float.h>
 
 #define SIZE 12 /* numbers of a block: three columns of four */
@@ -26,6 +27,7 @@ typedef struct Factoring {
 
 /* A block of the matrix, by columns. */
 SPORE_INLINE void load(const Factoring *f, size_t column, size_t i, Four p[3]) {
+  assert(column < f->band->block_count && i <= f->band->width);
   static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   const SporeBandEntry *entry = &f->band->entries[column * (f->band->width + 1) + i];
   bool held = f->held && (f->held[entry->row] || f->held[f->band->order[column]]);
@@ -49,6 +51,7 @@ SPORE_INLINE void subtract(Four p[3], const double *x, const double *y) {
 
 /* Eliminates a column, p, what is left of its blocks 0..below. */
 SPORE_INLINE void eliminate(Factoring *f, size_t below, size_t column, Four p[][3], Column *kept) {
+  assert(below <= f->band->width && column < f->band->block_count);
   double *values = f->band->values + column * (f->band->width + 1) * SIZE;
   double a10 = p[0][0][1], a20 = p[0][0][2], d0 = p[0][0][0], r0 = 1 / d0, l10 = a10 * r0, l20 = a20 * r0;
   double d1 = p[0][1][1] - l10 * a10, r1 = 1 / d1, a21 = p[0][1][2] - l20 * a10, l21 = a21 * r1;
@@ -115,6 +118,8 @@ SPORE_INLINE bool factorise(Factoring *f, size_t width) {
 
 bool SPORE_LEVEL_NAME(spore_band_factorise)(const SporeBlockBand *band, const SporeBlockMatrix *matrix,
                                             const double *diagonal, const uint8_t *held) {
+  assert(band->width >= 1 && band->width <= SPORE_BAND_WIDEST);
+  assert(band->top + band->bottom <= band->block_count);
   Factoring f = {.band = band, .matrix = matrix, .diagonal = diagonal, .held = held, .good = true};
   return band->width == 1 ? factorise(&f, 1) : band->width == 2 ? factorise(&f, 2) : factorise(&f, 3);
 }
@@ -190,6 +195,8 @@ SPORE_INLINE void solve(const SporeBlockBand *band, size_t width) {
 }
 
 void SPORE_LEVEL_NAME(spore_band_solve)(const SporeBlockBand *band, const double *b, double *x) {
+  assert(band->width >= 1 && band->width <= SPORE_BAND_WIDEST);
+  assert(b && x);
   size_t n = band->block_count;
   double *y = band->work;
   for (size_t i = 0; i < n; i++) {

@@ -1,5 +1,6 @@
 #include "core/linalg/block_cholesky.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/linalg/cholesky_kernels.h"
@@ -18,6 +19,7 @@ static void subtract_three(double *to, const double *from) {
  * the parent's front that begins at its block (column, row). */
 static void add_update(const SporeBlockCholesky *factor, const SporeSupernode *child, size_t first, size_t end,
                        size_t row_first, size_t row_end, double *to, size_t ld, size_t column, size_t row) {
+  assert(first <= end && end <= child->row_count && row_end <= child->row_count);
   const uint32_t *target = factor->targets + child->row_start, *run = factor->runs + child->row_start;
   size_t lead = spore_cholesky_pad(rows_of(child));
   for (size_t j = first; j < end; j++)
@@ -146,7 +148,16 @@ static void solve_blocks(SporeBlockCholesky *factor, const double *b, double *x)
   for (size_t i = 0; i < n; i++) memcpy(x + 3 * (size_t)factor->order[i], y + 3 * i, 3 * sizeof *x);
 }
 
+/* Whether the matrix has as many blocks as the pattern that was analysed. */
+static inline bool is_of_pattern(const SporeBlockCholesky *factor, const SporeBlockMatrix *matrix) {
+  size_t n = factor->block_count;
+  if (n == 0 || n != matrix->block_count) return false;
+  return factor->band.block_count == n ||
+         factor->supernodes[factor->supernode_count - 1].entry_end == (matrix->row_start[n] + n) / 2;
+}
+
 static bool factorise_direction(SporeBlockCholesky *factor, const double *direction, const uint8_t *held) {
+  assert(factor->direction && direction);
   size_t n = factor->block_count;
   memcpy(factor->direction, direction, 3 * n * sizeof *direction);
   for (size_t i = 0; held && i < n; i++)
@@ -158,12 +169,16 @@ static bool factorise_direction(SporeBlockCholesky *factor, const double *direct
 
 bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
                                     const uint8_t *held, bool may_round) {
+  assert(is_of_pattern(factor, matrix));
+  assert(!matrix->directed || factor->direction);
   factor->directed = matrix->directed;
   return factorise_blocks(factor, matrix, diagonal, held, may_round) &&
          (!factor->directed || factorise_direction(factor, matrix->direction, held));
 }
 
 void spore_block_cholesky_solve(SporeBlockCholesky *factor, const double *b, double *x) {
+  assert(factor->block_count > 0);
+  assert(b && x);
   solve_blocks(factor, b, x);
   if (!factor->directed) return;
   size_t n = 3 * factor->block_count;

@@ -1,4 +1,5 @@
 /* What of a factorisation depends on the pattern alone. */
+#include <assert.h>
 #include <stdlib.h>
 
 #include "core/base/memory.h"
@@ -102,6 +103,7 @@ static void postorder(Analysis *analysis, uint32_t *order) {
 }
 
 static void add_row(Analysis *analysis, uint32_t column, uint32_t row) {
+  assert(column < analysis->count && row < analysis->count);
   if (row <= column || analysis->mark[row] == column + 1) return;
   analysis->mark[row] = column + 1;
   analysis->row[analysis->start[column + 1]++] = row;
@@ -149,6 +151,7 @@ static uint32_t find_supernodes(Analysis *analysis) {
 }
 
 static uint32_t row_in_front(const SporeBlockCholesky *factor, const SporeSupernode *node, uint32_t row) {
+  assert(row >= node->first);
   if (row < node->first + node->column_count) return row - node->first;
   uint32_t low = 0, high = node->row_count;
   while (low < high) {
@@ -178,6 +181,7 @@ static size_t update_size(const SporeSupernode *node) {
 
 /* Where the rows of a supernode lie in its parent's front. */
 static void find_targets(SporeBlockCholesky *factor, SporeSupernode *node, const SporeSupernode *parent) {
+  assert(parent > node && parent->first >= node->first + node->column_count);
   uint32_t end = node->row_start + node->row_count;
   for (uint32_t k = node->row_start; k < end; k++) factor->targets[k] = row_in_front(factor, parent, factor->rows[k]);
   while (node->inside < node->row_count && factor->targets[node->row_start + node->inside] < parent->column_count)
@@ -360,6 +364,7 @@ bool spore_block_cholesky_lay_out(SporeBlockCholesky *factor, const SporeBlockMa
 
 bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
                                  double most_flops) {
+  assert(layout <= SPORE_FACTOR_BANDED && most_flops >= 0);
   if (!create_blocks(factor, pattern, layout, most_flops)) return false;
   if (!pattern->direction || factor->block_count == 0) return true;
   factor->direction = SPORE_NEW_ARRAY(double, 3 * factor->block_count);

@@ -1,12 +1,21 @@
 #include "core/linalg/block_matrix.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/linalg/block_matrix_kernels.h"
 #include "core/math/vector.h"
 
+/* Whether the pairs name blocks that the pattern has. */
+static inline bool pairs_exist(const SporeBlockPattern *pattern) {
+  for (size_t p = 0; p < 2 * pattern->pair_count; p++)
+    if (pattern->pairs[p] >= pattern->block_count) return false;
+  return true;
+}
+
 void spore_block_pattern_init(SporeBlockPattern *pattern, size_t block_count) {
+  assert(block_count < UINT32_MAX);
   *pattern = (SporeBlockPattern){.block_count = block_count};
 }
 
@@ -108,6 +117,8 @@ static bool make_rows(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern
 }
 
 bool spore_block_matrix_lay_out(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, SporeBlockRoom *room) {
+  assert(!pattern->direction || matrix->direction);
+  assert(pairs_exist(pattern));
   if (pattern->block_count > matrix->block_room || pattern->pair_count > room->pair_capacity) return false;
   matrix->block_count = pattern->block_count;
   scatter_pairs(pattern, room->row_start, room->column, room->fill);
@@ -127,6 +138,7 @@ bool spore_block_matrix_create(SporeBlockMatrix *matrix, const SporeBlockPattern
 
 bool spore_block_matrix_create_roomy(SporeBlockMatrix *matrix, const SporeBlockPattern *pattern, size_t blocks,
                                      size_t pairs, SporeBlockRoom *room) {
+  assert(pattern->block_count <= blocks && pattern->pair_count <= pairs);
   bool made = make_rows(matrix, pattern, blocks, pairs, room);
   if (made) matrix->values = spore_allocate(blocks + 2 * pairs, 9 * sizeof *matrix->values);
   if (made && matrix->values) return true;
@@ -145,6 +157,7 @@ void spore_block_matrix_clear(SporeBlockMatrix *matrix) {
 }
 
 void spore_block_matrix_zero(SporeBlockMatrix *matrix) {
+  assert(matrix->block_count == 0 || matrix->values);
   matrix->directed = false;
   if (matrix->block_count) memset(matrix->values, 0, 9 * sizeof(double) * matrix->row_start[matrix->block_count]);
 }
@@ -161,11 +174,13 @@ size_t spore_block_matrix_find(const SporeBlockMatrix *matrix, uint32_t i, uint3
 }
 
 void spore_block_matrix_add(SporeBlockMatrix *matrix, uint32_t i, uint32_t j, const double k[9]) {
+  assert(spore_block_matrix_find(matrix, i, j) != SIZE_MAX);
   double *block = matrix->values + 9 * spore_block_matrix_find(matrix, i, j);
   for (int e = 0; e < 9; e++) block[e] += k[e];
 }
 
 void spore_block_matrix_multiply_add(const SporeBlockMatrix *matrix, const double *x, double *y) {
+  assert(!matrix->directed || matrix->direction);
   SPORE_KERNEL(spore_block_matrix_multiply)(matrix, x, y);
   size_t n = 3 * matrix->block_count;
   if (matrix->directed) spore_vector_add_scaled(n, y, spore_vector_dot(n, matrix->direction, x), matrix->direction);

@@ -1,5 +1,7 @@
 #include "core/linalg/block_matrix_kernels.h"
 
+#include <assert.h>
+
 /* Of the nine numbers of a block, each times its number of x: the first eight in vectors, and the last. */
 enum { PARTS = SPORE_LANES / SPORE_WIDTH };
 typedef struct Sum {
@@ -32,6 +34,7 @@ SPORE_INLINE void add_products(Sum *sum, const double *block, const double *x) {
 
 /* Two sums, so that one need not wait for the other's adder. */
 void SPORE_LEVEL_NAME(spore_block_matrix_multiply)(const SporeBlockMatrix *matrix, const double *x, double *y) {
+  assert(x != y || matrix->block_count == 0);
   for (size_t i = 0; i < matrix->block_count; i++) {
     Sum even = {0}, odd = {0};
     uint32_t k = matrix->row_start[i], end = matrix->row_start[i + 1];

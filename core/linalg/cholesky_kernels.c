@@ -1,5 +1,6 @@
 #include "core/linalg/cholesky_kernels.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -112,6 +113,8 @@ SPORE_INLINE void apply_columns(int vectors, size_t columns, const double *t, si
 
 bool SPORE_LEVEL_NAME(spore_cholesky_eliminate)(size_t columns, size_t rows, double *t, double *b, double *u,
                                                 double *work) {
+  assert(columns > 0 && columns % 3 == 0 && rows % 3 == 0);
+  assert(t && work && (rows == 0 || (b && u)));
   size_t ldt = spore_cholesky_pad(columns), ld = spore_cholesky_pad(rows), i = 0, j = 0;
   if (!factorise_triangle(columns, ldt, t)) return false;
   invert_triangle(columns, ldt, t, work);
@@ -155,6 +158,7 @@ SPORE_INLINE Floats narrow(const double *a) {
 }
 
 void SPORE_LEVEL_NAME(spore_cholesky_round)(size_t count, const double *from, float *to) {
+  assert(count % SPORE_LANES == 0);
   for (size_t i = 0; i < count; i += FLOATS) *(FloatsUnaligned *)(to + i) = narrow(from + i);
 }
 
@@ -210,6 +214,8 @@ SPORE_INLINE void forward(size_t columns, size_t rows, const void *t, const void
 
 void SPORE_LEVEL_NAME(spore_cholesky_forward)(size_t columns, size_t rows, const void *t, const void *b, bool rounded,
                                               double *x, double *below, double *work) {
+  assert(columns > 0 && columns % 3 == 0 && rows % 3 == 0);
+  assert(x != work && (rows == 0 || below != work));
   if (rounded) forward(columns, rows, t, b, true, x, below, work);
   else forward(columns, rows, t, b, false, x, below, work);
 }
@@ -263,6 +269,8 @@ SPORE_INLINE void backward(size_t columns, size_t rows, const void *t, const voi
 
 void SPORE_LEVEL_NAME(spore_cholesky_backward)(size_t columns, size_t rows, const void *t, const void *b, bool rounded,
                                                double *x, const double *below, double *work) {
+  assert(columns > 0 && columns % 3 == 0 && rows % 3 == 0);
+  assert(x != work && (rows == 0 || below != work));
   if (rounded) backward(columns, rows, t, b, true, x, below, work);
   else backward(columns, rows, t, b, false, x, below, work);
 }

@@ -1,5 +1,6 @@
 #include "core/linalg/minimum_degree.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -23,6 +24,7 @@ typedef struct Graph {
 } Graph;
 
 static void unlist(Graph *graph, uint32_t i) {
+  assert(i < graph->count && graph->degree[i] <= graph->count);
   uint32_t before = graph->previous[i], after = graph->next[i];
   if (before == NONE) graph->first[graph->degree[i]] = after;
   else graph->next[before] = after;
@@ -30,6 +32,7 @@ static void unlist(Graph *graph, uint32_t i) {
 }
 
 static void enlist(Graph *graph, uint32_t i, uint32_t degree) {
+  assert(i < graph->count && degree <= graph->count);
   uint32_t after = graph->first[degree];
   graph->degree[i] = degree;
   graph->next[i] = after;
@@ -95,6 +98,7 @@ static bool reserve(Graph *graph) {
 
 /* Makes the pivot an element: around it is what is around it and around the elements it touches, which it absorbs. */
 static bool eliminate(Graph *graph, uint32_t pivot) {
+  assert(pivot < graph->count && !graph->eliminated[pivot]);
   if (!reserve(graph)) return false;
   uint32_t *row = graph->row + graph->row_start[pivot], *back = graph->row + graph->row_start[pivot + 1];
   size_t start = graph->around_count;
@@ -131,6 +135,7 @@ static void measure_outside(Graph *graph, uint32_t pivot) {
 
 /* Drops from the row of a variable around the pivot what the new element covers; returns the degree. */
 static uint32_t prune(Graph *graph, uint32_t i, uint32_t pivot) {
+  assert(graph->mark[i] == pivot + 1 && graph->around_size[pivot] > 0);
   uint32_t *row = graph->row + graph->row_start[i], *back = graph->row + graph->row_start[i + 1];
   uint32_t kept = 0, elements = 0, degree = graph->around_size[pivot] - 1;
   for (uint32_t k = 0; k < graph->variables[i]; k++)
@@ -148,6 +153,8 @@ static uint32_t prune(Graph *graph, uint32_t i, uint32_t pivot) {
 }
 
 bool spore_minimum_degree(const SporeBlockMatrix *pattern, double most, uint32_t *order, SporeFill *fill) {
+  assert(pattern->block_count < UINT32_MAX && most >= 0);
+  assert(order && fill);
   Graph graph;
   uint32_t lowest = 0;
   bool made = make(&graph, pattern);

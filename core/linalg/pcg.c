@@ -1,5 +1,6 @@
 #include "core/linalg/pcg.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -20,6 +21,9 @@ static SporeLinearResult broken(size_t n, double *x, size_t iterations) {
 
 SporeLinearResult spore_pcg(const SporeLinearOperator *operator, const double * b, double tolerance, size_t iterations,
                             double *x, double *scratch) {
+  assert(operator->multiply && operator->precondition);
+  assert(tolerance >= 0);
+  assert(x != b || operator->count == 0);
   size_t n = operator->count;
   double *r = scratch, *z = scratch + n, *p = scratch + 2 * n, *ap = scratch + 3 * n;
   memset(x, 0, n * sizeof *x);

@@ -1,5 +1,6 @@
 #include "core/math/mat3.h"
 
+#include <assert.h>
 #include <float.h>
 
 static double largest_entry(SporeMat3 a) {
@@ -48,6 +49,7 @@ static void jacobi_rotation(double app, double apq, double aqq, double *c, doubl
 
 /* Columns p and q of a: (c p - s q, s p + c q). */
 static void rotate_columns(SporeMat3 *a, int p, int q, double c, double s) {
+  assert(p >= 0 && p < q && q < 3);
   for (int i = 0; i < 3; i++) {
     double ap = a->m[3 * i + p], aq = a->m[3 * i + q];
     a->m[3 * i + p] = c * ap - s * aq;
@@ -56,6 +58,7 @@ static void rotate_columns(SporeMat3 *a, int p, int q, double c, double s) {
 }
 
 static void rotate_rows(SporeMat3 *a, int p, int q, double c, double s) {
+  assert(p >= 0 && p < q && q < 3);
   for (int j = 0; j < 3; j++) {
     double ap = a->m[3 * p + j], aq = a->m[3 * q + j];
     a->m[3 * p + j] = c * ap - s * aq;

@@ -1,5 +1,6 @@
 #include "core/math/spline.h"
 
+#include <assert.h>
 #include <math.h>
 
 static double knot(SporeSplineKnots knots, size_t i) {
@@ -7,6 +8,7 @@ static double knot(SporeSplineKnots knots, size_t i) {
 }
 
 size_t spore_spline_span(SporeSplineKnots knots, double parameter) {
+  assert(knots.span_count > 0);
   if (!knots.breaks) return (size_t)fmin(floor(parameter), (double)knots.span_count - 1);
   size_t low = 0, high = knots.span_count;
   while (high - low > 1) {
@@ -19,6 +21,7 @@ size_t spore_spline_span(SporeSplineKnots knots, double parameter) {
 
 /* From the functions of one degree less (or their derivatives) to those of `degree` that are not 0 in the span. */
 static void derive(SporeSplineKnots knots, size_t span, size_t degree, const double *lower, double *upper) {
+  assert(degree >= 1 && degree <= 3);
   for (size_t j = 0; j <= degree; j++) {
     size_t i = span + 3 - degree + j;
     double before = knot(knots, i + degree) - knot(knots, i);
@@ -52,6 +55,8 @@ SporeSplineBasis spore_spline_basis(SporeSplineKnots knots, double parameter, si
 }
 
 void spore_spline_insert(SporeSplineKnots knots, size_t span, double parameter, double ratio[3]) {
+  assert(span < knots.span_count);
+  assert(parameter > spore_spline_break(knots, span) && parameter < spore_spline_break(knots, span + 1));
   for (size_t i = 0; i < 3; i++) {
     double from = knot(knots, span + 1 + i), to = knot(knots, span + 4 + i);
     ratio[i] = (parameter - from) / (to - from);

@@ -2,6 +2,7 @@
 #ifndef SPORE_MATH_SPLINE_H
 #define SPORE_MATH_SPLINE_H
 
+#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -21,6 +22,7 @@ typedef struct SporeSplineKnots {
 static inline SporeSplineKnots spore_spline_uniform(size_t span_count) { return (SporeSplineKnots){span_count, NULL}; }
 /* Parameter at which span i begins; of i = span_count, where the line ends. */
 static inline double spore_spline_break(SporeSplineKnots knots, size_t i) {
+  assert(i <= knots.span_count);
   return knots.breaks ? knots.breaks[i] : (double)i;
 }
 /* Parameter at which the line ends. */
@@ -31,11 +33,13 @@ static inline double spore_spline_width(SporeSplineKnots knots, size_t span) {
 }
 /* Parameter of Gauss' points of a span, 0 and 1. */
 static inline double spore_spline_gauss_parameter(SporeSplineKnots knots, size_t span, int point) {
+  assert(point == 0 || point == 1);
   double half = 0.5 * spore_spline_width(knots, span);
   return spore_spline_break(knots, span) + half + (point ? half : -half) / sqrt(3);
 }
 /* Parameter of number `i` of so many places a span, evenly: 0 .. parts span_count. */
 static inline double spore_spline_part(SporeSplineKnots knots, size_t parts, size_t i) {
+  assert(parts > 0 && i <= parts * knots.span_count);
   size_t span = i < parts * knots.span_count ? i / parts : knots.span_count - 1;
   return spore_spline_break(knots, span) + (double)(i - parts * span) / (double)parts * spore_spline_width(knots, span);
 }

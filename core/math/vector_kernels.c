@@ -1,11 +1,13 @@
 #include "core/math/vector.h"
 
+#include <assert.h>
 #include <string.h>
 
 #define PARTS (SPORE_LANES / SPORE_WIDTH)
 
 /* The last n < SPORE_LANES entries, zeros behind them. */
 SPORE_INLINE void load_rest(double rest[SPORE_LANES], const double *x, size_t n) {
+  assert(n < SPORE_LANES);
   memset(rest, 0, SPORE_LANES * sizeof *rest);
   memcpy(rest, x, n * sizeof *rest);
 }
@@ -77,6 +79,7 @@ SPORE_INLINE void spread(const double *weight, SporeVd spread[3]) {
 }
 
 void SPORE_LEVEL_NAME(spore_nodes_weigh)(size_t nodes, double *y, const double *weight, const double *x) {
+  assert(y != weight || nodes == 0);
   size_t i = 0;
   for (; i + SPORE_WIDTH <= nodes; i += SPORE_WIDTH) {
     SporeVd w[3];
@@ -90,6 +93,7 @@ void SPORE_LEVEL_NAME(spore_nodes_weigh)(size_t nodes, double *y, const double *
 }
 
 void SPORE_LEVEL_NAME(spore_nodes_kick)(size_t nodes, double *y, double s, const double *x, const double *weight) {
+  assert(y != x || nodes == 0);
   size_t i = 0;
   for (; i + SPORE_WIDTH <= nodes; i += SPORE_WIDTH) {
     SporeVd w[3];

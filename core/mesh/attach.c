@@ -1,5 +1,6 @@
 #include "core/mesh/attach.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -21,12 +22,16 @@ typedef struct Attachment {
 } Attachment;
 
 static double power(const Attachment *a, SporeVec3 p, size_t i) {
+  assert(i < a->curve->count);
   const double *point = a->curve->points + 4 * i;
   SporeVec3 off = spore_vec3_sub(p, spore_vec3_load(point));
   return spore_vec3_dot(off, off) - point[3] * point[3];
 }
 
-static SporeVec3 vertex(const Attachment *a, uint32_t v) { return spore_vec3_load(a->mesh->vertices + 3 * (size_t)v); }
+static SporeVec3 vertex(const Attachment *a, uint32_t v) {
+  assert(v < a->mesh->vertex_count);
+  return spore_vec3_load(a->mesh->vertices + 3 * (size_t)v);
+}
 
 static uint32_t nearest(const Attachment *a, SporeVec3 p) {
   uint32_t best = 0;

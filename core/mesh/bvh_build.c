@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -67,6 +68,7 @@ static int best_bin(const Builder *b, size_t first, size_t count, int axis, doub
 
 /* Parts the triangles first .. first + count - 1; returns how many are on the left, 0 < n < count. */
 static size_t part(const Builder *b, size_t first, size_t count, int depth) {
+  assert(count > 1 && depth >= 0);
   uint32_t *list = b->bvh->triangles + first;
   double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, extent[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < count; i++)
@@ -93,6 +95,7 @@ static size_t part(const Builder *b, size_t first, size_t count, int depth) {
 }
 
 static void build_node(Builder *b, size_t first, size_t count, int depth) {
+  assert(count > 0);
   size_t index = b->bvh->node_count++;
   Box box = empty_box();
   for (size_t i = first; i < first + count; i++) box_add(&box, &b->boxes[b->bvh->triangles[i]]);

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 
 #include "core/mesh/bvh_node.h"
@@ -39,6 +40,7 @@ static double box_distance_squared(const SporeBvhNode *node, const double p[3]) 
 
 double spore_bvh_distance_below(const SporeBvh *bvh, SporeVec3 p, double below, SporeVec3 *nearest,
                                 uint32_t *triangle) {
+  assert(below >= 0);
   struct {
     uint32_t node;
     double distance_squared;

@@ -1,8 +1,11 @@
 #include "core/mesh/cell_faces.h"
 
+#include <assert.h>
+
 #include "core/mesh/common.h"
 
 static SporeVec3 corner_of(const SporeTetrahedralMesh *mesh, size_t cell, size_t corner) {
+  assert(cell < mesh->tetrahedron_count && corner < 4);
   return spore_mesh_vertex(mesh->vertices, mesh->tetrahedra[4 * cell + corner]);
 }
 

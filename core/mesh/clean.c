@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -20,6 +21,7 @@ static int flat_side(const SporeTriangleMesh *mesh, size_t triangle) {
 }
 
 static uint32_t corner(const SporeTriangleMesh *mesh, uint32_t half, uint32_t ahead) {
+  assert(half < 3 * mesh->triangle_count);
   return mesh->triangles[half - half % 3 + (half % 3 + ahead) % 3];
 }
 
@@ -71,6 +73,7 @@ static bool clean(SporeTriangleMesh *mesh, double relative, bool *touched, Spore
 }
 
 bool spore_triangle_mesh_clean(SporeTriangleMesh *mesh, double relative, SporeError *error) {
+  assert(relative >= 0);
   SporeTriangleMesh copy = {0};
   if (!spore_triangle_mesh_copy(&copy, mesh, error)) return false;
   bool *touched = SPORE_NEW_ARRAY(bool, mesh->triangle_count);

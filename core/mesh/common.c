@@ -1,5 +1,6 @@
 #include "core/mesh/common.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/text.h"
@@ -28,6 +29,7 @@ bool spore_mesh_check_points(const double *points, size_t count, size_t stride, 
 
 bool spore_mesh_check_indices(const uint32_t *indices, size_t count, size_t corners, size_t vertex_count,
                               const char *noun, SporeError *error) {
+  assert(corners > 0);
   for (size_t i = 0; i < count * corners; i++)
     if (indices[i] >= vertex_count)
       return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
@@ -38,6 +40,7 @@ bool spore_mesh_check_indices(const uint32_t *indices, size_t count, size_t corn
 }
 
 double spore_mesh_bounds(const double *points, size_t count, size_t stride, double lower[3], double upper[3]) {
+  assert(count > 0 && stride >= 3);
   for (int k = 0; k < 3; k++) lower[k] = upper[k] = points[k];
   for (size_t i = 1; i < count; i++)
     for (size_t k = 0; k < 3; k++) {

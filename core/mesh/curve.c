@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/text.h"
@@ -49,6 +50,7 @@ double spore_curve_length(const SporeCurve *curve) {
 
 /* Direction in which the curve passes point i; through a point where it turns back, the way it came. */
 static SporeVec3 tangent(const SporeCurve *curve, size_t i) {
+  assert(i < curve->count && curve->count > 1);
   size_t before = i > 0 ? i - 1 : 0, after = i + 1 < curve->count ? i + 1 : i;
   SporeVec3 across = spore_vec3_sub(point(curve, after), point(curve, before));
   if (spore_vec3_length(across) == 0) across = spore_vec3_sub(point(curve, i), point(curve, before));
@@ -77,6 +79,7 @@ static void put_triangle(uint32_t **at, size_t a, size_t b, size_t c) {
 }
 
 bool spore_curve_tube(const SporeCurve *curve, size_t sectors, SporeTriangleMesh *mesh, SporeError *error) {
+  assert(sectors >= 3);
   size_t rings = curve->count, first = rings * sectors, last = first + 1;
   if (!spore_triangle_mesh_allocate(mesh, last + 1, 2 * sectors * rings, error)) return false;
   put_rings(curve, sectors, mesh->vertices);

@@ -1,9 +1,12 @@
+#include <assert.h>
+
 #include "core/mesh/common.h"
 #include "core/mesh/sort.h"
 
 /* Unique edges of elements whose corners are joined as `pairs` says. */
 static bool unique_edges(const uint32_t *elements, size_t count, size_t corners, const uint8_t (*pairs)[2],
                          size_t pair_count, uint32_t **edges, size_t *edge_count) {
+  assert(corners == 3 || corners == 4);
   *edges = NULL;
   *edge_count = 0;
   uint64_t *keys = spore_allocate(count * pair_count, sizeof *keys);

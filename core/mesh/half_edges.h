@@ -2,6 +2,8 @@
 #ifndef SPORE_MESH_HALF_EDGES_H
 #define SPORE_MESH_HALF_EDGES_H
 
+#include <assert.h>
+
 #include "core/mesh/mesh.h"
 
 /* Half-edge h is side h % 3 of triangle h / 3, from corner h % 3 to the next. Sides of no length in the indices
@@ -17,6 +19,7 @@ void spore_half_edges_clear(SporeHalfEdges *halves);
 
 /* Index behind the last half-edge on the same edge as `begin`. */
 static inline size_t spore_half_edges_end(const SporeHalfEdges *halves, size_t begin) {
+  assert(begin < halves->count);
   size_t end = begin + 1;
   while (end < halves->count && halves->edge[end] == halves->edge[begin]) end++;
   return end;

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -77,6 +78,7 @@ static bool may_cut(const Filling *f, uint32_t a, uint32_t b) {
 }
 
 static double triangle_cost(const Filling *f, uint32_t a, uint32_t b, uint32_t c) {
+  assert(a != b && b != c && c != a);
   SporeVec3 p = spore_mesh_vertex(f->mesh->vertices, a), q = spore_mesh_vertex(f->mesh->vertices, b),
             r = spore_mesh_vertex(f->mesh->vertices, c);
   SporeVec3 u = spore_vec3_sub(q, p), v = spore_vec3_sub(r, q), w = spore_vec3_sub(p, r);

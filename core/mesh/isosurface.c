@@ -1,5 +1,6 @@
 #include "core/mesh/isosurface.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -22,6 +23,7 @@ typedef struct Lattice {
 } Lattice;
 
 static size_t index_of(const Lattice *lattice, size_t i, size_t j, size_t k) {
+  assert(i < lattice->size[0] && j < lattice->size[1] && k < lattice->size[2]);
   return (i * lattice->size[1] + j) * lattice->size[2] + k;
 }
 
@@ -207,6 +209,8 @@ static bool cut(SporeIsosurfaceCells *cells, double tolerance, SporeTriangleMesh
 bool spore_isosurface(const double lower[3], const double upper[3], double step, double tolerance,
                       SporeDistanceField field, void *data, SporeTriangleMesh *mesh, const SporeProgress *progress,
                       SporeError *error) {
+  assert(step > 0 && tolerance >= 0);
+  assert(lower[0] <= upper[0] && lower[1] <= upper[1] && lower[2] <= upper[2]);
   Lattice lattice = {.step = step};
   SporeIsosurfaceCells cells = {.field = field, .data = data, .step = step};
   double points = 1;

@@ -2,6 +2,8 @@
 #ifndef SPORE_MESH_ISOSURFACE_PARTS_H
 #define SPORE_MESH_ISOSURFACE_PARTS_H
 
+#include <assert.h>
+
 #include "core/mesh/isosurface.h"
 
 #define SPORE_ISOSURFACE_ON                                                                                            \
@@ -37,6 +39,7 @@ typedef struct SporeIsosurfaceCells {
 } SporeIsosurfaceCells;
 
 static inline uint64_t spore_isosurface_edge(uint32_t a, uint32_t b) {
+  assert(a != b);
   return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
 }
 

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -35,6 +36,7 @@ static void find_twins(Orientation *o) {
 }
 
 static void flip_triangle(Orientation *o, uint32_t triangle) {
+  assert(triangle < o->mesh->triangle_count);
   uint32_t *v = o->mesh->triangles + 3 * (size_t)triangle, *twin = o->twin + 3 * (size_t)triangle;
   uint32_t corner = v[1], across = twin[0];
   v[1] = v[2], v[2] = corner;
@@ -46,6 +48,7 @@ static void flip_triangle(Orientation *o, uint32_t triangle) {
 
 /* Turns the triangles that are reached from `seed` like it. */
 static void spread(Orientation *o, uint32_t seed) {
+  assert(o->component[seed] == UINT32_MAX);
   uint32_t number = (uint32_t)o->component_count++;
   Component *component = o->components + number;
   *component = (Component){.first = seed, .closed = true, .trusted = true};

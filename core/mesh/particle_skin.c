@@ -1,6 +1,7 @@
 /* The surface is where the distance to the weighted mean of the particles around a place, less a particle's radius,
  * vanishes (Zhu and Bridson 2005: flat where particles lie flat). It is sampled on a lattice, near particles only, and
  * meshed by surface nets (Gibson 1998): a vertex in each cell that it crosses, a square across each edge. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -137,6 +138,7 @@ static void cell_vertex(const Lattice *lattice, const Sample *sample, const doub
 }
 
 static void add_square(const Lattice *lattice, const Sample *sample, int axis, SporeTriangleMesh *mesh) {
+  assert(axis >= 0 && axis < 3);
   int u = (axis + 1) % 3, v = (axis + 2) % 3;
   uint32_t corner[4];
   for (int c = 0; c < 4; c++) { /* the four cells about the edge, counter-clockwise about the axis */
@@ -191,6 +193,7 @@ static bool lattice_init(Lattice *lattice, const double *centres, size_t count, 
 
 bool spore_particle_skin(const double *centres, size_t count, double spacing, SporeTriangleMesh *mesh,
                          SporeError *error) {
+  assert(spacing > 0 && (count == 0 || centres));
   Lattice lattice;
   SporeTriangleMesh size = {0}, made = {0};
   if (!lattice_init(&lattice, centres, count, spacing)) {

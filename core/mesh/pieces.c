@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/mesh/common.h"
@@ -37,6 +38,7 @@ bool spore_triangle_mesh_pieces(const SporeTriangleMesh *mesh, uint32_t **pieces
 
 bool spore_triangle_mesh_extract(const SporeTriangleMesh *mesh, const uint32_t *pieces, uint32_t piece,
                                  SporeTriangleMesh *part, SporeError *error) {
+  assert(pieces);
   uint32_t *number = SPORE_NEW_ARRAY(uint32_t, mesh->vertex_count); /* + 1; 0: not used */
   size_t triangles = 0, vertices = 0;
   if (!number) return spore_mesh_no_memory(error);
@@ -61,6 +63,7 @@ bool spore_triangle_mesh_extract(const SporeTriangleMesh *mesh, const uint32_t *
 }
 
 bool spore_triangle_mesh_append(SporeTriangleMesh *mesh, const SporeTriangleMesh *more, SporeError *error) {
+  assert(mesh != more);
   SporeTriangleMesh both;
   if (!spore_triangle_mesh_allocate(&both, mesh->vertex_count + more->vertex_count,
                                     mesh->triangle_count + more->triangle_count, error))

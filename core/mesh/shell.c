@@ -1,5 +1,6 @@
 #include "core/mesh/shell.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -21,12 +22,14 @@ void spore_shell_clear(SporeShell *shell) {
 }
 
 static void hang(SporeShell *shell, uint32_t corner) {
+  assert(corner < 3 * shell->triangle_count);
   uint32_t vertex = shell->corner[corner];
   shell->next[corner] = shell->head[vertex];
   shell->head[vertex] = corner;
 }
 
 static void unhang(SporeShell *shell, uint32_t corner) {
+  assert(corner < 3 * shell->triangle_count);
   uint32_t *link = &shell->head[shell->corner[corner]];
   while (*link != corner) link = &shell->next[*link];
   *link = shell->next[corner];

@@ -1,5 +1,6 @@
 #include "core/mesh/simplify.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -150,6 +151,7 @@ static bool push(Collapser *work, Candidate candidate) {
 }
 
 static Candidate pop(Collapser *work) {
+  assert(work->count > 0);
   Candidate first = work->heap[0], last = work->heap[--work->count];
   size_t at = 0;
   for (size_t child; (child = 2 * at + 1) < work->count; at = child) {
@@ -248,6 +250,7 @@ double spore_shell_moved_quality(const SporeShell *shell, uint32_t vertex, Spore
 
 /* What would make narrow triangles is put off until all else costs as much. False: no memory. */
 static bool collapse(Collapser *work, const Candidate *candidate) {
+  assert(candidate->a != candidate->b);
   SporeShell *shell = work->shell;
   uint32_t a = candidate->a, b = candidate->b;
   SporeQuadric both = sum_of(&work->quadric[a], &work->quadric[b]);

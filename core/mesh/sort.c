@@ -1,5 +1,6 @@
 #include "core/mesh/sort.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -16,6 +17,7 @@ static uint64_t greatest(const uint64_t *keys, size_t count) {
 /* One counting pass on the digit at `shift`. */
 static void sort_digit(const uint64_t *keys, const uint32_t *values, size_t count, unsigned shift,
                        uint64_t *sorted_keys, uint32_t *sorted_values) {
+  assert(shift < 64);
   size_t start[DIGITS] = {0};
   for (size_t i = 0; i < count; i++) start[(keys[i] >> shift) & (DIGITS - 1)]++;
   size_t sum = 0;
@@ -32,6 +34,7 @@ static void sort_digit(const uint64_t *keys, const uint32_t *values, size_t coun
 }
 
 bool spore_sort_keys(uint64_t *keys, uint32_t *values, size_t count) {
+  assert(count == 0 || keys);
   uint64_t *spare_keys = spore_allocate(count, sizeof *spare_keys);
   uint32_t *spare_values = values ? spore_allocate(count, sizeof *spare_values) : NULL;
   if (!spare_keys || (values && !spare_values)) {

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/text.h"
@@ -15,6 +16,7 @@ bool spore_sphere_set_allocate(SporeSphereSet *set, size_t count, SporeError *er
 }
 
 bool spore_sphere_set_add_weights(SporeSphereSet *set, SporeError *error) {
+  assert(!set->weights);
   set->weights = SPORE_NEW_ARRAY(double, set->count);
   return set->weights || spore_mesh_no_memory(error);
 }

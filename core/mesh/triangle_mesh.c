@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/text.h"
@@ -15,6 +16,7 @@ bool spore_triangle_mesh_allocate(SporeTriangleMesh *mesh, size_t vertices, size
 }
 
 bool spore_triangle_mesh_copy(SporeTriangleMesh *to, const SporeTriangleMesh *from, SporeError *error) {
+  assert(to != from);
   if (!spore_triangle_mesh_allocate(to, from->vertex_count, from->triangle_count, error)) return false;
   if (from->vertex_count) memcpy(to->vertices, from->vertices, 3 * from->vertex_count * sizeof(double));
   if (from->triangle_count) memcpy(to->triangles, from->triangles, 3 * from->triangle_count * sizeof(uint32_t));
@@ -42,6 +44,7 @@ bool spore_triangle_mesh_validate(const SporeTriangleMesh *mesh, SporeError *err
 
 void spore_triangle_mesh_normals(const double *vertices, size_t vertex_count, const uint32_t *triangles,
                                  size_t triangle_count, double *normals) {
+  assert(triangle_count == 0 || (vertices && triangles));
   memset(normals, 0, 3 * vertex_count * sizeof *normals);
   for (size_t t = 0; t < triangle_count; t++) {
     const uint32_t *v = triangles + 3 * t;
@@ -54,6 +57,7 @@ void spore_triangle_mesh_normals(const double *vertices, size_t vertex_count, co
 }
 
 double spore_triangle_mesh_share_area(const SporeTriangleMesh *mesh, double *areas) {
+  assert(areas);
   double total = 0;
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *n = mesh->triangles + 3 * t;

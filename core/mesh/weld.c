@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -123,6 +124,7 @@ static void drop_unused_vertices(SporeTriangleMesh *mesh, uint32_t *number) {
 }
 
 bool spore_triangle_mesh_weld(SporeTriangleMesh *mesh, double relative, SporeError *error) {
+  assert(relative >= 0);
   if (!mesh->vertex_count || !mesh->triangle_count) return true;
   size_t slots = 16;
   while (slots < 2 * mesh->triangle_count) slots *= 2;

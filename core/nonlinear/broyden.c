@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -21,10 +22,14 @@ typedef struct History {
 } History;
 
 /* The k-th newest. */
-static size_t place_of(const History *history, size_t k) { return (history->next + 2 * MEMORY - 1 - k) % MEMORY; }
+static size_t place_of(const History *history, size_t k) {
+  assert(k < MEMORY);
+  return (history->next + 2 * MEMORY - 1 - k) % MEMORY;
+}
 
 /* weights = M g; the change that `next` holds, begun by the g before, is finished: products with it are entered. */
 static void remember(History *history, const double *weights, const double *weights_before) {
+  assert(history->next < MEMORY);
   size_t n = history->system->count, at = history->next;
   const double *change = history->change[at];
   for (size_t k = 0; k < history->count; k++) {
@@ -41,6 +46,7 @@ static void remember(History *history, const double *weights, const double *weig
 /* How much of each difference, newest first, leaves least of g: normal equations by Cholesky's method, leaving out what
  * is nearly spanned. */
 static void least_squares(const History *history, double *share) {
+  assert(history->count <= MEMORY);
   size_t m = history->count;
   double l[MEMORY][MEMORY], y[MEMORY];
   bool used[MEMORY];
@@ -111,6 +117,9 @@ static bool worth_linearising(const SporeSystem *system, double start, double no
 
 SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
                                    double *r, double *scratch) {
+  assert(system->approximate && system->weigh && system->reuse && system->linearisation_cost);
+  assert(options->tolerance > 0);
+  assert(x != r || system->count == 0);
   size_t n = system->count, since = 0;
   double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
   double *g = scratch + 3 * n, *weights = scratch + 4 * n, *weights_before = scratch + 5 * n;

@@ -1,9 +1,12 @@
 #include "core/nonlinear/convergence.h"
 
+#include <assert.h>
 #include <math.h>
 
 bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, const SporeNonlinearOptions *options,
                              double norm, SporeNonlinearResult *result) {
+  assert(options->tolerance > 0);
+  assert(system->scale_r >= 0 && system->scale_x >= 0);
   *test = (SporeConvergence){options->tolerance, fmax(norm, system->scale_r), norm};
   result->finite = isfinite(norm);
   /* A is no less than the matrix of `dot`, so the change that is still missing is at most the norm; where something
@@ -30,6 +33,7 @@ static bool accept_rounding(const SporeConvergence *test, const SporeSystem *sys
 
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                                 SporeNonlinearResult *result) {
+  assert(system->rounding);
   if (test->norm > system->rounding(system->data, x, false)) return false;
   result->converged = accept_rounding(test, system, x, result);
   return true;
@@ -44,6 +48,7 @@ void spore_convergence_end(const SporeConvergence *test, const SporeSystem *syst
 
 void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,
                             double length, double norm, SporeNonlinearResult *result) {
+  assert(length > 0);
   double before = test->norm;
   test->norm = norm;
   result->iterations++;

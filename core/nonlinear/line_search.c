@@ -1,5 +1,6 @@
 #include "core/nonlinear/line_search.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -77,6 +78,9 @@ static double by_slope(Line *line, double norm, double start) {
 double spore_line_search(const SporeSystem *system, const double *x, const double *d, const double *r, double norm,
                          bool tried, double near, double *trial, double *trial_r, double *trial_norm,
                          size_t *evaluations) {
+  assert(system->residual && system->norm);
+  assert(trial != x || system->count == 0);
+  assert(trial_norm && evaluations);
   Line line = {system, x, d, trial, trial_r, *trial_norm, 0, near, tried, evaluations};
   double start = spore_vector_dot(system->count, r, d);
   double length = start > 0 ? by_slope(&line, norm, start) : by_norm(&line, norm);

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -44,6 +45,7 @@ static bool is_promising(Trust *trust, double step, double norm) {
 }
 
 static void move(size_t n, const double *x, const double *d, double *to) {
+  assert(to != x || n == 0);
   memcpy(to, x, n * sizeof *to);
   spore_vector_add_scaled(n, to, 1, d);
 }
@@ -61,6 +63,9 @@ static bool direction(const SporeSystem *system, const SporeConvergence *test, d
 
 SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x, double *r,
                                   double *scratch) {
+  assert(system->residual && system->linearise && system->solve && system->norm && system->dot);
+  assert(options->tolerance > 0);
+  assert(x != r || system->count == 0);
   size_t n = system->count;
   double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
   Trust trust = {.x = scratch + 3 * n, .d = scratch + 4 * n, .r = scratch + 5 * n};

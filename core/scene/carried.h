@@ -3,7 +3,7 @@
 #define SPORE_SCENE_CARRIED_H
 
 #include "core/scene/compile.h"
-#include "core/sim/mapping_error.h"
+#include "core/body/mapping_error.h"
 
 #define SPORE_CARRIED_TORN 2e-2 /* of the edges drawn, that may lead from one loop of a line to another */
 

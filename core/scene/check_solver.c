@@ -29,7 +29,7 @@ static SporeIntegratorKind scene_integrator(const SporeCheck *check) {
   return (SporeIntegratorKind)spore_object_number(spore_document_section(check->document, "solver"), "integrator");
 }
 
-/* As the world chooses: see core/sim/compile.c. SPORE_INTEGRATOR_DEFAULT: physics does not move it. */
+/* As the world chooses: see core/sim/create.c. SPORE_INTEGRATOR_DEFAULT: physics does not move it. */
 static SporeIntegratorKind integrator_of(const SporeCheck *check, const SporeObject *body) {
   if (!is_passive(body) || own_integrator(body) != SPORE_INTEGRATOR_DEFAULT)
     return is_passive(body) ? own_integrator(body) : SPORE_INTEGRATOR_DEFAULT;

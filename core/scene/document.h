@@ -8,7 +8,7 @@
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
 #include "core/scene/schema.h"
-#include "core/sim/tissue.h"
+#include "core/body/tissue.h"
 
 typedef struct SporeDocument SporeDocument;
 

@@ -5,7 +5,7 @@
 
 #include <glib.h>
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 #define SPORE_FORMAT_MAJOR 1
 #define SPORE_FORMAT_MINOR 0

@@ -1,5 +1,5 @@
 #include "core/scene/schema_tables.h"
-#include "core/sim/tissue.h"
+#include "core/body/tissue.h"
 
 static const char *const roles[] = {"unmovable", "active", "passive", NULL};
 static const char *const fidelities[] = {"physical", "effect", NULL};

@@ -5,7 +5,7 @@
 #include <glib.h>
 
 #include "core/math/quat.h"
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 /* A side of a seam; model NULL: it has no nodes. */
 typedef struct SporeSeamSide {

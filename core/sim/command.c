@@ -44,7 +44,7 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
 
 static void set_contact(SporeWorld *world, SporeBody *body, const SporeContactFields *contact) {
   SporeError error = SPORE_ERROR_INIT;
-  if (spore_parameters_check(&spore_contact_parameters, contact, &error)) body->contact = *contact;
+  if (spore_parameters_check(&spore_contact_parameters, contact, &error)) body->collision.fields = *contact;
   else spore_world_report(world, "%s: %s", body->name, error.message);
 }
 
@@ -53,9 +53,9 @@ static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
     spore_world_report(world, _("gravity is not finite; expected a vector in m/s^2; kept as it was"));
     return;
   }
-  world->gravity = gravity;
+  world->state.gravity = gravity;
   for (size_t b = 0; b < world->body_count; b++) {
-    world->bodies[b].history_s = 0;
+    world->bodies[b].history.step_s = 0;
     world->bodies[b].watch.started = false;
   }
   spore_world_wake_all(world);
@@ -63,7 +63,7 @@ static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
 
 static void thaw(SporeBody *body) {
   body->frozen = false;
-  body->told = SPORE_TROUBLE_NONE;
+  body->reported.trouble = SPORE_TROUBLE_NONE;
   body->watch.started = false;
 }
 
@@ -80,9 +80,11 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
   switch (command->kind) {
   case SPORE_COMMAND_PULL:
     spore_world_pull(world, command);
+    spore_world_make_plan(world); /* there may be something to link now */
     break;
   case SPORE_COMMAND_RELEASE:
     spore_world_release(world, command->body);
+    spore_world_make_plan(world);
     break;
   case SPORE_COMMAND_RETUNE:
     retune(world, body, command->fields);
@@ -112,4 +114,11 @@ void spore_world_apply_commands(SporeWorld *world) {
     command->fields = NULL;
     atomic_store_explicit(&commands->applied, applied + 1, memory_order_release);
   }
+}
+
+void spore_commands_clear(SporeCommands *commands) {
+  size_t written = atomic_load(&commands->written);
+  for (size_t i = atomic_load(&commands->applied); i != written; i++)
+    spore_free(commands->ring[i % SPORE_COMMAND_CAPACITY].fields);
+  spore_free(commands->ring);
 }

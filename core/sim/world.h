@@ -11,7 +11,7 @@
 #include "core/collide/sphere.h"
 #include "core/haptic/device.h"
 #include "core/integrate/solver.h"
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 typedef struct SporeWorld SporeWorld;
 
@@ -373,20 +373,21 @@ typedef struct SporePlan {
 const SporePlan *spore_world_plan(const SporeWorld *world);
 
 /* How a body that physics moves is integrated and solved now, and who says so. */
-typedef enum SporeSaidBy {
-  SPORE_SAID_BY_BODY,   /* its mechanical unit */
-  SPORE_SAID_BY_SCENE,  /* the solver section */
-  SPORE_SAID_BY_NOBODY, /* left open: chosen by itself, and for nonlinear and linear anew as the work of steps tells */
-  SPORE_SAID_BY_MONITOR /* a safer one than the scene says */
-} SporeSaidBy;
+typedef enum SporeMethodSource {
+  SPORE_SOURCE_BODY,      /* its mechanical unit */
+  SPORE_SOURCE_SCENE,     /* the solver section */
+  SPORE_SOURCE_AUTOMATIC, /* left open: chosen by itself, and for nonlinear and linear anew as the work of steps tells
+                           */
+  SPORE_SOURCE_MONITOR    /* a safer one than the scene says */
+} SporeMethodSource;
 typedef struct SporeChoice {
   const char *name; /* as in the file; NULL: nothing is to be solved, the body is integrated explicitly */
-  SporeSaidBy said_by;
+  SporeMethodSource source;
 } SporeChoice;
 typedef struct SporeMethod {
   SporeChoice integrator, nonlinear, linear;
   size_t substeps;
-  SporeSaidBy substeps_said_by;
+  SporeMethodSource substeps_source;
 } SporeMethod;
 /* False: physics does not move the body. */
 bool spore_world_body_method(const SporeWorld *world, uint32_t body, SporeMethod *method);

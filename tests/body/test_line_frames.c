@@ -5,7 +5,7 @@
 
 #include "core/base/memory.h"
 #include "core/mesh/attach.h"
-#include "core/sim/mapping.h"
+#include "core/body/mapping.h"
 
 enum { SPANS = 6, NODES = SPANS + 3, ARMS = SPANS + 1, SECTORS = 12, RINGS = 41 };
 

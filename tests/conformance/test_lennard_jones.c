@@ -1,7 +1,7 @@
 /* The Lennard-Jones fluid against pair by pair sums, and against what is known of the liquid at its triple point:
  * density 0.8442 in units of sigma, started from a lattice at temperature 1.44 in units of epsilon. */
 #include "core/sim/world.h"
-#include "models/lennard_jones_law.h"
+#include "models/particles/lennard_jones_law.h"
 #include "tests/conformance/specimen.h"
 
 #define DENSITY 0.8442

@@ -1,7 +1,7 @@
 /* Every registered model: points follow it, and forces on them come back without loss. */
 #include "tests/conformance/specimen.h"
 
-#include "core/sim/mapping_error.h"
+#include "core/body/mapping_error.h"
 
 #define POINTS 40
 

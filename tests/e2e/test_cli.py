@@ -832,8 +832,8 @@ def a_tool_feels_a_wall():
     """A tool touches what nothing moves, also where nothing is passive: the plan says so, and the run counts it."""
     scene = tool_at_a_wall()
     names = {s["name"]: s for s in report("plan", scene)["stages"]}
-    assert all(names[name]["included"] for name in ("sense", "map", "detect", "respond", "react", "feedback"))
-    assert "spheres to touch" in names["detect"]["reason"] and "push back" in names["react"]["reason"]
+    assert all(names[name]["included"] for name in ("device_input", "map", "detect", "respond", "reactions", "feedback"))
+    assert "spheres to touch" in names["detect"]["reason"] and "push back" in names["reactions"]["reason"]
     assert not names["integrate"]["included"] and "physics" in names["integrate"]["reason"]
     assert report("run", scene, "--steps", 300)["contacts"]["max"] == 1
     apart = report("plan", file("wall/apart.spore", scene.read_text().replace('spheres="one"', 'spheres="one" group="1"')))

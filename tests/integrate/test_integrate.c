@@ -464,8 +464,8 @@ static void test_mixed_order(void) {
                    spore_integrator_names[explicit_kinds[k]], slope, error[0]);
     g_assert_cmpfloat_with_epsilon(slope, 1, 0.2);
     g_assert_cmpuint(spore_world_counts(world).islands, ==, 1);
-    g_assert_cmpfloat(world->bodies[0].matrix_c, ==, 0);
-    g_assert_cmpfloat(world->bodies[1].matrix_c, >, 0);
+    g_assert_cmpfloat(world->bodies[0].preconditioner.matrix_c, ==, 0);
+    g_assert_cmpfloat(world->bodies[1].preconditioner.matrix_c, >, 0);
     spore_world_free(world);
   }
 }

@@ -6,7 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/linalg/pcg.h"
-#include "core/sim/world_private.h"
+#include "core/sim/solve/island_system.h"
 #include "tests/sim/chain_model.h"
 
 #define PARTICLES 4
@@ -53,10 +53,10 @@ static SporeWorld *make(void) {
   spore_world_detect(world);
   spore_world_respond(world);
   spore_world_link(world);
-  spore_world_group(world);
-  g_assert_cmpuint(world->island_count, ==, 1);
-  g_assert_cmpuint(world->contact_count, >=, PARTICLES);
-  spore_island_gather(world, &world->islands[0]);
+  spore_world_find_islands(world);
+  g_assert_cmpuint(world->solve.island_count, ==, 1);
+  g_assert_cmpuint(world->contact.count, >=, PARTICLES);
+  spore_island_gather(world, &world->solve.islands[0]);
   return world;
 }
 
@@ -73,9 +73,9 @@ static void column(const SporeDynamics *dynamics, int count, double *q, double *
 
 static void test_dense(void) {
   SporeWorld *world = make();
-  SporeIsland *island = &world->islands[0];
-  SporeGroup group = {world, island};
-  SporeDynamics dynamics = spore_group_dynamics(&group);
+  SporeIsland *island = &world->solve.islands[0];
+  SporeIslandSystem system = {world, island};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
   g_assert_cmpuint(3 * dynamics.block_count, ==, N);
   double q[N], v[N];
   memcpy(q, island->q0, sizeof q);
@@ -110,10 +110,10 @@ static void test_dense(void) {
 /* P^-1 undoes the diagonal blocks of A. */
 static void test_preconditioner(void) {
   SporeWorld *world = make();
-  SporeGroup group = {world, &world->islands[0]};
-  SporeDynamics dynamics = spore_group_dynamics(&group);
-  for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = false;
-  dynamics.linearise(dynamics.data, world->islands[0].q0, NULL, world->islands[0].v0, 0.03, 0.002);
+  SporeIslandSystem system = {world, &world->solve.islands[0]};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
+  for (int b = 0; b < 2; b++) world->bodies[b].preconditioner.choice.factorised = false;
+  dynamics.linearise(dynamics.data, world->solve.islands[0].q0, NULL, world->solve.islands[0].v0, 0.03, 0.002);
   for (int j = 0; j < N; j++) {
     if (j >= 9 && j < 12) continue;
     double unit[N] = {0}, product[N], block[N] = {0}, back[N];
@@ -129,11 +129,11 @@ static void test_preconditioner(void) {
 /* With a factor P^-1 undoes all of A but what ties one body to another. */
 static void test_factor(void) {
   SporeWorld *world = make();
-  SporeGroup group = {world, &world->islands[0]};
-  SporeDynamics dynamics = spore_group_dynamics(&group);
-  for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = true;
-  dynamics.linearise(dynamics.data, world->islands[0].q0, NULL, world->islands[0].v0, 0.03, 0.002);
-  for (int b = 0; b < 2; b++) g_assert_true(world->bodies[b].factor_ready);
+  SporeIslandSystem system = {world, &world->solve.islands[0]};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
+  for (int b = 0; b < 2; b++) world->bodies[b].preconditioner.choice.factorised = true;
+  dynamics.linearise(dynamics.data, world->solve.islands[0].q0, NULL, world->solve.islands[0].v0, 0.03, 0.002);
+  for (int b = 0; b < 2; b++) g_assert_true(world->bodies[b].preconditioner.factor_ready);
   for (int j = 0; j < N; j++) {
     if (j >= 9 && j < 12) continue;
     double unit[N] = {0}, product[N], back[N];
@@ -157,24 +157,24 @@ static void test_folded(void) {
   other->frozen = true; /* the contacts and the spring of the first one end on it as on what does not move */
   spore_world_respond(world);
   spore_world_link(world);
-  spore_world_group(world);
-  g_assert_cmpuint(world->island_count, ==, 1);
-  SporeIsland *island = &world->islands[0];
+  spore_world_find_islands(world);
+  g_assert_cmpuint(world->solve.island_count, ==, 1);
+  SporeIsland *island = &world->solve.islands[0];
   spore_island_gather(world, island);
   g_assert_cmpuint(island->v_count, ==, ALONE);
   g_assert_cmpuint(island->contact_count, >=, PARTICLES);
   g_assert_cmpuint(island->spring_count, ==, 1);
-  SporeGroup group = {world, island};
-  SporeDynamics dynamics = spore_group_dynamics(&group);
+  SporeIslandSystem system = {world, island};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
   SporeBody *body = &world->bodies[0];
-  body->choice.factorised = true;
+  body->preconditioner.choice.factorised = true;
   const double c = 0.03, c2 = 0.002;
   /* Still: how a damper's direction turns with its ends is left out of A. */
   double q[ALONE], v[ALONE] = {0}, worst = 0, largest = 0;
   memcpy(q, island->q0, sizeof q);
   dynamics.linearise(dynamics.data, q, NULL, v, c, c2);
-  g_assert_cmpuint(group.contact_couplings + group.spring_couplings, ==, 0);
-  g_assert_true(body->factor_ready);
+  g_assert_cmpuint(system.contact_couplings + system.spring_couplings, ==, 0);
+  g_assert_true(body->preconditioner.factor_ready);
   g_assert_cmpfloat(dynamics.factor_cost(dynamics.data), >, 0);
   for (int j = 0; j < ALONE; j++) {
     double unit[N] = {0}, product[N], back[N], stiffness[N], damping[N], mass[N];
@@ -206,34 +206,34 @@ static void test_folded(void) {
 /* Among couplings the factor of an earlier matrix of the same c and c2 stays, until it is given up or they change. */
 static void test_kept_factor(void) {
   SporeWorld *world = make();
-  SporeIsland *island = &world->islands[0];
-  SporeGroup group = {world, island};
-  SporeDynamics dynamics = spore_group_dynamics(&group);
+  SporeIsland *island = &world->solve.islands[0];
+  SporeIslandSystem system = {world, island};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
   const double *v = island->v0, c = 0.03;
   double q[N], shifted[N], r[N] = {0}, first[N], later[N], solved[N], back[N], scratch[SPORE_PCG_SCRATCH * N];
   memcpy(q, island->q0, sizeof q);
   memcpy(shifted, q, sizeof q);
   for (int i = 0; i < N; i++) shifted[i] += 0.02 * sin(i), r[i] = i >= 9 && i < 12 ? 0 : cos(i);
-  for (int b = 0; b < 2; b++) world->bodies[b].choice.factorised = true;
+  for (int b = 0; b < 2; b++) world->bodies[b].preconditioner.choice.factorised = true;
   dynamics.linearise(dynamics.data, q, NULL, v, c, 0.002);
-  g_assert_cmpuint(group.contact_couplings, >, 0);
+  g_assert_cmpuint(system.contact_couplings, >, 0);
   dynamics.precondition(dynamics.data, r, first);
   dynamics.linearise(dynamics.data, shifted, NULL, v, c, 0.002);
   dynamics.precondition(dynamics.data, r, later);
   g_assert_cmpmem(first, sizeof first, later, sizeof later);
-  for (int b = 0; b < 2; b++) g_assert_cmpuint(world->bodies[b].choice.factors, ==, 1);
+  for (int b = 0; b < 2; b++) g_assert_cmpuint(world->bodies[b].preconditioner.choice.factors, ==, 1);
   /* A itself is that of the present. */
   SporeLinearOperator operator= {dynamics.data, N, dynamics.multiply, dynamics.precondition};
   SporeLinearResult result = spore_pcg(&operator, r, 1e-10, 100, solved, scratch);
   g_assert_cmpint(result.status, ==, SPORE_LINEAR_CONVERGED);
-  world->bodies[0].factor_kept = false;
+  world->bodies[0].preconditioner.factor_kept = false;
   dynamics.linearise(dynamics.data, shifted, NULL, v, c, 0.002);
-  g_assert_cmpuint(world->bodies[0].choice.factors, ==, 2);
-  g_assert_cmpuint(world->bodies[1].choice.factors, ==, 1);
+  g_assert_cmpuint(world->bodies[0].preconditioner.choice.factors, ==, 2);
+  g_assert_cmpuint(world->bodies[1].preconditioner.choice.factors, ==, 1);
   dynamics.multiply(dynamics.data, solved, back);
   for (int i = 0; i < N; i++) g_assert_cmpfloat_with_epsilon(back[i], r[i], 1e-7);
   dynamics.linearise(dynamics.data, shifted, NULL, v, c, 0.003);
-  for (int b = 0; b < 2; b++) g_assert_cmpuint(world->bodies[b].choice.factors, ==, 3 - b);
+  for (int b = 0; b < 2; b++) g_assert_cmpuint(world->bodies[b].preconditioner.choice.factors, ==, 3 - b);
   spore_world_free(world);
 }
 
@@ -277,11 +277,11 @@ static void run(SporeWorld *world, int steps) {
 static void test_choice(void) {
   SporeWorld *soft = make_stiff(NULL, 1, WIDE, SPORE_NONLINEAR_NEWTON);
   run(soft, 40);
-  for (int b = 0; b < STIFF_CHAINS; b++) g_assert_false(soft->bodies[b].choice.factorised);
+  for (int b = 0; b < STIFF_CHAINS; b++) g_assert_false(soft->bodies[b].preconditioner.choice.factorised);
   spore_world_free(soft);
   SporeWorld *narrow = make_stiff(NULL, 1, 1, SPORE_NONLINEAR_NEWTON);
   run(narrow, 40);
-  for (int b = 0; b < STIFF_CHAINS; b++) g_assert_true(narrow->bodies[b].choice.factorised);
+  for (int b = 0; b < STIFF_CHAINS; b++) g_assert_true(narrow->bodies[b].preconditioner.choice.factorised);
   spore_world_free(narrow);
   uint64_t expected = 0;
   for (int threads = 1; threads <= 2; threads++) {
@@ -293,12 +293,12 @@ static void test_choice(void) {
     SporeStepCounts counts = spore_world_counts(world);
     g_test_message("%zu Newton and %zu linear iterations with factors", (size_t)counts.newton_iterations,
                    (size_t)counts.linear_iterations);
-    for (int b = 0; b < STIFF_CHAINS; b++) g_assert_true(world->bodies[b].choice.factorised);
+    for (int b = 0; b < STIFF_CHAINS; b++) g_assert_true(world->bodies[b].preconditioner.choice.factorised);
     g_assert_cmpuint(counts.linear_iterations, <=, 4 * counts.newton_iterations);
     if (threads == 1) expected = spore_world_hash(world);
     g_assert_cmpuint(spore_world_hash(world), ==, expected);
     spore_world_reset(world);
-    for (int b = 0; b < STIFF_CHAINS; b++) g_assert_false(world->bodies[b].choice.factorised);
+    for (int b = 0; b < STIFF_CHAINS; b++) g_assert_false(world->bodies[b].preconditioner.choice.factorised);
     run(world, 40);
     g_assert_cmpuint(spore_world_hash(world), ==, expected);
     spore_world_free(world);

@@ -43,8 +43,8 @@ static SporeIsland *attempt(SporeWorld *world, unsigned before, double *q, doubl
   for (unsigned i = 0; i < before; i++) spore_world_step(world);
   world->bodies[0].pause = 0;
   spore_world_link(world);
-  spore_world_group(world);
-  SporeIsland *island = &world->islands[0];
+  spore_world_find_islands(world);
+  SporeIsland *island = &world->solve.islands[0];
   spore_island_gather(world, island);
   island->result = spore_island_advance(world, island, island->integrator, island->substeps, NULL);
   spore_island_examine(world, island);
@@ -78,7 +78,7 @@ static void test_best(void) {
         g_assert_cmpuint(result->newton_iterations, >=, spent);
         if (tried && newton >= 3) g_assert_cmpuint(result->newton_iterations, >, spent);
         if (tried && first < 0.1) {
-          double before_j = energy(world, world->q, world->v);
+          double before_j = energy(world, world->state.q, world->state.v);
           bool gained = energy(world, q, v) > before_j, gains = energy(world, island->q1, island->v1) > before_j;
           g_assert_true(result->residual <= first || (gained && !gains));
           bool same = !memcmp(q, island->q1, sizeof q) && !memcmp(v, island->v1, sizeof v);

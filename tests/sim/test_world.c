@@ -151,8 +151,8 @@ static void test_plan(void) {
   SporeWorld *world = create(&description, NULL);
   run(world, 3);
   const SporePlan *plan = spore_world_plan(world);
-  const char *const out[] = {"sense", "tools", "map", "detect", "respond", "link", "react", "feedback"};
-  const char *const in[] = {"command", "group", "integrate", "commit"};
+  const char *const out[] = {"device_input", "tools", "map", "detect", "respond", "link", "reactions", "feedback"};
+  const char *const in[] = {"commands", "islands", "integrate", "accept", "advance", "publish"};
   for (size_t i = 0; i < G_N_ELEMENTS(out); i++) {
     g_assert_false(stage(plan, out[i])->included);
     g_assert_null(stage(plan, out[i])->profile);
@@ -424,8 +424,8 @@ static void test_wall(void) {
   g_assert_cmpfloat_with_epsilon(snapshot->reaction[1], 5, 1e-9);
   g_assert_cmpfloat_with_epsilon(snapshot->reaction[6 + 1], -5, 1e-9);
   const SporePlan *plan = spore_world_plan(world);
-  const char *const in[] = {"sense", "map", "detect", "respond", "react", "feedback"};
-  const char *const out[] = {"wake", "link", "group", "integrate"};
+  const char *const in[] = {"device_input", "map", "detect", "respond", "reactions", "feedback"};
+  const char *const out[] = {"wake", "link", "islands", "integrate"};
   for (size_t i = 0; i < G_N_ELEMENTS(in); i++) g_assert_true(stage(plan, in[i])->included);
   for (size_t i = 0; i < G_N_ELEMENTS(out); i++) g_assert_false(stage(plan, out[i])->included);
   spore_world_free(world);
@@ -438,7 +438,7 @@ static void test_wall(void) {
   bodies[0].contact.group = 0;
   world = create(&description, NULL);
   g_assert_false(stage(spore_world_plan(world), "detect")->included);
-  g_assert_false(stage(spore_world_plan(world), "react")->included);
+  g_assert_false(stage(spore_world_plan(world), "reactions")->included);
   spore_world_free(world);
 }
 

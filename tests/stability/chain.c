@@ -3,8 +3,8 @@
 #include <glib.h>
 #include <string.h>
 
-#include "models/nodal.h"
-#include "models/springs.h"
+#include "models/common/nodal.h"
+#include "models/net/springs.h"
 
 typedef struct Chain {
   SporeModel base;

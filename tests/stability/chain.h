@@ -3,7 +3,7 @@
 #ifndef SPORE_TESTS_CHAIN_H
 #define SPORE_TESTS_CHAIN_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 /* Nodes 0..count at (0, -i spacing, 0); spring i ties nodes i and i + 1. Copies. */
 SporeModel *chain_new(size_t count, double spacing, const double *stiffness, const double *mass, double damping);

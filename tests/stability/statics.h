@@ -4,7 +4,7 @@
 
 #include <glib.h>
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 /* A model with some control points held and a load on the others, N. */
 typedef struct Statics {

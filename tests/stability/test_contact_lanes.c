@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/sim/group.h"
+#include "core/sim/solve/island_system.h"
 #include "tests/stability/rig.h"
 
 #define BALLS 40
@@ -54,17 +54,18 @@ static void perturb(const SporeWorld *world, const SporeIsland *island, GRand *r
   for (size_t i = 0; i < island->q_count; i++) q[i] = island->q0[i] + g_rand_double_range(random, -1e-3, 1e-3);
   for (size_t i = 0; i < island->v_count; i++) v[i] = island->v0[i] + g_rand_double_range(random, -0.5, 0.5);
   for (size_t b = 0; b < island->kept_count; b++) {
-    uint32_t index = world->island_bodies[island->body_start + b];
+    uint32_t index = world->solve.island_bodies[island->body_start + b];
     if (!spore_model_is_rigid(world->bodies[index].model)) continue;
-    double *orientation = q + world->local_sites[index].q + 3;
+    double *orientation = q + world->solve.local_sites[index].q + 3;
     spore_quat_store(orientation, spore_quat_normalise(spore_quat_load(orientation)));
   }
 }
 
-static double *one_by_one(const SporeGroup *group, const double *q, const double *v) {
-  double *f = g_new0(double, group->island->v_count);
-  for (size_t i = 0; i < group->island->contact_count; i++)
-    spore_contact_term_force(spore_group_contact(group, i), group->world->local_sites, q, v, group->now_s, f);
+static double *one_by_one(const SporeIslandSystem *system, const double *q, const double *v) {
+  double *f = g_new0(double, system->island->v_count);
+  for (size_t i = 0; i < system->island->contact_count; i++)
+    spore_contact_term_force(spore_island_system_contact(system, i), system->world->solve.local_sites, q, v,
+                             system->now_s, f);
   return f;
 }
 
@@ -74,21 +75,21 @@ static double largest(const double *x, size_t count) {
   return most;
 }
 
-static void compare(SporeGroup *group, const double *q, const double *v) {
-  size_t n = group->island->v_count;
-  g_autofree double *expected = one_by_one(group, q, v), *first = NULL;
+static void compare(SporeIslandSystem *system, const double *q, const double *v) {
+  size_t n = system->island->v_count;
+  g_autofree double *expected = one_by_one(system, q, v), *first = NULL;
   for (SporeCpuLevel level = 0; level < SPORE_CPU_LEVELS; level++) {
     spore_cpu_limit(level);
     double *f = g_new0(double, n);
-    spore_group_add_contact_forces(group, q, v, f);
+    spore_island_system_add_contact_forces(system, q, v, f);
     if (first) g_assert_cmpmem(f, n * sizeof *f, first, n * sizeof *f);
     for (size_t i = 0; i < n; i++) g_assert_cmpfloat_with_epsilon(f[i], expected[i], 1e-9 * largest(expected, n));
     g_free(first);
     first = f;
   }
-  for (size_t i = 0; i < group->island->contact_count; i++) {
-    SporeContactTerm *term = spore_group_contact(group, i), alone = *term;
-    spore_group_keep_contacts(group);
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    SporeContactTerm *term = spore_island_system_contact(system, i), alone = *term;
+    spore_island_system_keep_contacts(system);
     g_assert_cmpfloat_with_epsilon(term->pressing, alone.pressing, 1e-9 * (1 + alone.pressing));
     g_assert_cmpfloat_with_epsilon(term->yield, alone.yield, 1e-9 * (1 + alone.yield));
     g_assert_cmpfloat(spore_vec3_distance(term->force, alone.force), <=, 1e-9 * (1 + spore_vec3_length(alone.force)));
@@ -99,7 +100,7 @@ static void compare(SporeGroup *group, const double *q, const double *v) {
 /* As if some had met in this step, and others pressed less. */
 static void vary(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->contact_count; i++) {
-    SporeContactTerm *term = &world->contacts[world->contact_order[island->contact_start + i]];
+    SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
     if (i % 3 == 0) term->depth = -1e-4;
     if (i % 3 == 1) term->slack = 0.5 * term->depth;
   }
@@ -113,22 +114,22 @@ static void test_rig(Rig *rig, bool softened, SporeLanesKind kind) {
   spore_world_detect(world);
   spore_world_respond(world);
   spore_world_link(world);
-  spore_world_group(world);
+  spore_world_find_islands(world);
   size_t compared = 0;
-  for (size_t i = 0; i < world->island_count; i++) {
-    SporeIsland *island = &world->islands[i];
+  for (size_t i = 0; i < world->solve.island_count; i++) {
+    SporeIsland *island = &world->solve.islands[i];
     if (island->contact_count == 0) continue;
     spore_island_gather(world, island);
     vary(world, island);
-    SporeGroup group = {.world = world, .island = island, .now_s = -1};
-    SporeDynamics dynamics = spore_group_dynamics(&group);
-    dynamics.set_time(&group, 1e-3);
-    if (softened) g_assert_true(dynamics.soften(&group, 1e-3, false));
-    g_assert_cmpint(world->contact_lanes[island->lanes_start].kind, ==, kind);
+    SporeIslandSystem system = {.world = world, .island = island, .now_s = -1};
+    SporeDynamics dynamics = spore_island_system_dynamics(&system);
+    dynamics.set_time(&system, 1e-3);
+    if (softened) g_assert_true(dynamics.soften(&system, 1e-3, false));
+    g_assert_cmpint(world->contact.lanes[island->lanes_start].kind, ==, kind);
     g_autofree double *q = g_new(double, island->q_count), *v = g_new(double, island->v_count);
     for (int k = 0; k < 5; k++) {
       perturb(world, island, random, q, v);
-      compare(&group, q, v);
+      compare(&system, q, v);
     }
     compared += island->contact_count;
   }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/sim/group.h"
+#include "core/sim/solve/island_system.h"
 #include "tests/stability/rig.h"
 
 #define SIDE 0.06 /* of a brick, m */
@@ -69,7 +69,7 @@ static void give_weights(Rig *rig) {
 }
 
 static void run_to_contact(SporeWorld *world) {
-  while (spore_world_counts(world).contacts == 0 || world->contacts[0].depth < 1e-4) {
+  while (spore_world_counts(world).contacts == 0 || world->contact.terms[0].depth < 1e-4) {
     g_assert_cmpfloat(spore_world_time_s(world), <, 1);
     spore_world_step(world);
   }
@@ -111,10 +111,10 @@ static SporeIsland *pressed_island(SporeWorld *world) {
   spore_world_detect(world);
   spore_world_respond(world);
   spore_world_link(world);
-  spore_world_group(world);
-  g_assert_cmpuint(world->island_count, ==, 1);
-  spore_island_gather(world, &world->islands[0]);
-  return &world->islands[0];
+  spore_world_find_islands(world);
+  g_assert_cmpuint(world->solve.island_count, ==, 1);
+  spore_island_gather(world, &world->solve.islands[0]);
+  return &world->solve.islands[0];
 }
 
 #define Q 14
@@ -140,8 +140,8 @@ static void test_forces(void) {
   for (guint b = 0; b < 2; b++) g_array_index(rig->bodies, SporeBodyDescription, b).contact.friction = 0;
   SporeWorld *world = rig_build(rig);
   SporeIsland *island = pressed_island(world);
-  SporeGroup group = {world, island};
-  SporeDynamics dynamics = spore_group_dynamics(&group);
+  SporeIslandSystem system = {world, island};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
   double away[V], f[V], q[Q];
   for (int i = 0; i < V; i++) away[i] = 1e-4 * sin(3 * i) * (i % 6 < 3 ? 1 : 100);
   force_at(&dynamics, island, away, TRUE, f);

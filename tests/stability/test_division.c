@@ -5,7 +5,7 @@
 #include "core/base/cpu.h"
 #include "core/base/memory.h"
 #include "core/base/threads.h"
-#include "models/tetrahedra_map.h"
+#include "models/tetrahedra/map.h"
 #include "tests/conformance/specimen.h"
 #include "tests/stability/rig.h"
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "models/tetrahedra_map.h"
+#include "models/tetrahedra/map.h"
 #include "tests/stability/rig.h"
 
 /* Size-relative distance from the rest shape in the best frame: edge lengths against those at rest. */

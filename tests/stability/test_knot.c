@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "models/spline.h"
+#include "models/spline/spline.h"
 #include "tests/stability/rig.h"
 
 #define RADIUS 0.0005 /* of the thread, m */

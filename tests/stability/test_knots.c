@@ -2,9 +2,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/constraint/path.h"
+#include "core/body/path.h"
 #include "core/base/memory.h"
-#include "core/sim/levels.h"
+#include "core/body/momentum.h"
+#include "core/sim/world_private.h"
 #include "tests/stability/rig.h"
 
 #define DENSITY 1000.
@@ -275,7 +276,7 @@ static SporeWorld *thrown(Rig **rig, double most_bend, double twist) {
 static SporeMotion motion(const SporeWorld *world) {
   const SporeVec3 origin = {0, 0, 0};
   const SporeBody *body = &world->bodies[0];
-  return spore_level_motion(body->model, world->q + body->q_offset, world->v + body->v_offset, &origin);
+  return spore_model_motion(body->model, world->state.q + body->q_offset, world->state.v + body->v_offset, &origin);
 }
 
 /* Beside a twin that takes the same step and keeps its points: both momenta are the same to rounding, and the kinetic
@@ -379,26 +380,26 @@ static void follow(double twist) {
   SporeWorld *world = rig_build(rig);
   const SporeBody *body = &world->bodies[0];
   SporeMapping seen;
-  size_t count = body->spheres.point_count;
+  size_t count = body->collision.spheres.point_count;
   double *parameter = g_new(double, count), *shown = g_new(double, 3 * count), most = 0, beside = 0, drift = 0;
   double *rest = g_new(double, 3 * count);
   SporeSplineKnots knots = body->model->type->path(body->model);
   for (size_t i = 0; i < count; i++) {
-    SporeVec3 at = spore_mapping_position(&body->spheres, i, world->q + body->q_offset);
-    parameter[i] = spore_path_seek(knots, world->q + body->q_offset, at).parameter;
+    SporeVec3 at = spore_mapping_position(&body->collision.spheres, i, world->state.q + body->q_offset);
+    parameter[i] = spore_path_seek(knots, world->state.q + body->q_offset, at).parameter;
     spore_vec3_store(rest + 3 * i, at);
   }
   g_assert_true(spore_world_map(world, 0, rest, count, &seen, NULL));
   for (int step = 0; step < 400; step++) {
     spore_world_step(world);
     spore_world_tidy(world);
-    const double *q = world->q + body->q_offset;
+    const double *q = world->state.q + body->q_offset;
     const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
     g_assert_true(spore_world_follow_knots(world, 0, spore_snapshot_knots(world, snapshot, 0), &seen));
     spore_mapping_positions(&seen, snapshot->q + spore_world_q_offset(world, 0), shown);
     knots = body->model->type->path(body->model);
     for (size_t i = 0; i < count; i++) {
-      SporeVec3 at = spore_mapping_position(&body->spheres, i, q),
+      SporeVec3 at = spore_mapping_position(&body->collision.spheres, i, q),
                 line = spore_path_at(knots, q, parameter[i]).position;
       most = fmax(most, spore_vec3_distance(at, line));
       beside = fmax(beside, spore_vec3_distance(at, spore_vec3_load(shown + 3 * i)));
@@ -453,7 +454,7 @@ static void test_pulled(void) {
   g_assert_cmpuint(line.inserted, >, 4);
   g_assert_cmpfloat(moved, <, 0.1 / 9); /* a span of the line as it was made */
   g_assert_true(rig_finite(world));
-  g_assert_cmpuint(world->pull_count, ==, 0);
+  g_assert_cmpuint(world->links.pull_count, ==, 0);
   rig_free(rig);
 }
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/sim/world_private.h"
+#include "core/sim/solve/island_system.h"
 #include "tests/stability/rig.h"
 
 #define KINDS 5
@@ -115,12 +115,12 @@ static void test_opposite(void) {
     Rig *rig = two_boxes(kinds[k], 1e3);
     SporeWorld *world = rig_build(rig);
     spore_world_link(world);
-    spore_world_group(world);
-    spore_island_gather(world, &world->islands[0]);
-    SporeGroup group = {world, &world->islands[0]};
-    SporeDynamics dynamics = spore_group_dynamics(&group);
+    spore_world_find_islands(world);
+    spore_island_gather(world, &world->solve.islands[0]);
+    SporeIslandSystem system = {world, &world->solve.islands[0]};
+    SporeDynamics dynamics = spore_island_system_dynamics(&system);
     double q[14], v[DOFS], f[DOFS], largest = 0;
-    memcpy(q, world->islands[0].q0, sizeof q);
+    memcpy(q, world->solve.islands[0].q0, sizeof q);
     for (int j = 0; j < DOFS; j++) nudge(world, q, j, g_rand_double_range(random, -0.01, 0.01), q);
     for (int j = 0; j < DOFS; j++) v[j] = g_rand_double_range(random, -1, 1);
     dynamics.term_force(dynamics.data, q, v, memset(f, 0, sizeof f));
@@ -151,13 +151,13 @@ static void test_jacobian(void) {
     }
     SporeWorld *world = rig_build(rig);
     spore_world_link(world);
-    spore_world_group(world);
-    g_assert_cmpuint(world->island_count, ==, 1);
-    spore_island_gather(world, &world->islands[0]);
-    SporeGroup group = {world, &world->islands[0]};
-    SporeDynamics dynamics = spore_group_dynamics(&group);
+    spore_world_find_islands(world);
+    g_assert_cmpuint(world->solve.island_count, ==, 1);
+    spore_island_gather(world, &world->solve.islands[0]);
+    SporeIslandSystem system = {world, &world->solve.islands[0]};
+    SporeDynamics dynamics = spore_island_system_dynamics(&system);
     double q[14], v[DOFS] = {0}, worst = 0, largest = 0;
-    memcpy(q, world->islands[0].q0, sizeof q);
+    memcpy(q, world->solve.islands[0].q0, sizeof q);
     dynamics.force(dynamics.data, q, v, (double[DOFS]){0});
     dynamics.linearise(dynamics.data, q, NULL, v, c, c2);
     for (int j = 0; j < DOFS; j++) {

@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/sim/levels.h"
+#include "core/body/momentum.h"
+#include "core/sim/world_private.h"
 #include "tests/stability/rig.h"
 
 /* Specimens: the same body in a number of `parts`, which halves from level to level. */
@@ -126,7 +127,7 @@ static SporeLevelState change(SporeWorld *world, SporeLevelGrade level) {
 
 /* About `centre`, or the body's own. */
 static SporeMotion motion_of(const SporeWorld *world, const SporeVec3 *centre) {
-  return spore_level_motion(spore_world_body_model(world, 0), spore_world_q(world, 0), spore_world_v(world, 0), centre);
+  return spore_model_motion(spore_world_body_model(world, 0), spore_world_q(world, 0), spore_world_v(world, 0), centre);
 }
 
 /* Of the rigid motion that has the body's momentum: it is less where lumped masses lie further out. */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/sim/world_private.h"
+#include "core/sim/solve/island_system.h"
 #include "tests/stability/rig.h"
 
 static SporeModel *box(double side, double mass) {
@@ -220,10 +220,10 @@ static void test_momentum(void) {
       Rig *rig = thrown(methods[m].kind, h, 1e4, true);
       SporeWorld *world = rig_build(rig);
       SporeVec3 p0, l0, p, l;
-      momenta(world, world->q, world->v, &p0, &l0);
+      momenta(world, world->state.q, world->state.v, &p0, &l0);
       for (int k = 0; k < (int)lround(0.1 / h); k++) {
         spore_world_step(world);
-        momenta(world, world->q, world->v, &p, &l);
+        momenta(world, world->state.q, world->state.v, &p, &l);
         linear = fmax(linear, spore_vec3_distance(p, p0) / spore_vec3_length(p0));
         off[i] = fmax(off[i], spore_vec3_distance(l, l0) / spore_vec3_length(l0));
       }
@@ -241,7 +241,7 @@ static void test_momentum(void) {
 /* The one island of a world, as its integrator sees it at the start; the bead a millimetre off the thread where
  * `loaded`. */
 typedef struct Island {
-  SporeGroup group;
+  SporeIslandSystem system;
   SporeDynamics dynamics;
   double q[7 + 36];
 } Island;
@@ -249,12 +249,12 @@ typedef struct Island {
 
 static void island_of(Island *island, SporeWorld *world, bool loaded) {
   spore_world_link(world);
-  spore_world_group(world);
-  g_assert_cmpuint(world->island_count, ==, 1);
-  spore_island_gather(world, &world->islands[0]);
-  island->group = (SporeGroup){world, &world->islands[0]};
-  island->dynamics = spore_group_dynamics(&island->group);
-  memcpy(island->q, world->islands[0].q0, sizeof island->q);
+  spore_world_find_islands(world);
+  g_assert_cmpuint(world->solve.island_count, ==, 1);
+  spore_island_gather(world, &world->solve.islands[0]);
+  island->system = (SporeIslandSystem){world, &world->solve.islands[0]};
+  island->dynamics = spore_island_system_dynamics(&island->system);
+  memcpy(island->q, world->solve.islands[0].q0, sizeof island->q);
   SporeVec3 off = loaded ? spore_vec3(0.0008, -0.0006, 0.0007) : spore_vec3(0, 0, 0);
   spore_vec3_accumulate(island->q, off);
 }

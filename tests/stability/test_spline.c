@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/constraint/path.h"
+#include "core/body/path.h"
 #include "tests/stability/rig.h"
 #include "tests/stability/statics.h"
 

@@ -2,8 +2,8 @@
 
 #include <glib.h>
 
-#include "models/nodal.h"
-#include "models/springs.h"
+#include "models/common/nodal.h"
+#include "models/net/springs.h"
 
 /* Edges and diagonals differ in stiffness, so each are a set of springs of their own. */
 enum { EDGES, DIAGONALS, KINDS };

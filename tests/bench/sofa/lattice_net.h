@@ -3,7 +3,7 @@
 #ifndef SPORE_BENCH_LATTICE_NET_H
 #define SPORE_BENCH_LATTICE_NET_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 typedef struct LatticeNet LatticeNet;
 typedef void (*LatticePlace)(const LatticeNet *net, unsigned column, unsigned row, double *x);

@@ -3,7 +3,7 @@
 #ifndef SPORE_BENCH_SOFA_STEP_H
 #define SPORE_BENCH_SOFA_STEP_H
 
-#include "core/sim/model.h"
+#include "core/body/model.h"
 
 #define SOFA_ITERATIONS 25
 #define SOFA_TOLERANCE 1e-9

@@ -1,0 +1,142 @@
+/* Springs as terms: between two points, or along a line or a path with what slides there. */
+#include "core/constraint/term_ends.h"
+
+/* (I + w jacobian)^-1 force, jacobian = h D + h t K: symmetric and at least I, so the adjugate does. */
+static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, SporeVec3 force) {
+  double w = softening->inverse_mass;
+  double xx = 1 + w * jacobian.m[0], yy = 1 + w * jacobian.m[4], zz = 1 + w * jacobian.m[8];
+  double xy = w * jacobian.m[1], xz = w * jacobian.m[2], yz = w * jacobian.m[5];
+  SporeVec3 row_x = {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy};
+  SporeVec3 row_y = {row_x.y, xx * zz - xz * xz, xy * xz - xx * yz};
+  SporeVec3 row_z = {row_x.z, row_y.z, xx * yy - xy * xy};
+  double scale = 1 / (xx * row_x.x + xy * row_x.y + xz * row_x.z);
+  return (SporeVec3){scale * spore_vec3_dot(row_x, force), scale * spore_vec3_dot(row_y, force),
+                     scale * spore_vec3_dot(row_z, force)};
+}
+
+/* What physics does not move is a line for the length of a step. */
+INLINE bool runs(const SporeSpringTerm *term) { return term->curve && !term->b.prescribed; }
+
+static double joint_length(const SporeCurveJoint *joint, const double *local, double to) {
+  return spore_path_length(joint->knots, joint->points ? joint->points : local, joint->start, to);
+}
+
+static double slid_along_curve(const SporeSpringTerm *term, const double *local, SporeVec3 a) {
+  return joint_length(term->curve, local, spore_curve_joint_place(term->curve, local, a).parameter);
+}
+
+static double slid_along_line(const SporeSpringTerm *term, SporeVec3 a, SporeVec3 b) {
+  SporeVec3 apart = spore_vec3_sub(a, b), before = spore_vec3_sub(term->a.position, term->b.position);
+  return spore_vec3_dot(term->law.free, spore_vec3_sub(apart, before));
+}
+
+static void run_along(SporeSpringTerm *term, const SporeSite *sites, const double *q, SporeVec3 a) {
+  const double *local = q + sites[term->b.body].q;
+  SporePathPlace place = spore_curve_joint_place(term->curve, local, a);
+  spore_curve_joint_set(term, &place);
+  if (term->law.friction > 0) term->slid = joint_length(term->curve, local, place.parameter);
+}
+
+/* Where the ends are, or will be after `ahead`; how far friction's spring has slid by then. */
+static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v, SporeVec3 *a,
+                        SporeVec3 *b) {
+  const SporeVec3 none = {0, 0, 0};
+  *a = locate(&term->a, none, sites, q);
+  if (runs(term)) run_along(term, sites, q, *a);
+  *b = locate(&term->b, none, sites, q);
+  if (term->law.friction > 0 && !runs(term)) term->slid = slid_along_line(term, *a, *b);
+  /* What holds two points together pulls in any direction: both bodies feel it where the first is, so that together
+   * they are not turned by it. */
+  if (term->law.rest_length == 0 && !term->b.prescribed && term->b.mapping->kind == SPORE_MAPPING_RIGID)
+    term->b.offset = spore_vec3_add(term->b.offset, spore_vec3_sub(*a, *b));
+  if (!(term->softening.ahead > 0)) return;
+  SporeVec3 ahead_a = spore_vec3_scale(term->softening.ahead, gather(&term->a, sites, v));
+  SporeVec3 ahead_b = spore_vec3_scale(term->softening.ahead, gather(&term->b, sites, v));
+  *a = spore_vec3_add(*a, ahead_a);
+  *b = spore_vec3_add(*b, ahead_b);
+  term->slid += spore_vec3_dot(term->law.free, spore_vec3_sub(ahead_a, ahead_b));
+}
+
+/* Toward the path, where end a is beyond an end of it that stops. */
+static SporeContactNormal stop_of(const SporeSpringTerm *term, SporeVec3 a, SporeVec3 b, SporeVec3 velocity_a,
+                                  SporeVec3 velocity_b) {
+  const SporeCurveJoint *joint = term->curve;
+  if (!joint || joint->end == 0) return (SporeContactNormal){0, 0, 0};
+  const SporeContactLaw law = {
+      .stiffness = term->law.stiffness, .damping = term->law.damping, .damping_depth = joint->soft};
+  double depth = joint->end * spore_vec3_dot(term->law.free, spore_vec3_sub(a, b));
+  double speed = joint->end * spore_vec3_dot(term->law.free, spore_vec3_sub(velocity_a, velocity_b));
+  return spore_contact_normal(&law, depth, -speed);
+}
+
+static SporeMat3 spring_jacobian(const SporeSpringTerm *term, SporeVec3 a, SporeVec3 b, SporeVec3 velocity_a,
+                                 SporeVec3 velocity_b, double c, double c2) {
+  SporeMat3 stiffness, damping;
+  spore_spring_jacobian(&term->law, a, b, &stiffness, &damping);
+  SporeContactNormal stop = stop_of(term, a, b, velocity_a, velocity_b);
+  SporeMat3 along = spore_mat3_outer(term->law.free, term->law.free);
+  SporeMat3 jacobian = spore_mat3_add(spore_mat3_scale(c2, stiffness), spore_mat3_scale(c, damping));
+  jacobian = spore_mat3_add(jacobian, spore_mat3_scale(c2 * stop.stiffness + c * stop.damping, along));
+  if (!(term->law.friction > 0)) return jacobian;
+  double held = spore_vec3_length(spore_spring_force(&term->law, a, b, velocity_a, velocity_b));
+  double speed = spore_vec3_dot(term->law.free, spore_vec3_sub(velocity_a, velocity_b));
+  if (spore_spring_slips(&term->law, term->stretch + term->slid, speed, held)) return jacobian;
+  double stuck = c2 * term->law.stiffness + c * term->law.damping;
+  return spore_mat3_add(jacobian, spore_mat3_scale(stuck, along));
+}
+
+static void add_friction(SporeSpringTerm *term, SporeVec3 velocity_a, SporeVec3 velocity_b) {
+  double speed = spore_vec3_dot(term->law.free, spore_vec3_sub(velocity_a, velocity_b));
+  term->held = spore_vec3_length(term->force);
+  double hold = spore_spring_friction(&term->law, term->stretch + term->slid, speed, term->held);
+  term->force = spore_vec3_add_scaled(term->force, -hold, term->law.free);
+}
+
+void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
+                             double *f) {
+  SporeVec3 a, b;
+  spring_ends(term, sites, q, v, &a, &b);
+  SporeVec3 velocity_a = velocity(&term->a, sites, v), velocity_b = velocity(&term->b, sites, v);
+  term->force = spore_spring_force(&term->law, a, b, velocity_a, velocity_b);
+  double stop = stop_of(term, a, b, velocity_a, velocity_b).force;
+  if (term->law.friction > 0) add_friction(term, velocity_a, velocity_b);
+  if (stop > 0) term->force = spore_vec3_add_scaled(term->force, -stop * term->curve->end, term->law.free);
+  const SporeSoftening *softening = &term->softening;
+  if (softening->inverse_mass > 0) {
+    SporeMat3 jacobian =
+        spring_jacobian(term, a, b, velocity_a, velocity_b, softening->h, softening->h * softening->ahead);
+    term->force = soften(softening, jacobian, term->force);
+  }
+  scatter_pair(&term->a, &term->b, sites, term->force, f);
+}
+
+SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
+                                     double c, double c2) {
+  SporeVec3 a, b;
+  spring_ends(term, sites, q, v, &a, &b);
+  return spring_jacobian(term, a, b, velocity(&term->a, sites, v), velocity(&term->b, sites, v), c, c2);
+}
+
+double spore_spring_term_stretch(const SporeSpringTerm *term, const SporeSite *sites, const double *q) {
+  if (!(term->law.friction > 0)) return 0;
+  SporeVec3 a = position_of(&term->a, sites, q);
+  double slid = runs(term) ? slid_along_curve(term, q + sites[term->b.body].q, a)
+                           : slid_along_line(term, a, position_of(&term->b, sites, q));
+  double longest = term->law.friction * term->held / term->law.stiffness;
+  return fmin(fmax(term->stretch + slid, -longest), longest);
+}
+
+double spore_spring_term_energy(const SporeSpringTerm *term, const SporeSite *sites, const double *q) {
+  SporeVec3 a = position_of(&term->a, sites, q), b;
+  SporeSpring law = term->law;
+  double stretch = spore_spring_term_stretch(term, sites, q), depth = 0;
+  if (runs(term)) {
+    SporePathPlace place = spore_curve_joint_place(term->curve, q + sites[term->b.body].q, a);
+    law.free = spore_vec3_normalise(place.slope, (SporeVec3){0, 0, 0});
+    b = place.position;
+    if (term->curve->stops) depth = spore_curve_joint_overshoot(term->curve, &place, a);
+  } else {
+    b = position_of(&term->b, sites, q);
+  }
+  return spore_spring_energy(&law, a, b) + 0.5 * law.stiffness * (stretch * stretch + depth * depth);
+}

@@ -1,0 +1,179 @@
+#include "core/constraint/term_ends.h"
+
+SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) {
+  double stiff = 2 * h * h * stiffness * inverse_mass;
+  return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};
+}
+
+/* Relative velocity of the ends without what is prescribed: that is where it will be already. */
+INLINE SporeVec3 own_motion(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, const double *v) {
+  return spore_vec3_sub(gather(a, sites, v), gather(b, sites, v));
+}
+
+INLINE SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
+  return spore_vec3_add_scaled(a, -spore_vec3_dot(normal, a), normal);
+}
+
+/* How far the end's material point that was the contact point has come; `position` of the end. A node does not turn its
+ * sphere. */
+static SporeVec3 contact_point_motion(const SporeEnd *end, SporeVec3 position, SporeVec3 frame_arm, SporeVec3 arm,
+                                      const SporeSite *sites, const double *q) {
+  SporeVec3 motion = spore_vec3_sub(position, end->position);
+  if (!turns(end)) return motion;
+  SporeVec3 turned = spore_quat_rotate(spore_quat_load(q + sites[end->body].q + 3), frame_arm);
+  return spore_vec3_add(motion, spore_vec3_sub(turned, arm));
+}
+
+/* What depth and friction follow of the two ends at positions a and b. */
+typedef struct Motion {
+  SporeVec3 depth_a, depth_b; /* of the sphere's centre, or of a field's contact point */
+  SporeVec3 point_a, point_b; /* of the contact points; only where there is friction or a field */
+} Motion;
+
+INLINE Motion motion_of(const SporeContactTerm *term, SporeVec3 a, SporeVec3 b, const SporeSite *sites,
+                        const double *q) {
+  Motion motion = {.depth_a = spore_vec3_sub(a, term->a.position), .depth_b = spore_vec3_sub(b, term->b.position)};
+  if (!(term->law.friction > 0 || term->field_a || term->field_b)) return motion;
+  motion.point_a = contact_point_motion(&term->a, a, term->frame_arm_a, term->arm_a, sites, q);
+  motion.point_b = contact_point_motion(&term->b, b, term->frame_arm_b, term->arm_b, sites, q);
+  if (term->field_a) motion.depth_a = motion.point_a;
+  if (term->field_b) motion.depth_b = motion.point_b;
+  return motion;
+}
+
+/* depth = depth when the step began + n.(motion of b - motion of a) */
+INLINE double depth_after(const SporeContactTerm *term, const Motion *motion) {
+  return term->depth + spore_vec3_dot(term->normal, spore_vec3_sub(motion->depth_b, motion->depth_a));
+}
+
+/* Stretch with all slip of the step in it. */
+INLINE SporeVec3 stretch_after(const SporeContactTerm *term, const Motion *motion) {
+  return spore_vec3_add(term->stretch, across(term->normal, spore_vec3_sub(motion->point_a, motion->point_b)));
+}
+
+bool spore_contact_term_rolls(const SporeContactTerm *term) {
+  return spore_contact_term_meets(term) && (turns(&term->a) || turns(&term->b));
+}
+
+static Motion motion_at(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
+  return motion_of(term, position_of(&term->a, sites, q), position_of(&term->b, sites, q), sites, q);
+}
+
+/* A body that is felt as one gets its force where the sphere presses on it, wherever that has slid to in the step: at
+ * one point, so that the two gain no angular momentum from each other. */
+INLINE void meet_at(SporeEnd *end, SporeVec3 point, const SporeSite *sites, const double *q) {
+  if (turns(end)) end->offset = spore_vec3_sub(point, spore_vec3_load(q + sites[end->body].q));
+}
+
+SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
+  if (!(term->law.friction > 0) || spore_contact_term_rolls(term)) return (SporeVec3){0, 0, 0};
+  Motion motion = motion_at(term, sites, q);
+  return spore_contact_slip(&term->law, stretch_after(term, &motion), term->yield);
+}
+
+/* At q and v; a little ahead where the term is softened. */
+INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                                       double elapsed_s) {
+  SporeVec3 a = locate(&term->a, term->arm_a, sites, q), b = locate(&term->b, term->arm_b, sites, q);
+  if (term->field_a) meet_at(&term->a, spore_vec3_add(b, term->arm_b), sites, q);
+  if (term->field_b) meet_at(&term->b, spore_vec3_add(a, term->arm_a), sites, q);
+  Motion motion = motion_of(term, a, b, sites, q);
+  SporeContactState state = {term->normal, depth_after(term, &motion) - term->slack};
+  state.velocity = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
+  if (spore_contact_term_rolls(term)) {
+    SporeVec3 slip = across(term->normal, spore_vec3_scale(elapsed_s, state.velocity));
+    state.stretch = spore_vec3_add(term->stretch, slip);
+  } else if (term->law.friction > 0) {
+    state.stretch = stretch_after(term, &motion);
+  }
+  if (term->softening.ahead > 0) {
+    SporeVec3 ahead = spore_vec3_scale(term->softening.ahead, own_motion(&term->a, &term->b, sites, v));
+    state.depth -= spore_vec3_dot(term->normal, ahead);
+    state.stretch = spore_vec3_add(state.stretch, across(term->normal, ahead));
+  }
+  return state;
+}
+
+/* What is left of N when the ends alone take a step in which N' presses: the law at the gap speed and depth that it
+ * leads to, less N'. */
+static double unbalanced(const SporeContactLaw *law, double ahead, double faster, double depth, double gap_speed,
+                         double pressing) {
+  double change = faster * pressing;
+  return spore_contact_normal(law, depth - ahead * change, gap_speed + change).force - pressing;
+}
+
+/* It falls with the gap speed that it leads to, so false position (the Illinois variant) closes in on it. */
+double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
+                                       double gap_speed, double most) {
+  double low = 0, high = most, above = unbalanced(law, ahead, faster, depth, gap_speed, low);
+  double below = unbalanced(law, ahead, faster, depth, gap_speed, high);
+  if (!(above > 0)) return low;
+  if (!(below < 0)) return high;
+  for (int i = 0, side = 0; i < 40 && high - low > 1e-9 * most; i++) {
+    double middle = low + (high - low) * above / (above - below);
+    double value = unbalanced(law, ahead, faster, depth, gap_speed, middle);
+    if (value > 0) {
+      low = middle, above = value;
+      if (side == 1) below *= 0.5;
+      side = 1;
+    } else {
+      high = middle, below = value;
+      if (value == 0) return middle;
+      if (side == -1) above *= 0.5;
+      side = -1;
+    }
+  }
+  return low;
+}
+
+/* Softens along the normal by the law's slopes, or, where that would throw the ends apart so fast that the law bends,
+ * by the law itself. Friction's spring is softened by itself, and cut by what then presses. */
+static void soften_contact(SporeContactTerm *term, const SporeContactState *state) {
+  const SporeSoftening *softening = &term->softening;
+  double w = softening->inverse_mass, h = softening->h;
+  SporeVec3 n = term->normal;
+  if (term->pressing <= 0) return;
+  double gap_speed = spore_vec3_dot(n, state->velocity);
+  SporeContactNormal law = spore_contact_normal(&term->law, state->depth, gap_speed);
+  double pressing = term->pressing / (1 + w * h * (law.damping + softening->ahead * law.stiffness));
+  if (gap_speed + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
+    pressing = spore_contact_implicit_pressing(&term->law, softening->ahead, w * h, state->depth, gap_speed, pressing);
+  term->pressing = term->yield = pressing;
+  term->force = spore_vec3_scale(pressing, n);
+  if (!(term->law.friction > 0)) return;
+  double damping;
+  SporeVec3 hold = spore_contact_hold(&term->law, state, &damping);
+  double softer = 1 + w * h * (damping + softening->ahead * term->law.stiffness);
+  hold = spore_contact_cut(&term->law, spore_vec3_scale(1 / softer, hold), pressing);
+  term->force = spore_vec3_sub(term->force, hold);
+  term->yield = softer * pressing;
+}
+
+void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                              double elapsed_s, double *f) {
+  SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
+  term->force = spore_contact_force(&term->law, &state);
+  term->yield = term->pressing = spore_vec3_dot(term->normal, term->force);
+  if (term->softening.inverse_mass > 0) soften_contact(term, &state);
+  scatter_pair(&term->a, &term->b, sites, term->force, f);
+}
+
+SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
+                                      double elapsed_s, double c, double c2) {
+  SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
+  return spore_contact_jacobian(&term->law, &state, c2, c, &term->drag);
+}
+
+void spore_contact_term_drag(const SporeContactTerm *term, const SporeSite *sites, const double *x, double *y) {
+  double apart = spore_vec3_dot(term->normal, own_motion(&term->a, &term->b, sites, x));
+  scatter_pair(&term->a, &term->b, sites, spore_vec3_scale(-apart, term->drag), y);
+}
+
+double spore_contact_term_energy(const SporeContactTerm *term, const SporeSite *sites, const double *q) {
+  Motion motion = motion_at(term, sites, q);
+  return spore_contact_potential(&term->law, depth_after(term, &motion), spore_contact_term_stretch(term, sites, q));
+}
+
+SporeVec3 spore_contact_term_point(const SporeContactTerm *term) {
+  return spore_vec3_add(term->a.position, term->arm_a);
+}

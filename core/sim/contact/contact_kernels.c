@@ -1,0 +1,145 @@
+#include "core/sim/contact/contact_lanes.h"
+
+#include "core/math/simd_matrix.h"
+
+SPORE_INLINE SporeVd3 load(const SporeLaneVector *vector, int k) {
+  return (SporeVd3){spore_vd_load(vector->x + k), spore_vd_load(vector->y + k), spore_vd_load(vector->z + k)};
+}
+
+SPORE_INLINE void store(SporeLaneVector *vector, int k, SporeVd3 value) {
+  spore_vd_store(vector->x + k, value.x);
+  spore_vd_store(vector->y + k, value.y);
+  spore_vd_store(vector->z + k, value.z);
+}
+
+SPORE_INLINE SporeVd3 none(void) { return (SporeVd3){{0}, {0}, {0}}; }
+
+SPORE_INLINE SporeVd3 across(SporeVd3 normal, SporeVd3 a) {
+  return spore_vd3_sub(a, spore_vd3_scale(spore_vd3_dot(normal, a), normal));
+}
+
+/* Of an end by physics: how far it has come, its velocity where the force acts, and how far its arm has turned. */
+typedef struct EndState {
+  SporeVd3 motion, velocity, turned;
+} EndState;
+
+SPORE_INLINE EndState node_state(const SporeLaneEnd *end, int k, SporeVl moves, const double *q, const double *v) {
+  SporeVd3 motion = spore_vd3_sub(spore_vd3_gather(q, end->at + k), load(&end->start, k));
+  SporeVd3 velocity = spore_vd3_gather(v, end->v_node + k);
+  return (EndState){spore_vd3_select(moves, motion, none()), spore_vd3_select(moves, velocity, none()), none()};
+}
+
+SPORE_INLINE EndState frame_state(SporeLaneEnd *end, int k, SporeVl moves, const double *frames, bool rubs) {
+  SporeVd3 row[6], point = load(&end->point, k), arm = load(&end->arm, k), turned = none();
+  for (int i = 0; i < 6; i++) row[i] = spore_vd3_gather(frames + 3 * i, end->at + k);
+  SporeVd3 radius = {spore_vd3_dot(row[0], point), spore_vd3_dot(row[1], point), spore_vd3_dot(row[2], point)};
+  SporeVd3 lever = spore_vd3_add(radius, arm);
+  SporeVd3 motion = spore_vd3_sub(spore_vd3_add(row[3], radius), load(&end->start, k));
+  SporeVd3 velocity = spore_vd3_add(row[4], spore_vd3_cross(row[5], lever));
+  if (rubs) {
+    SporeVd3 frame_arm = load(&end->frame_arm, k);
+    SporeVd3 now = {spore_vd3_dot(row[0], frame_arm), spore_vd3_dot(row[1], frame_arm),
+                    spore_vd3_dot(row[2], frame_arm)};
+    turned = spore_vd3_select(moves, spore_vd3_sub(now, arm), none());
+  }
+  store(&end->lever, k, lever);
+  return (EndState){spore_vd3_select(moves, motion, none()), spore_vd3_select(moves, velocity, none()), turned};
+}
+
+SPORE_INLINE SporeVl mask(const int64_t *lanes) { return (SporeVl)spore_vd_load((const double *)(const void *)lanes); }
+
+SPORE_INLINE EndState end_state(SporeContactLanes *lanes, SporeLaneEnd *end, int k, const double *at, const double *v) {
+  SporeVl moves = mask(end->moves + k);
+  if (lanes->kind == SPORE_LANES_NODES) return node_state(end, k, moves, at, v);
+  return frame_state(end, k, moves, at, lanes->rubs);
+}
+
+/* spore_contact_step */
+SPORE_INLINE SporeVd step(SporeVd x, SporeVd width, SporeVd *slope) {
+  SporeVd y = x / width, zero = {0}, one = spore_vd_all(1);
+  SporeVl inside = (x > zero) & (x < width);
+  *slope = spore_vd_select(inside, 6 * y * (1 - y) / width, zero);
+  return spore_vd_select(inside, y * y * (3 - 2 * y), spore_vd_select(x > zero, one, zero));
+}
+
+/* Where the two ends alone, stepped by the law's slopes, are thrown apart so fast that the law bends: by the law. */
+static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, int k, SporeVl fast, SporeVd depth,
+                                              SporeVd gap_speed, SporeVd pressing) {
+  for (int i = 0; i < SPORE_WIDTH; i++) {
+    if (!fast[i]) continue;
+    int lane = k + i;
+    const SporeContactLaw law = {.stiffness = lanes->stiffness[lane],
+                                 .damping = lanes->damping[lane],
+                                 .damping_depth = lanes->damping_depth[lane]};
+    pressing[i] = spore_contact_implicit_pressing(&law, lanes->ahead[lane], lanes->faster[lane], depth[i], gap_speed[i],
+                                                  pressing[i]);
+  }
+  return pressing;
+}
+
+/* N of the law, and what is left of it where the contact is softened. */
+SPORE_INLINE SporeVd press(const SporeContactLanes *lanes, int k, SporeVd depth, SporeVd gap_speed, SporeVd viscous,
+                           SporeVd viscous_slope) {
+  const double half_exit = 0.5 * SPORE_CONTACT_EXIT_SPEED;
+  SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, exit_slope;
+  SporeVd exit = 1 - step(gap_speed - half_exit, spore_vd_all(half_exit), &exit_slope);
+  SporeVd spring = stiffness * depth, force = spring * exit - viscous * gap_speed;
+  SporeVl presses = (depth > zero) & (force > zero);
+  if (!lanes->softened) return spore_vd_select(presses, force, zero);
+  SporeVd ahead = spore_vd_load(lanes->ahead + k), faster = spore_vd_load(lanes->faster + k);
+  SporeVd slope = spore_vd_max(stiffness * exit - spore_vd_load(lanes->damping + k) * viscous_slope * gap_speed, zero);
+  SporeVd pressing = force / (1 + faster * (spring * exit_slope + viscous + ahead * slope));
+  pressing = spore_vd_select(presses, pressing, zero);
+  SporeVl fast = presses & (faster > zero) & (gap_speed + faster * pressing > spore_vd_all(half_exit));
+  if (__builtin_expect(spore_vl_any(fast), 0)) pressing = bend(lanes, k, fast, depth, gap_speed, pressing);
+  return pressing;
+}
+
+/* T, and the yield. moved: of the contact point of a on b since the step began. */
+SPORE_INLINE SporeVd3 hold(SporeContactLanes *lanes, int k, SporeVd3 n, SporeVd3 moved, SporeVd3 velocity,
+                           SporeVd viscous, SporeVd pressing) {
+  SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, softer = spore_vd_all(1);
+  SporeVd3 stretch = spore_vd3_add(load(&lanes->stretch, k), across(n, moved));
+  SporeVd3 held = spore_vd3_add(spore_vd3_scale(stiffness, stretch), spore_vd3_scale(viscous, across(n, velocity)));
+  if (lanes->softened) {
+    softer += spore_vd_load(lanes->faster + k) * (viscous + spore_vd_load(lanes->ahead + k) * stiffness);
+    held = spore_vd3_scale(1 / softer, held);
+  }
+  SporeVd longest = spore_vd_load(lanes->friction + k) * pressing, square = spore_vd3_dot(held, held);
+  SporeVl slips = square > longest * longest, rubs = longest > zero;
+  SporeVd cut = spore_vd_select(slips, longest / spore_vd_sqrt(square), spore_vd_all(1));
+  spore_vd_store(lanes->yield + k, spore_vd_select(rubs, softer * pressing, pressing));
+  return spore_vd3_select(rubs, spore_vd3_scale(cut, held), none());
+}
+
+SPORE_INLINE void evaluate(SporeContactLanes *lanes, int k, const double *at, const double *v, double elapsed_s) {
+  SporeVd3 n = load(&lanes->normal, k), driven = load(&lanes->driven, k);
+  EndState a = end_state(lanes, &lanes->a, k, at, v), b = end_state(lanes, &lanes->b, k, at, v);
+  SporeVd3 own = spore_vd3_sub(a.velocity, b.velocity), velocity = spore_vd3_add(own, driven);
+  SporeVd3 moved = spore_vd3_add(spore_vd3_sub(a.motion, b.motion), spore_vd3_scale(spore_vd_all(elapsed_s), driven));
+  if (lanes->softened) moved = spore_vd3_add(moved, spore_vd3_scale(spore_vd_load(lanes->ahead + k), own));
+  SporeVd depth = spore_vd_load(lanes->depth + k) - spore_vd3_dot(n, moved), viscous_slope;
+  SporeVd viscous =
+      spore_vd_load(lanes->damping + k) * step(depth, spore_vd_load(lanes->damping_depth + k), &viscous_slope);
+  SporeVd pressing = press(lanes, k, depth, spore_vd3_dot(n, velocity), viscous, viscous_slope);
+  SporeVd3 force = spore_vd3_scale(pressing, n);
+  spore_vd_store(lanes->pressing + k, pressing);
+  if (lanes->rubs) {
+    moved = spore_vd3_add(moved, spore_vd3_sub(a.turned, b.turned));
+    if (lanes->kind == SPORE_LANES_FRAMES) {
+      SporeVl rolls = mask(lanes->rolls + k);
+      SporeVd3 slip = spore_vd3_scale(spore_vd_all(elapsed_s), velocity);
+      if (lanes->softened) slip = spore_vd3_add(slip, spore_vd3_scale(spore_vd_load(lanes->ahead + k), own));
+      moved = spore_vd3_select(rolls, slip, moved);
+    }
+    force = spore_vd3_sub(force, hold(lanes, k, n, moved, velocity, viscous, pressing));
+  } else {
+    spore_vd_store(lanes->yield + k, pressing);
+  }
+  store(&lanes->force, k, force);
+}
+
+void SPORE_LEVEL_NAME(spore_contact_lanes_force)(SporeContactLanes *lanes, const double *at, const double *v,
+                                                 double elapsed_s) {
+  for (int k = 0; k < SPORE_LANES; k += SPORE_WIDTH) evaluate(lanes, k, at, v, elapsed_s);
+}

@@ -1,0 +1,216 @@
+/* Spheres from the state, contacts from the spheres, terms from the contacts. */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+/* An active body's spheres have the velocity that takes them to its target in one step. */
+static void map_active(SporeWorld *world, const SporeBody *body, double *centre, double *velocity) {
+  spore_mapping_positions(&body->collision.spheres, world->state.target_q + body->q_offset, velocity);
+  double rate = 1 / world->solver.time_step;
+  for (size_t k = 0; k < 3 * body->collision.spheres.point_count; k++) velocity[k] = (velocity[k] - centre[k]) * rate;
+}
+
+void spore_world_map_spheres(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->role == SPORE_UNMOVABLE || body->collision.spheres.point_count == 0 ||
+        body->changed <= world->contact.mapped)
+      continue;
+    const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
+    double *centre = world->contact.spheres.centre + 3 * body->collision.start;
+    double *velocity = world->contact.spheres.velocity + 3 * body->collision.start;
+    spore_mapping_positions(&body->collision.spheres, q, centre);
+    if (body->role == SPORE_ACTIVE) map_active(world, body, centre, velocity);
+    else spore_mapping_velocities(&body->collision.spheres, q, v, velocity);
+  }
+  world->contact.mapped = world->state.snapshots.newest;
+}
+
+bool spore_world_reserve_contacts(SporeWorld *world) {
+  size_t old = world->contact.capacity, wanted = spore_grid_capacity(world->contact.grid) + world->contact.missed;
+  if (world->contact.missed) wanted += wanted / 2;
+  if (world->contact.missed && !spore_grid_reserve(world->contact.grid, wanted)) return false;
+  wanted = spore_grid_capacity(world->contact.grid);
+  SporeContactTerm *terms = spore_reallocate(world->contact.terms, old, wanted, sizeof *terms);
+  if (terms) world->contact.terms = terms;
+  SporeCoupling *couplings = spore_reallocate(world->contact.couplings, old, wanted, sizeof *couplings);
+  if (couplings) world->contact.couplings = couplings;
+  size_t bodies = world->body_count; /* each island may leave lanes empty */
+  SporeContactLanes *lanes = spore_reallocate(world->contact.lanes, old ? spore_lanes_for(old) + bodies : 0,
+                                              spore_lanes_for(wanted) + bodies, sizeof *lanes);
+  if (lanes) world->contact.lanes = lanes;
+  SporeManifoldContact *felt = spore_reallocate(world->contact.manifold, old, wanted, sizeof *felt);
+  if (felt) world->contact.manifold = felt;
+  bool gripped = spore_friction_reserve(world, old, wanted);
+  uint32_t *order = spore_reallocate(world->contact.order, old, wanted, sizeof *order);
+  if (order) world->contact.order = order;
+  if (!terms || !couplings || !lanes || !felt || !gripped || !order) return false;
+  world->contact.capacity = wanted;
+  world->contact.missed = 0;
+  return true;
+}
+
+bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphereSet *set, SporeError *error) {
+  SporeBody *body = &world->bodies[index];
+  size_t count = set ? set->count : 0;
+  double *points = SPORE_NEW_ARRAY(double, 3 * count);
+  if (!points) return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+  for (size_t s = 0; s < count; s++) memcpy(points + 3 * s, set->spheres + 4 * s, 3 * sizeof *points);
+  bool mapped = spore_world_map(world, index, points, count, &body->collision.spheres, error);
+  spore_free(points);
+  if (mapped) return true;
+  char place[200];
+  snprintf(place, sizeof place, "bodies/%s", body->name);
+  spore_error_at(error, place);
+  return false;
+}
+
+static void find_contacts(SporeWorld *world) {
+  SporeSpheres reaching = world->contact.spheres;
+  reaching.radius = world->contact.reach;
+  world->contact.count =
+      spore_grid_detect(world->contact.grid, &reaching, world->solver.time_step, &world->contact.missed);
+}
+
+/* A contact without room would be a body that falls through another, and a run that cannot be repeated: room is made at
+ * once. It is the one place where a step may allocate, and since room only grows, seldom. */
+void spore_world_detect(SporeWorld *world) {
+  find_contacts(world);
+  while (world->contact.missed && spore_world_reserve_contacts(world)) find_contacts(world);
+  if (!world->contact.missed) return;
+  find_contacts(world); /* a reservation that failed half-way lost what was found */
+  if (world->contact.count > world->contact.capacity) {
+    world->contact.missed += world->contact.count - world->contact.capacity;
+    world->contact.count = world->contact.capacity;
+  }
+  spore_world_report(world, _("%zu contacts are left out: there is no memory for them; use fewer or smaller spheres"),
+                     world->contact.missed);
+}
+
+void spore_world_fill_end(const SporeWorld *world, SporeEnd *end) {
+  const SporeVec3 none = {0, 0, 0};
+  end->velocity = end->offset = none;
+  end->prescribed = end->body == SPORE_NO_BODY || !spore_body_moves(&world->bodies[end->body]);
+  if (end->body == SPORE_NO_BODY) {
+    end->position = spore_mapping_position(end->mapping, end->point, NULL);
+    return;
+  }
+  const SporeBody *body = &world->bodies[end->body];
+  end->position = spore_mapping_position(end->mapping, end->point, world->state.q + body->q_offset);
+  if (body->role != SPORE_ACTIVE) return;
+  SporeVec3 target = spore_mapping_position(end->mapping, end->point, world->state.target_q + body->q_offset);
+  end->offset = spore_vec3_sub(target, end->position);
+  end->velocity = spore_vec3_scale(1 / world->solver.time_step, end->offset);
+}
+
+static void fill_sphere_end(const SporeWorld *world, uint32_t sphere, SporeEnd *end) {
+  const SporeVec3 none = {0, 0, 0};
+  uint32_t index = world->contact.spheres.body[sphere];
+  const SporeBody *body = &world->bodies[index];
+  *end = (SporeEnd){.mapping = &body->collision.spheres,
+                    .body = index,
+                    .point = sphere - (uint32_t)body->collision.start,
+                    .prescribed = !spore_body_moves(body),
+                    .position = spore_vec3_load(world->contact.spheres.centre + 3 * (size_t)sphere)};
+  if (!end->prescribed) return;
+  bool driven = body->role == SPORE_ACTIVE;
+  end->velocity = driven ? spore_vec3_load(world->contact.spheres.velocity + 3 * (size_t)sphere) : none;
+  end->offset = spore_vec3_scale(world->solver.time_step, end->velocity);
+}
+
+static SporeContactMaterial material(const SporeBody *body) {
+  return (SporeContactMaterial){body->collision.fields.stiffness, body->collision.fields.damping,
+                                body->collision.fields.friction};
+}
+
+/* An arm in the frame of the rigid body that it turns with. */
+static SporeVec3 frame_arm(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm) {
+  if (end->mapping->kind != SPORE_MAPPING_RIGID) return (SporeVec3){0, 0, 0};
+  SporeQuat turn = spore_quat_load(world->state.q + world->bodies[end->body].q_offset + 3);
+  return spore_quat_rotate(spore_quat_conjugate(turn), arm);
+}
+
+/* From the spheres' centres to the contact point, in the middle of the depth. */
+static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
+  double radius_a = world->contact.spheres.radius[term->sphere_a],
+         radius_b = world->contact.spheres.radius[term->sphere_b];
+  SporeVec3 apart = spore_vec3_sub(term->b.position, term->a.position);
+  term->arm_a = spore_vec3_scale(0.5 * term->depth - radius_a, term->normal);
+  term->arm_b = spore_vec3_scale(radius_b - 0.5 * term->depth, term->normal);
+  if (term->field_a) term->arm_a = spore_vec3_add(term->arm_b, apart);
+  if (term->field_b) term->arm_b = spore_vec3_sub(term->arm_a, apart);
+  term->frame_arm_a = frame_arm(world, &term->a, term->arm_a);
+  term->frame_arm_b = frame_arm(world, &term->b, term->arm_b);
+}
+
+/* A driven end has the velocity of its contact point: a tool that turns drags. How deep a sphere is does not change by
+ * that. */
+static void turn_driven_end(const SporeWorld *world, SporeEnd *end, SporeVec3 frame_arm, SporeVec3 arm, bool field,
+                            SporeVec3 normal) {
+  const SporeBody *body = &world->bodies[end->body];
+  if (body->role != SPORE_ACTIVE || end->mapping->kind != SPORE_MAPPING_RIGID) return;
+  SporeQuat target = spore_quat_load(world->state.target_q + body->q_offset + 3);
+  SporeVec3 moved = spore_vec3_sub(spore_quat_rotate(target, frame_arm), arm);
+  if (!field) moved = spore_vec3_add_scaled(moved, -spore_vec3_dot(moved, normal), normal);
+  end->offset = spore_vec3_add(end->offset, moved);
+  end->velocity = spore_vec3_scale(1 / world->solver.time_step, end->offset);
+}
+
+static void fill_term(const SporeWorld *world, const SporeManifoldContact *felt, SporeContactTerm *term) {
+  const SporeContact *contact = &felt->contact;
+  fill_sphere_end(world, contact->a, &term->a);
+  fill_sphere_end(world, contact->b, &term->b);
+  SporeContactMaterial a = material(&world->bodies[term->a.body]), b = material(&world->bodies[term->b.body]);
+  term->sphere_a = contact->a;
+  term->sphere_b = contact->b;
+  term->pair_a = felt->pair_a;
+  term->pair_b = felt->pair_b;
+  term->field_a = felt->field_a;
+  term->field_b = felt->field_b;
+  term->normal = contact->normal;
+  term->depth = contact->depth;
+  term->slack = 0;
+  set_arms(world, term);
+  turn_driven_end(world, &term->a, term->frame_arm_a, term->arm_a, term->field_a, term->normal);
+  turn_driven_end(world, &term->b, term->frame_arm_b, term->arm_b, term->field_b, term->normal);
+  term->law =
+      spore_contact_law(&a, &b, world->contact.spheres.radius[contact->a], world->contact.spheres.radius[contact->b]);
+  term->softening = (SporeSoftening){0, 0, 0};
+  term->stretch = term->drag = term->force = (SporeVec3){0, 0, 0};
+  term->pressing = term->yield = INFINITY;
+}
+
+void spore_world_respond(SporeWorld *world) {
+  world->contact.count = spore_world_find_manifold(world);
+  for (size_t i = 0; i < world->contact.count; i++)
+    fill_term(world, &world->contact.manifold[i], &world->contact.terms[i]);
+  spore_world_restore_friction(world);
+  for (size_t i = 0; i < world->contact.count; i++) {
+    /* Two bodies that physics does not move (a tool and a wall, or one is frozen) still press on each other: the tool
+     * is to feel it. */
+    SporeContactTerm *term = &world->contact.terms[i];
+    if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, 0, NULL);
+    const double *radius = world->contact.spheres.radius;
+    if (term->depth > fmin(radius[term->sphere_a], radius[term->sphere_b])) spore_world_report_depth(world, term);
+  }
+}
+
+void spore_contacts_clear(SporeContactSystem *contact) {
+  spore_grid_free(contact->grid);
+  spore_free(contact->spheres.centre);
+  spore_free(contact->spheres.velocity);
+  spore_free(contact->spheres.radius);
+  spore_free(contact->spheres.body);
+  spore_free(contact->reach);
+  spore_free(contact->manifold);
+  spore_free(contact->terms);
+  spore_free(contact->lanes);
+  spore_free(contact->frames);
+  spore_free(contact->couplings);
+  spore_free(contact->order);
+  spore_free(contact->friction);
+  spore_free(contact->friction_scratch);
+}

@@ -1,0 +1,287 @@
+/* From a description to a world: everything is sized and checked here, so that a step need not. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+#include "core/sim/solve/step_limit.h"
+
+static bool no_memory(SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+}
+
+static bool finite_all(const double *values, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (!isfinite(values[i])) return false;
+  return true;
+}
+
+static bool fail(SporeError *error, const char *body, const char *text) {
+  char place[200];
+  snprintf(place, sizeof place, "bodies/%s", body);
+  return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", text);
+}
+
+static bool check_body(const SporeBodyDescription *body, SporeError *error) {
+  const char *name = body->name ? body->name : "";
+  if (!*name) return fail(error, name, _("a body has no name; expected one that is unique; give it a name"));
+  if ((body->role == SPORE_PASSIVE) != (body->model != NULL))
+    return fail(error, name, _("a passive body needs a mechanical model, and no other may have one; change the role"));
+  const SporeQuat o = body->pose.orientation;
+  if (!spore_vec3_is_finite(body->pose.position) || !spore_vec3_is_finite(body->velocity) ||
+      !spore_vec3_is_finite(body->spin) || !isfinite(o.w + o.x + o.y + o.z))
+    return fail(error, name, _("pose or velocity is not finite; expected numbers; correct the body's pose"));
+  if (body->model && body->model->q_count > 6 * body->model->block_count)
+    return fail(error, name, _("the model has more than 6 configuration values a block; this is a fault of the model"));
+  if (body->model && (body->model->q_room < body->model->q_count || body->model->block_room < body->model->block_count))
+    return fail(error, name, _("the model has less room than state; this is a fault of the model"));
+  if (body->substeps > SPORE_SUBSTEPS_MAXIMUM)
+    return fail(error, name, _("more than 1000 substeps; take a smaller time_step"));
+  if (body->model && !spore_model_is_nodal(body->model) && !body->model->type->inertia)
+    return fail(error, name, _("the model turns, but does not say its inertia; this is a fault of the model"));
+  SporeError reason = SPORE_ERROR_INIT;
+  if (!spore_parameters_check(&spore_contact_parameters, &body->contact, &reason))
+    return fail(error, name, reason.message);
+  return true;
+}
+
+static bool check_tool_fields(const SporeToolDescription *tool, SporeError *error) {
+  if (tool->kind == SPORE_TOOL_SUCTION) return spore_parameters_check(&spore_suction_parameters, &tool->suction, error);
+  if (tool->kind == SPORE_TOOL_BIPOLAR) return spore_parameters_check(&spore_bipolar_parameters, &tool->bipolar, error);
+  if (tool->kind == SPORE_TOOL_NEEDLE) return spore_parameters_check(&spore_needle_parameters, &tool->needle, error);
+  return spore_parameters_check(&spore_jaw_parameters, &tool->jaws, error);
+}
+
+static bool check_description(const SporeWorldDescription *description, SporeError *error) {
+  if (!spore_parameters_check(&spore_solver_parameters, &description->solver, error)) {
+    spore_error_at(error, "solver");
+    return false;
+  }
+  if (!spore_vec3_is_finite(description->gravity))
+    return spore_error_set(error, SPORE_ERROR_INPUT, "environment",
+                           _("gravity is not finite; expected a vector in m/s^2; correct it"));
+  for (size_t i = 0; i < description->body_count; i++)
+    if (!check_body(&description->bodies[i], error)) return false;
+  for (size_t i = 0; i < description->tool_count; i++) {
+    const SporeToolDescription *tool = &description->tools[i];
+    if (!check_tool_fields(tool, error)) return false;
+  }
+  for (size_t i = 0; i < description->emitter_count; i++)
+    if (!spore_parameters_check(&spore_emitter_parameters, &description->emitters[i].fields, error)) return false;
+  return true;
+}
+
+/* Contacts are found once a step; in more substeps particles may go so far that they are found deep inside others. So
+ * many are taken unasked. */
+#define SUBSTEPS_UNASKED 20
+
+/* What the scene leaves open of a model that is to be moved by explicit steps. An implicit method that somebody asks
+ * for has no Jacobian to go by and needs as small ones. */
+static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBodyDescription *from) {
+  if (from->integrator == SPORE_INTEGRATOR_DEFAULT && spore_integrator(body->method.integrator)->implicit) {
+    body->method.integrator = body->method.chosen = SPORE_INTEGRATOR_VERLET;
+    body->method.integrator_source = SPORE_SOURCE_AUTOMATIC;
+  }
+  if (from->substeps > 0) return;
+  bool implicit = spore_integrator(body->method.integrator)->implicit;
+  SporeStepLimit limit;
+  if (!spore_step_limit(body->model, implicit ? SPORE_INTEGRATOR_VERLET : body->method.integrator, NULL, NULL, NULL, 0,
+                        &limit, NULL))
+    return;
+  double needed = ceil(world->solver.time_step / limit.dt_s);
+  if (needed <= (double)body->method.substeps) return;
+  body->method.substeps = (size_t)fmin(needed, SUBSTEPS_UNASKED);
+  body->method.substeps_source = SPORE_SOURCE_AUTOMATIC;
+}
+
+/* Offsets and names; the models are borrowed until the world stands. */
+static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
+  body->role = from->role;
+  body->level = SPORE_LEVEL_FINE;
+  body->model = from->model;
+  body->total_mass = from->model ? spore_model_total_mass(from->model) : 0;
+  body->collision.fields = from->contact;
+  body->rest_pose = (SporePose){from->pose.position, spore_quat_normalise(from->pose.orientation)};
+  body->method.integrator = body->method.chosen =
+      from->integrator == SPORE_INTEGRATOR_DEFAULT ? (SporeIntegratorKind)world->solver.integrator : from->integrator;
+  body->method.substeps = from->substeps > 0 ? from->substeps : (size_t)world->solver.substeps;
+  body->method.integrator_source =
+      from->integrator == SPORE_INTEGRATOR_DEFAULT ? SPORE_SOURCE_SCENE : SPORE_SOURCE_BODY;
+  body->method.substeps_source = from->substeps > 0 ? SPORE_SOURCE_BODY : SPORE_SOURCE_SCENE;
+  if (body->model && body->model->type->rates) choose_steps(world, body, from);
+  body->q_offset = world->state.q_count;
+  body->v_offset = world->state.v_count;
+  body->q_count = from->model ? from->model->q_count : SPORE_POSE_Q;
+  body->block_count = from->model ? from->model->block_count : SPORE_POSE_BLOCKS;
+  body->name = spore_copy_text(from->name);
+  if (!body->name) return no_memory(error);
+  if (!spore_levels_make(world, body, from, error)) return false;
+  body->q_most = body->levels ? body->levels->q_room : body->q_count;
+  body->block_most = body->levels ? body->levels->v_room / 3 : body->block_count;
+  bool roomy = from->model && !body->levels;
+  world->state.q_count += roomy ? from->model->q_room : body->q_most;
+  world->state.v_count += 3 * (roomy ? from->model->block_room : body->block_most);
+  return true;
+}
+
+static void place_body(SporeWorld *world, const SporeBody *body, const SporeBodyDescription *from) {
+  double *q = world->state.rest_q + body->q_offset, *v = world->state.rest_v + body->v_offset;
+  if (body->model) {
+    body->model->type->place(body->model, body->rest_pose, from->velocity, from->spin, q, v);
+    return;
+  }
+  spore_vec3_store(q, body->rest_pose.position);
+  spore_quat_store(q + 3, body->rest_pose.orientation);
+}
+
+static bool create_bodies(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  if (!check_description(description, error) || !spore_world_reserve_nodes(description, error)) return false;
+  size_t n = world->body_count = description->body_count;
+  world->bodies = SPORE_NEW_ARRAY(SporeBody, n);
+  world->state.sites = SPORE_NEW_ARRAY(SporeSite, n);
+  if (!world->bodies || !world->state.sites) return no_memory(error);
+  for (size_t i = 0; i < n; i++) {
+    if (!lay_out_body(world, &world->bodies[i], &description->bodies[i], error)) return false;
+    world->state.sites[i] = (SporeSite){world->bodies[i].q_offset, world->bodies[i].v_offset};
+  }
+  world->state.rest_q = SPORE_NEW_ARRAY(double, world->state.q_count);
+  world->state.rest_v = SPORE_NEW_ARRAY(double, world->state.v_count);
+  if (!world->state.rest_q || !world->state.rest_v) return no_memory(error);
+  for (size_t i = 0; i < n; i++) {
+    SporeBody *body = &world->bodies[i];
+    if (!spore_body_create_matrix(body, error)) return false;
+    place_body(world, body, &description->bodies[i]);
+    if (!finite_all(world->state.rest_q + body->q_offset, body->q_count) ||
+        !finite_all(world->state.rest_v + body->v_offset, 3 * body->block_count))
+      return fail(error, body->name, _("the body cannot be placed: its state is not finite; check its mesh and pose"));
+  }
+  return true;
+}
+
+/* Spheres of the bodies with this role, behind those that are there. */
+static bool add_spheres(SporeWorld *world, const SporeWorldDescription *description, bool unmovable,
+                        SporeError *error) {
+  SporeSpheres *all = &world->contact.spheres;
+  for (size_t i = 0; i < world->body_count; i++) {
+    SporeBody *body = &world->bodies[i];
+    const SporeSphereSet *set = description->bodies[i].spheres;
+    if ((body->role == SPORE_UNMOVABLE) != unmovable) continue;
+    body->collision.start = all->count;
+    if (!spore_body_map_spheres(world, (uint32_t)i, set, error)) return false;
+    if (set && !spore_spheres_radii(set, all->radius + all->count, 1)) return no_memory(error);
+    for (size_t s = 0; set && s < set->count; s++) all->body[all->count + s] = (uint32_t)i;
+    spore_mapping_positions(&body->collision.spheres, world->state.rest_q + body->q_offset,
+                            all->centre + 3 * all->count);
+    all->count += body->collision.spheres.point_count;
+  }
+  return true;
+}
+
+static SporeGridBody grid_body(const SporeBody *body) {
+  return (SporeGridBody){.passive = body->role == SPORE_PASSIVE,
+                         .active = body->role == SPORE_ACTIVE,
+                         .self = body->collision.fields.self,
+                         .group = (uint32_t)body->collision.fields.group};
+}
+
+static bool make_grid(SporeWorld *world, SporeError *error) {
+  SporeGridBody *bodies = SPORE_NEW_ARRAY(SporeGridBody, world->body_count);
+  if (!bodies) return no_memory(error);
+  size_t with = 0; /* bodies without spheres are no reason for a grid */
+  for (size_t i = 0; i < world->body_count; i++)
+    if (world->bodies[i].collision.spheres.point_count > 0) bodies[with++] = grid_body(&world->bodies[i]);
+  bool needed = spore_grid_body_pairs(bodies, with) > 0;
+  for (size_t i = 0; i < world->body_count; i++) bodies[i] = grid_body(&world->bodies[i]);
+  SporeSpheres reaching = world->contact.spheres;
+  reaching.radius = world->contact.reach;
+  if (needed) world->contact.grid = spore_grid_create(&reaching, bodies, world->body_count, 0, error);
+  spore_free(bodies);
+  if (!needed) return true;
+  if (world->contact.grid) return spore_world_reserve_contacts(world) || no_memory(error);
+  return false;
+}
+
+static bool create_spheres(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  size_t count = 0;
+  for (size_t i = 0; i < description->body_count; i++)
+    count += description->bodies[i].spheres ? description->bodies[i].spheres->count : 0;
+  SporeSpheres *all = &world->contact.spheres;
+  all->centre = SPORE_NEW_ARRAY(double, 3 * count);
+  all->velocity = SPORE_NEW_ARRAY(double, 3 * count);
+  all->radius = SPORE_NEW_ARRAY(double, count);
+  all->body = SPORE_NEW_ARRAY(uint32_t, count);
+  if (!all->centre || !all->velocity || !all->radius || !all->body) return no_memory(error);
+  if (!add_spheres(world, description, true, error)) return false;
+  all->static_count = all->count;
+  return add_spheres(world, description, false, error) && spore_world_create_fields(world, description, error) &&
+         make_grid(world, error);
+}
+
+static bool allocate_vectors(SporeWorld *world, SporeError *error) {
+  SporeState *state = &world->state;
+  size_t bodies = world->body_count, q = state->q_count, v = state->v_count;
+  state->target_q = SPORE_NEW_ARRAY(double, q);
+  state->mass = SPORE_NEW_ARRAY(double, 3 * v);
+  state->mass_inverse = SPORE_NEW_ARRAY(double, 3 * v);
+  state->reaction = SPORE_NEW_ARRAY(double, 6 * bodies);
+  world->contact.frames = SPORE_NEW_ARRAY(double, SPORE_FRAME_DOUBLES *bodies);
+  world->commands.ring = SPORE_NEW_ARRAY(SporeCommand, SPORE_COMMAND_CAPACITY);
+  bool made = state->target_q && state->mass && state->mass_inverse && state->reaction && world->contact.frames &&
+              world->commands.ring && spore_world_create_solve(world);
+  return made || no_memory(error);
+}
+
+/* Each body at each of its levels of detail. */
+static bool check_steps(SporeWorld *world, SporeError *error) {
+  for (uint32_t b = 0; b < world->body_count; b++)
+    for (int level = 0; level < SPORE_LEVEL_COUNT; level++) {
+      if (!spore_world_level_model(world, b, (SporeLevelGrade)level)) continue;
+      spore_world_select_level(world, b, (SporeLevelGrade)level);
+      if (!spore_body_check_step(world, b, error)) return false;
+    }
+  return true;
+}
+
+/* The models go back to the caller. */
+static SporeWorld *give_up(SporeWorld *world) {
+  for (size_t i = 0; world->bodies && i < world->body_count; i++) {
+    spore_levels_give_up(&world->bodies[i]);
+    world->bodies[i].model = NULL;
+  }
+  spore_world_free(world);
+  return NULL;
+}
+
+static void set_pool(SporeModel *model, void *pool) { model->pool = pool; }
+
+SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error) {
+  SporeWorld *world = SPORE_NEW(SporeWorld);
+  if (!world) {
+    no_memory(error);
+    return NULL;
+  }
+  world->pool = pool;
+  world->solver = description->solver;
+  world->state.gravity = description->gravity;
+  world->schedule.profile.name = "step";
+  world->links.hold_count = spore_tools_hold_count(description);
+  bool made = create_bodies(world, description, error) && create_spheres(world, description, error) &&
+              spore_world_create_links(world, description, error) &&
+              spore_world_create_tools(world, description, error) &&
+              spore_world_create_particles(world, description, error) &&
+              (spore_world_create_refinement(world) || no_memory(error)) && spore_world_create_factors(world, error) &&
+              spore_world_create_levels(world, description, error) && allocate_vectors(world, error) &&
+              check_steps(world, error);
+  if (!made) return give_up(world);
+  if (!spore_snapshots_init(world)) {
+    spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));
+    return give_up(world);
+  }
+  for (size_t b = 0; b < world->body_count; b++) spore_body_each_model(&world->bodies[b], set_pool, pool);
+  spore_world_create_sleep(world);
+  spore_world_make_plan(world);
+  spore_world_reset(world);
+  return world;
+}

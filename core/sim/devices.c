@@ -1,0 +1,90 @@
+/* Devices: poses of active bodies from them, and the forces that bodies feel back to them. */
+#include <string.h>
+
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+static const SporeGuardLimits limits = SPORE_GUARD_LIMITS;
+
+/* Between reading where a hand is and pushing it. */
+static void push(SporeWorld *world, SporeBody *body) {
+  SporeDevice *device = body->device.device;
+  if (!device->type->push) return;
+  SporeDeviceCommand command = body->device.command;
+  bool whole = spore_passivity_limit(&body->device.passivity, &device->hand, body->device.input.position,
+                                     world->solver.time_step, command.force);
+  world->state.monitor.shortened_forces += !whole;
+  device->type->push(device, &command);
+}
+
+static void sense(SporeWorld *world, SporeBody *body) {
+  double time_s = (double)(world->state.step + 1) * world->solver.time_step;
+  SporeDeviceState said = body->device.input;
+  bool spoke = body->device.device->type->exchange(body->device.device, time_s, &body->device.command, &said);
+  if (!spore_guard_input(&body->device.guard, &limits, time_s, spoke ? &said : NULL, &body->device.input) &&
+      world->state.monitor.held_inputs++ == 0)
+    spore_world_report(world, _("%s: its device said what cannot be; held, or followed at %g m/s; check the device"),
+                       body->name, limits.speed);
+  push(world, body);
+  body->device.input_time_s = time_s;
+  body->device.has_input |= spoke;
+  double *target = world->state.target_q + body->q_offset;
+  memcpy(target, body->device.input.position, sizeof body->device.input.position);
+  spore_quat_store(target + 3, spore_quat_normalise(spore_quat_load(body->device.input.orientation)));
+}
+
+void spore_world_read_devices(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_ACTIVE) continue;
+    if (body->device.device) sense(world, body);
+  }
+  for (size_t i = 0; i < world->links.trocar_count; i++) spore_trocar_aim(world, &world->links.trocars[i]);
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_ACTIVE) spore_active_set_velocity(world, b);
+}
+
+/* What torque is about: the frame's origin, or for a set of nodes that of its frame at time 0. */
+static SporeVec3 origin(const SporeWorld *world, const SporeBody *body) {
+  bool frame = !body->model || spore_model_is_rigid(body->model);
+  return frame ? spore_vec3_load(world->state.q + body->q_offset) : body->rest_pose.position;
+}
+
+static void add_reaction(SporeWorld *world, uint32_t index, SporeVec3 point, SporeVec3 force) {
+  if (index == SPORE_NO_BODY || world->bodies[index].sleep.asleep) return;
+  SporeVec3 arm = spore_vec3_sub(point, origin(world, &world->bodies[index]));
+  spore_vec3_accumulate(world->state.reaction + 6 * (size_t)index, force);
+  spore_vec3_accumulate(world->state.reaction + 6 * (size_t)index + 3, spore_vec3_cross(arm, force));
+}
+
+void spore_world_add_reactions(SporeWorld *world) {
+  /* What sleeps is held as it was when it fell asleep. */
+  for (size_t b = 0; b < world->body_count; b++)
+    if (!world->bodies[b].sleep.asleep) memset(world->state.reaction + 6 * b, 0, 6 * sizeof *world->state.reaction);
+  for (size_t i = 0; i < world->contact.count; i++) {
+    const SporeContactTerm *term = &world->contact.terms[i];
+    SporeVec3 point = spore_contact_term_point(term);
+    add_reaction(world, term->a.body, point, term->force);
+    add_reaction(world, term->b.body, point, spore_vec3_scale(-1, term->force));
+  }
+  size_t springs = spore_world_spring_count(world);
+  for (size_t i = 0; i < springs; i++) {
+    const SporeSpringTerm *term = &world->links.springs[i];
+    if (!world->links.active[i]) continue;
+    add_reaction(world, term->a.body, term->a.position, term->force);
+    add_reaction(world, term->b.body, term->b.position, spore_vec3_scale(-1, term->force));
+  }
+}
+
+void spore_world_feed_back(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_ACTIVE) continue;
+    memcpy(body->device.command.force, world->state.reaction + 6 * b, sizeof body->device.command.force);
+    memcpy(body->device.command.torque, world->state.reaction + 6 * b + 3, sizeof body->device.command.torque);
+    body->device.command.grip_N = 0;
+  }
+  spore_world_feed_back_tools(world);
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_ACTIVE) spore_guard_command(&limits, &world->bodies[b].device.command);
+}

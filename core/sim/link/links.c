@@ -1,0 +1,191 @@
+/* Links: pins become held blocks, all others terms. */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/constraint/pin.h"
+#include "core/sim/world_private.h"
+
+static bool no_memory(SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the links"));
+}
+
+/* Where the blocks of a body are at time 0, count x 3. A frame's angular velocity is where its origin is: at the last
+ * node. */
+static double *block_positions(const SporeWorld *world, const SporeBody *body) {
+  double *points = SPORE_NEW_ARRAY(double, 3 * body->block_count);
+  const double *q = world->state.rest_q + body->q_offset;
+  size_t last = body->model->node_count - 1;
+  for (size_t i = 0; points && i < body->block_count; i++)
+    memcpy(points + 3 * i, q + 3 * (i < last ? i : last), 3 * sizeof *q);
+  return points;
+}
+
+/* What is wrong with a link that hangs on a body whose particles come and go, or NULL. */
+static const char *particles_fault(const SporeWorld *world, const SporeWorldDescription *description, uint32_t index) {
+  const SporeModel *model = index < world->body_count ? world->bodies[index].model : NULL;
+  if (!model || !model->type->particles) return NULL;
+  if (model->life_s > 0)
+    return _("the link hangs on particles that dissolve; expected a body that stays; choose another");
+  for (size_t i = 0; i < description->tool_count; i++)
+    if (description->tools[i].kind == SPORE_TOOL_SUCTION)
+      return _("the link hangs on particles that a suction may take; expected a body that stays; choose another, or "
+               "remove the suction");
+  for (size_t i = 0; i < description->emitter_count; i++)
+    if (description->emitters[i].body == index && description->emitters[i].fields.reserve > 0)
+      return _("the link hangs on particles of which an emitter keeps some back; expected a body that stays; choose "
+               "another, or an emitter without a reserve");
+  return NULL;
+}
+
+/* What is wrong with a pin's body, or NULL. */
+static const char *pin_fault(const SporeWorld *world, const SporeLinkDescription *link) {
+  if (link->body_a < world->body_count && world->bodies[link->body_a].role == SPORE_PASSIVE) return NULL;
+  return _("a pin holds nothing here: its body does not move; choose a passive body");
+}
+
+static bool place_error(const SporeLinkDescription *link, SporeError *error) {
+  char place[200];
+  snprintf(place, sizeof place, "links/%s", link->name ? link->name : "");
+  spore_error_at(error, place);
+  return false;
+}
+
+/* Marks the blocks of the body at `points` that pins hold. */
+static bool mark_held(const SporeBody *body, const SporeWorldDescription *description, uint32_t index,
+                      const double *points, uint8_t *marks, SporeError *error) {
+  for (size_t i = 0; i < description->link_count; i++) {
+    const SporeLinkDescription *link = &description->links[i];
+    if (link->kind != SPORE_LINK_PIN || link->body_a != index) continue;
+    if (spore_pin_select(points, body->block_count - body->model->spare_count, link->point_a, link->radius, marks) > 0)
+      continue;
+    spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                    _("the pin holds nothing: no node lies within its radius; move it or make the radius larger"));
+    return place_error(link, error);
+  }
+  return true;
+}
+
+/* The list of held blocks from the marks, and velocity 0 for them. */
+static bool collect_held(SporeWorld *world, SporeBody *body, const uint8_t *marks) {
+  size_t count = 0;
+  for (size_t i = 0; i < body->block_count; i++) count += marks[i];
+  body->held.blocks = SPORE_NEW_ARRAY(uint32_t, count);
+  if (!body->held.blocks) return false;
+  body->held.count = 0;
+  for (size_t i = 0; i < body->block_count; i++)
+    if (marks[i]) body->held.blocks[body->held.count++] = (uint32_t)i;
+  body->held.pin_count = body->held.count;
+  spore_pin_filter(body->held.blocks, body->held.count, world->state.rest_v + body->v_offset);
+  return true;
+}
+
+bool spore_body_create_pins(SporeWorld *world, const SporeWorldDescription *description, uint32_t index,
+                            SporeError *error) {
+  SporeBody *body = &world->bodies[index];
+  uint8_t *marks = SPORE_NEW_ARRAY(uint8_t, body->block_count);
+  double *points = body->model ? block_positions(world, body) : NULL;
+  bool good = marks && (points || !body->model);
+  if (!good) no_memory(error);
+  good = good && (!points || mark_held(body, description, index, points, marks, error));
+  if (good && !collect_held(world, body, marks)) good = no_memory(error);
+  spore_free(points);
+  spore_free(marks);
+  return good;
+}
+
+/* Ports that active bodies go through are no terms. */
+static bool is_aimed(const SporeWorld *world, const SporeLinkDescription *link) {
+  return link->kind == SPORE_LINK_PORT && link->body_a < world->body_count &&
+         world->bodies[link->body_a].role == SPORE_ACTIVE;
+}
+
+static bool allocate_links(SporeWorld *world, const SporeWorldDescription *description) {
+  size_t links = 0, ports = 0;
+  for (size_t i = 0; i < description->link_count; i++) {
+    const SporeLinkDescription *link = &description->links[i];
+    if (is_aimed(world, link)) {
+      ports++;
+    } else if (link->kind != SPORE_LINK_PIN) {
+      links++;
+      world->links.term_count += spore_link_term_count(link);
+    }
+  }
+  world->links.all = SPORE_NEW_ARRAY(SporeLink, links);
+  world->links.trocars = SPORE_NEW_ARRAY(SporeTrocar, ports);
+  return world->links.all && world->links.trocars;
+}
+
+static bool allocate_springs(SporeWorld *world) {
+  size_t count = spore_world_spring_count(world);
+  world->links.springs = SPORE_NEW_ARRAY(SporeSpringTerm, count);
+  world->links.active = SPORE_NEW_ARRAY(bool, count);
+  world->links.mappings = SPORE_NEW_ARRAY(SporeMapping, 2 * count);
+  world->links.couplings = SPORE_NEW_ARRAY(SporeCoupling, count);
+  world->links.order = SPORE_NEW_ARRAY(uint32_t, count);
+  return world->links.springs && world->links.active && world->links.mappings && world->links.couplings &&
+         world->links.order && spore_world_create_pulls(world);
+}
+
+/* term_count: of the links so far. */
+static bool make_link(SporeWorld *world, const SporeLinkDescription *from, size_t *term_count, SporeError *error) {
+  if (is_aimed(world, from)) {
+    spore_trocar_make(world, &world->links.trocars[world->links.trocar_count++], from);
+    return true;
+  }
+  SporeLink *link = &world->links.all[world->links.count++];
+  link->term_start = *term_count;
+  if (!spore_link_make(world, link, from, error)) return false;
+  *term_count += link->term_count;
+  return true;
+}
+
+static bool compile_link(SporeWorld *world, const SporeWorldDescription *description, const SporeLinkDescription *link,
+                         size_t *term_count, SporeError *error) {
+  bool pin = link->kind == SPORE_LINK_PIN;
+  const char *fault = spore_link_fault(world, link);
+  if (!fault) fault = particles_fault(world, description, link->body_a);
+  if (!fault) fault = particles_fault(world, description, link->body_b);
+  if (!fault && pin) fault = pin_fault(world, link);
+  if (fault) spore_error_set(error, SPORE_ERROR_INPUT, NULL, "%s", fault);
+  else if (pin || make_link(world, link, term_count, error)) return true;
+  return place_error(link, error);
+}
+
+bool spore_world_create_links(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  if (!allocate_links(world, description) || !allocate_springs(world)) return no_memory(error);
+  size_t term_count = 0;
+  for (size_t i = 0; i < description->link_count; i++)
+    if (!compile_link(world, description, &description->links[i], &term_count, error)) return false;
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (!spore_body_create_pins(world, description, b, error)) return false;
+    if (body->role == SPORE_PASSIVE) world->state.dof += 3 * (body->block_count - body->held.count);
+  }
+  return true;
+}
+
+void spore_world_link(SporeWorld *world) {
+  for (size_t i = 0; i < world->links.count; i++) spore_link_follow(world, &world->links.all[i]);
+  size_t count = spore_world_spring_count(world);
+  for (size_t i = 0; i < count; i++) {
+    if (!world->links.active[i]) continue;
+    spore_world_fill_end(world, &world->links.springs[i].a);
+    spore_world_fill_end(world, &world->links.springs[i].b);
+  }
+}
+
+void spore_world_clear_links(SporeWorld *world) {
+  SporeLinkSystem *links = &world->links;
+  for (size_t i = 0; links->mappings && i < 2 * spore_world_spring_count(world); i++)
+    spore_mapping_clear(&links->mappings[i]);
+  for (size_t i = 0; links->all && i < links->count; i++) spore_free(links->all[i].name);
+  spore_free(links->all);
+  spore_free(links->trocars);
+  spore_free(links->springs);
+  spore_free(links->active);
+  spore_free(links->mappings);
+  spore_free(links->couplings);
+  spore_free(links->order);
+}

@@ -1,0 +1,47 @@
+/* Ports that a device's instrument goes through: its tip is where the device says, its shaft through the port. */
+#include "core/sim/world_private.h"
+
+#define LEAST_M 1e-6 /* nearer to its pivot an instrument points anywhere */
+
+static SporeVec3 to_frame(SporeQuat orientation, SporeVec3 a) {
+  return spore_quat_rotate(spore_quat_conjugate(orientation), a);
+}
+
+void spore_trocar_make(const SporeWorld *world, SporeTrocar *trocar, const SporeLinkDescription *from) {
+  const SporePose *pose = &world->bodies[from->body_a].rest_pose;
+  *trocar = (SporeTrocar){.body = from->body_a, .pivot = from->point_a};
+  SporeVec3 along = spore_vec3_normalise(from->direction, (SporeVec3){0, 0, 0});
+  trocar->along = to_frame(pose->orientation, along);
+  trocar->base = to_frame(pose->orientation, spore_vec3_sub(from->point_a, pose->position));
+  /* The point of the line that is nearest to the body's origin. */
+  trocar->base = spore_vec3_add_scaled(trocar->base, -spore_vec3_dot(trocar->base, trocar->along), trocar->along);
+}
+
+/* The least turn that takes one unit vector to the other. */
+static SporeQuat turn_between(SporeVec3 from, SporeVec3 to) {
+  SporeVec3 axis = spore_vec3_cross(from, to);
+  double w = 1 + spore_vec3_dot(from, to);
+  if (w < 1e-12) {
+    SporeVec3 across = spore_vec3_cross(from, fabs(from.x) < 0.5 ? (SporeVec3){1, 0, 0} : (SporeVec3){0, 1, 0});
+    axis = spore_vec3_normalise(across, (SporeVec3){0, 0, 1});
+    w = 0;
+  }
+  return spore_quat_normalise((SporeQuat){w, axis.x, axis.y, axis.z});
+}
+
+void spore_trocar_aim(const SporeWorld *world, const SporeTrocar *trocar) {
+  double *target = world->state.target_q + world->bodies[trocar->body].q_offset;
+  SporeQuat orientation = spore_quat_load(target + 3);
+  SporeVec3 to_pivot = spore_vec3_sub(trocar->pivot, spore_vec3_load(target));
+  double distance = spore_vec3_length(to_pivot), aside = spore_vec3_length(trocar->base);
+  if (!(distance > aside + LEAST_M)) return;
+  /* The two points of the line that are as far from the origin as the pivot is: the one that lies nearer to it. */
+  double reach = sqrt(distance * distance - aside * aside);
+  SporeVec3 ahead = spore_vec3_add_scaled(trocar->base, reach, trocar->along);
+  SporeVec3 behind = spore_vec3_add_scaled(trocar->base, -reach, trocar->along);
+  SporeVec3 wanted = to_frame(orientation, to_pivot);
+  bool forward = spore_vec3_dot(wanted, ahead) >= spore_vec3_dot(wanted, behind);
+  SporeVec3 from = spore_quat_rotate(orientation, spore_vec3_scale(1 / distance, forward ? ahead : behind));
+  SporeQuat turn = turn_between(from, spore_vec3_scale(1 / distance, to_pivot));
+  spore_quat_store(target + 3, spore_quat_normalise(spore_quat_multiply(turn, orientation)));
+}

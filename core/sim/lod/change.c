@@ -1,0 +1,167 @@
+/* A body changes its level while it runs: the state of one becomes that of another, or it stays as it is and the
+ * monitor says why.
+ *
+ * Positions and velocities follow material points (fit.c). Linear and angular momentum of a free body are kept,
+ * and kinetic energy is taken from what moves besides them where the internal energy grew. Links and pulls hold on to
+ * the same points, jaws and friction to the same spheres. */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/text.h"
+#include "core/body/momentum.h"
+#include "core/constraint/pin.h"
+#include "core/sim/world_private.h"
+
+#define WEIGHT 9.81 /* N/kg */
+
+/* A needle leads the body, or goes through it: those ends are of one level alone. Jaws hold spheres. */
+static bool is_sewn(const SporeWorld *world, uint32_t index) {
+  const SporeMapping *spheres = &world->bodies[index].collision.spheres;
+  for (size_t i = 0; i < world->tools.count; i++)
+    if (world->tools.all[i].needle && world->tools.all[i].needle->thread == index) return true;
+  for (size_t i = world->links.term_count; i < world->links.term_count + world->links.hold_count; i++) {
+    const SporeEnd *end = &world->links.springs[i].a;
+    if (world->links.active[i] && end->body == index && end->mapping != spheres) return true;
+  }
+  return false;
+}
+
+static const char *fault_of(const SporeWorld *world, uint32_t index, SporeLevelGrade level) {
+  const SporeBody *body = &world->bodies[index];
+  if (!body->levels || !body->levels->level[level].model) return _("it has no such level; add one to its fidelity");
+  if (body->frozen) return _("it is frozen; thaw it first");
+  if (body->altered) return _("it was cut, torn or coagulated, which no other level knows of; start again from time 0");
+  if (is_sewn(world, index))
+    return _("a needle leads it or a thread goes through it, at one level alone; free it first");
+  return NULL;
+}
+
+static double own_energy(const SporeModel *model, const double *q, const double *v) {
+  return model->type->potential(model, q) + spore_model_motion(model, q, v, NULL).kinetic;
+}
+
+/* What the change missed of the momentum, N s. */
+static double momentum_missed(const SporeModel *from, const double *q, const double *v, const SporeModel *to,
+                              const double *q1, const double *v1) {
+  SporeMotion before = spore_model_motion(from, q, v, NULL);
+  SporeMotion after = spore_model_motion(to, q1, v1, &before.centre);
+  double extent = sqrt(spore_mat3_trace(after.inertia) / after.mass);
+  return fmax(spore_vec3_distance(before.momentum, after.momentum),
+              spore_vec3_distance(before.angular, after.angular) / extent);
+}
+
+/* What the candidate has of energy, kinetic and internal, above what the body has. */
+static double energy_gained(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to) {
+  const SporeLevels *levels = body->levels;
+  return own_energy(levels->level[to].model, levels->q, levels->v) -
+         own_energy(body->model, world->state.q + body->q_offset, world->state.v + body->v_offset);
+}
+
+static void note_change(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to, double error) {
+  SporeLevels *levels = body->levels;
+  const SporeLevel *level = &levels->level[to];
+  const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
+  double gained = energy_gained(world, body, to);
+  SporeLevelState *state = &levels->state;
+  state->energy = state->changes ? fmax(state->energy, gained) : gained;
+  state->error = fmax(state->error, error);
+  state->changes++;
+  state->level = to;
+  if (body->held.count == 0 && level->held_count == 0)
+    state->momentum = fmax(state->momentum, momentum_missed(body->model, q, v, level->model, levels->q, levels->v));
+}
+
+static void accept(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  SporeBody *body = &world->bodies[index];
+  SporeVec3 pulled;
+  bool pull = spore_world_pulled_point(world, index, &pulled);
+  spore_world_exchange_level(world, index, to);
+  memcpy(world->state.next_q + body->q_offset, body->levels->q, body->q_count * sizeof(double));
+  memcpy(world->state.next_v + body->v_offset, body->levels->v, 3 * body->block_count * sizeof(double));
+  spore_body_mark_changed(world, body);
+  spore_world_advance_state(world);
+  if (body->model->type->forget) body->model->type->forget(body->model);
+  spore_body_forget_steps(world, body);
+  spore_body_set_mass(world, body);
+  if (to != SPORE_LEVEL_FINE && world->topology.cuts.capacity > 0 && body->model->type->cut)
+    spore_world_report(world, _("%s: at level %s it is neither cut nor torn; change it to level fine before"),
+                       body->name, spore_level_names[to]);
+  if (pull) spore_world_pull_by(world, index, pulled);
+  spore_world_map_spheres(world);
+  spore_world_link(world);
+  spore_world_publish(world);
+}
+
+static void refuse(SporeWorld *world, SporeBody *body, SporeLevelGrade to, const char *reason) {
+  if (body->levels) body->levels->state.refused++;
+  spore_world_report(world, _("%s: does not change to level %s: %s"), body->name, spore_level_names[to], reason);
+}
+
+/* Why the candidate is not taken, into the text; false: it is. More energy than the body has, and lifting it by the
+ * tolerance would take, is not a matter of how finely it is made. */
+static bool refuses(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to, double error, char *text,
+                    size_t size) {
+  double own = own_energy(body->model, world->state.q + body->q_offset, world->state.v + body->v_offset);
+  double gained = energy_gained(world, body, to), most = own + WEIGHT * body->total_mass * body->levels->tolerance;
+  if (!(error <= body->levels->tolerance))
+    snprintf(
+        text, size,
+        _("a point of it would move %.3g m, and level_tolerance is %.3g m; wait until it is bent less, or make the "
+          "level finer"),
+        error, body->levels->tolerance);
+  else if (!(gained <= most))
+    snprintf(text, size,
+             _("it would add %.3g J to the %.3g J that the body has; wait until it is bent less, or make the level "
+               "finer"),
+             gained, own);
+  else return false;
+  return true;
+}
+
+void spore_world_change_level(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  SporeBody *body = &world->bodies[index];
+  if (body->level == to) return;
+  const char *fault = fault_of(world, index, to);
+  if (fault) {
+    refuse(world, body, to, fault);
+    return;
+  }
+  char reason[300];
+  spore_level_fit(world, body, to);
+  double error = spore_level_error(body->levels, to);
+  if (refuses(world, body, to, error, reason, sizeof reason)) {
+    refuse(world, body, to, reason);
+    return;
+  }
+  note_change(world, body, to, error);
+  accept(world, index, to);
+}
+
+void spore_world_set_level(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  SporeBody *body = &world->bodies[index];
+  if (!body->levels || body->level == to) return;
+  spore_world_wake(world, index);
+  spore_world_exchange_level(world, index, to);
+  body->levels->state.level = to;
+  spore_world_set_state(world, index, body->levels->level[to].rest_q, body->levels->level[to].rest_v);
+}
+
+void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, const double *v) {
+  SporeBody *body = &world->bodies[index];
+  spore_world_wake_all(world);
+  memcpy(world->state.next_q + body->q_offset, q, body->q_count * sizeof *q);
+  memcpy(world->state.target_q + body->q_offset, q, body->q_count * sizeof *q);
+  memcpy(world->state.next_v + body->v_offset, v, 3 * body->block_count * sizeof *v);
+  if (body->parking_gap > 0) spore_body_find_parked(body, q);
+  spore_pin_filter(body->held.blocks, body->held.count, world->state.next_v + body->v_offset);
+  spore_body_mark_changed(world, body);
+  spore_world_advance_state(world);
+  spore_body_forget_steps(world, body);
+  if (body->model && body->model->type->forget) body->model->type->forget(body->model);
+  world->contact.count = world->contact.friction_count = 0; /* they belong to the state before */
+  spore_world_lose_lines(world);
+  if (body->model) spore_body_set_mass(world, body);
+  spore_world_map_spheres(world);
+  spore_world_link(world);
+  spore_world_publish(world);
+}

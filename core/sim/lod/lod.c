@@ -1,0 +1,337 @@
+/* Levels: what is made of them before a world runs, and how one takes the place of another. */
+#include "core/sim/world_private.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+
+#define WEIGHT_APART 0.1 /* of a body's mass, by which a level may differ from it */
+
+const char *const spore_level_names[] = {"coarse", "medium", "fine", NULL};
+
+static bool no_memory(SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a body's levels"));
+}
+
+static bool refuse(const SporeBody *body, int grade, const char *reason, SporeError *error) {
+  char place[200];
+  snprintf(place, sizeof place, "bodies/%s", body->name);
+  return spore_error_set(error, SPORE_ERROR_INPUT, place, _("level %s: %s"), spore_level_names[grade], reason);
+}
+
+/* Sizes. */
+
+static bool check_model(const SporeBody *body, int grade, SporeError *error) {
+  const SporeModel *fine = body->model, *model = body->levels->level[grade].model;
+  if (fine->type->particles || spore_model_is_rigid(fine))
+    return refuse(body, grade,
+                  _("the body does not deform as one piece, so that it has no levels; take them out of its fidelity"),
+                  error);
+  if (model->type != fine->type)
+    return refuse(body, grade, _("it is of another model than the body; this is a fault of the scene"), error);
+  double mass = spore_model_total_mass(model);
+  if (fabs(mass - body->total_mass) <= WEIGHT_APART * body->total_mass) return true;
+  char reason[300];
+  snprintf(reason, sizeof reason,
+           _("it weighs %.4g kg, and the body %.4g kg; expected the same to a tenth; give it the same density and a "
+             "geometry of the same size"),
+           mass, body->total_mass);
+  return refuse(body, grade, reason, error);
+}
+
+static bool make_room(SporeLevels *levels, const SporeModel *model) {
+  if (model->q_room > levels->q_room) levels->q_room = model->q_room;
+  if (3 * model->block_room > levels->v_room) levels->v_room = 3 * model->block_room;
+  return true;
+}
+
+bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
+  SporeModel *const *model = from->levels.model;
+  if (!model[SPORE_LEVEL_COARSE] && !model[SPORE_LEVEL_MEDIUM]) return true;
+  SporeLevels *levels = body->levels = SPORE_NEW(SporeLevels);
+  if (!levels) return no_memory(error);
+  levels->tolerance = from->levels.tolerance;
+  levels->first = from->levels.first;
+  levels->level[SPORE_LEVEL_FINE].model = body->model;
+  make_room(levels, body->model);
+  for (int k = 0; k < SPORE_LEVEL_FINE; k++) {
+    if (!model[k]) continue;
+    levels->level[k].model = model[k];
+    model[k]->map_slack = levels->tolerance;
+    if (!check_model(body, k, error)) return false;
+    make_room(levels, model[k]);
+  }
+  if (!levels->level[levels->first].model)
+    return refuse(body, (int)levels->first, _("the body begins at it, and has no such level; add it, or begin at fine"),
+                  error);
+  body->model->map_slack = levels->tolerance;
+  world->has_levels = true;
+  return true;
+}
+
+/* One for another. */
+
+/* Out of the body and back into it: nothing is copied but pointers. */
+
+static void put_away(SporeWorld *world, SporeBody *body) {
+  SporeLevel *level = &body->levels->level[body->level];
+  level->spheres = body->collision.spheres;
+  level->whole_weight = body->collision.whole_weight;
+  level->matrix = body->preconditioner.matrix;
+  level->factor = body->preconditioner.factor;
+  level->held_flags = body->held.flags;
+  level->held = body->held.blocks;
+  level->held_count = body->held.count;
+  level->pin_count = body->held.pin_count;
+  for (size_t e = 0; level->ends && e < body->levels->end_count; e++)
+    level->ends[e] = world->links.mappings[body->levels->ends[e]];
+}
+
+static void take_out(SporeWorld *world, SporeBody *body, SporeLevelGrade grade) {
+  SporeLevel *level = &body->levels->level[grade];
+  body->level = grade;
+  body->model = level->model;
+  body->q_count = level->model->q_count;
+  body->block_count = level->model->block_count;
+  body->total_mass = spore_model_total_mass(level->model);
+  body->collision.spheres = level->spheres;
+  body->collision.whole_weight = level->whole_weight;
+  body->preconditioner.matrix = level->matrix;
+  body->preconditioner.factor = level->factor;
+  body->held.flags = level->held_flags;
+  body->held.blocks = level->held;
+  body->held.count = level->held_count;
+  body->held.pin_count = level->pin_count;
+  for (size_t e = 0; level->ends && e < body->levels->end_count; e++)
+    world->links.mappings[body->levels->ends[e]] = level->ends[e];
+}
+
+static void take_rest(SporeWorld *world, const SporeBody *body) {
+  const SporeLevel *level = &body->levels->level[body->level];
+  double *q = world->state.rest_q + body->q_offset, *v = world->state.rest_v + body->v_offset;
+  memset(q, 0, body->levels->q_room * sizeof *q);
+  memset(v, 0, body->levels->v_room * sizeof *v);
+  memcpy(q, level->rest_q, body->q_count * sizeof *q);
+  memcpy(v, level->rest_v, 3 * body->block_count * sizeof *v);
+}
+
+/* What slides along the body is sought anew on the level's own line. */
+static void seek_curve_joints(SporeWorld *world, uint32_t index) {
+  const SporeModel *model = world->bodies[index].model;
+  for (size_t i = 0; model->type->path && i < world->links.count; i++) {
+    SporeLink *link = &world->links.all[i];
+    const SporeSpringTerm *term = &world->links.springs[link->term_start];
+    if (!term->curve || term->b.body != index || term->curve->points) continue;
+    link->curve.knots = model->type->path(model);
+    link->lost = true;
+  }
+}
+
+void spore_world_exchange_level(SporeWorld *world, uint32_t index, SporeLevelGrade grade) {
+  SporeBody *body = &world->bodies[index];
+  size_t free_before = body->block_count - body->held.count;
+  put_away(world, body);
+  take_out(world, body, grade);
+  seek_curve_joints(world, index);
+  world->state.dof += 3 * (body->block_count - body->held.count - free_before);
+}
+
+void spore_world_select_level(SporeWorld *world, uint32_t index, SporeLevelGrade grade) {
+  SporeBody *body = &world->bodies[index];
+  if (!body->levels || body->level == grade) return;
+  spore_world_exchange_level(world, index, grade);
+  take_rest(world, body);
+}
+
+void spore_world_reset_levels(SporeWorld *world) {
+  for (uint32_t b = 0; world->has_levels && b < world->body_count; b++) {
+    SporeLevels *levels = world->bodies[b].levels;
+    if (!levels) continue;
+    spore_world_select_level(world, b, levels->first);
+    take_rest(world, &world->bodies[b]); /* changes while it runs leave that of another level there */
+    levels->state = (SporeLevelState){.level = levels->first};
+  }
+}
+
+/* Making one: it is put into the body as if that were its only one. */
+
+static bool remember_rest(const SporeWorld *world, const SporeBody *body, SporeLevel *level) {
+  level->rest_q = SPORE_NEW_ARRAY(double, body->q_count);
+  level->rest_v = SPORE_NEW_ARRAY(double, 3 * body->block_count);
+  if (!level->rest_q || !level->rest_v) return false;
+  memcpy(level->rest_q, world->state.rest_q + body->q_offset, body->q_count * sizeof(double));
+  memcpy(level->rest_v, world->state.rest_v + body->v_offset, 3 * body->block_count * sizeof(double));
+  return true;
+}
+
+/* What links hold and the pull may hold, where the finest level has it. */
+static bool map_ends(SporeWorld *world, uint32_t index, SporeMapping *ends, SporeError *error) {
+  const SporeBody *body = &world->bodies[index];
+  const SporeLevels *levels = body->levels;
+  const double *fine = levels->level[SPORE_LEVEL_FINE].rest_q;
+  for (size_t e = 0; e < levels->end_count; e++) {
+    double point[3];
+    if (levels->ends[e] == 2 * spore_world_pull_index(world, index)) {
+      if (!spore_mapping_init_identity(&ends[e], body->model->node_count)) return no_memory(error);
+      continue;
+    }
+    const SporeMapping *at = &world->links.mappings[levels->ends[e]];
+    spore_vec3_store(point, spore_pose_apply_inverse(body->rest_pose, spore_mapping_position(at, 0, fine)));
+    if (!spore_world_map(world, index, point, 1, &ends[e], error)) return false;
+  }
+  return true;
+}
+
+static bool fill_level(SporeWorld *world, const SporeWorldDescription *description, uint32_t index, SporeError *error) {
+  SporeBody *body = &world->bodies[index];
+  const SporeBodyDescription *from = &description->bodies[index];
+  double *q = world->state.rest_q + body->q_offset, *v = world->state.rest_v + body->v_offset;
+  body->model->type->place(body->model, body->rest_pose, from->velocity, from->spin, q, v);
+  return spore_body_create_matrix(body, error) && spore_body_map_spheres(world, index, from->spheres, error) &&
+         spore_body_create_pins(world, description, index, error) && spore_body_create_factor(world, body, error);
+}
+
+static bool keep_whole_weight(const SporeBody *body, SporeLevel *level) {
+  const SporeBody *fine = body;
+  if (!fine->levels->level[SPORE_LEVEL_FINE].whole_weight || level->spheres.kind != SPORE_MAPPING_LINEAR) return true;
+  size_t count = level->spheres.row_start[level->spheres.point_count];
+  level->whole_weight = SPORE_NEW_ARRAY(double, count);
+  if (level->whole_weight) memcpy(level->whole_weight, level->spheres.weight, count * sizeof(double));
+  return level->whole_weight != NULL;
+}
+
+static bool make_level(SporeWorld *world, const SporeWorldDescription *description, uint32_t index,
+                       SporeLevelGrade grade, SporeError *error) {
+  SporeBody *body = &world->bodies[index];
+  SporeLevel *level = &body->levels->level[grade];
+  SporeMapping *ends = SPORE_NEW_ARRAY(SporeMapping, body->levels->end_count);
+  if (!ends) return no_memory(error);
+  put_away(world, body);
+  take_out(world, body, grade);
+  bool good = fill_level(world, description, index, error);
+  good = good && (remember_rest(world, body, level) || no_memory(error));
+  good = good && map_ends(world, index, ends, error);
+  put_away(world, body);
+  take_out(world, body, SPORE_LEVEL_FINE);
+  level->ends = ends;
+  return good && (keep_whole_weight(body, level) || no_memory(error));
+}
+
+static bool find_ends(SporeWorld *world, uint32_t index) {
+  SporeLevels *levels = world->bodies[index].levels;
+  size_t springs = world->links.term_count;
+  levels->ends = SPORE_NEW_ARRAY(uint32_t, 2 * springs + 1);
+  if (!levels->ends) return false;
+  for (size_t i = 0; i < springs; i++) {
+    if (world->links.springs[i].a.body == index) levels->ends[levels->end_count++] = (uint32_t)(2 * i);
+    if (world->links.springs[i].b.body == index && !world->links.springs[i].curve)
+      levels->ends[levels->end_count++] = (uint32_t)(2 * i + 1);
+  }
+  levels->ends[levels->end_count++] = (uint32_t)(2 * spore_world_pull_index(world, index));
+  levels->level[SPORE_LEVEL_FINE].ends = SPORE_NEW_ARRAY(SporeMapping, levels->end_count);
+  return levels->level[SPORE_LEVEL_FINE].ends != NULL;
+}
+
+static bool make_levels(SporeWorld *world, const SporeWorldDescription *description, uint32_t index,
+                        SporeError *error) {
+  SporeBody *body = &world->bodies[index];
+  SporeLevels *levels = body->levels;
+  if (!find_ends(world, index) || !remember_rest(world, body, &levels->level[SPORE_LEVEL_FINE]))
+    return no_memory(error);
+  for (int k = 0; k < SPORE_LEVEL_FINE; k++) {
+    if (!levels->level[k].model || make_level(world, description, index, (SporeLevelGrade)k, error)) continue;
+    SporeError reason = *error;
+    char place[200];
+    snprintf(place, sizeof place, "bodies/%s", body->name);
+    return spore_error_set(error, reason.code, *reason.place ? reason.place : place, _("level %s: %s"),
+                           spore_level_names[k], reason.message);
+  }
+  return spore_levels_sample(world, &description->bodies[index], index, error);
+}
+
+bool spore_world_create_levels(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  for (uint32_t b = 0; world->has_levels && b < world->body_count; b++)
+    if (world->bodies[b].levels && !make_levels(world, description, b, error)) return false;
+  return true;
+}
+
+/* The end. */
+
+static void free_level(SporeLevels *levels, SporeLevel *level, bool active) {
+  spore_free(level->rest_q);
+  spore_free(level->rest_v);
+  spore_mapping_clear(&level->samples);
+  spore_free(level->nearest);
+  spore_free(level->diagonal);
+  for (size_t e = 0; !active && level->ends && e < levels->end_count; e++) spore_mapping_clear(&level->ends[e]);
+  spore_free(level->ends);
+  if (level->model) level->model->type->destroy(level->model);
+  if (active) return;
+  spore_mapping_clear(&level->spheres);
+  spore_free(level->whole_weight);
+  spore_block_matrix_clear(&level->matrix);
+  spore_block_cholesky_clear(&level->factor);
+  spore_free(level->held_flags);
+  spore_free(level->held);
+}
+
+void spore_levels_free(SporeBody *body) {
+  SporeLevels *levels = body->levels;
+  for (int k = 0; k < SPORE_LEVEL_COUNT; k++) free_level(levels, &levels->level[k], (SporeLevelGrade)k == body->level);
+  spore_free(levels->ends);
+  spore_free(levels->sample_weight);
+  spore_free(levels->before);
+  spore_free(levels->speed);
+  spore_free(levels->after);
+  spore_free(levels->q);
+  spore_free(levels->v);
+  spore_free(levels->work);
+  spore_free(levels);
+}
+
+void spore_levels_give_up(SporeBody *body) {
+  for (int k = 0; body->levels && k < SPORE_LEVEL_COUNT; k++) body->levels->level[k].model = NULL;
+}
+
+/* Asking. */
+
+static size_t mapping_memory(const SporeMapping *mapping) {
+  size_t entries = mapping->row_start ? mapping->row_start[mapping->point_count] : 0;
+  size_t points = mapping->points ? 3 * sizeof(double) : mapping->row_start ? sizeof(uint32_t) : 0;
+  return mapping->point_count * points + entries * (sizeof(uint32_t) + sizeof(double));
+}
+
+static size_t waiting_memory(const SporeLevel *level) {
+  const SporeBlockMatrix *matrix = &level->matrix;
+  size_t blocks = matrix->row_start ? matrix->row_start[matrix->block_count] : 0;
+  size_t bytes = blocks * (9 * sizeof(double) + sizeof(uint32_t)) + mapping_memory(&level->spheres);
+  return bytes + (level->model->q_count + 3 * level->model->block_count) * sizeof(double);
+}
+
+size_t spore_world_level_memory(const SporeWorld *world, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
+  const SporeLevels *levels = body->levels;
+  size_t bytes = 0;
+  for (int k = 0; levels && k < SPORE_LEVEL_COUNT; k++) {
+    const SporeLevel *level = &levels->level[k];
+    if (!level->model) continue;
+    bytes += mapping_memory(&level->samples);
+    if ((SporeLevelGrade)k != body->level) bytes += waiting_memory(level);
+  }
+  if (levels)
+    bytes += (10 * levels->sample_count + levels->q_room + (1 + SPORE_LEVEL_VECTORS) * levels->v_room) * sizeof(double);
+  return bytes;
+}
+
+SporeLevelGrade spore_world_first_level(const SporeWorld *world, uint32_t body) {
+  const SporeLevels *levels = world->bodies[body].levels;
+  return levels ? levels->first : SPORE_LEVEL_FINE;
+}
+
+bool spore_world_level_state(const SporeWorld *world, uint32_t body, SporeLevelState *state) {
+  if (!world->bodies[body].levels) return false;
+  *state = world->bodies[body].levels->state;
+  return true;
+}

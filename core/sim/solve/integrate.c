@@ -1,0 +1,172 @@
+/* Integrates the islands, each on its own and on any thread. */
+#include <math.h>
+#include <string.h>
+
+#include "core/sim/solve/island_system.h"
+
+/* Of the next part, leaving one for each of those behind it. */
+static void limit_iterations(const SporeEffort *effort, size_t behind, const SporeSolverFields *solver,
+                             SporeSolverFields *fields) {
+  int64_t left = effort->iterations > behind ? (int64_t)(effort->iterations - behind) : 1;
+  fields->newton_iterations = left < solver->newton_iterations ? left : solver->newton_iterations;
+}
+
+/* Whether an attempt is still worth its next part, after one that went like `result`. */
+static bool go_on(SporeEffort *effort, const SporeStepResult *result) {
+  size_t spent = result->newton_iterations;
+  effort->iterations -= spent < effort->iterations ? spent : effort->iterations;
+  effort->given_up = !result->converged && !(result->residual <= effort->hopeless);
+  return !effort->given_up;
+}
+
+/* How fast a body by the static method seems to be is how far its balance was: where another method stands in, it
+ * starts from rest. */
+static const double *start_velocity(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind) {
+  const double *v0 = island->v0;
+  for (size_t i = 0; kind != island->integrator && i < island->kept_count; i++) {
+    uint32_t b = world->solve.island_bodies[island->body_start + i];
+    if (!spore_body_is_static(&world->bodies[b])) continue;
+    double *rest = world->solve.local_v0 + island->v_start;
+    if (v0 != rest) v0 = memcpy(rest, v0, island->v_count * sizeof *rest);
+    memset(rest + world->solve.local_sites[b].v, 0, 3 * world->bodies[b].block_count * sizeof *rest);
+  }
+  return v0;
+}
+
+SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps,
+                                     SporeEffort *effort) {
+  SporeIslandSystem system = {
+      .world = world, .island = island, .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
+  const SporeIntegrator *integrator = spore_integrator(kind);
+  const double *q0 = island->q0, *v0 = start_velocity(world, island, kind);
+  double *q1 = island->q1, *v1 = island->v1;
+  double *scratch = world->solve.scratch + world->solve.scratch_per_block * (island->v_start / 3);
+  double h = world->solver.time_step / (double)substeps;
+  /* What one method remembers says nothing to another. */
+  SporeHistory none = {0}, *history = kind == island->integrator ? &island->history : &none;
+  if (kind != island->integrator) island->history.step_s = 0;
+  SporeStepResult total = {.converged = true};
+  SporeSolverFields fields = world->solver;
+  if (effort) effort->given_up = false;
+  for (size_t s = 0; s < substeps; s++) {
+    if (s > 0) {
+      q0 = memcpy(world->solve.local_q0 + island->q_start, q1, island->q_count * sizeof *q0);
+      v0 = memcpy(world->solve.local_v0 + island->v_start, v1, island->v_count * sizeof *v0);
+    }
+    if (s > 0 || island->attempts > 1) dynamics.set_mass(dynamics.data, q0);
+    system.start_s = (double)s * h;
+    dynamics.set_time(dynamics.data, h);
+    if (effort) limit_iterations(effort, substeps - 1 - s, &world->solver, &fields);
+    SporeStepResult result = integrator->step(&dynamics, &fields, history, h, q0, v0, q1, v1, scratch);
+    dynamics.set_time(dynamics.data, h);
+    spore_step_result_add(&total, &result);
+    if (effort && !go_on(effort, &result)) break;
+  }
+  spore_island_system_keep_contacts(&system);
+  return total;
+}
+
+/* Particles have no Jacobian for an implicit step. */
+static bool has_particles(const SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++)
+    if (world->bodies[world->solve.island_bodies[island->body_start + i]].model->type->rates) return true;
+  return false;
+}
+
+/* Whether bodies that are apart as yet meet within the step, which only fast ones do. Which of their contacts will
+ * press, only the step's end tells: an explicit method evaluates forces where the bodies are still apart or already
+ * past each other, or softens all of them alike, and would let them go through. */
+static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->contact_count; i++)
+    if (spore_contact_term_meets(&world->contact.terms[world->contact.order[island->contact_start + i]])) return true;
+  return false;
+}
+
+/* A contact that the step does not resolve is an impact, which no method follows to second order: those that are not
+ * damped enough throw bodies out faster than they came. Implicit Euler meets it in their place, unless the method looks
+ * after its error. */
+static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) {
+  const SporeIntegrator *integrator = spore_integrator(island->integrator);
+  if (!integrator->implicit)
+    return meets_in_step(world, island) && !has_particles(world, island) ? SPORE_INTEGRATOR_IMPLICIT_EULER
+                                                                         : island->integrator;
+  bool controlled = island->integrator == SPORE_INTEGRATOR_TR_BDF2 && world->solver.error_tolerance > 0;
+  if (integrator->damping == SPORE_DAMPING_FULL || controlled) return island->integrator;
+  const SporeIslandSystem system = {.world = world, .island = island};
+  bool resolved = spore_island_system_resolves_contacts(&system, world->solver.time_step / (double)island->substeps);
+  return resolved ? island->integrator : SPORE_INTEGRATOR_IMPLICIT_EULER;
+}
+
+/* A step of implicit Euler in an explicit one's place would push bodies apart all at once that lie deeper in each other
+ * than their contacts hold, for explicit steps soften these: it would give back more energy than the contacts took.
+ * What overlaps already is only kept from going deeper. */
+static void slacken(SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->contact_count; i++) {
+    SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
+    term->slack = fmax(term->depth, 0);
+  }
+}
+
+static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
+  if (island->multirate) {
+    island->history.step_s = 0;
+    SporeStepResult multirate = spore_island_advance_multirate(world, island);
+    if (multirate.converged) return multirate;
+    /* Friction on nodes that are light without what holds them in their body: with it they may be solved. */
+    spore_island_gather(world, island);
+    SporeStepResult whole = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, 1, NULL);
+    spore_step_result_add(&multirate, &whole);
+    multirate.converged = whole.converged;
+    multirate.residual = whole.residual;
+    return multirate;
+  }
+  SporeIntegratorKind kind = method(world, island);
+  if (kind != island->integrator && !spore_integrator(island->integrator)->implicit) slacken(world, island);
+  return spore_island_advance(world, island, kind, island->substeps, NULL);
+}
+
+static void integrate_island(void *data, size_t index) {
+  SporeWorld *world = data;
+  SporeIsland *island = &world->solve.islands[index];
+  spore_island_gather(world, island);
+  island->result = advance(world, island);
+  if (spore_island_choose(world, island)) {
+    SporeStepResult spent = island->result;
+    spore_island_gather(world, island);
+    island->result = advance(world, island);
+    island->result.newton_iterations += spent.newton_iterations;
+    island->result.linear_iterations += spent.linear_iterations;
+    island->result.force_evaluations += spent.force_evaluations;
+  }
+  spore_island_examine(world, island);
+  if (island->trouble == SPORE_TROUBLE_NONE && !spore_island_energy_holds(world, island))
+    island->trouble = SPORE_TROUBLE_ENERGY;
+  if (island->trouble != SPORE_TROUBLE_NONE) spore_island_recover(world, island);
+  spore_island_remember(world, island);
+  island->rests = spore_island_rests(world, island);
+}
+
+/* What the islands will cost, counted in units of roughly 10 ns. */
+static size_t count_work(const SporeWorld *world) {
+  size_t work = 0;
+  for (size_t i = 0; i < world->solve.island_count; i++) {
+    const SporeIsland *island = &world->solve.islands[i];
+    size_t size = island->v_count + 10 * (island->contact_count + island->spring_count);
+    work += spore_integrator(island->integrator)->implicit ? 10 * size : size;
+  }
+  return work;
+}
+
+void spore_world_integrate(SporeWorld *world) {
+  spore_pool_run(spore_pool_for(world->pool, count_work(world)), world->solve.island_count, integrate_island, world);
+  SporeStepCounts *counts = &world->state.counts;
+  *counts = (SporeStepCounts){.islands = world->solve.island_count, .sleeping = world->solve.sleeping_count};
+  for (size_t i = 0; i < world->solve.island_count; i++) {
+    const SporeStepResult *result = &world->solve.islands[i].result;
+    counts->newton_iterations += result->newton_iterations;
+    counts->linear_iterations += result->linear_iterations;
+    counts->force_evaluations += result->force_evaluations;
+    if (result->residual > counts->residual) counts->residual = result->residual;
+  }
+}

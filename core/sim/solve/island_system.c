@@ -1,0 +1,356 @@
+/* An island as the integrators see it: forces of the models and of the terms, and motion. */
+#include <string.h>
+
+#include "core/sim/solve/island_system.h"
+
+static void add_body_forces(const SporeIslandSystem *system, const double *q, const double *v, double *f) {
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    const double *shape = (system->shape ? system->shape : q) + site->q;
+    if (spore_island_system_leaves(system, body)) continue;
+    const SporeModelType *type = body->model->type;
+    bool still = spore_body_is_static(body);
+    if (type->force_along && system->shape_s > 0 && !still)
+      type->force_along(body->model, q + site->q, shape, v + site->v, system->shape_s, f + site->v);
+    else type->force(body->model, q + site->q, shape, still ? system->world->solve.still : v + site->v, f + site->v);
+    double gravity[3];
+    spore_vec3_store(gravity, spore_body_gravity(system->world, body));
+    spore_nodes_pull(body->block_count, f + site->v, body->model->block_mass, gravity);
+  }
+}
+
+static void add_term_forces(const SporeIslandSystem *system, const double *q, const double *v, double *f) {
+  spore_island_system_add_contact_forces(system, q, v, f);
+  for (size_t i = 0; i < system->island->spring_count; i++)
+    spore_spring_term_force(spore_island_system_spring(system, i), system->world->solve.local_sites, q, v, f);
+}
+
+static void set_shape(void *data, const double *shape, double h) {
+  SporeIslandSystem *system = data;
+  system->shape = shape;
+  system->shape_s = h;
+}
+
+static void start_forces(const SporeIslandSystem *system, double *f) {
+  if (system->given) memcpy(f, system->given, system->island->v_count * sizeof *f);
+  else memset(f, 0, system->island->v_count * sizeof *f);
+}
+
+static void force(void *data, const double *q, const double *v, double *f) {
+  SporeIslandSystem *system = data;
+  start_forces(system, f);
+  add_body_forces(system, q, v, f);
+  add_term_forces(system, q, v, f);
+  spore_island_system_filter(system, f);
+}
+
+static void body_force(void *data, const double *q, const double *v, double *f) {
+  SporeIslandSystem *system = data;
+  start_forces(system, f);
+  add_body_forces(system, q, v, f);
+  spore_island_system_filter(system, f);
+}
+
+/* Counts a term at each block that the end hangs on; counts: a double a block. */
+static void count_end(const SporeWorld *world, const SporeEnd *end, double *counts) {
+  if (end->prescribed) return;
+  double *local = counts + world->solve.local_sites[end->body].v / 3;
+  const SporeMapping *mapping = end->mapping;
+  if (mapping->kind == SPORE_MAPPING_IDENTITY) local[end->point]++;
+  if (mapping->kind == SPORE_MAPPING_RIGID) local[0]++;
+  if (mapping->kind != SPORE_MAPPING_LINEAR) return;
+  for (uint32_t k = mapping->row_start[end->point]; k < mapping->row_start[end->point + 1]; k++)
+    local[mapping->block[k]]++;
+}
+
+/* c . A c */
+static double quadratic(const double *a, SporeVec3 c) {
+  return c.x * (a[0] * c.x + a[1] * c.y + a[2] * c.z) + c.y * (a[3] * c.x + a[4] * c.y + a[5] * c.z) +
+         c.z * (a[6] * c.x + a[7] * c.y + a[8] * c.z);
+}
+
+/* Sum of n/m over those blocks, for a force along any direction that acts up to `arm` away from the end; or for one
+ * along `normal`, on whose line it acts: that turns a body only by what it misses its centre of mass. */
+static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm, const SporeVec3 *normal,
+                               const double *counts) {
+  if (end->prescribed) return 0;
+  const double *local = counts + world->solve.local_sites[end->body].v / 3;
+  const SporeBody *body = &world->bodies[end->body];
+  const double *inverse = world->state.mass_inverse + 3 * body->v_offset;
+  const SporeMapping *mapping = end->mapping;
+  if (mapping->kind == SPORE_MAPPING_IDENTITY) return local[end->point] * inverse[9 * (size_t)end->point];
+  if (mapping->kind == SPORE_MAPPING_RIGID) {
+    SporeVec3 centre = spore_vec3_sub(end->position, spore_vec3_load(world->state.q + body->q_offset));
+    SporeVec3 point = spore_vec3_add(centre, arm);
+    if (normal) return local[0] * (inverse[0] + quadratic(inverse + 9, spore_vec3_cross(point, *normal)));
+    double lever = spore_vec3_length(centre) + spore_vec3_length(arm);
+    return local[0] * (inverse[0] + lever * lever * (inverse[9] + inverse[13] + inverse[17]));
+  }
+  double sum = 0;
+  for (uint32_t k = mapping->row_start[end->point]; k < mapping->row_start[end->point + 1]; k++)
+    sum += mapping->weight[k] * mapping->weight[k] * local[mapping->block[k]] * inverse[9 * (size_t)mapping->block[k]];
+  return sum;
+}
+
+static void count_terms(const SporeIslandSystem *system, double *counts) {
+  const SporeWorld *world = system->world;
+  memset(counts, 0, system->island->v_count / 3 * sizeof *counts);
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_island_system_contact(system, i);
+    count_end(world, &term->a, counts);
+    count_end(world, &term->b, counts);
+  }
+  for (size_t i = 0; i < system->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_island_system_spring(system, i);
+    count_end(world, &term->a, counts);
+    count_end(world, &term->b, counts);
+  }
+}
+
+/* Without friction a contact pushes along its normal alone. */
+static double contact_inverse_mass(const SporeWorld *world, const SporeContactTerm *term, const double *counts) {
+  const SporeVec3 *normal = term->law.friction > 0 ? NULL : &term->normal;
+  return end_inverse_mass(world, &term->a, term->arm_a, normal, counts) +
+         end_inverse_mass(world, &term->b, term->arm_b, normal, counts);
+}
+
+/* A step of h seconds resolves a term well whose h^2 w k + h w d is no more than this. */
+#define RESOLVED 0.25
+
+static bool resolves(double h, double inverse_mass, double stiffness, double damping) {
+  return h * inverse_mass * (h * stiffness + damping) <= RESOLVED;
+}
+
+static SporeSoftening softening(double h, bool resolved, double inverse_mass, double stiffness, double damping) {
+  if (resolved && resolves(h, inverse_mass, stiffness, damping)) return (SporeSoftening){0, 0, 0};
+  return spore_softening(h, inverse_mass, stiffness);
+}
+
+static bool soften(void *data, double h, bool resolved) {
+  const SporeVec3 none = {0, 0, 0};
+  SporeIslandSystem *system = data;
+  const SporeWorld *world = system->world;
+  if (system->island->contact_count + system->island->spring_count == 0) return false;
+  if (system->softened_s == h) return true;
+  system->softened_s = h;
+  double *counts = spore_island_system_precondition_blocks(system); /* free: only implicit steps precondition */
+  count_terms(system, counts);
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    SporeContactTerm *term = spore_island_system_contact(system, i);
+    double inverse_mass = contact_inverse_mass(world, term, counts);
+    term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
+  }
+  for (size_t i = 0; i < system->island->spring_count; i++) {
+    SporeSpringTerm *term = spore_island_system_spring(system, i);
+    double inverse_mass =
+        end_inverse_mass(world, &term->a, none, NULL, counts) + end_inverse_mass(world, &term->b, none, NULL, counts);
+    term->softening = softening(h, resolved, inverse_mass, term->law.stiffness, term->law.damping);
+  }
+  spore_island_system_soften_lanes(system);
+  return true;
+}
+
+bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h) {
+  if (system->island->contact_count == 0) return true;
+  double *counts = spore_island_system_precondition_blocks(system); /* free: no matrix is made yet */
+  count_terms(system, counts);
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_island_system_contact(system, i);
+    double inverse_mass = contact_inverse_mass(system->world, term, counts);
+    if (!resolves(h, inverse_mass, term->law.stiffness, term->law.damping)) return false;
+  }
+  return true;
+}
+
+static void term_force(void *data, const double *q, const double *v, double *f) {
+  SporeIslandSystem *system = data;
+  add_term_forces(system, q, v, f);
+  spore_island_system_filter(system, f);
+}
+
+static void move_end(SporeEnd *end, double elapsed_s) {
+  if (end->prescribed) end->offset = spore_vec3_scale(elapsed_s, end->velocity);
+}
+
+static void set_time(void *data, double elapsed_s) {
+  SporeIslandSystem *system = data;
+  double at_s = system->start_s + elapsed_s;
+  if (at_s == system->now_s) return;
+  system->now_s = at_s;
+  if (!system->driven) return;
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    SporeContactTerm *term = spore_island_system_contact(system, i);
+    move_end(&term->a, at_s);
+    move_end(&term->b, at_s);
+  }
+  for (size_t i = 0; i < system->island->spring_count; i++) {
+    SporeSpringTerm *term = spore_island_system_spring(system, i);
+    move_end(&term->a, at_s);
+    move_end(&term->b, at_s);
+  }
+}
+
+static void set_mass(void *data, const double *q) {
+  SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    spore_body_turn_mass(system->world, body, q + site->q);
+  }
+}
+
+static void kick(void *data, const double *f, double h, double *v) {
+  SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    /* A rigid body's single node comes with its frame. */
+    size_t nodes = spore_model_is_rigid(body->model) ? 0 : body->model->node_count;
+    spore_nodes_kick(nodes, v + site->v, h, f + site->v, body->model->block_mass);
+    spore_blocks_add(system->world->state.mass_inverse + 3 * body->v_offset + 9 * nodes, body->block_count - nodes, h,
+                     f + site->v + 3 * nodes, v + site->v + 3 * nodes);
+  }
+  spore_island_system_filter(system, v);
+}
+
+void spore_body_drift(const SporeBody *body, const double *q0, const double *v, double h, double *q1, double *v1) {
+  if (body->model->type->drift) {
+    body->model->type->drift(body->model, q0, v, h, q1, v1);
+    return;
+  }
+  spore_vector_move(body->q_count, q1, q0, h, v);
+  if (v1 != v) memcpy(v1, v, body->q_count * sizeof *v);
+}
+
+static void drift(void *data, const double *q0, const double *v, double h, double *q1, double *v1) {
+  SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    spore_body_drift(body, q0 + site->q, v + site->v, h, q1 + site->q, v1 + site->v);
+  }
+}
+
+/* Of a frame, whose inertia turns: the change of momentum is carried over. */
+static void carry_turning(const SporeIslandSystem *system, const SporeBody *body, const double *dv, const double *q1,
+                          double *v1) {
+  size_t at = body->model->node_count;
+  double momentum[3];
+  spore_blocks_apply(spore_island_system_mass(system, body) + 9 * at, 1, dv + 3 * at, momentum);
+  SporeMat3 inertia = body->model->type->inertia(body->model, q1);
+  spore_blocks_invert(inertia.m, 1);
+  spore_blocks_add(inertia.m, 1, 1, momentum, v1 + 3 * at);
+}
+
+static void carry(void *data, const double *dv, const double *q1, double *v1) {
+  SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    for (size_t k = 0; k < 3 * body->model->node_count; k++) v1[site->v + k] += dv[site->v + k];
+    if (!spore_model_is_nodal(body->model)) carry_turning(system, body, dv + site->v, q1 + site->q, v1 + site->v);
+  }
+}
+
+static void mass_multiply(void *data, const double *x, double *y) {
+  SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    spore_island_system_weigh(system, body, x + site->v, y + site->v);
+  }
+}
+
+static double distance(void *data, const double *x) {
+  const SporeIslandSystem *system = data;
+  double most = 0;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    const double *mass = spore_island_system_mass(system, body), *local = x + site->v;
+    double square = 0;
+    for (size_t i = 0; i < body->block_count; i++, mass += 9, local += 3) {
+      double weighed[3];
+      spore_blocks_apply(mass, 1, local, weighed);
+      square += spore_vec3_dot(spore_vec3_load(local), spore_vec3_load(weighed));
+    }
+    double mean = sqrt(square / body->total_mass);
+    if (!(mean <= most)) most = mean;
+  }
+  return most;
+}
+
+/* Whether a pin or a link to what does not move by physics holds the island. */
+static bool is_held(const SporeIslandSystem *system) {
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    if (spore_island_system_body(system, b, &site)->held.pin_count > 0) return true;
+  }
+  for (size_t i = 0; i < system->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_island_system_spring(system, i);
+    if (term->a.prescribed || term->b.prescribed) return true;
+  }
+  return false;
+}
+
+/* Whether some force sets in or ends as things move: those of contacts, of what holds by friction, and of what stops.
+ */
+static bool switches(const SporeIslandSystem *system) {
+  if (system->island->contact_count > 0) return true;
+  for (size_t i = 0; i < system->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_island_system_spring(system, i);
+    if (term->law.friction > 0 || (term->curve && spore_curve_joint_may_stop(term->curve))) return true;
+  }
+  return false;
+}
+
+SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
+  spore_island_system_lay_contacts(system);
+  return (SporeDynamics){.data = system,
+                         .q_count = system->island->q_count,
+                         .block_count = system->island->v_count / 3,
+                         .switches = switches(system),
+                         .set_shape = set_shape,
+                         .force = force,
+                         .body_force = body_force,
+                         .term_force = term_force,
+                         .soften = soften,
+                         .set_time = set_time,
+                         .set_mass = set_mass,
+                         .kick = kick,
+                         .drift = drift,
+                         .carry = carry,
+                         .mass_multiply = mass_multiply,
+                         .linearise = spore_island_system_linearise,
+                         .reuse = spore_island_system_reuse,
+                         .multiply = spore_island_system_multiply,
+                         .drags = spore_island_system_drags,
+                         .multiply_dragged = spore_island_system_multiply_dragged,
+                         .precondition = spore_island_system_precondition,
+                         .factor_cost = spore_island_system_factor_cost,
+                         .factorised = spore_island_system_factorised,
+                         .rounding = spore_island_system_rounding,
+                         .distance = distance,
+                         .held = system->island->integrator == SPORE_INTEGRATOR_STATIC && is_held(system),
+                         .gravity_momentum = system->island->gravity_momentum};
+}
+
+static void invert_mass(SporeWorld *world, const SporeBody *body, size_t start, size_t count) {
+  double *mass = world->state.mass + 3 * body->v_offset, *inverse = world->state.mass_inverse + 3 * body->v_offset;
+  memcpy(inverse + 9 * start, mass + 9 * start, 9 * count * sizeof *mass);
+  spore_blocks_invert(inverse + 9 * start, count);
+}
+
+void spore_body_set_mass(SporeWorld *world, const SporeBody *body) {
+  spore_model_mass(body->model, world->state.q + body->q_offset, world->state.mass + 3 * body->v_offset);
+  invert_mass(world, body, 0, body->block_count);
+}
+
+void spore_body_turn_mass(SporeWorld *world, const SporeBody *body, const double *q) {
+  size_t at = body->model->node_count;
+  if (spore_model_is_nodal(body->model)) return;
+  SporeMat3 inertia = body->model->type->inertia(body->model, q);
+  memcpy(world->state.mass + 3 * body->v_offset + 9 * at, inertia.m, sizeof inertia.m);
+  invert_mass(world, body, at, 1);
+}

@@ -1,0 +1,152 @@
+/* An island as the integrators see it, for island_system.c (forces, motion) and linearise.c (matrices). */
+#ifndef SPORE_SIM_GROUP_H
+#define SPORE_SIM_GROUP_H
+
+#include <math.h>
+#include <string.h>
+
+#include "core/constraint/pin.h"
+#include "core/math/vector.h"
+#include "core/sim/world_private.h"
+
+/* The island as the integrators see it. The structure lives as long as the dynamics that are made of it. */
+typedef struct SporeIslandSystem {
+  SporeWorld *world;
+  const SporeIsland *island;
+  const double *shape;   /* as q of the island: where viscous forces are taken; NULL: where each force is */
+  double shape_s;        /* forces are asked for where nodes moved from there along v for so long; 0: anywhere */
+  const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
+  bool apart;            /* explicit bodies are masses alone: see multirate.c */
+  double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
+  size_t contact_couplings, spring_couplings; /* of the current A, first in their arrays: see local_assembly.h */
+  size_t dragging;                            /* contacts that the current A does not know all of: see their drag */
+  bool driven;                                /* some end is moved by a device */
+  bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
+  bool asked_couples, couples;                /* see spore_island_system_couples */
+  double softened_s;                          /* the step that terms are softened for; 0: they are not */
+} SporeIslandSystem;
+
+SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
+/* Whether a step of h seconds is short for all contacts of the island. */
+bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h);
+/* contact_lanes.c: when the island's forces were evaluated for the last time: what its contacts came to, into the
+ * terms. */
+void spore_island_system_keep_contacts(const SporeIslandSystem *system);
+
+/* The i-th body of the island, and where its part begins in the local vectors. */
+static inline SporeBody *spore_island_system_body(const SporeIslandSystem *system, size_t i, const SporeSite **site) {
+  uint32_t index = system->world->solve.island_bodies[system->island->body_start + i];
+  *site = &system->world->solve.local_sites[index];
+  return &system->world->bodies[index];
+}
+
+static inline SporeContactTerm *spore_island_system_contact(const SporeIslandSystem *system, size_t i) {
+  uint32_t index = system->world->contact.order[system->island->contact_start + i];
+  return &system->world->contact.terms[index];
+}
+
+static inline SporeSpringTerm *spore_island_system_spring(const SporeIslandSystem *system, size_t i) {
+  uint32_t index = system->world->links.order[system->island->spring_start + i];
+  return &system->world->links.springs[index];
+}
+
+/* Whether the body moves by a method of its own in this system, and takes part with its mass alone: see multirate.c. */
+static inline bool spore_island_system_leaves(const SporeIslandSystem *system, const SporeBody *body) {
+  return system->apart && !spore_integrator(body->method.integrator)->implicit;
+}
+
+/* Whether the body has a matrix of its own in A; else its mass stands for it. */
+static inline bool spore_island_system_assembles(const SporeIslandSystem *system, const SporeBody *body) {
+  return body->preconditioner.matrix.block_count > 0 && !spore_island_system_leaves(system, body);
+}
+
+/* What is left of the inertia of a body in steps: static ones that pins hold have next to none beside others. */
+static inline double spore_island_system_inertia(const SporeIslandSystem *system, const SporeBody *body) {
+  return system->apart && spore_body_is_static(body) && body->held.pin_count > 0 ? 1e-6 : 1;
+}
+
+static inline double *spore_island_system_precondition_blocks(const SporeIslandSystem *system) {
+  return system->world->solve.precondition + 3 * system->island->v_start;
+}
+
+static inline const double *spore_island_system_mass(const SporeIslandSystem *system, const SporeBody *body) {
+  return system->world->state.mass + 3 * body->v_offset;
+}
+
+/* y = blocks x, or y += scale blocks x */
+static inline void spore_blocks_apply(const double *blocks, size_t count, const double *x, double *y) {
+  for (size_t i = 0; i < count; i++, blocks += 9, x += 3, y += 3) {
+    double a = x[0], b = x[1], c = x[2];
+    y[0] = blocks[0] * a + blocks[1] * b + blocks[2] * c;
+    y[1] = blocks[3] * a + blocks[4] * b + blocks[5] * c;
+    y[2] = blocks[6] * a + blocks[7] * b + blocks[8] * c;
+  }
+}
+
+static inline void spore_blocks_add(const double *blocks, size_t count, double scale, const double *x, double *y) {
+  for (size_t i = 0; i < count; i++, blocks += 9, x += 3, y += 3) {
+    double a = scale * x[0], b = scale * x[1], c = scale * x[2];
+    y[0] += blocks[0] * a + blocks[1] * b + blocks[2] * c;
+    y[1] += blocks[3] * a + blocks[4] * b + blocks[5] * c;
+    y[2] += blocks[6] * a + blocks[7] * b + blocks[8] * c;
+  }
+}
+
+/* y = M x of a body */
+static inline void spore_island_system_weigh(const SporeIslandSystem *system, const SporeBody *body, const double *x,
+                                             double *y) {
+  size_t nodes = body->model->node_count;
+  spore_nodes_weigh(nodes, y, body->model->block_mass, x);
+  spore_blocks_apply(spore_island_system_mass(system, body) + 9 * nodes, body->block_count - nodes, x + 3 * nodes,
+                     y + 3 * nodes);
+  double inertia = spore_island_system_inertia(system, body);
+  for (size_t k = 0; inertia != 1 && k < 3 * body->block_count; k++) y[k] *= inertia;
+}
+
+/* Inverses of symmetric blocks. One without an inverse gets that of its trace: a preconditioner may be rough, but not
+ * singular. */
+static inline void spore_blocks_invert(double *blocks, size_t count) {
+  for (size_t i = 0; i < count; i++, blocks += 9) {
+    double xx = blocks[0], xy = blocks[1], xz = blocks[2], yy = blocks[4], yz = blocks[5], zz = blocks[8];
+    double a = yy * zz - yz * yz, b = xz * yz - xy * zz, c = xy * yz - xz * yy;
+    double determinant = xx * a + xy * b + xz * c, mean = (xx + yy + zz) / 3;
+    if (determinant > 0 && determinant > 1e-30 * mean * mean * mean && isfinite(1 / determinant)) {
+      double s = 1 / determinant, e = xy * xz - xx * yz;
+      double inverse[9] = {
+          a * s, b * s, c * s, b * s, (xx * zz - xz * xz) * s, e * s, c * s, e * s, (xx * yy - xy * xy) * s};
+      memcpy(blocks, inverse, sizeof inverse);
+      continue;
+    }
+    SporeMat3 inverse = spore_mat3_scale(mean > 0 ? 1 / mean : 1, spore_mat3_identity());
+    memcpy(blocks, inverse.m, sizeof inverse.m);
+  }
+}
+
+static inline void spore_island_system_filter(const SporeIslandSystem *system, double *vector) {
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    spore_pin_filter(body->held.blocks, body->held.count, vector + site->v);
+  }
+}
+
+/* contact_lanes.c: terms are as stiff as they are, and contacts lie in lanes; adds the forces of all contacts; takes
+ * over how the terms were softened. */
+void spore_island_system_lay_contacts(SporeIslandSystem *system);
+void spore_island_system_add_contact_forces(const SporeIslandSystem *system, const double *q, const double *v,
+                                            double *f);
+void spore_island_system_soften_lanes(const SporeIslandSystem *system);
+
+/* linearise.c: the slots of SporeDynamics that stand for A = M + c D + c2 K. */
+void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
+                                   double c2);
+bool spore_island_system_reuse(void *data, const double *q, const double *v, double c, double c2);
+void spore_island_system_multiply(void *data, const double *x, double *y);
+void spore_island_system_multiply_dragged(void *data, const double *x, double *y);
+bool spore_island_system_drags(void *data);
+void spore_island_system_precondition(void *data, const double *r, double *z);
+double spore_island_system_factor_cost(void *data);
+bool spore_island_system_factorised(void *data);
+double spore_island_system_rounding(void *data, double c, bool stiff_axes);
+
+#endif

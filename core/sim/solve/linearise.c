@@ -1,0 +1,318 @@
+/* The matrix A = M + c D + c2 K of an island: the models' block by block, terms matrix-free on top, and what
+ * preconditions it. */
+#include <float.h>
+#include <string.h>
+
+#include "core/sim/solve/local_assembly.h"
+
+#define FLOPS_TO_ROUND 1e5 /* of a solution: below, its factor is quick to read as it is */
+
+static SporeCoupling *contact_couplings(const SporeIslandSystem *system) {
+  return system->world->contact.couplings + system->island->contact_start;
+}
+
+static SporeCoupling *spring_couplings(const SporeIslandSystem *system) {
+  return system->world->links.couplings + system->island->spring_start;
+}
+
+/* Folded into the matrix of `body`, if any, with the rest of the term. */
+static void bend_curve_joint(const SporeIslandSystem *system, SporeSpringTerm *term, const double *q, double c2,
+                             uint32_t body) {
+  spore_curve_joint_bend(term, system->world->solve.local_sites, q, c2);
+  term->curve->bend.folded = body != SPORE_NO_BODY && term->curve->bend.turn > 0;
+  if (term->curve->bend.folded) spore_body_assemble_bend(&system->world->bodies[body], &term->curve->bend);
+}
+
+static void multiply_bends(const SporeIslandSystem *system, const double *x, double *y) {
+  for (size_t i = 0; system->world->links.curve_joint_count > 0 && i < system->island->spring_count; i++) {
+    const SporeSpringTerm *term = spore_island_system_spring(system, i);
+    if (term->curve && term->curve->bend.turn > 0 && !term->curve->bend.folded)
+      spore_curve_joint_bend_multiply(term, system->world->solve.local_sites, x, y);
+  }
+}
+
+static bool drags(const SporeContactTerm *term) { return spore_vec3_dot(term->drag, term->drag) > 0; }
+
+/* Couplings are those terms that no body's matrix takes in; the others are added there, unless the matrices are kept
+ * as they are. */
+static void linearise_terms(SporeIslandSystem *system, const double *q, const double *v, double c, double c2,
+                            bool kept) {
+  const SporeSite *sites = system->world->solve.local_sites;
+  system->contact_couplings = system->spring_couplings = system->dragging = 0;
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    SporeContactTerm *term = spore_island_system_contact(system, i);
+    uint32_t body = spore_island_system_local_body(system, &term->a, &term->b);
+    if (body != SPORE_NO_BODY && kept) continue;
+    SporeMat3 k = spore_contact_term_jacobian(term, sites, q, v, system->now_s, c, c2);
+    system->dragging += drags(term);
+    if (body != SPORE_NO_BODY) spore_body_assemble_term(&system->world->bodies[body], &term->a, &term->b, &k);
+    else contact_couplings(system)[system->contact_couplings++] = spore_coupling(&term->a, &term->b, &k, sites);
+  }
+  for (size_t i = 0; i < system->island->spring_count; i++) {
+    SporeSpringTerm *term = spore_island_system_spring(system, i);
+    uint32_t body = spore_island_system_local_body(system, &term->a, &term->b);
+    if (body != SPORE_NO_BODY && kept) continue;
+    SporeMat3 k = spore_spring_term_jacobian(term, sites, q, v, c, c2);
+    if (term->curve) bend_curve_joint(system, term, q, c2, body);
+    if (body != SPORE_NO_BODY) spore_body_assemble_term(&system->world->bodies[body], &term->a, &term->b, &k);
+    else spring_couplings(system)[system->spring_couplings++] = spore_coupling(&term->a, &term->b, &k, sites);
+  }
+}
+
+/* Diagonal blocks of the models' part of A; M alone where there is no matrix. */
+static void body_diagonal(const SporeIslandSystem *system, const SporeBody *body, double *blocks) {
+  if (!spore_island_system_assembles(system, body)) {
+    const double *mass = spore_island_system_mass(system, body);
+    for (size_t e = 0; e < 9 * body->block_count; e++) blocks[e] = spore_island_system_inertia(system, body) * mass[e];
+    return;
+  }
+  for (size_t i = 0; i < body->block_count; i++)
+    memcpy(blocks + 9 * i, body->preconditioner.matrix.values + 9 * (size_t)body->preconditioner.matrix.diagonal[i],
+           9 * sizeof *blocks);
+}
+
+/* The body's own matrix with the diagonal blocks of the terms; where it is not positive definite in floating point,
+ * block-Jacobi stands in. */
+static void factorise(SporeBody *body, const double *blocks, bool alone) {
+  bool may_round = body->preconditioner.factor.solve_flops > FLOPS_TO_ROUND;
+  body->preconditioner.factor_alone = alone;
+  body->preconditioner.factor_ready = spore_block_cholesky_factorise(
+      &body->preconditioner.factor, &body->preconditioner.matrix, blocks, body->held.flags, may_round);
+  body->preconditioner.factor_kept = body->preconditioner.factor_ready && !alone;
+  body->preconditioner.choice.factors++;
+}
+
+/* How stiff a diagonal block of A - M is: the root mean square of its eigenvalues. */
+static double stiffness_of(const double *block, const double *mass) {
+  double sum = 0;
+  for (int e = 0; e < 9; e++) sum += (block[e] - mass[e]) * (block[e] - mass[e]);
+  return sqrt(sum / 3);
+}
+
+/* And along its soft axes, from the inverse of A's. */
+static double softest_stiffness(const double *inverse, double weight) {
+  double flexible = (inverse[0] + inverse[4] + inverse[8]) / 3;
+  return fmax(1 / flexible - 1 / weight, 0);
+}
+
+/* Inverts A's diagonal blocks, and sums up what they say of rounding on the way, see spore_island_system_rounding. */
+static void invert_diagonal(const SporeIslandSystem *system, SporeBody *body, const double *q, double *blocks) {
+  const double *mass = spore_island_system_mass(system, body),
+               *inverse = system->world->state.mass_inverse + 3 * body->v_offset;
+  size_t nodes = body->model->node_count;
+  body->preconditioner.rounding_soft = body->preconditioner.rounding_stiff = 0;
+  for (size_t i = 0; i < body->block_count; i++, blocks += 9, mass += 9, inverse += 9) {
+    double weight = (inverse[0] + inverse[4] + inverse[8]) / 3, stiff = stiffness_of(blocks, mass);
+    double size = spore_vec3_length(spore_vec3_load(q + 3 * (i < nodes ? i : nodes - 1)));
+    if (nodes < body->block_count) size += 1; /* an orientation is known to rounding of 1 */
+    spore_blocks_invert(blocks, 1);
+    double soft = softest_stiffness(blocks, weight);
+    body->preconditioner.rounding_soft += weight * soft * soft * size * size;
+    body->preconditioner.rounding_stiff += weight * stiff * stiff * size * size;
+  }
+}
+
+/* Among couplings conjugate gradients make up for what a factor does not know, so that one of an earlier matrix does as
+ * long as it does well: see preconditioner.c. Alone it is all there is. */
+static void make_preconditioner(SporeIslandSystem *system, const double *q) {
+  bool alone = system->contact_couplings + system->spring_couplings == 0;
+  double *blocks = spore_island_system_precondition_blocks(system);
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    body_diagonal(system, body, blocks + 3 * site->v);
+  }
+  spore_couplings_diagonal(contact_couplings(system), system->contact_couplings, blocks);
+  spore_couplings_diagonal(spring_couplings(system), system->spring_couplings, blocks);
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    bool current = body->preconditioner.factor_ready && body->preconditioner.factor_alone && alone;
+    if (!body->preconditioner.choice.factorised || !spore_island_system_assembles(system, body))
+      body->preconditioner.factor_ready = body->preconditioner.factor_kept = false;
+    else if (body->preconditioner.factor_kept && !alone) body->preconditioner.factor_ready = true;
+    else if (!current) factorise(body, blocks + 3 * site->v, alone);
+    invert_diagonal(system, body, q + site->q, blocks + 3 * site->v);
+  }
+}
+
+static void assemble(const SporeIslandSystem *system, SporeBody *body, const SporeTangent *at, double c, double c2) {
+  const SporeModelType *type = body->model->type;
+  spore_block_matrix_zero(&body->preconditioner.matrix);
+  if (type->tangent) type->tangent(body->model, at, &body->preconditioner.matrix);
+  else
+    type->jacobian(body->model, at->q, at->shape, at->v, at->stiffness_scale, at->damping_scale,
+                   &body->preconditioner.matrix);
+  const double *mass = spore_island_system_mass(system, body);
+  double inertia = spore_island_system_inertia(system, body);
+  for (size_t i = 0; i < body->block_count; i++) {
+    double *block = body->preconditioner.matrix.values + 9 * (size_t)body->preconditioner.matrix.diagonal[i];
+    for (int e = 0; e < 9; e++) block[e] += inertia * mass[9 * i + e];
+  }
+  body->preconditioner.factor_ready = false;
+  body->preconditioner.factor_kept &= body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2;
+  body->preconditioner.matrix_c = c;
+  body->preconditioner.matrix_c2 = c2;
+  body->preconditioner.matrix_step = system->world->state.step;
+}
+
+/* What is compressed may make the whole matrix indefinite. A factor tells, and then the matrix is made again without
+ * that; conjugate gradients are not put at risk, nor are terms that no factor knows. */
+static bool takes_whole(const SporeIslandSystem *system, const SporeBody *body) {
+  return body->preconditioner.choice.factorised && body->model->type->tangent && !spore_body_is_static(body) &&
+         system->island->contact_count + system->island->spring_count == 0;
+}
+
+/* whole: as far as a body takes it; else what has no factor yet, without. */
+static bool assemble_bodies(const SporeIslandSystem *system, const double *q, const double *from, const double *v,
+                            double c, double c2, bool whole) {
+  bool any = false;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    if (!spore_island_system_assembles(system, body)) continue;
+    if (!whole && (body->preconditioner.factor_ready || !takes_whole(system, body))) continue;
+    assemble(system, body,
+             &(SporeTangent){.q = q + site->q,
+                             .shape = (system->shape ? system->shape : q) + site->q,
+                             .v = v + site->v,
+                             .from = from ? from + site->q : NULL,
+                             .stiffness_scale = c2,
+                             .damping_scale = spore_body_is_static(body) ? 0 : c,
+                             .whole = whole && takes_whole(system, body)},
+             c, c2);
+    any = true;
+  }
+  return any;
+}
+
+void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
+                                   double c2) {
+  SporeIslandSystem *system = data;
+  assemble_bodies(system, q, from, v, c, c2, true);
+  linearise_terms(system, q, v, c, c2, false);
+  make_preconditioner(system, q);
+  if (assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
+}
+
+/* Whether factors that are as good as when they were made are all of the preconditioner. */
+static bool has_factors_alone(SporeIslandSystem *system) {
+  if (spore_island_system_couples(system)) return false;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    if (!body->preconditioner.choice.factorised || !body->preconditioner.factor_ready ||
+        !body->preconditioner.factor_alone)
+      return false;
+    if (!spore_island_system_assembles(system, body)) return false;
+  }
+  return true;
+}
+
+/* Whether every matrix of the island is that of c and c2, and not older than it is kept. */
+static bool may_reuse(const SporeIslandSystem *system, double c, double c2) {
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    if (!spore_island_system_assembles(system, body)) continue;
+    bool same = body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2;
+    if (!same || system->world->state.step - body->preconditioner.matrix_step >= body->preconditioner.choice.keep)
+      return false;
+  }
+  return true;
+}
+
+bool spore_island_system_reuse(void *data, const double *q, const double *v, double c, double c2) {
+  SporeIslandSystem *system = data;
+  bool kept = may_reuse(system, c, c2);
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    spore_island_system_body(system, b, &site)->preconditioner.choice.start = kept ? SPORE_START_KEPT : SPORE_START_NEW;
+  }
+  if (!kept) return false;
+  system->contact_couplings = system->spring_couplings = system->dragging = 0;
+  if (has_factors_alone(system)) return true;
+  linearise_terms(system, q, v, c, c2, true);
+  make_preconditioner(system, q);
+  return true;
+}
+
+double spore_island_system_factor_cost(void *data) {
+  SporeIslandSystem *system = data;
+  double linearisation = 0, iteration = 0;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    if (!spore_island_system_assembles(system, body)) continue;
+    if (!body->preconditioner.choice.factorised || body->preconditioner.choice.stuck) return 0;
+    linearisation += spore_body_linearisation_work(body);
+    iteration += spore_body_iteration_work(body);
+  }
+  /* No factor knows how terms couple bodies. */
+  return iteration > 0 && !spore_island_system_couples(system) ? linearisation / iteration : 0;
+}
+
+bool spore_island_system_factorised(void *data) {
+  SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    if (spore_island_system_assembles(system, body) && !body->preconditioner.factor_ready) return false;
+  }
+  return true;
+}
+
+void spore_island_system_multiply(void *data, const double *x, double *y) {
+  SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    if (!spore_island_system_assembles(system, body)) {
+      spore_island_system_weigh(system, body, x + site->v, y + site->v);
+      continue;
+    }
+    memset(y + site->v, 0, 3 * body->block_count * sizeof *y);
+    spore_block_matrix_multiply_add(&body->preconditioner.matrix, x + site->v, y + site->v);
+  }
+  spore_couplings_multiply(contact_couplings(system), system->contact_couplings, x, y);
+  spore_couplings_multiply(spring_couplings(system), system->spring_couplings, x, y);
+  multiply_bends(system, x, y);
+  spore_island_system_filter(system, y);
+}
+
+void spore_island_system_multiply_dragged(void *data, const double *x, double *y) {
+  const SporeIslandSystem *system = data;
+  spore_island_system_multiply(data, x, y);
+  for (size_t i = 0; i < system->island->contact_count; i++) {
+    const SporeContactTerm *term = spore_island_system_contact(system, i);
+    if (drags(term)) spore_contact_term_drag(term, system->world->solve.local_sites, x, y);
+  }
+  spore_island_system_filter(system, y);
+}
+
+bool spore_island_system_drags(void *data) { return ((const SporeIslandSystem *)data)->dragging > 0; }
+
+void spore_island_system_precondition(void *data, const double *r, double *z) {
+  SporeIslandSystem *system = data;
+  const double *inverse = spore_island_system_precondition_blocks(system);
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    SporeBody *body = spore_island_system_body(system, b, &site);
+    if (body->preconditioner.factor_ready)
+      spore_block_cholesky_solve(&body->preconditioner.factor, r + site->v, z + site->v);
+    else spore_blocks_apply(inverse + 3 * site->v, body->block_count, r + site->v, z + site->v);
+  }
+  spore_island_system_filter(system, z);
+}
+
+/* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness; by the q of the last linearisation. */
+double spore_island_system_rounding(void *data, double c, bool stiff_axes) {
+  const SporeIslandSystem *system = data;
+  double sum = 0;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    sum += stiff_axes ? body->preconditioner.rounding_stiff : body->preconditioner.rounding_soft;
+  }
+  return 4 * DBL_EPSILON * sqrt(sum) / c;
+}

@@ -1,0 +1,239 @@
+/* How a body is preconditioned: by its diagonal blocks, or by a factor of its whole matrix.
+ *
+ * Conjugate gradients with block-Jacobi are cheap where the step is short for the stiffness, and never finish where it
+ * is very long. What the last steps cost one way is compared with what they would have cost the other way, counted in
+ * floating-point operations and not by a clock, so that every run chooses alike. */
+#include <math.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/solve/local_assembly.h"
+
+#define WORTH_ITERATIONS 2000 /* a factor that costs more than so many iterations is not made */
+#define GAIN 1.25             /* what a change must promise */
+#define PATIENCE 4            /* steps that must promise it, taken together */
+#define PATIENCE_MAXIMUM 256
+#define TRIAL_STEPS 128      /* a factor is put to the question so often */
+#define CONTACT_STEPS 32     /* and so often among contacts, which come and go */
+#define FACTOR_ITERATIONS 2. /* expected of conjugate gradients with the factor, a Newton iteration */
+#define KEEP 4               /* steps that a linearisation is kept at first, and at most */
+#define KEEP_MAXIMUM 64
+#define TRIAL_MAXIMUM 32
+/* Work is counted in operations of a product with the matrix. Dense ones are quicker by these factors; a model's
+ * Jacobian takes so many a block, its force and the vectors of an iteration so many a node. */
+#define FACTOR_WEIGHT 0.25
+#define SOLVE_WEIGHT 0.4
+#define JACOBIAN_WORK 150.
+#define FORCE_WORK 300.
+#define BROYDEN_WORK 250.
+
+/* Of one iteration without its preconditioner: the product, and six vector operations. */
+static double product_work(const SporeBody *body) {
+  return 18. * body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count] +
+         36. * (double)body->block_count;
+}
+
+static double jacobi_work(const SporeBody *body) { return product_work(body) + 18. * (double)body->block_count; }
+static double solve_work(const SporeBody *body) { return SOLVE_WEIGHT * body->preconditioner.factor.solve_flops; }
+
+static double jacobian_work(const SporeBody *body) {
+  return JACOBIAN_WORK * body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count];
+}
+
+static double factor_work(const SporeBody *body) { return FACTOR_WEIGHT * body->preconditioner.factor.factor_flops; }
+
+double spore_body_linearisation_work(const SporeBody *body) { return jacobian_work(body) + factor_work(body); }
+
+double spore_body_iteration_work(const SporeBody *body) {
+  return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
+}
+
+static SporeFactorLayout layout_of(int linear) {
+  if (linear == SPORE_LINEAR_BANDED) return SPORE_FACTOR_BANDED;
+  return linear == SPORE_LINEAR_CHOLESKY ? SPORE_FACTOR_SPARSE : SPORE_FACTOR_AUTOMATIC;
+}
+
+bool spore_body_create_matrix(SporeBody *body, SporeError *error) {
+  if (!body->model || !body->model->type->jacobian) return true;
+  return spore_model_matrix_create(body->model, &body->preconditioner.matrix) ||
+         spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+}
+
+bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeError *error) {
+  spore_block_cholesky_clear(&body->preconditioner.factor);
+  /* Of a matrix without couplings the diagonal blocks are all. */
+  if (body->preconditioner.matrix.block_count == 0 ||
+      body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count] ==
+          body->preconditioner.matrix.block_count)
+    return true;
+  if (!body->held.flags) body->held.flags = SPORE_NEW_ARRAY(uint8_t, body->preconditioner.matrix.block_room);
+  if (!body->held.flags ||
+      !spore_block_cholesky_create(&body->preconditioner.factor, &body->preconditioner.matrix,
+                                   layout_of(world->solver.linear), WORTH_ITERATIONS * jacobi_work(body)))
+    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
+  for (size_t i = 0; i < body->held.count; i++) body->held.flags[body->held.blocks[i]] = 1;
+  return true;
+}
+
+bool spore_world_create_factors(SporeWorld *world, SporeError *error) {
+  for (size_t b = 0; b < world->body_count; b++)
+    if (!spore_body_create_factor(world, &world->bodies[b], error)) return false;
+  return true;
+}
+
+/* A band takes less than the matrix that it is made of: there is nothing to choose. */
+static bool is_banded(const SporeBody *body) { return body->preconditioner.factor.band.block_count > 0; }
+
+void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
+  body->preconditioner.choice = (SporeFactorChoice){.patience = PATIENCE, .keep = KEEP, .trial = PATIENCE};
+  bool by_hand = world->solver.linear == SPORE_LINEAR_CHOLESKY || world->solver.linear == SPORE_LINEAR_BANDED;
+  bool automatic = world->solver.linear == SPORE_LINEAR_AUTOMATIC;
+  body->preconditioner.choice.factorised =
+      (by_hand && body->preconditioner.factor.block_count > 0) || (automatic && is_banded(body));
+  body->preconditioner.factor_ready = false;
+}
+
+void spore_body_forget_steps(const SporeWorld *world, SporeBody *body) {
+  body->preconditioner.matrix_c = 0;
+  body->history.step_s = 0;
+  body->watch.started = false;
+  body->pause = body->pauses = 0;
+  spore_body_reset_choice(world, body);
+}
+
+static void change(SporeBody *body, double iterations) {
+  SporeFactorChoice *choice = &body->preconditioner.choice;
+  choice->factorised = !choice->factorised;
+  choice->iterations = iterations;
+  choice->steps = choice->votes = 0;
+  choice->present = choice->other = 0;
+}
+
+/* What the step took by conjugate gradients alone, and what it would take with a factor: Newton makes one and two
+ * products with it an iteration, Broyden keeps one for some steps. */
+static double work_without(const SporeBody *body, const SporeStepResult *result) {
+  return (double)result->linear_iterations * jacobi_work(body) + (double)result->linearisations * jacobian_work(body);
+}
+
+static double expected_with(const SporeBody *body, const SporeStepResult *result, bool broyden) {
+  double iterations = (double)result->newton_iterations;
+  if (broyden) return spore_body_linearisation_work(body) / KEEP + iterations * spore_body_iteration_work(body);
+  return (double)result->linearisations * spore_body_linearisation_work(body) +
+         FACTOR_ITERATIONS * iterations * (solve_work(body) + product_work(body));
+}
+
+/* What it took with a factor, and what it would take without, by the conjugate gradients of then. */
+static double work_with(const SporeBody *body, const SporeStepResult *result, uint32_t factors) {
+  return (double)result->linearisations * jacobian_work(body) + factors * factor_work(body) +
+         (double)result->linear_iterations * (solve_work(body) + product_work(body));
+}
+
+static double expected_without(const SporeBody *body, const SporeStepResult *result) {
+  return (double)result->newton_iterations *
+         (body->preconditioner.choice.iterations * jacobi_work(body) + jacobian_work(body));
+}
+
+/* A linearisation is kept as long as that costs less than a new one. Where keeping it leads to a new one in the middle
+ * of a step, it was kept too long; where that does not happen for a while, it may be kept longer. */
+static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepResult *result) {
+  SporeFactorChoice *choice = &body->preconditioner.choice;
+  SporeStart start = choice->start;
+  choice->start = SPORE_START_NONE;
+  if (start == SPORE_START_NONE) return;
+  double iterations = (double)result->newton_iterations;
+  uint32_t age = (uint32_t)(world->state.step - choice->made);
+  if (start == SPORE_START_NEW) {
+    choice->fresh = iterations;
+    choice->excess = 0;
+  } else if (result->linearisations == 0) {
+    choice->excess += fmax(iterations - choice->fresh, 0) * spore_body_iteration_work(body);
+    if (choice->excess > spore_body_linearisation_work(body)) body->preconditioner.matrix_c = 0;
+  } else {
+    choice->keep = age > 1 ? age : 1;
+    choice->calm = 0;
+    choice->trial = age > 1 ? PATIENCE : choice->trial < TRIAL_MAXIMUM ? 2 * choice->trial : TRIAL_MAXIMUM;
+  }
+  choice->made = body->preconditioner.matrix_step;
+  if (++choice->calm < choice->trial) return;
+  choice->calm = 0;
+  if (choice->trial > PATIENCE) choice->trial /= 2;
+  if (choice->keep < KEEP_MAXIMUM) choice->keep += (choice->keep + 1) / 2;
+}
+
+/* Among couplings Newton makes a new matrix in every iteration, but keeps the factor as long as the conjugate gradients
+ * that its age costs are less work than a new one. */
+static void judge_kept_factor(SporeBody *body, const SporeStepResult *result) {
+  SporeFactorChoice *choice = &body->preconditioner.choice;
+  if (!body->preconditioner.factor_kept || result->newton_iterations == 0) return;
+  double iterations = (double)result->newton_iterations, linear = (double)result->linear_iterations / iterations;
+  if (choice->factors > 0) {
+    choice->linear = linear;
+    choice->debt = 0;
+    return;
+  }
+  choice->debt += fmax(linear - choice->linear, 0) * iterations * (solve_work(body) + product_work(body));
+  if (choice->debt > factor_work(body) || result->unsolved > 0) body->preconditioner.factor_kept = false;
+}
+
+/* alone: no contact or link couples bodies, for which a factor would be no start of Broyden's. */
+static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result, bool alone) {
+  SporeFactorChoice *choice = &body->preconditioner.choice;
+  uint32_t factors = choice->factors;
+  choice->factors = 0;
+  if (alone && choice->factorised && is_banded(body)) return;
+  if (choice->needed) {
+    /* What once did not converge without a factor may do now; where not, that step is taken again. */
+    if (++choice->steps < TRIAL_STEPS) return;
+    choice->needed = choice->stuck = false;
+    change(body, 0);
+    return;
+  }
+  if (result->newton_iterations == 0) return; /* at rest: nothing to learn */
+  double iterations = (double)result->linear_iterations / (double)result->newton_iterations;
+  bool broyden = alone && world->solver.nonlinear != SPORE_NONLINEAR_NEWTON;
+  choice->present += choice->factorised ? work_with(body, result, factors) : work_without(body, result);
+  choice->other += choice->factorised ? expected_without(body, result) : expected_with(body, result, broyden);
+  choice->steps++;
+  if (++choice->votes >= choice->patience) {
+    bool better = choice->present > GAIN * choice->other;
+    choice->votes = 0;
+    choice->present = choice->other = 0;
+    if (better) {
+      if (choice->factorised && choice->patience < PATIENCE_MAXIMUM) choice->patience *= 2;
+      change(body, iterations);
+      return;
+    }
+  }
+  if (choice->factorised && choice->steps >= (alone ? TRIAL_STEPS : CONTACT_STEPS)) {
+    change(body, iterations);
+    choice->votes = choice->patience - 1; /* one step of the other way tells */
+  }
+}
+
+bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
+  const SporeStepResult *result = &island->result;
+  SporeIslandSystem group = {.world = world, .island = island};
+  bool again = false, alone = !spore_island_system_couples(&group);
+  for (size_t i = 0; i < island->kept_count; i++) {
+    SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
+    SporeFactorChoice *choice = &body->preconditioner.choice;
+    if (body->preconditioner.factor.block_count == 0) continue;
+    if (island->multirate && !spore_integrator(body->method.integrator)->implicit)
+      continue; /* its matrix was not asked for */
+    judge_age(world, body, result);
+    judge_kept_factor(body, result);
+    if (world->solver.linear != SPORE_LINEAR_AUTOMATIC) continue;
+    /* Newton's method, which did not get there, may with a factor: only that takes the tangent whole. */
+    bool loose = island->contact_count + island->spring_count == 0; /* among terms it is not taken whole */
+    bool stuck = loose && !result->converged && body->model->type->tangent != NULL;
+    if ((result->unsolved > 0 || stuck) && !choice->factorised) {
+      change(body, 0);
+      choice->needed = true;
+      choice->stuck = stuck;
+      again |= !result->converged;
+    } else {
+      choose(world, body, result, alone);
+    }
+  }
+  return again;
+}

@@ -1,0 +1,229 @@
+#include "core/sim/solve/step_limit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/constraint/pin.h"
+#include "core/sim/world_private.h"
+
+#define ITERATIONS 500
+
+typedef struct Power {
+  SporeBlockMatrix matrix;
+  double *inverse; /* M^-1, 9 a block */
+  double *x, *y, *z;
+  const uint32_t *held;
+  size_t held_count;
+  double shift; /* s: the matrix is K + s M */
+} Power;
+
+static bool invert_mass(const SporeModel *model, const double *q, double *blocks) {
+  spore_model_mass(model, q, blocks);
+  for (size_t i = 0; i < model->block_count; i++) {
+    SporeMat3 block, inverse;
+    memcpy(block.m, blocks + 9 * i, sizeof block.m);
+    if (!spore_mat3_invert(block, &inverse)) return false;
+    memcpy(blocks + 9 * i, inverse.m, sizeof inverse.m);
+  }
+  return true;
+}
+
+/* A start that is no eigenvector of anything symmetric, and the same on every machine. */
+static void fill_start(double *x, size_t count) {
+  uint32_t state = 12345;
+  for (size_t i = 0; i < count; i++) {
+    state = state * 1664525u + 1013904223u;
+    x[i] = (double)(state >> 8) / (1 << 24) - 0.5;
+  }
+}
+
+static double dot(const double *a, const double *b, size_t count) {
+  double sum = 0;
+  for (size_t i = 0; i < count; i++) sum += a[i] * b[i];
+  return sum;
+}
+
+/* y = M^-1 x, block by block */
+static void solve_mass(const Power *power, const double *x, double *y) {
+  for (size_t i = 0; i < power->matrix.block_count; i++) {
+    SporeMat3 block;
+    memcpy(block.m, power->inverse + 9 * i, sizeof block.m);
+    spore_vec3_store(y + 3 * i, spore_mat3_apply(block, spore_vec3_load(x + 3 * i)));
+  }
+}
+
+/* Largest eigenvalue of M^-1 K + s, as the Rayleigh quotient x.K x / x.M x. Iterates r = M x, so that M itself is not
+ * needed: x = M^-1 r, r <- K x. */
+static double largest_eigenvalue(const Power *power) {
+  size_t n = 3 * power->matrix.block_count;
+  double *r = power->z, *x = power->x, *k = power->y, value = 0;
+  fill_start(r, n);
+  spore_pin_filter(power->held, power->held_count, r);
+  for (int i = 0; i < ITERATIONS; i++) {
+    solve_mass(power, r, x);
+    double square = dot(r, x, n); /* x.M x */
+    if (!(square > 0)) return 0;
+    for (size_t e = 0; e < n; e++) k[e] = power->shift * r[e];
+    spore_block_matrix_multiply_add(&power->matrix, x, k);
+    spore_pin_filter(power->held, power->held_count, k);
+    double next = dot(x, k, n) / square;
+    bool settled = fabs(next - value) <= 1e-4 * next;
+    value = next;
+    if (!(value > 0) || (settled && i > 20)) break;
+    double scale = 1 / (sqrt(square) * value);
+    for (size_t e = 0; e < n; e++) r[e] = scale * k[e];
+  }
+  return fmax(value, 0);
+}
+
+static bool allocate(Power *power, const SporeModel *model) {
+  size_t n = 3 * model->block_count;
+  bool made = spore_model_matrix_create(model, &power->matrix);
+  power->inverse = SPORE_NEW_ARRAY(double, 3 * n);
+  power->x = SPORE_NEW_ARRAY(double, n);
+  power->y = SPORE_NEW_ARRAY(double, n);
+  power->z = SPORE_NEW_ARRAY(double, n);
+  return made && power->inverse && power->x && power->y && power->z;
+}
+
+static void clear(Power *power) {
+  spore_block_matrix_clear(&power->matrix);
+  spore_free(power->inverse);
+  spore_free(power->x);
+  spore_free(power->y);
+  spore_free(power->z);
+}
+
+/* Root of w^2 h^2 + b d h = a - 1. */
+static double stable_step(const SporeIntegrator *integrator, double square, double damping) {
+  double a = integrator->stable_square - 1, b = integrator->stable_damping * damping;
+  if (square <= 0) return damping > 0 ? a / b : HUGE_VAL;
+  return (sqrt(b * b + 4 * a * square) - b) / (2 * square);
+}
+
+/* Whether a step of explicit Euler makes some motion grow: where h K is more than D. */
+static bool grows(Power *power, const SporeModel *model, const double *q, const double *v, double h) {
+  spore_block_matrix_zero(&power->matrix);
+  model->type->jacobian(model, q, q, v, h, -1, &power->matrix);
+  return largest_eigenvalue(power) > power->shift * (1 + 1e-6);
+}
+
+#define HALVINGS 14
+
+static double explicit_euler_step(Power *power, const SporeModel *model, const double *q, const double *v,
+                                  const SporeStepLimit *limit) {
+  if (limit->frequency == 0) return limit->damping > 0 ? 2 / limit->damping : HUGE_VAL;
+  if (limit->damping == 0) return 0;
+  power->shift = 1.02 * limit->damping; /* keeps it positive definite */
+  double high = fmin(2 / limit->damping, limit->damping / (limit->frequency * limit->frequency)), low = 0;
+  for (int i = 0; i < HALVINGS; i++) {
+    double middle = i == 0 ? high : 0.5 * (low + high);
+    if (grows(power, model, q, v, middle)) high = middle;
+    else low = middle;
+    if (low == high) break;
+  }
+  return low;
+}
+
+bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const double *q, const double *v,
+                      const uint32_t *held, size_t held_count, SporeStepLimit *limit, SporeError *error) {
+  *limit = (SporeStepLimit){0, 0, HUGE_VAL};
+  const SporeIntegrator *integrator = spore_integrator(kind);
+  if (model->type->rates) {
+    model->type->rates(model, &limit->frequency, &limit->damping);
+    double square = limit->frequency * limit->frequency;
+    limit->dt_s = integrator->stable_square > 0 ? 0.98 * stable_step(integrator, square, limit->damping) : 0;
+    return true;
+  }
+  if (!model->type->jacobian) return true;
+  Power power = {.held = held, .held_count = held_count};
+  if (!allocate(&power, model)) {
+    clear(&power);
+    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory to find the largest step"));
+  }
+  if (invert_mass(model, q, power.inverse)) {
+    model->type->jacobian(model, q, q, v, 1, 0, &power.matrix);
+    double square = largest_eigenvalue(&power);
+    spore_block_matrix_zero(&power.matrix);
+    model->type->jacobian(model, q, q, v, 0, 1, &power.matrix);
+    limit->damping = largest_eigenvalue(&power);
+    limit->frequency = sqrt(square);
+    limit->dt_s = 0.98 * (integrator->stable_square > 0 ? stable_step(integrator, square, limit->damping)
+                                                        : explicit_euler_step(&power, model, q, v, limit));
+  }
+  clear(&power);
+  return true;
+}
+
+static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_s, SporeError *error) {
+  char place[200];
+  const char *name = spore_integrator_names[body->method.integrator];
+  double h = world->solver.time_step / (double)body->method.substeps, needed = ceil(world->solver.time_step / limit_s);
+  snprintf(place, sizeof place, "bodies/%s", body->name);
+  if (limit_s == 0)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("no step is small enough for %s: something here swings without damping; expected another "
+                             "method; take integrator symplectic_euler or implicit_euler"),
+                           name);
+  if (body->model->type->rates && needed <= SPORE_SUBSTEPS_MAXIMUM)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take "
+                             "%.0f substeps, a smaller time_step or fewer particles"),
+                           h, limit_s, needed);
+  if (body->model->type->rates)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take a "
+                             "smaller time_step, fewer or heavier particles, or forces less strong"),
+                           h, limit_s);
+  if (needed <= SPORE_SUBSTEPS_MAXIMUM)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; take "
+                             "%.0f substeps, a smaller time_step or integrator implicit_euler"),
+                           h, name, limit_s, needed);
+  return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                         _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; take a "
+                           "smaller time_step or integrator implicit_euler"),
+                         h, name, limit_s);
+}
+
+/* Whether a pin or a link may hold the body, or contacts. */
+static bool may_be_held(const SporeWorld *world, size_t index) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->held.pin_count > 0 || body->collision.spheres.point_count > 0) return true;
+  for (size_t i = 0; i < world->links.term_count; i++)
+    if (world->links.springs[i].a.body == index || world->links.springs[i].b.body == index) return true;
+  return false;
+}
+
+static bool check_static(const SporeWorld *world, size_t index, SporeError *error) {
+  char place[200];
+  snprintf(place, sizeof place, "bodies/%s", world->bodies[index].name);
+  if (world->bodies[index].model->type->rates)
+    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                           _("particles have no one balance of forces to be found; expected a method that moves them; "
+                             "leave the integrator open, or take verlet"));
+  if (may_be_held(world, index)) return true;
+  return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+                         _("nothing can hold the body, so that its forces have no balance; expected a pin, a link or "
+                           "spheres; pin it, or take integrator implicit_euler"));
+}
+
+bool spore_body_check_step(const SporeWorld *world, uint32_t index, SporeError *error) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->role != SPORE_PASSIVE) return true;
+  if (spore_body_is_static(body) && !check_static(world, index, error)) return false;
+  SporeIntegratorKind kind = body->method.integrator;
+  if (spore_integrator(kind)->implicit) {
+    if (!body->model->type->rates) return true;
+    kind = SPORE_INTEGRATOR_VERLET; /* it has no Jacobian to go by, and needs as small steps */
+  }
+  SporeStepLimit limit;
+  if (!spore_step_limit(body->model, kind, world->state.rest_q + body->q_offset, world->state.rest_v + body->v_offset,
+                        body->held.blocks, body->held.count, &limit, error))
+    return false;
+  return world->solver.time_step <= limit.dt_s * (double)body->method.substeps ||
+         refuse(world, body, limit.dt_s, error);
+}

@@ -1,0 +1,58 @@
+/* Bodies: their models at all levels of detail, and where points given at rest lie in them. */
+#include "core/sim/world_private.h"
+
+void spore_body_each_model(const SporeBody *body, void (*call)(SporeModel *model, void *user), void *user) {
+  if (!body->levels && body->model) call(body->model, user);
+  for (int k = 0; body->levels && k < SPORE_LEVEL_COUNT; k++)
+    if (body->levels->level[k].model) call(body->levels->level[k].model, user);
+}
+
+const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t index, SporeLevelGrade level) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->levels) return body->levels->level[level].model;
+  return level == SPORE_LEVEL_FINE ? body->model : NULL;
+}
+
+/* Points of an unmovable body stand where its pose puts them. */
+static bool map_fixed(const SporeBody *body, const double *points, size_t count, SporeMapping *mapping,
+                      SporeError *error) {
+  if (!spore_mapping_init_points(mapping, SPORE_MAPPING_FIXED, points, count, error)) return false;
+  for (size_t i = 0; i < count; i++)
+    spore_vec3_store(mapping->points + 3 * i, spore_pose_apply(body->rest_pose, spore_vec3_load(points + 3 * i)));
+  return true;
+}
+
+bool spore_world_map_level(const SporeWorld *world, uint32_t index, SporeLevelGrade level, const double *points,
+                           size_t count, SporeMapping *mapping, SporeError *error) {
+  const SporeBody *body = &world->bodies[index];
+  const SporeModel *model = spore_world_level_model(world, index, level);
+  if (body->role == SPORE_UNMOVABLE) return map_fixed(body, points, count, mapping, error);
+  if (body->role == SPORE_ACTIVE) return spore_mapping_init_points(mapping, SPORE_MAPPING_RIGID, points, count, error);
+  return model->type->map(model, points, count, mapping, error);
+}
+
+bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const SporeTriangleMesh *mesh,
+                           SporeMapping *mapping, SporeError *error) {
+  const SporeModel *model = spore_world_level_model(world, body, level);
+  if (world->bodies[body].role == SPORE_PASSIVE && model->type->carry)
+    return model->type->carry(model, mesh, mapping, error);
+  return spore_world_map_level(world, body, level, mesh->vertices, mesh->vertex_count, mapping, error);
+}
+
+bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,
+                     SporeError *error) {
+  return spore_world_map_level(world, body, world->bodies[body].level, points, count, mapping, error);
+}
+
+SporeVec3 spore_world_to_frame(const SporeWorld *world, uint32_t body, SporeVec3 at) {
+  return spore_pose_apply_inverse(world->bodies[body].rest_pose, at);
+}
+
+bool spore_world_attach(SporeWorld *world, uint32_t body, SporeVec3 at, SporeMapping *mapping, SporeEnd *end,
+                        SporeError *error) {
+  double point[3];
+  *end = (SporeEnd){.mapping = mapping, .body = body};
+  spore_vec3_store(point, body == SPORE_NO_BODY ? at : spore_world_to_frame(world, body, at));
+  if (body == SPORE_NO_BODY) return spore_mapping_init_points(mapping, SPORE_MAPPING_FIXED, point, 1, error);
+  return spore_world_map(world, body, point, 1, mapping, error);
+}

@@ -1,0 +1,36 @@
+#include "core/sim/world_private.h"
+
+double spore_body_kinetic_energy(const SporeWorld *world, const SporeBody *body, const double *v) {
+  const double *mass = world->state.mass + 3 * body->v_offset;
+  double twice = 0;
+  for (size_t i = 0; i < body->block_count; i++, mass += 9, v += 3)
+    for (int r = 0; r < 3; r++) twice += v[r] * (mass[3 * r] * v[0] + mass[3 * r + 1] * v[1] + mass[3 * r + 2] * v[2]);
+  return 0.5 * twice;
+}
+
+double spore_body_gravity_energy(const SporeWorld *world, const SporeBody *body, const double *q) {
+  SporeVec3 gravity = spore_body_gravity(world, body);
+  double energy = 0;
+  for (size_t i = 0; i < body->model->node_count; i++)
+    energy -= body->model->block_mass[i] * spore_vec3_dot(gravity, spore_vec3_load(q + 3 * i));
+  return energy;
+}
+
+SporeEnergy spore_world_energy(const SporeWorld *world) {
+  SporeEnergy energy = {0, 0, 0, 0};
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (!body->model) continue;
+    energy.kinetic += spore_body_kinetic_energy(world, body, world->state.v + body->v_offset);
+    energy.contact += body->sleep.energy;
+    energy.gravity += spore_body_gravity_energy(world, body, world->state.q + body->q_offset);
+    energy.internal += body->model->type->potential(body->model, world->state.q + body->q_offset);
+  }
+  size_t springs = spore_world_spring_count(world);
+  for (size_t i = 0; i < springs; i++)
+    if (world->links.active[i])
+      energy.internal += spore_spring_term_energy(&world->links.springs[i], world->state.sites, world->state.q);
+  for (size_t i = 0; i < world->contact.count; i++)
+    energy.contact += spore_contact_term_energy(&world->contact.terms[i], world->state.sites, world->state.q);
+  return energy;
+}

@@ -1,0 +1,132 @@
+/* What the monitor says of what went wrong, and counts. */
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+void spore_world_report(SporeWorld *world, const char *format, ...) {
+  SporeMonitor *monitor = &world->state.monitor;
+  SporeMonitorMessage *message = &monitor->messages[monitor->message_count++ % SPORE_MONITOR_MESSAGES];
+  message->step = world->state.step;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(message->text, sizeof message->text, format, arguments);
+  va_end(arguments);
+}
+
+static const char *cause(SporeTrouble trouble) {
+  switch (trouble) {
+  case SPORE_TROUBLE_NOT_FINITE:
+    return _("its forces or motion are not finite");
+  case SPORE_TROUBLE_SPEED:
+    return _("it moves faster than the maximum speed");
+  case SPORE_TROUBLE_ENERGY:
+    return _("its energy grows beyond what it was given");
+  case SPORE_TROUBLE_NOT_CONVERGED:
+    return _("its equations are not solved to tolerance");
+  case SPORE_TROUBLE_NONE:
+    break;
+  }
+  return "";
+}
+
+static void report_frozen(SporeWorld *world, const SporeIsland *island) {
+  const uint32_t *bodies = world->solve.island_bodies + island->body_start;
+  for (size_t i = island->kept_count; i < island->body_count; i++) {
+    SporeBody *body = &world->bodies[bodies[i]];
+    body->reported.trouble = SPORE_TROUBLE_NOT_FINITE;
+    spore_world_report(world, _("%s: frozen, because %s, in smaller steps too; reset, or change its parameters"),
+                       body->name, cause(island->trouble));
+  }
+}
+
+/* Each body's troubles are told of once, the worst last. */
+static void report_mended(SporeWorld *world, const SporeIsland *island) {
+  SporeBody *body = &world->bodies[island->offender];
+  if (island->made_safer)
+    spore_world_report(world,
+                       _("%s: integrated by %s from now on, because %s; take a smaller time_step, or choose that "
+                         "integrator"),
+                       body->name, spore_integrator_names[SPORE_INTEGRATOR_IMPLICIT_EULER], cause(island->trouble));
+  if (body->reported.trouble >= island->trouble) return;
+  body->reported.trouble = island->trouble;
+  if (!island->result.converged)
+    spore_world_report(world, _("%s: %s (residual %.1e); take a smaller time step or more iterations"), body->name,
+                       cause(SPORE_TROUBLE_NOT_CONVERGED), island->result.residual);
+  else if (!island->made_safer)
+    spore_world_report(world, _("%s: a step was taken again in %llu smaller ones, because %s"), body->name,
+                       (unsigned long long)island->mending_substeps, cause(island->trouble));
+}
+
+static void report_notice(SporeWorld *world, SporeBody *body) {
+  const SporeModel *model = body->model;
+  if (body->reported.notice || !model || !model->type->notice) return;
+  const char *notice = model->type->notice(model, world->state.q + body->q_offset);
+  if (!notice) return;
+  body->reported.notice = true;
+  spore_world_report(world, "%s: %s", body->name, notice);
+}
+
+void spore_world_report_islands(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) report_notice(world, &world->bodies[b]);
+  SporeMonitor *monitor = &world->state.monitor;
+  for (size_t i = 0; i < world->solve.island_count; i++) {
+    const SporeIsland *island = &world->solve.islands[i];
+    if (island->trouble == SPORE_TROUBLE_NONE) continue;
+    monitor->recoveries += island->mending_substeps > 0;
+    monitor->substeps += island->mending_substeps;
+    monitor->not_finite += island->trouble == SPORE_TROUBLE_NOT_FINITE;
+    monitor->too_fast += island->trouble == SPORE_TROUBLE_SPEED;
+    monitor->energy += island->trouble == SPORE_TROUBLE_ENERGY;
+    monitor->not_converged += !island->result.converged;
+    if (island->kept_count < island->body_count) report_frozen(world, island);
+    else report_mended(world, island);
+  }
+}
+
+void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term) {
+  SporeBody *a = &world->bodies[term->a.body], *b = &world->bodies[term->b.body];
+  world->state.monitor.deep_contacts++;
+  if (a->reported.deep && b->reported.deep) return;
+  a->reported.deep = b->reported.deep = true;
+  spore_world_report(world,
+                     _("%s: is %.2g m deep in %s, more than the radius of a sphere; take a stiffer contact or a "
+                       "smaller time_step"),
+                     a->name, term->depth, b->name);
+}
+
+/* The body that the solvers were busiest with, by the counts of the step. */
+static const char *busiest_body(const SporeWorld *world) {
+  const char *name = NULL;
+  size_t most = 0;
+  for (size_t i = 0; i < world->solve.island_count; i++) {
+    const SporeIsland *island = &world->solve.islands[i];
+    size_t work = (island->result.force_evaluations + island->result.linear_iterations) * island->v_count;
+    if (work <= most) continue;
+    most = work;
+    name = world->bodies[world->solve.island_bodies[island->body_start]].name;
+  }
+  return name;
+}
+
+void spore_world_report_budget(SporeWorld *world) {
+  if (world->state.monitor.over_budget++ > 0) return;
+  const SporeProfilePhase *slowest = NULL;
+  for (size_t i = 0; i < world->schedule.run_count; i++) {
+    const SporeProfilePhase *phase = &world->schedule.profiles[world->schedule.run[i]];
+    if (!slowest || spore_profile_last_ns(phase) > spore_profile_last_ns(slowest)) slowest = phase;
+  }
+  const char *body = busiest_body(world);
+  spore_world_report(world,
+                     _("%s: a step took %.3g us of the %.3g us it may take, most of it to %s; make the scene "
+                       "coarser, or take a larger time_step"),
+                     body ? body : "", world->schedule.step_us, world->schedule.budget_us, slowest->name);
+}
+
+void spore_monitor_reset(SporeMonitor *monitor) {
+  monitor->recoveries = monitor->substeps = monitor->not_finite = monitor->too_fast = monitor->energy = 0;
+  monitor->not_converged = monitor->deep_contacts = monitor->soft_contacts = monitor->over_budget = 0;
+  monitor->held_inputs = monitor->shortened_forces = monitor->broken_links = monitor->lost_holds = 0;
+  monitor->torn_springs = 0;
+}

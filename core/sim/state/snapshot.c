@@ -1,0 +1,221 @@
+/* Snapshots through a triple buffer: the writer fills one, the reader holds one, the third waits in the middle.
+ *
+ * The state of the world is the one in the newest snapshot: the writer reads it there, as the reader does, and writes
+ * the next one into the buffer that is its own. A body that stood still since that buffer was last written is there
+ * already: states are numbered, and a body keeps the number of the one that it changed in. */
+#include <string.h>
+
+#include "core/base/hash.h"
+#include "core/base/memory.h"
+#include "core/sim/world_private.h"
+
+#define CONTACTS_MAXIMUM 4096
+
+static bool init_lines(const SporeWorld *world, SporeLines *lines) {
+  lines->break_count = world->topology.lines.break_count;
+  lines->breaks = SPORE_NEW_ARRAY(double, lines->break_count);
+  lines->span_count = SPORE_NEW_ARRAY(uint32_t, world->body_count);
+  return lines->breaks && lines->span_count;
+}
+
+static bool init_buffer(SporeWorld *world, int index) {
+  SporeSnapshots *snapshots = &world->state.snapshots;
+  SporeSnapshot *snapshot = &snapshots->buffers[index];
+  size_t capacity = 2 * world->contact.spheres.count;
+  snapshot->contact_capacity = world->contact.grid ? (capacity < CONTACTS_MAXIMUM ? capacity : CONTACTS_MAXIMUM) : 0;
+  snapshot->q = snapshots->q[index] = SPORE_NEW_ARRAY(double, world->state.q_count);
+  snapshot->v = snapshots->v[index] = SPORE_NEW_ARRAY(double, world->state.v_count);
+  snapshot->q_count = world->state.q_count;
+  snapshot->v_count = world->state.v_count;
+  snapshot->reaction = SPORE_NEW_ARRAY(double, 6 * world->body_count);
+  if (world->has_levels) snapshot->level = SPORE_NEW_ARRAY(uint8_t, world->body_count);
+  if (world->has_levels && !snapshot->level) return false;
+  snapshot->contacts = SPORE_NEW_ARRAY(SporeSnapshotContact, snapshot->contact_capacity);
+  snapshot->cuts.capacity = world->topology.cuts.capacity;
+  snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->topology.cuts.capacity);
+  snapshot->cuts.corner_count = world->topology.cuts.corner_count;
+  snapshot->cuts.corners = SPORE_NEW_ARRAY(uint32_t, 4 * world->topology.cuts.corner_count);
+  if (world->topology.line_count > 0 && !init_lines(world, &snapshot->lines)) return false;
+  return snapshot->q && snapshot->v && snapshot->reaction && snapshot->contacts && snapshot->cuts.edges &&
+         snapshot->cuts.corners;
+}
+
+static void set_next(SporeWorld *world) {
+  SporeSnapshots *snapshots = &world->state.snapshots;
+  world->state.next_q = snapshots->q[snapshots->triple.writing];
+  world->state.next_v = snapshots->v[snapshots->triple.writing];
+}
+
+bool spore_snapshots_init(SporeWorld *world) {
+  SporeSnapshots *snapshots = &world->state.snapshots;
+  snapshots->triple = SPORE_TRIPLE_INIT;
+  for (int i = 0; i < 3; i++)
+    if (!init_buffer(world, i)) return false;
+  world->state.q = snapshots->q[snapshots->triple.reading];
+  world->state.v = snapshots->v[snapshots->triple.reading];
+  set_next(world);
+  return true;
+}
+
+static void clear_snapshots(SporeSnapshots *snapshots) {
+  for (int i = 0; i < 3; i++) {
+    spore_free(snapshots->q[i]);
+    spore_free(snapshots->v[i]);
+    spore_free(snapshots->buffers[i].level);
+    spore_free(snapshots->buffers[i].reaction);
+    spore_free(snapshots->buffers[i].contacts);
+    spore_free(snapshots->buffers[i].cuts.edges);
+    spore_free(snapshots->buffers[i].cuts.corners);
+    spore_free(snapshots->buffers[i].lines.breaks);
+    spore_free(snapshots->buffers[i].lines.span_count);
+  }
+}
+
+static void copy_contacts(const SporeWorld *world, SporeSnapshot *snapshot) {
+  snapshot->contact_count = world->contact.count;
+  size_t listed = world->contact.count < snapshot->contact_capacity ? world->contact.count : snapshot->contact_capacity;
+  for (size_t i = 0; i < listed; i++) {
+    const SporeContactTerm *term = &world->contact.terms[i];
+    snapshot->contacts[i] =
+        (SporeSnapshotContact){spore_contact_term_point(term), term->force, term->sphere_a, term->sphere_b};
+  }
+}
+
+/* The buffer has those that it was given before. */
+static void copy_messages(const SporeWorld *world, SporeSnapshot *snapshot) {
+  const SporeMonitor *monitor = &world->state.monitor;
+  uint64_t missing = monitor->message_count - snapshot->message_count;
+  if (missing > SPORE_MONITOR_MESSAGES) missing = SPORE_MONITOR_MESSAGES;
+  for (uint64_t i = monitor->message_count - missing; i < monitor->message_count; i++)
+    snapshot->messages[i % SPORE_MONITOR_MESSAGES] = monitor->messages[i % SPORE_MONITOR_MESSAGES];
+  snapshot->message_count = monitor->message_count;
+}
+
+/* The same. */
+static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
+  SporeCuts *cuts = &snapshot->cuts;
+  if (snapshot->cut_run != world->topology.cut_run) cuts->count = 0;
+  snapshot->cut_run = world->topology.cut_run;
+  for (; cuts->count < world->topology.cuts.count; cuts->count++)
+    cuts->edges[cuts->count] = world->topology.cuts.edges[cuts->count];
+  if (cuts->parted == world->topology.cuts.parted) return;
+  cuts->parted = world->topology.cuts.parted;
+  memcpy(cuts->corners, world->topology.cuts.corners, 4 * cuts->corner_count * sizeof *cuts->corners);
+}
+
+/* The same. */
+static void copy_lines(const SporeWorld *world, SporeSnapshot *snapshot) {
+  SporeLines *lines = &snapshot->lines;
+  if (lines->number == world->topology.lines.number) return;
+  lines->number = world->topology.lines.number;
+  memcpy(lines->breaks, world->topology.lines.breaks, lines->break_count * sizeof *lines->breaks);
+  memcpy(lines->span_count, world->topology.lines.span_count, world->body_count * sizeof *lines->span_count);
+}
+
+void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) {
+  body->changed = world->state.snapshots.newest + 1;
+}
+
+void spore_body_clear_unused(SporeWorld *world, const SporeBody *body) {
+  size_t q = body->q_count, v = 3 * body->block_count;
+  memset(world->state.next_q + body->q_offset + q, 0, (body->q_most - q) * sizeof(double));
+  memset(world->state.next_v + body->v_offset + v, 0, (3 * body->block_most - v) * sizeof(double));
+}
+
+void spore_world_advance_state(SporeWorld *world) {
+  SporeSnapshots *snapshots = &world->state.snapshots;
+  uint64_t *there = &snapshots->number[snapshots->triple.writing];
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->q_most > body->q_count || body->block_most > body->block_count) spore_body_clear_unused(world, body);
+    if (body->changed > snapshots->newest || body->changed <= *there) continue;
+    memcpy(world->state.next_q + body->q_offset, world->state.q + body->q_offset, body->q_count * sizeof(double));
+    memcpy(world->state.next_v + body->v_offset, world->state.v + body->v_offset,
+           3 * body->block_count * sizeof(double));
+  }
+  *there = ++snapshots->newest;
+  world->state.q = world->state.next_q;
+  world->state.v = world->state.next_v;
+}
+
+/* Velocity that takes the body from where it is to its target in one step. It is made from the poses, not from what
+ * the device says, so that a recorded track gives the same motion again. */
+void spore_active_set_velocity(SporeWorld *world, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
+  const double *from = world->state.q + body->q_offset, *to = world->state.target_q + body->q_offset;
+  double rate = 1 / world->solver.time_step, *v = world->state.next_v + body->v_offset;
+  SporeVec3 moved = spore_vec3_sub(spore_vec3_load(to), spore_vec3_load(from));
+  SporeQuat turn = spore_quat_multiply(spore_quat_load(to + 3), spore_quat_conjugate(spore_quat_load(from + 3)));
+  spore_vec3_store(v, spore_vec3_scale(rate, moved));
+  spore_vec3_store(v + 3, spore_vec3_scale(rate, spore_quat_to_rotation_vector(turn)));
+}
+
+/* Energy costs as much as a force: it is not worth taking when nobody looks. */
+static SporeEnergy recent_energy(SporeWorld *world) {
+  if (atomic_exchange_explicit(&world->state.snapshots.energy_wanted, false, memory_order_relaxed) ||
+      world->state.step == 0)
+    world->state.energy = spore_world_energy(world);
+  return world->state.energy;
+}
+
+double spore_world_time_s(const SporeWorld *world) { return (double)world->state.step * world->solver.time_step; }
+
+void spore_world_publish(SporeWorld *world) {
+  SporeSnapshots *snapshots = &world->state.snapshots;
+  SporeSnapshot *snapshot = &snapshots->buffers[snapshots->triple.writing];
+  snapshot->step = world->state.step;
+  snapshot->time_s = spore_world_time_s(world);
+  memcpy(snapshot->reaction, world->state.reaction, 6 * world->body_count * sizeof *world->state.reaction);
+  for (size_t b = 0; snapshot->level && b < world->body_count; b++)
+    snapshot->level[b] = (uint8_t)world->bodies[b].level;
+  copy_contacts(world, snapshot);
+  snapshot->counts = world->state.counts;
+  snapshot->tools = world->tools.counts;
+  snapshot->energy = recent_energy(world);
+  copy_messages(world, snapshot);
+  copy_cuts(world, snapshot);
+  copy_lines(world, snapshot);
+  snapshot->step_us = world->schedule.step_us;
+  spore_triple_publish(&snapshots->triple);
+  set_next(world);
+}
+
+void spore_world_end_step(SporeWorld *world) {
+  world->state.step++;
+  spore_world_publish(world);
+}
+
+const SporeSnapshot *spore_world_snapshot_acquire(SporeWorld *world) {
+  SporeSnapshots *snapshots = &world->state.snapshots;
+  if (spore_triple_acquire(&snapshots->triple))
+    atomic_store_explicit(&snapshots->energy_wanted, true, memory_order_relaxed);
+  return &snapshots->buffers[snapshots->triple.reading];
+}
+
+static uint64_t hash_state(const double *q, size_t q_count, const double *v, size_t v_count, uint64_t step,
+                           double time_s) {
+  uint64_t hash = spore_hash(SPORE_HASH_INIT, q, q_count * sizeof *q);
+  hash = spore_hash(hash, v, v_count * sizeof *v);
+  hash = spore_hash(hash, &step, sizeof step);
+  return spore_hash(hash, &time_s, sizeof time_s);
+}
+
+uint64_t spore_snapshot_hash(const SporeSnapshot *snapshot) {
+  return hash_state(snapshot->q, snapshot->q_count, snapshot->v, snapshot->v_count, snapshot->step, snapshot->time_s);
+}
+
+uint64_t spore_world_hash(const SporeWorld *world) {
+  return hash_state(world->state.q, world->state.q_count, world->state.v, world->state.v_count, world->state.step,
+                    spore_world_time_s(world));
+}
+
+void spore_state_clear(SporeState *state) {
+  clear_snapshots(&state->snapshots);
+  spore_free(state->rest_q);
+  spore_free(state->rest_v);
+  spore_free(state->sites);
+  spore_free(state->target_q);
+  spore_free(state->mass);
+  spore_free(state->mass_inverse);
+  spore_free(state->reaction);
+}

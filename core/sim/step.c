@@ -1,0 +1,251 @@
+/* The step of a world: one table of stages, run from top to bottom. A stage that a world does not need is left out of
+ * its schedule and costs nothing. */
+#include "core/sim/step.h"
+
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+/* Conditions: whether a world needs a stage. */
+
+static bool always(const SporeWorld *world) { return true; }
+
+static bool has_role(const SporeWorld *world, SporeRole role) {
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == role) return true;
+  return false;
+}
+
+static bool has_active(const SporeWorld *world) { return has_role(world, SPORE_ACTIVE); }
+static bool has_passive(const SporeWorld *world) { return has_role(world, SPORE_PASSIVE); }
+static bool has_moving(const SporeWorld *world) { return has_active(world) || has_passive(world); }
+static bool has_tools(const SporeWorld *world) { return world->tools.count > 0; }
+static bool may_tear(const SporeWorld *world) { return world->topology.tearing_count > 0; }
+static bool may_touch(const SporeWorld *world) { return world->contact.grid != NULL; }
+static bool may_sleep(const SporeWorld *world) { return world->solver.sleep_speed > 0 && has_passive(world); }
+static bool has_springs(const SporeWorld *world) {
+  return (world->links.count > 0 || world->links.hold_count > 0 || world->links.pull_count > 0) && has_passive(world);
+}
+static bool has_terms(const SporeWorld *world) { return may_touch(world) || has_springs(world); }
+static bool may_split(const SporeWorld *world) { return world->topology.cuts.corner_count > 0; }
+static bool may_refine(const SporeWorld *world) { return world->topology.line_count > 0; }
+
+static bool may_break(const SporeWorld *world) {
+  for (size_t i = 0; i < world->links.count; i++)
+    if (isfinite(world->links.all[i].strength)) return true;
+  return false;
+}
+
+static bool has_holds(const SporeWorld *world) {
+  for (size_t i = 0; i < world->tools.count; i++)
+    if (world->tools.all[i].fields.holds > 0) return true;
+  return false;
+}
+
+static bool has_explicit(const SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->role == SPORE_PASSIVE && !spore_integrator(body->method.chosen)->implicit) return true;
+  }
+  return false;
+}
+
+static bool may_soften(const SporeWorld *world) { return may_touch(world) && has_explicit(world); }
+
+/* Items: what a stage works on. */
+
+static size_t bodies(const SporeWorld *world) { return world->body_count; }
+static size_t active_bodies(const SporeWorld *world) {
+  size_t count = 0;
+  for (size_t b = 0; b < world->body_count; b++) count += world->bodies[b].role == SPORE_ACTIVE;
+  return count;
+}
+static size_t sleeping_bodies(const SporeWorld *world) { return world->solve.sleeping_count; }
+static size_t tearing_bodies(const SporeWorld *world) { return world->topology.tearing_count; }
+static size_t all_spheres(const SporeWorld *world) { return world->contact.spheres.count; }
+static size_t moving_spheres(const SporeWorld *world) {
+  return world->contact.spheres.count - world->contact.spheres.static_count;
+}
+static size_t contacts(const SporeWorld *world) { return world->contact.count; }
+static size_t links(const SporeWorld *world) {
+  return world->links.count + world->links.trocar_count + world->links.pull_count;
+}
+static size_t tools(const SporeWorld *world) { return world->tools.count; }
+static size_t tetrahedra(const SporeWorld *world) { return world->topology.cuts.corner_count; }
+static size_t lines(const SporeWorld *world) { return world->topology.line_count; }
+static size_t islands(const SporeWorld *world) { return world->solve.island_count; }
+static size_t degrees_of_freedom(const SporeWorld *world) { return world->state.dof; }
+
+/* The step. Contacts and links that `detect` to `link` find stay as they are for the rest of the step, so that forces
+ * are a pure function of q, v and t. From `accept` on the next state is written, from `advance` on it is the state. */
+static const SporeStageType stages[] = {
+    {"commands", always, spore_world_apply_commands, NULL, /**/
+     N_("parameters and pulls may change while it runs"), NULL},
+    {"device_input", has_active, spore_world_read_devices, active_bodies, /**/
+     N_("active bodies follow their devices"), N_("no body is driven by a device or a track")},
+    {"tools", has_tools, spore_world_use_tools, tools, /**/
+     N_("instruments close, hold or suck"), N_("no instrument does more than touch")},
+    {"tear", may_tear, spore_world_tear, tearing_bodies, /**/
+     N_("nets may tear where they are strained too much"), N_("no body tears")},
+    {"map", may_touch, spore_world_map_spheres, moving_spheres, /**/
+     N_("bodies that move have spheres to touch"), N_("no two bodies can touch")},
+    {"detect", may_touch, spore_world_detect, all_spheres, /**/
+     N_("bodies that move have spheres to touch"), N_("no two bodies can touch")},
+    {"wake", may_sleep, spore_world_wake_touched, sleeping_bodies, /**/
+     N_("bodies at rest sleep until something that moves touches them"),
+     N_("bodies never sleep: sleep_speed is 0, or none moves by physics")},
+    {"respond", may_touch, spore_world_respond, contacts, /**/
+     N_("bodies that move have spheres to touch"), N_("no two bodies can touch")},
+    {"link", has_springs, spore_world_link, links, /**/
+     N_("links, jaws or a viewer's pull tie bodies"), N_("no link ties bodies, and nobody pulls at one")},
+    {"islands", has_passive, spore_world_find_islands, islands, /**/
+     N_("bodies that touch are solved together"), N_("no body moves by physics")},
+    {"integrate", has_passive, spore_world_integrate, degrees_of_freedom, /**/
+     N_("passive bodies move by physics"), N_("no body moves by physics")},
+    {"reactions", has_terms, spore_world_add_reactions, bodies, /**/
+     N_("contacts and links push back"), N_("nothing touches and nothing is tied")},
+    {"feedback", has_active, spore_world_feed_back, active_bodies, /**/
+     N_("devices feel what active bodies touch"), N_("no body is driven by a device or a track")},
+    {"accept", has_moving, spore_world_accept, bodies, /**/
+     N_("bodies that move have a next state"), N_("no body moves")},
+    {"particles", spore_world_exchanges_particles, spore_world_exchange_particles, bodies, /**/
+     N_("suction and emitters exchange particles"), N_("nothing sucks particles away or lets them out")},
+    {"split_nodes", may_split, spore_world_split_nodes, tetrahedra, /**/
+     N_("scissors may cut tetrahedra apart"), N_("nothing cuts tetrahedra apart")},
+    {"advance", has_moving, spore_world_advance, bodies, /**/
+     N_("the next state becomes the state"), N_("no body moves")},
+    {"friction", may_touch, spore_world_keep_friction, contacts, /**/
+     N_("contacts that stick hold on in the next step"), N_("no two bodies can touch")},
+    {"break_links", may_break, spore_world_break_links, links, /**/
+     N_("links may bear too much"), N_("no link can break")},
+    {"tear_holds", has_holds, spore_world_tear_holds, tools, /**/
+     N_("what jaws hold may tear away"), N_("no jaws hold anything")},
+    {"watch_contacts", may_soften, spore_world_watch_contacts, contacts, /**/
+     N_("explicit steps soften contacts"), N_("no explicit step softens a contact")},
+    {"report", has_passive, spore_world_report_islands, islands, /**/
+     N_("what went wrong is counted and said"), N_("no body moves by physics")},
+    {"refine_splines", may_refine, spore_world_refine_splines, lines, /**/
+     N_("threads get control points where they bend"), N_("no thread gets control points where it bends")},
+    {"publish", always, spore_world_end_step, bodies, /**/
+     N_("readers see the new state"), NULL},
+};
+_Static_assert(sizeof stages / sizeof *stages == SPORE_STAGE_COUNT, "SPORE_STAGE_COUNT");
+
+/* What a world is spared besides stages. */
+
+static bool explicit_alone(const SporeWorld *world) {
+  const SporeBody *first = NULL;
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_PASSIVE) continue;
+    if (!first) first = body;
+    /* Bodies that choose differently are coupled implicitly. */
+    if (spore_integrator(body->method.integrator)->implicit || body->method.integrator != first->method.integrator ||
+        body->method.substeps != first->method.substeps)
+      return false;
+  }
+  for (size_t i = 0; i < world->links.count; i++)
+    if (world->links.all[i].kind != SPORE_LINK_SPRING) return false;
+  return first != NULL;
+}
+
+static bool has_unmovable_spheres(const SporeWorld *world) {
+  return may_touch(world) && world->contact.spheres.static_count > 0;
+}
+
+static bool no_contact(const SporeWorld *world) { return !may_touch(world); }
+static bool no_passive(const SporeWorld *world) { return !has_passive(world); }
+static bool no_exchange(const SporeWorld *world) { return !spore_world_exchanges_particles(world); }
+static bool no_tools(const SporeWorld *world) { return !has_tools(world); }
+static bool no_active(const SporeWorld *world) { return !has_active(world); }
+static bool no_links(const SporeWorld *world) { return links(world) == 0; }
+
+static const struct {
+  const char *what;
+  bool (*spared)(const SporeWorld *world);
+  const char *reason;
+} spared[] = {
+    {N_("collision"), no_contact, N_("no two bodies can touch")},
+    {N_("mapping of unmovable spheres"), has_unmovable_spheres, N_("they lie in the grid from the start")},
+    {N_("integration"), no_passive, N_("no body moves by physics")},
+    {N_("the nonlinear solver"), explicit_alone,
+     N_("every body is integrated explicitly; it is kept for recovery only")},
+    {N_("exchange of particles"), no_exchange, N_("nothing sucks particles away or lets them out")},
+    {N_("tools"), no_tools, N_("no instrument does more than touch")},
+    {N_("devices and feedback"), no_active, N_("no body is driven by a device or a track")},
+    {N_("links"), no_links, N_("the scene has none")},
+};
+_Static_assert(sizeof spared / sizeof *spared <= SPORE_LEFT_OUT_MAXIMUM, "SPORE_LEFT_OUT_MAXIMUM");
+
+void spore_world_make_plan(SporeWorld *world) {
+  SporeSchedule *schedule = &world->schedule;
+  SporePlan *plan = &schedule->plan;
+  *plan = (SporePlan){.stages = schedule->plan_stages, .left_out = schedule->left_out};
+  schedule->run_count = 0;
+  for (size_t i = 0; i < SPORE_STAGE_COUNT; i++) {
+    bool included = stages[i].needed(world);
+    SporeProfilePhase *profile = &schedule->profiles[i];
+    profile->name = stages[i].name;
+    schedule->plan_stages[plan->stage_count++] =
+        (SporePlanStage){.name = stages[i].name,
+                         .included = included,
+                         .reason = _(included ? stages[i].why : stages[i].why_not),
+                         .profile = included ? profile : NULL};
+    if (included) schedule->run[schedule->run_count++] = (uint8_t)i;
+  }
+  for (size_t i = 0; i < sizeof spared / sizeof *spared; i++)
+    if (spared[i].spared(world))
+      schedule->left_out[plan->left_out_count++] = (SporePlanLeftOut){_(spared[i].what), _(spared[i].reason)};
+}
+
+void spore_world_step(SporeWorld *world) {
+  SporeSchedule *schedule = &world->schedule;
+  uint64_t start = spore_clock_ns(), before = start;
+  /* The first stage applies commands, which may put a stage behind it in or out. */
+  for (size_t i = 0; i < schedule->run_count; i++) {
+    size_t stage = schedule->run[i];
+    stages[stage].run(world);
+    uint64_t after = spore_clock_ns();
+    spore_profile_add(&schedule->profiles[stage], after - before);
+    before = after;
+  }
+  spore_profile_add(&schedule->profile, before - start);
+  schedule->step_us = (double)(before - start) * 1e-3;
+  if (schedule->budget_us > 0 && schedule->step_us > schedule->budget_us) spore_world_report_budget(world);
+}
+
+const SporePlan *spore_world_plan(const SporeWorld *world) {
+  /* What a stage works on changes from step to step; the plan is brought up to date when somebody looks. */
+  SporeSchedule *schedule = &((SporeWorld *)(uintptr_t)world)->schedule;
+  for (size_t i = 0; i < schedule->plan.stage_count; i++)
+    if (schedule->plan_stages[i].included && stages[i].items) schedule->plan_stages[i].items = stages[i].items(world);
+  return &schedule->plan;
+}
+
+/* What automatic is at present: a body's choice of a factor decides both. */
+static SporeChoice nonlinear_choice(const SporeWorld *world, const SporeBody *body) {
+  int kind = world->solver.nonlinear;
+  if (kind != SPORE_NONLINEAR_AUTOMATIC) return (SporeChoice){spore_nonlinear_names[kind], SPORE_SOURCE_SCENE};
+  kind = body->preconditioner.choice.factorised ? SPORE_NONLINEAR_BROYDEN : SPORE_NONLINEAR_NEWTON;
+  return (SporeChoice){spore_nonlinear_names[kind], SPORE_SOURCE_AUTOMATIC};
+}
+
+static SporeChoice linear_choice(const SporeWorld *world, const SporeBody *body) {
+  int factor = body->preconditioner.factor.band.block_count > 0 ? SPORE_LINEAR_BANDED : SPORE_LINEAR_CHOLESKY;
+  int kind = body->preconditioner.choice.factorised ? factor : SPORE_LINEAR_CONJUGATE_GRADIENTS;
+  bool open = world->solver.linear == SPORE_LINEAR_AUTOMATIC || kind != world->solver.linear;
+  return (SporeChoice){spore_linear_names[kind], open ? SPORE_SOURCE_AUTOMATIC : SPORE_SOURCE_SCENE};
+}
+
+bool spore_world_body_method(const SporeWorld *world, uint32_t index, SporeMethod *method) {
+  const SporeBody *body = &world->bodies[index];
+  if (body->role != SPORE_PASSIVE) return false;
+  const SporeIntegrator *integrator = spore_integrator(body->method.integrator);
+  *method = (SporeMethod){.integrator = {integrator->name, body->method.integrator_source},
+                          .substeps = body->method.substeps,
+                          .substeps_source = body->method.substeps_source};
+  if (body->method.integrator != body->method.chosen) method->integrator.source = SPORE_SOURCE_MONITOR;
+  if (!integrator->implicit) return true;
+  method->nonlinear = nonlinear_choice(world, body);
+  method->linear = linear_choice(world, body);
+  return true;
+}

@@ -1,0 +1,411 @@
+/* A curved needle with its thread.
+ *
+ * The needle has no spheres that touch: its tip feels tissue by crossing its surface. What the tip crosses it presses
+ * before it, held where it was met, until it presses with the force that pierces, or has come as deep as pierces. From
+ * then on that place of the tissue slides along the needle, and behind the swage along the thread: a spring that runs
+ * on a path (core/constraint/curve_joint.c), with friction. */
+#include "core/sim/tool/needle.h"
+
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+#define BEHIND 0.05 /* of the needle's length, behind its tip: what lies between is looked for */
+
+#define REAL(field, unit_text, least_value, most, start, text)                                                         \
+  {                                                                                                                    \
+    .name = #field, .type = SPORE_REAL, .unit = unit_text, .minimum = least_value, .maximum = most,                    \
+    .initial = {start}, .offset = offsetof(SporeNeedleFields, field), .change = SPORE_CHANGE_REBUILD, .doc = text      \
+  }
+
+static const SporeParameter parameters[] = {
+    REAL(force, "N", 0, 1e3, 0.2, N_("Force of the tip on a surface above which it pierces it.")),
+    REAL(depth, "m", 0, 1, 0.003, N_("How far the tip pushes a surface before it at most: beyond, it pierces it.")),
+    REAL(stiffness, "N/m", 1e-3, 1e9, 500, N_("How firmly needle and thread are held where they go through tissue.")),
+    REAL(friction, "", 0, 10, 0.1, N_("Coulomb coefficient of tissue against needle and thread.")),
+    REAL(strength, "N", 0, 1e6, 0, N_("Force above which a stitch tears out of the tissue; 0: never.")),
+    {.name = "stitches",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     .minimum = 1,
+     .maximum = 1000,
+     .initial = {8},
+     .offset = offsetof(SporeNeedleFields, stitches),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Places that needle and thread can go through at a time.")},
+    {.name = "knot",
+     .type = SPORE_BOOLEAN,
+     .unit = "",
+     .maximum = 1,
+     .initial = {1},
+     .offset = offsetof(SporeNeedleFields, knot),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("The thread ends in a knot that does not go through tissue; else it can be drawn out.")},
+};
+const SporeParameterTable spore_needle_parameters = {parameters, sizeof parameters / sizeof *parameters,
+                                                     sizeof(SporeNeedleFields)};
+
+size_t spore_needle_term_count(const SporeToolDescription *from) { return 1 + 2 * (size_t)from->needle.stitches; }
+
+static const SporeModel *thread_model(const SporeWorld *world, uint32_t thread) {
+  const SporeModel *model = thread < world->body_count ? world->bodies[thread].model : NULL;
+  return model && model->type->path ? model : NULL;
+}
+
+/* Knots of the thread as it is now; none where the needle has no thread. */
+static SporeSplineKnots thread_knots(const SporeWorld *world, const SporeNeedle *needle) {
+  const SporeModel *model = thread_model(world, needle->thread);
+  return model ? model->type->path(model) : (SporeSplineKnots){0};
+}
+
+/* Control point of the thread that lies nearest to the swage; *off: how far, in lengths of the thread. */
+static size_t thread_end(const SporeWorld *world, const SporeToolDescription *from, double *off) {
+  const SporeModel *model = thread_model(world, from->thread);
+  const double *q = world->state.rest_q + world->bodies[from->thread].q_offset;
+  SporeSplineKnots knots = model->type->path(model);
+  size_t last = knots.span_count + 2;
+  double first_off = spore_vec3_distance(spore_vec3_load(q), from->swage);
+  double last_off = spore_vec3_distance(spore_vec3_load(q + 3 * last), from->swage);
+  *off = fmin(first_off, last_off) / spore_path_length(knots, q, 0, spore_spline_end(knots));
+  return last_off < first_off ? last : 0;
+}
+
+const char *spore_needle_fault(const SporeWorld *world, const SporeToolDescription *from) {
+  double off;
+  if (!spore_vec3_is_finite(from->middle) || !spore_vec3_is_finite(from->swage))
+    return _("a point of the needle is not finite; expected it in m; correct it");
+  SporeVec3 a = spore_vec3_sub(from->middle, from->point), b = spore_vec3_sub(from->swage, from->middle);
+  if (!(spore_vec3_length(a) > 0) || !(spore_vec3_length(b) > 0) ||
+      spore_vec3_length(spore_vec3_add(a, b)) < 1e-3 * (spore_vec3_length(a) + spore_vec3_length(b)))
+    return _("tip, middle and swage of the needle do not lie along an arc; expected three points apart; set them");
+  if (from->thread == SPORE_NO_BODY) return NULL;
+  if (!thread_model(world, from->thread))
+    return _("the needle's thread is no thread; expected a body along a curve, such as spline_1d; choose one");
+  thread_end(world, from, &off);
+  if (off > 0.01)
+    return _("no end of the thread lies at the needle's swage; expected one within a hundredth of its length; move the "
+             "thread or the swage");
+  return NULL;
+}
+
+/* On the circle through three points, or the line, by the share of the way from a to c. */
+static SporeVec3 arc_at(SporeVec3 a, SporeVec3 b, SporeVec3 c, double share) {
+  SporeVec3 u = spore_vec3_sub(b, a), w = spore_vec3_sub(c, a), n = spore_vec3_cross(u, w);
+  double square = spore_vec3_dot(n, n), uu = spore_vec3_dot(u, u), ww = spore_vec3_dot(w, w);
+  if (square < 1e-8 * uu * ww) return spore_vec3_add_scaled(a, share, w);
+  SporeVec3 to_centre = spore_vec3_scale(ww, spore_vec3_cross(n, u));
+  to_centre = spore_vec3_scale(0.5 / square, spore_vec3_add_scaled(to_centre, -uu, spore_vec3_cross(n, w)));
+  SporeVec3 centre = spore_vec3_add(a, to_centre), axis = spore_vec3_normalise(n, (SporeVec3){0, 0, 1});
+  SporeVec3 from = spore_vec3_sub(a, centre), to = spore_vec3_sub(c, centre);
+  double angle = atan2(spore_vec3_dot(axis, spore_vec3_cross(from, to)), spore_vec3_dot(from, to));
+  if (angle < 0) angle += 2 * M_PI;
+  SporeQuat turn = spore_quat_from_rotation_vector(spore_vec3_scale(share * angle, axis));
+  return spore_vec3_add(centre, spore_quat_rotate(turn, from));
+}
+
+/* Control points at the means of their knots: the path is as near to the arc as a span's length squared, times its
+ * curvature, over 6. */
+static void make_path(const SporeWorld *world, SporeNeedle *needle, const SporeToolDescription *from) {
+  SporeVec3 tip = spore_world_to_frame(world, from->body, from->point);
+  SporeVec3 middle = spore_world_to_frame(world, from->body, from->middle);
+  SporeVec3 swage = spore_world_to_frame(world, from->body, from->swage);
+  for (int i = 0; i < SPORE_NEEDLE_SPANS + 3; i++) {
+    double mean = 0;
+    for (int k = 1; k <= 3; k++) mean += fmin(fmax(i + k - 3, 0), SPORE_NEEDLE_SPANS) / (3.0 * SPORE_NEEDLE_SPANS);
+    spore_vec3_store(needle->path + 3 * i, arc_at(tip, middle, swage, mean));
+  }
+  needle->length = spore_path_length(spore_spline_uniform(SPORE_NEEDLE_SPANS), needle->path, 0, SPORE_NEEDLE_SPANS);
+}
+
+/* The end of the thread at the swage. */
+static bool tie_thread(SporeWorld *world, const SporeTool *tool, const SporeToolDescription *from) {
+  SporeNeedle *needle = tool->needle;
+  SporeSpringTerm *term = &world->links.springs[tool->hold_start];
+  SporeMapping *mapping = &world->links.mappings[2 * tool->hold_start];
+  const SporeBody *body = &world->bodies[from->thread];
+  double off, swage[3];
+  size_t end = thread_end(world, from, &off);
+  needle->from_end = end > 0;
+  spore_vec3_store(swage, spore_world_to_frame(world, from->body, from->swage));
+  term->a = (SporeEnd){.mapping = mapping, .body = from->thread, .point = (uint32_t)end};
+  term->b = (SporeEnd){.mapping = mapping + 1, .body = from->body};
+  double damping = 2 * sqrt(from->needle.stiffness * body->total_mass);
+  term->law = (SporeSpring){.stiffness = from->needle.stiffness, .damping = damping};
+  return spore_mapping_init_identity(mapping, body->model->node_count) &&
+         spore_mapping_init_points(mapping + 1, SPORE_MAPPING_RIGID, swage, 1, NULL);
+}
+
+/* Both terms of a stitch have the same place of the tissue at end a. */
+static bool make_stitch(SporeWorld *world, const SporeTool *tool, size_t index) {
+  static const uint32_t blocks[SPORE_PATH_WIDTH] = {0, 1, 2, 3};
+  static const double third[3] = {1. / 3, 1. / 3, 1. / 3}, quarter[4] = {0.25, 0.25, 0.25, 0.25}, origin[3] = {0};
+  SporeNeedle *needle = tool->needle;
+  SporeStitch *stitch = &needle->stitches[index];
+  size_t on_needle = tool->hold_start + 1 + 2 * index, on_thread = on_needle + 1;
+  SporeMapping *mappings = &world->links.mappings[2 * on_needle];
+  stitch->needle = (SporeCurveJoint){
+      .knots = spore_spline_uniform(SPORE_NEEDLE_SPANS), .points = needle->path, .mapping = mappings + 1};
+  stitch->thread =
+      (SporeCurveJoint){.knots = thread_knots(world, needle), .mapping = mappings + 3, .stops = needle->fields.knot};
+  world->links.springs[on_needle].a.mapping = world->links.springs[on_thread].a.mapping = mappings;
+  world->links.springs[on_needle].b = (SporeEnd){.mapping = mappings + 1, .body = tool->body};
+  world->links.springs[on_thread].b = (SporeEnd){.mapping = mappings + 3, .body = needle->thread};
+  world->links.springs[on_thread].curve = &stitch->thread;
+  return spore_mapping_init_linear(mappings, 1, 3, blocks, third, NULL) &&
+         spore_mapping_init_points(mappings + 1, SPORE_MAPPING_RIGID, origin, 1, NULL) &&
+         spore_mapping_init_linear(mappings + 3, 1, SPORE_PATH_WIDTH, blocks, quarter, NULL);
+}
+
+static bool find_skins(const SporeWorld *world, SporeNeedle *needle) {
+  needle->skins = SPORE_NEW_ARRAY(SporeSkin, world->body_count);
+  for (uint32_t b = 0; needle->skins && b < world->body_count; b++) {
+    const SporeModel *model = world->bodies[b].model;
+    if (!model || !model->type->skin) continue;
+    SporeSkin *skin = &needle->skins[needle->skin_count++];
+    skin->body = b;
+    if (!model->type->skin(model, &skin->triangles, &skin->count)) return false;
+  }
+  return needle->skins;
+}
+
+bool spore_needle_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
+  SporeNeedle *needle = tool->needle = SPORE_NEW(SporeNeedle);
+  if (!needle) return false;
+  needle->fields = from->needle;
+  needle->thread = from->thread;
+  make_path(world, needle, from);
+  if (needle->thread != SPORE_NO_BODY && !tie_thread(world, tool, from)) return false;
+  needle->stitches = SPORE_NEW_ARRAY(SporeStitch, (size_t)needle->fields.stitches);
+  bool made = needle->stitches && find_skins(world, needle);
+  for (size_t i = 0; made && i < (size_t)needle->fields.stitches; i++) made = make_stitch(world, tool, i);
+  world->links.curve_joint_count++;
+  return made;
+}
+
+void spore_needle_clear(SporeNeedle *needle) {
+  if (!needle) return;
+  for (size_t i = 0; needle->skins && i < needle->skin_count; i++) spore_free(needle->skins[i].triangles);
+  spore_free(needle->skins);
+  spore_free(needle->stitches);
+  spore_free(needle);
+}
+
+/* Stitches. */
+
+static size_t term_of(const SporeTool *tool, const SporeStitch *stitch, SporeStitchState state) {
+  size_t index = (size_t)(stitch - tool->needle->stitches);
+  return tool->hold_start + 1 + 2 * index + (state == SPORE_STITCH_ON_THREAD);
+}
+
+/* From one state to another; what holds it then has not slid yet. */
+static void go_to(SporeWorld *world, const SporeTool *tool, SporeStitch *stitch, SporeStitchState state) {
+  size_t now = term_of(tool, stitch, state);
+  if (stitch->state != SPORE_STITCH_FREE) world->links.active[term_of(tool, stitch, stitch->state)] = false;
+  stitch->state = state;
+  if (state == SPORE_STITCH_FREE) return;
+  SporeSpringTerm *term = &world->links.springs[now];
+  term->stretch = term->slid = term->held = 0;
+  term->force = (SporeVec3){0, 0, 0};
+  world->links.active[now] = true;
+  spore_world_wake(world, stitch->body);
+}
+
+void spore_needle_reset(SporeWorld *world, SporeTool *tool) {
+  SporeNeedle *needle = tool->needle;
+  for (size_t i = 0; i < (size_t)needle->fields.stitches; i++)
+    go_to(world, tool, &needle->stitches[i], SPORE_STITCH_FREE);
+  world->links.active[tool->hold_start] = needle->thread != SPORE_NO_BODY;
+  needle->pierced = 0;
+}
+
+static SporePose pose_at(const double *q) { return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)}; }
+
+static SporeVec3 path_at(const SporeNeedle *needle, const double *q, double parameter) {
+  return spore_pose_apply(pose_at(q),
+                          spore_path_at(spore_spline_uniform(SPORE_NEEDLE_SPANS), needle->path, parameter).position);
+}
+
+/* Unit, ahead of the tip. */
+static SporeVec3 ahead_of_tip(const SporeNeedle *needle, const double *q) {
+  SporeVec3 back = spore_path_at(spore_spline_uniform(SPORE_NEEDLE_SPANS), needle->path, 0).slope;
+  return spore_vec3_normalise(spore_quat_rotate(spore_quat_load(q + 3), spore_vec3_scale(-1, back)),
+                              (SporeVec3){0, 0, 0});
+}
+
+static SporeVec3 tissue_at(const SporeWorld *world, const SporeSpringTerm *term) {
+  return spore_mapping_position(term->a.mapping, 0, world->state.q + world->bodies[term->a.body].q_offset);
+}
+
+static void pierce(SporeWorld *world, SporeTool *tool, SporeStitch *stitch) {
+  SporeNeedle *needle = tool->needle;
+  go_to(world, tool, stitch, SPORE_STITCH_ON_NEEDLE);
+  SporeSpringTerm *term = &world->links.springs[term_of(tool, stitch, SPORE_STITCH_ON_NEEDLE)];
+  term->curve = &stitch->needle;
+  term->law.friction = needle->fields.friction;
+  stitch->needle.start = 0;
+  needle->pierced++;
+  spore_world_report(world, _("%s: pierced %s"), tool->name, world->bodies[stitch->body].name);
+}
+
+/* The tip pushes it on, pierces it, or is drawn back from it. */
+static void press(SporeWorld *world, SporeTool *tool, SporeStitch *stitch) {
+  const SporeNeedle *needle = tool->needle;
+  const double *target = world->state.target_q + world->bodies[tool->body].q_offset;
+  const SporeSpringTerm *term = &world->links.springs[term_of(tool, stitch, SPORE_STITCH_PRESSED)];
+  SporeVec3 ahead = ahead_of_tip(needle, target);
+  double pushed = spore_vec3_dot(ahead, spore_vec3_sub(path_at(needle, target, 0), stitch->touched));
+  double force = spore_vec3_dot(ahead, term->force);
+  if (pushed < 0) go_to(world, tool, stitch, SPORE_STITCH_FREE);
+  else if (pushed > needle->fields.depth || force > needle->fields.force) pierce(world, tool, stitch);
+}
+
+/* The path's place nearest to the tissue; how far that is beyond an end of it, m. */
+static double follow(const SporeWorld *world, SporeSpringTerm *term, const double *local) {
+  SporeVec3 at = tissue_at(world, term);
+  term->stretch = spore_spring_term_stretch(term, world->state.sites, world->state.q);
+  SporePathPlace place = spore_curve_joint_place(term->curve, local, at);
+  term->curve->start = place.parameter;
+  spore_curve_joint_set(term, &place);
+  return spore_curve_joint_overshoot(term->curve, &place, at);
+}
+
+/* Along the needle; behind the swage it goes over to the thread, before the tip it comes off. */
+static void slide_on_needle(SporeWorld *world, SporeTool *tool, SporeStitch *stitch) {
+  const SporeNeedle *needle = tool->needle;
+  SporeSpringTerm *term = &world->links.springs[term_of(tool, stitch, SPORE_STITCH_ON_NEEDLE)];
+  double beyond = follow(world, term, world->state.target_q + world->bodies[tool->body].q_offset);
+  if (!(beyond > 0)) return;
+  bool behind = stitch->needle.start > 0, threaded = behind && needle->thread != SPORE_NO_BODY;
+  go_to(world, tool, stitch, threaded ? SPORE_STITCH_ON_THREAD : SPORE_STITCH_FREE);
+  if (!threaded) return;
+  SporeSpringTerm *next = &world->links.springs[term_of(tool, stitch, SPORE_STITCH_ON_THREAD)];
+  stitch->thread.start = needle->from_end ? spore_spline_end(thread_knots(world, needle)) : 0;
+  follow(world, next, world->state.q + world->bodies[needle->thread].q_offset);
+  next->stretch = 0;
+}
+
+static void slide_on_thread(SporeWorld *world, SporeTool *tool, SporeStitch *stitch) {
+  const SporeNeedle *needle = tool->needle;
+  SporeSpringTerm *term = &world->links.springs[term_of(tool, stitch, SPORE_STITCH_ON_THREAD)];
+  double beyond = follow(world, term, world->state.q + world->bodies[needle->thread].q_offset);
+  bool at_swage = needle->from_end == (stitch->thread.start > 0);
+  if (!(beyond > 0) || at_swage || stitch->thread.stops) return;
+  go_to(world, tool, stitch, SPORE_STITCH_FREE);
+  spore_world_report(world, _("%s: its thread slipped out of %s"), tool->name, world->bodies[stitch->body].name);
+}
+
+static void tear_out(SporeWorld *world, SporeTool *tool, SporeStitch *stitch) {
+  double strength = tool->needle->fields.strength;
+  if (stitch->state < SPORE_STITCH_ON_NEEDLE || !(strength > 0)) return;
+  double load = spore_vec3_length(world->links.springs[term_of(tool, stitch, stitch->state)].force);
+  if (load <= strength) return;
+  go_to(world, tool, stitch, SPORE_STITCH_FREE);
+  if (world->state.monitor.lost_holds++ == 0)
+    spore_world_report(world, _("%s: a stitch tore out of %s, it held %.3g N and can hold %.3g N"), tool->name,
+                       world->bodies[stitch->body].name, load, strength);
+}
+
+/* Crossings. */
+
+typedef struct Crossing {
+  uint32_t body;
+  const uint32_t *corners; /* NULL: none */
+  double weight[3], share; /* share of the way */
+} Crossing;
+
+/* Where the way from p by d goes through a triangle (T. Moeller and B. Trumbore, "Fast, minimum storage ray/triangle
+ * intersection", 1997), if that is nearer than the crossing. */
+static void cross_triangle(Crossing *crossing, uint32_t body, const uint32_t *corners, const double *q, SporeVec3 p,
+                           SporeVec3 d) {
+  SporeVec3 a = spore_vec3_load(q + 3 * (size_t)corners[0]);
+  SporeVec3 u = spore_vec3_sub(spore_vec3_load(q + 3 * (size_t)corners[1]), a);
+  SporeVec3 w = spore_vec3_sub(spore_vec3_load(q + 3 * (size_t)corners[2]), a);
+  SporeVec3 across = spore_vec3_cross(d, w), from = spore_vec3_sub(p, a), turned = spore_vec3_cross(from, u);
+  double determinant = spore_vec3_dot(u, across);
+  if (determinant == 0) return;
+  double second = spore_vec3_dot(from, across) / determinant, third = spore_vec3_dot(d, turned) / determinant;
+  double share = spore_vec3_dot(w, turned) / determinant;
+  if (!(second >= 0 && third >= 0 && second + third <= 1 && share >= 0 && share < crossing->share)) return;
+  *crossing = (Crossing){body, corners, {1 - second - third, second, third}, share};
+}
+
+/* What was met here already. */
+static bool is_met(const SporeWorld *world, const SporeTool *tool, uint32_t body, SporeVec3 at) {
+  const SporeNeedle *needle = tool->needle;
+  for (size_t i = 0; i < (size_t)needle->fields.stitches; i++) {
+    const SporeStitch *stitch = &needle->stitches[i];
+    if (stitch->state == SPORE_STITCH_FREE || stitch->state == SPORE_STITCH_ON_THREAD || stitch->body != body) continue;
+    SporeVec3 there = tissue_at(world, &world->links.springs[term_of(tool, stitch, stitch->state)]);
+    if (spore_vec3_distance(there, at) < 3 * BEHIND * needle->length) return true;
+  }
+  return false;
+}
+
+static void touch(SporeWorld *world, SporeTool *tool, SporeStitch *stitch, const Crossing *crossing, SporeVec3 at) {
+  const SporeNeedle *needle = tool->needle;
+  const SporeModel *model = world->bodies[crossing->body].model;
+  SporeSpringTerm *terms = &world->links.springs[term_of(tool, stitch, SPORE_STITCH_PRESSED)];
+  SporeMapping *place = &world->links.mappings[2 * term_of(tool, stitch, SPORE_STITCH_PRESSED)];
+  double mass = 0;
+  for (int k = 0; k < 3; k++) {
+    place->block[k] = crossing->corners[k];
+    place->weight[k] = crossing->weight[k];
+    mass += model->block_mass[crossing->corners[k]];
+  }
+  double damping = 2 * sqrt(needle->fields.stiffness * mass);
+  stitch->body = crossing->body;
+  stitch->touched = at;
+  for (int t = 0; t < 2; t++) {
+    terms[t].a.body = crossing->body;
+    terms[t].law = (SporeSpring){
+        .stiffness = needle->fields.stiffness, .damping = damping, .friction = t ? needle->fields.friction : 0};
+  }
+  terms[0].curve = NULL; /* held at the tip */
+  memcpy(place[1].points, needle->path, 3 * sizeof(double));
+  go_to(world, tool, stitch, SPORE_STITCH_PRESSED);
+}
+
+/* The surface that lies between the needle just behind its tip, and where the tip goes; unless the tip goes back. */
+static void meet(SporeWorld *world, SporeTool *tool) {
+  const SporeNeedle *needle = tool->needle;
+  size_t offset = world->bodies[tool->body].q_offset;
+  const double *now = world->state.q + offset, *target = world->state.target_q + offset;
+  SporeStitch *place = NULL;
+  for (size_t i = 0; i < (size_t)needle->fields.stitches; i++) {
+    if (needle->stitches[i].state == SPORE_STITCH_PRESSED) return;
+    if (!place && needle->stitches[i].state == SPORE_STITCH_FREE) place = &needle->stitches[i];
+  }
+  SporeVec3 from = path_at(needle, now, BEHIND * SPORE_NEEDLE_SPANS), tip = path_at(needle, target, 0);
+  SporeVec3 way = spore_vec3_sub(tip, from), moved = spore_vec3_sub(tip, path_at(needle, now, 0));
+  if (!place || !(spore_vec3_dot(moved, ahead_of_tip(needle, target)) > 0)) return;
+  Crossing crossing = {.share = 1};
+  for (size_t s = 0; s < needle->skin_count; s++) {
+    const SporeSkin *skin = &needle->skins[s];
+    const double *q = world->state.q + world->bodies[skin->body].q_offset;
+    for (size_t t = 0; t < skin->count; t++)
+      cross_triangle(&crossing, skin->body, skin->triangles + 3 * t, q, from, way);
+  }
+  SporeVec3 at = spore_vec3_add_scaled(from, crossing.share, way);
+  if (crossing.corners && !is_met(world, tool, crossing.body, at)) touch(world, tool, place, &crossing, at);
+}
+
+void spore_needle_use(SporeWorld *world, SporeTool *tool) {
+  SporeNeedle *needle = tool->needle;
+  for (size_t i = 0; i < (size_t)needle->fields.stitches; i++) {
+    SporeStitch *stitch = &needle->stitches[i];
+    tear_out(world, tool, stitch);
+    if (stitch->state == SPORE_STITCH_PRESSED) press(world, tool, stitch);
+    if (stitch->state == SPORE_STITCH_ON_NEEDLE) slide_on_needle(world, tool, stitch);
+    else if (stitch->state == SPORE_STITCH_ON_THREAD) slide_on_thread(world, tool, stitch);
+  }
+  meet(world, tool);
+}
+
+size_t spore_needle_stitch_count(const SporeNeedle *needle) {
+  size_t count = 0;
+  for (size_t i = 0; i < (size_t)needle->fields.stitches; i++)
+    count += needle->stitches[i].state >= SPORE_STITCH_ON_NEEDLE;
+  return count;
+}

@@ -1,0 +1,336 @@
+/* Particles that leave the world, by suction or as they dissolve, and come into it, from a wound. A particle out of the
+ * world is held far away from everything and from its like, where forces of short reach do not find it: the number of
+ * unknowns stays. */
+#include <stdio.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+#define PARKING_M (2 * SPORE_PARTICLES_OUT_M) /* along x */
+#define GAP_SPACINGS 10.                      /* between them, in mean distances of the fluid's particles */
+#define NEAREST 1.1 /* of that distance: as near another a particle may come into the world without being thrown */
+#define TRIES 8     /* places in an emitter's mouth that are looked at in a step, for a particle */
+
+static const char *const flow_triggers[] = {"always", "button", NULL};
+
+#define TRIGGER(Type, text)                                                                                            \
+  {                                                                                                                    \
+    .name = "trigger", .type = SPORE_CHOICE, .unit = "", .minimum = 0, .maximum = 1, .choices = flow_triggers,         \
+    .offset = offsetof(Type, trigger), .change = SPORE_CHANGE_REBUILD, .doc = text                                     \
+  }
+
+#define REAL(Type, field, unit_text, least, most, start, text)                                                         \
+  {                                                                                                                    \
+    .name = #field, .type = SPORE_REAL, .unit = unit_text, .minimum = least, .maximum = most, .initial = {start},      \
+    .offset = offsetof(Type, field), .change = SPORE_CHANGE_REBUILD, .doc = text                                       \
+  }
+
+static const SporeParameter suction_parameters[] = {
+    REAL(SporeSuctionFields, radius, "m", 1e-6, 1, 0.003,
+         N_("Radius of the mouth: what comes so near to its middle is taken.")),
+    REAL(SporeSuctionFields, rate, "1/s", 0, 1e9, 200, N_("Particles that it takes in a second, at most.")),
+    TRIGGER(SporeSuctionFields, N_("When it sucks: always, or while the device's first button is down.")),
+};
+const SporeParameterTable spore_suction_parameters = {
+    suction_parameters, sizeof suction_parameters / sizeof *suction_parameters, sizeof(SporeSuctionFields)};
+
+static const SporeParameter emitter_parameters[] = {
+    REAL(SporeEmitterFields, rate, "1/s", 0, 1e9, 50,
+         N_("Particles that come out in a second, at most: none comes where one still is.")),
+    REAL(SporeEmitterFields, speed, "m/s", 0, 100, 0.05, N_("How fast they come out.")),
+    REAL(SporeEmitterFields, radius, "m", 0, 1, 0.001, N_("Radius of the mouth that they come out of.")),
+    REAL(SporeEmitterFields, start, "s", 0, 1e9, 0, N_("When the first comes out.")),
+    {.name = "reserve",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     .minimum = 0,
+     .maximum = 1e6,
+     .initial = {100},
+     .offset = offsetof(SporeEmitterFields, reserve),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Particles of the fluid that are kept back at the start, to come out here.")},
+    TRIGGER(SporeEmitterFields, N_("When they come out: always, or while the first button is down on the device of the "
+                                   "instrument that the mouth is in.")),
+};
+const SporeParameterTable spore_emitter_parameters = {
+    emitter_parameters, sizeof emitter_parameters / sizeof *emitter_parameters, sizeof(SporeEmitterFields)};
+
+/* Parking. */
+
+static bool is_fluid(const SporeBody *body) { return body->model && body->model->type->particles; }
+
+static SporeVec3 parking_place(const SporeBody *body, size_t particle) {
+  return (SporeVec3){PARKING_M + body->parking_gap * (double)particle, 0, 0};
+}
+
+static double spacing(const SporeBody *body) { return body->parking_gap / GAP_SPACINGS; }
+
+/* Room to hold all of its particles, and how far they are apart out of the world. */
+static bool make_parking(SporeWorld *world, SporeBody *body) {
+  const double *q = world->state.rest_q + body->q_offset;
+  double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY}, volume = 1;
+  if (body->parking_gap > 0) return true;
+  for (size_t i = 0; i < 3 * body->block_count; i++) {
+    lower[i % 3] = fmin(lower[i % 3], q[i]);
+    upper[i % 3] = fmax(upper[i % 3], q[i]);
+  }
+  for (int k = 0; k < 3; k++) volume *= fmax(upper[k] - lower[k], 1e-6);
+  body->parking_gap = GAP_SPACINGS * cbrt(volume / (double)body->block_count);
+  uint32_t *held = spore_reallocate(body->held.blocks, body->held.count, body->block_count, sizeof *held);
+  if (held) body->held.blocks = held;
+  return held != NULL;
+}
+
+void spore_body_find_parked(SporeBody *body, const double *q) {
+  body->held.count = body->held.pin_count;
+  for (size_t i = 0; i < body->block_count; i++)
+    if (spore_particle_is_out(q + 3 * i)) body->held.blocks[body->held.count++] = (uint32_t)i;
+}
+
+size_t spore_world_particle_count(const SporeWorld *world, uint32_t index) {
+  const SporeBody *body = &world->bodies[index];
+  return body->block_count - (body->held.count - body->held.pin_count);
+}
+
+/* What the last step's contacts of the particle would say of a place that it is no longer at. */
+static void drop_contacts(SporeWorld *world, const SporeBody *body, size_t particle) {
+  if (body->collision.spheres.kind != SPORE_MAPPING_IDENTITY || body->collision.spheres.point_count == 0) return;
+  uint32_t sphere = (uint32_t)(body->collision.start + particle);
+  for (size_t i = 0; i < world->contact.count; i++) {
+    SporeContactTerm *term = &world->contact.terms[i];
+    if (term->sphere_a != sphere && term->sphere_b != sphere) continue;
+    term->law.stiffness = term->law.friction = 0;
+    term->stretch = (SporeVec3){0, 0, 0};
+  }
+}
+
+/* Of particles that dissolve. */
+static double *age_of(SporeBody *body, double *q, size_t particle) {
+  return &q[3 * body->model->node_count + particle];
+}
+
+static void put(SporeWorld *world, SporeBody *body, size_t particle, SporeVec3 at, SporeVec3 velocity) {
+  spore_vec3_store(world->state.next_q + body->q_offset + 3 * particle, at);
+  if (body->model->life_s > 0) *age_of(body, world->state.next_q + body->q_offset, particle) = 0;
+  spore_vec3_store(world->state.next_v + body->v_offset + 3 * particle, velocity);
+  drop_contacts(world, body, particle);
+  body->history.step_s = 0;
+}
+
+static void take_out(SporeWorld *world, SporeBody *body, size_t particle) {
+  body->held.blocks[body->held.count++] = (uint32_t)particle;
+  put(world, body, particle, parking_place(body, particle), (SporeVec3){0, 0, 0});
+}
+
+/* Dissolving. */
+
+static bool dissolves(const SporeBody *body) { return body->model && body->model->life_s > 0; }
+
+static void dissolve(SporeWorld *world, SporeBody *body) {
+  double *q = world->state.next_q + body->q_offset;
+  if (body->sleep.asleep || body->frozen) return; /* nor does it grow older */
+  for (size_t i = 0; i < body->block_count; i++)
+    if (*age_of(body, q, i) >= body->model->life_s && !spore_particle_is_out(q + 3 * i)) take_out(world, body, i);
+}
+
+/* Suction. */
+
+static SporePose pose_of(const SporeWorld *world, uint32_t body) {
+  if (body == SPORE_NO_BODY) return spore_pose_identity();
+  if (world->bodies[body].role == SPORE_UNMOVABLE) return world->bodies[body].rest_pose;
+  const double *q = world->state.next_q + world->bodies[body].q_offset;
+  return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
+}
+
+static void suck_from(SporeWorld *world, SporeTool *tool, uint32_t index, SporeVec3 mouth) {
+  SporeBody *body = &world->bodies[index];
+  const double *state =
+      body->sleep.asleep ? world->state.q : world->state.next_q; /* of one that sleeps, the next is not written */
+  for (size_t i = 0; i < body->block_count && tool->due >= 1; i++) {
+    const double *q = state + body->q_offset + 3 * i;
+    if (spore_vec3_distance(spore_vec3_load(q), mouth) > tool->suction.radius) continue;
+    if (body->sleep.asleep) {
+      spore_world_wake(world, index); /* and is taken from after the next step */
+      return;
+    }
+    take_out(world, body, i);
+    tool->due--;
+    tool->taken++;
+  }
+}
+
+/* Whether the trigger of what is in a body is pulled. */
+static bool flows(const SporeWorld *world, int trigger, uint32_t index) {
+  const SporeBody *holder = index == SPORE_NO_BODY ? NULL : &world->bodies[index];
+  return trigger == SPORE_FLOW_ALWAYS || (holder && holder->device.has_input && (holder->device.input.buttons & 1u));
+}
+
+static void suck(SporeWorld *world, SporeTool *tool) {
+  bool on = flows(world, tool->suction.trigger, tool->body);
+  double most = tool->suction.rate * world->solver.time_step;
+  tool->due = on ? fmin(tool->due + most, fmax(most, 1)) : 0;
+  if (tool->due < 1) return;
+  SporeVec3 mouth = spore_pose_apply(pose_of(world, tool->body), tool->point);
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (is_fluid(&world->bodies[b]) && !world->bodies[b].frozen) suck_from(world, tool, b, mouth);
+}
+
+/* Emission. */
+
+/* Uniform in 0..1, the same on every machine. */
+static double next_random(uint64_t *state) {
+  *state = *state * 6364136223846793005u + 1442695040888963407u;
+  return (double)(*state >> 11) * 0x1p-53;
+}
+
+static bool is_free(const SporeWorld *world, const SporeBody *body, SporeVec3 at) {
+  const double *q = world->state.next_q + body->q_offset;
+  if (dissolves(body)) return true; /* puffs mingle */
+  for (size_t i = 0; i < body->block_count; i++)
+    if (spore_vec3_distance(spore_vec3_load(q + 3 * i), at) < NEAREST * spacing(body)) return false;
+  return true;
+}
+
+/* A place in the mouth where no particle is. */
+static bool find_place(const SporeWorld *world, SporeEmitter *emitter, const SporePose *frame, SporeVec3 *at) {
+  const SporeBody *body = &world->bodies[emitter->body];
+  SporeVec3 one = spore_vec3_cross(emitter->direction,
+                                   fabs(emitter->direction.x) < 0.5 ? (SporeVec3){1, 0, 0} : (SporeVec3){0, 1, 0});
+  one = spore_vec3_normalise(one, (SporeVec3){0, 0, 1});
+  SporeVec3 other = spore_vec3_cross(emitter->direction, one);
+  for (int i = 0; i < TRIES; i++) {
+    double radius = emitter->fields.radius * sqrt(next_random(&emitter->tries));
+    double angle = 6.283185307179586 * next_random(&emitter->tries);
+    SporeVec3 local = spore_vec3_add_scaled(emitter->point, radius * cos(angle), one);
+    *at = spore_pose_apply(*frame, spore_vec3_add_scaled(local, radius * sin(angle), other));
+    if (is_free(world, body, *at)) return true;
+  }
+  return false;
+}
+
+static void emit(SporeWorld *world, SporeEmitter *emitter) {
+  SporeBody *body = &world->bodies[emitter->body];
+  const SporeEmitterFields *fields = &emitter->fields;
+  double time_s = (double)(world->state.step + 1) * world->solver.time_step,
+         most = fields->rate * world->solver.time_step;
+  if (time_s < fields->start || body->frozen || body->held.count == body->held.pin_count) return;
+  bool on = flows(world, fields->trigger, emitter->source);
+  emitter->due = on ? fmin(emitter->due + most, fmax(most, 1)) : 0;
+  if (emitter->due < 1) return;
+  if (body->sleep.asleep) {
+    spore_world_wake(world, emitter->body); /* and is given to after the next step */
+    return;
+  }
+  SporePose frame = pose_of(world, emitter->source);
+  SporeVec3 velocity = spore_quat_rotate(frame.orientation, spore_vec3_scale(fields->speed, emitter->direction));
+  SporeVec3 at;
+  while (emitter->due >= 1 && body->held.count > body->held.pin_count && find_place(world, emitter, &frame, &at)) {
+    put(world, body, body->held.blocks[--body->held.count], at, velocity);
+    emitter->due--;
+  }
+}
+
+bool spore_world_exchanges_particles(const SporeWorld *world) {
+  for (size_t i = 0; i < world->tools.count; i++)
+    if (world->tools.all[i].kind == SPORE_TOOL_SUCTION) return true;
+  for (size_t b = 0; b < world->body_count; b++)
+    if (dissolves(&world->bodies[b])) return true;
+  return world->tools.emitter_count > 0;
+}
+
+void spore_world_exchange_particles(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++)
+    if (dissolves(&world->bodies[b])) dissolve(world, &world->bodies[b]);
+  for (size_t i = 0; i < world->tools.count; i++)
+    if (world->tools.all[i].kind == SPORE_TOOL_SUCTION) suck(world, &world->tools.all[i]);
+  for (size_t i = 0; i < world->tools.emitter_count; i++) emit(world, &world->tools.emitters[i]);
+}
+
+void spore_world_reset_particles(SporeWorld *world) {
+  for (size_t i = 0; i < world->tools.emitter_count; i++)
+    world->tools.emitters[i].due = 0, world->tools.emitters[i].tries = 1;
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (body->parking_gap > 0) spore_body_find_parked(body, world->state.q + body->q_offset);
+  }
+}
+
+/* Setting up. */
+
+static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDescription *from) {
+  if (from->body >= world->body_count || !is_fluid(&world->bodies[from->body]))
+    return _("what comes out is not a fluid of particles; expected a body with such a model; choose one");
+  bool to_world = from->source == SPORE_NO_BODY;
+  if (!to_world && (from->source >= world->body_count ||
+                    (world->bodies[from->source].model && !spore_model_is_rigid(world->bodies[from->source].model))))
+    return _("the mouth is in a body that deforms; expected a rigid, active or unmovable one, or none; choose another");
+  if (!spore_vec3_is_finite(from->point) || !spore_vec3_is_finite(from->direction) ||
+      !(spore_vec3_length(from->direction) > 0))
+    return _("the mouth has no direction; expected a vector of any length but 0; set it");
+  if (from->fields.trigger == SPORE_FLOW_BUTTON && (to_world || world->bodies[from->source].role != SPORE_ACTIVE))
+    return _("the mouth is in nothing that a device moves, so that no button lets anything out; expected an active "
+             "body; choose one, or let it flow always");
+  return NULL;
+}
+
+/* How many particles a fluid has is known only once its surface is filled. */
+static bool check_emitter(const SporeWorld *world, const SporeEmitterDescription *from, SporeError *error) {
+  char place[200];
+  snprintf(place, sizeof place, "effects/%s", from->name ? from->name : "");
+  const char *fault = emitter_fault(world, from);
+  if (fault) return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", fault);
+  size_t left = spore_world_particle_count(world, from->body), reserve = (size_t)from->fields.reserve;
+  return reserve <= left ||
+         spore_error_set(error, SPORE_ERROR_INPUT, place,
+                         _("the reserve is %zu, but only %zu particles of the fluid are not kept back yet; expected at "
+                           "most %zu; set it to that, or give the fluid more particles"),
+                         reserve, left, left);
+}
+
+/* The last particles that are still in the world are kept back. */
+static void keep_back(SporeWorld *world, SporeBody *body, size_t count) {
+  for (size_t i = body->block_count; i-- > 0 && count > 0;) {
+    double *q = world->state.rest_q + body->q_offset + 3 * i;
+    if (spore_particle_is_out(q)) continue;
+    spore_vec3_store(q, parking_place(body, i));
+    spore_vec3_store(world->state.rest_v + body->v_offset + 3 * i, (SporeVec3){0, 0, 0});
+    body->held.blocks[body->held.count++] = (uint32_t)i;
+    count--;
+  }
+}
+
+static void make_emitter(SporeWorld *world, SporeEmitter *emitter, const SporeEmitterDescription *from) {
+  SporePose frame = from->source == SPORE_NO_BODY ? spore_pose_identity() : world->bodies[from->source].rest_pose;
+  SporeQuat back = spore_quat_conjugate(frame.orientation);
+  SporeVec3 direction = spore_vec3_normalise(from->direction, (SporeVec3){0, 0, 0});
+  *emitter = (SporeEmitter){.body = from->body, .source = from->source, .fields = from->fields, .tries = 1};
+  emitter->point = spore_quat_rotate(back, spore_vec3_sub(from->point, frame.position));
+  emitter->direction = spore_quat_rotate(back, direction);
+  keep_back(world, &world->bodies[from->body], (size_t)from->fields.reserve);
+}
+
+static bool make_parkings(SporeWorld *world, const SporeWorldDescription *description) {
+  bool sucks = false, made = true;
+  for (size_t i = 0; i < world->tools.count; i++) sucks |= world->tools.all[i].kind == SPORE_TOOL_SUCTION;
+  for (size_t b = 0; made && b < world->body_count; b++)
+    if ((sucks && is_fluid(&world->bodies[b])) || dissolves(&world->bodies[b]))
+      made = make_parking(world, &world->bodies[b]);
+  for (size_t i = 0; made && i < description->emitter_count; i++) {
+    uint32_t fluid = description->emitters[i].body;
+    if (fluid < world->body_count && is_fluid(&world->bodies[fluid])) made = make_parking(world, &world->bodies[fluid]);
+  }
+  return made;
+}
+
+bool spore_world_create_particles(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  world->tools.emitters = SPORE_NEW_ARRAY(SporeEmitter, description->emitter_count);
+  if (!world->tools.emitters || !make_parkings(world, description))
+    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the particles"));
+  for (size_t i = 0; i < description->emitter_count; i++) {
+    const SporeEmitterDescription *from = &description->emitters[i];
+    if (!check_emitter(world, from, error)) return false;
+    make_emitter(world, &world->tools.emitters[world->tools.emitter_count++], from);
+  }
+  return true;
+}

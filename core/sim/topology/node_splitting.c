@@ -1,0 +1,200 @@
+/* Tetrahedra that are divided by cuts. Scissors say where while a step begins; at its end, when the next state is
+ * known, nodes are divided: their copies, held out of the way until then, take the state of those that they are of, the
+ * matrix gets the pattern that the model has now, and spheres and links go with the tetrahedra that they hang on.
+ *
+ * All of that lies in room made before, so that a step allocates nothing. A factor is another matter: its fill differs.
+ * A parted body does without, by conjugate gradients, until that is analysed between two steps. */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/constraint/pin.h"
+#include "core/sim/world_private.h"
+
+static bool has_scissors(const SporeWorldDescription *description) {
+  for (size_t i = 0; i < description->tool_count; i++)
+    if (description->tools[i].kind == SPORE_TOOL_SCISSORS) return true;
+  return false;
+}
+
+/* Blades pass through what changes its level: a finer or coarser one would not know of the cut. */
+static bool has_levels(const SporeBodyDescription *body) {
+  for (size_t i = 0; i < SPORE_LEVEL_FINE; i++)
+    if (body->levels.model[i]) return true;
+  return false;
+}
+
+bool spore_world_reserve_nodes(const SporeWorldDescription *description, SporeError *error) {
+  if (!has_scissors(description)) return true;
+  for (size_t b = 0; b < description->body_count; b++) {
+    SporeModel *model = description->bodies[b].model;
+    if (!model || !model->type->reserve || has_levels(&description->bodies[b]) || model->type->reserve(model, error))
+      continue;
+    char place[200];
+    snprintf(place, sizeof place, "bodies/%s", description->bodies[b].name);
+    spore_error_at(error, place);
+    return false;
+  }
+  return true;
+}
+
+/* Setting up. */
+
+static size_t nodes_in_use(const SporeBody *body) { return body->model->node_count - body->model->spare_count; }
+
+static bool hold_spares(SporeWorld *world, SporeBody *body) {
+  SporeChangingMatrix *changing = &body->changing;
+  changing->pinned = SPORE_NEW_ARRAY(uint8_t, body->block_count);
+  uint32_t *held = spore_reallocate(body->held.blocks, body->held.count, body->block_count, sizeof *held);
+  if (held) body->held.blocks = held;
+  if (!held || !changing->pinned) return false;
+  for (size_t i = 0; i < body->held.count; i++) changing->pinned[body->held.blocks[i]] = 1;
+  spore_body_list_held(body);
+  spore_pin_filter(body->held.blocks, body->held.count, world->state.rest_v + body->v_offset);
+  world->state.dof -= 3 * body->model->spare_count;
+  return true;
+}
+
+/* The matrix again, with room. */
+static bool make_roomy(SporeBody *body) {
+  SporeChangingMatrix *changing = &body->changing;
+  spore_block_matrix_clear(&body->preconditioner.matrix);
+  spore_block_pattern_init(&changing->pattern, body->block_count);
+  return body->model->type->pattern(body->model, &changing->pattern) &&
+         spore_block_matrix_create_roomy(&body->preconditioner.matrix, &changing->pattern, body->block_count,
+                                         changing->pattern.pair_count, &changing->room);
+}
+
+static bool add_hang(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
+  if (mapping->kind != SPORE_MAPPING_LINEAR) return true;
+  const SporeModel *model = world->bodies[index].model;
+  SporeAttachedMapping *attached = &world->topology.attached[world->topology.attached_count++];
+  size_t count;
+  const uint32_t *corners = model->type->corners(model, &count);
+  *attached = (SporeAttachedMapping){.body = index, .mapping = mapping};
+  return spore_mapping_find_places(mapping, corners, count, model->node_count, &attached->places);
+}
+
+static bool hang_links(SporeWorld *world, uint32_t index) {
+  for (size_t i = 0; i < world->links.term_count; i++) {
+    const SporeSpringTerm *term = &world->links.springs[i];
+    if (term->a.body == index && !add_hang(world, index, &world->links.mappings[2 * i])) return false;
+    if (term->b.body == index && !add_hang(world, index, &world->links.mappings[2 * i + 1])) return false;
+  }
+  return true;
+}
+
+static bool prepare(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  body->splitting.possible = true;
+  return hold_spares(world, body) && make_roomy(body) && add_hang(world, index, &body->collision.spheres) &&
+         hang_links(world, index);
+}
+
+static void copy_corners(SporeWorld *world, const SporeBody *body) {
+  size_t count;
+  const uint32_t *corners = body->model->type->corners(body->model, &count);
+  memcpy(world->topology.cuts.corners + 4 * body->splitting.corner_start, corners, 4 * count * sizeof *corners);
+}
+
+static bool can_be_parted(const SporeBody *body, size_t *count) {
+  return body->role == SPORE_PASSIVE && body->model->type->corners && body->model->type->corners(body->model, count);
+}
+
+bool spore_world_create_splitting(SporeWorld *world) {
+  size_t count, total = 0;
+  for (size_t b = 0; b < world->body_count; b++) {
+    if (!can_be_parted(&world->bodies[b], &count)) continue;
+    world->bodies[b].splitting.corner_start = total;
+    total += count;
+  }
+  if (total == 0) return true;
+  world->topology.cuts.corner_count = total;
+  world->topology.cuts.corners = SPORE_NEW_ARRAY(uint32_t, 4 * total);
+  world->topology.attached = SPORE_NEW_ARRAY(SporeAttachedMapping, world->body_count + 2 * world->links.term_count);
+  bool made = world->topology.cuts.corners && world->topology.attached;
+  for (uint32_t b = 0; made && b < world->body_count; b++) {
+    if (!can_be_parted(&world->bodies[b], &count)) continue;
+    made = prepare(world, b);
+    if (made) copy_corners(world, &world->bodies[b]);
+  }
+  world->topology.cuts.parted = 1;
+  return made;
+}
+
+void spore_world_clear_topology(SporeWorld *world) {
+  SporeTopology *topology = &world->topology;
+  for (size_t i = 0; i < topology->attached_count; i++) spore_free(topology->attached[i].places);
+  spore_free(topology->attached);
+  spore_free(topology->cuts.edges);
+  spore_free(topology->cuts.corners);
+  spore_free(topology->lines.breaks);
+  spore_free(topology->lines.span_count);
+}
+
+/* Parting. */
+
+/* What hangs on the body goes with its tetrahedra, and its matrix has the pattern that it has now. */
+static void follow(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  SporeChangingMatrix *changing = &body->changing;
+  size_t count;
+  const uint32_t *corners = body->model->type->corners(body->model, &count);
+  for (size_t i = 0; i < world->topology.attached_count; i++)
+    if (world->topology.attached[i].body == index)
+      spore_mapping_follow(world->topology.attached[i].mapping, world->topology.attached[i].places, corners);
+  spore_block_pattern_empty(&changing->pattern);
+  body->model->type->pattern(body->model, &changing->pattern);
+  spore_block_matrix_lay_out(&body->preconditioner.matrix, &changing->pattern, &changing->room);
+  body->model->type->settle(body->model, &body->preconditioner.matrix);
+  copy_corners(world, body);
+  world->topology.cuts.parted++;
+}
+
+/* Its numbers may be many more now. */
+static void drop_factor(SporeBody *body) {
+  body->preconditioner.factor.block_count = body->preconditioner.factor.band.block_count = 0;
+}
+
+/* What holds a node holds its copies. */
+static void divide(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  size_t before = nodes_in_use(body);
+  const uint32_t *from;
+  size_t made = body->model->type->divide(body->model, world->state.next_q + body->q_offset,
+                                          world->state.next_v + body->v_offset, &from);
+  if (made == 0) return;
+  for (size_t i = 0; i < made; i++) body->changing.pinned[before + i] = body->changing.pinned[from[i]];
+  spore_body_list_held(body);
+  follow(world, index);
+  drop_factor(body);
+  body->splitting.split = body->changing.factor_is_old = true;
+  body->changing.step = world->state.step;
+  spore_body_set_mass(world, body);
+  spore_body_changed_model(world, index);
+}
+
+void spore_world_split_nodes(SporeWorld *world) {
+  if (world->topology.cuts.corner_count == 0) return;
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!body->splitting.wanted || body->frozen || body->sleep.asleep) continue;
+    body->splitting.wanted = false;
+    divide(world, b);
+  }
+}
+
+void spore_world_reset_splitting(SporeWorld *world) {
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    body->splitting.wanted = false;
+    if (!body->splitting.split) continue;
+    size_t used = nodes_in_use(body);
+    memset(body->changing.pinned + used, 0, body->block_count - used);
+    spore_body_list_held(body);
+    follow(world, b);
+    spore_body_create_factor(world, body, NULL); /* without memory for it, by conjugate gradients */
+    body->splitting.split = body->changing.factor_is_old = false;
+  }
+}

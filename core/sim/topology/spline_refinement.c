@@ -1,0 +1,214 @@
+/* Bodies whose nodes come and go while it runs: lines that get knots where they bend. At the end of a step, when the
+ * state is known, the model says whether any are to; then the state becomes that of the nodes that there are then, the
+ * matrix and a banded factor get their pattern, and spheres, links and curve joints go with the points of the line that
+ * they hang on, whose parameters stay. All of it lies in room made before, so that a step allocates nothing.
+ *
+ * Momentum of a free body is kept to rounding: what lumping the mass loses of it is given back as a rigid motion.
+ * Kinetic energy does not grow. What links hold keeps its velocity as it is, since what held it takes part. */
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/body/momentum.h"
+#include "core/constraint/pin.h"
+#include "core/sim/world_private.h"
+
+static bool changes_nodes(const SporeBody *body) {
+  return body->model && !body->levels && body->model->q_room > body->model->q_count;
+}
+
+/* The matrix again, with room; and which blocks pins hold, now and at time 0. */
+static bool make_room(SporeWorld *world, SporeBody *body) {
+  const SporeModel *model = body->model;
+  SporeChangingMatrix *changing = &body->changing;
+  changing->pinned = SPORE_NEW_ARRAY(uint8_t, 2 * model->block_room);
+  uint32_t *held = spore_reallocate(body->held.blocks, body->held.count, model->block_room, sizeof *held);
+  if (held) body->held.blocks = held;
+  if (!held || !changing->pinned) return false;
+  for (size_t i = 0; i < body->held.count; i++) changing->pinned[held[i]] = 1;
+  memcpy(changing->pinned + model->block_room, changing->pinned, model->block_room);
+  spore_block_matrix_clear(&body->preconditioner.matrix);
+  spore_block_pattern_init(&changing->pattern, body->block_count);
+  return spore_block_pattern_reserve(&changing->pattern, model->pair_room) &&
+         model->type->pattern(model, &changing->pattern) &&
+         spore_block_matrix_create_roomy(&body->preconditioner.matrix, &changing->pattern, model->block_room,
+                                         model->pair_room, &changing->room);
+}
+
+static void show_knots(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  SporeSplineKnots knots = body->model->type->path(body->model);
+  world->topology.lines.span_count[index] = (uint32_t)knots.span_count;
+  memcpy(world->topology.lines.breaks + body->refinement.break_start, knots.breaks,
+         (knots.span_count + 1) * sizeof *knots.breaks);
+  world->topology.lines.number++;
+  body->refinement.state.points = knots.span_count + 3;
+  if (body->refinement.state.points > body->refinement.state.peak)
+    body->refinement.state.peak = body->refinement.state.points;
+}
+
+bool spore_world_create_refinement(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!changes_nodes(body)) continue;
+    body->refinement.possible = true;
+    body->refinement.break_start = world->topology.lines.break_count;
+    body->refinement.state.reserve = body->model->line_room;
+    world->topology.lines.break_count += body->model->block_room;
+    world->topology.line_count++;
+    if (!make_room(world, body)) return false;
+  }
+  if (world->topology.line_count == 0) return true;
+  world->topology.lines.breaks = SPORE_NEW_ARRAY(double, world->topology.lines.break_count);
+  world->topology.lines.span_count = SPORE_NEW_ARRAY(uint32_t, world->body_count);
+  if (!world->topology.lines.breaks || !world->topology.lines.span_count) return false;
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].refinement.possible) show_knots(world, b);
+  return true;
+}
+
+/* Curve joints of links and stitches: the same place of the line, by the points that lead it now. */
+static void move_curve_joints(SporeWorld *world, uint32_t index, const double *q) {
+  SporeSplineKnots knots = world->bodies[index].model->type->path(world->bodies[index].model);
+  for (size_t i = 0; i < world->links.term_count + world->links.hold_count; i++) {
+    SporeSpringTerm *term = &world->links.springs[i];
+    if (!term->curve || term->curve->points || term->b.body != index) continue;
+    term->curve->knots = knots;
+    SporePathPlace place = spore_path_at(knots, q, term->curve->start);
+    spore_curve_joint_set(term, &place);
+  }
+}
+
+/* A needle holds its thread by the last point, however many points the thread has. */
+static void move_last_point(SporeWorld *world, uint32_t index, size_t last_before, size_t last) {
+  size_t tools = world->links.term_count;
+  for (size_t i = tools; i < tools + world->links.hold_count; i++) {
+    SporeEnd *end = &world->links.springs[i].a;
+    bool holds_point = end->body == index && end->mapping && end->mapping->kind == SPORE_MAPPING_IDENTITY;
+    if (holds_point && end->point == last_before) end->point = (uint32_t)last;
+  }
+}
+
+/* Points that are linked to the body. */
+static void move_ends(SporeWorld *world, uint32_t index) {
+  const SporeModel *model = world->bodies[index].model;
+  SporeSplineKnots knots = model->type->path(model);
+  model->type->follow(model, knots, &world->bodies[index].collision.spheres);
+  for (size_t i = 0; i < world->links.term_count; i++)
+    for (size_t side = 0; side < 2; side++) {
+      const SporeEnd *end = side ? &world->links.springs[i].b : &world->links.springs[i].a;
+      if (end->body == index) model->type->follow(model, knots, &world->links.mappings[2 * i + side]);
+    }
+}
+
+static void lay_out_matrix(SporeBody *body) {
+  SporeChangingMatrix *changing = &body->changing;
+  spore_block_pattern_empty(&changing->pattern);
+  changing->pattern.block_count = body->block_count;
+  body->model->type->pattern(body->model, &changing->pattern);
+  spore_block_matrix_lay_out(&body->preconditioner.matrix, &changing->pattern, &changing->room);
+  body->model->type->settle(body->model, &body->preconditioner.matrix);
+  bool had = body->preconditioner.factor.block_count > 0 || changing->factor_is_old;
+  changing->factor_is_old =
+      had && !spore_block_cholesky_lay_out(&body->preconditioner.factor, &body->preconditioner.matrix);
+}
+
+/* After its model changed its nodes; q: where they are. */
+static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
+  SporeBody *body = &world->bodies[index];
+  size_t free_before = body->block_count - body->held.count;
+  body->q_count = body->model->q_count;
+  body->block_count = body->model->block_count;
+  if (body->q_count > body->q_most) body->q_most = body->q_count;
+  if (body->block_count > body->block_most) body->block_most = body->block_count;
+  body->total_mass = spore_model_total_mass(body->model);
+  spore_body_list_held(body);
+  world->state.dof += 3 * (body->block_count - body->held.count - free_before);
+  lay_out_matrix(body);
+  body->changing.step = world->state.step;
+  move_ends(world, index);
+  move_last_point(world, index, body->refinement.state.points - 1, body->model->type->path(body->model).span_count + 2);
+  move_curve_joints(world, index, q);
+  show_knots(world, index);
+}
+
+static void change(SporeWorld *world, uint32_t index) {
+  SporeBody *body = &world->bodies[index];
+  SporeModel *model = body->model;
+  double *q = world->state.next_q + body->q_offset, *v = world->state.next_v + body->v_offset;
+  size_t points = body->refinement.state.points;
+  SporeVec3 pulled;
+  bool pull = spore_world_pulled_point(world, index, &pulled);
+  SporeMotion before = spore_model_motion(model, q, v, NULL);
+  model->type->change_nodes(model, q, v, body->changing.pinned);
+  take_nodes(world, index, q);
+  if (body->held.count == 0) spore_model_keep_momentum(model, q, &before, before.kinetic, v);
+  spore_pin_filter(body->held.blocks, body->held.count, v);
+  spore_body_clear_unused(world, body);
+  SporeLineState *state = &body->refinement.state;
+  if (state->points > points) state->inserted += state->points - points;
+  else state->removed += points - state->points;
+  spore_body_forget_steps(world, body);
+  spore_body_set_mass(world, body);
+  if (pull) spore_world_pull_by(world, index, pulled);
+}
+
+void spore_world_refine_splines(SporeWorld *world) {
+  for (uint32_t b = 0; world->topology.line_count > 0 && b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    if (!body->refinement.possible || !spore_body_moves(body)) continue;
+    /* The step was found short enough for the points that there were at the start. */
+    if (!spore_integrator(body->method.integrator)->implicit) continue;
+    const double *q = world->state.next_q + body->q_offset;
+    SporeSplineRefinement *line = &body->refinement;
+    uint64_t start = spore_clock_ns();
+    bool changes = body->model->type->weigh_nodes(body->model, world->solver.time_step, q, body->changing.pinned);
+    uint64_t looked = spore_clock_ns();
+    line->looks++, line->look_ns += looked - start;
+    if (!changes) continue;
+    change(world, b);
+    line->changed++, line->change_ns += spore_clock_ns() - looked;
+  }
+}
+
+void spore_world_reset_refinement(SporeWorld *world) {
+  for (uint32_t b = 0; world->topology.line_count > 0 && b < world->body_count; b++) {
+    SporeBody *body = &world->bodies[b];
+    SporeLineState *state = &body->refinement.state;
+    if (!body->refinement.possible || (state->made > 0 && state->inserted == 0)) continue;
+    memcpy(body->changing.pinned, body->changing.pinned + body->model->block_room, body->model->block_room);
+    take_nodes(world, b, world->state.rest_q + body->q_offset);
+    if (body->changing.factor_is_old)
+      spore_body_create_factor(world, body, NULL); /* without memory: conjugate gradients */
+    body->changing.factor_is_old = false;
+    size_t points = state->points;
+    *state = (SporeLineState){.points = points, .made = points, .peak = points, .reserve = state->reserve};
+  }
+}
+
+/* State, scratch and matrix of the blocks that are kept back at time 0. */
+static size_t reserved_memory(const SporeWorld *world, const SporeBody *body) {
+  size_t spare = body->model->block_room - body->refinement.state.made, pairs = body->model->pair_room;
+  size_t a_block = 8 * 3 + 12 * 3 + 3 * 9 + world->solve.scratch_per_block; /* doubles: as q, as v, as mass */
+  return spare * a_block * sizeof(double) + (body->model->block_room + 2 * pairs) * (9 * sizeof(double) + 16);
+}
+
+bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineState *state) {
+  const SporeSplineRefinement *line = &world->bodies[body].refinement;
+  *state = line->state;
+  if (!line->possible) return false;
+  state->memory_bytes = reserved_memory(world, &world->bodies[body]);
+  if (line->looks > 0) state->look_us = 1e-3 * (double)line->look_ns / (double)line->looks;
+  if (line->changed > 0) state->change_us = 1e-3 * (double)line->change_ns / (double)line->changed;
+  return true;
+}
+
+SporeSplineKnots spore_snapshot_knots(const SporeWorld *world, const SporeSnapshot *snapshot, uint32_t body) {
+  const SporeBody *line = &world->bodies[body];
+  if (!line->refinement.possible) return (SporeSplineKnots){0};
+  return (SporeSplineKnots){snapshot->lines.span_count[body], snapshot->lines.breaks + line->refinement.break_start};
+}
+
+bool spore_world_follow_knots(const SporeWorld *world, uint32_t body, SporeSplineKnots knots, SporeMapping *mapping) {
+  const SporeModel *model = world->bodies[body].model;
+  return knots.span_count == 0 || model->type->follow(model, knots, mapping);
+}

@@ -1,6 +1,0 @@
-#include "models/neo_hookean_law.h"
-
-#define SPORE_MATERIAL neo_hookean
-#define SPORE_LAW_TURNS 0
-
-#include "models/tetrahedra_loops.h"

@@ -1,0 +1,276 @@
+/* Lennard-Jones fluid: particles that attract each other from near and repel from nearer. Which pairs are near is in
+ * models/particles/cluster_list.c, what they do to each other in models/particles/lennard_jones_law.h; here are units
+ * and parameters.
+ *
+ * From the fluid to its particles: n of them share volume V evenly, so each has mass density V / n, and the lattice
+ * that they start from has the density of the liquid at its triple point, n sigma^3 / V = 0.8442. Surface tension makes
+ * epsilon: gamma = 0.585 epsilon / sigma^2 at a temperature of 0.7 epsilon (J. Vrabec, G. K. Kedia, G. Fuchs, H. Hasse,
+ * Molecular Physics 104, 2006: the potential cut off at 2.5 sigma). The particles are no molecules: their temperature
+ * is how much they jostle. */
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "models/common/fields.h"
+#include "models/common/nodal.h"
+#include "models/particles/fill.h"
+#include "models/particles/lennard_jones_law.h"
+#include "models/registry.h"
+
+#define LIQUID_DENSITY 0.8442
+#define LIQUID_TENSION 0.585
+#define CUTOFF 2.5 /* sigma */
+#define CORE 0.7   /* sigma: nearer the force does not grow; at 255 epsilon nothing comes there by itself */
+
+typedef struct FluidFields {
+  int64_t particles;
+  double density, surface_tension, temperature, drag;
+  double period[3];
+} FluidFields;
+
+/* What evaluations leave behind: which particles are near each other does not change what their forces are. */
+typedef struct FluidMemory {
+  SporeClusterList list;
+  bool capped; /* in the last evaluation of forces */
+} FluidMemory;
+
+typedef struct Fluid {
+  SporeModel base;
+  double *rest; /* particles x 3, body's frame */
+  double *heat; /* particles x 3, body's frame: how they move at time 0, m/s */
+  double sigma, epsilon, drag;
+  SporeLennardJonesLaw law;
+  FluidMemory *memory;
+} Fluid;
+
+static const SporeParameter parameters[] = {
+    SPORE_INTEGER_FIELD(
+        FluidFields, particles, 4, 1e6, 300, SPORE_CHANGE_REBUILD,
+        N_("About how many particles fill the surface; more of them are finer and need a smaller step.")),
+    SPORE_REAL_FIELD(FluidFields, density, "kg/m^3", 1e-3, 1e6, 1060, SPORE_CHANGE_REBUILD,
+                     N_("Mass per volume; 1060 is blood, 998 water.")),
+    SPORE_REAL_FIELD(FluidFields, surface_tension, "N/m", 1e-9, 1e9, 0.056, SPORE_CHANGE_REBUILD,
+                     N_("How strongly the fluid holds together: 0.056 is blood, 0.072 water. The largest stable step "
+                        "goes with one over its root.")),
+    SPORE_REAL_FIELD(FluidFields, temperature, "", 0, 100, 0, SPORE_CHANGE_REBUILD,
+                     N_("How much the particles jostle at time 0, in units of the depth of their attraction; about 0.7 "
+                        "to 1.2 flows, less sets.")),
+    SPORE_REAL_FIELD(FluidFields, drag, "1/s", 0, 1e6, 0, SPORE_CHANGE_LIVE, N_("Rate at which motion dies away.")),
+    {.name = "period",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     .minimum = 0,
+     .maximum = 1e6,
+     .offset = offsetof(FluidFields, period),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Distance along x, y and z after which the fluid repeats itself, without a wall: for measuring the "
+               "inside of a large one. 0: it ends.")},
+};
+
+static bool no_memory(SporeError *error) {
+  return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a fluid"));
+}
+
+static void destroy(SporeModel *model) {
+  Fluid *fluid = (Fluid *)model;
+  if (fluid->memory) spore_cluster_list_clear(&fluid->memory->list);
+  spore_free(fluid->memory);
+  spore_free(fluid->rest);
+  spore_free(fluid->heat);
+  spore_model_clear(&fluid->base);
+  spore_free(fluid);
+}
+
+/* Uniform in -0.5..0.5, the same on every machine. */
+static double next_random(uint64_t *state) {
+  *state = *state * 6364136223846793005u + 1442695040888963407u;
+  return (double)(*state >> 11) * 0x1p-53 - 0.5;
+}
+
+/* Velocities near those of a gas, without momentum and of exactly the temperature (in units of epsilon). */
+static void set_heat(Fluid *fluid, double mass, double temperature) {
+  assert(mass > 0 && temperature >= 0);
+  size_t n = fluid->base.block_count;
+  uint64_t state = 1;
+  double mean[3] = {0, 0, 0}, square = 0;
+  for (size_t i = 0; i < 3 * n; i++) {
+    fluid->heat[i] = 0;
+    for (int k = 0; k < 12; k++) fluid->heat[i] += next_random(&state);
+    mean[i % 3] += fluid->heat[i] / (double)n;
+  }
+  for (size_t i = 0; i < 3 * n; i++) {
+    fluid->heat[i] -= mean[i % 3];
+    square += fluid->heat[i] * fluid->heat[i];
+  }
+  double scale = sqrt(3 * (double)(n - 1) * temperature * fluid->epsilon / (mass * square));
+  for (size_t i = 0; i < 3 * n; i++) fluid->heat[i] *= scale;
+}
+
+/* From the first particle to the last along axis k, m. */
+static double extent(const Fluid *fluid, int k) {
+  assert(k >= 0 && k < 3);
+  double lower = INFINITY, upper = -INFINITY;
+  for (size_t i = 0; i < fluid->base.block_count; i++) {
+    lower = fmin(lower, fluid->rest[3 * i + (size_t)k]);
+    upper = fmax(upper, fluid->rest[3 * i + (size_t)k]);
+  }
+  return upper - lower;
+}
+
+static bool check_period(const Fluid *fluid, const double period[3], SporeError *error) {
+  double least = 2 * spore_cluster_reach(CUTOFF * fluid->sigma);
+  for (int k = 0; k < 3; k++) {
+    if (!(period[k] > 0)) continue;
+    double room = extent(fluid, k) + CORE * fluid->sigma;
+    if (period[k] < room)
+      return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                             _("a period of %.3g m is shorter than the fluid, whose particles would lie inside each "
+                               "other; expected 0 or at least %.3g m; take a longer one or a smaller surface"),
+                             period[k], fmax(room, least));
+    if (period[k] < least)
+      return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
+                             _("a period of %.3g m is shorter than twice the reach of a particle; expected 0 or at "
+                               "least %.3g m; take a longer one or more particles"),
+                             period[k], least);
+  }
+  return true;
+}
+
+static bool set_particles(Fluid *fluid, double volume, const FluidFields *fields, SporeError *error) {
+  size_t n = fluid->base.block_count;
+  double mass = fields->density * volume / (double)n;
+  fluid->sigma = cbrt(LIQUID_DENSITY * volume / (double)n);
+  fluid->epsilon = fields->surface_tension * fluid->sigma * fluid->sigma / LIQUID_TENSION;
+  fluid->drag = fields->drag;
+  fluid->law = spore_lennard_jones_law(fluid->sigma, fluid->epsilon, CUTOFF * fluid->sigma, CORE * fluid->sigma);
+  for (size_t i = 0; i < n; i++) fluid->base.block_mass[i] = mass;
+  if (!check_period(fluid, fields->period, error)) return false;
+  fluid->heat = SPORE_NEW_ARRAY(double, 3 * n);
+  fluid->memory = SPORE_NEW(FluidMemory);
+  if (!fluid->heat || !fluid->memory ||
+      !spore_cluster_list_init(&fluid->memory->list, n, fields->period, CUTOFF * fluid->sigma) ||
+      !spore_cluster_list_update(&fluid->memory->list, fluid->rest) || !spore_cluster_list_spare(&fluid->memory->list))
+    return no_memory(error);
+  fluid->memory->list.made = false;
+  set_heat(fluid, mass, fields->temperature);
+  return true;
+}
+
+static SporeModel *create(const SporeGeometry *geometry, const void *data, SporeError *error) {
+  const FluidFields *fields = data;
+  double *points, volume;
+  size_t count;
+  if (!spore_particle_fill(geometry->surface, (size_t)fields->particles, &points, &count, &volume, error)) return NULL;
+  Fluid *fluid = SPORE_NEW(Fluid);
+  if (!fluid) {
+    spore_free(points);
+    no_memory(error);
+    return NULL;
+  }
+  fluid->rest = points;
+  if (spore_model_init(&fluid->base, &spore_lennard_jones, count, false, error) &&
+      set_particles(fluid, volume, fields, error))
+    return &fluid->base;
+  destroy(&fluid->base);
+  return NULL;
+}
+
+static void place(const SporeModel *model, SporePose pose, SporeVec3 velocity, SporeVec3 spin, double *q, double *v) {
+  assert(model->type == &spore_lennard_jones);
+  const Fluid *fluid = (const Fluid *)model;
+  spore_nodal_place(fluid->rest, model->block_count, pose, velocity, spin, q, v);
+  for (size_t i = 0; i < model->block_count; i++)
+    spore_vec3_accumulate(v + 3 * i, spore_quat_rotate(pose.orientation, spore_vec3_load(fluid->heat + 3 * i)));
+}
+
+static void force(const SporeModel *model, const double *q, const double *shape, const double *v, double *f) {
+  assert(model->type == &spore_lennard_jones);
+  assert(f != q && f != v);
+  const Fluid *fluid = (const Fluid *)model;
+  FluidMemory *memory = fluid->memory;
+  if (!spore_cluster_list_update(&memory->list, q)) {
+    for (size_t i = 0; i < 3 * model->block_count; i++) f[i] = NAN; /* the monitor's affair */
+    return;
+  }
+  memory->capped = SPORE_KERNEL(spore_lennard_jones_force)(&memory->list, &fluid->law);
+  spore_cluster_list_add_forces(&memory->list, f);
+  if (fluid->drag == 0) return;
+  double drag = fluid->drag * model->block_mass[0];
+  for (size_t i = 0; i < 3 * model->block_count; i++) f[i] -= drag * v[i];
+}
+
+static double potential(const SporeModel *model, const double *q) {
+  assert(model->type == &spore_lennard_jones);
+  const Fluid *fluid = (const Fluid *)model;
+  if (!spore_cluster_list_update(&fluid->memory->list, q)) return NAN;
+  return SPORE_KERNEL(spore_lennard_jones_energy)(&fluid->memory->list, &fluid->law);
+}
+
+static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(model->type == &spore_lennard_jones);
+  const Fluid *fluid = (const Fluid *)model;
+  return spore_particle_map(fluid->rest, model->block_count, fluid->sigma, points, count, mapping, error);
+}
+
+/* As wide as the distance at which two particles begin to repel each other more than they attract: sigma, where the
+ * energy of a pair is that of particles far apart. */
+static bool spheres(const SporeModel *model, SporeSphereSet *set, SporeError *error) {
+  assert(model->type == &spore_lennard_jones);
+  const Fluid *fluid = (const Fluid *)model;
+  if (!spore_sphere_set_allocate(set, model->block_count, error)) return false;
+  for (size_t i = 0; i < model->block_count; i++) {
+    memcpy(set->spheres + 4 * i, fluid->rest + 3 * i, 3 * sizeof(double));
+    set->spheres[4 * i + 3] = 0.5 * fluid->sigma;
+  }
+  return true;
+}
+
+static bool retune(SporeModel *model, const void *fields, SporeError *error) {
+  assert(model->type == &spore_lennard_jones);
+  ((Fluid *)model)->drag = ((const FluidFields *)fields)->drag;
+  return true;
+}
+
+/* The stiffest that is reckoned with: a particle and five others, all in each other's cores. */
+static void rates(const SporeModel *model, double *frequency, double *damping) {
+  assert(model->type == &spore_lennard_jones);
+  const Fluid *fluid = (const Fluid *)model;
+  *frequency = sqrt(6 * fluid->law.core_stiffness / model->block_mass[0]);
+  *damping = fluid->drag;
+}
+
+static void forget(SporeModel *model) {
+  assert(model->type == &spore_lennard_jones);
+  ((Fluid *)model)->memory->list.made = false;
+}
+
+static const char *notice(const SporeModel *model, const double *q) {
+  return ((const Fluid *)model)->memory->capped
+             ? _("particles are so near each other that the force between them was capped; start them farther apart "
+                 "or take a smaller time step")
+             : NULL;
+}
+
+const SporeModelType spore_lennard_jones = {
+    .name = "lennard_jones",
+    .label = N_("Lennard-Jones fluid"),
+    .doc = N_("Particles that fill a closed surface and then flow: blood, water. They attract each other from near and "
+              "repel from nearer, so that drops hold together, merge and part. Mass and volume are the fluid's. It "
+              "touches other bodies with a sphere at each particle, unless its collision unit names other spheres."),
+    .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(FluidFields)},
+    .geometry = SPORE_GEOMETRY_SOLID,
+    .particles = true,
+    .create = create,
+    .destroy = destroy,
+    .place = place,
+    .force = force,
+    .potential = potential,
+    .map = map,
+    .retune = retune,
+    .rates = rates,
+    .forget = forget,
+    .spheres = spheres,
+    .notice = notice,
+};

@@ -1,0 +1,180 @@
+#include "models/spline/spline.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+
+/* A smooth line through the curve's points, by the length of its straight pieces. */
+typedef struct Line {
+  const SporeCurve *curve;
+  double *length; /* up to each point, m */
+} Line;
+
+static SporeVec3 point(const SporeCurve *curve, size_t i) { return spore_vec3_load(curve->points + 4 * i); }
+
+static size_t piece_at(const Line *line, double length) {
+  size_t low = 0, high = line->curve->count - 1;
+  while (high - low > 1) {
+    size_t middle = (low + high) / 2;
+    if (line->length[middle] <= length) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
+static SporeVec3 slope_of_piece(const Line *line, size_t i) {
+  assert(i + 1 < line->curve->count);
+  return spore_vec3_scale(1 / (line->length[i + 1] - line->length[i]),
+                          spore_vec3_sub(point(line->curve, i + 1), point(line->curve, i)));
+}
+
+/* Slope at a point, of the parabola through it and its neighbours. */
+static SporeVec3 slope_at(const Line *line, size_t i) {
+  assert(i < line->curve->count);
+  size_t last = line->curve->count - 1, middle = i == 0 ? 1 : i == last ? last - 1 : i;
+  if (last < 2) return slope_of_piece(line, 0);
+  double before = line->length[middle] - line->length[middle - 1],
+         behind = line->length[middle + 1] - line->length[middle];
+  SporeVec3 a = slope_of_piece(line, middle - 1), b = slope_of_piece(line, middle);
+  SporeVec3 bend = spore_vec3_scale(1 / (before + behind), spore_vec3_sub(b, a));
+  double offset = i < middle ? -before : i > middle ? before + 2 * behind : before;
+  return spore_vec3_add_scaled(a, offset, bend);
+}
+
+static SporeVec3 line_at(const Line *line, double length) {
+  size_t i = piece_at(line, length);
+  double h = line->length[i + 1] - line->length[i], t = fmin(fmax((length - line->length[i]) / h, 0), 1), s = 1 - t;
+  SporeVec3 p = spore_vec3_scale(s * s * (1 + 2 * t), point(line->curve, i));
+  p = spore_vec3_add_scaled(p, t * t * (3 - 2 * t), point(line->curve, i + 1));
+  p = spore_vec3_add_scaled(p, h * s * s * t, slope_at(line, i));
+  return spore_vec3_add_scaled(p, -h * t * t * s, slope_at(line, i + 1));
+}
+
+static bool line_create(Line *line, const SporeCurve *curve) {
+  *line = (Line){curve, SPORE_NEW_ARRAY(double, curve->count)};
+  for (size_t i = 1; line->length && i < curve->count; i++)
+    line->length[i] = line->length[i - 1] + spore_vec3_distance(point(curve, i - 1), point(curve, i));
+  return line->length;
+}
+
+/* Products of the functions (band: i x 4, with i + k) and of them with the line (in control). */
+static void add_products(const Line *line, SporeSplineKnots knots, double *band, double *control) {
+  double whole = line->length[line->curve->count - 1];
+  for (size_t n = 0; n < SPORE_SPLINE_SAMPLES * knots.span_count; n++) {
+    size_t span = n / SPORE_SPLINE_SAMPLES;
+    double width = spore_spline_width(knots, span), part = (double)(n % SPORE_SPLINE_SAMPLES) + 0.5;
+    double u = spore_spline_break(knots, span) + part / SPORE_SPLINE_SAMPLES * width;
+    SporeSplineBasis basis = spore_spline_basis(knots, u, &span);
+    SporeVec3 p = line_at(line, u / spore_spline_end(knots) * whole);
+    for (size_t i = 0; i < 4; i++) {
+      for (size_t j = i; j < 4; j++) band[4 * (span + i) + j - i] += width * basis.value[i] * basis.value[j];
+      double *sum = control + 3 * (span + i);
+      spore_vec3_store(sum, spore_vec3_add_scaled(spore_vec3_load(sum), width * basis.value[i], p));
+    }
+  }
+}
+
+/* The ends are known: their columns go to the right-hand side, their rows become x = end. */
+static void hold(size_t count, size_t held, SporeVec3 at, double *band, double *control) {
+  assert(held < count);
+  for (size_t k = 1; k < 4; k++) {
+    double *ahead = held + k < count ? band + 4 * held + k : NULL, *back = held >= k ? band + 4 * (held - k) + k : NULL;
+    if (ahead) {
+      double *x = control + 3 * (held + k);
+      spore_vec3_store(x, spore_vec3_add_scaled(spore_vec3_load(x), -*ahead, at));
+      *ahead = 0;
+    }
+    if (back) {
+      double *x = control + 3 * (held - k);
+      spore_vec3_store(x, spore_vec3_add_scaled(spore_vec3_load(x), -*back, at));
+      *back = 0;
+    }
+  }
+  band[4 * held] = 1;
+  spore_vec3_store(control + 3 * held, at);
+}
+
+void spore_spline_solve_band(size_t count, double *band, double *x) {
+  assert(count == 0 || (band && x && band != x));
+  for (size_t i = 0; i < count; i++) {
+    double pivot = sqrt(band[4 * i]);
+    for (size_t k = 0; k < 4; k++) band[4 * i + k] /= pivot;
+    for (size_t k = 1; k < 4 && i + k < count; k++)
+      for (size_t l = k; l < 4; l++) band[4 * (i + k) + l - k] -= band[4 * i + k] * band[4 * i + l];
+    spore_vec3_store(x + 3 * i, spore_vec3_scale(1 / band[4 * i], spore_vec3_load(x + 3 * i)));
+    for (size_t k = 1; k < 4 && i + k < count; k++)
+      for (size_t c = 0; c < 3; c++) x[3 * (i + k) + c] -= band[4 * i + k] * x[3 * i + c];
+  }
+  for (size_t i = count; i-- > 0;)
+    for (size_t c = 0; c < 3; c++) {
+      for (size_t k = 1; k < 4 && i + k < count; k++) x[3 * i + c] -= band[4 * i + k] * x[3 * (i + k) + c];
+      x[3 * i + c] /= band[4 * i];
+    }
+}
+
+bool spore_spline_fit(const SporeCurve *curve, SporeSplineKnots knots, double *control) {
+  assert(curve->count > 1 && knots.span_count > 0);
+  size_t count = knots.span_count + 3;
+  Line line;
+  double *band = SPORE_NEW_ARRAY(double, 4 * count);
+  bool made = line_create(&line, curve) && band;
+  if (made) {
+    memset(control, 0, 3 * count * sizeof *control);
+    add_products(&line, knots, band, control);
+    hold(count, 0, point(curve, 0), band, control);
+    hold(count, count - 1, point(curve, curve->count - 1), band, control);
+    spore_spline_solve_band(count, band, control);
+  }
+  spore_free(line.length);
+  spore_free(band);
+  return made;
+}
+
+double spore_spline_radius(const SporeCurve *curve, SporeSplineKnots knots, double parameter) {
+  assert(curve->count > 0);
+  double left = parameter / spore_spline_end(knots) * spore_curve_length(curve);
+  for (size_t i = 0; i + 1 < curve->count; i++) {
+    double length = spore_vec3_distance(point(curve, i), point(curve, i + 1));
+    double share = left / length;
+    if (share <= 1 || i + 2 == curve->count)
+      return (1 - fmin(share, 1)) * curve->points[4 * i + 3] + fmin(share, 1) * curve->points[4 * i + 7];
+    left -= length;
+  }
+  return curve->points[3];
+}
+
+bool spore_spline_allocate(SporeSpline *spline, size_t span_count) {
+  assert(span_count > 0);
+  spline->span_count = span_count;
+  spline->group_count = (span_count + SPORE_LANES - 1) / SPORE_LANES;
+  spline->gauss = SPORE_NEW_ARRAY(SporeSplineGauss, SPORE_SPLINE_POINTS * spline->group_count);
+  spline->upper = SPORE_NEW_ARRAY(uint32_t, 4 * (span_count + 3));
+  spline->lower = SPORE_NEW_ARRAY(uint32_t, 4 * (span_count + 3));
+  return spline->gauss && spline->upper && spline->lower;
+}
+
+void spore_spline_clear(SporeSpline *spline) {
+  spore_free(spline->gauss);
+  spore_free(spline->upper);
+  spore_free(spline->lower);
+  *spline = (SporeSpline){0};
+}
+
+bool spore_spline_pattern(const SporeSpline *spline, SporeBlockPattern *pattern) {
+  for (size_t i = 0; i < spline->span_count + 3; i++)
+    for (size_t k = 1; k < 4 && i + k < spline->span_count + 3; k++)
+      if (!spore_block_pattern_add(pattern, (uint32_t)i, (uint32_t)(i + k))) return false;
+  return true;
+}
+
+void spore_spline_find_blocks(SporeSpline *spline, const SporeBlockMatrix *matrix) {
+  assert(matrix->block_count >= spline->span_count + 3);
+  size_t count = spline->span_count + 3;
+  for (uint32_t i = 0; i < count; i++)
+    for (uint32_t k = 0; k < 4 && i + k < count; k++) {
+      spline->upper[4 * i + k] = (uint32_t)spore_block_matrix_find(matrix, i, i + k);
+      spline->lower[4 * i + k] = (uint32_t)spore_block_matrix_find(matrix, i + k, i);
+    }
+}
