@@ -19,13 +19,3 @@ size_t spore_integrator_scratch(void) {
     if (integrators[i]->scratch > most) most = integrators[i]->scratch;
   return most;
 }
-
-void spore_step_result_add(SporeStepResult *total, const SporeStepResult *part) {
-  total->converged &= part->converged;
-  total->newton_iterations += part->newton_iterations;
-  total->linear_iterations += part->linear_iterations;
-  total->force_evaluations += part->force_evaluations;
-  total->linearisations += part->linearisations;
-  total->unsolved += part->unsolved;
-  if (!(part->residual <= total->residual)) total->residual = part->residual;
-}
