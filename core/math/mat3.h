@@ -2,6 +2,7 @@
 #ifndef SPORE_MATH_MAT3_H
 #define SPORE_MATH_MAT3_H
 
+#include <assert.h>
 #include <stdbool.h>
 
 #include "core/math/vec3.h"
@@ -64,7 +65,10 @@ static inline double spore_mat3_determinant(SporeMat3 a) {
          a.m[2] * (a.m[3] * a.m[7] - a.m[4] * a.m[6]);
 }
 /* Column j, from 0. */
-static inline SporeVec3 spore_mat3_column(SporeMat3 a, int j) { return (SporeVec3){a.m[j], a.m[3 + j], a.m[6 + j]}; }
+static inline SporeVec3 spore_mat3_column(SporeMat3 a, int j) {
+  assert(j >= 0 && j < 3);
+  return (SporeVec3){a.m[j], a.m[3 + j], a.m[6 + j]};
+}
 /* The matrix of these columns. */
 static inline SporeMat3 spore_mat3_from_columns(SporeVec3 a, SporeVec3 b, SporeVec3 c) {
   return (SporeMat3){{a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z}};

@@ -299,8 +299,8 @@ static void test_refusals(void) {
   SporeCentrelineOptions nowhere = {.ends_given = true, .ends = {{NAN, 0, 0}, {0.1, 0.01, -0.02}}};
   SporeTriangleMesh ball, plate, tube = tube_of(straight, even), empty = {0};
   const double lower[3] = {0, 0, 0}, upper[3] = {0.2, 0.15, 0.01};
-  shape_ball(&ball, 0.05, 12);
-  shape_box(&plate, lower, upper, 6);
+  shape_ball(&ball, 0.05, 6);
+  shape_box(&plate, lower, upper, 2);
   refuse(&ball, &plain, NULL, SPORE_ERROR_INPUT, "not a tube");
   refuse(&plate, &plain, NULL, SPORE_ERROR_INPUT, "not a tube");
   refuse(&empty, &plain, NULL, SPORE_ERROR_INPUT, "triangle");

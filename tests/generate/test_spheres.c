@@ -15,7 +15,7 @@ static SporeSphereSet make(const SporeTriangleMesh *mesh, size_t count, uint64_t
 static void test_ball(void) {
   SporeTriangleMesh ball;
   SporeSpheresReport report;
-  shape_ball(&ball, 0.05, 24);
+  shape_ball(&ball, 0.05, 20);
   shape_move(&ball, 1, 2, 3);
   SporeSphereSet set = make(&ball, 1, 1, &report);
   const double expected[4] = {1, 2, 3, 0.05};
@@ -32,7 +32,7 @@ static void test_ball(void) {
 static void test_inside_out(void) {
   SporeTriangleMesh ball;
   SporeSpheresReport report;
-  shape_ball(&ball, 0.05, 8);
+  shape_ball(&ball, 0.05, 5);
   shape_turn(&ball);
   SporeSphereSet wrong = make(&ball, 2, 1, &report);
   g_assert_cmpfloat(report.coverage, >, 0.98);
@@ -44,7 +44,7 @@ static void test_inside_out(void) {
 static void test_torus(void) {
   SporeTriangleMesh torus;
   SporeSpheresReport report;
-  shape_torus(&torus, 0.06, 0.02, 64, 32);
+  shape_torus(&torus, 0.06, 0.02, 40, 20);
   SporeSphereSet set = make(&torus, 24, 1, &report);
   for (size_t i = 0; i < set.count; i++) {
     const double *s = set.spheres + 4 * i;
@@ -60,7 +60,7 @@ static void test_torus(void) {
 static void test_capsule(void) {
   SporeTriangleMesh capsule;
   SporeSpheresReport report;
-  shape_capsule(&capsule, 0.02, 0.05, 12);
+  shape_capsule(&capsule, 0.02, 0.05, 8);
   SporeSphereSet set = make(&capsule, 12, 1, &report);
   for (size_t i = 0; i < set.count; i++) CLOSE(hypot(set.spheres[4 * i], set.spheres[4 * i + 1]), 0, 0.05 * 0.02);
   g_assert_cmpfloat(report.coverage, >, 0.97);
@@ -72,8 +72,8 @@ static void test_capsule(void) {
 static void cube_shell(SporeTriangleMesh *shell, double half, double wall) {
   const double o = half, i = half - wall;
   SporeTriangleMesh inner;
-  shape_box(shell, (double[3]){-o, -o, -o}, (double[3]){o, o, o}, 8);
-  shape_box(&inner, (double[3]){-i, -i, -i}, (double[3]){i, i, i}, 8);
+  shape_box(shell, (double[3]){-o, -o, -o}, (double[3]){o, o, o}, 1);
+  shape_box(&inner, (double[3]){-i, -i, -i}, (double[3]){i, i, i}, 1);
   shape_turn(&inner);
   shape_append(shell, &inner);
   spore_triangle_mesh_clear(&inner);
@@ -100,8 +100,8 @@ static void test_shell(void) {
 static void test_two_components(void) {
   SporeTriangleMesh a, b;
   SporeSpheresReport report;
-  shape_ball(&a, 0.04, 16);
-  shape_ball(&b, 0.02, 16);
+  shape_ball(&a, 0.04, 14);
+  shape_ball(&b, 0.02, 14);
   shape_move(&b, 0.2, 0, 0);
   shape_append(&a, &b);
   SporeSphereSet set = make(&a, 2, 1, &report);
@@ -133,7 +133,7 @@ static void test_tetrahedron(void) {
 static void test_open(void) {
   SporeTriangleMesh ball;
   SporeSpheresReport report;
-  shape_ball(&ball, 0.05, 10);
+  shape_ball(&ball, 0.05, 6);
   ball.triangle_count -= 16;
   SporeSphereSet set = make(&ball, 1, 1, &report);
   CLOSE(set.spheres[3], 0.05, 0.05 * 0.05);

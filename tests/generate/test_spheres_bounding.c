@@ -14,7 +14,7 @@ static SporeSphereSet make(const SporeTriangleMesh *mesh, size_t count, SporeSph
 static void test_ball(void) {
   SporeTriangleMesh ball;
   SporeSpheresReport report;
-  shape_ball(&ball, 0.05, 12);
+  shape_ball(&ball, 0.05, 8);
   shape_move(&ball, 1, 2, 3);
   SporeSphereSet set = make(&ball, 1, &report);
   const double expected[4] = {1, 2, 3, 0.05};
@@ -70,8 +70,8 @@ static void test_capsule_chain(void) {
 static void test_shell(void) {
   SporeTriangleMesh shell, inner;
   const double o = 0.05, i = 0.03;
-  shape_box(&shell, (double[3]){-o, -o, -o}, (double[3]){o, o, o}, 4);
-  shape_box(&inner, (double[3]){-i, -i, -i}, (double[3]){i, i, i}, 4);
+  shape_box(&shell, (double[3]){-o, -o, -o}, (double[3]){o, o, o}, 2);
+  shape_box(&inner, (double[3]){-i, -i, -i}, (double[3]){i, i, i}, 2);
   shape_turn(&inner);
   shape_append(&shell, &inner);
   spore_triangle_mesh_clear(&inner);
@@ -110,7 +110,7 @@ static void test_hollow(void) {
 static void test_symmetry(void) {
   SporeTriangleMesh box;
   SporeSpheresReport report;
-  shape_box(&box, (double[3]){0.95, 1.97, 2.98}, (double[3]){1.05, 2.03, 3.02}, 4);
+  shape_box(&box, (double[3]){0.95, 1.97, 2.98}, (double[3]){1.05, 2.03, 3.02}, 1);
   SporeSphereSet set = make(&box, 20, &report);
   g_assert_true(report.certified);
   g_assert_cmpuint(report.mirrors, >=, 2);
@@ -123,7 +123,7 @@ static void test_symmetry(void) {
 static void test_open(void) {
   SporeTriangleMesh ball;
   SporeSpheresReport report;
-  shape_ball(&ball, 0.05, 8);
+  shape_ball(&ball, 0.05, 5);
   ball.triangle_count -= 4;
   SporeSphereSet set = make(&ball, 2, &report);
   g_assert_cmpfloat(report.coverage, >, 0.9996);

@@ -36,7 +36,7 @@ static void test_measure_concentric(void) {
 static void test_measure_overlap(void) {
   SporeTriangleMesh ball;
   SporeSpheresReport report;
-  shape_ball(&ball, 1, 24);
+  shape_ball(&ball, 1, 16);
   double spheres[] = {-0.25, 0, 0, 0.5, 0.25, 0, 0, 0.5}, r = 0.5, d = 0.5;
   double lens = (4 * r + d) * (2 * r - d) * (2 * r - d) / 16; /* over 4 pi / 3 */
   SporeSphereSet set = {2, spheres};

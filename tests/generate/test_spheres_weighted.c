@@ -16,7 +16,7 @@ static SporeSphereSet make(const SporeTriangleMesh *mesh, SporeSpheresMode mode,
 static void test_ball(void) {
   SporeTriangleMesh ball;
   SporeSpheresReport report;
-  shape_ball(&ball, 0.05, 24);
+  shape_ball(&ball, 0.05, 16);
   shape_move(&ball, 1, 2, 3);
   SporeSphereSet set = make(&ball, SPORE_SPHERES_WEIGHTED, 1, &report);
   const double expected[4] = {1, 2, 3, 0.05};
@@ -43,7 +43,7 @@ static void test_ball(void) {
 static void test_box(void) {
   SporeTriangleMesh box;
   SporeSpheresReport report, balanced;
-  shape_box(&box, (double[3]){-0.05, -0.03, -0.02}, (double[3]){0.05, 0.03, 0.02}, 4);
+  shape_box(&box, (double[3]){-0.05, -0.03, -0.02}, (double[3]){0.05, 0.03, 0.02}, 1);
   SporeSphereSet plain = make(&box, SPORE_SPHERES_BALANCED, 16, &balanced);
   SporeSphereSet set = make(&box, SPORE_SPHERES_WEIGHTED, 16, &report),
                  again = make(&box, SPORE_SPHERES_WEIGHTED, 16, &report);
@@ -64,7 +64,7 @@ static void test_box(void) {
 static void test_symmetry(void) {
   SporeTriangleMesh box;
   SporeSpheresReport report;
-  shape_box(&box, (double[3]){0.95, 1.97, 2.98}, (double[3]){1.05, 2.03, 3.02}, 4);
+  shape_box(&box, (double[3]){0.95, 1.97, 2.98}, (double[3]){1.05, 2.03, 3.02}, 1);
   SporeSphereSet set = make(&box, SPORE_SPHERES_WEIGHTED, 20, &report);
   g_assert_cmpuint(report.mirrors, >=, 2);
   g_assert_cmpuint(count_mirrors(&set, (double[3]){1, 2, 3}), >=, report.mirrors);

@@ -28,8 +28,9 @@ KERNEL = set.union(*LAYERS[:7]) | {"exercise", "measure", "runtime"}
 MODELS_SEE = "body"
 # The folders of core/sim. Each may use the ones after it; the head, files in core/sim itself, may use all.
 SIM = ["lod", "tool", "topology", "link", "solve", "contact", "state"]
-# What every folder of core/sim may include of the head: what the world is made from. They call nothing there.
-SIM_PUBLIC = {"core/sim/world.h"}
+# What every folder of core/sim may include of the head: what the world is made from, and its members. These headers
+# declare no function of the head that a folder may call: circles.py looks after that.
+SIM_PUBLIC = {"core/sim/world.h", "core/sim/world_private.h"}
 # The folders of core/generate. Each has one header of its own name, and no other is included from outside the folder.
 GENERATE = {"common", "spheres", "tetrahedra", "centreline", "labels", "surface"}
 # The header that a program outside includes: it names all that is public of the library.
