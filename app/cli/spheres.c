@@ -106,7 +106,7 @@ static gboolean make_set(SporeCli *cli, const char *file, const SporeSpheresSour
 static void report_regions(SporeCli *cli, const SporeSpheresOptions *options, const SporeSphereSet *set) {
   spore_cli_open_array(cli, "regions_missed");
   for (gsize i = 0; i < options->region_count; i++) {
-    const SporeSpheresRegion *region = &options->regions[i];
+    const SporeGenerateRegion *region = &options->regions[i];
     gsize s = 0;
     while (s < set->count &&
            !(spore_vec3_distance(spore_vec3_load(set->spheres + 4 * s), spore_vec3_load(region->centre)) <
@@ -157,7 +157,7 @@ static gboolean write_set(SporeCli *cli, const char *file, const Request *reques
 }
 
 /* X,Y,Z,R,FACTOR */
-static gboolean parse_region(const char *text, SporeSpheresRegion *region, GError **error) {
+static gboolean parse_region(const char *text, SporeGenerateRegion *region, GError **error) {
   double numbers[5];
   const char *at = text;
   for (int i = 0; i < 5; i++) {
@@ -169,14 +169,14 @@ static gboolean parse_region(const char *text, SporeSpheresRegion *region, GErro
                                text);
     at += length + 1;
   }
-  *region = (SporeSpheresRegion){{numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4]};
+  *region = (SporeGenerateRegion){{numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4]};
   return TRUE;
 }
 
 static GArray *parse_regions(char **texts, GError **error) {
-  g_autoptr(GArray) regions = g_array_new(FALSE, TRUE, sizeof(SporeSpheresRegion));
+  g_autoptr(GArray) regions = g_array_new(FALSE, TRUE, sizeof(SporeGenerateRegion));
   for (char **text = texts; text && *text; text++) {
-    SporeSpheresRegion region;
+    SporeGenerateRegion region;
     if (!parse_region(*text, &region, error)) return NULL;
     g_array_append_val(regions, region);
   }
@@ -203,7 +203,7 @@ static gboolean generate(SporeCli *cli, const char *file, const Request *request
                                  .count = (size_t)request->count,
                                  .aims = request->aims,
                                  .seed = request->seed < 0 ? 1 : (uint64_t)request->seed,
-                                 .regions = (const SporeSpheresRegion *)(gconstpointer)regions->data,
+                                 .regions = (const SporeGenerateRegion *)(gconstpointer)regions->data,
                                  .region_count = regions->len,
                                  .asymmetric = request->asymmetric,
                                  .thickness = fmax(request->thickness, 0)};
@@ -233,8 +233,8 @@ static gboolean override_fields(const Request *request, SporeSpheresFields *fiel
 static gboolean add_regions(SporeSceneBody *scene, char **texts, GError **error) {
   g_autoptr(GArray) regions = parse_regions(texts, error);
   for (guint i = 0; regions && i < regions->len; i++) {
-    const SporeSpheresRegion *region = &g_array_index(regions, SporeSpheresRegion, i);
-    if (!spore_cli_add_region(scene, region->centre, region->radius, region->factor, error)) return FALSE;
+    const SporeGenerateRegion *region = &g_array_index(regions, SporeGenerateRegion, i);
+    if (!spore_cli_add_region(scene, region->centre, region->radius, region->value, error)) return FALSE;
   }
   return regions != NULL;
 }
@@ -242,13 +242,12 @@ static gboolean add_regions(SporeSceneBody *scene, char **texts, GError **error)
 static gboolean generate_in(SporeCli *cli, const char *file, const Request *request, SporeSceneBody *scene,
                             GError **error) {
   SporeSpheresFields fields;
-  SporeSpheresRegion room[SPORE_GENERATE_REGIONS];
   SporeSphereSet set = {0};
   SporeSpheresReport report = {0};
   if (!spore_cli_open_body(cli, file, request->body, "spheres", spore_edit_body_spheres, scene, &fields, error) ||
       !override_fields(request, &fields, error) || !add_regions(scene, request->regions, error))
     return FALSE;
-  const SporeSpheresOptions options = spore_edit_spheres_options(&fields, scene->regions, scene->region_count, room);
+  const SporeSpheresOptions options = spore_edit_spheres_options(&fields, scene->regions, scene->region_count);
   const SporeSpheresSource source = {.solid = scene->mesh};
   const SporeGeneratedFrom from = {spore_object_name(scene->source), scene->source_hash, &fields,
                                    scene->regions + scene->own_count, scene->region_count - scene->own_count};

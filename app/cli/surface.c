@@ -5,7 +5,7 @@
 #include "app/cli/scene_body.h"
 #include "app/cli/surface_wall.h"
 #include "core/author/generated_edits.h"
-#include "core/generate/surface.h"
+#include "core/generate/surface/surface.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/schema_fields.h"

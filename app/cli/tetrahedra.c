@@ -5,7 +5,7 @@
 #include "app/cli/scene_body.h"
 #include "app/cli/tetrahedra_labels.h"
 #include "core/author/generated_edits.h"
-#include "core/generate/tetrahedra_remarks.h"
+#include "core/generate/tetrahedra/tetrahedra.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
@@ -93,7 +93,7 @@ static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOption
 }
 
 /* X,Y,Z,R,SIZE in metres. */
-static gboolean parse_region(const char *text, SporeTetrahedraRegion *region) {
+static gboolean parse_region(const char *text, SporeGenerateRegion *region) {
   double number[5];
   const char *at = text;
   for (int i = 0; i < 5; i++) {
@@ -102,16 +102,16 @@ static gboolean parse_region(const char *text, SporeTetrahedraRegion *region) {
     if (end == at || *end != (i < 4 ? ',' : '\0')) return FALSE;
     at = end + 1;
   }
-  *region = (SporeTetrahedraRegion){{number[0], number[1], number[2]}, number[3], number[4]};
+  *region = (SporeGenerateRegion){{number[0], number[1], number[2]}, number[3], number[4]};
   return isfinite(number[0]) && isfinite(number[1]) && isfinite(number[2]) && number[3] > 0 && isfinite(number[3]) &&
          number[4] > 0 && isfinite(number[4]);
 }
 
-static int parse_regions(char **texts, SporeTetrahedraRegion *regions, SporeTetrahedraOptions *options) {
+static int parse_regions(char **texts, SporeGenerateRegion *regions, SporeTetrahedraOptions *options) {
   for (gsize i = 0; texts && texts[i]; i++) {
-    if (i == SPORE_TETRAHEDRA_REGIONS)
+    if (i == SPORE_GENERATE_REGIONS)
       return spore_cli_usage(_("--region is given too often; expected at most %d times; give fewer"),
-                             SPORE_TETRAHEDRA_REGIONS);
+                             SPORE_GENERATE_REGIONS);
     if (!parse_region(texts[i], regions + i))
       return spore_cli_usage(
           _("--region %s: this is no region; expected X,Y,Z,R,SIZE in metres, R and SIZE above 0, as "
@@ -137,17 +137,15 @@ static void override_fields(const SporeTetrahedraOptions *options, SporeTetrahed
 static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeTetrahedraOptions *asked,
                         SporeSceneBody *scene, GError **error) {
   SporeTetrahedraFields fields;
-  SporeTetrahedraRegion room[SPORE_GENERATE_REGIONS];
   SporeTetrahedralMesh mesh = {0};
   SporeTetrahedraReport figures = {0};
   gboolean done = spore_cli_open_body(cli, file, body, "tetrahedra", spore_edit_body_tetrahedra, scene, &fields, error);
   for (gsize i = 0; done && i < asked->region_count; i++)
     done =
-        spore_cli_add_region(scene, asked->regions[i].centre, asked->regions[i].radius, asked->regions[i].size, error);
+        spore_cli_add_region(scene, asked->regions[i].centre, asked->regions[i].radius, asked->regions[i].value, error);
   if (!done) return FALSE;
   override_fields(asked, &fields);
-  const SporeTetrahedraOptions options =
-      spore_edit_tetrahedra_options(&fields, scene->regions, scene->region_count, room);
+  const SporeTetrahedraOptions options = spore_edit_tetrahedra_options(&fields, scene->regions, scene->region_count);
   const SporeGeneratedFrom from = {spore_object_name(scene->source), scene->source_hash, &fields,
                                    scene->regions + scene->own_count, scene->region_count - scene->own_count};
   done =
@@ -324,7 +322,7 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
           "joined by seams where they share faces"),
        "F"},
       G_OPTION_ENTRY_NULL};
-  SporeTetrahedraRegion balls[SPORE_TETRAHEDRA_REGIONS];
+  SporeGenerateRegion balls[SPORE_GENERATE_REGIONS];
   GError *error = NULL;
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   int chosen = method && status == SPORE_EXIT_DONE

@@ -4,7 +4,7 @@
 
 #include "app/cli/cli.h"
 #include "core/author/generated_edits.h"
-#include "core/generate/label_tetrahedra.h"
+#include "core/generate/labels/labels.h"
 
 /* Meshes the label map that `content` of `file` is; labels: "1,2,5" or NULL. The report's members are those of spore
  * tetrahedra and `labels`. */

@@ -3,7 +3,7 @@
 #define SPORE_AUTHOR_GENERATED_EDITS_H
 
 #include "core/author/generated_options.h"
-#include "core/generate/centreline_scene.h"
+#include "core/author/centreline_body.h"
 #include "core/scene/document.h"
 #include "core/scene/schema_fields.h"
 

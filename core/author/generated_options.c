@@ -5,8 +5,6 @@
 
 #include "core/author/edits.h"
 
-G_STATIC_ASSERT(SPORE_GENERATE_REGIONS <= SPORE_TETRAHEDRA_REGIONS);
-
 SporeObject *spore_edit_generator_source(SporeDocument *document, SporeObject *body, SporeObject *target,
                                          GError **error) {
   SporeObject *shown = spore_edit_visual_mesh(document, body, NULL);
@@ -14,6 +12,15 @@ SporeObject *spore_edit_generator_source(SporeDocument *document, SporeObject *b
   const char *source = target ? spore_object_text(target, "source") : NULL;
   SporeObject *mesh = source ? spore_document_find(document, "mesh", source) : NULL;
   return mesh ? mesh : spore_edit_visual_mesh(document, body, error);
+}
+
+const char *spore_region_element(const SporeObjectType *holder) {
+  for (guint i = 0; i < holder->children->len; i++) {
+    const SporeObjectType *child = g_ptr_array_index(holder->children, i);
+    if (spore_parameter_find(child->table, "centre") >= 0 && spore_parameter_find(child->table, "radius") >= 0)
+      return child->element;
+  }
+  return NULL;
 }
 
 /* The last of a region's own parameters is what shall be there. */
@@ -52,30 +59,19 @@ int spore_edit_spheres_method(SporeSpheresMode mode) {
 }
 
 SporeSpheresOptions spore_edit_spheres_options(const SporeSpheresFields *fields, const SporeGenerateRegion *regions,
-                                               gsize count, SporeSpheresRegion *room) {
-  for (gsize i = 0; i < count; i++) {
-    const SporeGenerateRegion *region = &regions[i];
-    room[i] =
-        (SporeSpheresRegion){{region->centre[0], region->centre[1], region->centre[2]}, region->radius, region->value};
-  }
+                                               gsize count) {
   const SporeSpheresAims aims = {fields->coverage, fields->outside, fields->tolerance, fields->depth_error};
   return (SporeSpheresOptions){
       .mode = mode_named(spore_sphere_methods[fields->method]),
       .count = spore_spheres_hardest_aim(&aims, &(SporeSpheresReport){0}, NULL) ? 0 : (size_t)fields->count,
       .aims = aims,
       .seed = (uint64_t)fields->seed,
-      .regions = room,
+      .regions = regions,
       .region_count = count};
 }
 
 SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields *fields,
-                                                     const SporeGenerateRegion *regions, gsize count,
-                                                     SporeTetrahedraRegion *room) {
-  for (gsize i = 0; i < count; i++) {
-    const SporeGenerateRegion *region = &regions[i];
-    room[i] = (SporeTetrahedraRegion){
-        {region->centre[0], region->centre[1], region->centre[2]}, region->radius, region->value};
-  }
+                                                     const SporeGenerateRegion *regions, gsize count) {
   return (SporeTetrahedraOptions){.method = fields->method ? (SporeTetrahedraMethod)(fields->method - 1)
                                                            : SPORE_TETRAHEDRA_METHODS,
                                   .cells = fields->size > 0 ? 0 : (size_t)fields->cells,
@@ -84,7 +80,7 @@ SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields
                                   .curvature = fields->curvature,
                                   .fill = fields->fill,
                                   .gap = fields->gap,
-                                  .regions = room,
+                                  .regions = regions,
                                   .region_count = count};
 }
 

@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "core/base/memory.h"
-#include "core/generate/spheres_bounding.h"
-#include "core/generate/spheres_weighted.h"
+#include "core/generate/spheres/bounding.h"
+#include "core/generate/spheres/weighted.h"
 #include "tests/mesh/shapes.h"
 
 static const SporeProgressPart quiet = {NULL, 0, 1};
@@ -56,7 +56,7 @@ static bool candidates(Fixture *f, SporeError *error) {
 
 static bool cover_and_fit(Fixture *f, SporeError *error) {
   SporeBalls balls;
-  if (!spore_balls_create(&balls, 2)) return spore_spheres_no_memory(error);
+  if (!spore_balls_create(&balls, 2)) return spore_generate_no_memory(error);
   bool done = spore_candidates_cover(&f->candidates, &f->samples, &balls, &quiet, error) &&
               spore_spheres_fit(&f->solid, &f->samples, &f->candidates, &balls, NULL, false, 1, &quiet, error);
   spore_balls_clear(&balls);
@@ -68,7 +68,7 @@ static bool prices(Fixture *f, SporeError *error) {
   SporePrices made;
   const double point[3] = {0.06, 0, 0};
   if (!spore_prices_create(&made, &f->solid, 1, &random, &quiet, error)) return false;
-  bool done = spore_prices_add(&made, point, 1, 1e-9) || spore_spheres_no_memory(error);
+  bool done = spore_prices_add(&made, point, 1, 1e-9) || spore_generate_no_memory(error);
   spore_prices_clear(&made);
   return done;
 }
@@ -78,13 +78,13 @@ static bool cover(Fixture *f, SporeError *error) {
   SporeBalls balls;
   double *gaps;
   size_t count;
-  if (!spore_balls_create(&balls, 12)) return spore_spheres_no_memory(error);
+  if (!spore_balls_create(&balls, 12)) return spore_generate_no_memory(error);
   for (size_t i = 0; i < 12; i++) {
     balls.x[i] = 0.06 * cos((double)i), balls.y[i] = 0.06 * sin((double)i), balls.r[i] = 0.026;
   }
   bool done = (spore_balls_gaps(&f->solid, &balls, 1e-3, 1e-2, &gaps, &count) &&
                spore_balls_grow_to_cover(&f->solid, &balls)) ||
-              spore_spheres_no_memory(error);
+              spore_generate_no_memory(error);
   if (done) g_assert_cmpuint(count, >, 0);
   spore_free(gaps);
   spore_balls_clear(&balls);
@@ -94,7 +94,7 @@ static bool cover(Fixture *f, SporeError *error) {
 static bool weigh(Fixture *f, SporeError *error) {
   SporeBalls balls;
   double weights[2], level;
-  if (!spore_balls_create(&balls, 2)) return spore_spheres_no_memory(error);
+  if (!spore_balls_create(&balls, 2)) return spore_generate_no_memory(error);
   spore_balls_set(&balls, 0, spore_vec3(0.06, 0, 0), 0.02);
   spore_balls_set(&balls, 1, spore_vec3(-0.06, 0, 0), 0.02);
   bool done = spore_spheres_weigh(&f->solid, &balls, (const uint8_t[2]){0}, weights, &level, 1, &quiet, error);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/generate/spheres_series.h"
+#include "core/generate/spheres/spheres.h"
 #include "sets.h"
 #include "tests/mesh/shapes.h"
 
@@ -63,7 +63,7 @@ static size_t count_above(const SporeSphereSet *set) {
 static void test_region(void) {
   SporeTriangleMesh bar;
   SporeSpheresReport report;
-  SporeSpheresRegion region = {{0, 0, 0.1}, 0.1, 8};
+  SporeGenerateRegion region = {{0, 0, 0.1}, 0.1, 8};
   SporeSpheresOptions options = {.count = 60, .seed = 1, .regions = &region, .region_count = 1};
   SporeSphereSet set;
   shape_box(&bar, (double[3]){-0.01, -0.01, -0.1}, (double[3]){0.01, 0.01, 0.1}, 4);
@@ -72,14 +72,14 @@ static void test_region(void) {
   g_assert_cmpuint(count_above(&set), >, 45);
   g_assert_cmpuint(count_above(&set), <, 58);
   spore_sphere_set_clear(&set);
-  options.mode = SPORE_SPHERES_BOUNDING, options.count = 40, region.factor = 4;
+  options.mode = SPORE_SPHERES_BOUNDING, options.count = 40, region.value = 4;
   g_assert_true(spore_spheres_from_mesh(&bar, &options, &set, &report, NULL, NULL));
   g_test_message("%zu of 40 bounding spheres in the region", count_above(&set));
   g_assert_true(report.certified);
   g_assert_cmpuint(count_above(&set), >, 27);
   g_assert_cmpuint(count_above(&set), <, 38);
   spore_sphere_set_clear(&set);
-  region.factor = 0;
+  region.value = 0;
   SporeError error = SPORE_ERROR_INIT;
   g_assert_false(spore_spheres_from_mesh(&bar, &options, &set, &report, NULL, &error));
   g_assert_nonnull(strstr(error.message, "region 1 has the factor 0"));

@@ -4,16 +4,13 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-/* regions: gets those of the work. */
-static SporeSpheresOptions options_of(const SporeGenerateWork *work,
-                                      SporeSpheresRegion regions[SPORE_GENERATE_REGIONS]) {
-  return spore_edit_spheres_options(&work->options.fields.spheres, work->regions, work->region_count, regions);
+static SporeSpheresOptions options_of(const SporeGenerateWork *work) {
+  return spore_edit_spheres_options(&work->options.fields.spheres, work->regions, work->region_count);
 }
 
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  SporeSpheresRegion regions[SPORE_GENERATE_REGIONS];
-  SporeSpheresOptions options = options_of(work, regions);
+  SporeSpheresOptions options = options_of(work);
   return (spore_spheres_from_mesh(&work->mesh, &options, &work->spheres, &work->spheres_report, progress, &failure) &&
           spore_spheres_quality(&work->mesh, &work->spheres, &work->spheres_quality, progress, &failure)) ||
          spore_error_propagate(&failure, error);
@@ -22,8 +19,7 @@ static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GErr
 static gboolean price(const SporeGenerateWork *work, size_t count, double *error_percent, const SporeProgress *progress,
                       GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
-  SporeSpheresRegion regions[SPORE_GENERATE_REGIONS];
-  SporeSpheresOptions options = options_of(work, regions);
+  SporeSpheresOptions options = options_of(work);
   SporeSpheresReport report;
   SporeSphereSet set;
   options.count = count;

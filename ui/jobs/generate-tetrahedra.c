@@ -2,26 +2,22 @@
 #include <glib/gi18n.h>
 
 #include "core/author/generated_edits.h"
-#include "core/generate/tetrahedra_remarks.h"
+#include "core/generate/tetrahedra/tetrahedra.h"
 #include "ui/jobs/generate-types.h"
 
-/* regions: gets those of the work. */
-static SporeTetrahedraOptions options_of(const SporeGenerateWork *work,
-                                         SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS]) {
-  return spore_edit_tetrahedra_options(&work->options.fields.tetrahedra, work->regions, work->region_count, regions);
+static SporeTetrahedraOptions options_of(const SporeGenerateWork *work) {
+  return spore_edit_tetrahedra_options(&work->options.fields.tetrahedra, work->regions, work->region_count);
 }
 
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
-  SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS];
-  SporeTetrahedraOptions options = options_of(work, regions);
+  SporeTetrahedraOptions options = options_of(work);
   return spore_tetrahedra_from_mesh(work->source, &work->mesh, &options, &work->tetrahedra, &work->tetrahedra_report,
                                     progress, error);
 }
 
 static gboolean price(const SporeGenerateWork *work, size_t count, double *error_percent, const SporeProgress *progress,
                       GError **error) {
-  SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS];
-  SporeTetrahedraOptions options = options_of(work, regions);
+  SporeTetrahedraOptions options = options_of(work);
   SporeTetrahedralMesh mesh = {0};
   SporeTetrahedraReport report;
   options.cells = count;
@@ -44,8 +40,7 @@ static const char *method_text(SporeTetrahedraMethod method) {
 
 /* As the command line says them, a line each. */
 static void append_remarks(GString *text, const SporeGenerateWork *work) {
-  SporeTetrahedraRegion regions[SPORE_GENERATE_REGIONS];
-  SporeTetrahedraOptions options = options_of(work, regions);
+  SporeTetrahedraOptions options = options_of(work);
   g_autofree char *remarks = spore_tetrahedra_remarks(&work->tetrahedra, &options, &work->tetrahedra_report);
   if (*remarks) g_string_append_printf(text, "\n%s", g_strchomp(remarks));
 }

@@ -2,7 +2,7 @@
 
 #include <glib/gi18n.h>
 
-#include "core/generate/organ_import.h"
+#include "core/author/organ_import.h"
 
 struct SporeLabelSource {
   char *file;

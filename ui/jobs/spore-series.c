@@ -2,7 +2,7 @@
 
 #include <glib/gi18n.h>
 
-#include "core/generate/spheres_series.h"
+#include "core/generate/spheres/spheres.h"
 #include "ui/jobs/generate-types.h"
 
 typedef struct {
