@@ -6,6 +6,7 @@
 
 #include "app/cli/cli.h"
 #include "app/catalogue.h"
+#include "core/author/generator.h"
 #include "models/registry.h"
 
 typedef struct Command {
@@ -39,7 +40,7 @@ static void print_help(void) {
 }
 
 static int run_command(const Command *command, int argc, char **argv) {
-  SporeCli cli = {.schema = spore_schema_new(spore_model_registry), .report = json_builder_new()};
+  SporeCli cli = {.schema = spore_schema_new(spore_model_registry, spore_generator_elements()), .report = json_builder_new()};
   json_builder_begin_object(cli.report);
   int status = command->run(&cli, argc, argv);
   g_object_unref(cli.report);

@@ -106,7 +106,7 @@ static void start(SporeWindow *self, SporeGenerateKind kind, guint count, gboole
 static SporeGenerateKind kind_of(GSimpleAction *action) {
   const char *name = strchr(g_action_get_name(G_ACTION(action)), '-') + 1;
   SporeGenerateKind kind = 0;
-  while (!g_str_equal(spore_generate_type(kind)->name, name)) kind++;
+  while (!g_str_equal(spore_generate_type(kind)->generator->name, name)) kind++;
   return kind;
 }
 
@@ -322,8 +322,8 @@ void spore_window_set_generator(SporeWindow *self) {
 void spore_window_update_generator(SporeWindow *self, gboolean bodies) {
   gboolean idle = !self->job && !spore_generator_is_working(self->generator);
   for (SporeGenerateKind kind = 0; kind < SPORE_GENERATE_KIND_COUNT; kind++) {
-    g_autofree char *generate = g_strconcat("generate-", spore_generate_type(kind)->name, NULL);
-    g_autofree char *preview = g_strconcat("preview-", spore_generate_type(kind)->name, NULL);
+    g_autofree char *generate = g_strconcat("generate-", spore_generate_type(kind)->generator->name, NULL);
+    g_autofree char *preview = g_strconcat("preview-", spore_generate_type(kind)->generator->name, NULL);
     if (kind != SPORE_GENERATE_LABELS) spore_window_set_enabled(self, generate, idle && bodies);
     spore_window_set_enabled(self, preview, !self->job && (bodies || kind == SPORE_GENERATE_LABELS));
   }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/author/generator.h"
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/io/scene_xml.h"
@@ -32,7 +33,7 @@ static void set_up(Fixture *fixture, gconstpointer data) {
   char *text = spore_off_format(&mesh, &size);
   g_autoptr(GBytes) content = g_bytes_new_take(text, size);
   spore_triangle_mesh_clear(&mesh);
-  fixture->schema = spore_schema_new(spore_model_registry);
+  fixture->schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   fixture->document = spore_document_new(fixture->schema);
   spore_document_set_readers(fixture->document, &spore_editor_readers);
   fixture->body = spore_organ_insert(fixture->document, "tube", "tube.off", content, 0, 0, NULL);
@@ -288,11 +289,11 @@ static void test_kinds(Fixture *fixture, gconstpointer data) {
     const SporeGenerateType *type = spore_generate_type(kind);
     const SporeParameterTable *table = spore_generate_table(fixture->document, kind);
     g_assert_cmpuint(type->quality_count, >, 0);
-    g_assert_cmpint(spore_parameter_find(table, type->count), >=, 0);
+    g_assert_cmpint(spore_parameter_find(table, type->generator->count), >=, 0);
     SporeGenerateOptions options = {.kind = kind};
     spore_generate_set_count(&options, 17);
     g_assert_cmpuint(spore_generate_get_count(&options), ==, 17);
-    const SporeParameter *count = &table->parameters[spore_parameter_find(table, type->count)];
+    const SporeParameter *count = &table->parameters[spore_parameter_find(table, type->generator->count)];
     g_assert_cmpfloat(spore_parameter_load(count, &options.fields).number[0], ==, 17);
     for (gsize i = 0; type->counts && type->counts[i]; i++) g_assert_cmpuint(i, <, SPORE_SERIES_POINTS);
   }

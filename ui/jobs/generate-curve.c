@@ -5,12 +5,6 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-static const char *const purpose_names[] = {"curve", "thread", "tube", "intestine", NULL};
-static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
-    purpose_names,
-    N_("What Apply makes: the curve alone, or of the body a solid thread, a tube with a wall, or an intestine on "
-       "its mesentery."));
-
 static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
   SporeCentrelineOptions options = spore_edit_centreline_options(&work->options.fields.curve);
@@ -90,17 +84,13 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_curve = {
-    .name = "curve",
-    .element = "curve",
+    .generator = &spore_generator_curve,
     .title = N_("Middle line of %s"),
     .working = N_("Finding the middle line"),
-    .count = "points",
     .count_label = N_("Points"),
-    .purposes = &purposes,
     .picks_ends = TRUE,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
-    .target = spore_edit_body_curve,
     .run = run,
     .apply = apply,
     .facts = facts,

@@ -5,13 +5,6 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-static const char *const purpose_names[] = {"linked_bodies", "bodies", "one_body", "asset",
-                                            NULL}; /* as SporeLabelUse */
-static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
-    purpose_names,
-    N_("What Apply makes: a body of each organ, linked where they share faces or free of each other, one body of all "
-       "that hangs together at shared faces, or an asset alone."));
-
 gboolean spore_generate_wants_label(const SporeGenerateOptions *options, gsize i) {
   return !(options->unwanted[i / 64] >> (i % 64) & 1);
 }
@@ -117,21 +110,14 @@ static const SporeGenerateQuality qualities[] = {
     {N_("Least angle"), "°", FALSE, spore_generate_measure_angles, show_cells},
 };
 
-static SporeObject *no_target(SporeDocument *document, SporeObject *body) { return NULL; }
-
 const SporeGenerateType spore_generate_labels = {
-    .name = "labels",
-    .element = "tetrahedra",
+    .generator = &spore_generator_labels,
     .title = N_("Organs of %s"),
     .working = N_("Generating tetrahedra"),
-    .count = "cells",
     .count_label = N_("Tetrahedra"),
-    .only = (const char *const[]){"cells", "size", NULL},
-    .purposes = &purposes,
     .cells = TRUE,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
-    .target = no_target,
     .run = run,
     .apply = apply,
     .facts = facts,

@@ -83,11 +83,9 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_spheres = {
-    .name = "spheres",
-    .element = "spheres",
+    .generator = &spore_generator_spheres,
     .title = N_("Spheres of %s"),
     .working = N_("Generating spheres"),
-    .count = "count",
     .count_label = N_("Spheres"),
     .counts = (const size_t[]){8, 16, 32, 64, 128, 256, 512, 0},
     .error_label = N_("Depth error"),
@@ -95,7 +93,6 @@ const SporeGenerateType spore_generate_spheres = {
     .price = price,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
-    .target = spore_edit_body_spheres,
     .run = run,
     .apply = apply,
     .facts = facts,

@@ -6,12 +6,6 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-static const char *const purpose_names[] = {"model", "visual_mesh", "asset", NULL}; /* as SporeSurfaceUse */
-static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
-    purpose_names,
-    N_("What Apply makes: what the body's model is built from, the mesh that the body shows and generators start "
-       "from (a wall, to be filled with tetrahedra), or an asset alone."));
-
 static bool make_wall(SporeGenerateWork *work, const SporeProgress *progress, SporeError *failure) {
   SporeTriangleMesh outer = work->surface, inner = {0};
   work->surface = (SporeTriangleMesh){0};
@@ -146,20 +140,16 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_surface = {
-    .name = "surface",
-    .element = "mesh",
+    .generator = &spore_generator_surface,
     .title = N_("Surface of %s"),
     .working = N_("Generating a surface"),
-    .count = "nodes",
     .count_label = N_("Nodes"),
-    .purposes = &purposes,
     .counts = (const size_t[]){50, 100, 200, 400, 800, 1600, 3200, 0},
     .error_label = N_("Distance"),
     .worth = 0.1,
     .price = price,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
-    .target = spore_edit_body_surface,
     .run = run,
     .apply = apply,
     .facts = facts,

@@ -107,11 +107,9 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_tetrahedra = {
-    .name = "tetrahedra",
-    .element = "tetrahedra",
+    .generator = &spore_generator_tetrahedra,
     .title = N_("Tetrahedra of %s"),
     .working = N_("Generating tetrahedra"),
-    .count = "cells",
     .count_label = N_("Tetrahedra"),
     .counts = (const size_t[]){300, 600, 1200, 2500, 5000, 10000, 0},
     .error_label = N_("Distance"),
@@ -120,7 +118,6 @@ const SporeGenerateType spore_generate_tetrahedra = {
     .cells = TRUE,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
-    .target = spore_edit_body_tetrahedra,
     .run = run,
     .apply = apply,
     .facts = facts,

@@ -17,11 +17,11 @@ const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
 
 const SporeParameterTable *spore_generate_table(SporeDocument *document, SporeGenerateKind kind) {
   const SporeObject *assets = spore_document_section(document, "assets");
-  return spore_object_type_child(spore_object_type(assets), spore_generate_type(kind)->element)->table;
+  return spore_object_type_child(spore_object_type(assets), spore_generate_type(kind)->generator->element)->table;
 }
 
 SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
-  return spore_generate_type(kind)->target(document, body);
+  return spore_generate_type(kind)->generator->target(document, body);
 }
 
 SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
@@ -32,39 +32,21 @@ SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObj
   return options;
 }
 
-/* Where the count is; NULL: the kind has none. */
-static int64_t *count_of(SporeGenerateOptions *options) {
-  switch (options->kind) {
-  case SPORE_GENERATE_SPHERES:
-    return &options->fields.spheres.count;
-  case SPORE_GENERATE_TETRAHEDRA:
-  case SPORE_GENERATE_LABELS:
-    return &options->fields.tetrahedra.cells;
-  case SPORE_GENERATE_CURVE:
-    return &options->fields.curve.points;
-  case SPORE_GENERATE_SURFACE:
-    return &options->fields.surface.nodes;
-  default:
-    return NULL;
-  }
-}
-
 size_t spore_generate_get_count(const SporeGenerateOptions *options) {
-  SporeGenerateOptions copy = *options;
-  const int64_t *count = count_of(&copy);
-  return count ? (size_t)*count : 0;
-}
-
-static void forget_aims(SporeSpheresFields *spheres) {
-  spheres->coverage = spheres->outside = spheres->tolerance = spheres->depth_error = 0;
+  const SporeGeneratorType *generator = spore_generate_type(options->kind)->generator;
+  SporeParameterTable table = spore_generator_table(generator);
+  int count = generator->count ? spore_parameter_find(&table, generator->count) : -1;
+  return count < 0 ? 0 : (size_t)spore_parameter_load(&table.parameters[count], &options->fields).number[0];
 }
 
 void spore_generate_set_count(SporeGenerateOptions *options, size_t count) {
-  int64_t *place = count_of(options);
-  if (!place || *place == (int64_t)count) return;
-  *place = (int64_t)count;
-  if (options->kind == SPORE_GENERATE_SPHERES) forget_aims(&options->fields.spheres);
-  if (options->kind == SPORE_GENERATE_TETRAHEDRA) options->fields.tetrahedra.size = 0;
+  const SporeGeneratorType *generator = spore_generate_type(options->kind)->generator;
+  SporeParameterTable table = spore_generator_table(generator);
+  int place = generator->count ? spore_parameter_find(&table, generator->count) : -1;
+  if (place < 0 || spore_generate_get_count(options) == count) return;
+  const SporeValue value = {.type = SPORE_INTEGER, .number = {(double)count}};
+  spore_parameter_store(&table.parameters[place], &value, &options->fields);
+  spore_generator_choose_way(generator, spore_generator_way(generator, generator->count), &options->fields);
 }
 
 SporeGenerateOptions spore_generate_by_number(const SporeGenerateOptions *options) {
@@ -79,7 +61,7 @@ gboolean spore_generate_differ_by_number(const SporeParameterTable *table, const
   SporeGenerateOptions x = spore_generate_by_number(a), y = spore_generate_by_number(b);
   for (size_t i = 0; i < table->count; i++) {
     const SporeParameter *parameter = &table->parameters[i];
-    if (!spore_generated_is_option(parameter)) continue;
+    if (!spore_generator_takes(spore_generate_type(a->kind)->generator, parameter)) continue;
     SporeValue one = spore_parameter_load(parameter, &x.fields), other = spore_parameter_load(parameter, &y.fields);
     if (!spore_value_equal(&one, &other)) return FALSE;
   }

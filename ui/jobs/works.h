@@ -3,7 +3,7 @@
 #define SPORE_UI_JOBS_WORKS_H
 
 #include "core/base/progress.h"
-#include "core/author/generated_options.h"
+#include "core/author/generator.h"
 #include "core/generate/centreline/centreline.h"
 #include "core/generate/labels/labels.h"
 #include "core/generate/spheres/spheres.h"

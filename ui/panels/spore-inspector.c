@@ -118,7 +118,7 @@ static void show_generated(SporeInspector *self, SporeObject *body, SporeGenerat
   g_autofree char *remarks = asset ? spore_asset_remarks(document_of(self), asset) : g_strdup("");
   SporeGeneratorState state = {.asset = path,
                                .remarks = remarks,
-                               .count = last_count(asset, spore_generate_type(kind)->count, 0),
+                               .count = last_count(asset, spore_generate_type(kind)->generator->count, 0),
                                .generated = generated != SPORE_GENERATED_NOT,
                                .stale = generated == SPORE_GENERATED_SOURCE_CHANGED ||
                                         generated == SPORE_GENERATED_OPTIONS_CHANGED,
@@ -211,8 +211,8 @@ static void add_visual(SporeInspector *self, SporeObject *body, const char *path
 static void add_generator(SporeInspector *self, GtkBox *box, SporeGenerateKind kind, SporeObject *body,
                           const char *label, guint usual, guint most) {
   const SporeGenerateType *type = spore_generate_type(kind);
-  g_autofree char *action = g_strconcat("preview-", type->name, NULL);
-  guint count = last_count(spore_generate_target(document_of(self), body, kind), type->count, usual);
+  g_autofree char *action = g_strconcat("preview-", type->generator->name, NULL);
+  guint count = last_count(spore_generate_target(document_of(self), body, kind), type->generator->count, usual);
   g_set_weak_pointer(&self->generators[kind], spore_generator_box_new(action, label, count, most));
   gtk_container_add(GTK_CONTAINER(box), self->generators[kind]);
 }

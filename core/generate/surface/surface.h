@@ -27,6 +27,7 @@ bool spore_surface_from_mesh(const SporeTriangleMesh *mesh, const SporeSimplifyO
 /* Hollow organs: the inner surface of a wall of given thickness, and the wall. */
 
 #define SPORE_WALL_DETAIL 16 /* where none is asked for */
+#define SPORE_MOST_WALL_DETAIL 64
 
 typedef struct SporeWallReport {
   double thickness_min, thickness_mean, thickness_max; /* m: from points of the outer surface to the inner one; the
