@@ -208,12 +208,17 @@ static int refuse_renamed(const char *command, int argc, char **argv) {
   return SPORE_EXIT_DONE;
 }
 
+/* Given, and not 0, which is not to ask for it. */
+static gboolean is_asked(const SporeCliOptions *options, size_t i) {
+  return options->given[i] && options->values[i].number[0] != 0;
+}
+
 /* Two ways exclude each other. */
 static int check_ways(const SporeCliOptions *options, const char *command) {
   const SporeParameter *first = NULL;
   for (size_t i = 0; i < options->table.count; i++) {
     const SporeParameter *parameter = &options->table.parameters[i];
-    int way = options->given[i] ? spore_generator_way(options->type, parameter->name) : -1;
+    int way = is_asked(options, i) ? spore_generator_way(options->type, parameter->name) : -1;
     if (way < 0) continue;
     if (!first) first = parameter;
     if (way == spore_generator_way(options->type, first->name)) continue;
@@ -267,7 +272,7 @@ double spore_cli_options_number(const SporeCliOptions *options, const char *name
 
 int spore_cli_options_way(const SporeCliOptions *options) {
   for (size_t i = 0; i < options->table.count; i++) {
-    int way = options->given[i] ? spore_generator_way(options->type, options->table.parameters[i].name) : -1;
+    int way = is_asked(options, i) ? spore_generator_way(options->type, options->table.parameters[i].name) : -1;
     if (way >= 0) return way;
   }
   return -1;

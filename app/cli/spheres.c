@@ -116,7 +116,7 @@ static void report_regions(SporeCli *cli, const SporeSpheresOptions *options, co
 
 static void report_set(SporeCli *cli, const SporeSpheresSource *source, const SporeSpheresOptions *options,
                        const SporeSphereSet *set, const SporeSpheresReport *report) {
-  const char *hardest = options->count ? NULL : spore_spheres_hardest_aim(&options->aims, report, NULL);
+  const char *hardest = options->count ? NULL : spore_spheres_hardest_target(&options->targets, report, NULL);
   spore_cli_spheres_members(cli, set->count, report);
   spore_cli_text(cli, "hardest", hardest);
   if (source->sheet) say_sheet(cli, set, report, options->thickness > 0);

@@ -1,6 +1,7 @@
 /* spore tetrahedra: a tetrahedral mesh in a surface. */
 #include <glib/gi18n.h>
 
+#include "app/cli/generate.h"
 #include "app/cli/scene_body.h"
 #include "app/cli/tetrahedra_labels.h"
 #include "core/author/generated_edits.h"
@@ -58,7 +59,7 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   spore_cli_number(cli, "filled_m3", report->filled);
   spore_cli_count(cli, "pieces", (gint64)report->pieces);
   spore_cli_count(cli, "pieces_given", (gint64)report->pieces_given);
-  spore_cli_number(cli, "crumbs", report->crumbs);
+  spore_cli_number(cli, "crumbs", report->small_components);
   spore_cli_text(cli, "method", method);
   report_refused(cli, report);
   spore_cli_number(cli, "seconds", report->seconds);
@@ -97,29 +98,17 @@ static int generate(SporeCli *cli, const char *file, const SporeCliOptions *aske
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *asked,
-                        SporeSceneBody *scene, GError **error) {
-  SporeTetrahedraFields fields;
-  SporeTetrahedralMesh mesh = {0};
-  SporeTetrahedraReport figures = {0};
-  if (!spore_cli_open_body(cli, file, body, asked, scene, &fields, error)) return FALSE;
-  const SporeTetrahedraOptions options = spore_edit_tetrahedra_options(&fields, scene->regions, scene->region_count);
-  const SporeGeneratedFrom from = spore_cli_generated_from(scene, &fields);
-  gboolean done =
-      spore_tetrahedra_from_mesh(from.source, scene->mesh, &options, &mesh, &figures, spore_cli_progress(cli), error) &&
-      spore_edit_use_tetrahedra(scene->document, scene->body, &from, &mesh, error);
-  if (done) report(cli, &mesh, &options, &figures);
-  spore_tetrahedral_mesh_clear(&mesh);
-  return done && spore_cli_save_body(cli, scene, file, error);
+static void report_work(SporeCli *cli, const SporeGenerateWork *work) {
+  const SporeTetrahedraOptions options =
+      spore_edit_tetrahedra_options(&work->options.fields.tetrahedra, work->regions, work->region_count);
+  report(cli, &work->tetrahedra, &options, &work->tetrahedra_report);
 }
 
 /* Of what a body of a scene shows, and for it. */
 static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *options) {
   GError *error = NULL;
-  SporeSceneBody scene = {0};
-  gboolean done = make_in(cli, file, body, options, &scene, &error);
-  spore_cli_close_body(&scene);
-  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+  return spore_cli_generate(cli, options, file, body, report_work, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE)
+                                                                           : spore_cli_fail(error);
 }
 
 /* Of a label map, which says its own unit and axes. */

@@ -1,3 +1,4 @@
+/* A body along a middle line: a thread, a tube or an intestine, with what holds it. */
 #include "core/author/centreline_body.h"
 
 #include <math.h>

@@ -65,7 +65,9 @@ const SporeElement *const *spore_generator_elements(void) {
     gsize count = 0;
     for (gsize i = 0; spore_generators[i]; i++) {
       g_assert(count < SPORE_GENERATORS_MOST);
-      if (spore_generators[i]->elements) elements[count++] = spore_generators[i]->elements;
+      if (!spore_generators[i]->elements) continue;
+      g_assert(spore_generators[i]->elements->size <= SPORE_GENERATOR_FIELDS);
+      elements[count++] = spore_generators[i]->elements;
     }
     g_once_init_leave(&ready, 1);
   }

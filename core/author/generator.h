@@ -24,7 +24,7 @@ typedef struct SporeSpheresFields {
   const char *name, *file, *source, *source_hash, *options_hash;
   bool frozen, edited;
   int method;                                       /* index in the table's choices */
-  double coverage, outside, tolerance, depth_error; /* aims; all 0: by count */
+  double coverage, outside, tolerance, depth_error; /* targets; all 0: by count */
   int64_t count, seed;
 } SporeSpheresFields;
 
@@ -52,6 +52,7 @@ typedef struct SporeCurveFields {
     .doc = (meaning)                                                                                                   \
   }
 
+typedef struct SporeGenerateWork SporeGenerateWork; /* generator_work.h */
 typedef struct SporeGeneratorType {
   const char *name;    /* of the editor's actions: generate-NAME, preview-NAME */
   const char *command; /* spore COMMAND */
@@ -64,11 +65,25 @@ typedef struct SporeGeneratorType {
   const char *ways;
   const SporeParameter *purpose; /* a choice, what becomes of the result (a field of int at 0); NULL: always the same */
   SporeObject *(*target)(SporeDocument *document, SporeObject *body); /* asset that the body uses, or NULL */
+
+  const char *title, *working; /* "Spheres of %s", "Generating spheres"; N_ */
+  const char *count_label;     /* N_ */
+  const char *unit;    /* of a body, where the editor offers the generator: "collision", "mechanical"; NULL: nowhere */
+  const char *offer;   /* "Number of spheres", beside the number there; N_ */
+  gboolean picks_ends; /* the options have a first and a last place, that can be picked by hand */
+  gboolean (*run)(SporeGenerateWork *work, const SporeProgress *progress, GError **error);
+  /* The result becomes the body's, as one undo step. FALSE: nothing of it is left. */
+  gboolean (*apply)(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error);
+  char *(*facts)(const SporeGenerateWork *work); /* a line each, for people; g_free */
+  /* The error (%) of a result of that number; NULL: it is not measured. */
+  gboolean (*error_of)(const SporeGenerateWork *work, size_t count, double *error_percent,
+                       const SporeProgress *progress, GError **error);
 } SporeGeneratorType;
 
 extern const SporeGeneratorType spore_generator_surface, spore_generator_spheres, spore_generator_tetrahedra,
     spore_generator_curve, spore_generator_labels;
 #define SPORE_GENERATORS_MOST 32
+#define SPORE_GENERATOR_FIELDS 512                         /* bytes that the fields of an asset take, at most */
 extern const SporeGeneratorType *const spore_generators[]; /* all of them, ended by NULL */
 /* The elements that the generators bring, for spore_schema_new. */
 const SporeElement *const *spore_generator_elements(void);

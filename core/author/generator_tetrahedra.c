@@ -4,6 +4,7 @@
 
 #include "core/author/edits.h"
 #include "core/author/generated_edits.h"
+#include "core/author/generator_work.h"
 #include "core/scene/schema_tables.h"
 
 static const char *const methods[] = {"automatic", "direct", "repaired", "wrapped", "voxels", NULL};
@@ -108,32 +109,11 @@ static const SporeParameter cell_region_parameters[] = {
      .doc = N_("Length of the edges in the region, where that is less than around it.")},
 };
 
-typedef struct SporeLabelMapFields {
-  const char *name, *file;
-} SporeLabelMapFields;
-
-static const SporeParameter label_map_parameters[] = {
-    NAME(SporeLabelMapFields, N_("Name by which tetrahedra refer to the label map.")),
-    {.name = "file",
-     .type = SPORE_FILE,
-     .unit = "",
-     FIELD(SporeLabelMapFields, file),
-     .required = true,
-     .change = SPORE_CHANGE_LIVE,
-     .doc = N_("File of the label map (NIfTI, NRRD), inside the scene's folder.")},
-};
-
 static const SporeElement elements[] = {
     {"tetrahedra", N_("Tetrahedra"), N_("A volume cut into tetrahedra."),
      TABLE(tetrahedra_parameters, SporeTetrahedraFields), .children = CHILDREN("cell_region")},
     {"cell_region", N_("Region"), N_("A ball in which the generated tetrahedra are smaller."),
      TABLE(cell_region_parameters, SporeCellRegionFields)},
-    {NULL},
-};
-
-static const SporeElement map_elements[] = {
-    {"label_map", N_("Label map"), N_("What each voxel of an image belongs to: organs are generated from it."),
-     TABLE(label_map_parameters, SporeLabelMapFields)},
     {NULL},
 };
 
@@ -151,6 +131,68 @@ SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields
                                   .region_count = count};
 }
 
+static SporeTetrahedraOptions options_of(const SporeGenerateWork *work) {
+  return spore_edit_tetrahedra_options(&work->options.fields.tetrahedra, work->regions, work->region_count);
+}
+
+static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
+  SporeTetrahedraOptions options = options_of(work);
+  return spore_tetrahedra_from_mesh(work->source, &work->mesh, &options, &work->tetrahedra, &work->tetrahedra_report,
+                                    progress, error);
+}
+
+static gboolean error_of(const SporeGenerateWork *work, size_t count, double *error_percent,
+                         const SporeProgress *progress, GError **error) {
+  SporeTetrahedraOptions options = options_of(work);
+  SporeTetrahedralMesh mesh = {0};
+  SporeTetrahedraReport report;
+  options.cells = count;
+  gboolean done = spore_tetrahedra_from_mesh(work->source, &work->mesh, &options, &mesh, &report, progress, error);
+  spore_tetrahedral_mesh_clear(&mesh);
+  if (done) *error_percent = 100 * report.hausdorff;
+  return done;
+}
+
+static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
+  const SporeGeneratedFrom from = spore_generate_work_from(work);
+  return spore_edit_use_tetrahedra(document, body, &from, &work->tetrahedra, error);
+}
+
+/* What the mesh needed, and what of it that changed. */
+static const char *method_text(SporeTetrahedraMethod method) {
+  static const char *const texts[] = {N_("the mesh"), N_("the mesh repaired"), N_("a wrap of it"), N_("a lattice")};
+  return _(texts[method]);
+}
+
+/* As the command line says them, a line each. */
+static void append_remarks(GString *text, const SporeGenerateWork *work) {
+  SporeTetrahedraOptions options = options_of(work);
+  g_autofree char *remarks = spore_tetrahedra_remarks(&work->tetrahedra, &options, &work->tetrahedra_report);
+  if (*remarks) g_string_append_printf(text, "\n%s", g_strchomp(remarks));
+}
+
+static char *facts(const SporeGenerateWork *work) {
+  const SporeTetrahedraReport *report = &work->tetrahedra_report;
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("%zu tetrahedra in %.1f s, of %s"), work->tetrahedra.tetrahedron_count,
+                         report->seconds, method_text(report->method));
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Least angle %.1f°, mean %.1f°"), report->quality.min_dihedral_deg,
+                         report->quality.mean_dihedral_deg);
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Error %.2f %%, volume %+.1f %%"), 100 * report->hausdorff,
+                         100 * report->volume_change);
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Surface %+.1f %%"), 100 * report->area_change);
+  append_remarks(text, work);
+  for (int i = 0; i < SPORE_TETRAHEDRA_METHODS; i++)
+    if (*report->refused[i]) {
+      g_string_append_c(text, '\n');
+      g_string_append_printf(text, _("Not %s: %s"), method_text((SporeTetrahedraMethod)i), report->refused[i]);
+    }
+  return g_string_free(text, FALSE);
+}
+
 const SporeGeneratorType spore_generator_tetrahedra = {
     .name = "tetrahedra",
     .command = "tetrahedra",
@@ -159,25 +201,13 @@ const SporeGeneratorType spore_generator_tetrahedra = {
     .count = "cells",
     .ways = "cells | size",
     .target = spore_edit_body_tetrahedra,
-};
-
-/* Of a file, not of what a body shows. */
-static SporeObject *no_target(SporeDocument *document, SporeObject *body) { return NULL; }
-
-static const char *const label_uses[] = {"linked_bodies", "bodies", "one_body", "asset", NULL}; /* as SporeLabelUse */
-static const SporeParameter label_purpose = SPORE_GENERATOR_PURPOSE(
-    label_uses,
-    N_("What Apply makes: a body of each organ, linked where they share faces or free of each other, one body of all "
-       "that hangs together at shared faces, or an asset alone."));
-
-const SporeGeneratorType spore_generator_labels = {
-    .name = "labels",
-    .command = "tetrahedra",
-    .element = "tetrahedra",
-    .elements = map_elements,
-    .only = (const char *const[]){"cells", "size", NULL},
-    .count = "cells",
-    .ways = "cells | size",
-    .purpose = &label_purpose,
-    .target = no_target,
+    .title = N_("Tetrahedra of %s"),
+    .working = N_("Generating tetrahedra"),
+    .count_label = N_("Tetrahedra"),
+    .unit = "mechanical",
+    .offer = N_("Number of tetrahedra"),
+    .error_of = error_of,
+    .run = run,
+    .apply = apply,
+    .facts = facts,
 };

@@ -1,3 +1,4 @@
+/* From mesh files and label maps to bodies: read, divided or joined, mended, and put into the scene. */
 #include "core/author/organ_import.h"
 
 #include <errno.h>

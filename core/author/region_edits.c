@@ -1,3 +1,4 @@
+/* Regions of bodies and generated assets: added, placed, removed and drawn. */
 #include "core/author/region_edits.h"
 
 #include <glib/gi18n.h>

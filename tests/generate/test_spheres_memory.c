@@ -63,13 +63,13 @@ static bool cover_and_fit(Fixture *f, SporeError *error) {
   return done;
 }
 
-static bool prices(Fixture *f, SporeError *error) {
+static bool costs(Fixture *f, SporeError *error) {
   SporeRandom random = {1};
-  SporePrices made;
+  SporeCosts made;
   const double point[3] = {0.06, 0, 0};
-  if (!spore_prices_create(&made, &f->solid, 1, &random, &quiet, error)) return false;
-  bool done = spore_prices_add(&made, point, 1, 1e-9) || spore_generate_no_memory(error);
-  spore_prices_clear(&made);
+  if (!spore_costs_create(&made, &f->solid, 1, &random, &quiet, error)) return false;
+  bool done = spore_costs_add(&made, point, 1, 1e-9) || spore_generate_no_memory(error);
+  spore_costs_clear(&made);
   return done;
 }
 
@@ -129,7 +129,7 @@ int main(int argc, char **argv) {
   } parts[] = {
       {"/generate/spheres-memory/solid", solid},           {"/generate/spheres-memory/samples", samples},
       {"/generate/spheres-memory/candidates", candidates}, {"/generate/spheres-memory/cover-and-fit", cover_and_fit},
-      {"/generate/spheres-memory/prices", prices},         {"/generate/spheres-memory/weigh", weigh},
+      {"/generate/spheres-memory/costs", costs},           {"/generate/spheres-memory/weigh", weigh},
       {"/generate/spheres-memory/cover", cover},           {"/generate/spheres-memory/measure", measure}};
   g_test_init(&argc, &argv, NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(parts); i++)

@@ -120,7 +120,7 @@ static void test_curve_bent(void) {
     double angle = 1.5 * M_PI * i / 60, radius = 0.008 - 0.006 * i / 60;
     memcpy(numbers + 4 * i, (double[4]){0.05 * cos(angle), 0.05 * sin(angle), 0, radius}, 4 * sizeof(double));
   }
-  SporeSpheresOptions options = {.aims.distance = 0.001, .seed = 1};
+  SporeSpheresOptions options = {.targets.distance = 0.001, .seed = 1};
   SporeSphereSet set;
   SporeSpheresReport report;
   g_assert_true(spore_spheres_from_source(&(SporeSpheresSource){.curve = &curve}, &options, &set, &report, NULL, NULL));
@@ -216,7 +216,7 @@ static void test_tolerance(void) {
   SporeTriangleMesh torus;
   SporeSpheresReport report, fewer;
   SporeSphereSet set;
-  SporeSpheresOptions options = {.aims.distance = 0.008, .seed = 1};
+  SporeSpheresOptions options = {.targets.distance = 0.008, .seed = 1};
   shape_torus(&torus, 0.06, 0.02, 16, 8);
   g_assert_true(spore_spheres_from_mesh(&torus, &options, &set, &report, NULL, NULL));
   g_assert_cmpfloat(report.distance_mean, <=, 0.008);
@@ -227,24 +227,24 @@ static void test_tolerance(void) {
   spore_triangle_mesh_clear(&torus);
 }
 
-/* Of several aims all are reached, and it is told which takes the spheres. */
-static void test_aims(void) {
+/* Of several targets all are reached, and it is told which takes the spheres. */
+static void test_targets(void) {
   SporeTriangleMesh torus;
   SporeSpheresReport report, fewer;
   SporeSphereSet set;
-  SporeSpheresOptions options = {.aims = {.coverage = 0.88, .outside = 0.15, .depth_error = 0.5}, .seed = 1};
+  SporeSpheresOptions options = {.targets = {.coverage = 0.88, .outside = 0.15, .depth_error = 0.5}, .seed = 1};
   double excess;
   shape_torus(&torus, 0.06, 0.02, 16, 8);
   g_assert_true(spore_spheres_from_mesh(&torus, &options, &set, &report, NULL, NULL));
   g_assert_cmpfloat(report.coverage, >=, 0.88);
   g_assert_cmpfloat(report.outside, <=, 0.15);
-  g_assert_cmpstr(spore_spheres_hardest_aim(&options.aims, &report, &excess), !=, "depth_error");
+  g_assert_cmpstr(spore_spheres_hardest_target(&options.targets, &report, &excess), !=, "depth_error");
   CLOSE(excess, fmax((1 - report.coverage) / 0.12, report.outside / 0.15), 1e-12);
   SporeSphereSet less = make(&torus, set.count * 4 / 5, 1, &fewer);
   g_assert_true(fewer.coverage < 0.88 || fewer.outside > 0.15);
   spore_sphere_set_clear(&less);
   spore_sphere_set_clear(&set);
-  g_assert_null(spore_spheres_hardest_aim(&(SporeSpheresAims){0}, &report, NULL));
+  g_assert_null(spore_spheres_hardest_target(&(SporeSpheresTargets){0}, &report, NULL));
   spore_triangle_mesh_clear(&torus);
 }
 
@@ -278,7 +278,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres/enough", test_enough);
   g_test_add_func("/generate/spheres/series", test_series);
   g_test_add_func("/generate/spheres/tolerance", test_tolerance);
-  g_test_add_func("/generate/spheres/aims", test_aims);
+  g_test_add_func("/generate/spheres/targets", test_targets);
   g_test_add_func("/generate/spheres/tetrahedra", test_tetrahedra);
   return g_test_run();
 }

@@ -4,68 +4,18 @@
 
 #include "core/scene/generated.h"
 
+static const SporeGenerateType *type_of(const char *name) {
+  static const SporeGenerateType *const types[] = {&spore_generate_spheres, &spore_generate_tetrahedra,
+                                                   &spore_generate_curve, &spore_generate_surface,
+                                                   &spore_generate_labels};
+  for (gsize i = 0; i < G_N_ELEMENTS(types); i++)
+    if (strcmp(types[i]->of, name) == 0) return types[i];
+  return NULL;
+}
+
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
-  static const SporeGenerateType *const types[SPORE_GENERATE_KIND_COUNT] = {
-      [SPORE_GENERATE_SPHERES] = &spore_generate_spheres, [SPORE_GENERATE_TETRAHEDRA] = &spore_generate_tetrahedra,
-      [SPORE_GENERATE_CURVE] = &spore_generate_curve,     [SPORE_GENERATE_SURFACE] = &spore_generate_surface,
-      [SPORE_GENERATE_LABELS] = &spore_generate_labels,
-  };
-  return types[kind];
-}
-
-/* Options. */
-
-const SporeParameterTable *spore_generate_table(SporeDocument *document, SporeGenerateKind kind) {
-  const SporeObject *assets = spore_document_section(document, "assets");
-  return spore_object_type_child(spore_object_type(assets), spore_generate_type(kind)->generator->element)->table;
-}
-
-SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
-  return spore_generate_type(kind)->generator->target(document, body);
-}
-
-SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
-  SporeGenerateOptions options = {.kind = kind};
-  SporeObject *asset = spore_generate_target(document, body, kind);
-  if (asset) spore_object_fields(asset, &options.fields);
-  else spore_parameters_set_initial(spore_generate_table(document, kind), &options.fields);
-  return options;
-}
-
-size_t spore_generate_get_count(const SporeGenerateOptions *options) {
-  const SporeGeneratorType *generator = spore_generate_type(options->kind)->generator;
-  SporeParameterTable table = spore_generator_table(generator);
-  int count = generator->count ? spore_parameter_find(&table, generator->count) : -1;
-  return count < 0 ? 0 : (size_t)spore_parameter_load(&table.parameters[count], &options->fields).number[0];
-}
-
-void spore_generate_set_count(SporeGenerateOptions *options, size_t count) {
-  const SporeGeneratorType *generator = spore_generate_type(options->kind)->generator;
-  SporeParameterTable table = spore_generator_table(generator);
-  int place = generator->count ? spore_parameter_find(&table, generator->count) : -1;
-  if (place < 0 || spore_generate_get_count(options) == count) return;
-  const SporeValue value = {.type = SPORE_INTEGER, .number = {(double)count}};
-  spore_parameter_store(&table.parameters[place], &value, &options->fields);
-  spore_generator_choose_way(generator, spore_generator_way(generator, generator->count), &options->fields);
-}
-
-SporeGenerateOptions spore_generate_by_number(const SporeGenerateOptions *options) {
-  SporeGenerateOptions copy = *options;
-  spore_generate_set_count(&copy, 0);
-  return copy;
-}
-
-gboolean spore_generate_differ_by_number(const SporeParameterTable *table, const SporeGenerateOptions *a,
-                                         const SporeGenerateOptions *b) {
-  if (a->kind != b->kind) return FALSE;
-  SporeGenerateOptions x = spore_generate_by_number(a), y = spore_generate_by_number(b);
-  for (size_t i = 0; i < table->count; i++) {
-    const SporeParameter *parameter = &table->parameters[i];
-    if (!spore_generator_takes(spore_generate_type(a->kind)->generator, parameter)) continue;
-    SporeValue one = spore_parameter_load(parameter, &x.fields), other = spore_parameter_load(parameter, &y.fields);
-    if (!spore_value_equal(&one, &other)) return FALSE;
-  }
-  return TRUE;
+  const SporeGenerateType *own = type_of(spore_generators[kind]->name);
+  return own ? own : type_of(spore_generators[kind]->element);
 }
 
 /* Services for the kinds. */

@@ -1,3 +1,4 @@
+/* Side branches and loops of an organ: what the way through its middle leaves out, longest first. */
 #include <math.h>
 #include <string.h>
 

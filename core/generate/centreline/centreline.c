@@ -1,3 +1,4 @@
+/* The middle line of a tubular organ: the steps from its surface to a curve, and the refusal of what is no tube. */
 #include "core/generate/centreline/centreline.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* The way through the voxels of an organ that covers most of it, between two far ends or two given ones. */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,5 @@
+/* From a way along voxels to a smooth line: points move to the middle of their sections, and the ends reach the
+ * organ's. */
 #include <math.h>
 #include <string.h>
 

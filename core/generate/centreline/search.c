@@ -1,3 +1,4 @@
+/* Shortest ways from voxel to voxel by Dijkstra's search, which prefers voxels deep inside. */
 #include "core/generate/centreline/search.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* A dense curve is thinned to the points that a number or a tolerance asks for. */
 #include <math.h>
 #include <string.h>
 

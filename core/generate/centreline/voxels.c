@@ -1,3 +1,4 @@
+/* The inside of an organ as voxels: which there are, their neighbours, and the pieces that hang together. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* The outer wall of a surface: walls inside the organ are told apart by rays that see nothing of the outside. */
 #include <math.h>
 #include <string.h>
 

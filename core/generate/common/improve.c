@@ -1,3 +1,4 @@
+/* Cells of a tetrahedral mesh are made better in place, in rounds of smoothing and flipping. */
 #include "core/generate/common/common.h"
 
 #include <math.h>

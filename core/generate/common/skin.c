@@ -1,3 +1,4 @@
+/* The faces that bound the cells of a label, and the points of a surface that each face stands for. */
 #include "core/generate/common/skin.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 #include "core/generate/common/solid.h"
 
 #define CELL_BUDGET 12000 /* cells are divided while fewer than this are on the boundary */
-#define CELL_LEVELS 12
+#define MOST_DIVISIONS 12
 #define VOLUME_TRIES 32768 /* points that estimate the volume */
 #define LEAST_FILLING 1e-3 /* of the cells, below which the surface is taken not to enclose anything */
 
@@ -31,7 +31,7 @@ static bool cells_add(Cells *cells, const double lower[3], double edge, bool ins
   return true;
 }
 
-/* Sorts the cell into the next level: dropped when outside, whole when inside, by the depth of its middle. */
+/* Sorts the cell into the next division: dropped when outside, whole when inside, by the depth of its middle. */
 static bool cells_sift(Cells *next, const SporeBvh *bvh, const double lower[3], double edge) {
   SporeVec3 middle = spore_vec3(lower[0] + edge / 2, lower[1] + edge / 2, lower[2] + edge / 2);
   double depth = spore_bvh_depth(bvh, middle), reach = edge * (sqrt(3) / 2);
@@ -66,7 +66,7 @@ static bool build_cells(SporeSolid *solid, const SporeMeshReport *report) {
   for (int k = 0; k < 3; k++) edge = fmax(edge, report->upper[k] - report->lower[k]);
   Cells cells = {0};
   bool done = cells_add(&cells, report->lower, edge * (1 + 1e-9), false);
-  for (int level = 0; done && level < CELL_LEVELS; level++) {
+  for (int division = 0; done && division < MOST_DIVISIONS; division++) {
     size_t boundary = boundary_cells(&cells);
     if (!boundary || 4 * boundary > CELL_BUDGET) break;
     Cells next = {0};

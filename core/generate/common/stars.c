@@ -1,3 +1,4 @@
+/* The cells around each vertex, and vertices that move to where the worst of their cells is best. */
 #include "core/generate/common/stars.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Shares of labels at any place: voxels blurred by one voxel, interpolated between their middles. */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Vertices between labels move to where the labels meet, and give way a little for the labels' volumes. */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* The lattice that organs are cut out of: each cell gets the label that has most of it. */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* The closed surface of one label, by marching tetrahedra at the resolution of the voxels. */
 #include <glib.h>
 #include <math.h>
 

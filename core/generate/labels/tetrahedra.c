@@ -1,3 +1,4 @@
+/* Tetrahedra of all organs of a label map: the size of the lattice, its borders, spikes, and the coarser cells. */
 #include "core/generate/labels/labels.h"
 
 #include <glib/gi18n.h>

@@ -1,5 +1,5 @@
 /* Balls around a solid: a search that moves one ball at a time to where it, the others as they are, costs least. What
- * is outside costs its volume; what is left uncovered costs its volume times a price that rises, so that at first balls
+ * is outside costs its volume; what is left uncovered costs its volume times a cost that rises, so that at first balls
  * can hand over what they hold to their neighbours. Once little is left uncovered, balls that do little are put where
  * others hold much outside, wherever that turns out to pay after those around have settled. In the end all is held, and
  * a ball costs the volume that it adds to the others. */
@@ -18,7 +18,7 @@
 
 /* What the search does one after the other. */
 typedef struct Stage {
-  double price;
+  double cost;
   double margin, finest; /* of the diagonal: which points of the surface are added; finest 0: none */
   double step;           /* of a radius: how far balls look around at first */
   int sweeps;
@@ -47,11 +47,11 @@ static bool add_points(SporeBoundingSearch *search, const Stage *stage) {
               spore_balls_gaps(search->solid, &all, stage->margin, stage->finest, &points, &count);
   for (size_t k = 0; done && k < count; k++)
     spore_vec3_store(points + 3 * k, spore_symmetry_fold(&search->solid->symmetry, spore_vec3_load(points + 3 * k)));
-  done = done && spore_prices_add(&search->prices, points, count, GAP_VOLUME * length * length * length);
+  done = done && spore_costs_add(&search->costs, points, count, GAP_VOLUME * length * length * length);
   spore_balls_clear(&all);
   spore_bounding_close(search);
   done = done && spore_bounding_open(search);
-  for (size_t k = 0; done && stage->price >= SPORE_BOUNDING_HARD && k < count; k++)
+  for (size_t k = 0; done && stage->cost >= SPORE_BOUNDING_HARD && k < count; k++)
     spore_bounding_cover(search, spore_vec3_load(points + 3 * k));
   spore_free(points);
   return done;
@@ -75,7 +75,7 @@ static bool run_stage(SporeBoundingSearch *search, const Stage *stage, const Spo
   SporeProgressPart first = {progress->whole, progress->first, 0.05 * progress->share},
                     relocating = {progress->whole, progress->first + first.share, 0.9 * progress->share},
                     last = {progress->whole, relocating.first + relocating.share, 0.05 * progress->share};
-  search->price = stage->price;
+  search->cost = stage->cost;
   if (stage->finest > 0 && !add_points(search, stage)) return spore_generate_no_memory(error);
   if (!stage->relocate) return sweep(search, stage, progress, error);
   uint64_t work = WORK_PER_BALL * search->balls->count;
@@ -126,10 +126,10 @@ bool spore_spheres_bound(const SporeSolid *solid, SporeBalls *balls, const uint8
   SporeBoundingSearch search = {.solid = solid, .bound = bound, .balls = balls, .random = {seed}};
   SporeProgressPart sampling = {progress->whole, progress->first, 0.1 * progress->share},
                     searching = {progress->whole, progress->first + 0.1 * progress->share, 0.9 * progress->share};
-  if (!spore_prices_create(&search.prices, solid, balls->count, &search.random, &sampling, error)) return false;
+  if (!spore_costs_create(&search.costs, solid, balls->count, &search.random, &sampling, error)) return false;
   bool done = spore_bounding_open(&search) || spore_generate_no_memory(error);
   done = done && run_stages(&search, &searching, error);
   spore_bounding_close(&search);
-  spore_prices_clear(&search.prices);
+  spore_costs_clear(&search.costs);
   return done && (grow(solid, balls, bound) || spore_generate_no_memory(error));
 }

@@ -6,20 +6,20 @@
 
 /* Points that say what a set of balls costs: those outside the solid where a ball holds them, those inside and on the
  * surface where none does. Each stands for its share of the volume around the solid. */
-typedef struct SporePrices {
-  double *xyz, *price; /* count x 3, count: as they came */
+typedef struct SporeCosts {
+  double *xyz, *cost; /* count x 3, count: as they came */
   size_t count;
   SporePoints points;
   double *volume; /* m^3, below 0 inside the solid and on its surface; 0 for the padding */
   uint16_t *held; /* how many balls hold the point */
-} SporePrices;
+} SporeCosts;
 /* Fine at the surface, coarser with the distance from it, folded by the solid's symmetry; `count`: of the balls that
  * they are for. */
-bool spore_prices_create(SporePrices *prices, const SporeSolid *solid, size_t count, SporeRandom *random,
-                         const SporeProgressPart *progress, SporeError *error);
+bool spore_costs_create(SporeCosts *costs, const SporeSolid *solid, size_t count, SporeRandom *random,
+                        const SporeProgressPart *progress, SporeError *error);
 /* More points inside, each for the volume; all points are held by none then. False: no memory. */
-bool spore_prices_add(SporePrices *prices, const double *xyz, size_t count, double volume);
-void spore_prices_clear(SporePrices *prices);
+bool spore_costs_add(SporeCosts *costs, const double *xyz, size_t count, double volume);
+void spore_costs_clear(SporeCosts *costs);
 
 /* Whether the balls hold the whole solid: each triangle of its surface divided until one ball holds each piece, and no
  * corner of a hollow between the balls left inside the solid. Meant for solids whose surface is closed. False as well

@@ -49,8 +49,8 @@ static void weigh_ball(Relocate *r, size_t i) {
   spore_bounding_reach(search, spore_balls_centre(search->balls, i), 0, search->balls->r[i]);
   for (size_t m = 0; m < search->reached_count; m++) {
     size_t k = search->reached[m];
-    double volume = search->prices.volume[k];
-    unsigned held = search->prices.held[k];
+    double volume = search->costs.volume[k];
+    unsigned held = search->costs.held[k];
     if (volume > 0) r->burden[i] += volume / held;
     else if (held == 1) r->worth[i] -= volume;
   }
@@ -79,14 +79,14 @@ static size_t take_first(Relocate *r, const double *value, double sign) {
 
 /* Direction in which the inside points that the ball alone holds lie widest, as long as their deviation. */
 static SporeVec3 long_axis(SporeBoundingSearch *search, size_t i) {
-  const SporePoints *points = &search->prices.points;
+  const SporePoints *points = &search->costs.points;
   SporeVec3 c = spore_balls_centre(search->balls, i);
   double weight = 0, sum[3] = {0}, square[3][3] = {{0}};
   spore_bounding_reach(search, c, 0, search->balls->r[i]);
   for (size_t m = 0; m < search->reached_count; m++) {
     size_t k = search->reached[m];
-    double volume = -search->prices.volume[k], p[3] = {points->x[k] - c.x, points->y[k] - c.y, points->z[k] - c.z};
-    if (volume <= 0 || search->prices.held[k] != 1) continue;
+    double volume = -search->costs.volume[k], p[3] = {points->x[k] - c.x, points->y[k] - c.y, points->z[k] - c.z};
+    if (volume <= 0 || search->costs.held[k] != 1) continue;
     weight += volume;
     for (int a = 0; a < 3; a++) {
       sum[a] += volume * p[a];
@@ -188,16 +188,16 @@ static double settle_marked(Relocate *r, bool all, double saved) {
 
 /* True: it pays, and stands. */
 static bool try_batch(Relocate *r, size_t wanted) {
-  SporePrices *prices = &r->search->prices;
-  size_t size = prices->points.block_count * SPORE_BLOCK * sizeof *r->held,
+  SporeCosts *costs = &r->search->costs;
+  size_t size = costs->points.block_count * SPORE_BLOCK * sizeof *r->held,
          a_pass = 1 + (size_t)(PASS * (double)r->search->balls->count), done = 1;
-  memcpy(r->held, prices->held, size);
+  memcpy(r->held, costs->held, size);
   spore_balls_copy(&r->before, r->search->balls);
   double saved = 0;
   for (size_t left = wanted; left > 0 && done > 0; left -= done)
     saved += run_pass(r, left < a_pass ? left : a_pass, &done);
   if (settle_marked(r, wanted >= a_pass, saved) > 0) return true;
-  memcpy(prices->held, r->held, size);
+  memcpy(costs->held, r->held, size);
   spore_balls_copy(r->search->balls, &r->before);
   return false;
 }
@@ -208,7 +208,7 @@ static bool open_relocate(Relocate *r, SporeBoundingSearch *search) {
                   .worth = SPORE_NEW_ARRAY(double, n),
                   .burden = SPORE_NEW_ARRAY(double, n),
                   .marked = SPORE_NEW_ARRAY(bool, n),
-                  .held = SPORE_NEW_ARRAY(uint16_t, search->prices.points.block_count * SPORE_BLOCK)};
+                  .held = SPORE_NEW_ARRAY(uint16_t, search->costs.points.block_count * SPORE_BLOCK)};
   return spore_balls_create(&r->before, n) && r->worth && r->burden && r->marked && r->held;
 }
 

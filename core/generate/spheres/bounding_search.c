@@ -1,3 +1,4 @@
+/* The search for bounding spheres: what a ball costs at a place, and where another place costs less. */
 #include "core/generate/spheres/bounding_search.h"
 
 #include <math.h>
@@ -11,16 +12,16 @@
 #define LOOK_WORK 100    /* of looking around at no point */
 #define COVER_TRIES 10   /* of places of a ball, to cover a point */
 #define COVER_SLACK 2e-3 /* of the diagonal: balls not this much farther from a point than the nearest may cover it */
-#define NEEDED 1e3       /* of the solid's volume: price of a point that must be covered */
+#define NEEDED 1e3       /* of the solid's volume: cost of a point that must be covered */
 #define SHORTER 0.85     /* how far to look around, after a place that costs more */
 #define LONGER 1.5       /* after a look that found a better one */
 #define STEP_LEAST 1e-3  /* of a radius */
 #define STEP_MOST 0.3
 #define ROUNDING 1e-6f /* of a distance in single precision */
 
-static double price_of(const SporeBoundingSearch *search, size_t point) {
-  double volume = search->prices.volume[point];
-  return volume < 0 ? volume * search->price : volume;
+static double cost_of_point(const SporeBoundingSearch *search, size_t point) {
+  double volume = search->costs.volume[point];
+  return volume < 0 ? volume * search->cost : volume;
 }
 
 static double square_distance(const SporePoints *points, size_t k, SporeVec3 c) {
@@ -39,7 +40,7 @@ static bool within(const double bound[4], SporeVec3 c, double radius) {
 }
 
 void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double inner, double radius) {
-  const SporePoints *points = &search->prices.points;
+  const SporePoints *points = &search->costs.points;
   double inner2 = inner > 0 ? inner * inner : 0;
   size_t count = 0;
   for (size_t g = 0; g < points->group_count; g++) {
@@ -58,31 +59,31 @@ void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double inner
   search->reached_count = count;
 }
 
-static void add_local(SporeBoundingLocal *local, double x, double y, double z, double price) {
+static void add_local(SporeBoundingLocal *local, double x, double y, double z, double cost) {
   size_t k = local->count++;
-  local->x[k] = (float)x, local->y[k] = (float)y, local->z[k] = (float)z, local->price[k] = (float)price;
+  local->x[k] = (float)x, local->y[k] = (float)y, local->z[k] = (float)z, local->cost[k] = (float)cost;
 }
 
 static void pad_local(SporeBoundingLocal *local) {
   for (size_t k = local->count; k % SPORE_LOCAL_LANES; k++)
-    local->x[k] = local->y[k] = local->z[k] = local->price[k] = 0;
+    local->x[k] = local->y[k] = local->z[k] = local->cost[k] = 0;
 }
 
 /* Points of those reached that a ball about c could hold alone; `radius` of the ball that is counted in `held` now, 0:
  * there is none. */
 static void find_local(SporeBoundingSearch *search, SporeVec3 c, double radius) {
-  const SporePoints *points = &search->prices.points;
+  const SporePoints *points = &search->costs.points;
   SporeBoundingLocal *local = &search->local;
   double r2 = radius > 0 ? radius * radius : -1;
-  bool hard = search->price >= SPORE_BOUNDING_HARD;
+  bool hard = search->cost >= SPORE_BOUNDING_HARD;
   local->count = 0;
   for (size_t m = 0; m < search->reached_count; m++) {
     size_t k = search->reached[m];
-    unsigned held = search->prices.held[k];
-    double price = held > 1 ? 0 : price_of(search, k);
-    if (held == 1 && square_distance(points, k, c) > r2) price = 0;
-    if (hard && (held == 0 || price > 0)) price = 0; /* whoever covers it best does so, one by one */
-    if (price != 0) add_local(local, points->x[k] - c.x, points->y[k] - c.y, points->z[k] - c.z, price);
+    unsigned held = search->costs.held[k];
+    double cost = held > 1 ? 0 : cost_of_point(search, k);
+    if (held == 1 && square_distance(points, k, c) > r2) cost = 0;
+    if (hard && (held == 0 || cost > 0)) cost = 0; /* whoever covers it best does so, one by one */
+    if (cost != 0) add_local(local, points->x[k] - c.x, points->y[k] - c.y, points->z[k] - c.z, cost);
   }
   pad_local(local);
 }
@@ -97,7 +98,7 @@ static void measure_local(SporeBoundingLocal *local, SporeVec3 at) {
 /* What a ball of that radius costs, from the distances. */
 static double local_cost(const SporeBoundingLocal *local, double radius, double *farthest) {
   SporeLocalCost cost;
-  SPORE_KERNEL(spore_local_cost)(local->distance, local->price, local->count, (float)radius, &cost);
+  SPORE_KERNEL(spore_local_cost)(local->distance, local->cost, local->count, (float)radius, &cost);
   if (farthest) *farthest = (double)cost.farthest;
   return (double)cost.outside + (double)cost.inside;
 }
@@ -116,7 +117,7 @@ static double best_radius(const SporeBoundingLocal *local, double least, double 
   for (size_t k = 0; k < local->count; k++) {
     float at = (local->distance[k] - first) * scale;
     size_t bin = at <= 0 ? 0 : at >= BINS - 1 ? BINS : (size_t)at + 1;
-    sum[bin] += (double)local->price[k];
+    sum[bin] += (double)local->cost[k];
   }
   double cost = 0, best = HUGE_VAL, farthest;
   int at = 0;
@@ -140,7 +141,7 @@ typedef struct Place {
 static Place try_places(SporeBoundingSearch *search, size_t i, double *scale, int tries, const SporeVec3 *needed) {
   SporeVec3 start = spore_balls_centre(search->balls, i), way = spore_vec3(0, 0, 0);
   double radius = search->balls->r[i], reach = *scale;
-  bool hard = search->price >= SPORE_BOUNDING_HARD, found = false;
+  bool hard = search->cost >= SPORE_BOUNDING_HARD, found = false;
   Place best = {start, radius, needed ? -HUGE_VAL : 0};
   measure_local(&search->local, spore_vec3(0, 0, 0));
   double before = hard ? spore_bounding_shell_volume(&search->shell, start, radius)
@@ -174,7 +175,7 @@ static Place look_around(SporeBoundingSearch *search, size_t i, double *scale, i
   SporeVec3 start = spore_balls_centre(search->balls, i);
   double radius = search->balls->r[i];
   spore_bounding_reach(search, start, radius - 3 * *scale, radius + 2 * *scale);
-  if (search->price >= SPORE_BOUNDING_HARD)
+  if (search->cost >= SPORE_BOUNDING_HARD)
     spore_bounding_shell_look(&search->shell, &search->solid->symmetry, search->balls, i, 2 * *scale);
   find_local(search, start, radius);
   if (needed) {
@@ -190,8 +191,8 @@ static Place look_around(SporeBoundingSearch *search, size_t i, double *scale, i
 static void hold_reached(SporeBoundingSearch *search, SporeVec3 c, double radius, int by) {
   for (size_t m = 0; m < search->reached_count; m++) {
     size_t k = search->reached[m];
-    if (square_distance(&search->prices.points, k, c) <= radius * radius)
-      search->prices.held[k] = (uint16_t)(search->prices.held[k] + by);
+    if (square_distance(&search->costs.points, k, c) <= radius * radius)
+      search->costs.held[k] = (uint16_t)(search->costs.held[k] + by);
   }
 }
 
@@ -208,7 +209,7 @@ void spore_bounding_set_steps(SporeBoundingSearch *search, double step) {
 
 double spore_bounding_settle(SporeBoundingSearch *search, size_t i) {
   double radius = search->balls->r[i], scale = search->step[i] * radius;
-  Place best = look_around(search, i, &scale, search->price >= SPORE_BOUNDING_HARD ? HARD_TRIES : SETTLE_TRIES, NULL);
+  Place best = look_around(search, i, &scale, search->cost >= SPORE_BOUNDING_HARD ? HARD_TRIES : SETTLE_TRIES, NULL);
   search->step[i] = fmin(fmax(scale / radius, STEP_LEAST), STEP_MOST);
   if (best.saved > 0) put_reached(search, i, &best);
   return best.saved;
@@ -266,7 +267,7 @@ SporeVec3 spore_bounding_confine(const SporeBoundingSearch *search, size_t i, Sp
 }
 
 bool spore_bounding_open(SporeBoundingSearch *search) {
-  size_t most = search->prices.points.block_count * SPORE_BLOCK + 2 * SPORE_LOCAL_LANES;
+  size_t most = search->costs.points.block_count * SPORE_BLOCK + 2 * SPORE_LOCAL_LANES;
   float *memory = SPORE_NEW_ARRAY(float, 5 * most);
   search->reached = SPORE_NEW_ARRAY(uint32_t, most);
   search->step = SPORE_NEW_ARRAY(double, search->balls->count);

@@ -10,7 +10,7 @@
 typedef struct SporeBoundingLocal {
   size_t count;
   float *x, *y, *z, *distance; /* m; scratch */
-  float *price;                /* of holding a point, below 0: of leaving it; 0: of the padding */
+  float *cost;                 /* of holding a point, below 0: of leaving it; 0: of the padding */
 } SporeBoundingLocal;
 
 #define SPORE_BOUNDING_RAYS 256
@@ -35,9 +35,9 @@ double spore_bounding_shell_volume(const SporeBoundingShell *shell, SporeVec3 ce
 typedef struct SporeBoundingSearch {
   const SporeSolid *solid; /* whose symmetry the balls follow: they stand for their images, points are folded */
   const uint8_t *bound;    /* balls: mirror planes that they stay on, as bits */
-  SporePrices prices;
+  SporeCosts costs;
   SporeBalls *balls;
-  double price;      /* of volume left uncovered, against volume outside; from SPORE_BOUNDING_HARD on nothing is */
+  double cost;       /* of volume left uncovered, against volume outside; from SPORE_BOUNDING_HARD on nothing is */
   double *step;      /* balls: how far to look around, in radii; settling makes it longer or shorter */
   uint32_t *reached; /* scratch: points, reached_count */
   size_t reached_count;
@@ -47,7 +47,7 @@ typedef struct SporeBoundingSearch {
   SporeRandom random;
 } SporeBoundingSearch;
 
-/* Room for search->prices, and `held` counted anew. False: no memory. */
+/* Room for search->costs, and `held` counted anew. False: no memory. */
 bool spore_bounding_open(SporeBoundingSearch *search);
 void spore_bounding_close(SporeBoundingSearch *search);
 /* The centre, or its image, that ball i may have. */

@@ -1,3 +1,4 @@
+/* Balls inside the solid that touch its surface, of which a fit starts from those that hold most samples. */
 #include <math.h>
 
 #include "core/base/memory.h"

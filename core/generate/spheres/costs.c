@@ -1,3 +1,4 @@
+/* Points in and around a solid with what it costs to leave them uncovered, or to cover them. */
 #include <math.h>
 #include <string.h>
 
@@ -100,53 +101,53 @@ static bool add_surface(Cells *cells, size_t count, double area) {
 }
 
 /* In the order of space, held by none. */
-static bool sort_points(SporePrices *prices) {
-  spore_points_clear(&prices->points);
-  spore_free(prices->volume);
-  spore_free(prices->held);
-  prices->volume = NULL, prices->held = NULL;
-  if (!spore_points_create(&prices->points, prices->xyz, prices->count)) return false;
-  size_t padded = prices->points.block_count * SPORE_BLOCK;
-  prices->volume = SPORE_NEW_ARRAY(double, padded);
-  prices->held = SPORE_NEW_ARRAY(uint16_t, padded);
-  if (!prices->volume || !prices->held) return false;
-  for (size_t i = 0; i < prices->count; i++) prices->volume[i] = prices->price[prices->points.original[i]];
+static bool sort_points(SporeCosts *costs) {
+  spore_points_clear(&costs->points);
+  spore_free(costs->volume);
+  spore_free(costs->held);
+  costs->volume = NULL, costs->held = NULL;
+  if (!spore_points_create(&costs->points, costs->xyz, costs->count)) return false;
+  size_t padded = costs->points.block_count * SPORE_BLOCK;
+  costs->volume = SPORE_NEW_ARRAY(double, padded);
+  costs->held = SPORE_NEW_ARRAY(uint16_t, padded);
+  if (!costs->volume || !costs->held) return false;
+  for (size_t i = 0; i < costs->count; i++) costs->volume[i] = costs->cost[costs->points.original[i]];
   return true;
 }
 
-bool spore_prices_create(SporePrices *prices, const SporeSolid *solid, size_t count, SporeRandom *random,
-                         const SporeProgressPart *progress, SporeError *error) {
+bool spore_costs_create(SporeCosts *costs, const SporeSolid *solid, size_t count, SporeRandom *random,
+                        const SporeProgressPart *progress, SporeError *error) {
   size_t wanted = CELLS_PER_BALL * count;
   wanted = wanted < CELLS_LEAST ? CELLS_LEAST : wanted > CELLS_MOST ? CELLS_MOST : wanted;
   double area = solid->triangle_end[solid->mesh.triangle_count - 1];
   Cells cells = {
       .solid = solid, .finest = sqrt(area / (double)wanted), .random = random, .progress = progress, .error = error};
-  *prices = (SporePrices){0};
+  *costs = (SporeCosts){0};
   bool done = divide_all(&cells) && add_surface(&cells, (size_t)(SURFACE_SHARE * (double)wanted), area);
-  prices->xyz = cells.xyz, prices->price = cells.volume, prices->count = cells.count;
-  if (done && !sort_points(prices)) done = spore_generate_no_memory(error);
-  if (!done) spore_prices_clear(prices);
+  costs->xyz = cells.xyz, costs->cost = cells.volume, costs->count = cells.count;
+  if (done && !sort_points(costs)) done = spore_generate_no_memory(error);
+  if (!done) spore_costs_clear(costs);
   return done;
 }
 
-bool spore_prices_add(SporePrices *prices, const double *xyz, size_t count, double volume) {
-  size_t all = prices->count + count;
-  double *grown = spore_reallocate(prices->xyz, 3 * prices->count, 3 * all, sizeof *grown);
-  if (grown) prices->xyz = grown;
-  double *price = spore_reallocate(prices->price, prices->count, all, sizeof *price);
-  if (price) prices->price = price;
-  if (!grown || !price) return false;
-  memcpy(grown + 3 * prices->count, xyz, 3 * count * sizeof *xyz);
-  for (size_t i = prices->count; i < all; i++) price[i] = -volume;
-  prices->count = all;
-  return sort_points(prices);
+bool spore_costs_add(SporeCosts *costs, const double *xyz, size_t count, double volume) {
+  size_t all = costs->count + count;
+  double *grown = spore_reallocate(costs->xyz, 3 * costs->count, 3 * all, sizeof *grown);
+  if (grown) costs->xyz = grown;
+  double *cost = spore_reallocate(costs->cost, costs->count, all, sizeof *cost);
+  if (cost) costs->cost = cost;
+  if (!grown || !cost) return false;
+  memcpy(grown + 3 * costs->count, xyz, 3 * count * sizeof *xyz);
+  for (size_t i = costs->count; i < all; i++) cost[i] = -volume;
+  costs->count = all;
+  return sort_points(costs);
 }
 
-void spore_prices_clear(SporePrices *prices) {
-  spore_points_clear(&prices->points);
-  spore_free(prices->xyz);
-  spore_free(prices->price);
-  spore_free(prices->volume);
-  spore_free(prices->held);
-  *prices = (SporePrices){0};
+void spore_costs_clear(SporeCosts *costs) {
+  spore_points_clear(&costs->points);
+  spore_free(costs->xyz);
+  spore_free(costs->cost);
+  spore_free(costs->volume);
+  spore_free(costs->held);
+  *costs = (SporeCosts){0};
 }

@@ -23,7 +23,7 @@ typedef enum Aim { CHECK, LIST, GROW } Aim;
 typedef struct Cover {
   const SporeSolid *solid;
   SporeBalls *balls;
-  Aim aim;
+  Aim target;
   uint32_t *near; /* balls that reach the triangle, near_count; then scratch for hollows */
   size_t near_count;
   double finest, touching; /* m */
@@ -80,8 +80,8 @@ static bool cover_piece(Cover *cover, Piece piece) {
   size_t ball = least_growth(cover->balls, cover->near, cover->near_count, &piece, &growth);
   if (growth <= 0) return true;
   if (edge <= cover->finest || growth > 2 * edge) {
-    if (cover->aim == CHECK) return false;
-    if (cover->aim == LIST) return add_gap(cover, &piece);
+    if (cover->target == CHECK) return false;
+    if (cover->target == LIST) return add_gap(cover, &piece);
     if (growth > edge) ball = least_growth(cover->balls, NULL, cover->balls->count, &piece, &growth);
     if (growth > 0) cover->balls->r[ball] = radius_for(cover->balls, ball, &piece) * (1 + 4e-12);
     return true;
@@ -221,7 +221,7 @@ static bool cover_hollows(Cover *cover) {
     corners.count = 0;
     for (size_t i = 0; i < cover->balls->count && !corners.failed; i++) find_corners(cover, i, &corners);
     left = corners.count || corners.failed;
-    if (cover->aim == CHECK || corners.failed) break;
+    if (cover->target == CHECK || corners.failed) break;
     join_corners(&corners);
     for (uint32_t c = 0; c < corners.count; c++)
       if (hollow_of(&corners, c) == c) fill_hollow(cover, &corners, c);
@@ -232,10 +232,10 @@ static bool cover_hollows(Cover *cover) {
 }
 
 /* False: no memory. */
-static bool open_cover(Cover *cover, const SporeSolid *solid, SporeBalls *balls, Aim aim, double finest) {
+static bool open_cover(Cover *cover, const SporeSolid *solid, SporeBalls *balls, Aim target, double finest) {
   *cover = (Cover){.solid = solid,
                    .balls = balls,
-                   .aim = aim,
+                   .target = target,
                    .near = SPORE_NEW_ARRAY(uint32_t, balls->count),
                    .finest = finest * solid->diagonal,
                    .touching = TOUCHING * solid->diagonal};

@@ -1,3 +1,4 @@
+/* Points in blocks, balls as columns, and the depth field of the balls at the points. */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Balls are fitted to the depth of a solid: damped least squares, with balls of little worth put elsewhere. */
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* Samples of the depth in small cells, closest together at the surface. */
 #include <math.h>
 
 #include "core/base/memory.h"

@@ -1,3 +1,4 @@
+/* Inner loops of sphere sets, compiled once for each instruction set. */
 #include "core/generate/spheres/kernels.h"
 
 #include <math.h>
@@ -38,22 +39,22 @@ void SPORE_LEVEL_NAME(spore_local_distances)(const float *x, const float *y, con
 }
 
 /* Two sums, so that what is cheap is not lost beside what is dear. */
-void SPORE_LEVEL_NAME(spore_local_cost)(const float *distance, const float *price, size_t count, float radius,
-                                        SporeLocalCost *cost) {
+void SPORE_LEVEL_NAME(spore_local_cost)(const float *distance, const float *cost, size_t count, float radius,
+                                        SporeLocalCost *sum) {
   float outside[LANES] = {0}, inside[LANES] = {0}, farthest[LANES] = {0};
   for (size_t first = 0; first < count; first += LANES)
     for (int k = 0; k < LANES; k++) {
-      float d = distance[first + k], p = d <= radius ? price[first + k] : 0;
+      float d = distance[first + k], p = d <= radius ? cost[first + k] : 0;
       float needed = p < 0 ? d : 0;
       outside[k] += p > 0 ? p : 0;
       inside[k] += p < 0 ? p : 0;
       farthest[k] = needed > farthest[k] ? needed : farthest[k];
     }
-  *cost = (SporeLocalCost){0};
+  *sum = (SporeLocalCost){0};
   for (int k = 0; k < LANES; k++) {
-    cost->outside += outside[k];
-    cost->inside += inside[k];
-    cost->farthest = farthest[k] > cost->farthest ? farthest[k] : cost->farthest;
+    sum->outside += outside[k];
+    sum->inside += inside[k];
+    sum->farthest = farthest[k] > sum->farthest ? farthest[k] : sum->farthest;
   }
 }
 

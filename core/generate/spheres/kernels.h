@@ -24,13 +24,13 @@ SPORE_DECLARE_KERNEL(void, spore_field_block, const SporeNearBalls *balls, const
 SPORE_DECLARE_KERNEL(void, spore_local_distances, const float *x, const float *y, const float *z, size_t count,
                      const float at[3], float *distance);
 
-/* Of the points no farther than `radius`: their prices above 0 and below 0, summed up, and the largest distance of one
+/* Of the points no farther than `radius`: their costs above 0 and below 0, summed up, and the largest distance of one
  * of those below 0, 0 where there is none. */
 typedef struct SporeLocalCost {
   float outside, inside, farthest;
 } SporeLocalCost;
-SPORE_DECLARE_KERNEL(void, spore_local_cost, const float *distance, const float *price, size_t count, float radius,
-                     SporeLocalCost *cost);
+SPORE_DECLARE_KERNEL(void, spore_local_cost, const float *distance, const float *cost, size_t count, float radius,
+                     SporeLocalCost *sum);
 
 /* A block of samples of the depth and the balls that reach it, as columns, relative to its middle; lengths in any unit.
  */

@@ -1,3 +1,4 @@
+/* How well a sphere set stands for a solid: coverage, volume outside, distance and depth error. */
 #include <math.h>
 #include <string.h>
 

@@ -99,23 +99,24 @@ void spore_progress_show_images(const SporeProgressPart *part, const SporeSymmet
                                 const uint8_t *bound);
 
 /* False: they are out of their ranges, or none is given, and *error says so. */
-bool spore_aims_check(const SporeSpheresAims *aims, SporeError *error);
+bool spore_targets_check(const SporeSpheresTargets *targets, SporeError *error);
 /* False; *error says by how much the largest set misses them. */
-bool spore_aims_out_of_reach(const SporeSpheresAims *aims, const SporeSpheresReport *report, SporeError *error);
+bool spore_targets_out_of_reach(const SporeSpheresTargets *targets, const SporeSpheresReport *report,
+                                SporeError *error);
 
 /* Numbers of spheres tried so far, from all zero: the most that are too few, the fewest that are enough (0: none), and
  * what their sets err by over what is allowed. */
-typedef struct SporeAimSearch {
+typedef struct SporeTargetSearch {
   size_t few, enough, trials;
   double few_excess, enough_excess;
-} SporeAimSearch;
+} SporeTargetSearch;
 /* The number to try next. */
-size_t spore_aim_search_next(const SporeAimSearch *search);
-/* Takes in what was measured of that many. True: they reach the aims. */
-bool spore_aim_search_add(SporeAimSearch *search, size_t count, const SporeSpheresAims *aims,
-                          const SporeSpheresReport *report);
-bool spore_aim_search_done(const SporeAimSearch *search);
-bool spore_aim_search_failed(const SporeAimSearch *search);
+size_t spore_target_search_next(const SporeTargetSearch *search);
+/* Takes in what was measured of that many. True: they reach the targets. */
+bool spore_target_search_add(SporeTargetSearch *search, size_t count, const SporeSpheresTargets *targets,
+                             const SporeSpheresReport *report);
+bool spore_target_search_done(const SporeTargetSearch *search);
+bool spore_target_search_failed(const SporeTargetSearch *search);
 
 /* Measures balls against a union of other balls, as spore_spheres_measure does against a solid. */
 bool spore_balls_compare(const SporeBalls *whole, const SporeBalls *balls, SporeSpheresReport *report,

@@ -1,3 +1,4 @@
+/* How well each sphere fits, and how far each vertex of the surface is from the set. */
 #include "core/generate/spheres/spheres.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Which balls of a fit are worth little, and where others are missed: balls are moved there. */
 #include <math.h>
 #include <string.h>
 

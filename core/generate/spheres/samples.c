@@ -1,3 +1,4 @@
+/* Samples of the signed depth of a solid, inside, on its surface and in a band outside. */
 #include <math.h>
 #include <string.h>
 

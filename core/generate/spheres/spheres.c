@@ -1,3 +1,4 @@
+/* Sphere sets from solids, tetrahedra, curves and sheets: the steps of each, by number, by targets, and in series. */
 #include "core/generate/spheres/spheres.h"
 
 #include <math.h>
@@ -50,7 +51,7 @@ static bool check_options(const SporeSpheresOptions *options, SporeError *error)
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("%zu spheres are too many; 1 to %u were expected; ask for fewer"), options->count,
                            SPORE_SPHERES_MAXIMUM);
-  if (!options->count && !spore_aims_check(&options->aims, error)) return false;
+  if (!options->count && !spore_targets_check(&options->targets, error)) return false;
   if (!(options->thickness >= 0 && options->thickness <= 1e9))
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("the thickness is %g; a length of 0 m or more was expected; correct it"),
@@ -60,13 +61,13 @@ static bool check_options(const SporeSpheresOptions *options, SporeError *error)
 
 /* Only what has an inside can be covered, and has an outside and a depth. */
 static bool check_mode(const SporeSpheresSource *source, const SporeSpheresOptions *options, SporeError *error) {
-  const SporeSpheresAims *aims = &options->aims;
+  const SporeSpheresTargets *targets = &options->targets;
   if (source->solid || source->tetrahedra) return true;
-  if (!source->curve && !options->count && (aims->outside > 0 || aims->depth_error > 0))
+  if (!source->curve && !options->count && (targets->outside > 0 || targets->depth_error > 0))
     return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                            _("a sheet has neither a volume nor a depth, of which at most %g and %g are asked for; a "
                              "coverage or a tolerance was expected; ask for those alone"),
-                           aims->outside, aims->depth_error);
+                           targets->outside, targets->depth_error);
   if (options->mode == SPORE_SPHERES_BALANCED) return true;
   return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                          _("the mode \"%s\" needs an inside, and a curve or a sheet has none; a closed mesh was "
@@ -255,21 +256,22 @@ static bool cover_sheet(const Work *work, size_t count, SporeSphereSet *set, Spo
   return spore_spheres_over(work->source->sheet, count, work->options, set, report, progress, error);
 }
 
-/* The smallest set found that reaches the aims. */
+/* The smallest set found that reaches the targets. */
 static bool search(Maker *make, const Work *work, SporeSphereSet *set, SporeSpheresReport *report,
                    const SporeProgress *progress, SporeError *error) {
-  SporeAimSearch found = {0};
+  SporeTargetSearch found = {0};
   for (int trial = 0;; trial++) {
     SporeProgressPart part = {progress, 1 - pow(0.8, trial), 0.2 * pow(0.8, trial)};
     SporeSphereSet tried;
     SporeSpheresReport measured;
-    if (!make(work, spore_aim_search_next(&found), &tried, &measured, &part, error)) return false;
-    if (spore_aim_search_add(&found, tried.count, &work->options->aims, &measured)) {
+    if (!make(work, spore_target_search_next(&found), &tried, &measured, &part, error)) return false;
+    if (spore_target_search_add(&found, tried.count, &work->options->targets, &measured)) {
       spore_sphere_set_clear(set);
       *set = tried, *report = measured;
     } else spore_sphere_set_clear(&tried);
-    if (spore_aim_search_done(&found)) return true;
-    if (spore_aim_search_failed(&found)) return spore_aims_out_of_reach(&work->options->aims, &measured, error);
+    if (spore_target_search_done(&found)) return true;
+    if (spore_target_search_failed(&found))
+      return spore_targets_out_of_reach(&work->options->targets, &measured, error);
   }
 }
 

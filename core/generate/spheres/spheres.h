@@ -22,17 +22,17 @@ extern const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1];
 #define SPORE_SPHERES_FACTOR_MOST 16.0
 
 /* What a set is asked to reach, in the terms of the report; 0: not asked for. */
-typedef struct SporeSpheresAims {
+typedef struct SporeSpheresTargets {
   double coverage;    /* at least, in (0, 1) */
   double outside;     /* at most, > 0; not of a sheet, as the next but one */
   double distance;    /* the mean at most, in (0, 1] */
   double depth_error; /* what is felt, at most, in (0, 1] */
-} SporeSpheresAims;
+} SporeSpheresTargets;
 
 typedef struct SporeSpheresOptions {
   SporeSpheresMode mode;
-  size_t count;          /* wanted; > 0, or 0 to go by the aims */
-  SporeSpheresAims aims; /* all that are asked for hold, when count is 0 */
+  size_t count;                /* wanted; > 0, or 0 to go by the targets */
+  SporeSpheresTargets targets; /* all that are asked for hold, when count is 0 */
   uint64_t seed;
   const SporeGenerateRegion *regions; /* region_count; of solids alone */
   size_t region_count;
@@ -61,7 +61,8 @@ static inline double spore_spheres_felt_error(const SporeSpheresReport *report) 
 /* Of what is asked for, the one that the set is farthest from reaching, or the nearest to missing: "coverage",
  * "outside", "distance" or "depth_error"; NULL: none is asked for. *excess (may be NULL): its error over what is
  * allowed, at most 1 where all are reached. */
-const char *spore_spheres_hardest_aim(const SporeSpheresAims *aims, const SporeSpheresReport *report, double *excess);
+const char *spore_spheres_hardest_target(const SporeSpheresTargets *targets, const SporeSpheresReport *report,
+                                         double *excess);
 
 /* What spheres are made from; the first that is not NULL counts. */
 typedef struct SporeSpheresSource {
@@ -83,7 +84,7 @@ typedef struct SporeSpheresSource {
 } SporeSpheresSource;
 
 /* The same input and options give the same spheres, on any number of threads. By count: exactly that many. By
- * aims: the fewest found, to about 4 %. *set is empty on failure. */
+ * targets: the fewest found, to about 4 %. *set is empty on failure. */
 bool spore_spheres_from_source(const SporeSpheresSource *source, const SporeSpheresOptions *options,
                                SporeSphereSet *set, SporeSpheresReport *report, const SporeProgress *progress,
                                SporeError *error);

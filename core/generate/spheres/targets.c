@@ -14,14 +14,15 @@
 #define BEYOND 1.02      /* of what is allowed, where a trial is to land */
 #define BISECTED_AFTER 6 /* trials */
 
-const char *spore_spheres_hardest_aim(const SporeSpheresAims *aims, const SporeSpheresReport *report, double *excess) {
+const char *spore_spheres_hardest_target(const SporeSpheresTargets *targets, const SporeSpheresReport *report,
+                                         double *excess) {
   const struct {
     const char *name;
     double error, allowed; /* 0: not asked for */
-  } all[] = {{"coverage", 1 - report->coverage, aims->coverage > 0 ? 1 - aims->coverage : 0},
-             {"outside", report->outside, aims->outside},
-             {"distance", report->distance_mean, aims->distance},
-             {"depth_error", spore_spheres_felt_error(report), aims->depth_error}};
+  } all[] = {{"coverage", 1 - report->coverage, targets->coverage > 0 ? 1 - targets->coverage : 0},
+             {"outside", report->outside, targets->outside},
+             {"distance", report->distance_mean, targets->distance},
+             {"depth_error", spore_spheres_felt_error(report), targets->depth_error}};
   const char *hardest = NULL;
   double most = -1;
   for (size_t i = 0; i < sizeof all / sizeof *all; i++)
@@ -32,23 +33,25 @@ const char *spore_spheres_hardest_aim(const SporeSpheresAims *aims, const SporeS
 }
 
 /* 0, or up to `most`. */
-static bool check_aim(double value, double most) { return value == 0 || (value > 0 && value <= most); }
+static bool check_target(double value, double most) { return value == 0 || (value > 0 && value <= most); }
 
-bool spore_aims_check(const SporeSpheresAims *aims, SporeError *error) {
-  if (check_aim(aims->coverage, nextafter(1, 0)) && check_aim(aims->outside, 1e9) && check_aim(aims->distance, 1) &&
-      check_aim(aims->depth_error, 1) && spore_spheres_hardest_aim(aims, &(SporeSpheresReport){0}, NULL))
+bool spore_targets_check(const SporeSpheresTargets *targets, SporeError *error) {
+  if (check_target(targets->coverage, nextafter(1, 0)) && check_target(targets->outside, 1e9) &&
+      check_target(targets->distance, 1) && check_target(targets->depth_error, 1) &&
+      spore_spheres_hardest_target(targets, &(SporeSpheresReport){0}, NULL))
     return true;
   return spore_error_set(
       error, SPORE_ERROR_INPUT, NULL,
-      _("neither a number of spheres nor aims are given (coverage %g, outside %g, tolerance %g, "
+      _("neither a number of spheres nor targets are given (coverage %g, outside %g, tolerance %g, "
         "depth error %g); a coverage below 1, such as 0.95, a volume outside above 0, a mean distance "
         "or a depth error up to 1 was expected; give one of them or several"),
-      aims->coverage, aims->outside, aims->distance, aims->depth_error);
+      targets->coverage, targets->outside, targets->distance, targets->depth_error);
 }
 
-bool spore_aims_out_of_reach(const SporeSpheresAims *aims, const SporeSpheresReport *report, SporeError *error) {
+bool spore_targets_out_of_reach(const SporeSpheresTargets *targets, const SporeSpheresReport *report,
+                                SporeError *error) {
   double excess;
-  spore_spheres_hardest_aim(aims, report, &excess);
+  spore_spheres_hardest_target(targets, report, &excess);
   return spore_error_set(
       error, SPORE_ERROR_NUMERICAL, NULL,
       _("%u spheres still have a coverage of %g, %g outside, a mean distance of %g of the diagonal and "
@@ -64,7 +67,7 @@ static double power(size_t a, double a_excess, size_t b, double b_excess) {
 /* The excess falls about as a power of the count, so each trial goes where a line in logarithms says. Its slope is
  * taken from the best known to be too few and enough; from the one nearer to 1 it goes a little beyond, so that the
  * next is likely to be on the other side. */
-size_t spore_aim_search_next(const SporeAimSearch *s) {
+size_t spore_target_search_next(const SporeTargetSearch *s) {
   if (!s->trials) return FIRST_COUNT;
   bool both = s->few && s->enough;
   double slope = both ? power(s->few, s->few_excess, s->enough, s->enough_excess) : USUAL_SLOPE;
@@ -79,18 +82,18 @@ size_t spore_aim_search_next(const SporeAimSearch *s) {
   return guess < (double)low ? low : guess > (double)high ? high : (size_t)guess;
 }
 
-bool spore_aim_search_add(SporeAimSearch *s, size_t count, const SporeSpheresAims *aims,
-                          const SporeSpheresReport *report) {
+bool spore_target_search_add(SporeTargetSearch *s, size_t count, const SporeSpheresTargets *targets,
+                             const SporeSpheresReport *report) {
   double excess;
-  spore_spheres_hardest_aim(aims, report, &excess);
+  spore_spheres_hardest_target(targets, report, &excess);
   s->trials++;
   if (excess <= 1) s->enough = count, s->enough_excess = fmax(excess, LEAST_EXCESS);
   else s->few = count, s->few_excess = excess;
   return excess <= 1;
 }
 
-bool spore_aim_search_done(const SporeAimSearch *s) {
+bool spore_target_search_done(const SporeTargetSearch *s) {
   return s->enough && (s->enough_excess > NEAR_EXCESS || s->enough - s->few <= 1 + s->enough / NEAR_COUNT);
 }
 
-bool spore_aim_search_failed(const SporeAimSearch *s) { return !s->enough && s->few >= SPORE_SPHERES_MAXIMUM; }
+bool spore_target_search_failed(const SporeTargetSearch *s) { return !s->enough && s->few >= SPORE_SPHERES_MAXIMUM; }

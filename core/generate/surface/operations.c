@@ -1,3 +1,4 @@
+/* The operations on a mesh that an author may choose, as a table, with the figures before and after. */
 #include "core/generate/surface/surface.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* A surface of fewer, well-shaped triangles, and how far it is from the given one. */
 #include "core/generate/surface/surface.h"
 
 #include <math.h>

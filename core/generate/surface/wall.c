@@ -1,3 +1,4 @@
+/* Hollow organs: the inner surface at a given depth, and the closed surface around the wall. */
 #include "core/generate/surface/surface.h"
 
 #include <math.h>

@@ -43,11 +43,11 @@ static bool stuff(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *
   return true;
 }
 
-/* Before it is made coarser: a crumb would become one cell, as large as any. */
-static bool drop_crumbs(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error) {
+/* Before it is made coarser: a small component would become one cell, as large as any. */
+static bool drop_small(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error) {
   SporeTetrahedraReport pieces;
-  bool done = spore_tetrahedra_drop_crumbs(work, mesh, &pieces, error);
-  work->thin.crumbs = done ? pieces.crumbs : 0;
+  bool done = spore_tetrahedra_drop_small(work, mesh, &pieces, error);
+  work->thin.small_components = done ? pieces.small_components : 0;
   return done;
 }
 
@@ -61,7 +61,7 @@ static bool make_fine(SporeTetrahedraWork *work, double cells, SporeTetrahedralM
     done = stuff(work, edge_of(work, cells), mesh, error);
     if (done && mesh->tetrahedron_count) {
       double inner, area;
-      done = spore_tetrahedra_mend(mesh, error) && drop_crumbs(work, mesh, error) &&
+      done = spore_tetrahedra_mend(mesh, error) && drop_small(work, mesh, error) &&
              spore_tetrahedra_near(work, spore_tetrahedra_bounds(work), 1, mesh, error) &&
              spore_tetrahedra_distances(work, mesh, &distance, &inner, &area, error);
     }

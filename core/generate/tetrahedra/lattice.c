@@ -1,3 +1,4 @@
+/* A body-centred cubic lattice around a solid, with its nodes snapped to the surface and its edges cut by it. */
 #include "core/generate/tetrahedra/lattice.h"
 
 #include <math.h>

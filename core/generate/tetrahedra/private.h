@@ -18,7 +18,7 @@ typedef struct SporeTetrahedraThin {
   size_t wall_count, slit_count;
   SporeBvh *wall_tree, *slit_tree; /* of them; NULL: there are none */
   double reach;                    /* that far around them the lattice has solid, or a gap */
-  double crumbs;                   /* of the lattice's volume: small pieces that are left out */
+  double small_components;         /* of the lattice's volume: small pieces that are left out */
 } SporeTetrahedraThin;
 
 typedef struct SporeTetrahedraWork {
@@ -99,9 +99,9 @@ bool spore_tetrahedra_stuff(SporeTetrahedraWork *work, double edge, SporeTetrahe
 bool spore_tetrahedra_voxels(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error);
 
 /* Small pieces of the cells that hang together with nothing, where their piece of the surface has a larger one, go:
- * what broke off at a part thinner than a cell. Fills pieces, pieces_given and crumbs of the report. */
-bool spore_tetrahedra_drop_crumbs(const SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh,
-                                  SporeTetrahedraReport *report, SporeError *error);
+ * what broke off at a part thinner than a cell. Fills pieces, pieces_given and small components of the report. */
+bool spore_tetrahedra_drop_small(const SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh,
+                                 SporeTetrahedraReport *report, SporeError *error);
 
 /* Plan of sizes: a relative one at each node, times a scale, under absolute bounds. */
 typedef struct SporeSizingPlan {

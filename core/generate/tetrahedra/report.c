@@ -10,9 +10,10 @@
 
 /* Pieces that the surface does not have: nothing holds one to the other. */
 static void say_pieces(GString *text, const SporeTetrahedraReport *report) {
-  if (report->crumbs > 0)
-    g_string_append_printf(text, _("left out: crumbs that hung together with nothing, %.2g %% of the volume\n"),
-                           100 * report->crumbs);
+  if (report->small_components > 0)
+    g_string_append_printf(text,
+                           _("left out: small components that hung together with nothing, %.2g %% of the volume\n"),
+                           100 * report->small_components);
   if (report->pieces > report->pieces_given)
     g_string_append_printf(
         text,
@@ -76,7 +77,7 @@ static void report_left_out(const SporeTetrahedraWork *work, SporeTetrahedraRepo
   if (report->method != SPORE_TETRAHEDRA_VOXELS) return;
   report->thickened = fmin((double)work->thin.wall_count / bounding, 1);
   report->widened = fmin((double)work->thin.slit_count / bounding, 1);
-  report->crumbs += work->thin.crumbs;
+  report->small_components += work->thin.small_components;
   report->thickness = report->thickened > 0 || report->widened > 0 ? 2 * work->thin.reach : 0;
 }
 

@@ -1,3 +1,4 @@
+/* How long edges shall be from place to place: by curvature, by regions, and by where a mesh was too coarse. */
 #include <math.h>
 #include <string.h>
 

@@ -7,13 +7,13 @@
 #include "core/mesh/common.h"
 #include "core/mesh/edit.h"
 
-#define CRUMB 0.02 /* of the volume: what breaks off is as thin as that little changes */
+#define SMALL 0.02 /* of the volume: what breaks off is as thin as that little changes */
 
 /* A piece of the cells. */
 typedef struct Piece {
   double volume;
   uint32_t of; /* piece of the surface that it lies at */
-  bool crumb;
+  bool small;
 } Piece;
 
 static double volume_of(const SporeTetrahedralMesh *mesh, size_t t) {
@@ -41,38 +41,38 @@ static void measure(const SporeTetrahedraWork *work, const SporeTetrahedralMesh 
 
 /* Those next to a larger one of the same piece of the surface. Returns what share of the volume they are. */
 static double mark(Piece *found, size_t count) {
-  double all = 0, crumbs = 0;
+  double all = 0, small = 0;
   for (size_t i = 0; i < count; i++) all += found[i].volume;
   for (size_t i = 0; i < count; i++) {
-    for (size_t k = 0; k < count && !found[i].crumb; k++)
-      found[i].crumb = found[i].volume < CRUMB * all && found[k].of == found[i].of && found[k].volume > found[i].volume;
-    if (found[i].crumb) crumbs += found[i].volume;
+    for (size_t k = 0; k < count && !found[i].small; k++)
+      found[i].small = found[i].volume < SMALL * all && found[k].of == found[i].of && found[k].volume > found[i].volume;
+    if (found[i].small) small += found[i].volume;
   }
-  return all > 0 ? crumbs / all : 0;
+  return all > 0 ? small / all : 0;
 }
 
 static void drop(SporeTetrahedralMesh *mesh, const uint32_t *pieces, const Piece *found) {
   size_t kept = 0;
   for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
-    if (found[pieces[t]].crumb) continue;
+    if (found[pieces[t]].small) continue;
     memmove(mesh->tetrahedra + 4 * kept++, mesh->tetrahedra + 4 * t, 4 * sizeof *mesh->tetrahedra);
   }
   mesh->tetrahedron_count = kept;
 }
 
-bool spore_tetrahedra_drop_crumbs(const SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh,
-                                  SporeTetrahedraReport *report, SporeError *error) {
+bool spore_tetrahedra_drop_small(const SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh,
+                                 SporeTetrahedraReport *report, SporeError *error) {
   uint32_t *pieces = NULL, *surface_pieces = NULL;
   if (!spore_tetrahedral_mesh_pieces(mesh, &pieces, &report->pieces, error)) return false;
   bool done = spore_triangle_mesh_pieces(&work->surface, &surface_pieces, &report->pieces_given, error);
   Piece *found = done ? SPORE_NEW_ARRAY(Piece, report->pieces) : NULL;
   if (done && !found) done = spore_mesh_no_memory(error);
-  report->crumbs = 0;
+  report->small_components = 0;
   if (done && report->pieces > 1) {
     size_t count = report->pieces;
     measure(work, mesh, pieces, surface_pieces, found);
-    report->crumbs = mark(found, count);
-    for (size_t i = 0; i < count; i++) report->pieces -= found[i].crumb;
+    report->small_components = mark(found, count);
+    for (size_t i = 0; i < count; i++) report->pieces -= found[i].small;
     drop(mesh, pieces, found);
     done = spore_tetrahedral_mesh_drop_unused(mesh, error);
   }

@@ -1,3 +1,4 @@
+/* Tetrahedra in a surface: which methods are tried, in which order, and why one is refused. */
 #include "core/generate/tetrahedra/tetrahedra.h"
 
 #include <glib/gi18n.h>
@@ -264,7 +265,7 @@ static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh 
   if (before < 0) return spore_error_propagate(&failure, error);
   if (before <= 1) return TRUE;
   if (!spore_tetrahedra_voxels(work, &other, &failure) ||
-      !spore_tetrahedra_drop_crumbs(work, &other, &lattice, &failure)) {
+      !spore_tetrahedra_drop_small(work, &other, &lattice, &failure)) {
     spore_tetrahedral_mesh_clear(&other);
     return failure.code != SPORE_ERROR_CANCELLED || spore_error_propagate(&failure, error);
   }
@@ -341,7 +342,7 @@ static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTet
   if (looks) work->share = 0.6 * share;
   SporeError failure = SPORE_ERROR_INIT;
   if (!run_methods(work, place, mesh, report, error)) return FALSE;
-  if (!spore_tetrahedra_drop_crumbs(work, mesh, report, &failure)) {
+  if (!spore_tetrahedra_drop_small(work, mesh, report, &failure)) {
     spore_error_at(&failure, place);
     return spore_error_propagate(&failure, error);
   }

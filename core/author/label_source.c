@@ -1,4 +1,5 @@
-#include "ui/jobs/label-source.h"
+/* A label map as a source of tetrahedra: read once, and shared by those who need it. */
+#include "core/author/label_source.h"
 
 #include <glib/gi18n.h>
 

@@ -1,7 +1,7 @@
 /* A label map that tetrahedra are generated from: read once, by whoever needs it first. Counted references, any thread.
  * No GTK. */
-#ifndef SPORE_UI_JOBS_LABEL_SOURCE_H
-#define SPORE_UI_JOBS_LABEL_SOURCE_H
+#ifndef SPORE_AUTHOR_LABEL_SOURCE_H
+#define SPORE_AUTHOR_LABEL_SOURCE_H
 
 #include "core/io/label_map.h"
 
