@@ -66,6 +66,7 @@ typedef struct SporeGeneratorType {
   const SporeParameter *purpose; /* a choice, what becomes of the result (a field of int at 0); NULL: always the same */
   SporeObject *(*target)(SporeDocument *document, SporeObject *body); /* asset that the body uses, or NULL */
 
+  const char *shows; /* what the result is, for who draws it: "spheres", "tetrahedra", "labels", "curve", "surface" */
   const char *title, *working; /* "Spheres of %s", "Generating spheres"; N_ */
   const char *count_label;     /* N_ */
   const char *unit;    /* of a body, where the editor offers the generator: "collision", "mechanical"; NULL: nowhere */

@@ -121,6 +121,7 @@ const SporeGeneratorType spore_generator_curve = {
     .ways = "points | tolerance",
     .purpose = &purpose,
     .target = spore_edit_body_curve,
+    .shows = "curve",
     .title = N_("Middle line of %s"),
     .working = N_("Finding the middle line"),
     .count_label = N_("Points"),

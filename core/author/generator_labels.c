@@ -126,6 +126,7 @@ const SporeGeneratorType spore_generator_labels = {
     .ways = "cells | size",
     .purpose = &label_purpose,
     .target = no_target,
+    .shows = "labels",
     .title = N_("Organs of %s"),
     .working = N_("Generating tetrahedra"),
     .count_label = N_("Tetrahedra"),

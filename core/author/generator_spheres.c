@@ -170,6 +170,7 @@ const SporeGeneratorType spore_generator_spheres = {
     .count = "count",
     .ways = "count | coverage outside tolerance depth_error",
     .target = spore_edit_body_spheres,
+    .shows = "spheres",
     .title = N_("Spheres of %s"),
     .working = N_("Generating spheres"),
     .count_label = N_("Spheres"),

@@ -192,6 +192,7 @@ const SporeGeneratorType spore_generator_surface = {
     .ways = "nodes | size",
     .purpose = &purpose,
     .target = spore_edit_body_surface,
+    .shows = "surface",
     .title = N_("Surface of %s"),
     .working = N_("Generating a surface"),
     .count_label = N_("Nodes"),

@@ -201,6 +201,7 @@ const SporeGeneratorType spore_generator_tetrahedra = {
     .count = "cells",
     .ways = "cells | size",
     .target = spore_edit_body_tetrahedra,
+    .shows = "tetrahedra",
     .title = N_("Tetrahedra of %s"),
     .working = N_("Generating tetrahedra"),
     .count_label = N_("Tetrahedra"),

@@ -50,7 +50,7 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_curve = {
-    .of = "curve",
+    .shows = "curve",
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
 };

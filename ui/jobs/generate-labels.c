@@ -33,7 +33,7 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_labels = {
-    .of = "labels",
+    .shows = "labels",
     .cells = TRUE,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),

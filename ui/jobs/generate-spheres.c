@@ -42,7 +42,7 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_spheres = {
-    .of = "spheres",
+    .shows = "spheres",
     .counts = (const size_t[]){8, 16, 32, 64, 128, 256, 512, 0},
     .error_label = N_("Depth error"),
     .worth = 1,

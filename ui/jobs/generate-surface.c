@@ -61,7 +61,7 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_surface = {
-    .of = "mesh",
+    .shows = "surface",
     .counts = (const size_t[]){50, 100, 200, 400, 800, 1600, 3200, 0},
     .error_label = N_("Distance"),
     .worth = 0.1,

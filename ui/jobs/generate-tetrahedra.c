@@ -43,7 +43,7 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_tetrahedra = {
-    .of = "tetrahedra",
+    .shows = "tetrahedra",
     .counts = (const size_t[]){300, 600, 1200, 2500, 5000, 10000, 0},
     .error_label = N_("Distance"),
     .worth = 0.1,

@@ -1,21 +1,17 @@
+/* How results are shown: found by what they are, with what several kinds of them draw alike. */
 #include "ui/jobs/generate-types.h"
 
 #include <math.h>
 
 #include "core/scene/generated.h"
 
-static const SporeGenerateType *type_of(const char *name) {
+const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
   static const SporeGenerateType *const types[] = {&spore_generate_spheres, &spore_generate_tetrahedra,
                                                    &spore_generate_curve, &spore_generate_surface,
                                                    &spore_generate_labels};
-  for (gsize i = 0; i < G_N_ELEMENTS(types); i++)
-    if (strcmp(types[i]->of, name) == 0) return types[i];
-  return NULL;
-}
-
-const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
-  const SporeGenerateType *own = type_of(spore_generators[kind]->name);
-  return own ? own : type_of(spore_generators[kind]->element);
+  gsize i = 0;
+  while (i + 1 < G_N_ELEMENTS(types) && strcmp(types[i]->shows, spore_generators[kind]->shows) != 0) i++;
+  return types[i];
 }
 
 /* Services for the kinds. */

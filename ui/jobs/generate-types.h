@@ -1,4 +1,4 @@
-/* How results of generators are shown: one table, of generators by name or of all that make the same kind of asset. No
+/* How results of generators are shown: one table, by what a result is. No
  * GTK. */
 #ifndef SPORE_UI_JOBS_GENERATE_TYPES_H
 #define SPORE_UI_JOBS_GENERATE_TYPES_H
@@ -17,8 +17,8 @@ typedef struct SporeGenerateQuality {
 } SporeGenerateQuality;
 
 typedef struct SporeGenerateType {
-  const char *of; /* name of a generator, or element of the asset that generators make */
-  gboolean cells; /* the result is of cells, and can be seen cut open */
+  const char *shows; /* as a generator says */
+  gboolean cells;    /* the result is of cells, and can be seen cut open */
 
   /* Error against number: for these numbers, ended by 0; NULL: no plot. */
   const size_t *counts;

@@ -41,14 +41,14 @@ static char *tell_surface(SporeDocument *document, SporeObject *asset, GError **
 }
 
 static const struct {
-  const char *element;
+  const char *shows; /* as a generator says */
   char *(*tell)(SporeDocument *document, SporeObject *asset, GError **error);
   const char *none; /* N_ */
 } kinds[] = {
     {"spheres", count_spheres, N_("No spheres yet: the body touches nothing")},
     {"tetrahedra", tell_tetrahedra, N_("No tetrahedra yet")},
     {"curve", tell_curve, N_("No middle line yet")},
-    {"mesh", tell_surface, N_("No generated surface yet")},
+    {"surface", tell_surface, N_("No generated surface yet")},
 };
 
 char *spore_asset_facts(SporeDocument *document, const SporeObject *body, SporeObject *asset, SporeGenerateKind kind) {
@@ -56,7 +56,7 @@ char *spore_asset_facts(SporeDocument *document, const SporeObject *body, SporeO
   if (!asset && kind == SPORE_GENERATE_SPHERES && spore_body_has_own_spheres(body))
     return g_strdup(_("The model's own spheres"));
   gsize i = 0;
-  while (i + 1 < G_N_ELEMENTS(kinds) && strcmp(kinds[i].element, spore_generators[kind]->element) != 0) i++;
+  while (i + 1 < G_N_ELEMENTS(kinds) && strcmp(kinds[i].shows, spore_generators[kind]->shows) != 0) i++;
   if (!asset) return g_strdup(_(kinds[i].none));
   char *text = kinds[i].tell(document, asset, &error);
   return text ? text : g_strdup(error->message);
