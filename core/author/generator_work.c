@@ -151,8 +151,3 @@ gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument 
   SporeObject *body = spore_document_by_id(document, work->body); /* none where it came from a file */
   return spore_generators[work->options.kind]->apply(work, document, body, error);
 }
-
-SporeGeneratedFrom spore_generate_work_from(const SporeGenerateWork *work) {
-  return (SporeGeneratedFrom){work->source, work->source_hash, &work->options.fields,
-                              work->regions + work->own_region_count, work->region_count - work->own_region_count};
-}
