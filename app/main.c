@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "app/cli/cli.h"
+#include "app/cli/generate.h"
 #include "app/catalogue.h"
+#include "core/author/generator.h"
 #include "models/registry.h"
 
 typedef struct Command {
@@ -31,17 +33,33 @@ static const Command commands[] = {
     {"schema", spore_command_schema, N_("Print the RELAX NG schema of scenes")},
 };
 
+/* The command of a generator that has none above; NULL: there is none. */
+static const SporeGeneratorType *generator_of(const char *command) {
+  for (gsize i = 0; i < G_N_ELEMENTS(commands); i++)
+    if (g_str_equal(commands[i].name, command)) return NULL;
+  for (gsize i = 0; spore_generators[i]; i++)
+    if (g_str_equal(spore_generators[i]->command, command)) return spore_generators[i];
+  return NULL;
+}
+
 static void print_help(void) {
   printf("%s\n\n", _("Usage: spore COMMAND [OPTION...] [ARGUMENT...]"));
   for (gsize i = 0; i < G_N_ELEMENTS(commands); i++) printf("  %-11s %s\n", commands[i].name, _(commands[i].summary));
+  for (gsize i = 0; spore_generators[i]; i++)
+    if (generator_of(spore_generators[i]->command))
+      printf("  %-11s %s\n", spore_generators[i]->command, _(spore_generators[i]->working));
   printf("\n%s\n", _("`spore COMMAND --help` says more. Exit status: 0 done, 1 a check did not hold, 2 bad input, "
                      "3 a fault of ours."));
 }
 
-static int run_command(const Command *command, int argc, char **argv) {
-  SporeCli cli = {.schema = spore_schema_new(spore_model_registry), .report = json_builder_new()};
+/* command NULL: that of the generator. */
+static int run_command(const Command *command, const SporeGeneratorType *generator, int argc, char **argv) {
+  g_autofree char *name = g_strdup_printf("spore %s", argv[0]);
+  g_set_prgname(name);
+  SporeCli cli = {.schema = spore_schema_new(spore_model_registry, spore_generator_elements()),
+                  .report = json_builder_new()};
   json_builder_begin_object(cli.report);
-  int status = command->run(&cli, argc, argv);
+  int status = command ? command->run(&cli, argc, argv) : spore_command_generate(&cli, generator, argc, argv);
   g_object_unref(cli.report);
   spore_schema_free(cli.schema);
   return status;
@@ -58,10 +76,8 @@ int main(int argc, char **argv) {
     return SPORE_EXIT_DONE;
   }
   for (gsize i = 0; i < G_N_ELEMENTS(commands); i++)
-    if (g_str_equal(argv[1], commands[i].name)) {
-      g_autofree char *name = g_strdup_printf("spore %s", commands[i].name);
-      g_set_prgname(name);
-      return run_command(&commands[i], argc - 1, argv + 1);
-    }
+    if (g_str_equal(argv[1], commands[i].name)) return run_command(&commands[i], NULL, argc - 1, argv + 1);
+  const SporeGeneratorType *generator = generator_of(argv[1]);
+  if (generator) return run_command(NULL, generator, argc - 1, argv + 1);
   return spore_cli_usage(_("spore: '%s' is no command; expected one of those that `spore --help` lists"), argv[1]);
 }

@@ -2,6 +2,7 @@
 
 #include <glib/gi18n.h>
 
+#include "core/author/generator.h"
 #include "models/registry.h"
 #include "ui/spore-window.h"
 
@@ -64,7 +65,7 @@ static void spore_application_startup(GApplication *application) {
   static const GActionEntry actions[] = {{"about", about}, {"quit", quit}, {"new-window", new_window}};
   SporeApplication *self = SPORE_APPLICATION(application);
   G_APPLICATION_CLASS(spore_application_parent_class)->startup(application);
-  self->schema = spore_schema_new(spore_model_registry);
+  self->schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   g_object_set(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", TRUE, NULL);
   load_style();
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);

@@ -106,7 +106,7 @@ static void start(SporeWindow *self, SporeGenerateKind kind, guint count, gboole
 static SporeGenerateKind kind_of(GSimpleAction *action) {
   const char *name = strchr(g_action_get_name(G_ACTION(action)), '-') + 1;
   SporeGenerateKind kind = 0;
-  while (!g_str_equal(spore_generate_type(kind)->name, name)) kind++;
+  while (!g_str_equal(spore_generators[kind]->name, name)) kind++;
   return kind;
 }
 
@@ -121,7 +121,7 @@ static void act_preview(GSimpleAction *action, GVariant *parameter, gpointer dat
 void spore_window_preview_labels(SporeWindow *self, const char *file) {
   SporeLabelSource *source = spore_label_source_new(file);
   SporeGenerateOptions options = {.kind = SPORE_GENERATE_LABELS, .labels = source};
-  spore_parameters_set_initial(spore_generate_table(document_of(self), options.kind), &options.fields);
+  spore_generate_set_initial(&options);
   spore_generate_set_count(&options, USUAL_LABEL_CELLS);
   preview(self, NULL, &options, FALSE);
   spore_label_source_unref(source);
@@ -150,7 +150,7 @@ static void act_preview_labels_dialog(GSimpleAction *action, GVariant *parameter
 
 static gboolean picks_ends(SporeWindow *self) {
   return spore_generator_get_body(self->generator) &&
-         spore_generate_type(spore_generator_get_options(self->generator)->kind)->picks_ends;
+         spore_generators[spore_generator_get_options(self->generator)->kind]->picks_ends;
 }
 
 static gboolean is_picking(SporeWindow *self) {
@@ -225,7 +225,7 @@ static void applied(SporeWindow *self) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   if (work->options.kind == SPORE_GENERATE_SPHERES)
     g_action_group_change_action_state(G_ACTION_GROUP(self), "show-spheres", g_variant_new_boolean(TRUE));
-  g_autofree char *facts = spore_generate_type(work->options.kind)->facts(work);
+  g_autofree char *facts = spore_generators[work->options.kind]->facts(work);
   g_auto(GStrv) lines = g_strsplit(facts, "\n", -1);
   g_autofree char *line = g_strjoinv("; ", lines);
   spore_window_log(self, "%s", line);
@@ -321,9 +321,9 @@ void spore_window_set_generator(SporeWindow *self) {
 
 void spore_window_update_generator(SporeWindow *self, gboolean bodies) {
   gboolean idle = !self->job && !spore_generator_is_working(self->generator);
-  for (SporeGenerateKind kind = 0; kind < SPORE_GENERATE_KIND_COUNT; kind++) {
-    g_autofree char *generate = g_strconcat("generate-", spore_generate_type(kind)->name, NULL);
-    g_autofree char *preview = g_strconcat("preview-", spore_generate_type(kind)->name, NULL);
+  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {
+    g_autofree char *generate = g_strconcat("generate-", spore_generators[kind]->name, NULL);
+    g_autofree char *preview = g_strconcat("preview-", spore_generators[kind]->name, NULL);
     if (kind != SPORE_GENERATE_LABELS) spore_window_set_enabled(self, generate, idle && bodies);
     spore_window_set_enabled(self, preview, !self->job && (bodies || kind == SPORE_GENERATE_LABELS));
   }
@@ -336,15 +336,18 @@ void spore_window_update_generator(SporeWindow *self, gboolean bodies) {
 
 void spore_window_add_generator_actions(SporeWindow *self) {
   static const GActionEntry actions[] = {
-      {"generate-spheres", act_generate, "u"},     {"generate-tetrahedra", act_generate, "u"},
-      {"generate-curve", act_generate, "u"},       {"generate-surface", act_generate, "u"},
-      {"preview-spheres", act_preview, "u"},       {"preview-tetrahedra", act_preview, "u"},
-      {"preview-curve", act_preview, "u"},         {"preview-surface", act_preview, "u"},
       {"apply-generated", act_apply_generated},    {"cancel-job", act_cancel_job},
       {"preview-labels", act_preview_labels, "s"}, {"preview-labels-dialog", act_preview_labels_dialog},
       {"automatic-ends", act_automatic_ends},      {"pick-ends", NULL, NULL, "false", change_pick_ends},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(self), actions, G_N_ELEMENTS(actions), self);
+  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {
+    g_autofree char *generate = g_strconcat("generate-", spore_generators[kind]->name, NULL);
+    g_autofree char *preview = g_strconcat("preview-", spore_generators[kind]->name, NULL);
+    const GActionEntry of_body[] = {{generate, act_generate, "u"}, {preview, act_preview, "u"}};
+    if (kind != SPORE_GENERATE_LABELS)
+      g_action_map_add_action_entries(G_ACTION_MAP(self), of_body, G_N_ELEMENTS(of_body), self);
+  }
   g_signal_connect_object(self->viewport, "picked", G_CALLBACK(picked), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->generator_panel, "shown-quality-changed", G_CALLBACK(show_candidate), self,
                           G_CONNECT_SWAPPED);

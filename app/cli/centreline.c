@@ -5,9 +5,8 @@
 #include "app/cli/scene.h"
 #include "app/cli/scene_body.h"
 #include "core/author/generated_edits.h"
-#include "core/base/number.h"
-#include "core/generate/centreline_scene.h"
-#include "core/generate/centreline.h"
+#include "core/author/centreline_body.h"
+#include "core/generate/centreline/centreline.h"
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/io/scene_xml.h"
@@ -66,7 +65,8 @@ static void report(SporeCli *cli, const SporeCurve *curve, const SporeCentreline
 
 /* Where the results go. */
 typedef struct Output {
-  char *curve, *scene, *as;
+  char *curve, *scene;
+  int kind; /* SporeCentrelineBody; -1: none, the curve alone */
   gint64 control_points;
 } Output;
 
@@ -103,9 +103,7 @@ static gboolean make_body(SporeDocument *document, const Input *input, const Spo
 
 static gboolean write_scene(SporeCli *cli, const Input *input, const SporeCurve *curve,
                             const SporeCentrelineReport *figures, const Output *output, GError **error) {
-  int kind = spore_cli_choice("--as", output->as ? output->as : "tube", spore_centreline_body_names, error);
-  if (kind < 0) return FALSE;
-  SporeCentrelineBodyOptions options = {.body = (SporeCentrelineBody)kind,
+  SporeCentrelineBodyOptions options = {.body = (SporeCentrelineBody)output->kind,
                                         .control_points = (size_t)output->control_points,
                                         .loops_apart = figures->approach > SPORE_CENTRELINE_APART};
   bool carried = spore_centreline_carries(curve, &input->mesh);
@@ -134,8 +132,12 @@ static gboolean write_results(SporeCli *cli, const Input *input, const SporeCurv
          (!output->scene || write_scene(cli, input, curve, figures, output, error));
 }
 
-static int generate(SporeCli *cli, const char *file, const SporeCentrelineOptions *options, const char *unit,
-                    const char *frame, const Output *output) {
+static int generate(SporeCli *cli, const char *file, const SporeCliOptions *asked, const char *unit, const char *frame,
+                    const Output *output) {
+  SporeCurveFields fields;
+  spore_parameters_set_initial(&asked->table, &fields);
+  spore_cli_options_fill(asked, &fields);
+  const SporeCentrelineOptions options = spore_edit_centreline_options(&fields);
   GError *error = NULL;
   SporeError fault = SPORE_ERROR_INIT;
   Input input = {.file = file};
@@ -145,7 +147,7 @@ static int generate(SporeCli *cli, const char *file, const SporeCentrelineOption
       (!output->curve || spore_cli_has_room(output->curve, file, &error)) &&
       (!output->scene || spore_cli_keeps(output->scene, file, &error)) &&
       spore_cli_read_mesh(cli, file, unit, frame, &input.mesh, &input.content, &input.unit, &input.frame, &error);
-  if (done && !spore_centreline_from_mesh(&input.mesh, options, &curve, &figures, spore_cli_progress(cli), &fault)) {
+  if (done && !spore_centreline_from_mesh(&input.mesh, &options, &curve, &figures, spore_cli_progress(cli), &fault)) {
     spore_error_at(&fault, file);
     done = spore_error_propagate(&fault, &error);
   }
@@ -157,39 +159,25 @@ static int generate(SporeCli *cli, const char *file, const SporeCentrelineOption
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* What the command line says goes before what the asset asks for. */
-static void override_fields(const SporeCentrelineOptions *options, SporeCurveFields *fields) {
-  if (options->points > 0 || options->tolerance > 0) {
-    fields->points = (int64_t)options->points;
-    fields->tolerance = options->tolerance > 0 ? options->tolerance : fields->tolerance;
-  }
-  if (!options->ends_given) return;
-  memcpy(fields->first_place, options->ends[0], sizeof fields->first_place);
-  memcpy(fields->last_place, options->ends[1], sizeof fields->last_place);
-}
-
 /* Of what a body of a scene shows, and for it. */
-static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCentrelineOptions *asked,
+static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *asked,
                         const Output *output, SporeSceneBody *scene, GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
   SporeCurveFields fields;
   SporeCurve curve = {0};
   SporeCentrelineReport figures = {0};
-  int kind = spore_cli_choice("--as", output->as ? output->as : "tube", spore_centreline_body_names, error);
-  if (kind < 0 || !spore_cli_open_body(cli, file, body, "curve", spore_edit_body_curve, scene, &fields, error))
-    return FALSE;
-  override_fields(asked, &fields);
+  if (!spore_cli_open_body(cli, file, body, asked, scene, &fields, error)) return FALSE;
   const SporeCentrelineOptions options = spore_edit_centreline_options(&fields);
   if (!spore_centreline_from_mesh(scene->mesh, &options, &curve, &figures, spore_cli_progress(cli), &fault)) {
     spore_error_at(&fault, spore_object_name(scene->source));
     return spore_error_propagate(&fault, error);
   }
-  const SporeGeneratedFrom from = {
-      .source = spore_object_name(scene->source), .source_hash = scene->source_hash, .fields = &fields};
-  const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)kind,
+  const SporeGeneratedFrom from = spore_cli_generated_from(scene, &fields);
+  const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)output->kind,
                                             .control_points = (size_t)output->control_points,
                                             .loops_apart = figures.approach > SPORE_CENTRELINE_APART};
-  gboolean done = spore_edit_use_curve(scene->document, scene->body, &from, &curve, &along, error);
+  gboolean done =
+      spore_edit_use_curve(scene->document, scene->body, &from, &curve, output->kind < 0 ? NULL : &along, error);
   if (done) {
     report(cli, &curve, &figures);
     done = spore_cli_save_body(cli, scene, file, error);
@@ -198,7 +186,7 @@ static gboolean make_in(SporeCli *cli, const char *file, const char *body, const
   return done;
 }
 
-static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeCentrelineOptions *options,
+static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *options,
                        const Output *output) {
   GError *error = NULL;
   SporeSceneBody scene = {0};
@@ -218,35 +206,22 @@ static int check_scene(gboolean scene, const char *body, gboolean others) {
   return SPORE_EXIT_DONE;
 }
 
-/* "X,Y,Z" */
-static gboolean parse_place(const char *text, double place[3]) {
-  g_auto(GStrv) parts = g_strsplit(text, ",", -1);
-  if (g_strv_length(parts) != 3) return FALSE;
-  for (int k = 0; k < 3; k++) {
-    gsize size = strlen(parts[k]);
-    if (size == 0 || spore_number_read(parts[k], size, &place[k]) != size) return FALSE;
-  }
-  return TRUE;
-}
-
-/* --ends takes two words, the second of which may begin with a minus: they are joined into one, which argv then holds.
- * g_free. NULL: --ends is not there. */
-static char *join_ends(int *argc, char **argv) {
-  for (int i = 1; i + 2 < *argc; i++) {
-    if (!g_str_equal(argv[i], "--ends") || !strchr(argv[i + 2], ',')) continue;
-    char *joined = argv[i + 1] = g_strdup_printf("%s %s", argv[i + 1], argv[i + 2]);
-    memmove(argv + i + 2, argv + i + 3, (size_t)(*argc - i - 2) * sizeof *argv);
-    (*argc)--;
-    return joined;
-  }
-  return NULL;
-}
-
-static gboolean parse_ends(const char *text, SporeCentrelineOptions *options) {
-  g_auto(GStrv) words = g_strsplit(text, " ", -1);
-  options->ends_given = true;
-  return g_strv_length(words) == 2 && parse_place(words[0], options->ends[0]) &&
-         parse_place(words[1], options->ends[1]);
+/* What the command line may ask for; prints its own message. scene: of a scene that is there. */
+static int check(const SporeCliOptions *options, const Output *output, gboolean scene) {
+  if (spore_cli_options_has(options, "first_place") != spore_cli_options_has(options, "last_place"))
+    return spore_cli_usage(
+        _("spore centreline: one end is given; expected both --first-place and --last-place, X,Y,Z in "
+          "metres, or none; give the other"));
+  if (!scene && !output->scene && (options->purpose >= 0 || output->control_points))
+    return spore_cli_usage(_("spore centreline: --as and --control-points say what scene to write; expected --scene "
+                             "F.spore too; name it"));
+  if (output->scene && output->kind < 0)
+    return spore_cli_usage(_("spore centreline: --as curve makes no body; expected thread, tube or intestine with "
+                             "--scene; leave --scene out, or choose one of them"));
+  if (output->control_points != 0 && (output->control_points < 4 || output->control_points > 100000))
+    return spore_cli_usage(_("spore centreline: --control-points %lld; expected 4 to 100000; give another number"),
+                           (long long)output->control_points);
+  return SPORE_EXIT_DONE;
 }
 
 int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
@@ -275,58 +250,32 @@ int spore_command_centreline(SporeCli *cli, int argc, char **argv) {
                                         1,
                                         1,
                                         members};
-  char *unit = NULL, *frame = NULL, *ends = NULL, *body = NULL;
+  char *unit = NULL, *frame = NULL, *body = NULL;
   Output output = {0};
-  gint64 points = 0;
-  double tolerance = 0;
   const GOptionEntry entries[] = {
-      {"points", 'n', 0, G_OPTION_ARG_INT64, &points, N_("Number of points, evenly along the line"), "N"},
-      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &tolerance,
-       N_("How far straight pieces may leave the line, of the radius: as many points as that takes (default 0.02)"),
-       "D"},
-      {"ends", 0, 0, G_OPTION_ARG_STRING, &ends,
-       N_("Ends of the line, in metres and SPORE's axes (default: the ends of the organ)"), "X,Y,Z X,Y,Z"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output.curve, N_("File to write, x y z r a line"), "F.curve"},
       {"scene", 's', 0, G_OPTION_ARG_FILENAME, &output.scene, N_("Scene to write, with a body along the line"),
        "F.spore"},
-      {"as", 'a', 0, G_OPTION_ARG_STRING, &output.as,
-       N_("What the body is: a solid thread, a tube with a wall, or an intestine on its mesentery (default tube); it "
-          "carries the mesh unless that joins loops of the line"),
-       "thread, tube or intestine"},
       SPORE_SCENE_BODY_ENTRY(&body),
       {"control-points", 0, 0, G_OPTION_ARG_INT64, &output.control_points,
        N_("Control points of the body (default: one each two radii)"), "N"},
       G_OPTION_ENTRY_NULL};
-  g_autofree char *joined = join_ends(&argc, argv);
-  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  g_auto(SporeCliOptions) options = {0};
+  int status = spore_cli_options_parse(&options, cli, &spore_generator_curve, "n=points t=tolerance", &info, entries,
+                                       &argc, &argv);
   gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
+  output.kind = options.purpose < 0 ? SPORE_CENTRELINE_TUBE : options.purpose - 1;
   if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, unit || frame || output.curve || output.scene);
-  if (status == SPORE_EXIT_DONE) {
-    SporeCentrelineOptions options = {.points = (size_t)MAX(points, 0), .tolerance = tolerance};
-    if (points < 0 || (points > 0 && tolerance != 0))
-      status = spore_cli_usage(_("spore centreline: neither number of points nor tolerance is one; expected either "
-                                 "--points 2 to %u or --tolerance above 0 and below 1; give one of them"),
-                               SPORE_CENTRELINE_MOST_POINTS);
-    else if (ends && !parse_ends(ends, &options))
-      status =
-          spore_cli_usage(_("spore centreline: --ends '%s' is not two places; expected X,Y,Z X,Y,Z in metres"), ends);
-    else if (!scene && !output.scene && (output.as || output.control_points))
-      status = spore_cli_usage(_("spore centreline: --as and --control-points say what scene to write; expected "
-                                 "--scene F.spore too; name it"));
-    else if (output.control_points != 0 && (output.control_points < 4 || output.control_points > 100000))
-      status = spore_cli_usage(_("spore centreline: --control-points %lld; expected 4 to 100000; give another number"),
-                               (long long)output.control_points);
-    else if (scene) status = generate_in(cli, argv[1], body, &options, &output);
-    else status = generate(cli, argv[1], &options, unit, frame, &output);
-  }
+  if (status == SPORE_EXIT_DONE) status = check(&options, &output, scene);
+  if (status == SPORE_EXIT_DONE)
+    status = scene ? generate_in(cli, argv[1], body, &options, &output)
+                   : generate(cli, argv[1], &options, unit, frame, &output);
   g_free(unit);
   g_free(frame);
   g_free(output.curve);
   g_free(output.scene);
-  g_free(output.as);
-  g_free(ends);
   g_free(body);
   return status;
 }

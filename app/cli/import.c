@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "app/cli/scene.h"
-#include "core/generate/organ_import.h"
+#include "core/author/organ_import.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 

@@ -28,38 +28,38 @@ static SporeObject *choose_body(SporeDocument *document, const char *file, const
   return NULL;
 }
 
-static void take_fields(SporeSceneBody *scene, const char *element, void *fields) {
-  const SporeObject *assets = spore_document_section(scene->document, "assets");
-  if (scene->target) spore_object_fields(scene->target, fields);
-  else spore_parameters_set_initial(spore_object_type_child(spore_object_type(assets), element)->table, fields);
+static gboolean add_regions(SporeSceneBody *scene, const GArray *regions, GError **error) {
+  if (scene->region_count + regions->len > SPORE_GENERATE_REGIONS)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--region",
+                             _("with those of the scene these are more than %d regions; give fewer"),
+                             SPORE_GENERATE_REGIONS);
+  for (guint i = 0; i < regions->len; i++)
+    scene->regions[scene->region_count++] = g_array_index(regions, SporeGenerateRegion, i);
+  return TRUE;
 }
 
-gboolean spore_cli_open_body(SporeCli *cli, const char *file, const char *name, const char *element,
-                             SporeObject *(*find)(SporeDocument *document, SporeObject *body), SporeSceneBody *scene,
-                             void *fields, GError **error) {
+gboolean spore_cli_open_body(SporeCli *cli, const char *file, const char *name, const SporeCliOptions *options,
+                             SporeSceneBody *scene, void *fields, GError **error) {
   scene->document = spore_scene_load(cli->schema, file, error);
   scene->body = scene->document ? choose_body(scene->document, file, name, error) : NULL;
   if (!scene->body) return FALSE;
-  scene->target = find(scene->document, scene->body);
+  scene->target = options->type->target(scene->document, scene->body);
   if (scene->target && !spore_generated_may_change(scene->target, error)) return FALSE;
   scene->source = spore_edit_generator_source(scene->document, scene->body, scene->target, error);
   scene->mesh = scene->source ? spore_document_mesh(scene->document, scene->source, error) : NULL;
   if (!scene->mesh) return FALSE;
   scene->source_hash = spore_document_asset_hash(scene->document, scene->source);
-  take_fields(scene, element, fields);
+  if (scene->target) spore_object_fields(scene->target, fields);
+  else spore_parameters_set_initial(&options->table, fields);
+  spore_cli_options_fill(options, fields);
   if (!spore_edit_generator_regions(scene->target, scene->regions, &scene->region_count, error)) return FALSE;
   scene->own_count = scene->region_count;
-  return TRUE;
+  return add_regions(scene, options->regions, error);
 }
 
-gboolean spore_cli_add_region(SporeSceneBody *scene, const double centre[3], double radius, double value,
-                              GError **error) {
-  if (scene->region_count == SPORE_GENERATE_REGIONS)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, "--region",
-                             _("with those of the scene these are more than %d regions; give fewer"),
-                             SPORE_GENERATE_REGIONS);
-  scene->regions[scene->region_count++] = (SporeGenerateRegion){{centre[0], centre[1], centre[2]}, radius, value};
-  return TRUE;
+SporeGeneratedFrom spore_cli_generated_from(const SporeSceneBody *scene, const void *fields) {
+  return (SporeGeneratedFrom){spore_object_name(scene->source), scene->source_hash, fields,
+                              scene->regions + scene->own_count, scene->region_count - scene->own_count};
 }
 
 gboolean spore_cli_save_body(SporeCli *cli, SporeSceneBody *scene, const char *file, GError **error) {

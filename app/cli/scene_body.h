@@ -3,7 +3,8 @@
 #define SPORE_APP_CLI_SCENE_BODY_H
 
 #include "app/cli/cli.h"
-#include "core/author/generated_options.h"
+#include "app/cli/options.h"
+#include "core/author/generated_edits.h"
 
 typedef struct SporeSceneBody {
   SporeDocument *document;
@@ -25,13 +26,12 @@ typedef struct SporeSceneBody {
 
 /* Whether the file is a scene, by its name. */
 gboolean spore_cli_is_scene(const char *file);
-/* find: the asset of the body. fields: filled with what the asset asks for, or the usual. */
-gboolean spore_cli_open_body(SporeCli *cli, const char *file, const char *name, const char *element,
-                             SporeObject *(*find)(SporeDocument *document, SporeObject *body), SporeSceneBody *scene,
-                             void *fields, GError **error);
-/* A region of the command line; FALSE with an error: there are too many. */
-gboolean spore_cli_add_region(SporeSceneBody *scene, const double centre[3], double radius, double value,
-                              GError **error);
+/* fields: filled with what the body's asset asks for, or the usual, and over it what the command line says; its regions
+ * come after the asset's. */
+gboolean spore_cli_open_body(SporeCli *cli, const char *file, const char *name, const SporeCliOptions *options,
+                             SporeSceneBody *scene, void *fields, GError **error);
+/* What the result came from, to be remembered by the asset. Borrows scene and fields. */
+SporeGeneratedFrom spore_cli_generated_from(const SporeSceneBody *scene, const void *fields);
 /* Saves the scene where it was, and says so. */
 gboolean spore_cli_save_body(SporeCli *cli, SporeSceneBody *scene, const char *file, GError **error);
 void spore_cli_close_body(SporeSceneBody *scene);

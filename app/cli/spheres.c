@@ -5,7 +5,6 @@
 #include "app/cli/scene_body.h"
 #include "app/cli/spheres_series.h"
 #include "core/author/generated_edits.h"
-#include "core/base/number.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
@@ -13,24 +12,17 @@
 
 /* What the command line says. */
 typedef struct Request {
-  char *unit, *frame, *output, *mode, *counts, *svg, *csv, *body;
-  char **regions;
-  gint64 count, seed;
-  SporeSpheresAims aims;
-  double worth, thickness; /* thickness: < 0 where not given; seed too */
+  SporeCliOptions options;
+  char *unit, *frame, *output, *counts, *svg, *csv, *body;
+  double worth, thickness; /* thickness: < 0 where not given */
   gboolean asymmetric;
 } Request;
 
-static gboolean is_aimed(const Request *request) {
-  const SporeSpheresAims *aims = &request->aims;
-  return aims->coverage != 0 || aims->outside != 0 || aims->distance != 0 || aims->depth_error != 0;
-}
-
 static void clear_request(Request *request) {
-  char *const texts[] = {request->unit,   request->frame, request->output, request->mode,
-                         request->counts, request->svg,   request->csv,    request->body};
+  char *const texts[] = {request->unit, request->frame, request->output, request->counts,
+                         request->svg,  request->csv,   request->body};
   for (guint i = 0; i < G_N_ELEMENTS(texts); i++) g_free(texts[i]);
-  g_strfreev(request->regions);
+  spore_cli_options_clear(&request->options);
 }
 
 static void say_solid(SporeCli *cli, const SporeSphereSet *set, const SporeSpheresReport *report) {
@@ -106,7 +98,7 @@ static gboolean make_set(SporeCli *cli, const char *file, const SporeSpheresSour
 static void report_regions(SporeCli *cli, const SporeSpheresOptions *options, const SporeSphereSet *set) {
   spore_cli_open_array(cli, "regions_missed");
   for (gsize i = 0; i < options->region_count; i++) {
-    const SporeSpheresRegion *region = &options->regions[i];
+    const SporeGenerateRegion *region = &options->regions[i];
     gsize s = 0;
     while (s < set->count &&
            !(spore_vec3_distance(spore_vec3_load(set->spheres + 4 * s), spore_vec3_load(region->centre)) <
@@ -124,7 +116,7 @@ static void report_regions(SporeCli *cli, const SporeSpheresOptions *options, co
 
 static void report_set(SporeCli *cli, const SporeSpheresSource *source, const SporeSpheresOptions *options,
                        const SporeSphereSet *set, const SporeSpheresReport *report) {
-  const char *hardest = options->count ? NULL : spore_spheres_hardest_aim(&options->aims, report, NULL);
+  const char *hardest = options->count ? NULL : spore_spheres_hardest_target(&options->targets, report, NULL);
   spore_cli_spheres_members(cli, set->count, report);
   spore_cli_text(cli, "hardest", hardest);
   if (source->sheet) say_sheet(cli, set, report, options->thickness > 0);
@@ -156,33 +148,6 @@ static gboolean write_set(SporeCli *cli, const char *file, const Request *reques
   return done;
 }
 
-/* X,Y,Z,R,FACTOR */
-static gboolean parse_region(const char *text, SporeSpheresRegion *region, GError **error) {
-  double numbers[5];
-  const char *at = text;
-  for (int i = 0; i < 5; i++) {
-    size_t length = spore_number_read(at, strlen(at), &numbers[i]);
-    if (!length || at[length] != (i < 4 ? ',' : '\0'))
-      return spore_error_raise(error, SPORE_ERROR_INPUT, "--region",
-                               _("\"%s\" is no region; expected X,Y,Z,RADIUS,FACTOR with lengths in metres, such as "
-                                 "0,0.02,0,0.01,4; correct it"),
-                               text);
-    at += length + 1;
-  }
-  *region = (SporeSpheresRegion){{numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4]};
-  return TRUE;
-}
-
-static GArray *parse_regions(char **texts, GError **error) {
-  g_autoptr(GArray) regions = g_array_new(FALSE, TRUE, sizeof(SporeSpheresRegion));
-  for (char **text = texts; text && *text; text++) {
-    SporeSpheresRegion region;
-    if (!parse_region(*text, &region, error)) return NULL;
-    g_array_append_val(regions, region);
-  }
-  return g_steal_pointer(&regions);
-}
-
 /* The outputs do not overwrite the input. */
 static gboolean keeps_input(const Request *request, const char *file, GError **error) {
   const char *const outputs[] = {request->output, request->svg, request->csv};
@@ -193,20 +158,17 @@ static gboolean keeps_input(const Request *request, const char *file, GError **e
 
 static gboolean generate(SporeCli *cli, const char *file, const Request *request, GError **error) {
   Read read = {0};
-  g_autoptr(GArray) regions = parse_regions(request->regions, error);
+  SporeSpheresFields fields;
+  const GArray *regions = request->options.regions;
   g_autoptr(GArray) counts = NULL;
-  int mode = request->mode ? spore_cli_choice("--mode", request->mode, spore_spheres_mode_names, error)
-                           : SPORE_SPHERES_BALANCED;
-  if (!regions || mode < 0 || !keeps_input(request, file, error)) return FALSE;
+  if (!keeps_input(request, file, error)) return FALSE;
   if (request->counts && !(counts = spore_cli_counts(request->counts, error))) return FALSE;
-  SporeSpheresOptions options = {.mode = (SporeSpheresMode)mode,
-                                 .count = (size_t)request->count,
-                                 .aims = request->aims,
-                                 .seed = request->seed < 0 ? 1 : (uint64_t)request->seed,
-                                 .regions = (const SporeSpheresRegion *)(gconstpointer)regions->data,
-                                 .region_count = regions->len,
-                                 .asymmetric = request->asymmetric,
-                                 .thickness = fmax(request->thickness, 0)};
+  spore_parameters_set_initial(&request->options.table, &fields);
+  spore_cli_options_fill(&request->options, &fields);
+  SporeSpheresOptions options =
+      spore_edit_spheres_options(&fields, (const SporeGenerateRegion *)(gconstpointer)regions->data, regions->len);
+  options.asymmetric = request->asymmetric;
+  options.thickness = fmax(request->thickness, 0);
   gboolean done = read_source(cli, file, request, &read, error);
   if (done && counts)
     done = spore_cli_spheres_series(cli, file, &read.source, &options, counts, request->worth, request->svg,
@@ -216,42 +178,15 @@ static gboolean generate(SporeCli *cli, const char *file, const Request *request
   return done;
 }
 
-/* What the command line says goes before what the asset asks for. */
-static gboolean override_fields(const Request *request, SporeSpheresFields *fields, GError **error) {
-  int mode = request->mode ? spore_cli_choice("--mode", request->mode, spore_spheres_mode_names, error) : -1;
-  if (request->mode && mode < 0) return FALSE;
-  if (request->mode) fields->method = spore_edit_spheres_method((SporeSpheresMode)mode);
-  if (request->count) fields->count = request->count;
-  if (request->count || is_aimed(request)) {
-    fields->coverage = request->aims.coverage, fields->outside = request->aims.outside;
-    fields->tolerance = request->aims.distance, fields->depth_error = request->aims.depth_error;
-  }
-  if (request->seed >= 0) fields->seed = request->seed;
-  return TRUE;
-}
-
-static gboolean add_regions(SporeSceneBody *scene, char **texts, GError **error) {
-  g_autoptr(GArray) regions = parse_regions(texts, error);
-  for (guint i = 0; regions && i < regions->len; i++) {
-    const SporeSpheresRegion *region = &g_array_index(regions, SporeSpheresRegion, i);
-    if (!spore_cli_add_region(scene, region->centre, region->radius, region->factor, error)) return FALSE;
-  }
-  return regions != NULL;
-}
-
 static gboolean generate_in(SporeCli *cli, const char *file, const Request *request, SporeSceneBody *scene,
                             GError **error) {
   SporeSpheresFields fields;
-  SporeSpheresRegion room[SPORE_GENERATE_REGIONS];
   SporeSphereSet set = {0};
   SporeSpheresReport report = {0};
-  if (!spore_cli_open_body(cli, file, request->body, "spheres", spore_edit_body_spheres, scene, &fields, error) ||
-      !override_fields(request, &fields, error) || !add_regions(scene, request->regions, error))
-    return FALSE;
-  const SporeSpheresOptions options = spore_edit_spheres_options(&fields, scene->regions, scene->region_count, room);
+  if (!spore_cli_open_body(cli, file, request->body, &request->options, scene, &fields, error)) return FALSE;
+  const SporeSpheresOptions options = spore_edit_spheres_options(&fields, scene->regions, scene->region_count);
   const SporeSpheresSource source = {.solid = scene->mesh};
-  const SporeGeneratedFrom from = {spore_object_name(scene->source), scene->source_hash, &fields,
-                                   scene->regions + scene->own_count, scene->region_count - scene->own_count};
+  const SporeGeneratedFrom from = spore_cli_generated_from(scene, &fields);
   gboolean done = make_set(cli, file, &source, &options, &set, &report, error) &&
                   spore_edit_use_spheres(scene->document, scene->body, &from, &set, error);
   if (done) {
@@ -286,12 +221,12 @@ static int check_request(const Request *request, gboolean scene) {
   if (!scene && request->body)
     return spore_cli_usage(_("spore spheres: --body is for scenes; expected a file F.spore with it; leave it out"));
   if (scene && check_scene(request) != SPORE_EXIT_DONE) return SPORE_EXIT_INPUT;
-  int ways = (request->count != 0) + is_aimed(request) + (request->counts != NULL);
-  if (request->count < 0 || request->count > SPORE_SPHERES_MAXIMUM || (scene ? ways > 1 : ways != 1))
+  int ways = (spore_cli_options_way(&request->options) >= 0) + (request->counts != NULL);
+  g_autofree char *all = spore_cli_options_ways(&request->options);
+  if (scene ? ways > 1 : ways != 1)
     return spore_cli_usage(_("spore spheres: neither a number of spheres nor what they are to reach is given, or both; "
-                             "expected either --count 1 to %d, --counts with several of those, or one or several of "
-                             "--coverage, --outside, --tolerance and --depth-error; give one of them"),
-                           SPORE_SPHERES_MAXIMUM);
+                             "expected one of %s, or --counts with several numbers; give one of them"),
+                           all);
   if (!request->counts && (request->svg || request->csv))
     return spore_cli_usage(_("spore spheres: --svg and --csv show several numbers of spheres; expected --counts with "
                              "them; give it"));
@@ -335,19 +270,8 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
       1,
       1,
       members};
-  Request r = {.seed = -1, .thickness = -1, .worth = SPORE_SPHERES_WORTH};
+  Request r = {.thickness = -1, .worth = SPORE_SPHERES_WORTH};
   const GOptionEntry entries[] = {
-      {"count", 'n', 0, G_OPTION_ARG_INT64, &r.count, N_("Number of spheres"), "N"},
-      {"coverage", 0, 0, G_OPTION_ARG_DOUBLE, &r.aims.coverage,
-       N_("Instead of a number: share of the inside that has to lie in spheres, below 1. As few spheres are made as "
-          "reach that and what the next three ask for; each may be left out"),
-       "C"},
-      {"outside", 0, 0, G_OPTION_ARG_DOUBLE, &r.aims.outside,
-       N_("Most volume of the spheres outside, of the mesh's volume"), "V"},
-      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &r.aims.distance, N_("Most distance on average, of the diagonal"),
-       "D"},
-      {"depth-error", 0, 0, G_OPTION_ARG_DOUBLE, &r.aims.depth_error,
-       N_("Most error of the depth, of the largest depth"), "E"},
       {"counts", 0, 0, G_OPTION_ARG_STRING, &r.counts, N_("Measure sets of several numbers of spheres"), "N,N,..."},
       {"svg", 0, 0, G_OPTION_ARG_FILENAME, &r.svg, N_("With --counts: plot of error against number and time"), "F.svg"},
       {"csv", 0, 0, G_OPTION_ARG_FILENAME, &r.csv, N_("With --counts: table of the same"), "F.csv"},
@@ -355,15 +279,6 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
        N_("With --counts: what twice as many spheres have to take off the depth error to pay, of the largest depth "
           "(default 0.01)"),
        "D"},
-      {"mode", 'm', 0, G_OPTION_ARG_STRING, &r.mode,
-       N_("What the spheres are to be good at: balanced (default) fits the depth inside; bounding covers all of the "
-          "mesh, with little outside; weighted gives them weights whose sum fits the depth more closely; "
-          "directions in light contact are truer with balanced"),
-       "MODE"},
-      {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &r.regions,
-       N_("About FACTOR times as many spheres within R metres of a place, less where R is small (several may be "
-          "given)"),
-       "X,Y,Z,R,FACTOR"},
       {"asymmetric", 0, 0, G_OPTION_ARG_NONE, &r.asymmetric, N_("Leave out that a symmetric mesh gets a symmetric set"),
        NULL},
       {"thickness", 0, 0, G_OPTION_ARG_DOUBLE, &r.thickness,
@@ -372,13 +287,13 @@ int spore_command_spheres(SporeCli *cli, int argc, char **argv) {
        "D"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &r.unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &r.frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
-      {"seed", 0, 0, G_OPTION_ARG_INT64, &r.seed, N_("Seed: the same one gives the same spheres (default 1)"), "N"},
       SPORE_SCENE_BODY_ENTRY(&r.body),
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &r.output, N_("File to write, x y z r a line, with weights x y z r w"),
        "F.spheres"},
       G_OPTION_ENTRY_NULL};
   GError *error = NULL;
-  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  int status = spore_cli_options_parse(&r.options, cli, &spore_generator_spheres, "n=count t=tolerance m=method", &info,
+                                       entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) status = check_request(&r, spore_cli_is_scene(argv[1]));
   if (status == SPORE_EXIT_DONE)
     status = generate_any(cli, argv[1], &r, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);

@@ -3,7 +3,7 @@
 #define SPORE_APP_CLI_SPHERES_SERIES_H
 
 #include "app/cli/cli.h"
-#include "core/generate/spheres_series.h"
+#include "core/generate/spheres/spheres.h"
 
 /* "16,32,64" as an array of size_t, ascending; NULL with a GError. */
 GArray *spore_cli_counts(const char *text, GError **error);

@@ -1,11 +1,10 @@
 /* spore surface: the surface that a net is made of, from any surface. */
 #include <glib/gi18n.h>
-#include <math.h>
 
 #include "app/cli/scene_body.h"
 #include "app/cli/surface_wall.h"
 #include "core/author/generated_edits.h"
-#include "core/generate/surface.h"
+#include "core/generate/surface/surface.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/schema_fields.h"
@@ -92,31 +91,13 @@ static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *s
   return done;
 }
 
-/* What the command line says goes before what the asset asks for. */
-static void override_fields(const SporeSimplifyOptions *options, const SporeWallOptions *wall,
-                            SporeMeshFields *fields) {
-  if (options->vertices > 0 || options->size > 0) {
-    fields->nodes = (int64_t)options->vertices;
-    fields->size = options->size;
-  }
-  if (fabs(options->keep_angle - SPORE_SIMPLIFY_KEEP_ANGLE) > 1e-9) /* not the default */
-    fields->keep_angle = options->keep_angle * 180 / G_PI;
-  if (wall->thickness > 0) fields->wall = wall->thickness;
-  if (wall->detail > 0) fields->wall_detail = wall->detail;
-}
-
-/* As SporeSurfaceUse. */
-static const char *const purposes[] = {"model", "visual_mesh", "asset", NULL};
-
 /* Of what a body of a scene shows, and for it. */
-static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeSimplifyOptions *asked,
-                        const SporeWallOptions *asked_wall, const char *as, SporeSceneBody *scene, GError **error) {
+static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *asked,
+                        SporeSceneBody *scene, GError **error) {
   SporeMeshFields fields;
   SporeTriangleMesh mesh = {0};
-  int use = as ? spore_cli_choice("--as", as, purposes, error) : -1;
-  if ((as && use < 0) || !spore_cli_open_body(cli, file, body, "mesh", spore_edit_body_surface, scene, &fields, error))
-    return FALSE;
-  override_fields(asked, asked_wall, &fields);
+  int use = asked->purpose; /* as SporeSurfaceUse */
+  if (!spore_cli_open_body(cli, file, body, asked, scene, &fields, error)) return FALSE;
   if (use < 0) use = fields.wall > 0 ? SPORE_SURFACE_SHOWN : SPORE_SURFACE_MODEL;
   const SporeSimplifyOptions options = spore_edit_surface_options(&fields);
   const SporeWallOptions wall = {.thickness = fields.wall, .detail = fields.wall_detail};
@@ -124,25 +105,23 @@ static gboolean make_in(SporeCli *cli, const char *file, const char *body, const
     return spore_error_raise(error, SPORE_ERROR_INPUT, file,
                              _("neither number of nodes nor size is known; expected --nodes, --size or --wall; give "
                                "one of them"));
-  const SporeGeneratedFrom from = {
-      .source = spore_object_name(scene->source), .source_hash = scene->source_hash, .fields = &fields};
+  const SporeGeneratedFrom from = spore_cli_generated_from(scene, &fields);
   gboolean done = make(cli, from.source, scene->mesh, &options, &wall, &mesh, error) &&
                   spore_edit_use_surface(scene->document, scene->body, &from, &mesh, (SporeSurfaceUse)use, error);
   spore_triangle_mesh_clear(&mesh);
   return done && spore_cli_save_body(cli, scene, file, error);
 }
 
-static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeSimplifyOptions *options,
-                       const SporeWallOptions *wall, const char *as) {
+static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *options) {
   GError *error = NULL;
   SporeSceneBody scene = {0};
-  gboolean done = make_in(cli, file, body, options, wall, as, &scene, &error);
+  gboolean done = make_in(cli, file, body, options, &scene, &error);
   spore_cli_close_body(&scene);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
 /* A scene says unit and axes, and takes the result itself. */
-static int check_scene(gboolean scene, const char *body, const char *as, gboolean others) {
+static int check_scene(gboolean scene, const char *body, gboolean as, gboolean others) {
   if (!scene && (body || as))
     return spore_cli_usage(
         _("spore surface: --body and --as are for scenes; expected a file F.spore with them; leave them out"));
@@ -153,41 +132,38 @@ static int check_scene(gboolean scene, const char *body, const char *as, gboolea
   return SPORE_EXIT_DONE;
 }
 
-static int generate(SporeCli *cli, const char *file, const SporeSimplifyOptions *options, const char *unit,
-                    const char *frame, const SporeWallOptions *wall) {
+/* files: to write; what the command line says of the wall is put beside them. */
+static int generate(SporeCli *cli, const char *file, const SporeCliOptions *asked, const char *unit, const char *frame,
+                    const SporeWallOptions *files) {
+  SporeMeshFields fields;
+  spore_parameters_set_initial(&asked->table, &fields);
+  if (spore_cli_options_way(asked) < 0) fields.nodes = 0; /* a wall alone: the surface stays as it is */
+  spore_cli_options_fill(asked, &fields);
+  const SporeSimplifyOptions options = spore_edit_surface_options(&fields);
+  const SporeWallOptions whole = {fields.wall, fields.wall_detail, files->wall, files->inner}, *wall = &whole;
   GError *error = NULL;
   SporeTriangleMesh surface = {0};
   gboolean done = (!wall->wall || spore_cli_has_room(wall->wall, file, &error)) &&
                   (!wall->inner || spore_cli_has_room(wall->inner, file, &error)) &&
                   spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
-                  make(cli, file, &surface, options, wall, NULL, &error);
+                  make(cli, file, &surface, &options, wall, NULL, &error);
   spore_triangle_mesh_clear(&surface);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
 /* SPORE_EXIT_DONE where the options can be meant. */
-static int check_options(gint64 nodes, double size, double keep_angle_deg, const SporeWallOptions *wall,
-                         gboolean scene) {
-  gboolean walled = wall->thickness > 0 && isfinite(wall->thickness), sized = size > 0 && isfinite(size);
-  if (wall->thickness != 0 && !walled)
-    return spore_cli_usage(_("--wall %g: not a thickness; expected metres above 0, such as 0.003"), wall->thickness);
-  if (nodes < 0 || nodes > SPORE_MESH_MAXIMUM || (nodes > 0 && sized) ||
-      (nodes == 0 && !sized && !walled && (!scene || size != 0)))
-    return spore_cli_usage(_("spore surface: neither number of nodes nor size is one; expected either --nodes 1 to %u "
-                             "or --size in metres above 0, or a --wall in metres; give one of them"),
+static int check_options(const SporeCliOptions *options, const SporeWallOptions *wall, gboolean scene) {
+  gboolean walled = spore_cli_options_number(options, "wall") > 0;
+  if (!scene && !walled && spore_cli_options_way(options) < 0)
+    return spore_cli_usage(_("spore surface: nothing is asked for; expected either --nodes 1 to %u or --size in metres "
+                             "above 0, or a --wall in metres; give one of them"),
                            SPORE_MESH_MAXIMUM);
-  if (wall->detail < 0 || wall->detail > SPORE_MOST_WALL_DETAIL || (wall->detail && !walled))
-    return spore_cli_usage(
-        _("--detail %lld: not how near a wall can be; expected 1 to %d, with a --wall; give both, such "
-          "as 32"),
-        (long long)wall->detail, SPORE_MOST_WALL_DETAIL);
+  if (spore_cli_options_has(options, "wall_detail") && !walled)
+    return spore_cli_usage(_("spore surface: --wall-detail says how near a wall is to its thickness; expected a --wall "
+                             "with it; give both"));
   if (wall->inner && !walled)
     return spore_cli_usage(
         _("--inner %s: there is no inner surface; expected a --wall to have one; give its thickness"), wall->inner);
-  if (!(keep_angle_deg > 0 && keep_angle_deg <= 360))
-    return spore_cli_usage(_("--keep-angle %g: not an angle to keep; expected above 0 to 360 degrees; 60 keeps the "
-                             "edges of a box, 360 none"),
-                           keep_angle_deg);
   const char *const files[] = {wall->wall, wall->inner};
   for (gsize i = 0; i < G_N_ELEMENTS(files); i++)
     if (files[i] && !spore_surface_formatter(files[i]))
@@ -232,45 +208,29 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
       1,
       1,
       members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *inner = NULL, *body = NULL, *as = NULL;
-  gint64 nodes = 0, detail = 0;
-  double size = 0, thickness = 0, keep_angle_deg = SPORE_SIMPLIFY_KEEP_ANGLE * 180 / G_PI;
+  char *unit = NULL, *frame = NULL, *output = NULL, *inner = NULL, *body = NULL;
   const GOptionEntry entries[] = {
-      {"nodes", 'n', 0, G_OPTION_ARG_INT64, &nodes, N_("Number of nodes at most"), "N"},
-      {"size", 's', 0, G_OPTION_ARG_DOUBLE, &size, N_("Edge length, m, instead: as many nodes as that takes"), "D"},
-      {"keep-angle", 'k', 0, G_OPTION_ARG_DOUBLE, &keep_angle_deg,
-       N_("Keep edges at which the surface turns by more (degrees, default 60; 360: none)"), "DEG"},
-      {"wall", 'w', 0, G_OPTION_ARG_DOUBLE, &thickness,
-       N_("Make the organ hollow, with a wall of this thickness, m; -o takes the wall as one closed surface"), "M"},
-      {"detail", 'd', 0, G_OPTION_ARG_INT64, &detail,
-       N_("How near the wall is to its thickness: twice as much halves the largest error, in more triangles (default "
-          "16: below 5 %)"),
-       "N"},
       {"inner", 'i', 0, G_OPTION_ARG_FILENAME, &inner, N_("File to write the lumen's surface to: .off or .obj"), "F"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       SPORE_SCENE_BODY_ENTRY(&body),
-      {"as", 'a', 0, G_OPTION_ARG_STRING, &as,
-       N_("Of a scene, what the body gets: model (default), what its model is made of; visual_mesh (default with a "
-          "wall), what it shows and generators start from; asset: nothing of it changes"),
-       "USE"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &output, N_("File to write, in metres: .off or .obj"), "F"},
       G_OPTION_ENTRY_NULL};
-  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  const SporeWallOptions wall = {thickness, detail, output, inner};
+  g_auto(SporeCliOptions) options = {0};
+  int status =
+      spore_cli_options_parse(&options, cli, &spore_generator_surface,
+                              "n=nodes s=size k=keep_angle w=wall d=wall_detail", &info, entries, &argc, &argv);
+  const SporeWallOptions files = {.wall = output, .inner = inner};
   gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
-  if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, as, unit || frame || inner || output);
-  if (status == SPORE_EXIT_DONE) status = check_options(nodes, size, keep_angle_deg, &wall, scene);
-  if (status == SPORE_EXIT_DONE) {
-    SporeSimplifyOptions options = {(size_t)nodes, size, keep_angle_deg * G_PI / 180};
-    status = scene ? generate_in(cli, argv[1], body, &options, &wall, as)
-                   : generate(cli, argv[1], &options, unit, frame, &wall);
-  }
+  if (status == SPORE_EXIT_DONE)
+    status = check_scene(scene, body, options.purpose >= 0, unit || frame || inner || output);
+  if (status == SPORE_EXIT_DONE) status = check_options(&options, &files, scene);
+  if (status == SPORE_EXIT_DONE)
+    status = scene ? generate_in(cli, argv[1], body, &options) : generate(cli, argv[1], &options, unit, frame, &files);
   g_free(unit);
   g_free(frame);
   g_free(output);
   g_free(inner);
   g_free(body);
-  g_free(as);
   return status;
 }

@@ -2,7 +2,7 @@
 
 #include <glib/gi18n.h>
 
-#include "core/generate/wall.h"
+#include "core/generate/surface/surface.h"
 #include "core/io/scene_xml.h"
 
 static void report(SporeCli *cli, const SporeTriangleMesh *inner, const SporeWallOptions *options,

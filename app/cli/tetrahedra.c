@@ -1,11 +1,11 @@
 /* spore tetrahedra: a tetrahedral mesh in a surface. */
 #include <glib/gi18n.h>
-#include <math.h>
 
+#include "app/cli/generate.h"
 #include "app/cli/scene_body.h"
 #include "app/cli/tetrahedra_labels.h"
 #include "core/author/generated_edits.h"
-#include "core/generate/tetrahedra_remarks.h"
+#include "core/generate/tetrahedra/tetrahedra.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
@@ -59,7 +59,7 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   spore_cli_number(cli, "filled_m3", report->filled);
   spore_cli_count(cli, "pieces", (gint64)report->pieces);
   spore_cli_count(cli, "pieces_given", (gint64)report->pieces_given);
-  spore_cli_number(cli, "crumbs", report->crumbs);
+  spore_cli_number(cli, "crumbs", report->small_components);
   spore_cli_text(cli, "method", method);
   report_refused(cli, report);
   spore_cli_number(cli, "seconds", report->seconds);
@@ -73,108 +73,54 @@ static void report(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeT
   spore_cli_say(cli, "%s", remarks);
 }
 
-static int generate(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,
-                    const char *frame, const char *output) {
+static int generate(SporeCli *cli, const char *file, const SporeCliOptions *asked, const char *unit, const char *frame,
+                    const char *output) {
+  SporeTetrahedraFields fields;
+  spore_parameters_set_initial(&asked->table, &fields);
+  spore_cli_options_fill(asked, &fields);
+  const SporeTetrahedraOptions options = spore_edit_tetrahedra_options(
+      &fields, (const SporeGenerateRegion *)(gconstpointer)asked->regions->data, asked->regions->len);
   GError *error = NULL;
   SporeTriangleMesh surface = {0};
   SporeTetrahedralMesh mesh = {0};
   SporeTetrahedraReport figures = {0};
-  gboolean done = spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
-                  spore_tetrahedra_from_mesh(file, &surface, options, &mesh, &figures, spore_cli_progress(cli), &error);
+  gboolean done =
+      spore_cli_read_mesh(cli, file, unit, frame, &surface, NULL, NULL, NULL, &error) &&
+      spore_tetrahedra_from_mesh(file, &surface, &options, &mesh, &figures, spore_cli_progress(cli), &error);
   if (done && output) {
     gsize size = 0;
     g_autofree char *text = formatter_of(output)(&mesh, &size);
     done = spore_write_file(output, text, size, &error);
   }
-  if (done) report(cli, &mesh, options, &figures);
+  if (done) report(cli, &mesh, &options, &figures);
   spore_triangle_mesh_clear(&surface);
   spore_tetrahedral_mesh_clear(&mesh);
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* X,Y,Z,R,SIZE in metres. */
-static gboolean parse_region(const char *text, SporeTetrahedraRegion *region) {
-  double number[5];
-  const char *at = text;
-  for (int i = 0; i < 5; i++) {
-    char *end;
-    number[i] = g_ascii_strtod(at, &end);
-    if (end == at || *end != (i < 4 ? ',' : '\0')) return FALSE;
-    at = end + 1;
-  }
-  *region = (SporeTetrahedraRegion){{number[0], number[1], number[2]}, number[3], number[4]};
-  return isfinite(number[0]) && isfinite(number[1]) && isfinite(number[2]) && number[3] > 0 && isfinite(number[3]) &&
-         number[4] > 0 && isfinite(number[4]);
-}
-
-static int parse_regions(char **texts, SporeTetrahedraRegion *regions, SporeTetrahedraOptions *options) {
-  for (gsize i = 0; texts && texts[i]; i++) {
-    if (i == SPORE_TETRAHEDRA_REGIONS)
-      return spore_cli_usage(_("--region is given too often; expected at most %d times; give fewer"),
-                             SPORE_TETRAHEDRA_REGIONS);
-    if (!parse_region(texts[i], regions + i))
-      return spore_cli_usage(
-          _("--region %s: this is no region; expected X,Y,Z,R,SIZE in metres, R and SIZE above 0, as "
-            "0.1,0,0.05,0.02,0.001"),
-          texts[i]);
-    options->region_count = i + 1;
-  }
-  options->regions = regions;
-  return SPORE_EXIT_DONE;
-}
-
-/* What the command line says goes before what the asset asks for. */
-static void override_fields(const SporeTetrahedraOptions *options, SporeTetrahedraFields *fields) {
-  if (options->cells > 0) fields->cells = (int64_t)options->cells;
-  if (options->cells > 0 || options->size > 0) fields->size = options->size;
-  if (options->tolerance > 0) fields->tolerance = options->tolerance;
-  if (options->curvature > 0) fields->curvature = options->curvature;
-  if (options->gap > 0) fields->gap = options->gap;
-  if (options->method != SPORE_TETRAHEDRA_METHODS) fields->method = (int)options->method + 1;
-  fields->fill = fields->fill || options->fill;
-}
-
-static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeTetrahedraOptions *asked,
-                        SporeSceneBody *scene, GError **error) {
-  SporeTetrahedraFields fields;
-  SporeTetrahedraRegion room[SPORE_GENERATE_REGIONS];
-  SporeTetrahedralMesh mesh = {0};
-  SporeTetrahedraReport figures = {0};
-  gboolean done = spore_cli_open_body(cli, file, body, "tetrahedra", spore_edit_body_tetrahedra, scene, &fields, error);
-  for (gsize i = 0; done && i < asked->region_count; i++)
-    done =
-        spore_cli_add_region(scene, asked->regions[i].centre, asked->regions[i].radius, asked->regions[i].size, error);
-  if (!done) return FALSE;
-  override_fields(asked, &fields);
+static void report_work(SporeCli *cli, const SporeGenerateWork *work) {
   const SporeTetrahedraOptions options =
-      spore_edit_tetrahedra_options(&fields, scene->regions, scene->region_count, room);
-  const SporeGeneratedFrom from = {spore_object_name(scene->source), scene->source_hash, &fields,
-                                   scene->regions + scene->own_count, scene->region_count - scene->own_count};
-  done =
-      spore_tetrahedra_from_mesh(from.source, scene->mesh, &options, &mesh, &figures, spore_cli_progress(cli), error) &&
-      spore_edit_use_tetrahedra(scene->document, scene->body, &from, &mesh, error);
-  if (done) report(cli, &mesh, &options, &figures);
-  spore_tetrahedral_mesh_clear(&mesh);
-  return done && spore_cli_save_body(cli, scene, file, error);
+      spore_edit_tetrahedra_options(&work->options.fields.tetrahedra, work->regions, work->region_count);
+  report(cli, &work->tetrahedra, &options, &work->tetrahedra_report);
 }
 
 /* Of what a body of a scene shows, and for it. */
-static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeTetrahedraOptions *options) {
+static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *options) {
   GError *error = NULL;
-  SporeSceneBody scene = {0};
-  gboolean done = make_in(cli, file, body, options, &scene, &error);
-  spore_cli_close_body(&scene);
-  return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
+  return spore_cli_generate(cli, options, file, body, report_work, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE)
+                                                                           : spore_cli_fail(error);
 }
 
 /* Of a label map, which says its own unit and axes. */
-static int generate_labels(SporeCli *cli, const char *file, GBytes *content, const SporeTetrahedraOptions *options,
+static int generate_labels(SporeCli *cli, const char *file, GBytes *content, const SporeCliOptions *options,
                            const char *labels, const char *output) {
+  SporeTetrahedraFields fields;
+  spore_parameters_set_initial(&options->table, &fields);
+  spore_cli_options_fill(options, &fields);
   GError *error = NULL;
   SporeTetrahedralMesh mesh = {0};
   SporeLabelTetrahedraReport figures = {0};
-  gboolean done =
-      spore_cli_label_tetrahedra(cli, file, content, labels, options->cells, options->size, &mesh, &figures, &error);
+  gboolean done = spore_cli_label_tetrahedra(cli, file, content, labels, &fields, &mesh, &figures, &error);
   gsize size = 0, bytes_size;
   const void *bytes = g_bytes_get_data(content, &bytes_size);
   g_autoptr(GHashTable) names = spore_label_map_names(bytes, bytes_size);
@@ -182,9 +128,10 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
   if (done && output && spore_cli_is_scene(output)) {
     const SporeLabelBodies organs = {.file = file,
                                      .content = bytes_size <= SPORE_LABEL_MAP_KEPT ? content : NULL,
+                                     .fields = &fields,
                                      .mesh = &mesh,
                                      .use = SPORE_LABELS_LINKED};
-    done = spore_cli_save_labels(cli, output, &organs, options->cells, options->size, &figures, names, &error);
+    done = spore_cli_save_labels(cli, output, &organs, &figures, names, &error);
   } else if (done && output) {
     g_autofree char *text = formatter_of(output)(&mesh, &size);
     done = spore_write_file(output, text, size, &error);
@@ -195,7 +142,7 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
 }
 
 /* Of a surface or a label map, whichever the file is. */
-static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOptions *options, const char *unit,
+static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *options, const char *unit,
                         const char *frame, const char *labels, const char *output) {
   GError *error = NULL;
   if (output && !(spore_cli_is_scene(output) ? spore_cli_keeps : spore_cli_has_room)(output, file, &error))
@@ -209,11 +156,9 @@ static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOp
   if (is_map && (unit || frame))
     return spore_cli_usage(_("spore tetrahedra: --unit and --frame are for surfaces; a label map says both in its "
                              "header; leave them out"));
-  if (is_map && (options->method != SPORE_TETRAHEDRA_METHODS || options->tolerance > 0 || options->curvature > 0 ||
-                 options->fill || options->gap > 0 || options->region_count > 0))
-    return spore_cli_usage(_("spore tetrahedra: --method, --tolerance, --curvature, --region, --fill and --gap are for "
-                             "surfaces; %s is a label map; leave them out"),
-                           file);
+  g_autofree char *foreign = is_map ? spore_cli_options_foreign(options, &spore_generator_labels) : NULL;
+  if (foreign)
+    return spore_cli_usage(_("spore tetrahedra: %s is for surfaces; %s is a label map; leave it out"), foreign, file);
   if (is_map) return generate_labels(cli, file, content, options, labels, output);
   if (output && spore_cli_is_scene(output))
     return spore_cli_usage(_("-o %s: a scene is made of a label map, and %s is a surface; expected a name ending in "
@@ -224,20 +169,12 @@ static int generate_any(SporeCli *cli, const char *file, const SporeTetrahedraOp
 }
 
 /* What the options must be; prints its own message. scene: the asset says what is not given. */
-static int check(const SporeTetrahedraOptions *options, gint64 cells, const char *output, gboolean scene) {
-  gboolean both = cells != 0 && options->size != 0, none = cells == 0 && !(options->size > 0);
-  if (cells < 0 || cells > SPORE_TETRAHEDRA_CELLS || both || (none && (!scene || options->size != 0)))
-    return spore_cli_usage(_("spore tetrahedra: neither number of cells nor size is one; expected either --cells 1 to "
-                             "%u or --size in metres above 0; give one of them"),
-                           SPORE_TETRAHEDRA_CELLS);
-  if (options->curvature != 0 && !(options->curvature >= 5 && options->curvature <= 90))
-    return spore_cli_usage(_("--curvature %g: out of range; expected 5 to 90 degrees; give such a number"),
-                           options->curvature);
-  if (!(options->tolerance >= 0 && options->tolerance < 1))
-    return spore_cli_usage(_("--tolerance %g: out of range; expected a share of the diagonal from 0 to 1"),
-                           options->tolerance);
-  if (!(options->gap >= 0 && isfinite(options->gap)))
-    return spore_cli_usage(_("--gap %g: out of range; expected a length in metres, 0 or more"), options->gap);
+static int check(const SporeCliOptions *options, const char *output, gboolean scene) {
+  if (!scene && spore_cli_options_way(options) < 0)
+    return spore_cli_usage(
+        _("spore tetrahedra: neither number of cells nor size is given; expected either --cells 1 to "
+          "%u or --size in metres above 0; give one of them"),
+        SPORE_TETRAHEDRA_CELLS);
   if (output && !formatter_of(output) && !spore_cli_is_scene(output))
     return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .vtu, .msh or .mesh, or in "
                              ".spore for the organs of a label map"),
@@ -294,25 +231,8 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
                                         1,
                                         1,
                                         members};
-  char *unit = NULL, *frame = NULL, *output = NULL, *method = NULL, *labels = NULL, *body = NULL, **regions = NULL;
-  gint64 cells = 0;
-  SporeTetrahedraOptions options = {.method = SPORE_TETRAHEDRA_METHODS};
+  char *unit = NULL, *frame = NULL, *output = NULL, *labels = NULL, *body = NULL;
   const GOptionEntry entries[] = {
-      {"cells", 'n', 0, G_OPTION_ARG_INT64, &cells, N_("Number of tetrahedra, about"), "N"},
-      {"size", 's', 0, G_OPTION_ARG_DOUBLE, &options.size, N_("Edge length, m"), "D"},
-      {"tolerance", 't', 0, G_OPTION_ARG_DOUBLE, &options.tolerance,
-       N_("Distance to the surface wanted, of the diagonal: with --cells, they get finer where it is larger (default "
-          "0.01)"),
-       "D"},
-      {"curvature", 'c', 0, G_OPTION_ARG_DOUBLE, &options.curvature,
-       N_("Finer where the surface bends: by at most so many degrees an edge, 5 to 90"), "DEGREES"},
-      {"region", 'r', 0, G_OPTION_ARG_STRING_ARRAY, &regions,
-       N_("Edges of length SIZE in the ball about X,Y,Z, all in m; may be repeated"), "X,Y,Z,R,SIZE"},
-      {"method", 'm', 0, G_OPTION_ARG_STRING, &method,
-       N_("direct, repaired, wrapped or voxels (default: the first that does it)"), "METHOD"},
-      {"fill", 0, 0, G_OPTION_ARG_NONE, &options.fill, N_("Fills cavities"), NULL},
-      {"gap", 'g', 0, G_OPTION_ARG_DOUBLE, &options.gap,
-       N_("Closes openings narrower than this, m, by wrapping: with --fill, the lumen behind them is filled too"), "D"},
       {"unit", 'u', 0, G_OPTION_ARG_STRING, &unit, N_("Unit of the mesh: m, cm, mm, um, in (default m)"), "UNIT"},
       {"frame", 'f', 0, G_OPTION_ARG_STRING, &frame, N_("Axes of the mesh: Y_UP, RAS, LPS"), "FRAME"},
       {"labels", 'l', 0, G_OPTION_ARG_STRING, &labels, N_("Labels wanted of a label map (default: all above 0)"),
@@ -324,19 +244,13 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
           "joined by seams where they share faces"),
        "F"},
       G_OPTION_ENTRY_NULL};
-  SporeTetrahedraRegion balls[SPORE_TETRAHEDRA_REGIONS];
-  GError *error = NULL;
-  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
-  int chosen = method && status == SPORE_EXIT_DONE
-                   ? spore_cli_choice("--method", method, spore_tetrahedra_method_names, &error)
-                   : SPORE_TETRAHEDRA_METHODS;
-  if (error) status = spore_cli_fail(error);
-  options.method = (SporeTetrahedraMethod)chosen;
-  if (status == SPORE_EXIT_DONE) status = parse_regions(regions, balls, &options);
+  g_auto(SporeCliOptions) options = {0};
+  int status =
+      spore_cli_options_parse(&options, cli, &spore_generator_tetrahedra,
+                              "n=cells s=size t=tolerance c=curvature m=method g=gap", &info, entries, &argc, &argv);
   gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
   if (status == SPORE_EXIT_DONE) status = check_scene(scene, body, unit || frame || labels || output);
-  if (status == SPORE_EXIT_DONE) status = check(&options, cells, output, scene);
-  options.cells = (size_t)MAX(cells, 0);
+  if (status == SPORE_EXIT_DONE) status = check(&options, output, scene);
   if (status == SPORE_EXIT_DONE)
     status = scene ? generate_in(cli, argv[1], body, &options)
                    : generate_any(cli, argv[1], &options, unit, frame, labels, output);
@@ -344,8 +258,6 @@ int spore_command_tetrahedra(SporeCli *cli, int argc, char **argv) {
   g_free(unit);
   g_free(frame);
   g_free(output);
-  g_free(method);
   g_free(labels);
-  g_strfreev(regions);
   return status;
 }

@@ -24,30 +24,25 @@ static GArray *read_labels(const char *text, GError **error) {
   return g_steal_pointer(&labels);
 }
 
-gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const char *labels, size_t cells,
-                                    double size, SporeTetrahedralMesh *mesh, SporeLabelTetrahedraReport *report,
-                                    GError **error) {
+gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const char *labels,
+                                    const SporeTetrahedraFields *fields, SporeTetrahedralMesh *mesh,
+                                    SporeLabelTetrahedraReport *report, GError **error) {
   g_autoptr(GArray) wanted = read_labels(labels, error);
   SporeLabelMap map = {0};
   gsize bytes_size;
   const void *bytes = g_bytes_get_data(content, &bytes_size);
   if (!wanted || !spore_label_map_decode(file, bytes, bytes_size, &map, spore_cli_progress(cli), error)) return FALSE;
-  SporeLabelTetrahedraOptions options = {
-      .cells = cells, .size = size, .labels = (const uint16_t *)(const void *)wanted->data, .label_count = wanted->len};
+  SporeLabelTetrahedraOptions options = {.cells = fields->size > 0 ? 0 : (size_t)fields->cells,
+                                         .size = fields->size,
+                                         .labels = (const uint16_t *)(const void *)wanted->data,
+                                         .label_count = wanted->len};
   gboolean done = spore_label_tetrahedra(file, &map, &options, mesh, report, spore_cli_progress(cli), error);
   spore_label_map_clear(&map);
   return done;
 }
 
-static gboolean save(SporeCli *cli, const char *output, SporeLabelBodies *organs, size_t cells, double size,
-                     GError **error) {
+static gboolean save(SporeCli *cli, const char *output, const SporeLabelBodies *organs, GError **error) {
   SporeDocument *document = spore_cli_new_scene(cli, output);
-  const SporeObjectType *assets = spore_object_type(spore_document_section(document, "assets"));
-  SporeTetrahedraFields fields;
-  spore_parameters_set_initial(spore_object_type_child(assets, "tetrahedra")->table, &fields);
-  if (cells) fields.cells = (int64_t)cells;
-  fields.size = size;
-  organs->fields = &fields;
   gboolean done = spore_edit_use_labels(document, organs, error) && spore_cli_make_folder_of(output, error) &&
                   spore_scene_save(document, output, error);
   guint seams = spore_object_child_count(spore_document_section(document, "links"));
@@ -59,9 +54,8 @@ static gboolean save(SporeCli *cli, const char *output, SporeLabelBodies *organs
   return TRUE;
 }
 
-gboolean spore_cli_save_labels(SporeCli *cli, const char *output, const SporeLabelBodies *organs, size_t cells,
-                               double size, const SporeLabelTetrahedraReport *report, GHashTable *names,
-                               GError **error) {
+gboolean spore_cli_save_labels(SporeCli *cli, const char *output, const SporeLabelBodies *organs,
+                               const SporeLabelTetrahedraReport *report, GHashTable *names, GError **error) {
   g_autoptr(GPtrArray) called = g_ptr_array_new_with_free_func(g_free);
   g_autoptr(GArray) labels = g_array_new(FALSE, FALSE, sizeof(guint32));
   for (guint i = 0; i < report->labels->len; i++) {
@@ -75,7 +69,7 @@ gboolean spore_cli_save_labels(SporeCli *cli, const char *output, const SporeLab
   bodies.labels = (const guint32 *)(const void *)labels->data;
   bodies.names = (char *const *)called->pdata;
   bodies.count = labels->len;
-  return save(cli, output, &bodies, cells, size, error);
+  return save(cli, output, &bodies, error);
 }
 
 void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeLabelTetrahedraReport *report,

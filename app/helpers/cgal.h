@@ -7,8 +7,8 @@
 #include <stdint.h>
 
 #include "app/helpers/failure.h"
-#include "core/generate/sizing.h"
-#include "core/generate/tetrahedra_wire.h"
+#include "core/generate/common/sizing.h"
+#include "core/generate/tetrahedra/wire.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,3 +1,4 @@
+/* Edits of a body in one undo step each: its model, presets, a probe, a pin, a property by its path. */
 #include "core/author/edits.h"
 
 #include <glib/gi18n.h>

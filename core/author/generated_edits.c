@@ -1,3 +1,4 @@
+/* What a generator made becomes an asset of a body, which remembers how it was made. */
 #include "core/author/generated_edits.h"
 
 #include <glib/gi18n.h>

@@ -2,8 +2,8 @@
 #ifndef SPORE_AUTHOR_GENERATED_EDITS_H
 #define SPORE_AUTHOR_GENERATED_EDITS_H
 
-#include "core/author/generated_options.h"
-#include "core/generate/centreline_scene.h"
+#include "core/author/generator.h"
+#include "core/author/centreline_body.h"
 #include "core/scene/document.h"
 #include "core/scene/schema_fields.h"
 

@@ -1,3 +1,4 @@
+/* Tetrahedra of a label map become bodies, joined by seams where organs share faces. */
 #include <glib/gi18n.h>
 
 #include "core/io/mesh_import.h"

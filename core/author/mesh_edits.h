@@ -2,7 +2,7 @@
 #ifndef SPORE_AUTHOR_MESH_EDITS_H
 #define SPORE_AUTHOR_MESH_EDITS_H
 
-#include "core/generate/organ_import.h"
+#include "core/author/organ_import.h"
 
 /* Bodies for what was read in `unit`. Returns the first; NULL with an error: nothing was inserted. */
 SporeObject *spore_edit_import(SporeDocument *document, const SporeImport *import, GError **error);

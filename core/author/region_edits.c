@@ -1,3 +1,4 @@
+/* Regions of bodies and generated assets: added, placed, removed and drawn. */
 #include "core/author/region_edits.h"
 
 #include <glib/gi18n.h>
@@ -12,15 +13,6 @@
 #define LEAST_M 1e-4
 #define RING_SEGMENTS 48
 #define NOTHING_M 1e-7 /* what is smaller is rounding */
-
-const char *spore_region_element(const SporeObjectType *holder) {
-  for (guint i = 0; i < holder->children->len; i++) {
-    const SporeObjectType *child = g_ptr_array_index(holder->children, i);
-    if (spore_parameter_find(child->table, "centre") >= 0 && spore_parameter_find(child->table, "radius") >= 0)
-      return child->element;
-  }
-  return NULL;
-}
 
 static gboolean set_numbers(SporeDocument *document, SporeObject *object, const char *property, const double *numbers,
                             gsize count, GError **error) {

@@ -5,8 +5,6 @@
 
 #include "core/scene/document.h"
 
-/* Element of the regions that this kind of object holds: "region" of `regions`; NULL: it holds none. */
-const char *spore_region_element(const SporeObjectType *holder);
 gboolean spore_region_is(const SporeObject *object);
 /* A region in the middle of the body, as wide as a quarter of it. holder: path of the object that it becomes a child
  * of, which may be a unit that its body does not have yet. NULL with an error. */

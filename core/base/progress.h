@@ -5,7 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Where long work reports to. */
+#include "core/base/error.h"
+
 typedef struct SporeProgress {
   /* fraction 0..1; stage: translated, may be NULL. Returns false to cancel. Called often from the working thread. */
   bool (*report)(void *data, double fraction, const char *stage);
@@ -19,6 +20,17 @@ typedef struct SporeProgress {
 static inline bool spore_progress(const SporeProgress *progress, double fraction, const char *stage) {
   return !progress || !progress->report || progress->report(progress->data, fraction, stage);
 }
+
+/* The same for functions that fail with an error. False: cancelled, and *error says so. */
+bool spore_progress_step(const SporeProgress *progress, double fraction, const char *stage, SporeError *error);
+
+/* Part of a longer piece of work: its fractions go to first .. first + share of the whole. */
+typedef struct SporeProgressPart {
+  const SporeProgress *whole; /* or NULL */
+  double first, share;
+} SporeProgressPart;
+/* As spore_progress_step, by the fraction of the part. */
+bool spore_progress_part(const SporeProgressPart *part, double fraction, const char *stage, SporeError *error);
 
 /* A part of some work, with a progress of its own: what it says and shows goes on to that of the whole. */
 typedef struct SporeProgressShare {

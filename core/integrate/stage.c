@@ -7,16 +7,6 @@
 
 #include "core/math/vector.h"
 
-void spore_step_result_add(SporeStepResult *total, const SporeStepResult *part) {
-  total->converged &= part->converged;
-  total->newton_iterations += part->newton_iterations;
-  total->linear_iterations += part->linear_iterations;
-  total->force_evaluations += part->force_evaluations;
-  total->linearisations += part->linearisations;
-  total->unsolved += part->unsolved;
-  if (!(part->residual <= total->residual)) total->residual = part->residual;
-}
-
 #define INNER_TOLERANCE 1e-3 /* of A^-1 r: rougher and the differences learn its error, finer and nothing is gained */
 
 /* The stage as a system in v. */

@@ -154,8 +154,7 @@ static bool fill_all(Filling *f, size_t most_edges, const SporeProgress *progres
   for (size_t i = 0; i < f->halves.count; i++) {
     uint32_t half = f->halves.half[i];
     if (f->twin[half] != OPEN || f->seen[half]) continue;
-    if (!spore_progress(progress, (double)i / (double)f->halves.count, _("filling holes")))
-      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    if (!spore_progress_step(progress, (double)i / (double)f->halves.count, _("filling holes"), error)) return false;
     size_t count = walk(f, half);
     if (count >= 3 && (most_edges == 0 || count <= most_edges)) fill(f, count);
   }

@@ -56,8 +56,7 @@ static void sample_block(Lattice *lattice, const size_t from[3], SporeDistanceFi
 }
 
 static bool go_on(const SporeProgress *progress, double fraction, SporeError *error) {
-  return spore_progress(progress, fraction, _("sampling the depth")) ||
-         spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+  return spore_progress_step(progress, fraction, _("sampling the depth"), error);
 }
 
 static bool sample(Lattice *lattice, SporeDistanceField field, void *data, const SporeProgress *progress,

@@ -203,8 +203,9 @@ static bool refine_once(SporeIsosurfaceCells *cells, double tolerance, bool *cha
   cells->pass++;
   for (size_t i = 0, count = cells->cell_count; i < count; i++) {
     SporeIsosurfaceCell *cell = &cells->cells[i];
-    if (i % CELLS_A_REPORT == 0 && !spore_progress(progress, fraction, _("refining where the surface is off")))
-      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    if (i % CELLS_A_REPORT == 0 &&
+        !spore_progress_step(progress, fraction, _("refining where the surface is off"), error))
+      return false;
     if (!cell->tag || cell->settled || cell->level >= MOST_LEVEL) continue;
     cell->settled = !is_off(cells, cell, tolerance);
     if (cell->settled) continue;

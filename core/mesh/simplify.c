@@ -258,9 +258,9 @@ static bool collapse_to(Collapser *work, size_t vertices, const SporeProgress *p
     if (next.stamp != work->stamp[next.a] + work->stamp[next.b]) continue;
     if (!collapse(work, &next)) return spore_mesh_no_memory(error);
     if (step++ % STEPS_A_REPORT == 0 &&
-        !spore_progress(progress, 0.5 * (double)(from - work->shell->live) / (double)(from - vertices),
-                        _("collapsing edges")))
-      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+        !spore_progress_step(progress, 0.5 * (double)(from - work->shell->live) / (double)(from - vertices),
+                             _("collapsing edges"), error))
+      return false;
   }
   return true;
 }

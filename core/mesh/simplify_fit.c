@@ -148,8 +148,7 @@ static bool fit_rounds(Fit *fit, const SporeProgress *progress, SporeError *erro
   double best = HUGE_VAL;
   size_t size = 3 * fit->shell->vertex_count * sizeof(double);
   for (int round = 0, idle = 0; round < ROUNDS && idle < IDLE; round++) {
-    if (!spore_progress(progress, (double)round / ROUNDS, _("lowering the largest distance")))
-      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    if (!spore_progress_step(progress, (double)round / ROUNDS, _("lowering the largest distance"), error)) return false;
     fit->gap_count = 0;
     if (!add_gaps_to(fit, error)) return false;
     add_gaps_from(fit);

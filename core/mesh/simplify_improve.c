@@ -136,8 +136,7 @@ bool spore_shell_improve(SporeShell *shell, const SporeQuadric *quadric, SporeSh
   double far = FAR * typical_distance(shell, quadric);
   bool room = true;
   for (int round = 0; room && round < ROUNDS; round++) {
-    if (!spore_progress(progress, 0.5 + 0.5 * round / ROUNDS, _("widening angles")))
-      return spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    if (!spore_progress_step(progress, 0.5 + 0.5 * round / ROUNDS, _("widening angles"), error)) return false;
     room = flip_edges(shell, near, far);
     for (uint32_t i = 0; room && i < shell->vertex_count; i++)
       if (shell->head[i] != SPORE_SHELL_NONE && shell->kind[i] == SPORE_SHELL_SMOOTH)

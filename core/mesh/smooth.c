@@ -148,8 +148,7 @@ static bool run(Smoothing *s, size_t rounds, const SporeProgress *progress, Spor
   if (done) measure_anew(s, pieces, piece, count);
   for (size_t p = 0; done && p < count; p++) piece[p].wanted = piece[p].volume, piece[p].area_before = piece[p].area;
   for (size_t i = 0; done && i < rounds; i++) {
-    if (!spore_progress(progress, (double)i / (double)rounds, _("smoothing")))
-      done = spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    done = spore_progress_step(progress, (double)i / (double)rounds, _("smoothing"), error);
     diffuse(s, LAMBDA);
     diffuse(s, MU);
   }

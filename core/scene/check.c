@@ -1,3 +1,4 @@
+/* The checks of a scene: of references and bodies here, the others by subject. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -5,67 +6,6 @@
 #include "core/scene/compile.h"
 #include "core/scene/document_private.h"
 #include "core/scene/schema_fields.h"
-
-void spore_diagnostic_free(SporeDiagnostic *diagnostic) {
-  if (!diagnostic) return;
-  g_free(diagnostic->place);
-  g_free(diagnostic->message);
-  g_free(diagnostic->remedy);
-  g_free(diagnostic);
-}
-
-static void add(SporeCheck *check, SporeSeverity severity, const SporeObject *object, char *message,
-                const char *remedy) {
-  SporeDiagnostic *diagnostic = g_new0(SporeDiagnostic, 1);
-  diagnostic->severity = severity;
-  diagnostic->object = object && object != spore_document_root(check->document) ? spore_object_id(object) : 0;
-  diagnostic->place = spore_object_where(object ? object : spore_document_root(check->document));
-  diagnostic->message = message;
-  diagnostic->remedy = g_strdup(remedy);
-  g_ptr_array_add(check->found, diagnostic);
-  check->faults += severity == SPORE_FAULT;
-}
-
-void spore_check_say(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const char *remedy,
-                     const char *message_format, ...) {
-  va_list arguments;
-  va_start(arguments, message_format);
-  add(check, severity, object, g_strdup_vprintf(message_format, arguments), remedy);
-  va_end(arguments);
-}
-
-/* The object of a place: "FILE:LINE:COLUMN: " or "PATH: " at the start of a message, or NULL. */
-static const SporeObject *object_at(const SporeObject *object, const char *message) {
-  g_autofree char *where = spore_object_where(object);
-  size_t length = strlen(where);
-  if (strncmp(message, where, length) == 0 && g_str_has_prefix(message + length, ": ")) return object;
-  for (guint i = 0; i < spore_object_child_count(object); i++) {
-    const SporeObject *found = object_at(spore_object_child(object, i), message);
-    if (found) return found;
-  }
-  return NULL;
-}
-
-void spore_check_say_error(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const GError *error) {
-  const SporeObject *said = object_at(spore_document_root(check->document), error->message);
-  const char *message = error->message;
-  if (said) {
-    g_autofree char *where = spore_object_where(said);
-    message += strlen(where) + 2;
-    object = said;
-  }
-  const char *end = strrchr(message, ';');
-  add(check, severity, object, end ? g_strndup(message, (gsize)(end - message)) : g_strdup(message),
-      end ? end + 1 + strspn(end + 1, " ") : _("correct it"));
-}
-
-void spore_check_each(SporeCheck *check, const char *section, const char *element, SporeCheckVisit visit) {
-  const SporeObject *above = spore_document_section(check->document, section);
-  for (guint i = 0; i < spore_object_child_count(above); i++) {
-    SporeObject *object = spore_object_child(above, i);
-    if (!element || strcmp(spore_object_type(object)->element, element) == 0) visit(check, object);
-  }
-}
 
 /* References, everywhere: what they name, and who names it. */
 static void check_reference(SporeCheck *check, SporeObject *object, const SporeParameter *parameter) {
@@ -89,24 +29,8 @@ static void check_references(SporeCheck *check, SporeObject *object) {
   for (guint i = 0; i < spore_object_child_count(object); i++) check_references(check, spore_object_child(object, i));
 }
 
-gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object, const char *elements) {
-  const GPtrArray *users = g_hash_table_lookup(check->users, object);
-  for (guint i = 0; users && i < users->len; i++)
-    if (!elements || spore_element_in_list(elements, spore_object_type(users->pdata[i])->element)) return TRUE;
-  return FALSE;
-}
-
-/* Whether a device moves a body by such a tool; a camera has none. */
-static gboolean has_device(const SporeObject *tool) {
-  return spore_parameter_find(spore_object_type(tool)->table, "device") >= 0;
-}
-
-static gboolean is_moved(const SporeCheck *check, const SporeObject *body) {
-  const GPtrArray *users = g_hash_table_lookup(check->users, body);
-  for (guint i = 0; users && i < users->len; i++)
-    if (has_device(users->pdata[i])) return TRUE;
-  return FALSE;
-}
+/* Elements of the tools that move a body. */
+#define TOOLS "probe|grasper|clamp|scissors|suction|bipolar|needle"
 
 /* Bodies. */
 
@@ -133,7 +57,7 @@ static void check_body(SporeCheck *check, SporeObject *body) {
     spore_check_say(check, SPORE_NOTE, body,
                     _("generate spheres and name them in its collision unit, if it should be felt"),
                     _("\"%s\" has no collision spheres: everything passes through it"), name);
-  if (role == SPORE_ACTIVE && !is_moved(check, body))
+  if (role == SPORE_ACTIVE && !spore_check_is_used(check, body, TOOLS))
     spore_check_say(check, SPORE_WARNING, body, _("add a tool that names it, with a device"),
                     _("\"%s\" is active, but no tool moves it"), name);
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
@@ -161,7 +85,7 @@ static void check_jaw(SporeCheck *check, SporeObject *tool, const char *property
 
 static void check_tool(SporeCheck *check, SporeObject *tool) {
   const char *name = spore_object_name(tool), *element = spore_object_type(tool)->element;
-  if (!has_device(tool)) return;
+  if (!spore_element_in_list(TOOLS, element)) return;
   gboolean probe = strcmp(element, "probe") == 0; /* others cannot do without a body */
   if (!spore_object_text(tool, "body"))
     spore_check_say(check, probe ? SPORE_WARNING : SPORE_FAULT, tool, _("name an active body"),

@@ -101,18 +101,30 @@ static void add_children(SporeSchema *schema, const SporeElement *element) {
     g_ptr_array_add(entry->type.children, (gpointer)spore_schema_find(schema, *child));
 }
 
-SporeSchema *spore_schema_new(SporeModelRegistry registry) {
-  static const SporeElement *const parts[] = {spore_scene_elements, spore_asset_elements, spore_body_elements,
-                                              spore_link_elements, spore_tool_elements};
+static void add_elements(SporeSchema *schema, const SporeElement *elements) {
+  for (; elements->element; elements++) add_element(schema, elements);
+}
+
+static void add_all_children(SporeSchema *schema, const SporeElement *elements) {
+  for (; elements->element; elements++) add_children(schema, elements);
+}
+
+SporeSchema *spore_schema_new(SporeModelRegistry registry, const SporeElement *const *assets) {
+  static const SporeElement *const parts[] = {spore_scene_elements, spore_body_elements, spore_link_elements,
+                                              spore_tool_elements};
   SporeSchema *schema = g_new0(SporeSchema, 1);
   schema->registry = registry;
   schema->types = g_ptr_array_new_with_free_func(free_type);
   schema->by_element = g_hash_table_new(g_str_hash, g_str_equal);
   schema->integrators = integrator_choices();
-  for (gsize p = 0; p < G_N_ELEMENTS(parts); p++)
-    for (const SporeElement *element = parts[p]; element->element; element++) add_element(schema, element);
-  for (gsize p = 0; p < G_N_ELEMENTS(parts); p++)
-    for (const SporeElement *element = parts[p]; element->element; element++) add_children(schema, element);
+  for (gsize p = 0; p < G_N_ELEMENTS(parts); p++) add_elements(schema, parts[p]);
+  for (gsize p = 0; assets[p]; p++) add_elements(schema, assets[p]);
+  for (gsize p = 0; p < G_N_ELEMENTS(parts); p++) add_all_children(schema, parts[p]);
+  SchemaType *holder = g_hash_table_lookup(schema->by_element, "assets");
+  for (gsize p = 0; assets[p]; p++) {
+    add_all_children(schema, assets[p]);
+    g_ptr_array_add(holder->type.children, (gpointer)spore_schema_find(schema, assets[p]->element));
+  }
   ((SchemaType *)g_hash_table_lookup(schema->by_element, "collision"))->type.defaults = "contact";
   for (SporeModelRegistry model = registry; *model; model++) add_model(schema, *model);
   for (const SporeToolType *const *tool = spore_tool_types; *tool; tool++) add_tool(schema, *tool);

@@ -1,5 +1,5 @@
-/* What objects a scene may hold: their elements, properties and children. Made from the parameter tables and the
- * model registry; the reader, writer, RELAX NG, inspector and `spore models` all ask it. */
+/* What objects a scene may hold: their elements, properties and children. Made from the parameter tables, the
+ * model registry and the generators; the reader, writer, RELAX NG, inspector and `spore models` all ask it. */
 #ifndef SPORE_SCENE_SCHEMA_H
 #define SPORE_SCENE_SCHEMA_H
 
@@ -59,7 +59,10 @@ struct SporeObjectType {
 };
 
 typedef struct SporeSchema SporeSchema;
-SporeSchema *spore_schema_new(SporeModelRegistry registry);
+/* assets: what the generators of core/author bring, ended by NULL: each an array of elements ended by no name, an asset
+ * first, then its regions. */
+typedef struct SporeElement SporeElement;
+SporeSchema *spore_schema_new(SporeModelRegistry registry, const SporeElement *const *assets);
 void spore_schema_free(SporeSchema *schema);
 SporeModelRegistry spore_schema_registry(const SporeSchema *schema);
 const SporeObjectType *spore_schema_root(const SporeSchema *schema); /* element "spore" */

@@ -23,57 +23,6 @@ typedef struct SporeEnvironmentFields {
   double gravity[3]; /* m/s^2 */
 } SporeEnvironmentFields;
 
-#define SPORE_MOST_WALL_DETAIL 64 /* see spore_wall_inner */
-typedef struct SporeMeshFields {
-  const char *name, *file;
-  int unit, frame; /* as core/io/mesh_import.h counts them */
-  const char *source, *source_hash, *options_hash;
-  bool frozen, edited;
-  int64_t nodes;
-  double size, keep_angle, wall; /* m, degrees, m */
-  int64_t wall_detail;
-} SporeMeshFields;
-
-typedef struct SporeLabelMapFields {
-  const char *name, *file;
-} SporeLabelMapFields;
-
-extern const char *const spore_sphere_methods[]; /* that `method` counts; NULL-terminated */
-typedef struct SporeSpheresFields {
-  const char *name, *file, *source, *source_hash, *options_hash;
-  bool frozen, edited;
-  int method;                                       /* index in the table's choices */
-  double coverage, outside, tolerance, depth_error; /* aims; all 0: by count */
-  int64_t count, seed;
-} SporeSpheresFields;
-
-typedef struct SporeSphereRegionFields {
-  const char *name;
-  double centre[3], radius, density;
-} SporeSphereRegionFields;
-
-typedef struct SporeTetrahedraFields {
-  const char *name, *file, *source, *source_hash, *options_hash;
-  bool frozen, edited;
-  int method; /* index in the table's choices: 0 the first that does it, else SporeTetrahedraMethod + 1 */
-  int64_t cells;
-  double size, tolerance, curvature, gap; /* size 0: by cells */
-  bool fill;
-} SporeTetrahedraFields;
-
-typedef struct SporeCellRegionFields {
-  const char *name;
-  double centre[3], radius, size;
-} SporeCellRegionFields;
-
-typedef struct SporeCurveFields {
-  const char *name, *file, *source, *source_hash, *options_hash;
-  bool frozen, edited;
-  int64_t points;
-  double tolerance;                     /* of the radius */
-  double first_place[3], last_place[3]; /* m; the same: the organ's own ends */
-} SporeCurveFields;
-
 typedef struct SporeBodyFields {
   const char *name;
   int role; /* SporeRole */
@@ -156,7 +105,7 @@ typedef struct SporeTrackFields {
 } SporeTrackFields;
 
 /* One element of the scene's own, before it is joined with the models. */
-typedef struct SporeElement {
+struct SporeElement {
   const char *element, *label, *doc;
   const SporeParameter *parameters;
   size_t count, size;
@@ -164,6 +113,6 @@ typedef struct SporeElement {
   gboolean ordered, single_child;
   const SporeParameterTable *extra; /* a kernel table appended to the parameters, or NULL */
   size_t extra_offset;              /* of its structure in this one */
-} SporeElement;
+};
 
 #endif

@@ -75,6 +75,7 @@ const SporeElement spore_scene_elements[] = {
     {"solver", N_("Solver"), N_("How the scene is moved forward in time."), .extra = &spore_solver_parameters,
      .size = sizeof(SporeSolverFields)},
     {"defaults", N_("Defaults"), N_("What objects start from."), .children = CHILDREN("contact"), .ordered = TRUE},
+    {"assets", N_("Assets"), N_("Files that the scene is made from.")}, /* children: of the generators */
     {"contact", N_("Contact"), N_("Contact law of every body that does not set its own."),
      .extra = &spore_contact_parameters, .size = sizeof(SporeContactFields)},
     {NULL},

@@ -16,9 +16,51 @@
 #define CHILDREN(...) ((const char *const[]){__VA_ARGS__, NULL})
 #define TABLE(array, Type) .parameters = array, .count = G_N_ELEMENTS(array), .size = sizeof(Type)
 
+/* What generated data remember (generated.h); the other parameters of their element are the options of the generator.
+ */
+#define GENERATED(Type)                                                                                                \
+  {.name = "source_hash",                                                                                              \
+   .type = SPORE_TEXT,                                                                                                 \
+   .unit = "",                                                                                                         \
+   FIELD(Type, source_hash),                                                                                           \
+   .change = SPORE_CHANGE_LIVE,                                                                                        \
+   .doc = N_("Hash of the source's content at the time of generation; when it differs, the data are stale.")},         \
+      {.name = "options_hash",                                                                                         \
+       .type = SPORE_TEXT,                                                                                             \
+       .unit = "",                                                                                                     \
+       FIELD(Type, options_hash),                                                                                      \
+       .change = SPORE_CHANGE_LIVE,                                                                                    \
+       .doc = N_("Hash of the options at the time of generation; when it differs, the data are stale.")},              \
+      {.name = "frozen",                                                                                               \
+       .type = SPORE_BOOLEAN,                                                                                          \
+       .unit = "",                                                                                                     \
+       FIELD(Type, frozen),                                                                                            \
+       .change = SPORE_CHANGE_LIVE,                                                                                    \
+       .doc =                                                                                                          \
+           N_("Whether the data stay as they are, whatever becomes of their source: nothing generates them anew.")},   \
+  {                                                                                                                    \
+    .name = "edited", .type = SPORE_BOOLEAN, .unit = "", FIELD(Type, edited), .change = SPORE_CHANGE_LIVE,             \
+    .doc = N_("Whether the data were edited by hand since they were generated.")                                       \
+  }
+
+/* A ball that a generator does something of its own in. */
+#define BALL(Type)                                                                                                     \
+  NAME(Type, N_("Name of the region.")),                                                                               \
+      {.name = "centre",                                                                                               \
+       .type = SPORE_VECTOR,                                                                                           \
+       .unit = "m",                                                                                                    \
+       -POSITION_M,                                                                                                    \
+       POSITION_M,                                                                                                     \
+       FIELD(Type, centre),                                                                                            \
+       .change = SPORE_CHANGE_LIVE,                                                                                    \
+       .doc = N_("Middle of the region, in the axes of the mesh.")},                                                   \
+  {                                                                                                                    \
+    .name = "radius", .type = SPORE_REAL, .unit = "m", 1e-6, POSITION_M, .initial = {0.01}, FIELD(Type, radius),       \
+    .change = SPORE_CHANGE_LIVE, .doc = N_("Radius of the region.")                                                    \
+  }
+
 /* Each ends with an element of no name. */
 extern const SporeElement spore_scene_elements[]; /* root first */
-extern const SporeElement spore_asset_elements[];
 extern const SporeElement spore_body_elements[];
 extern const SporeElement spore_link_elements[];
 extern const SporeElement spore_tool_elements[]; /* effects and devices, too */

@@ -137,7 +137,7 @@ def centrelines(build, work):
     """Middle lines beside known ones: offset in radii, difference of length, time; found alone, and between the known ends."""
     for name, path, known in tubes(work):
         ends = [",".join(str(x / 1000) for x in known[i]) for i in (0, -1)]
-        for how, options in (("ends found", ()), ("ends given", ("--ends", *ends))):
+        for how, options in (("ends found", ()), ("ends given", ("--first-place", ends[0], "--last-place", ends[1]))):
             answer, seconds, fault = run(build, "centreline", path, "--unit", "mm", "-o", work / "line.curve", *options)
             if answer is None:
                 yield row("authoring", f"{name}, line, {how} REFUSED: {fault}", math.nan, "")
@@ -154,7 +154,7 @@ def bounding_spheres(build, work):
     """Spheres that cover all of a solid: volume outside, beside spheretree's where it is known; whether that is proven."""
     for name, _, path in meshes(work):
         for count in (32, 110):
-            answer, seconds, fault = run(build, "spheres", path, "--unit", "mm", "--mode", "bounding", "--count", count)
+            answer, seconds, fault = run(build, "spheres", path, "--unit", "mm", "--method", "bounding", "--count", count)
             if answer is None:
                 yield row("authoring", f"{name}, {count} bounding spheres REFUSED: {fault}", math.nan, "")
                 continue
@@ -173,7 +173,7 @@ def weighted_spheres(build, work):
     """Spheres whose weighted sum is the depth: its error, and where it is felt just outside."""
     for name, kind, path in meshes(work):
         for count in (32, 110):
-            answer, seconds, fault = run(build, "spheres", path, "--unit", "mm", "--mode", "weighted", "--count", count)
+            answer, seconds, fault = run(build, "spheres", path, "--unit", "mm", "--method", "weighted", "--count", count)
             if answer is None:
                 yield row("authoring", f"{name}, {count} weighted spheres REFUSED: {fault}", math.nan, "")
                 continue
@@ -209,7 +209,7 @@ def spheres_of_tetrahedra(build, work):
             continue
         peer = json.loads(subprocess.run([build / "tests/bench/bench_cell_spheres", cells], capture_output=True, text=True, check=True).stdout)
         for mode, count in (("balanced", peer["count"]), ("bounding", peer["count"] // 8)):
-            answer, _, _ = run(build, "spheres", cells, "--mode", mode, "--count", count)
+            answer, _, _ = run(build, "spheres", cells, "--method", mode, "--count", count)
             for (measure, unit), ours, theirs in zip(MEASURES, sphere_figures(answer), sphere_figures(peer)):
                 if measure != "not covered":
                     yield row("authoring", f"{name}, {peer['count']} cells, {count} {mode} spheres: {measure}", ours, unit,

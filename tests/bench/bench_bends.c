@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/author/generator.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/compile.h"
@@ -93,7 +94,7 @@ static void measure(SporeWorld *world, guint32 body, double time_s) {
 int main(int argc, char **argv) {
   if (argc != 3) return fprintf(stderr, "usage: bench_bends SCENE TIME\n"), 2;
   GError *error = NULL;
-  SporeSchema *schema = spore_schema_new(spore_model_registry);
+  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   SporeDocument *document = spore_scene_load(schema, argv[1], &error);
   g_assert_no_error(error);
   SporeSimulation *simulation = spore_simulation_new(document, NULL, NULL, &error);

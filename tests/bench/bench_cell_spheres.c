@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "core/base/memory.h"
-#include "core/generate/spheres.h"
+#include "core/generate/spheres/spheres.h"
 #include "core/io/mesh_import.h"
 
 /* Solves the symmetric positive definite a x = b of `count` unknowns by elimination; a, b are destroyed. */

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/author/generator.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/compile.h"
 #include "models/registry.h"
@@ -212,7 +213,7 @@ int main(int argc, char **argv) {
     g_printerr("usage: bench_scene_error SCENE TIME FINER [STEP]\n");
     return 2;
   }
-  Runs runs = {.scene = argv[1], .schema = spore_schema_new(spore_model_registry)};
+  Runs runs = {.scene = argv[1], .schema = spore_schema_new(spore_model_registry, spore_generator_elements())};
   GError *error = NULL;
   SporeDocument *document = spore_scene_load(runs.schema, runs.scene, &error);
   g_assert_no_error(error);

@@ -183,11 +183,12 @@ def surface_makes_nets():
     assert abs(hollow["lumen_m3"] / (4 / 3 * 3.14159 * 0.024**3) - 1) < 0.06
     assert report("surface", "wall.off", "--nodes", 5000)["pieces"] == 2 and report("surface", "lumen.off", "-n", 100)["open_edges"] == 0
     refuses("surface", "ball.off", "--wall", 0.05, says=["leaves no lumen", "0.02", "thinner"])
-    refuses("surface", "ball.off", "--wall", -1, says=["--wall -1"])
-    refuses("surface", "ball.off", "--wall", 0.006, "--detail", 65, says=["--detail 65", "1 to 64"])
-    refuses("surface", "ball.off", "-n", 60, "--detail", 4, says=["--detail 4", "--wall"])
+    refuses("surface", "ball.off", "--wall", -1, says=["--wall", "-1"])
+    refuses("surface", "ball.off", "--wall", 0.006, "--wall-detail", 65, says=["--wall-detail", "65", "0 to 64"])
+    refuses("surface", "ball.off", "--wall", 0.006, "--detail", 4, says=["--detail", "--wall-detail"])
+    refuses("surface", "ball.off", "-n", 60, "--wall-detail", 4, says=["--wall-detail", "--wall "])
     refuses("surface", "ball.off", "-n", 60, "--inner", "lumen.off", says=["--inner lumen.off"])
-    refuses("surface", "ball.off", "-n", 60, "--keep-angle", -5, says=["--keep-angle -5"])
+    refuses("surface", "ball.off", "-n", 60, "--keep-angle", -5, says=["--keep-angle", "-5", "1 to 360"])
     refuses("surface", "ball.off", "-n", 60, "-o", "ball.stl", says=["ball.stl", ".off or .obj"])
     refuses("surface", "gone.off", "-n", 60, says=["gone.off"])
 
@@ -494,7 +495,7 @@ def lines_and_surfaces_for_bodies():
     assert report("centreline", scene, "--body", "gut")["points"] == 9  # as its asset says
     net = report("surface", scene, "--body", "sac", "--nodes", 150)
     assert net["nodes"] <= 150 and body("sac").find("mechanical").get("geometry") == "sac_surface"
-    hollow = report("surface", scene, "--body", "sac", "--wall", 0.005, "--detail", 3)
+    hollow = report("surface", scene, "--body", "sac", "--wall", 0.005, "--wall-detail", 3)
     assert abs(hollow["wall"]["thickness_m"]["mean"] / 0.005 - 1) < 0.1 and body("sac").find("visual").get("mesh") == "sac_surface"
     report("run", scene, "--steps", 3)
     refuses("centreline", scene, "--body", "gu", says=['no body "gu"', "gut, sac"])
@@ -1033,16 +1034,17 @@ def spheres_command():
     refuses("spheres", "ball.off", says=["--count"])
     refuses("spheres", "ball.off", "--count", 0, says=["--count"])
     refuses("spheres", "ball.off", "--count", 5, "--coverage", 0.9, says=["--count", "--coverage"])
-    refuses("spheres", "ball.off", "--coverage", 1.5, says=["ball.off", "coverage 1.5", "0.95"])
+    refuses("spheres", "ball.off", "--coverage", 1.5, says=["--coverage", "1.5", "0 to 0.9999"])
     refuses("spheres", "ball.off", "--outside", 0.1, "--thickness", 0, says=["ball.off", "sheet", "tolerance"])
     aimed = report("spheres", "ball.off", "--coverage", 0.9, "--depth-error", 0.2)
     assert aimed["coverage"] >= 0.9 and aimed["depth_error"] <= 0.2 and aimed["hardest"] == "coverage", aimed
     assert report("spheres", "ball.off", "--count", 5)["hardest"] is None
     refuses("spheres", "ball.off", "--count", 5, "--unit", "parsec", says=["parsec", "mm"])
     refuses("spheres", "ball.off", "--count", 5, "-o", "no/such/x.spheres", says=["no/such"])
-    refuses("spheres", "ball.off", "--count", 5, "--mode", "balancd", says=["balancd", "balanced"])
-    refuses("spheres", "ball.off", "--count", 5, "--region", "0,0,0,0.01", says=["--region", "X,Y,Z,RADIUS,FACTOR"])
-    refuses("spheres", "ball.off", "--count", 5, "--region", "0,0,0,0.01,99", says=["ball.off", "factor 99", "0.0625 to 16"])
+    refuses("spheres", "ball.off", "--count", 5, "--method", "balancd", says=["balancd", "balanced"])
+    refuses("spheres", "ball.off", "--count", 5, "--mode", "balanced", says=["--mode", "--method"])
+    refuses("spheres", "ball.off", "--count", 5, "--region", "0,0,0,0.01", says=["--region", "X,Y,Z,RADIUS,DENSITY"])
+    refuses("spheres", "ball.off", "--count", 5, "--region", "0,0,0,0.01,99", says=["--region", "99", "0.0625 to 16"])
     report("spheres", "ball.off", "--count", 5, "--region", "0,0.02,0,0.01,4", "--region", "0,0,0.02,0.01,0.5")
 
 
@@ -1090,13 +1092,15 @@ def centreline_command():
     assert answer["branches"] == 0 and answer["side_branches"] == [] and answer["outside"] == 0 and answer["components"] == 1
     rows = [[float(word) for word in line.split()] for line in (WORK / "tube.curve").read_text().splitlines() if line[0] != "#"]
     assert len(rows) == 9 and all(abs(y) < 2e-4 and abs(z) < 2e-4 for _, y, z, _ in rows)
-    answer = report("centreline", "tube.off", "--ends", "0.02,-0.004,0", "0.06,0,-0.001")
+    answer = report("centreline", "tube.off", "--first-place", "0.02,-0.004,0", "--last-place", "0.06,0,-0.001")
     assert abs(answer["length"] - 0.04) < 0.001
     file("ball.off", shapes.off(*shapes.sphere()))
     refuses("centreline", "ball.off", "-o", "ball.curve", says=["ball.off", "not a tube"])
     assert not (WORK / "ball.curve").exists()
-    refuses("centreline", "tube.off", "--ends", "0.02,-0.004", "0.06,0,0", says=["--ends", "X,Y,Z"])
-    refuses("centreline", "tube.off", "--ends", "0.02,0,0", "-0.06,0,0", says=["end 2", "outside"])
+    refuses("centreline", "tube.off", "--first-place", "0.02,-0.004", "--last-place", "0.06,0,0", says=["--first-place", "three numbers"])
+    refuses("centreline", "tube.off", "--first-place", "0.02,0,0", says=["--first-place", "--last-place"])
+    refuses("centreline", "tube.off", "--ends", "0.02,0,0", "0.06,0,0", says=["--ends", "--first-place"])
+    refuses("centreline", "tube.off", "--first-place", "0.02,0,0", "--last-place", "-0.06,0,0", says=["end 2", "outside"])
     refuses("centreline", "tube.off", "--points", 5, "--tolerance", 0.1, says=["--points", "--tolerance"])
     refuses("centreline", "tube.off", "--points", 1, says=["1 points"])
     refuses("centreline", "tube.off", "-o", "tube.off", says=["tube.off", "input"])
@@ -1145,11 +1149,11 @@ def tetrahedra_command():
     assert "nothing was filled: no cavity is closed off" in spore("tetrahedra", "ball.off", "--cells", 300, "--fill").stdout
     refuses("tetrahedra", "ball.off", "--cells", 300, "-o", "ball.xyz", says=["ball.xyz", ".vtu"])
     refuses("tetrahedra", "ball.off", "--cells", 300, "--method", "magic", says=["magic", "voxels"])
-    refuses("tetrahedra", "ball.off", "--cells", 300, "--curvature", 3, says=["--curvature", "5 to 90"])
+    refuses("tetrahedra", "ball.off", "--cells", 300, "--curvature", 3, says=["curvature", "5 to 90"])
     refuses("tetrahedra", "ball.off", "--cells", 300, "--tolerance", -1, says=["--tolerance"])
     refuses("tetrahedra", "ball.off", "--cells", 300, "--gap", -1, says=["--gap"])
     for region in ("1,2,3", "0,0,0,1,-1", "0,0,0,0,1", "0,0,0,1,nan", "a,b,c,d,e"):
-        refuses("tetrahedra", "ball.off", "--cells", 300, "--region", region, says=["--region", "X,Y,Z,R,SIZE"])
+        refuses("tetrahedra", "ball.off", "--cells", 300, "--region", region, says=["--region"])
     file("one.off", shapes.off([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))
     refuses("tetrahedra", "one.off", "--cells", 300, says=["one.off", "volume"])
 

@@ -2,6 +2,7 @@
 #include <glib.h>
 #include <string.h>
 
+#include "core/author/generator.h"
 #include "core/io/scene_xml.h"
 #include "fuzz.h"
 #include "models/registry.h"
@@ -43,7 +44,7 @@ const char *const fuzz_words[] = {"<!--",
 
 int LLVMFuzzerTestOneInput(const uint8_t *content, size_t size) {
   static SporeSchema *schema;
-  if (!schema) schema = spore_schema_new(spore_model_registry);
+  if (!schema) schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   GError *error = NULL;
   SporeDocument *document = spore_scene_parse(schema, "fuzz.spore", (const char *)content, size, &error);
   if (!document) {

@@ -2,7 +2,7 @@
 #include <glib.h>
 #include <string.h>
 
-#include "core/generate/tetrahedra_parts.h"
+#include "core/generate/tetrahedra/private.h"
 #include "core/io/helper_wire.h"
 #include "answers.h"
 #include "fuzz.h"

@@ -2,7 +2,7 @@
 #ifndef SPORE_TESTS_GENERATE_CELLS_H
 #define SPORE_TESTS_GENERATE_CELLS_H
 
-#include "core/generate/tetrahedra.h"
+#include "core/generate/tetrahedra/tetrahedra.h"
 
 #define CHAIN .method = SPORE_TETRAHEDRA_METHODS
 

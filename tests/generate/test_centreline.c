@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/generate/centreline.h"
+#include "core/generate/centreline/centreline.h"
 #include "tests/mesh/shapes.h"
 
 #define SECTORS 16

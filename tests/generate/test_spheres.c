@@ -195,9 +195,9 @@ static void test_refused(void) {
   refuse(&(SporeTriangleMesh){4, 1, vertices, wrong}, ten, "triangle 0 uses vertex 9");
   refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.count = 5001}, "too many");
   refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){0}, "tolerance");
-  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.aims.distance = NAN}, "tolerance");
-  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.aims.coverage = 1}, "coverage 1,");
-  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.aims.outside = -1}, "outside -1,");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.targets.distance = NAN}, "tolerance");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.targets.coverage = 1}, "coverage 1,");
+  refuse(&(SporeTriangleMesh){4, 2, vertices, sheet}, (SporeSpheresOptions){.targets.outside = -1}, "outside -1,");
 }
 
 int main(int argc, char **argv) {

@@ -2,7 +2,7 @@
 #include <glib.h>
 #include <math.h>
 
-#include "core/generate/spheres_bounding.h"
+#include "core/generate/spheres/bounding.h"
 #include "sets.h"
 #include "tests/mesh/shapes.h"
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/generate/spheres_series.h"
+#include "core/generate/spheres/spheres.h"
 #include "sets.h"
 #include "tests/mesh/shapes.h"
 
@@ -63,7 +63,7 @@ static size_t count_above(const SporeSphereSet *set) {
 static void test_region(void) {
   SporeTriangleMesh bar;
   SporeSpheresReport report;
-  SporeSpheresRegion region = {{0, 0, 0.1}, 0.1, 8};
+  SporeGenerateRegion region = {{0, 0, 0.1}, 0.1, 8};
   SporeSpheresOptions options = {.count = 60, .seed = 1, .regions = &region, .region_count = 1};
   SporeSphereSet set;
   shape_box(&bar, (double[3]){-0.01, -0.01, -0.1}, (double[3]){0.01, 0.01, 0.1}, 4);
@@ -72,14 +72,14 @@ static void test_region(void) {
   g_assert_cmpuint(count_above(&set), >, 45);
   g_assert_cmpuint(count_above(&set), <, 58);
   spore_sphere_set_clear(&set);
-  options.mode = SPORE_SPHERES_BOUNDING, options.count = 40, region.factor = 4;
+  options.mode = SPORE_SPHERES_BOUNDING, options.count = 40, region.value = 4;
   g_assert_true(spore_spheres_from_mesh(&bar, &options, &set, &report, NULL, NULL));
   g_test_message("%zu of 40 bounding spheres in the region", count_above(&set));
   g_assert_true(report.certified);
   g_assert_cmpuint(count_above(&set), >, 27);
   g_assert_cmpuint(count_above(&set), <, 38);
   spore_sphere_set_clear(&set);
-  region.factor = 0;
+  region.value = 0;
   SporeError error = SPORE_ERROR_INIT;
   g_assert_false(spore_spheres_from_mesh(&bar, &options, &set, &report, NULL, &error));
   g_assert_nonnull(strstr(error.message, "region 1 has the factor 0"));
@@ -120,7 +120,7 @@ static void test_curve_bent(void) {
     double angle = 1.5 * M_PI * i / 60, radius = 0.008 - 0.006 * i / 60;
     memcpy(numbers + 4 * i, (double[4]){0.05 * cos(angle), 0.05 * sin(angle), 0, radius}, 4 * sizeof(double));
   }
-  SporeSpheresOptions options = {.aims.distance = 0.001, .seed = 1};
+  SporeSpheresOptions options = {.targets.distance = 0.001, .seed = 1};
   SporeSphereSet set;
   SporeSpheresReport report;
   g_assert_true(spore_spheres_from_source(&(SporeSpheresSource){.curve = &curve}, &options, &set, &report, NULL, NULL));
@@ -216,7 +216,7 @@ static void test_tolerance(void) {
   SporeTriangleMesh torus;
   SporeSpheresReport report, fewer;
   SporeSphereSet set;
-  SporeSpheresOptions options = {.aims.distance = 0.008, .seed = 1};
+  SporeSpheresOptions options = {.targets.distance = 0.008, .seed = 1};
   shape_torus(&torus, 0.06, 0.02, 16, 8);
   g_assert_true(spore_spheres_from_mesh(&torus, &options, &set, &report, NULL, NULL));
   g_assert_cmpfloat(report.distance_mean, <=, 0.008);
@@ -227,24 +227,24 @@ static void test_tolerance(void) {
   spore_triangle_mesh_clear(&torus);
 }
 
-/* Of several aims all are reached, and it is told which takes the spheres. */
-static void test_aims(void) {
+/* Of several targets all are reached, and it is told which takes the spheres. */
+static void test_targets(void) {
   SporeTriangleMesh torus;
   SporeSpheresReport report, fewer;
   SporeSphereSet set;
-  SporeSpheresOptions options = {.aims = {.coverage = 0.88, .outside = 0.15, .depth_error = 0.5}, .seed = 1};
+  SporeSpheresOptions options = {.targets = {.coverage = 0.88, .outside = 0.15, .depth_error = 0.5}, .seed = 1};
   double excess;
   shape_torus(&torus, 0.06, 0.02, 16, 8);
   g_assert_true(spore_spheres_from_mesh(&torus, &options, &set, &report, NULL, NULL));
   g_assert_cmpfloat(report.coverage, >=, 0.88);
   g_assert_cmpfloat(report.outside, <=, 0.15);
-  g_assert_cmpstr(spore_spheres_hardest_aim(&options.aims, &report, &excess), !=, "depth_error");
+  g_assert_cmpstr(spore_spheres_hardest_target(&options.targets, &report, &excess), !=, "depth_error");
   CLOSE(excess, fmax((1 - report.coverage) / 0.12, report.outside / 0.15), 1e-12);
   SporeSphereSet less = make(&torus, set.count * 4 / 5, 1, &fewer);
   g_assert_true(fewer.coverage < 0.88 || fewer.outside > 0.15);
   spore_sphere_set_clear(&less);
   spore_sphere_set_clear(&set);
-  g_assert_null(spore_spheres_hardest_aim(&(SporeSpheresAims){0}, &report, NULL));
+  g_assert_null(spore_spheres_hardest_target(&(SporeSpheresTargets){0}, &report, NULL));
   spore_triangle_mesh_clear(&torus);
 }
 
@@ -278,7 +278,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/generate/spheres/enough", test_enough);
   g_test_add_func("/generate/spheres/series", test_series);
   g_test_add_func("/generate/spheres/tolerance", test_tolerance);
-  g_test_add_func("/generate/spheres/aims", test_aims);
+  g_test_add_func("/generate/spheres/targets", test_targets);
   g_test_add_func("/generate/spheres/tetrahedra", test_tetrahedra);
   return g_test_run();
 }

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/generate/spheres_parts.h"
-#include "core/generate/spheres_quality.h"
+#include "core/generate/spheres/private.h"
+#include "core/generate/spheres/spheres.h"
 #include "sets.h"
 #include "tests/mesh/shapes.h"
 

@@ -2,8 +2,7 @@
 #include <glib.h>
 #include <math.h>
 
-#include "core/generate/spheres_quality.h"
-#include "core/generate/spheres.h"
+#include "core/generate/spheres/spheres.h"
 #include "sets.h"
 #include "tests/mesh/shapes.h"
 

@@ -47,7 +47,7 @@ static void test_open_shapes(void) {
 
 /* A ball with a small one beside it at a neck that no cell is as thin as: what breaks off goes, and is said. One by
  * itself stays. */
-static void test_crumbs(void) {
+static void test_small_components(void) {
   SporeTriangleMesh organ = {0}, other = {0};
   shape_ball(&organ, 0.03, 24);
   for (gsize i = 0; i < organ.vertex_count; i++) {
@@ -62,8 +62,8 @@ static void test_crumbs(void) {
   g_assert_cmpuint(count, ==, 1);
   g_assert_cmpuint(result.report.pieces, ==, 1);
   g_assert_cmpuint(result.report.pieces_given, ==, 1);
-  g_assert_cmpfloat(result.report.crumbs, >, 0.001);
-  g_assert_cmpfloat(result.report.crumbs, <, 0.02);
+  g_assert_cmpfloat(result.report.small_components, >, 0.001);
+  g_assert_cmpfloat(result.report.small_components, <, 0.02);
   spore_tetrahedral_mesh_clear(&result.mesh);
 
   shape_ball(&organ, 0.03, 8);
@@ -74,13 +74,13 @@ static void test_crumbs(void) {
   result = fill(&organ, (SporeTetrahedraOptions){.method = SPORE_TETRAHEDRA_VOXELS, .cells = 1500}, "voxels");
   g_assert_cmpuint(result.report.pieces, ==, 2);
   g_assert_cmpuint(result.report.pieces_given, ==, 2);
-  g_assert_cmpfloat(result.report.crumbs, ==, 0);
+  g_assert_cmpfloat(result.report.small_components, ==, 0);
   spore_tetrahedral_mesh_clear(&result.mesh);
 }
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/tetrahedra/open-shapes", test_open_shapes);
-  g_test_add_func("/tetrahedra/crumbs", test_crumbs);
+  g_test_add_func("/tetrahedra/small components", test_small_components);
   return g_test_run();
 }

@@ -3,7 +3,7 @@
 
 #include "cells.h"
 #include "core/base/memory.h"
-#include "core/generate/tetrahedra_parts.h"
+#include "core/generate/tetrahedra/private.h"
 #include "tests/mesh/shapes.h"
 
 /* Cells of a lattice in a surface about the origin with a diagonal of about 1; clears the surface. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "core/base/memory.h"
-#include "core/generate/wall.h"
+#include "core/generate/surface/surface.h"
 #include "core/mesh/bvh.h"
 #include "core/mesh/crossings.h"
 #include "tests/mesh/shapes.h"

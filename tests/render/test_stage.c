@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/author/generator.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/schema_fields.h"
 #include "models/registry.h"
@@ -20,7 +21,7 @@ typedef struct Setting {
 
 static Setting setting_open(const char *scene) {
   GError *error = NULL;
-  Setting setting = {.bench = bench_open(), .schema = spore_schema_new(spore_model_registry)};
+  Setting setting = {.bench = bench_open(), .schema = spore_schema_new(spore_model_registry, spore_generator_elements())};
   setting.document = spore_scene_load(setting.schema, scene, &error);
   g_assert_no_error(error);
   setting.stage = spore_stage_new(setting.bench.renderer, setting.document);
@@ -294,7 +295,7 @@ static void test_camera_rolls(void) {
 
 static void test_empty_scene(void) {
   Bench bench = bench_open();
-  SporeSchema *schema = spore_schema_new(spore_model_registry);
+  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   SporeDocument *document = spore_document_new(schema);
   SporeStage *stage = spore_stage_new(bench.renderer, document);
   double lower[3], upper[3];

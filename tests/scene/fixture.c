@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/author/generator.h"
 #include "models/registry.h"
 
 typedef struct ParticleFields {
@@ -44,13 +45,13 @@ static const SporeModelType *const registry[] = {&particle, NULL};
 
 const SporeSchema *fixture_schema(void) {
   static SporeSchema *schema;
-  if (!schema) schema = spore_schema_new(registry);
+  if (!schema) schema = spore_schema_new(registry, spore_generator_elements());
   return schema;
 }
 
 const SporeSchema *fixture_model_schema(void) {
   static SporeSchema *schema;
-  if (!schema) schema = spore_schema_new(spore_model_registry);
+  if (!schema) schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   return schema;
 }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/author/generator.h"
 #include "core/base/memory.h"
 #include "core/io/off.h"
 #include "core/io/scene_xml.h"
@@ -33,7 +34,7 @@ static void run_begin(Run *run) {
   GError *error = NULL;
   g_autofree char *text = NULL;
   gsize size;
-  run->schema = spore_schema_new(spore_model_registry);
+  run->schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   run->document = spore_scene_load(run->schema, SPORE_SCENES "/bag.spore", &error);
   g_assert_no_error(error);
   run->pool = spore_pool_create(1);

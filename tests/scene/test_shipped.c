@@ -2,6 +2,7 @@
  * monitor has nothing to say. */
 #include <glib.h>
 
+#include "core/author/generator.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/compile.h"
@@ -17,7 +18,7 @@ typedef struct Run {
 
 static Run run_scene(const char *file, int threads) {
   GError *error = NULL;
-  SporeSchema *schema = spore_schema_new(spore_model_registry);
+  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   SporeDocument *document = spore_scene_load(schema, file, &error);
   g_assert_no_error(error);
   SporePool *pool = spore_pool_create(threads);

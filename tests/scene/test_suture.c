@@ -2,6 +2,7 @@
  * them together. */
 #include <glib.h>
 
+#include "core/author/generator.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/compile.h"
 #include "models/registry.h"
@@ -24,7 +25,7 @@ static void run_until(SporeWorld *world, double time_s) {
 
 static void edges_come_together(void) {
   GError *error = NULL;
-  SporeSchema *schema = spore_schema_new(spore_model_registry);
+  SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   SporeDocument *document = spore_scene_load(schema, SPORE_SCENES "/suture.spore", &error);
   g_assert_no_error(error);
   SporePool *pool = spore_pool_create(1);

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/author/generator.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 #include "models/registry.h"
@@ -39,7 +40,7 @@ typedef struct {
 } Fixture;
 
 static void set_up(Fixture *fixture, gconstpointer data) {
-  fixture->schema = spore_schema_new(spore_model_registry);
+  fixture->schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   fixture->document = spore_document_new(fixture->schema);
   spore_document_set_readers(fixture->document, &spore_editor_readers);
   fixture->editor = spore_editor_document_new(fixture->document);

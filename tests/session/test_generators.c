@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/author/generator.h"
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/io/scene_xml.h"
@@ -32,7 +33,7 @@ static void set_up(Fixture *fixture, gconstpointer data) {
   char *text = spore_off_format(&mesh, &size);
   g_autoptr(GBytes) content = g_bytes_new_take(text, size);
   spore_triangle_mesh_clear(&mesh);
-  fixture->schema = spore_schema_new(spore_model_registry);
+  fixture->schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   fixture->document = spore_document_new(fixture->schema);
   spore_document_set_readers(fixture->document, &spore_editor_readers);
   fixture->body = spore_organ_insert(fixture->document, "tube", "tube.off", content, 0, 0, NULL);
@@ -134,8 +135,8 @@ static void test_surface(Fixture *fixture, gconstpointer data) {
   for (gsize i = 0; i < work->mesh.vertex_count; i++)
     g_assert_cmpfloat(work->surface_distance[i], <=, work->surface_report.hausdorff * 1.5 * LENGTH);
   double few, many;
-  g_assert_true(spore_generate_surface.price(work, 30, &few, NULL, NULL));
-  g_assert_true(spore_generate_surface.price(work, 60, &many, NULL, NULL));
+  g_assert_true(spore_generator_surface.error_of(work, 30, &few, NULL, NULL));
+  g_assert_true(spore_generator_surface.error_of(work, 60, &many, NULL, NULL));
   g_assert_cmpfloat(many, <, few);
   apply(fixture, work);
   assert_one_step(fixture, before);
@@ -226,7 +227,8 @@ static void test_stale_labels(Fixture *fixture, gconstpointer data) {
   SporeTetrahedralMesh mesh = {5, 2, vertices, cells, labels};
   char *names[] = {(char *)"left lobe", (char *)"right lobe"};
   SporeTetrahedraFields fields;
-  spore_parameters_set_initial(spore_generate_table(fixture->document, SPORE_GENERATE_LABELS), &fields);
+  SporeParameterTable table = spore_generator_table(&spore_generator_labels);
+  spore_parameters_set_initial(&table, &fields);
   fields.cells = 5000;
   g_autoptr(GBytes) content = g_bytes_new_static("voxels", 6), other = g_bytes_new_static("other voxels", 12);
   SporeLabelBodies organs = {"/tmp/two.nii.gz", content, &fields, &mesh, labels, names, 2, SPORE_LABELS_LINKED};
@@ -284,15 +286,15 @@ static void test_label_names(Fixture *fixture, gconstpointer data) {
 
 /* Every kind is found, has something to show, and its count is one of its options. */
 static void test_kinds(Fixture *fixture, gconstpointer data) {
-  for (SporeGenerateKind kind = 0; kind < SPORE_GENERATE_KIND_COUNT; kind++) {
+  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {
     const SporeGenerateType *type = spore_generate_type(kind);
-    const SporeParameterTable *table = spore_generate_table(fixture->document, kind);
+    const SporeParameterTable kinds = spore_generator_table(spore_generators[kind]), *table = &kinds;
     g_assert_cmpuint(type->quality_count, >, 0);
-    g_assert_cmpint(spore_parameter_find(table, type->count), >=, 0);
+    g_assert_cmpint(spore_parameter_find(table, spore_generators[kind]->count), >=, 0);
     SporeGenerateOptions options = {.kind = kind};
     spore_generate_set_count(&options, 17);
     g_assert_cmpuint(spore_generate_get_count(&options), ==, 17);
-    const SporeParameter *count = &table->parameters[spore_parameter_find(table, type->count)];
+    const SporeParameter *count = &table->parameters[spore_parameter_find(table, spore_generators[kind]->count)];
     g_assert_cmpfloat(spore_parameter_load(count, &options.fields).number[0], ==, 17);
     for (gsize i = 0; type->counts && type->counts[i]; i++) g_assert_cmpuint(i, <, SPORE_SERIES_POINTS);
   }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/author/generator.h"
 #include "core/base/memory.h"
 #include "core/io/scene_xml.h"
 #include "models/registry.h"
@@ -41,7 +42,7 @@ static void put(SporeDocument *document, const char *file, char *text) {
 
 static SporeDocument *new_document(SporeSchema **schema) {
   GError *error = NULL;
-  *schema = spore_schema_new(spore_model_registry);
+  *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   SporeDocument *document = spore_scene_parse(*schema, NULL, scene_text, strlen(scene_text), &error);
   g_assert_no_error(error);
   put(document, "cube.off",

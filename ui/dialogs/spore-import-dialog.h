@@ -5,7 +5,7 @@
 
 #include <gtk/gtk.h>
 
-#include "core/generate/organ_import.h"
+#include "core/author/organ_import.h"
 
 G_BEGIN_DECLS
 

@@ -4,7 +4,7 @@
 
 #include <gtk/gtk.h>
 
-#include "core/generate/mesh_operations.h"
+#include "core/generate/surface/surface.h"
 
 /* A spin button over the range of the operation's argument, named by its label; NULL where it takes none. */
 GtkWidget *spore_operation_spin_new(const SporeMeshOperation *operation);

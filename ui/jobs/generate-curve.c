@@ -5,46 +5,6 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-static const char *const purpose_names[] = {"curve", "thread", "tube", "intestine", NULL};
-static const SporeParameter purposes = SPORE_GENERATE_PURPOSES(
-    purpose_names,
-    N_("What Apply makes: the curve alone, or of the body a solid thread, a tube with a wall, or an intestine on "
-       "its mesentery."));
-
-static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
-  SporeError failure = SPORE_ERROR_INIT;
-  SporeCentrelineOptions options = spore_edit_centreline_options(&work->options.fields.curve);
-  if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure))
-    return TRUE;
-  spore_error_at(&failure, work->source);
-  return spore_error_propagate(&failure, error);
-}
-
-static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
-  const SporeGeneratedFrom from = {work->source, work->source_hash, &work->options.fields};
-  const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)(work->options.purpose - 1),
-                                            .loops_apart = work->curve_report.approach > SPORE_CENTRELINE_APART};
-  return spore_edit_use_curve(document, body, &from, &work->curve, work->options.purpose ? &along : NULL, error);
-}
-
-static char *facts(const SporeGenerateWork *work) {
-  const SporeCentrelineReport *report = &work->curve_report;
-  size_t loops = 0;
-  for (size_t i = 0; i < MIN(report->branches, SPORE_CENTRELINE_NAMED); i++) loops += report->branch[i].returns;
-  GString *text = g_string_new(NULL);
-  g_string_append_printf(
-      text, _("%zu points in %.1f s, %.1f mm long\nRadius %.2f mm (%.2f to %.2f)\nLoops left out: %zu, branches: %zu"),
-      work->curve.count, report->seconds, 1e3 * report->length, 1e3 * report->radius_mean, 1e3 * report->radius_min,
-      1e3 * report->radius_max, loops, report->branches - loops);
-  if (report->components > 1)
-    g_string_append_printf(text, _("\nOf the largest of %zu pieces, %.1f %% of the organ"), report->components,
-                           100 * report->share);
-  if (report->approach < 1) g_string_append(text, _("\nIts windings touch"));
-  return g_string_free(text, FALSE);
-}
-
-/* Qualities. */
-
 static SporeVec3 point(const SporeCurve *curve, gsize i) { return spore_vec3_load(curve->points + 4 * i); }
 
 /* Each point stands for half of the line to either side of it. */
@@ -90,18 +50,7 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_curve = {
-    .name = "curve",
-    .element = "curve",
-    .title = N_("Middle line of %s"),
-    .working = N_("Finding the middle line"),
-    .count = "points",
-    .count_label = N_("Points"),
-    .purposes = &purposes,
-    .picks_ends = TRUE,
+    .shows = "curve",
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
-    .target = spore_edit_body_curve,
-    .run = run,
-    .apply = apply,
-    .facts = facts,
 };

@@ -4,51 +4,6 @@
 #include "core/author/generated_edits.h"
 #include "ui/jobs/generate-types.h"
 
-/* regions: gets those of the work. */
-static SporeSpheresOptions options_of(const SporeGenerateWork *work,
-                                      SporeSpheresRegion regions[SPORE_GENERATE_REGIONS]) {
-  return spore_edit_spheres_options(&work->options.fields.spheres, work->regions, work->region_count, regions);
-}
-
-static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
-  SporeError failure = SPORE_ERROR_INIT;
-  SporeSpheresRegion regions[SPORE_GENERATE_REGIONS];
-  SporeSpheresOptions options = options_of(work, regions);
-  return (spore_spheres_from_mesh(&work->mesh, &options, &work->spheres, &work->spheres_report, progress, &failure) &&
-          spore_spheres_quality(&work->mesh, &work->spheres, &work->spheres_quality, progress, &failure)) ||
-         spore_error_propagate(&failure, error);
-}
-
-static gboolean price(const SporeGenerateWork *work, size_t count, double *error_percent, const SporeProgress *progress,
-                      GError **error) {
-  SporeError failure = SPORE_ERROR_INIT;
-  SporeSpheresRegion regions[SPORE_GENERATE_REGIONS];
-  SporeSpheresOptions options = options_of(work, regions);
-  SporeSpheresReport report;
-  SporeSphereSet set;
-  options.count = count;
-  if (!spore_spheres_from_mesh(&work->mesh, &options, &set, &report, progress, &failure))
-    return spore_error_propagate(&failure, error);
-  spore_sphere_set_clear(&set);
-  *error_percent = 100 * spore_spheres_felt_error(&report);
-  return TRUE;
-}
-
-static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
-  const SporeGeneratedFrom from = {work->source, work->source_hash, &work->options.fields};
-  return spore_edit_use_spheres(document, body, &from, &work->spheres, error);
-}
-
-static char *facts(const SporeGenerateWork *work) {
-  const SporeSpheresReport *spheres = &work->spheres_report;
-  return g_strdup_printf(_("%zu spheres in %.1f s\nCoverage %.1f %%, outside %.1f %%\n"
-                           "Depth error %.1f %%, distance %.2f %%"),
-                         work->spheres.count, spheres->seconds, 100 * spheres->coverage, 100 * spheres->outside,
-                         100 * spore_spheres_felt_error(spheres), 100 * spheres->distance_mean);
-}
-
-/* Qualities. */
-
 static void show_set(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate) {
   spore_generate_show_spheres(&work->spheres, places, candidate);
 }
@@ -87,20 +42,10 @@ static const SporeGenerateQuality qualities[] = {
 };
 
 const SporeGenerateType spore_generate_spheres = {
-    .name = "spheres",
-    .element = "spheres",
-    .title = N_("Spheres of %s"),
-    .working = N_("Generating spheres"),
-    .count = "count",
-    .count_label = N_("Spheres"),
+    .shows = "spheres",
     .counts = (const size_t[]){8, 16, 32, 64, 128, 256, 512, 0},
     .error_label = N_("Depth error"),
     .worth = 1,
-    .price = price,
     .qualities = qualities,
     .quality_count = G_N_ELEMENTS(qualities),
-    .target = spore_edit_body_spheres,
-    .run = run,
-    .apply = apply,
-    .facts = facts,
 };

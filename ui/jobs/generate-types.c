@@ -1,3 +1,4 @@
+/* How results are shown: found by what they are, with what several kinds of them draw alike. */
 #include "ui/jobs/generate-types.h"
 
 #include <math.h>
@@ -5,85 +6,12 @@
 #include "core/scene/generated.h"
 
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind) {
-  static const SporeGenerateType *const types[SPORE_GENERATE_KIND_COUNT] = {
-      [SPORE_GENERATE_SPHERES] = &spore_generate_spheres, [SPORE_GENERATE_TETRAHEDRA] = &spore_generate_tetrahedra,
-      [SPORE_GENERATE_CURVE] = &spore_generate_curve,     [SPORE_GENERATE_SURFACE] = &spore_generate_surface,
-      [SPORE_GENERATE_LABELS] = &spore_generate_labels,
-  };
-  return types[kind];
-}
-
-/* Options. */
-
-const SporeParameterTable *spore_generate_table(SporeDocument *document, SporeGenerateKind kind) {
-  const SporeObject *assets = spore_document_section(document, "assets");
-  return spore_object_type_child(spore_object_type(assets), spore_generate_type(kind)->element)->table;
-}
-
-SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
-  return spore_generate_type(kind)->target(document, body);
-}
-
-SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind) {
-  SporeGenerateOptions options = {.kind = kind};
-  SporeObject *asset = spore_generate_target(document, body, kind);
-  if (asset) spore_object_fields(asset, &options.fields);
-  else spore_parameters_set_initial(spore_generate_table(document, kind), &options.fields);
-  return options;
-}
-
-/* Where the count is; NULL: the kind has none. */
-static int64_t *count_of(SporeGenerateOptions *options) {
-  switch (options->kind) {
-  case SPORE_GENERATE_SPHERES:
-    return &options->fields.spheres.count;
-  case SPORE_GENERATE_TETRAHEDRA:
-  case SPORE_GENERATE_LABELS:
-    return &options->fields.tetrahedra.cells;
-  case SPORE_GENERATE_CURVE:
-    return &options->fields.curve.points;
-  case SPORE_GENERATE_SURFACE:
-    return &options->fields.surface.nodes;
-  default:
-    return NULL;
-  }
-}
-
-size_t spore_generate_get_count(const SporeGenerateOptions *options) {
-  SporeGenerateOptions copy = *options;
-  const int64_t *count = count_of(&copy);
-  return count ? (size_t)*count : 0;
-}
-
-static void forget_aims(SporeSpheresFields *spheres) {
-  spheres->coverage = spheres->outside = spheres->tolerance = spheres->depth_error = 0;
-}
-
-void spore_generate_set_count(SporeGenerateOptions *options, size_t count) {
-  int64_t *place = count_of(options);
-  if (!place || *place == (int64_t)count) return;
-  *place = (int64_t)count;
-  if (options->kind == SPORE_GENERATE_SPHERES) forget_aims(&options->fields.spheres);
-  if (options->kind == SPORE_GENERATE_TETRAHEDRA) options->fields.tetrahedra.size = 0;
-}
-
-SporeGenerateOptions spore_generate_by_number(const SporeGenerateOptions *options) {
-  SporeGenerateOptions copy = *options;
-  spore_generate_set_count(&copy, 0);
-  return copy;
-}
-
-gboolean spore_generate_differ_by_number(const SporeParameterTable *table, const SporeGenerateOptions *a,
-                                         const SporeGenerateOptions *b) {
-  if (a->kind != b->kind) return FALSE;
-  SporeGenerateOptions x = spore_generate_by_number(a), y = spore_generate_by_number(b);
-  for (size_t i = 0; i < table->count; i++) {
-    const SporeParameter *parameter = &table->parameters[i];
-    if (!spore_generated_is_option(parameter)) continue;
-    SporeValue one = spore_parameter_load(parameter, &x.fields), other = spore_parameter_load(parameter, &y.fields);
-    if (!spore_value_equal(&one, &other)) return FALSE;
-  }
-  return TRUE;
+  static const SporeGenerateType *const types[] = {&spore_generate_spheres, &spore_generate_tetrahedra,
+                                                   &spore_generate_curve, &spore_generate_surface,
+                                                   &spore_generate_labels};
+  gsize i = 0;
+  while (i + 1 < G_N_ELEMENTS(types) && strcmp(types[i]->shows, spore_generators[kind]->shows) != 0) i++;
+  return types[i];
 }
 
 /* Services for the kinds. */

@@ -1,5 +1,5 @@
-/* The kinds of generators: one table. What a kind is asked for are the attributes of the asset that it makes
- * (spore_generated_is_option): the panel makes a row of each, Apply writes them. No GTK. */
+/* How results of generators are shown: one table, by what a result is. No
+ * GTK. */
 #ifndef SPORE_UI_JOBS_GENERATE_TYPES_H
 #define SPORE_UI_JOBS_GENERATE_TYPES_H
 
@@ -17,49 +17,22 @@ typedef struct SporeGenerateQuality {
 } SporeGenerateQuality;
 
 typedef struct SporeGenerateType {
-  const char *name;               /* of the actions: "generate-NAME", "preview-NAME" */
-  const char *element;            /* of the asset */
-  const char *title, *working;    /* "Spheres of %s", "Generating spheres"; N_ */
-  const char *count;              /* the option that says how many; NULL: none */
-  const char *count_label;        /* N_ */
-  const char *const *only;        /* names of the options that there are; NULL: all of the asset's */
-  const SporeParameter *purposes; /* a choice, what Apply makes of the result: SporeGenerateOptions.purpose; or NULL */
-  gboolean cells;                 /* the result is of cells, and can be seen cut open */
-  gboolean picks_ends;            /* the options have a first and a last place, that can be picked by hand */
+  const char *shows; /* as a generator says */
+  gboolean cells;    /* the result is of cells, and can be seen cut open */
 
   /* Error against number: for these numbers, ended by 0; NULL: no plot. */
   const size_t *counts;
   const char *error_label; /* N_ */
   double worth;            /* %, that twice the number must lower the error by */
-  gboolean (*price)(const SporeGenerateWork *work, size_t count, double *error_percent, const SporeProgress *progress,
-                    GError **error);
 
   const SporeGenerateQuality *qualities; /* at least one */
   gsize quality_count;
 
-  SporeObject *(*target)(SporeDocument *document, SporeObject *body); /* asset that the body uses, or NULL */
-  gboolean (*run)(SporeGenerateWork *work, const SporeProgress *progress, GError **error);
-  /* Inside a group; FALSE: all of it is taken back. */
-  gboolean (*apply)(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error);
-  char *(*facts)(const SporeGenerateWork *work); /* a line each; g_free */
 } SporeGenerateType;
-
-/* What Apply makes, as a choice that the panel shows as a row; of names ended by NULL, and what they mean (N_). */
-#define SPORE_GENERATE_PURPOSES(names, meaning)                                                                        \
-  {                                                                                                                    \
-    .name = "make", .type = SPORE_CHOICE, .unit = "", .minimum = -HUGE_VAL, .maximum = HUGE_VAL, .choices = (names),   \
-    .offset = offsetof(SporeGenerateOptions, purpose), .doc = (meaning)                                                \
-  }
 
 extern const SporeGenerateType spore_generate_spheres, spore_generate_tetrahedra, spore_generate_curve,
     spore_generate_surface, spore_generate_labels;
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind);
-
-/* By number alone, as its error is measured against it: no other aim holds. */
-SporeGenerateOptions spore_generate_by_number(const SporeGenerateOptions *options);
-/* Whether both ask for the same but for how many. */
-gboolean spore_generate_differ_by_number(const SporeParameterTable *table, const SporeGenerateOptions *a,
-                                         const SporeGenerateOptions *b);
 
 /* values x scale, without sign, every stride-th; g_free. */
 double *spore_generate_scaled(const double *values, gsize count, gsize stride, double scale);

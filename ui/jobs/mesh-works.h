@@ -2,7 +2,7 @@
 #ifndef SPORE_UI_JOBS_MESH_WORKS_H
 #define SPORE_UI_JOBS_MESH_WORKS_H
 
-#include "core/generate/organ_import.h"
+#include "core/author/organ_import.h"
 
 /* Reads, divides and mends mesh files. */
 typedef struct SporeImportWork {

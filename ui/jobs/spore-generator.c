@@ -79,7 +79,7 @@ static void start(SporeGenerator *self) {
     fail(self, error);
     return;
   }
-  self->job = spore_job_start(_(spore_generate_type(self->options.kind)->working), spore_generate_work_run, work,
+  self->job = spore_job_start(_(spore_generators[self->options.kind]->working), spore_generate_work_run, work,
                               spore_generate_work_unref, done, G_OBJECT(self));
   g_signal_connect_object(self->job, "progressed", G_CALLBACK(tell), self, G_CONNECT_SWAPPED);
   tell(self);

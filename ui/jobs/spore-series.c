@@ -2,7 +2,7 @@
 
 #include <glib/gi18n.h>
 
-#include "core/generate/spheres_series.h"
+#include "core/generate/spheres/spheres.h"
 #include "ui/jobs/generate-types.h"
 
 typedef struct {
@@ -53,7 +53,9 @@ static gboolean run(gpointer data, const SporeProgress *progress, GError **error
     part.done += part.share;
     part.share = (double)counts[i] / sum;
     SporeProgress inner = spore_progress_of_share(&part);
-    if (!type_of(measurement)->price(measurement->source, counts[i], &found, &inner, error)) return FALSE;
+    if (!spore_generators[measurement->source->options.kind]->error_of(measurement->source, counts[i], &found, &inner,
+                                                                       error))
+      return FALSE;
     measured(measurement, i, found);
   }
   return TRUE;
@@ -102,8 +104,7 @@ gboolean spore_series_is_of(SporeSeries *self, SporeDocument *document, SporeObj
                             const SporeGenerateOptions *options) {
   if (!self->measurement) return TRUE;
   const SporeGenerateWork *source = self->measurement->source;
-  return body &&
-         spore_generate_differ_by_number(spore_generate_table(document, options->kind), &source->options, options) &&
+  return body && spore_generate_differ_by_number(&source->options, options) &&
          spore_generate_work_body(source, document) == body;
 }
 

@@ -1,19 +1,10 @@
-/* The long works of the editor, as data that a SporeJob carries: what goes in, what comes out. No GTK. */
+/* Long works of the editor, as data that a SporeJob takes along: what goes in, what comes out. No GTK. */
 #ifndef SPORE_UI_JOBS_WORKS_H
 #define SPORE_UI_JOBS_WORKS_H
 
 #include "core/base/progress.h"
-#include "core/author/generated_options.h"
-#include "core/generate/centreline.h"
-#include "core/generate/label_tetrahedra.h"
-#include "core/generate/spheres.h"
-#include "core/generate/spheres_quality.h"
-#include "core/generate/surface.h"
-#include "core/generate/tetrahedra.h"
-#include "core/generate/wall.h"
+#include "core/author/generator_work.h"
 #include "core/scene/document.h"
-#include "core/scene/schema_fields.h"
-#include "ui/jobs/label-source.h"
 
 /* Reads a scene and decodes its assets. */
 typedef struct SporeOpenWork {
@@ -27,80 +18,6 @@ SporeOpenWork *spore_open_work_new(const SporeSchema *schema, const char *file);
 gboolean spore_open_work_run(gpointer work, const SporeProgress *progress, GError **error);
 void spore_open_work_free(gpointer work);
 
-/* See generate-types.h. */
-typedef enum SporeGenerateKind {
-  SPORE_GENERATE_SPHERES,
-  SPORE_GENERATE_TETRAHEDRA,
-  SPORE_GENERATE_CURVE,
-  SPORE_GENERATE_SURFACE,
-  SPORE_GENERATE_LABELS, /* of a file instead of a body */
-  SPORE_GENERATE_KIND_COUNT
-} SporeGenerateKind;
-
-/* Copied as it is: of the fields those that say how to generate count, and none of those is a text. */
-typedef struct SporeGenerateOptions {
-  SporeGenerateKind kind;
-  union {
-    SporeSpheresFields spheres;
-    SporeTetrahedraFields tetrahedra;
-    SporeCurveFields curve;
-    SporeMeshFields surface;
-  } fields;                                       /* of the asset of that kind */
-  int purpose;                                    /* what becomes of the result, of the kind's */
-  SporeLabelSource *labels;                       /* of LABELS; borrowed */
-  guint64 unwanted[SPORE_LABEL_SOURCE_MOST / 64]; /* bits: its labels that are left out */
-} SporeGenerateOptions;
-/* Whether the i-th label of the options is to be meshed. */
-gboolean spore_generate_wants_label(const SporeGenerateOptions *options, gsize i);
-void spore_generate_want_label(SporeGenerateOptions *options, gsize i, gboolean wanted);
-/* The asset of the body that a generator of this kind makes, or NULL. */
-SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
-/* As spore_edit_generator_source says. */
-SporeObject *spore_generate_source(SporeDocument *document, SporeObject *body, SporeGenerateKind kind, GError **error);
-/* What describes the fields. */
-const SporeParameterTable *spore_generate_table(SporeDocument *document, SporeGenerateKind kind);
-/* Those of the asset, else the usual ones. */
-SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
-/* How many to make; nothing where the kind does not ask. */
-size_t spore_generate_get_count(const SporeGenerateOptions *options);
-/* By number from now on, where it is another number. */
-void spore_generate_set_count(SporeGenerateOptions *options, size_t count);
-
-/* What generators share: where they started from, to be compared when they are through. Counted references. */
-typedef struct SporeGenerateWork {
-  SporeGenerateOptions options;
-  guint32 body; /* object id */
-  char *source; /* name of the mesh asset */
-  char *source_hash;
-  gsize region_count;
-  SporeGenerateRegion regions[SPORE_GENERATE_REGIONS];
-  SporeTriangleMesh mesh;
-  SporeSphereSet spheres;                  /* out, or in for measuring */
-  SporeSpheresReport spheres_report;       /* out */
-  SporeSpheresQuality spheres_quality;     /* out */
-  SporeTetrahedralMesh tetrahedra;         /* out */
-  SporeTetrahedraReport tetrahedra_report; /* out */
-  SporeLabelTetrahedraReport label_report; /* out, with tetrahedra */
-  SporeCurve curve;                        /* out */
-  SporeCentrelineReport curve_report;      /* out */
-  SporeTriangleMesh surface;               /* out: with a wall, all around it */
-  SporeSurfaceReport surface_report;       /* out; zero where it was not thinned */
-  SporeWallReport wall_report;             /* out; zero without a wall */
-  double *surface_distance;                /* out: a vertex of the given mesh, to the outer surface made, m */
-} SporeGenerateWork;
-/* Copies the mesh that it is made from, and the regions of the asset; or holds the label map (body NULL). NULL with an
- * error: there is no mesh, or there are too many regions. */
-SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
-                                           const SporeGenerateOptions *options, GError **error);
-gboolean spore_generate_work_run(gpointer work, const SporeProgress *progress, GError **error);
 gboolean spore_measure_work_run(gpointer work, const SporeProgress *progress, GError **error);
-SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work);
-void spore_generate_work_unref(gpointer work);
-/* Whether the document still is what the work began with. */
-gboolean spore_generate_work_holds(const SporeGenerateWork *work, SporeDocument *document);
-/* The body, where it still has the mesh and the regions that the work began with; NULL: the document moved on. */
-SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document);
-/* The result becomes the body's, as one undo step; the options are remembered. */
-gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument *document, GError **error);
 
 #endif

@@ -1,6 +1,7 @@
 #include "ui/panels/asset-facts.h"
 
 #include <glib/gi18n.h>
+#include <string.h>
 
 #include "core/scene/compile.h"
 #include "core/scene/generated.h"
@@ -40,21 +41,24 @@ static char *tell_surface(SporeDocument *document, SporeObject *asset, GError **
 }
 
 static const struct {
+  const char *shows; /* as a generator says */
   char *(*tell)(SporeDocument *document, SporeObject *asset, GError **error);
-  const char *none;
-} kinds[SPORE_GENERATE_KIND_COUNT] = {
-    [SPORE_GENERATE_SPHERES] = {count_spheres, N_("No spheres yet: the body touches nothing")},
-    [SPORE_GENERATE_TETRAHEDRA] = {tell_tetrahedra, N_("No tetrahedra yet")},
-    [SPORE_GENERATE_CURVE] = {tell_curve, N_("No middle line yet")},
-    [SPORE_GENERATE_SURFACE] = {tell_surface, N_("No generated surface yet")},
+  const char *none; /* N_ */
+} kinds[] = {
+    {"spheres", count_spheres, N_("No spheres yet: the body touches nothing")},
+    {"tetrahedra", tell_tetrahedra, N_("No tetrahedra yet")},
+    {"curve", tell_curve, N_("No middle line yet")},
+    {"surface", tell_surface, N_("No generated surface yet")},
 };
 
 char *spore_asset_facts(SporeDocument *document, const SporeObject *body, SporeObject *asset, SporeGenerateKind kind) {
   g_autoptr(GError) error = NULL;
   if (!asset && kind == SPORE_GENERATE_SPHERES && spore_body_has_own_spheres(body))
     return g_strdup(_("The model's own spheres"));
-  if (!asset) return g_strdup(_(kinds[kind].none));
-  char *text = kinds[kind].tell(document, asset, &error);
+  gsize i = 0;
+  while (i + 1 < G_N_ELEMENTS(kinds) && strcmp(kinds[i].shows, spore_generators[kind]->shows) != 0) i++;
+  if (!asset) return g_strdup(_(kinds[i].none));
+  char *text = kinds[i].tell(document, asset, &error);
   return text ? text : g_strdup(error->message);
 }
 

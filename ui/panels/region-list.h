@@ -4,6 +4,7 @@
 
 #include <gtk/gtk.h>
 
+#include "core/author/generator.h"
 #include "core/author/region_edits.h"
 #include "ui/document/spore-editor-document.h"
 

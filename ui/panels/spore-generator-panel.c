@@ -48,10 +48,10 @@ static void options_changed(GtkWidget *widget, SporeGeneratorPanel *self) {
 
 static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *options) {
   const SporeGenerateType *type = spore_generate_type(options->kind);
-  const SporeParameterTable *table = spore_generate_table(spore_generator_get_document(self->generator), options->kind);
-  spore_generator_rows_set_options(SPORE_GENERATOR_ROWS(self->rows), table, options);
+  const SporeParameterTable table = spore_generator_table(spore_generators[options->kind]);
+  spore_generator_rows_set_options(SPORE_GENERATOR_ROWS(self->rows), &table, options);
   gtk_widget_set_visible(self->numbers, type->counts != NULL);
-  gtk_widget_set_visible(self->ends, type->picks_ends);
+  gtk_widget_set_visible(self->ends, spore_generators[options->kind]->picks_ends);
   /* Those of a label map are known once it was read. */
   gtk_widget_set_visible(self->organs, options->labels && spore_generator_get_result(self->generator));
   if (gtk_widget_get_visible(self->organs)) spore_label_list_set_options(SPORE_LABEL_LIST(self->labels), options);
@@ -59,7 +59,7 @@ static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *
   gsize last = 0;
   while (type->counts[last + 1]) last++;
   spore_count_plot_set_axes(SPORE_COUNT_PLOT(self->plot), type->counts[0], type->counts[last], _(type->error_label),
-                            _(type->count_label));
+                            _(spore_generators[options->kind]->count_label));
   spore_count_plot_set_current(SPORE_COUNT_PLOT(self->plot), spore_generate_get_count(options));
 }
 
@@ -103,7 +103,7 @@ static void show_result(SporeGeneratorPanel *self) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   SporeQuality quality = {0};
   if (work) spore_quality_of(work, spore_generator_panel_get_quality(self), &quality);
-  g_autofree char *facts = work ? spore_generate_type(work->options.kind)->facts(work) : g_strdup(_("Working…"));
+  g_autofree char *facts = work ? spore_generators[work->options.kind]->facts(work) : g_strdup(_("Working…"));
   gtk_label_set_text(GTK_LABEL(self->facts), facts);
   gtk_widget_set_visible(self->histogram, !quality.names);
   spore_histogram_set_quality(SPORE_HISTOGRAM(self->histogram), &quality);
@@ -119,7 +119,7 @@ static void quality_chosen(GtkComboBox *combo, SporeGeneratorPanel *self) {
 /* Of whom it generates: the body, or the file. */
 static char *title_of(SporeGeneratorPanel *self, SporeObject *body, const SporeGenerateOptions *options) {
   g_autofree char *base = options->labels ? g_path_get_basename(spore_label_source_file(options->labels)) : NULL;
-  return g_strdup_printf(_(spore_generate_type(options->kind)->title), base ? base : spore_object_name(body));
+  return g_strdup_printf(_(spore_generators[options->kind]->title), base ? base : spore_object_name(body));
 }
 
 static void refresh(SporeGeneratorPanel *self) {

@@ -3,7 +3,6 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "core/scene/generated.h"
 #include "ui/jobs/generate-types.h"
 #include "ui/panels/report.h"
 
@@ -100,16 +99,17 @@ static void add_row(SporeGeneratorRows *self, const SporeParameter *parameter, c
 static void destroy_child(GtkWidget *child, gpointer data) { gtk_widget_destroy(child); }
 
 static void build(SporeGeneratorRows *self, const SporeParameterTable *table, SporeGenerateKind kind) {
-  const SporeGenerateType *type = spore_generate_type(kind);
   gtk_container_foreach(GTK_CONTAINER(self), destroy_child, NULL);
   g_array_set_size(self->rows, 0);
   self->kind = (int)kind;
   for (size_t i = 0; i < table->count; i++) {
     const SporeParameter *parameter = &table->parameters[i];
-    if (spore_generated_is_option(parameter) && (!type->only || g_strv_contains(type->only, parameter->name)))
-      add_row(self, parameter, g_str_equal(parameter->name, type->count) ? _(type->count_label) : NULL);
+    if (spore_generator_takes(spore_generators[kind], parameter))
+      add_row(self, parameter,
+              g_strcmp0(parameter->name, spore_generators[kind]->count) == 0 ? _(spore_generators[kind]->count_label)
+                                                                             : NULL);
   }
-  if (type->purposes) add_row(self, type->purposes, NULL);
+  if (spore_generators[kind]->purpose) add_row(self, spore_generators[kind]->purpose, NULL);
   gtk_widget_show_all(GTK_WIDGET(self));
 }
 
@@ -117,8 +117,8 @@ static void build(SporeGeneratorRows *self, const SporeParameterTable *table, Sp
 
 /* Of what structure the parameter is a field. */
 static void *place_of(SporeGeneratorRows *self, const Row *row, SporeGenerateOptions *options) {
-  gboolean purpose = row->parameter == spore_generate_type((SporeGenerateKind)self->kind)->purposes;
-  return purpose ? (void *)options : (void *)&options->fields;
+  gboolean purpose = row->parameter == spore_generators[(SporeGenerateKind)self->kind]->purpose;
+  return purpose ? (void *)&options->purpose : (void *)&options->fields;
 }
 
 static void show_value(const Row *row, double value) {
@@ -160,10 +160,10 @@ void spore_generator_rows_get_options(SporeGeneratorRows *self, SporeGenerateOpt
 }
 
 void spore_generator_rows_set_count(SporeGeneratorRows *self, guint count) {
-  const char *name = spore_generate_type((SporeGenerateKind)self->kind)->count;
+  const char *name = spore_generators[(SporeGenerateKind)self->kind]->count;
   for (guint i = 0; i < self->rows->len; i++) {
     const Row *row = &g_array_index(self->rows, Row, i);
-    if (g_str_equal(row->parameter->name, name)) gtk_spin_button_set_value(GTK_SPIN_BUTTON(row->editor), count);
+    if (g_strcmp0(row->parameter->name, name) == 0) gtk_spin_button_set_value(GTK_SPIN_BUTTON(row->editor), count);
   }
 }
 

@@ -14,7 +14,7 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_GENERATOR_ROWS spore_generator_rows_get_type()
 G_DECLARE_FINAL_TYPE(SporeGeneratorRows, spore_generator_rows, SPORE, GENERATOR_ROWS, GtkGrid)
 
-/* table: of the options' fields (spore_generate_table), kept. */
+/* table: of the options' fields (spore_generator_table); its parameters are kept. */
 void spore_generator_rows_set_options(SporeGeneratorRows *self, const SporeParameterTable *table,
                                       const SporeGenerateOptions *options);
 /* Writes what the rows say; places are left as they are. */

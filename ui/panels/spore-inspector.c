@@ -17,17 +17,14 @@
 #include "ui/panels/spore-property-row.h"
 #include "ui/panels/spore-section-list.h"
 
-#define DEFAULT_SPHERES 100
-#define DEFAULT_CELLS 1000
-#define DEFAULT_NODES 300
-#define MOST_CELLS 1000000
+#define MOST_COUNT 1e6 /* that is asked for beside a number: a larger one is an option of the panel */
 
 struct _SporeInspector {
   GtkBox parent;
   GtkWidget *title, *subtitle, *sections;
   SporeEditorDocument *document;
   guint rebuild, refresh;
-  GtkWidget *mesh_facts, *generators[SPORE_GENERATE_KIND_COUNT], *model, *preset, *mapping_facts;
+  GtkWidget *mesh_facts, *generators[SPORE_GENERATORS_MOST], *model, *preset, *mapping_facts;
   SporeSphereMeasures *measures;
   SporeMappingReport mapping;
   char *mesh_hash, *mesh_text; /* of the mesh that was looked at last: its content, and what is said of it */
@@ -118,7 +115,7 @@ static void show_generated(SporeInspector *self, SporeObject *body, SporeGenerat
   g_autofree char *remarks = asset ? spore_asset_remarks(document_of(self), asset) : g_strdup("");
   SporeGeneratorState state = {.asset = path,
                                .remarks = remarks,
-                               .count = last_count(asset, spore_generate_type(kind)->count, 0),
+                               .count = last_count(asset, spore_generators[kind]->count, 0),
                                .generated = generated != SPORE_GENERATED_NOT,
                                .stale = generated == SPORE_GENERATED_SOURCE_CHANGED ||
                                         generated == SPORE_GENERATED_OPTIONS_CHANGED,
@@ -140,7 +137,7 @@ static void show_facts(SporeInspector *self) {
   if (!body || !self->model) return;
   SporeObject *model = spore_edit_body_model(body);
   show_mesh_facts(self, body);
-  for (SporeGenerateKind kind = 0; kind < SPORE_GENERATE_KIND_COUNT; kind++)
+  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++)
     if (self->generators[kind]) show_generated(self, body, kind);
   spore_model_choice_set_model(SPORE_MODEL_CHOICE(self->model), model);
   if (self->preset) spore_model_choice_set_model(SPORE_MODEL_CHOICE(self->preset), model);
@@ -208,21 +205,28 @@ static void add_visual(SporeInspector *self, SporeObject *body, const char *path
   add_unit(self, box, body, "visual");
 }
 
-static void add_generator(SporeInspector *self, GtkBox *box, SporeGenerateKind kind, SporeObject *body,
-                          const char *label, guint usual, guint most) {
-  const SporeGenerateType *type = spore_generate_type(kind);
+static void add_generator(SporeInspector *self, GtkBox *box, SporeGenerateKind kind, SporeObject *body) {
+  const SporeGeneratorType *type = spore_generators[kind];
+  SporeParameterTable table = spore_generator_table(type);
+  const SporeParameter *count = &table.parameters[spore_parameter_find(&table, type->count)];
   g_autofree char *action = g_strconcat("preview-", type->name, NULL);
-  guint count = last_count(spore_generate_target(document_of(self), body, kind), type->count, usual);
-  g_set_weak_pointer(&self->generators[kind], spore_generator_box_new(action, label, count, most));
+  guint now = last_count(spore_generate_target(document_of(self), body, kind), type->count, (guint)count->initial[0]);
+  g_set_weak_pointer(&self->generators[kind],
+                     spore_generator_box_new(action, _(type->offer), now, (guint)MIN(count->maximum, MOST_COUNT)));
   gtk_container_add(GTK_CONTAINER(box), self->generators[kind]);
+}
+
+/* Those that are offered with this unit of a body. */
+static void add_generators(SporeInspector *self, GtkBox *box, SporeObject *body, const char *unit) {
+  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++)
+    if (g_strcmp0(spore_generators[kind]->unit, unit) == 0) add_generator(self, box, kind, body);
 }
 
 static void add_collision(SporeInspector *self, SporeObject *body, const char *path) {
   SporeObject *asset = spore_edit_body_spheres(document_of(self), body);
   GtkBox *box = spore_section_list_add(sections_of(self), _("Collision spheres"), path, asset);
   if (!box) return;
-  add_generator(self, box, SPORE_GENERATE_SPHERES, body, _("Number of spheres"), DEFAULT_SPHERES,
-                SPORE_SPHERES_MAXIMUM);
+  add_generators(self, box, body, "collision");
   add_unit(self, box, body, "collision");
   add_generator_regions(self, box, asset,
                         _("Spheres lie as densely everywhere: in a region they lie denser, or less so"));
@@ -235,9 +239,7 @@ static void add_mechanical(SporeInspector *self, SporeObject *body, const char *
   if (!box) return;
   g_set_weak_pointer(&self->model, spore_model_choice_new(spore_document_schema(document)));
   gtk_container_add(GTK_CONTAINER(box), self->model);
-  add_generator(self, box, SPORE_GENERATE_TETRAHEDRA, body, _("Number of tetrahedra"), DEFAULT_CELLS, MOST_CELLS);
-  add_generator(self, box, SPORE_GENERATE_SURFACE, body, _("Nodes of a surface"), DEFAULT_NODES, MOST_CELLS);
-  add_generator(self, box, SPORE_GENERATE_CURVE, body, _("Points of the middle line"), 0, SPORE_CENTRELINE_MOST_POINTS);
+  add_generators(self, box, body, "mechanical");
   add_unit(self, box, body, "mechanical");
   add_generator_regions(self, box, asset,
                         _("Tetrahedra are as large everywhere: in a region they are of a size of their own"));

@@ -1,0 +1,43 @@
+/* A body along a middle line: what an author makes of a tubular organ in one step. */
+#ifndef SPORE_AUTHOR_CENTRELINE_BODY_H
+#define SPORE_AUTHOR_CENTRELINE_BODY_H
+
+#include "core/scene/document.h"
+
+typedef enum SporeCentrelineBody {
+  SPORE_CENTRELINE_THREAD,    /* spline_1d, solid, held at both ends */
+  SPORE_CENTRELINE_TUBE,      /* spline_1d with a wall, that resists twist, held at both ends */
+  SPORE_CENTRELINE_INTESTINE, /* intestine, held at its mesentery's root */
+  SPORE_CENTRELINE_BODIES
+} SporeCentrelineBody;
+extern const char *const spore_centreline_body_names[]; /* "thread", ...; ends with NULL */
+
+#define SPORE_CENTRELINE_APART 1.0 /* radii from loop to loop, over their sum, from which on loops are apart */
+typedef struct SporeCentrelineBodyOptions {
+  SporeCentrelineBody body;
+  size_t control_points; /* 0: from the line's length, thickness and bends */
+  bool loops_apart;      /* no two loops touch at rest: the body may touch itself */
+} SporeCentrelineBodyOptions;
+
+/* Control points for a line: one each two radii, and as many as bends need. */
+size_t spore_centreline_control_points(const SporeCurve *curve);
+
+/* Whether a body along the line carries the surface: no more of its edges than SPORE_CARRIED_TORN lead from one loop to
+ * another. */
+bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *mesh);
+
+/* Makes a body that is there one along the curve asset `line`: its model, collision unit and holds take the place of
+ * those it had. mesh as below. FALSE with a GError: what was changed by then stays. */
+gboolean spore_centreline_body_fill(SporeDocument *document, SporeObject *body, SporeObject *line,
+                                    const SporeCurve *curve, const SporeCentrelineBodyOptions *options,
+                                    SporeObject *mesh, GError **error);
+
+/* Inserts a curve asset (its file waits as a blob), a body of that kind with collision spheres along the line (the
+ * model's own) and what holds it. mesh: object of a mesh asset that the body shows, or NULL: its own
+ * skin. Returns the body; NULL with a GError: what was inserted by then stays, so call it inside a group where that
+ * matters.
+ */
+SporeObject *spore_centreline_body_insert(SporeDocument *document, const char *name, const SporeCurve *curve,
+                                          const SporeCentrelineBodyOptions *options, SporeObject *mesh, GError **error);
+
+#endif

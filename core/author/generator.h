@@ -1,0 +1,119 @@
+/* Generators: each is a kind of asset, the table of its options, and what tells how they are meant. */
+#ifndef SPORE_AUTHOR_GENERATOR_H
+#define SPORE_AUTHOR_GENERATOR_H
+
+#include "core/generate/centreline/centreline.h"
+#include "core/generate/spheres/spheres.h"
+#include "core/generate/surface/surface.h"
+#include "core/generate/tetrahedra/tetrahedra.h"
+#include "core/scene/document.h"
+#include "core/scene/schema_fields.h"
+
+/* What the options of the generators that ship are filled into: the attributes of the asset. */
+typedef struct SporeMeshFields {
+  const char *name, *file;
+  int unit, frame; /* as core/io/mesh_import.h counts them */
+  const char *source, *source_hash, *options_hash;
+  bool frozen, edited;
+  int64_t nodes;
+  double size, keep_angle, wall; /* m, degrees, m */
+  int64_t wall_detail;
+} SporeMeshFields;
+
+typedef struct SporeSpheresFields {
+  const char *name, *file, *source, *source_hash, *options_hash;
+  bool frozen, edited;
+  int method;                                       /* index in the table's choices */
+  double coverage, outside, tolerance, depth_error; /* targets; all 0: by count */
+  int64_t count, seed;
+} SporeSpheresFields;
+
+typedef struct SporeTetrahedraFields {
+  const char *name, *file, *source, *source_hash, *options_hash;
+  bool frozen, edited;
+  int method; /* index in the table's choices: 0 the first that does it, else SporeTetrahedraMethod + 1 */
+  int64_t cells;
+  double size, tolerance, curvature, gap; /* size 0: by cells */
+  bool fill;
+} SporeTetrahedraFields;
+
+typedef struct SporeCurveFields {
+  const char *name, *file, *source, *source_hash, *options_hash;
+  bool frozen, edited;
+  int64_t points;
+  double tolerance;                     /* of the radius */
+  double first_place[3], last_place[3]; /* m; the same: the organ's own ends */
+} SporeCurveFields;
+
+/* What becomes of a result, as a choice: names ended by NULL, and what they mean (N_). */
+#define SPORE_GENERATOR_PURPOSE(names, meaning)                                                                        \
+  {                                                                                                                    \
+    .name = "make", .type = SPORE_CHOICE, .unit = "", .minimum = -HUGE_VAL, .maximum = HUGE_VAL, .choices = (names),   \
+    .doc = (meaning)                                                                                                   \
+  }
+
+typedef struct SporeGenerateWork SporeGenerateWork; /* generator_work.h */
+typedef struct SporeGeneratorType {
+  const char *name;    /* of the editor's actions: generate-NAME, preview-NAME */
+  const char *command; /* spore COMMAND */
+  const char *element; /* of the asset that it makes, whose table says the options (spore_generated_is_option) */
+  const SporeElement *elements; /* the asset and its regions, ended by no name; NULL: those of another generator */
+  const char *const *only;      /* names of the options that it takes; NULL: all of the asset's */
+  const char *count;            /* the option that says how many; NULL: none */
+  /* Ways to say how fine the result shall be, of which one is taken: options apart by blanks, ways by " | ". Where one
+   * is chosen, the options of the others are 0, which is "not asked for"; NULL: there is one way. */
+  const char *ways;
+  const SporeParameter *purpose; /* a choice, what becomes of the result (a field of int at 0); NULL: always the same */
+  SporeObject *(*target)(SporeDocument *document, SporeObject *body); /* asset that the body uses, or NULL */
+
+  const char *shows; /* what the result is, for who draws it: "spheres", "tetrahedra", "labels", "curve", "surface" */
+  const char *title, *working; /* "Spheres of %s", "Generating spheres"; N_ */
+  const char *count_label;     /* N_ */
+  const char *unit;    /* of a body, where the editor offers the generator: "collision", "mechanical"; NULL: nowhere */
+  const char *offer;   /* "Number of spheres", beside the number there; N_ */
+  gboolean picks_ends; /* the options have a first and a last place, that can be picked by hand */
+  gboolean (*run)(SporeGenerateWork *work, const SporeProgress *progress, GError **error);
+  /* The result becomes the body's, as one undo step. FALSE: nothing of it is left. */
+  gboolean (*apply)(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error);
+  char *(*facts)(const SporeGenerateWork *work); /* a line each, for people; g_free */
+  /* The error (%) of a result of that number; NULL: it is not measured. */
+  gboolean (*error_of)(const SporeGenerateWork *work, size_t count, double *error_percent,
+                       const SporeProgress *progress, GError **error);
+} SporeGeneratorType;
+
+extern const SporeGeneratorType spore_generator_surface, spore_generator_spheres, spore_generator_tetrahedra,
+    spore_generator_curve, spore_generator_labels;
+#define SPORE_GENERATORS_MOST 32
+#define SPORE_GENERATOR_FIELDS 512                         /* bytes that the fields of an asset take, at most */
+extern const SporeGeneratorType *const spore_generators[]; /* all of them, ended by NULL */
+/* The elements that the generators bring, for spore_schema_new. */
+const SporeElement *const *spore_generator_elements(void);
+
+/* What describes the fields of its asset. */
+SporeParameterTable spore_generator_table(const SporeGeneratorType *type);
+/* Whether the generator takes this option of its asset. */
+gboolean spore_generator_takes(const SporeGeneratorType *type, const SporeParameter *parameter);
+/* The way that an option belongs to, from 0; -1: to none. */
+int spore_generator_way(const SporeGeneratorType *type, const char *option);
+/* Of the asset's fields: options of other ways than this one become 0, where they may be. */
+void spore_generator_choose_way(const SporeGeneratorType *type, int way, void *fields);
+
+/* What the generators take; they borrow the regions. */
+SporeSpheresOptions spore_edit_spheres_options(const SporeSpheresFields *fields, const SporeGenerateRegion *regions,
+                                               gsize count);
+SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields *fields,
+                                                     const SporeGenerateRegion *regions, gsize count);
+SporeCentrelineOptions spore_edit_centreline_options(const SporeCurveFields *fields);
+SporeSimplifyOptions spore_edit_surface_options(const SporeMeshFields *fields);
+
+/* The mesh asset that what the body uses (target, NULL: nothing yet) is made from: what the body shows; where that is
+ * what was generated, or nothing, what the generated asset came from. NULL with an error: there is none. */
+SporeObject *spore_edit_generator_source(SporeDocument *document, SporeObject *body, SporeObject *target,
+                                         GError **error);
+/* Element of the regions that this kind of object holds: "region" of `regions`; NULL: it holds none. */
+const char *spore_region_element(const SporeObjectType *holder);
+/* Of an asset, or of none (NULL); regions: room for SPORE_GENERATE_REGIONS. FALSE with an error: there are more. */
+gboolean spore_edit_generator_regions(const SporeObject *asset, SporeGenerateRegion *regions, gsize *count,
+                                      GError **error);
+
+#endif

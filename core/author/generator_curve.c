@@ -1,0 +1,134 @@
+/* The generator of middle lines: its options, which are attributes of <curve>. */
+#include "core/author/generator.h"
+
+#include <string.h>
+
+#include "core/author/edits.h"
+#include "core/author/generated_edits.h"
+#include "core/author/generator_work.h"
+#include "core/scene/schema_tables.h"
+
+static const SporeParameter curve_parameters[] = {
+    NAME(SporeCurveFields, N_("Name by which bodies refer to the curve.")),
+    {.name = "file",
+     .type = SPORE_FILE,
+     .unit = "",
+     FIELD(SporeCurveFields, file),
+     .required = true,
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("File of the curve, inside the scene's folder: x y z r a line, of a point and the radius there, m; # "
+               "begins a comment.")},
+    {.name = "source",
+     .type = SPORE_REFERENCE,
+     .unit = "",
+     .references = "mesh",
+     FIELD(SporeCurveFields, source),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Mesh that the curve is the middle line of; none: made elsewhere.")},
+    {.name = "points",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     0,
+     100000,
+     FIELD(SporeCurveFields, points),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Number of points to generate, evenly along the line; 0: as many as the tolerance takes.")},
+    {.name = "tolerance",
+     .type = SPORE_REAL,
+     .unit = "",
+     0.0001,
+     0.9,
+     .initial = {0.02},
+     FIELD(SporeCurveFields, tolerance),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("How far straight pieces may leave the line, of the radius, where the number of points is 0.")},
+    {.name = "first_place",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeCurveFields, first_place),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Place in or on the organ where the line begins; the same as the last place: at the organ's end.")},
+    {.name = "last_place",
+     .type = SPORE_VECTOR,
+     .unit = "m",
+     -POSITION_M,
+     POSITION_M,
+     FIELD(SporeCurveFields, last_place),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Place in or on the organ where the line ends; the same as the first place: at the organ's end.")},
+    GENERATED(SporeCurveFields),
+};
+
+static const SporeElement elements[] = {
+    {"curve", N_("Curve"), N_("The middle line of a thread or a tube, with its radius along it."),
+     TABLE(curve_parameters, SporeCurveFields)},
+    {NULL},
+};
+
+SporeCentrelineOptions spore_edit_centreline_options(const SporeCurveFields *fields) {
+  SporeCentrelineOptions options = {.points = (size_t)fields->points, .tolerance = fields->tolerance};
+  memcpy(options.ends[0], fields->first_place, sizeof options.ends[0]);
+  memcpy(options.ends[1], fields->last_place, sizeof options.ends[1]);
+  options.ends_given = memcmp(options.ends[0], options.ends[1], sizeof options.ends[0]) != 0;
+  return options;
+}
+
+static const char *const uses[] = {"curve", "thread", "tube", "intestine", NULL};
+static const SporeParameter purpose = SPORE_GENERATOR_PURPOSE(
+    uses, N_("What Apply makes: the curve alone, or of the body a solid thread, a tube with a wall, or an intestine on "
+             "its mesentery."));
+
+static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeCentrelineOptions options = spore_edit_centreline_options(&work->options.fields.curve);
+  if (spore_centreline_from_mesh(&work->mesh, &options, &work->curve, &work->curve_report, progress, &failure))
+    return TRUE;
+  spore_error_at(&failure, work->source);
+  return spore_error_propagate(&failure, error);
+}
+
+static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
+  const SporeGeneratedFrom from = spore_generate_work_from(work);
+  const SporeCentrelineBodyOptions along = {.body = (SporeCentrelineBody)(work->options.purpose - 1),
+                                            .loops_apart = work->curve_report.approach > SPORE_CENTRELINE_APART};
+  return spore_edit_use_curve(document, body, &from, &work->curve, work->options.purpose ? &along : NULL, error);
+}
+
+static char *facts(const SporeGenerateWork *work) {
+  const SporeCentrelineReport *report = &work->curve_report;
+  size_t loops = 0;
+  for (size_t i = 0; i < MIN(report->branches, SPORE_CENTRELINE_NAMED); i++) loops += report->branch[i].returns;
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(
+      text, _("%zu points in %.1f s, %.1f mm long\nRadius %.2f mm (%.2f to %.2f)\nLoops left out: %zu, branches: %zu"),
+      work->curve.count, report->seconds, 1e3 * report->length, 1e3 * report->radius_mean, 1e3 * report->radius_min,
+      1e3 * report->radius_max, loops, report->branches - loops);
+  if (report->components > 1)
+    g_string_append_printf(text, _("\nOf the largest of %zu pieces, %.1f %% of the organ"), report->components,
+                           100 * report->share);
+  if (report->approach < 1) g_string_append(text, _("\nIts windings touch"));
+  return g_string_free(text, FALSE);
+}
+
+const SporeGeneratorType spore_generator_curve = {
+    .name = "curve",
+    .command = "centreline",
+    .element = "curve",
+    .elements = elements,
+    .count = "points",
+    .ways = "points | tolerance",
+    .purpose = &purpose,
+    .target = spore_edit_body_curve,
+    .shows = "curve",
+    .title = N_("Middle line of %s"),
+    .working = N_("Finding the middle line"),
+    .count_label = N_("Points"),
+    .unit = "mechanical",
+    .offer = N_("Points of the middle line"),
+    .picks_ends = TRUE,
+    .run = run,
+    .apply = apply,
+    .facts = facts,
+};

@@ -1,0 +1,205 @@
+/* The generator of surfaces and walls: its options, which are attributes of <mesh>. */
+#include "core/author/generator.h"
+
+#include <math.h>
+
+#include "core/author/edits.h"
+#include "core/author/generated_edits.h"
+#include "core/author/generator_work.h"
+#include "core/scene/length_unit.h"
+#include "core/scene/schema_tables.h"
+
+static const char *const frames[] = {"Y_UP", "RAS", "LPS", NULL};
+
+static const SporeParameter mesh_parameters[] = {
+    NAME(SporeMeshFields, N_("Name by which bodies and generators refer to the mesh.")),
+    {.name = "file",
+     .type = SPORE_FILE,
+     .unit = "",
+     FIELD(SporeMeshFields, file),
+     .required = true,
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("File of the surface mesh, inside the scene's folder.")},
+    {.name = "unit",
+     .type = SPORE_CHOICE,
+     .unit = "",
+     ANY,
+     .initial = {0},
+     .choices = spore_length_units,
+     FIELD(SporeMeshFields, unit),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Unit of the numbers in the mesh file.")},
+    {.name = "frame",
+     .type = SPORE_CHOICE,
+     .unit = "",
+     ANY,
+     .initial = {0},
+     .choices = frames,
+     FIELD(SporeMeshFields, frame),
+     .change = SPORE_CHANGE_REBUILD,
+     .doc = N_("Axes of the mesh file: Y_UP as in the scene, RAS or LPS for medical images.")},
+    {.name = "source",
+     .type = SPORE_REFERENCE,
+     .unit = "",
+     .references = "mesh",
+     FIELD(SporeMeshFields, source),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Mesh that this one was generated from, with fewer nodes or a wall; none: made elsewhere.")},
+    {.name = "nodes",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     0,
+     10000000,
+     .initial = {300},
+     FIELD(SporeMeshFields, nodes),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Number of nodes to generate at most; 0: as many as the size takes, or with a wall all.")},
+    {.name = "size",
+     .type = SPORE_REAL,
+     .unit = "m",
+     0,
+     POSITION_M,
+     FIELD(SporeMeshFields, size),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Length of edges to generate, where the number of nodes is 0.")},
+    {.name = "keep_angle",
+     .type = SPORE_REAL,
+     .unit = "deg",
+     1,
+     360,
+     .initial = {60},
+     FIELD(SporeMeshFields, keep_angle),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Edges at which the surface turns by more are kept; 360: none.")},
+    {.name = "wall",
+     .type = SPORE_REAL,
+     .unit = "m",
+     0,
+     POSITION_M,
+     FIELD(SporeMeshFields, wall),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("Thickness of the wall that makes the organ hollow; 0: it stays as it is.")},
+    {.name = "wall_detail",
+     .type = SPORE_INTEGER,
+     .unit = "",
+     0,
+     SPORE_MOST_WALL_DETAIL,
+     FIELD(SporeMeshFields, wall_detail),
+     .change = SPORE_CHANGE_LIVE,
+     .doc = N_("How near the wall is to its thickness: twice as much halves the largest error, in more triangles; 0: "
+               "16, for an error below 5 %.")},
+    GENERATED(SporeMeshFields),
+};
+
+static const SporeElement elements[] = {
+    {"mesh", N_("Mesh"), N_("A surface of triangles."), TABLE(mesh_parameters, SporeMeshFields)},
+    {NULL},
+};
+
+SporeSimplifyOptions spore_edit_surface_options(const SporeMeshFields *fields) {
+  return (SporeSimplifyOptions){(size_t)fields->nodes, fields->nodes ? 0 : fields->size,
+                                fields->keep_angle * G_PI / 180};
+}
+
+static const char *const uses[] = {"model", "visual_mesh", "asset", NULL}; /* as SporeSurfaceUse */
+static const SporeParameter purpose = SPORE_GENERATOR_PURPOSE(
+    uses, N_("What Apply makes: what the body's model is built from, the mesh that the body shows and generators start "
+             "from (a wall, to be filled with tetrahedra), or an asset alone."));
+
+static bool make_wall(SporeGenerateWork *work, const SporeProgress *progress, SporeError *failure) {
+  SporeTriangleMesh outer = work->surface, inner = {0};
+  work->surface = (SporeTriangleMesh){0};
+  const SporeMeshFields *fields = &work->options.fields.surface;
+  bool done = spore_wall_inner(&outer, fields->wall, (double)fields->wall_detail, &inner, &work->wall_report, progress,
+                               failure) &&
+              spore_wall_solid(&outer, &inner, &work->surface, failure);
+  work->wall_report.seconds *= done;
+  spore_triangle_mesh_clear(&outer);
+  spore_triangle_mesh_clear(&inner);
+  return done;
+}
+
+/* How far each vertex of the given mesh is from what was made of it. */
+static bool measure(SporeGenerateWork *work, SporeError *failure) {
+  SporeBvh *bvh = spore_bvh_create(&work->surface, failure);
+  if (!bvh) return false;
+  work->surface_distance = g_new(double, work->mesh.vertex_count);
+  for (gsize i = 0; i < work->mesh.vertex_count; i++)
+    work->surface_distance[i] = spore_bvh_distance(bvh, spore_vec3_load(work->mesh.vertices + 3 * i), NULL, NULL);
+  spore_bvh_free(bvh);
+  return true;
+}
+
+static gboolean run(SporeGenerateWork *work, const SporeProgress *progress, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeSimplifyOptions options = spore_edit_surface_options(&work->options.fields.surface);
+  gboolean thin = options.vertices > 0 || options.size > 0, wall = work->options.fields.surface.wall > 0;
+  if (!thin && !wall)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, work->source,
+                             _("nothing is asked for; expected a number of nodes, a size or a wall; give one of them"));
+  bool done =
+      thin ? spore_surface_from_mesh(&work->mesh, &options, &work->surface, &work->surface_report, progress, &failure)
+           : spore_triangle_mesh_copy(&work->surface, &work->mesh, &failure);
+  done = done && measure(work, &failure) && (!wall || make_wall(work, progress, &failure));
+  if (done) return TRUE;
+  spore_error_at(&failure, work->source);
+  return spore_error_propagate(&failure, error);
+}
+
+static gboolean error_of(const SporeGenerateWork *work, size_t count, double *error_percent,
+                         const SporeProgress *progress, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeSimplifyOptions options = spore_edit_surface_options(&work->options.fields.surface);
+  SporeTriangleMesh surface = {0};
+  SporeSurfaceReport report;
+  options.vertices = count;
+  if (!spore_surface_from_mesh(&work->mesh, &options, &surface, &report, progress, &failure))
+    return spore_error_propagate(&failure, error);
+  spore_triangle_mesh_clear(&surface);
+  *error_percent = 100 * report.hausdorff;
+  return TRUE;
+}
+
+static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error) {
+  const SporeGeneratedFrom from = spore_generate_work_from(work);
+  return spore_edit_use_surface(document, body, &from, &work->surface, (SporeSurfaceUse)work->options.purpose, error);
+}
+
+static char *facts(const SporeGenerateWork *work) {
+  const SporeSurfaceReport *report = &work->surface_report;
+  const SporeWallReport *wall = &work->wall_report;
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("%zu nodes, %zu triangles in %.1f s"), work->surface.vertex_count,
+                         work->surface.triangle_count, report->seconds + wall->seconds);
+  if (report->mean_angle_deg > 0)
+    g_string_append_printf(text, _("\nDistance %.2f %%, edges %.2f mm\nLeast angle %.1f°, mean %.1f°"),
+                           100 * report->hausdorff, 1e3 * report->edge_mean, report->min_angle_deg,
+                           report->mean_angle_deg);
+  if (wall->wall_volume > 0)
+    g_string_append_printf(text,
+                           _("\nWall %.2f mm (%.2f to %.2f), off by %.1f %%, %.3g ml\nLumen %.3g ml, pieces: %zu"),
+                           1e3 * wall->thickness_mean, 1e3 * wall->thickness_min, 1e3 * wall->thickness_max,
+                           100 * wall->error, 1e6 * wall->wall_volume, 1e6 * wall->lumen_volume, wall->pieces);
+  return g_string_free(text, FALSE);
+}
+
+const SporeGeneratorType spore_generator_surface = {
+    .name = "surface",
+    .command = "surface",
+    .element = "mesh",
+    .elements = elements,
+    .count = "nodes",
+    .ways = "nodes | size",
+    .purpose = &purpose,
+    .target = spore_edit_body_surface,
+    .shows = "surface",
+    .title = N_("Surface of %s"),
+    .working = N_("Generating a surface"),
+    .count_label = N_("Nodes"),
+    .unit = "mechanical",
+    .offer = N_("Nodes of a surface"),
+    .error_of = error_of,
+    .run = run,
+    .apply = apply,
+    .facts = facts,
+};

@@ -1,0 +1,7 @@
+/* The generators there are. */
+#include "core/author/generator.h"
+
+const SporeGeneratorType *const spore_generators[] = {
+    &spore_generator_spheres, &spore_generator_tetrahedra, &spore_generator_surface,
+    &spore_generator_curve,   &spore_generator_labels,     NULL,
+};

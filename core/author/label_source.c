@@ -1,0 +1,94 @@
+/* A label map as a source of tetrahedra: read once, and shared by those who need it. */
+#include "core/author/label_source.h"
+
+#include <glib/gi18n.h>
+
+#include "core/author/organ_import.h"
+
+struct SporeLabelSource {
+  char *file;
+  GBytes *content; /* NULL: not read yet, or too large to keep */
+  GMutex mutex;
+  SporeLabelMap map;
+  GArray *labels, *voxels; /* NULL: not read yet */
+  GHashTable *names;       /* of label -> char * */
+};
+
+SporeLabelSource *spore_label_source_new(const char *file) {
+  SporeLabelSource *source = g_atomic_rc_box_new0(SporeLabelSource);
+  source->file = g_strdup(file);
+  g_mutex_init(&source->mutex);
+  return source;
+}
+
+SporeLabelSource *spore_label_source_new_of(const char *file, GBytes *content) {
+  SporeLabelSource *source = spore_label_source_new(file);
+  source->content = g_bytes_ref(content);
+  return source;
+}
+
+GBytes *spore_label_source_content(const SporeLabelSource *source) { return source->content; }
+
+SporeLabelSource *spore_label_source_ref(SporeLabelSource *source) { return g_atomic_rc_box_acquire(source); }
+
+static void clear(gpointer data) {
+  SporeLabelSource *source = data;
+  g_free(source->file);
+  g_clear_pointer(&source->content, g_bytes_unref);
+  g_mutex_clear(&source->mutex);
+  spore_label_map_clear(&source->map);
+  g_clear_pointer(&source->labels, g_array_unref);
+  g_clear_pointer(&source->voxels, g_array_unref);
+  g_clear_pointer(&source->names, g_hash_table_unref);
+}
+
+void spore_label_source_unref(SporeLabelSource *source) { g_atomic_rc_box_release_full(source, clear); }
+
+const char *spore_label_source_file(const SporeLabelSource *source) { return source->file; }
+
+static gboolean decode(SporeLabelSource *source, const SporeProgress *progress, GError **error) {
+  g_autoptr(GBytes) given =
+      source->content ? g_bytes_ref(source->content) : spore_import_read_content(source->file, error);
+  g_autoptr(GBytes) content = given ? spore_label_map_whole(source->file, given, error) : NULL;
+  if (!content) return FALSE;
+  gsize size;
+  const void *bytes = g_bytes_get_data(content, &size);
+  if (!spore_label_map_is(source->file, bytes, size))
+    return spore_error_raise(error, SPORE_ERROR_INPUT, source->file,
+                             _("this is no label map; expected NIfTI (.nii, .nii.gz) or NRRD; import a mesh instead"));
+  if (!spore_label_map_decode(source->file, bytes, size, &source->map, progress, error)) return FALSE;
+  g_autoptr(GArray) labels = NULL, voxels = NULL;
+  spore_label_map_list(&source->map, &labels, &voxels);
+  if (labels->len < 1 || labels->len > SPORE_LABEL_SOURCE_MOST) {
+    spore_label_map_clear(&source->map);
+    return spore_error_raise(error, SPORE_ERROR_INPUT, source->file,
+                             _("it has %u labels above 0; expected 1 to %u; is it a segmentation?"), labels->len,
+                             SPORE_LABEL_SOURCE_MOST);
+  }
+  if (!source->content && size <= SPORE_LABEL_MAP_KEPT) source->content = g_bytes_ref(content);
+  source->names = spore_label_map_names(bytes, size);
+  source->voxels = g_steal_pointer(&voxels);
+  source->labels = g_steal_pointer(&labels);
+  return TRUE;
+}
+
+const SporeLabelMap *spore_label_source_read(SporeLabelSource *source, const SporeProgress *progress, GError **error) {
+  g_mutex_lock(&source->mutex);
+  gboolean done = source->labels || decode(source, progress, error);
+  g_mutex_unlock(&source->mutex);
+  return done ? &source->map : NULL;
+}
+
+gsize spore_label_source_count(const SporeLabelSource *source) { return source->labels->len; }
+
+guint16 spore_label_source_label(const SporeLabelSource *source, gsize i) {
+  return g_array_index(source->labels, guint16, i);
+}
+
+double spore_label_source_volume(const SporeLabelSource *source, gsize i) {
+  return (double)g_array_index(source->voxels, guint64, i) * spore_label_map_voxel_volume(&source->map);
+}
+
+char *spore_label_source_name(const SporeLabelSource *source, gsize i) {
+  return spore_label_map_name(source->names, spore_label_source_label(source, i));
+}

@@ -1,0 +1,293 @@
+/* From mesh files and label maps to bodies: read, divided or joined, mended, and put into the scene. */
+#include "core/author/organ_import.h"
+
+#include <errno.h>
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "core/base/memory.h"
+#include "core/generate/labels/labels.h"
+#include "core/io/mesh_import.h"
+#include "core/io/organ.h"
+#include "core/mesh/edit.h"
+
+#define LABEL_ROUNDS 100 /* of smoothing: fewer leave the voxels' terraces */
+#define MOST_BYTES ((goffset)1 << 30)
+
+typedef struct Intake {
+  const SporeImportOptions *options;
+  SporeImport *import;
+  SporeProgressShare step; /* the one at work */
+} Intake;
+
+static void free_file(SporeImportFile *file) {
+  g_free(file->file);
+  g_clear_pointer(&file->content, g_bytes_unref);
+  g_free(file);
+}
+
+static void free_body(SporeImportBody *body) {
+  g_free(body->name);
+  spore_triangle_mesh_clear(&body->mesh);
+  g_array_unref(body->changes);
+  g_free(body);
+}
+
+void spore_import_free(SporeImport *import) {
+  g_ptr_array_unref(import->bodies);
+  g_ptr_array_unref(import->files);
+  g_free(import);
+}
+
+/* Regular files alone: a pipe or a device would never end. */
+GBytes *spore_import_read_content(const char *file, GError **error) {
+  struct stat info;
+  char *bytes = NULL;
+  gsize size = 0;
+  g_autoptr(GError) cause = NULL;
+  if (stat(file, &info) != 0)
+    spore_error_raise(error, SPORE_ERROR_FILE, file, _("cannot be read (%s); expected a mesh; check the path"),
+                      g_strerror(errno));
+  else if (!S_ISREG(info.st_mode))
+    spore_error_raise(error, SPORE_ERROR_FILE, file, _("is not a regular file; expected a mesh; name such a file"));
+  else if (info.st_size > MOST_BYTES)
+    spore_error_raise(error, SPORE_ERROR_INPUT, file,
+                      _("the file has over 1 GiB; expected a smaller one; decimate the mesh first"));
+  else if (!g_file_get_contents(file, &bytes, &size, &cause))
+    spore_error_raise(error, SPORE_ERROR_FILE, file, _("cannot be read (%s); expected a mesh; check the path"),
+                      cause->message);
+  return bytes ? g_bytes_new_take(bytes, size) : NULL;
+}
+
+/* Takes the mesh over. */
+static void add_body(Intake *intake, const char *name, const SporeImportFile *source, SporeTriangleMesh *mesh,
+                     bool changed) {
+  SporeImportBody *body = g_new0(SporeImportBody, 1);
+  body->name = g_strdup(name);
+  body->source = source;
+  body->mesh = *mesh;
+  body->changed = changed;
+  body->changes = g_array_new(FALSE, FALSE, sizeof(SporeMeshChange));
+  *mesh = (SporeTriangleMesh){0};
+  g_ptr_array_add(intake->import->bodies, body);
+}
+
+static char *stem_of(const char *file) {
+  char *base = g_path_get_basename(file), *dot = strrchr(base, '.');
+  if (dot && dot != base) *dot = '\0';
+  return base;
+}
+
+static gboolean too_many(const char *place, gsize count, GError **error) {
+  return spore_error_raise(error, SPORE_ERROR_INPUT, place,
+                           _("it falls into %zu pieces; expected at most %u bodies; import it as one, or remove the "
+                             "small pieces first"),
+                           count, SPORE_IMPORT_BODIES_MAXIMUM);
+}
+
+static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFile *file, SporeTriangleMesh *mesh,
+                           GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  uint32_t *pieces = NULL;
+  gsize count = 0;
+  gboolean done = spore_triangle_mesh_pieces(mesh, &pieces, &count, &failure) || spore_error_propagate(&failure, error);
+  if (done && count > SPORE_IMPORT_BODIES_MAXIMUM) done = too_many(file->file, count, error);
+  for (gsize p = 0; done && p < count && count > 1; p++) {
+    SporeTriangleMesh piece;
+    done = spore_triangle_mesh_extract(mesh, pieces, (uint32_t)p, &piece, &failure) ||
+           spore_error_propagate(&failure, error);
+    if (done) add_body(intake, name, file, &piece, true);
+  }
+  if (done && count == 1) add_body(intake, name, file, mesh, false);
+  spore_free(pieces);
+  return done;
+}
+
+/* A body for each label. Staircases of voxels are smoothed away; the volume stays. */
+static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
+  SporeProgress progress = spore_progress_of_share(&intake->step);
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeLabelMap map;
+  if (!spore_label_map_decode(file->file, bytes, size, &map, &progress, error)) return FALSE;
+  g_autoptr(GArray) labels = NULL, voxels = NULL;
+  g_autoptr(GHashTable) names = spore_label_map_names(bytes, size);
+  g_autofree char *stem = stem_of(file->file);
+  spore_label_map_list(&map, &labels, &voxels);
+  gboolean done = labels->len > 0 && labels->len <= SPORE_IMPORT_BODIES_MAXIMUM;
+  if (!done)
+    spore_error_raise(error, SPORE_ERROR_INPUT, file->file,
+                      _("it has %u labels above 0; expected 1 to %u; is it a segmentation?"), labels->len,
+                      SPORE_IMPORT_BODIES_MAXIMUM);
+  for (guint i = 0; done && i < labels->len; i++) {
+    guint16 label = g_array_index(labels, guint16, i);
+    SporeTriangleMesh surface = {0};
+    const char *said = g_hash_table_lookup(names, GUINT_TO_POINTER((guint)label));
+    g_autofree char *name = said ? g_strdup(said) : g_strdup_printf("%s-%u", stem, label);
+    done = (spore_label_surface(&map, label, &surface, &progress, &failure) &&
+            spore_triangle_mesh_smooth(&surface, LABEL_ROUNDS, &progress, &failure)) ||
+           spore_error_propagate(&failure, error);
+    done = done && spore_mesh_tidy(name, &surface, error);
+    if (done) add_body(intake, name, file, &surface, true);
+    else spore_triangle_mesh_clear(&surface);
+  }
+  spore_label_map_clear(&map);
+  return done;
+}
+
+/* Whether the format has metres, whatever is in the file. */
+static gboolean says_metres(const char *path, const char *bytes, gsize size) {
+  g_autofree char *small = g_ascii_strdown(path, -1);
+  return (size >= 4 && memcmp(bytes, "glTF", 4) == 0) || g_str_has_suffix(small, ".gltf");
+}
+
+/* Unit in which all parts together are as large as an organ, or an instrument, is. */
+static int guess_unit(const GPtrArray *parts) {
+  double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, diagonal = 0;
+  for (guint p = 0; p < parts->len; p++) {
+    const SporeTriangleMesh *mesh = &((const SporeMeshPart *)g_ptr_array_index(parts, p))->mesh;
+    for (gsize i = 0; i < 3 * mesh->vertex_count; i++) {
+      lower[i % 3] = fmin(lower[i % 3], mesh->vertices[i]);
+      upper[i % 3] = fmax(upper[i % 3], mesh->vertices[i]);
+    }
+  }
+  for (int k = 0; k < 3; k++) diagonal = hypot(diagonal, upper[k] - lower[k]);
+  return MAX(spore_length_unit_guess(diagonal), 0);
+}
+
+/* The parts of a mesh file, in metres; where the unit is not given, they are read to see how large they are. */
+static GPtrArray *read_parts(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
+  SporeProgress progress = spore_progress_of_share(&intake->step);
+  gboolean named = intake->options->division == SPORE_IMPORT_PARTS;
+  file->unit = MAX(intake->options->unit, 0);
+  g_autoptr(GPtrArray) parts =
+      spore_mesh_decode_parts(file->file, bytes, size, file->unit, file->frame, named, &file->parts, &progress, error);
+  if (!parts || intake->options->unit >= 0 || says_metres(file->file, bytes, size)) return g_steal_pointer(&parts);
+  file->unit = guess_unit(parts);
+  if (file->unit == 0) return g_steal_pointer(&parts);
+  return spore_mesh_decode_parts(file->file, bytes, size, file->unit, file->frame, named, &file->parts, &progress,
+                                 error);
+}
+
+/* One file's bodies. */
+static gboolean add_file(Intake *intake, const char *path, GError **error) {
+  SporeImportDivision division = intake->options->division;
+  SporeImportFile *file = g_new0(SporeImportFile, 1);
+  g_ptr_array_add(intake->import->files, file);
+  file->file = g_strdup(path);
+  file->content = spore_import_read_content(path, error);
+  GBytes *whole = file->content ? spore_label_map_whole(path, file->content, error) : NULL;
+  if (!whole) return FALSE;
+  g_bytes_unref(file->content);
+  file->content = whole;
+  gsize size;
+  const void *bytes = g_bytes_get_data(file->content, &size);
+  if (spore_label_map_is(path, bytes, size)) {
+    file->label_map = true;
+    file->frame_said = -1;
+    file->overruled = intake->options->frame > 0;
+    return add_labels(intake, file, bytes, size, error);
+  }
+  file->frame_said = spore_mesh_frame_hint(bytes, size);
+  file->frame = intake->options->frame >= 0 ? intake->options->frame : MAX(file->frame_said, 0);
+  g_autoptr(GPtrArray) parts = read_parts(intake, file, bytes, size, error);
+  if (!parts) return FALSE;
+  file->joined = file->parts > 1 && division == SPORE_IMPORT_FILES;
+  g_autofree char *stem = stem_of(path);
+  gboolean done = TRUE;
+  for (guint p = 0; done && p < parts->len; p++) {
+    SporeMeshPart *part = g_ptr_array_index(parts, p);
+    const char *name = *part->name ? part->name : stem;
+    if (division == SPORE_IMPORT_PIECES || (division == SPORE_IMPORT_PARTS && parts->len == 1))
+      done = add_pieces(intake, name, file, &part->mesh, error);
+    else add_body(intake, name, file, &part->mesh, parts->len > 1);
+  }
+  if (done && intake->import->bodies->len > SPORE_IMPORT_BODIES_MAXIMUM)
+    done = too_many(path, intake->import->bodies->len, error);
+  return done;
+}
+
+/* All bodies into the first. */
+static gboolean merge(SporeImport *import, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  if (import->bodies->len < 2) return TRUE;
+  SporeImportBody *into = g_ptr_array_index(import->bodies, 0);
+  for (guint i = 1; i < import->bodies->len; i++) {
+    const SporeImportBody *from = g_ptr_array_index(import->bodies, i);
+    if (!spore_triangle_mesh_append(&into->mesh, &from->mesh, &failure)) return spore_error_propagate(&failure, error);
+  }
+  into->changed = true;
+  into->source = NULL;
+  g_ptr_array_set_size(import->bodies, 1);
+  return spore_mesh_tidy(into->name, &into->mesh, error);
+}
+
+static gboolean mend(Intake *intake, SporeImportBody *body, GError **error) {
+  SporeError failure = SPORE_ERROR_INIT;
+  SporeProgress progress = spore_progress_of_share(&intake->step);
+  bool done = spore_mesh_figures(&body->mesh, &body->as_read, &failure);
+  for (int kind = 0; done && kind < SPORE_MESH_OPERATIONS; kind++) {
+    if (!intake->options->operations[kind].wanted) continue;
+    SporeMeshChange change;
+    done = spore_mesh_operate(&body->mesh, (SporeMeshOperationKind)kind, intake->options->operations[kind].argument,
+                              &change, &progress, &failure);
+    if (done) g_array_append_val(body->changes, change);
+    body->changed = true;
+  }
+  if (!done) spore_error_at(&failure, body->name);
+  return done || spore_error_propagate(&failure, error);
+}
+
+SporeImport *spore_import_read(char *const *files, const SporeImportOptions *options, const SporeProgress *progress,
+                               GError **error) {
+  g_autoptr(SporeImport) import = g_new0(SporeImport, 1);
+  import->files = g_ptr_array_new_with_free_func((GDestroyNotify)free_file);
+  import->bodies = g_ptr_array_new_with_free_func((GDestroyNotify)free_body);
+  Intake intake = {.options = options, .import = import, .step.whole = progress};
+  guint count = g_strv_length((char **)files);
+  for (guint i = 0; i < count; i++) {
+    intake.step.done = 0.5 * i / count;
+    intake.step.share = 0.5 / count;
+    if (!add_file(&intake, files[i], error)) return NULL;
+  }
+  if (options->division == SPORE_IMPORT_MERGED && !merge(import, error)) return NULL;
+  for (guint i = 0; i < import->bodies->len; i++) {
+    intake.step.done = 0.5 + 0.5 * i / import->bodies->len;
+    intake.step.share = 0.5 / import->bodies->len;
+    if (!mend(&intake, g_ptr_array_index(import->bodies, i), error)) return NULL;
+  }
+  return g_steal_pointer(&import);
+}
+
+static SporeObject *insert_body(SporeDocument *document, const SporeImportBody *body, GError **error) {
+  const SporeImportFile *source = body->source;
+  if (!body->changed)
+    return spore_organ_insert(document, NULL, source->file, source->content, source->unit, source->frame, error);
+  gsize size;
+  char *text = spore_off_format(&body->mesh, &size);
+  g_autoptr(GBytes) content = g_bytes_new_take(text, size);
+  g_autofree char *name = spore_organ_name(body->name), *file = spore_content_file_name(name, "off", text, size);
+  return spore_organ_insert(document, name, file, content, 0, 0, error); /* metres, SPORE's axes */
+}
+
+gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, GPtrArray **bodies, GError **error) {
+  g_autoptr(GPtrArray) made = g_ptr_array_new();
+  for (guint i = 0; i < import->bodies->len; i++) {
+    SporeObject *body = insert_body(document, g_ptr_array_index(import->bodies, i), error);
+    if (!body) return FALSE;
+    g_ptr_array_add(made, body);
+  }
+  if (bodies) *bodies = g_steal_pointer(&made);
+  return TRUE;
+}
+
+char *spore_import_remark(const SporeImportFile *file) {
+  if (file->frame_said >= 0 && file->frame_said != file->frame)
+    return g_strdup_printf(_("the file says that its axes are %s, and %s was taken; leave the axes to the file"),
+                           spore_mesh_frames[file->frame_said], spore_mesh_frames[file->frame]);
+  if (file->overruled)
+    return g_strdup(_("the volume's header says its unit and axes, and they were taken; leave them to the file"));
+  if (!file->joined) return NULL;
+  return g_strdup_printf(_("its %u parts were joined into one body; split it to have a body of each"), file->parts);
+}

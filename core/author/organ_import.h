@@ -1,0 +1,74 @@
+/* From mesh files to the bodies of a scene: read, divided or joined, mended; what `spore import` and the editor do. */
+#ifndef SPORE_AUTHOR_ORGAN_IMPORT_H
+#define SPORE_AUTHOR_ORGAN_IMPORT_H
+
+#include <glib.h>
+
+#include "core/generate/surface/surface.h"
+#include "core/scene/document.h"
+
+typedef enum SporeImportDivision {
+  SPORE_IMPORT_FILES,  /* a body for each file */
+  SPORE_IMPORT_MERGED, /* one of all */
+  SPORE_IMPORT_PARTS,  /* one for each part that a file names; for each connected piece where it names none */
+  SPORE_IMPORT_PIECES  /* one for each connected piece */
+} SporeImportDivision;
+
+typedef struct SporeImportOptions {
+  int unit;  /* index into spore_length_units; -1: guessed of each file, by its size; metres where glTF says so */
+  int frame; /* into spore_mesh_frames; -1: what the file says, else Y_UP */
+  SporeImportDivision division;
+  struct {
+    bool wanted;
+    double argument;
+  } operations[SPORE_MESH_OPERATIONS];
+} SporeImportOptions;
+
+/* A file to import. */
+typedef struct SporeImportFile {
+  char *file;
+  GBytes *content;
+  int unit, frame; /* taken */
+  int frame_said;  /* by the file itself, or -1 */
+  guint parts;     /* that the file names */
+  bool joined;     /* the parts, without being asked to */
+  bool label_map;  /* each label became a body */
+  bool overruled;  /* a label map, whose header says unit and axes: others were given */
+} SporeImportFile;
+
+/* A body to be. */
+typedef struct SporeImportBody {
+  char *name;
+  const SporeImportFile *source; /* NULL: several */
+  bool changed;                  /* its mesh is no longer that of a file as it is */
+  SporeTriangleMesh mesh;        /* m, SPORE's axes */
+  SporeMeshFigures as_read;      /* after division or joining */
+  GArray *changes;               /* SporeMeshChange, in the order done */
+} SporeImportBody;
+
+typedef struct SporeImport {
+  GPtrArray *files;  /* of SporeImportFile * */
+  GPtrArray *bodies; /* of SporeImportBody * */
+} SporeImport;
+
+#define SPORE_IMPORT_BODIES_MAXIMUM 500u
+
+/* files: NULL-terminated paths of regular files: meshes, or label maps, of which each label becomes a body (its
+ * surface, smoothed at the same volume). NULL with an error; cancelled by progress. Any thread. */
+SporeImport *spore_import_read(char *const *files, const SporeImportOptions *options, const SporeProgress *progress,
+                               GError **error);
+/* Content of a regular file of at most 1 GiB; NULL with an error. */
+GBytes *spore_import_read_content(const char *file, GError **error);
+void spore_import_free(SporeImport *import);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeImport, spore_import_free)
+
+/* A mesh asset and a body that shows it for each: a file's own content, unit and frame where nothing was changed, else
+ * OFF in metres and SPORE's axes, named by its content. One undo step is the caller's to make (a group): on FALSE what
+ * was inserted stays. *bodies (may be NULL): the objects, GPtrArray. */
+gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, GPtrArray **bodies, GError **error);
+
+/* What an author should know about a file beyond what the checks of the scene say: NULL, or "what; remedy", translated.
+ * g_free. */
+char *spore_import_remark(const SporeImportFile *file);
+
+#endif

@@ -1,0 +1,148 @@
+/* Side branches and loops of an organ: what the way through its middle leaves out, longest first. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/generate/centreline/search.h"
+
+#define SIDE 2.0   /* radii from the way up to which a voxel is part of it */
+#define BRANCH 3.0 /* radii from the way to the end of what is a branch */
+#define THIN 0.75  /* of the mean depth of the way */
+#define APART 6.0  /* radii along the way between two places that a loop joins */
+
+typedef struct Leftovers {
+  const SporeVoxelSearch *search;
+  const SporeVoxelPath *path;
+  double *along;  /* path: m from the beginning */
+  double *radius; /* path: the largest depth near there, and no less than THIN of the mean */
+  uint32_t *foot; /* voxel: number on the path of the voxel that it is nearest to */
+  bool *seen;     /* voxel: near the path, or counted */
+  uint32_t *stack;
+} Leftovers;
+
+static void leftovers_clear(Leftovers *left) {
+  spore_free(left->along);
+  spore_free(left->radius);
+  spore_free(left->foot);
+  spore_free(left->seen);
+  spore_free(left->stack);
+}
+
+static bool leftovers_create(Leftovers *left, const SporeVoxelSearch *search, const SporeVoxelPath *path) {
+  size_t count = search->tube->count;
+  *left = (Leftovers){.search = search, .path = path};
+  left->along = SPORE_NEW_ARRAY(double, path->count);
+  left->radius = SPORE_NEW_ARRAY(double, path->count);
+  left->foot = SPORE_NEW_ARRAY(uint32_t, count);
+  left->seen = SPORE_NEW_ARRAY(bool, count);
+  left->stack = SPORE_NEW_ARRAY(uint32_t, count);
+  return left->along && left->radius && left->foot && left->seen && left->stack;
+}
+
+/* The way comes out of a corner at its ends, and has its radius from the middle of the organ. */
+static void measure_path(Leftovers *left) {
+  const SporeVoxelTube *tube = left->search->tube;
+  const SporeVoxelPath *path = left->path;
+  double mean = 0;
+  for (size_t i = 1; i < path->count; i++)
+    left->along[i] = left->along[i - 1] + spore_vec3_distance(spore_voxel_middle(tube, path->voxel[i - 1]),
+                                                              spore_voxel_middle(tube, path->voxel[i]));
+  for (size_t i = 0; i < path->count; i++) {
+    double depth = tube->depth[path->voxel[i]];
+    for (size_t k = i; k < path->count && left->along[k] - left->along[i] <= 2 * depth; k++)
+      left->radius[k] = fmax(left->radius[k], depth);
+    for (size_t k = i + 1; k-- > 0 && left->along[i] - left->along[k] <= 2 * depth;)
+      left->radius[k] = fmax(left->radius[k], depth);
+    mean += depth / (double)path->count;
+  }
+  for (size_t i = 0; i < path->count; i++) left->radius[i] = fmax(left->radius[i], THIN * mean);
+}
+
+/* Each way is followed to its start once, and what it passes is remembered. */
+static void find_feet(Leftovers *left) {
+  const SporeVoxelSearch *search = left->search;
+  memset(left->foot, 0xff, search->tube->count * sizeof *left->foot);
+  for (size_t i = 0; i < left->path->count; i++) left->foot[left->path->voxel[i]] = (uint32_t)i;
+  for (uint32_t i = 0; i < search->tube->count; i++) {
+    if (search->from[i] == SPORE_NO_VOXEL) continue;
+    uint32_t known = i;
+    while (left->foot[known] == SPORE_NO_VOXEL) known = search->from[known];
+    for (uint32_t k = i; left->foot[k] == SPORE_NO_VOXEL; k = search->from[k]) left->foot[k] = left->foot[known];
+  }
+}
+
+static double mark_near(Leftovers *left) {
+  const SporeVoxelTube *tube = left->search->tube;
+  size_t near = 0, all = 0;
+  for (size_t i = 0; i < tube->count; i++) {
+    if (tube->component[i]) continue;
+    left->seen[i] = left->search->length[i] <= SIDE * left->radius[left->foot[i]] + tube->edge;
+    near += left->seen[i];
+    all++;
+  }
+  return (double)near / (double)all;
+}
+
+/* One piece that lies off the way: its farthest voxel, and whether it comes back to the way elsewhere. */
+static uint32_t take_piece(Leftovers *left, uint32_t start, bool *returns) {
+  const SporeVoxelSearch *search = left->search;
+  double first = HUGE_VAL, last = -HUGE_VAL, radius = 0;
+  size_t waiting = 0;
+  uint32_t far = start;
+  left->stack[waiting++] = start;
+  left->seen[start] = true;
+  while (waiting) {
+    uint32_t here = left->stack[--waiting];
+    if (search->length[here] > search->length[far]) far = here;
+    for (int k = 0; k < SPORE_VOXEL_NEIGHBOURS; k++) {
+      uint32_t next = search->tube->neighbour[SPORE_VOXEL_NEIGHBOURS * (size_t)here + (size_t)k];
+      if (next == SPORE_NO_VOXEL) continue;
+      double reach = left->radius[left->foot[next]];
+      if (search->length[next] <= SIDE * reach + search->tube->edge) {
+        first = fmin(first, left->along[left->foot[next]]);
+        last = fmax(last, left->along[left->foot[next]]);
+        radius = fmax(radius, reach);
+      } else if (!left->seen[next]) {
+        left->seen[next] = true;
+        left->stack[waiting++] = next;
+      }
+    }
+  }
+  *returns = last - first > APART * radius;
+  return far;
+}
+
+static void name_branch(SporeCentrelineReport *report, const SporeCentrelineBranch *branch) {
+  size_t at = report->branches < SPORE_CENTRELINE_NAMED ? report->branches : SPORE_CENTRELINE_NAMED;
+  report->branches++;
+  while (at > 0 && report->branch[at - 1].length < branch->length) at--;
+  if (at == SPORE_CENTRELINE_NAMED) return;
+  memmove(report->branch + at + 1, report->branch + at, (SPORE_CENTRELINE_NAMED - at - 1) * sizeof *report->branch);
+  report->branch[at] = *branch;
+}
+
+bool spore_voxel_search_leftovers(SporeVoxelSearch *search, const SporeVoxelPath *path, SporeCentrelineReport *report,
+                                  double *cover, SporeError *error) {
+  const SporeVoxelTube *tube = search->tube;
+  Leftovers left;
+  for (size_t i = 0; i < tube->count; i++) search->cost[i] = 1;
+  if (!spore_voxel_search_spread(search, path->voxel, path->count, error)) return false;
+  bool room = leftovers_create(&left, search, path);
+  if (room) {
+    measure_path(&left);
+    find_feet(&left);
+    *cover = report->cover = mark_near(&left);
+  }
+  for (uint32_t i = 0; room && i < tube->count; i++) {
+    if (tube->component[i] || left.seen[i]) continue;
+    SporeCentrelineBranch branch = {0};
+    uint32_t far = take_piece(&left, i, &branch.returns), foot = left.foot[far];
+    branch.from = left.along[foot];
+    branch.length = search->length[far] - left.radius[foot];
+    spore_vec3_store(branch.foot, spore_voxel_middle(tube, path->voxel[foot]));
+    spore_vec3_store(branch.end, spore_voxel_middle(tube, far));
+    if (search->length[far] > BRANCH * left.radius[foot]) name_branch(report, &branch);
+  }
+  leftovers_clear(&left);
+  return room || spore_generate_no_memory(error);
+}

@@ -1,0 +1,178 @@
+/* The way through the voxels of an organ that covers most of it, between two far ends or two given ones. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/generate/centreline/search.h"
+
+/* The cost of a way falls with this power of the depth, so that it keeps to the middle and does not take the narrow
+ * neck where two loops touch. Each is tried, and the way that covers most of the organ is kept: a low power takes too
+ * many necks, a high one shuns narrows that are the organ's own. */
+static const double powers[] = {3, 6, 12};
+#define POWERS (sizeof powers / sizeof *powers)
+#define MUCH 0.85    /* of the volume that a way may hold: with more than that it is compared by length */
+#define ENOUGH 0.995 /* share covered, with which no other power is tried */
+#define LONGER 2.0   /* mean radii by which a branch is longer than the end that it replaces: a diameter */
+#define MOST_CHANGES 4
+
+static void set_costs(SporeVoxelSearch *search, double power) {
+  double deepest = 0;
+  for (size_t i = 0; i < search->tube->count; i++) deepest = fmax(deepest, search->tube->depth[i]);
+  for (size_t i = 0; i < search->tube->count; i++) search->cost[i] = pow(deepest / search->tube->depth[i], power);
+}
+
+static bool is_end(const SporeVoxelSearch *search, uint32_t voxel) {
+  const uint32_t *near = search->tube->neighbour + SPORE_VOXEL_NEIGHBOURS * (size_t)voxel;
+  if (search->from[voxel] == SPORE_NO_VOXEL) return false;
+  for (int k = 0; k < SPORE_VOXEL_NEIGHBOURS; k++)
+    if (near[k] != SPORE_NO_VOXEL && search->length[near[k]] > search->length[voxel]) return false;
+  return true;
+}
+
+/* The end of the longest of the cheapest ways. Ways that run round the organ and end where they meet are long too, so
+ * it must hold about as much as any other way. */
+static uint32_t farthest(const SporeVoxelSearch *search) {
+  uint32_t far = 0, count = (uint32_t)search->tube->count;
+  double most = 0, length = -1;
+  for (uint32_t i = 0; i < count; i++)
+    if (is_end(search, i)) most = fmax(most, search->volume[i]);
+  for (uint32_t i = 0; i < count; i++)
+    if (is_end(search, i) && search->volume[i] >= MUCH * most && search->length[i] > length)
+      length = search->length[i], far = i;
+  return far;
+}
+
+static uint32_t deepest(const SporeVoxelTube *tube) {
+  uint32_t deep = 0;
+  double most = -1;
+  for (uint32_t i = 0; i < tube->count; i++)
+    if (tube->component[i] == 0 && tube->depth[i] > most) most = tube->depth[i], deep = i;
+  return deep;
+}
+
+void spore_voxel_path_clear(SporeVoxelPath *path) {
+  spore_free(path->voxel);
+  *path = (SporeVoxelPath){0};
+}
+
+/* The way by which the search came to `end`. */
+static bool trace(const SporeVoxelSearch *search, uint32_t end, SporeVoxelPath *path) {
+  size_t count = 1;
+  for (uint32_t i = end; search->from[i] != i; i = search->from[i]) count++;
+  *path = (SporeVoxelPath){count, SPORE_NEW_ARRAY(uint32_t, count)};
+  if (!path->voxel) return false;
+  for (size_t i = count; i-- > 0; end = search->from[end]) path->voxel[i] = end;
+  return true;
+}
+
+static bool find_way(SporeVoxelSearch *search, const uint32_t *ends, SporeVoxelPath *path, SporeError *error) {
+  uint32_t start = ends ? ends[0] : deepest(search->tube);
+  if (!spore_voxel_search_spread(search, &start, 1, error)) return false;
+  for (int sweep = 0; !ends && sweep < 2; sweep++) {
+    start = farthest(search);
+    if (!spore_voxel_search_spread(search, &start, 1, error)) return false;
+  }
+  return trace(search, ends ? ends[1] : farthest(search), path) || spore_generate_no_memory(error);
+}
+
+static double length_of(const SporeVoxelTube *tube, const SporeVoxelPath *path, size_t from, size_t to) {
+  double length = 0;
+  for (size_t i = from; i < to; i++)
+    length +=
+        spore_vec3_distance(spore_voxel_middle(tube, path->voxel[i]), spore_voxel_middle(tube, path->voxel[i + 1]));
+  return length;
+}
+
+static double mean_depth(const SporeVoxelTube *tube, const SporeVoxelPath *path) {
+  double sum = 0;
+  for (size_t i = 0; i < path->count; i++) sum += tube->depth[path->voxel[i]];
+  return sum / (double)path->count;
+}
+
+/* Length of the way from the joint to its front or its other end, without the corner of a wide end into which it goes:
+ * as far as the outer half is deep. */
+static double length_to_end(const SporeVoxelTube *tube, const SporeVoxelPath *path, size_t joint, bool front) {
+  size_t from = front ? 0 : joint, to = front ? joint : path->count - 1, half = (to - from) / 2;
+  double corner = 0;
+  for (size_t i = 0; i <= half; i++) corner = fmax(corner, tube->depth[path->voxel[front ? from + i : to - i]]);
+  return length_of(tube, path, from, to) - corner;
+}
+
+/* The way with a branch, from where that leaves it, in place of the end that is nearer to there. */
+static bool join_branch(const SporeVoxelPath *way, const SporeVoxelPath *branch, size_t joint, bool front,
+                        SporeVoxelPath *joined) {
+  size_t kept = front ? way->count - joint : joint + 1, count = kept + branch->count - 1;
+  *joined = (SporeVoxelPath){count, SPORE_NEW_ARRAY(uint32_t, count)};
+  if (!joined->voxel) return false;
+  for (size_t i = 0; i < kept; i++) joined->voxel[i] = way->voxel[front ? way->count - 1 - i : i];
+  memcpy(joined->voxel + kept, branch->voxel + 1, (branch->count - 1) * sizeof *branch->voxel);
+  return true;
+}
+
+/* Lets the way end in this branch where that is longer than what the way has from there to its nearer end. */
+static bool take_branch(SporeVoxelSearch *search, double power, const SporeCentrelineBranch *branch,
+                        SporeVoxelPath *path, bool *taken, SporeError *error) {
+  SporeVoxelPath side, joined;
+  uint32_t end = spore_voxel_nearest(search->tube, spore_vec3_load(branch->end));
+  size_t joint = 0;
+  set_costs(search, power);
+  if (!spore_voxel_search_spread(search, path->voxel, path->count, error)) return false;
+  if (!trace(search, end, &side)) return spore_generate_no_memory(error);
+  while (path->voxel[joint] != side.voxel[0]) joint++;
+  double before = length_to_end(search->tube, path, joint, true);
+  double behind = length_to_end(search->tube, path, joint, false);
+  bool done = true;
+  *taken =
+      length_to_end(search->tube, &side, 0, false) > fmin(before, behind) + LONGER * mean_depth(search->tube, path);
+  if (*taken) {
+    done = join_branch(path, &side, joint, before < behind, &joined) || spore_generate_no_memory(error);
+    if (done) {
+      spore_voxel_path_clear(path);
+      *path = joined;
+    }
+  }
+  spore_voxel_path_clear(&side);
+  return done;
+}
+
+/* The cheapest way to a far end is not always the longest: what leaves it may be longer than the end itself. */
+static bool take_longer_ends(SporeVoxelSearch *search, double power, SporeVoxelPath *path,
+                             SporeCentrelineReport *report, const SporeCentrelineReport *clean, double *cover,
+                             SporeError *error) {
+  for (int change = 0; change < MOST_CHANGES; change++) {
+    bool taken = false;
+    for (size_t i = 0; !taken && i < SPORE_CENTRELINE_NAMED && i < report->branches; i++)
+      if (!report->branch[i].returns && !take_branch(search, power, &report->branch[i], path, &taken, error))
+        return false;
+    if (!taken) return true;
+    *report = *clean;
+    if (!spore_voxel_search_leftovers(search, path, report, cover, error)) return false;
+  }
+  return true;
+}
+
+bool spore_voxel_path_find(SporeVoxelPath *path, const SporeVoxelTube *tube, const uint32_t *ends,
+                           SporeCentrelineReport *report, const SporeProgressPart *progress, SporeError *error) {
+  SporeVoxelSearch search;
+  const SporeCentrelineReport clean = *report;
+  double best = -1;
+  *path = (SporeVoxelPath){0};
+  if (!spore_voxel_search_create(&search, tube, progress, error)) return false;
+  bool done = true;
+  for (size_t i = 0; done && i < POWERS && best < ENOUGH; i++) {
+    SporeVoxelPath way = {0};
+    SporeCentrelineReport left = clean;
+    double cover = 0;
+    set_costs(&search, powers[i]);
+    done = find_way(&search, ends, &way, error) && spore_voxel_search_leftovers(&search, &way, &left, &cover, error) &&
+           (ends || take_longer_ends(&search, powers[i], &way, &left, &clean, &cover, error));
+    if (done && cover > best) {
+      spore_voxel_path_clear(path);
+      *path = way, *report = left, best = cover;
+    } else spore_voxel_path_clear(&way);
+  }
+  spore_voxel_search_clear(&search);
+  if (!done) spore_voxel_path_clear(path);
+  return done;
+}

@@ -1,0 +1,155 @@
+/* The faces that bound the cells of a label, and the points of a surface that each face stands for. */
+#include "core/generate/common/skin.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/mesh/common.h"
+
+static uint32_t label_of(const SporeTetrahedralMesh *mesh, uint32_t cell) {
+  return cell == UINT32_MAX ? 0 : mesh->labels ? mesh->labels[cell] : 1;
+}
+
+/* The faces between two labels, each once, out of the higher one. */
+static bool list_faces(SporeSkin *skin, const SporeTetrahedralMesh *mesh) {
+  uint32_t *neighbours;
+  if (!spore_tetrahedral_mesh_neighbours(mesh, &neighbours)) return false;
+  bool done = true;
+  for (int pass = 0; pass < 2 && done; pass++) {
+    skin->face_count = 0;
+    for (size_t i = 0; i < 4 * mesh->tetrahedron_count; i++) {
+      uint32_t inner = label_of(mesh, (uint32_t)(i / 4)), outer = label_of(mesh, neighbours[i]);
+      if (inner <= outer) continue;
+      size_t f = skin->face_count++;
+      if (!pass) continue;
+      skin->sides[2 * f] = inner, skin->sides[2 * f + 1] = outer;
+      for (int k = 0; k < 3; k++)
+        skin->corners[3 * f + (size_t)k] = mesh->tetrahedra[i / 4 * 4 + spore_tetrahedron_faces[i % 4][k]];
+    }
+    if (pass) break;
+    skin->corners = SPORE_NEW_ARRAY(uint32_t, 3 * skin->face_count);
+    skin->sides = SPORE_NEW_ARRAY(uint32_t, 2 * skin->face_count);
+    done = skin->corners && skin->sides;
+  }
+  spore_free(neighbours);
+  return done;
+}
+
+/* Which of `count` holders each of `items` is of, sorted by them. first: count + 2, zero. */
+static void share_out(const uint32_t *holders, size_t items, size_t each, size_t count, size_t *first,
+                      uint32_t *result) {
+  for (size_t i = 0; i < items; i++) first[holders[i] + 2]++;
+  for (size_t h = 2; h < count + 2; h++) first[h] += first[h - 1];
+  for (size_t i = 0; i < items; i++) result[first[holders[i] + 1]++] = (uint32_t)(i / each);
+}
+
+static bool has_corners(const uint32_t *face, const uint32_t *host) {
+  for (int k = 0; k < 3; k++)
+    if (face[0] != host[k] && face[1] != host[k] && face[2] != host[k]) return false;
+  return true;
+}
+
+static double distance_to_face(const SporeTetrahedralMesh *mesh, const uint32_t *corner, SporeVec3 p) {
+  double corners[9];
+  for (int k = 0; k < 3; k++) memcpy(corners + 3 * k, mesh->vertices + 3 * (size_t)corner[k], 3 * sizeof(double));
+  return spore_vec3_distance(p, spore_triangle_nearest(p, corners));
+}
+
+/* The face that is a point's host; where that is gone the nearest around it. */
+static uint32_t face_of(const SporeSkin *skin, const SporeTetrahedralMesh *mesh, const SporeSkinPoints *points,
+                        size_t point) {
+  const uint32_t *host = points->hosts + 3 * point;
+  SporeVec3 p = spore_vec3_load(points->places + 3 * point);
+  double least = HUGE_VAL;
+  uint32_t nearest = 0;
+  for (int k = 0; k < 3; k++)
+    for (size_t i = skin->first[host[k]]; i < skin->first[host[k] + 1]; i++) {
+      const uint32_t *corner = skin->corners + 3 * (size_t)skin->faces[i];
+      if (k == 0 && has_corners(corner, host)) return skin->faces[i];
+      double distance = distance_to_face(mesh, corner, p);
+      if (distance < least) least = distance, nearest = skin->faces[i];
+    }
+  return nearest;
+}
+
+bool spore_skin_create(SporeSkin *skin, const SporeTetrahedralMesh *mesh, SporeSkinPoints *points, SporeError *error) {
+  *skin = (SporeSkin){.first = SPORE_NEW_ARRAY(size_t, mesh->vertex_count + 2),
+                      .points = SPORE_NEW_ARRAY(uint32_t, points->count)};
+  uint32_t *holders = SPORE_NEW_ARRAY(uint32_t, points->count);
+  bool done = skin->first && skin->points && holders && list_faces(skin, mesh);
+  done = done && (skin->faces = SPORE_NEW_ARRAY(uint32_t, 3 * skin->face_count)) &&
+         (skin->first_point = SPORE_NEW_ARRAY(size_t, skin->face_count + 2));
+  if (done) {
+    share_out(skin->corners, 3 * skin->face_count, 3, mesh->vertex_count, skin->first, skin->faces);
+    for (size_t i = 0; i < points->count; i++) {
+      holders[i] = face_of(skin, mesh, points, i);
+      const uint32_t *corner = skin->corners + 3 * (size_t)holders[i];
+      memcpy(points->hosts + 3 * i, corner, 3 * sizeof *corner);
+      points->off[i] = distance_to_face(mesh, corner, spore_vec3_load(points->places + 3 * i));
+    }
+    share_out(holders, points->count, 1, skin->face_count, skin->first_point, skin->points);
+  } else spore_skin_clear(skin);
+  spore_free(holders);
+  return done || spore_mesh_no_memory(error);
+}
+
+void spore_skin_clear(SporeSkin *skin) {
+  spore_free(skin->corners);
+  spore_free(skin->sides);
+  spore_free(skin->first);
+  spore_free(skin->faces);
+  spore_free(skin->first_point);
+  spore_free(skin->points);
+  *skin = (SporeSkin){0};
+}
+
+bool spore_skin_points_create(SporeSkinPoints *points, const SporeTetrahedralMesh *mesh, const double *places,
+                              size_t count, size_t most, SporeError *error) {
+  SporeTriangleMesh boundary = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
+  SporeBvh *tree = NULL;
+  const size_t taken = count < most ? count : most;
+  *points = (SporeSkinPoints){taken, SPORE_NEW_ARRAY(double, 3 * taken), SPORE_NEW_ARRAY(uint32_t, 3 * taken),
+                              SPORE_NEW_ARRAY(double, taken)};
+  bool done = (points->places && points->hosts && points->off &&
+               spore_tetrahedral_mesh_boundary(mesh, &boundary.triangles, &boundary.triangle_count)) ||
+              spore_mesh_no_memory(error);
+  done = done && (tree = spore_bvh_create(&boundary, error)) != NULL;
+  for (size_t i = 0; done && i < taken; i++) {
+    uint32_t triangle = 0;
+    memcpy(points->places + 3 * i, places + 3 * (i * count / taken), 3 * sizeof(double));
+    points->off[i] = spore_bvh_distance(tree, spore_vec3_load(points->places + 3 * i), NULL, &triangle);
+    memcpy(points->hosts + 3 * i, boundary.triangles + 3 * (size_t)triangle, 3 * sizeof(uint32_t));
+  }
+  spore_bvh_free(tree);
+  spore_free(boundary.triangles);
+  if (!done) spore_skin_points_clear(points);
+  return done;
+}
+
+void spore_skin_points_clear(SporeSkinPoints *points) {
+  spore_free(points->places);
+  spore_free(points->hosts);
+  spore_free(points->off);
+  *points = (SporeSkinPoints){0};
+}
+
+static int add_side(uint32_t labels[SPORE_SKIN_SIDES], int count, uint32_t label) {
+  int at = 0;
+  if (count > SPORE_SKIN_SIDES) return count;
+  while (at < count && labels[at] < label) at++;
+  if (at < count && labels[at] == label) return count;
+  if (count == SPORE_SKIN_SIDES) return count + 1;
+  memmove(labels + at + 1, labels + at, (size_t)(count - at) * sizeof *labels);
+  labels[at] = label;
+  return count + 1;
+}
+
+int spore_skin_sides(const SporeSkin *skin, uint32_t v, uint32_t other, uint32_t labels[SPORE_SKIN_SIDES]) {
+  int count = 0;
+  for (size_t i = skin->first[v]; i < skin->first[v + 1]; i++) {
+    const uint32_t *corner = skin->corners + 3 * (size_t)skin->faces[i];
+    if (other != UINT32_MAX && corner[0] != other && corner[1] != other && corner[2] != other) continue;
+    for (int k = 0; k < 2; k++) count = add_side(labels, count, skin->sides[2 * (size_t)skin->faces[i] + (size_t)k]);
+  }
+  return count;
+}

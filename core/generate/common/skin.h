@@ -1,0 +1,28 @@
+/* The faces that bound cells of one label, and the points of a surface that each of them stands for: how far a mesh is
+ * from what it was made of, where it changes. */
+#ifndef SPORE_GENERATE_COMMON_SKIN_H
+#define SPORE_GENERATE_COMMON_SKIN_H
+
+#include "core/generate/common/common.h"
+
+#define SPORE_SKIN_SIDES 4 /* labels that meet at a vertex, at most: more are not told apart */
+
+typedef struct SporeSkin {
+  size_t face_count;
+  uint32_t *corners; /* face_count x 3, outward from sides[2 f] */
+  uint32_t *sides;   /* face_count x 2: labels inside and across; 0: nothing */
+  size_t *first;     /* vertex_count + 1: into faces */
+  uint32_t *faces;   /* of each vertex */
+  size_t *first_point;
+  uint32_t *points; /* of each face: first_point[f] to first_point[f + 1] */
+} SporeSkin;
+
+/* Valid until the mesh's cells change. A point whose host is gone goes to the nearest of its host's vertices' faces. */
+bool spore_skin_create(SporeSkin *skin, const SporeTetrahedralMesh *mesh, SporeSkinPoints *points, SporeError *error);
+void spore_skin_clear(SporeSkin *skin);
+
+/* The labels that meet at a vertex, or at the edge from it to `other` (UINT32_MAX: at the vertex), ascending; returns
+ * how many, more than SPORE_SKIN_SIDES as one more. None: it lies inside. */
+int spore_skin_sides(const SporeSkin *skin, uint32_t v, uint32_t other, uint32_t labels[SPORE_SKIN_SIDES]);
+
+#endif

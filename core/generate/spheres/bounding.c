@@ -1,0 +1,135 @@
+/* Balls around a solid: a search that moves one ball at a time to where it, the others as they are, costs least. What
+ * is outside costs its volume; what is left uncovered costs its volume times a cost that rises, so that at first balls
+ * can hand over what they hold to their neighbours. Once little is left uncovered, balls that do little are put where
+ * others hold much outside, wherever that turns out to pay after those around have settled. In the end all is held, and
+ * a ball costs the volume that it adds to the others. */
+#include "core/generate/spheres/bounding.h"
+
+#include <math.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/generate/spheres/bounding_search.h"
+
+#define FEW 60                /* balls: so many sweep twice, half as many or fewer three times */
+#define WORK_PER_BALL 6000000 /* that goes into relocations, */
+#define WORK_MOST 180000000   /* of all balls: so that most solids take less than five seconds */
+#define GAP_VOLUME 0.3        /* of a cube: volume that an added point stands for */
+
+/* What the search does one after the other. */
+typedef struct Stage {
+  double cost;
+  double margin, finest; /* of the diagonal: which points of the surface are added; finest 0: none */
+  double step;           /* of a radius: how far balls look around at first */
+  int sweeps;
+  bool relocate; /* after the sweeps, which are done again then */
+} Stage;
+
+/* The balls and their images in the planes that they are not bound to, those of a ball one after the other. */
+static bool make_images(const SporeSolid *solid, const SporeBalls *balls, const uint8_t *bound, SporeBalls *all) {
+  size_t count = spore_balls_images(&solid->symmetry, balls, bound, NULL);
+  double *spheres = SPORE_NEW_ARRAY(double, 4 * count);
+  bool done = spheres && spore_balls_create(all, count);
+  if (done) spore_balls_images(&solid->symmetry, balls, bound, spheres);
+  for (size_t i = 0; done && i < count; i++)
+    spore_balls_set(all, i, spore_vec3_load(spheres + 4 * i), spheres[4 * i + 3]);
+  spore_free(spheres);
+  return done;
+}
+
+/* Adds points where the balls hold the surface by less than the margin. Once leaving them costs more than any ball
+ * could, they are covered one by one, by the ball that does it best: the first that looks around would take them. */
+static bool add_points(SporeBoundingSearch *search, const Stage *stage) {
+  double *points = NULL, length = stage->finest * search->solid->diagonal;
+  size_t count = 0;
+  SporeBalls all = {0};
+  bool done = make_images(search->solid, search->balls, search->bound, &all) &&
+              spore_balls_gaps(search->solid, &all, stage->margin, stage->finest, &points, &count);
+  for (size_t k = 0; done && k < count; k++)
+    spore_vec3_store(points + 3 * k, spore_symmetry_fold(&search->solid->symmetry, spore_vec3_load(points + 3 * k)));
+  done = done && spore_costs_add(&search->costs, points, count, GAP_VOLUME * length * length * length);
+  spore_balls_clear(&all);
+  spore_bounding_close(search);
+  done = done && spore_bounding_open(search);
+  for (size_t k = 0; done && stage->cost >= SPORE_BOUNDING_HARD && k < count; k++)
+    spore_bounding_cover(search, spore_vec3_load(points + 3 * k));
+  spore_free(points);
+  return done;
+}
+
+static bool sweep(SporeBoundingSearch *search, const Stage *stage, const SporeProgressPart *progress,
+                  SporeError *error) {
+  int sweeps = stage->sweeps * (1 + (int)fmin(2, FEW / (double)search->balls->count));
+  spore_bounding_set_steps(search, stage->step);
+  for (int done = 0; done < sweeps; done++) {
+    if (!spore_progress_part(progress, (double)done / sweeps, _("Bounding with spheres"), error)) return false;
+    spore_bounding_shell_turn(&search->shell, &search->random);
+    for (size_t i = 0; i < search->balls->count; i++) spore_bounding_settle(search, i);
+    spore_progress_show_images(progress, &search->solid->symmetry, search->balls, search->bound);
+  }
+  return true;
+}
+
+static bool run_stage(SporeBoundingSearch *search, const Stage *stage, const SporeProgressPart *progress,
+                      SporeError *error) {
+  SporeProgressPart first = {progress->whole, progress->first, 0.05 * progress->share},
+                    relocating = {progress->whole, progress->first + first.share, 0.9 * progress->share},
+                    last = {progress->whole, relocating.first + relocating.share, 0.05 * progress->share};
+  search->cost = stage->cost;
+  if (stage->finest > 0 && !add_points(search, stage)) return spore_generate_no_memory(error);
+  if (!stage->relocate) return sweep(search, stage, progress, error);
+  uint64_t work = WORK_PER_BALL * search->balls->count;
+  if (work > WORK_MOST) work = WORK_MOST;
+  return sweep(search, stage, &first, error) && spore_bounding_relocate(search, work, &relocating, error) &&
+         sweep(search, stage, &last, error);
+}
+
+static bool run_stages(SporeBoundingSearch *search, const SporeProgressPart *progress, SporeError *error) {
+  static const Stage stages[] = {{2, 0, 0, 0.2, 12, false},
+                                 {4, 0, 0, 0.2, 12, false},
+                                 {8, 0, 0, 0.2, 12, false},
+                                 {16, 4e-3, 6e-3, 0.2, 12, true},
+                                 {32, 0, 0, 0.2, 12, false},
+                                 {128, 0, 0, 0.2, 12, false},
+                                 {2048, 0, 0, 0.2, 12, false},
+                                 {SPORE_BOUNDING_HARD, 1.5e-3, 1.5e-3, 0.06, 8, false},
+                                 {SPORE_BOUNDING_HARD, 3e-4, 7e-4, 0.06, 8, false},
+                                 {SPORE_BOUNDING_HARD, 1e-4, 5e-4, 0.06, 5, false},
+                                 {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, false}};
+  const size_t count = sizeof stages / sizeof *stages;
+  double share[sizeof stages / sizeof *stages], sum = 0; /* of the time, about */
+  for (size_t s = 0; s < count; s++) sum += share[s] = stages[s].relocate ? 1.5 * (double)count : 1;
+  double first = progress->first;
+  for (size_t s = 0; s < count; s++) {
+    SporeProgressPart part = {progress->whole, first, progress->share * share[s] / sum};
+    if (!run_stage(search, &stages[s], &part, error)) return false;
+    first += part.share;
+  }
+  return true;
+}
+
+/* Grows balls until they and their images cover the solid. */
+static bool grow(const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound) {
+  SporeBalls all = {0};
+  bool done = make_images(solid, balls, bound, &all) && spore_balls_grow_to_cover(solid, &all);
+  for (size_t i = 0, image = 0; done && i < balls->count; i++) {
+    SporeBalls one = {1, balls->x + i, balls->y + i, balls->z + i, balls->r + i};
+    size_t end = image + spore_balls_images(&solid->symmetry, &one, bound + i, NULL);
+    for (; image < end; image++) balls->r[i] = fmax(balls->r[i], all.r[image]);
+  }
+  spore_balls_clear(&all);
+  return done;
+}
+
+bool spore_spheres_bound(const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound, uint64_t seed,
+                         const SporeProgressPart *progress, SporeError *error) {
+  SporeBoundingSearch search = {.solid = solid, .bound = bound, .balls = balls, .random = {seed}};
+  SporeProgressPart sampling = {progress->whole, progress->first, 0.1 * progress->share},
+                    searching = {progress->whole, progress->first + 0.1 * progress->share, 0.9 * progress->share};
+  if (!spore_costs_create(&search.costs, solid, balls->count, &search.random, &sampling, error)) return false;
+  bool done = spore_bounding_open(&search) || spore_generate_no_memory(error);
+  done = done && run_stages(&search, &searching, error);
+  spore_bounding_close(&search);
+  spore_costs_clear(&search.costs);
+  return done && (grow(solid, balls, bound) || spore_generate_no_memory(error));
+}

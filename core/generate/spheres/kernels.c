@@ -1,0 +1,141 @@
+/* Inner loops of sphere sets, compiled once for each instruction set. */
+#include "core/generate/spheres/kernels.h"
+
+#include <math.h>
+
+#include "core/generate/spheres/private.h"
+
+#define LANES SPORE_LOCAL_LANES /* of the widest set: what is known of so many points stays in registers */
+
+/* Single precision will do: lengths are relative to the block. */
+void SPORE_LEVEL_NAME(spore_field_block)(const SporeNearBalls *balls, const float *x, const float *y, const float *z,
+                                         float *best, float *second, float *owner) {
+  for (size_t first = 0; first < SPORE_BLOCK; first += LANES) {
+    float most[LANES], next[LANES], whose[LANES];
+    for (int k = 0; k < LANES; k++) most[k] = next[k] = -HUGE_VALF, whose[k] = 0;
+    for (size_t i = 0; i < balls->count; i++) {
+      float cx = balls->x[i], cy = balls->y[i], cz = balls->z[i], r = balls->r[i], number = balls->number[i];
+      for (int k = 0; k < LANES; k++) {
+        float dx = cx - x[first + k], dy = cy - y[first + k], dz = cz - z[first + k];
+        float value = r - sqrtf(dx * dx + dy * dy + dz * dz), before = most[k];
+        float lower = value < before ? value : before;
+        next[k] = lower > next[k] ? lower : next[k];
+        whose[k] = value > before ? number : whose[k];
+        most[k] = value > before ? value : before;
+      }
+    }
+    for (int k = 0; k < LANES; k++) best[first + k] = most[k], second[first + k] = next[k], owner[first + k] = whose[k];
+  }
+}
+
+void SPORE_LEVEL_NAME(spore_local_distances)(const float *x, const float *y, const float *z, size_t count,
+                                             const float at[3], float *restrict distance) {
+  float cx = at[0], cy = at[1], cz = at[2];
+  for (size_t first = 0; first < count; first += LANES)
+    for (size_t k = first; k < first + LANES; k++) {
+      float dx = x[k] - cx, dy = y[k] - cy, dz = z[k] - cz;
+      distance[k] = sqrtf(dx * dx + dy * dy + dz * dz);
+    }
+}
+
+/* Two sums, so that what is cheap is not lost beside what is dear. */
+void SPORE_LEVEL_NAME(spore_local_cost)(const float *distance, const float *cost, size_t count, float radius,
+                                        SporeLocalCost *sum) {
+  float outside[LANES] = {0}, inside[LANES] = {0}, farthest[LANES] = {0};
+  for (size_t first = 0; first < count; first += LANES)
+    for (int k = 0; k < LANES; k++) {
+      float d = distance[first + k], p = d <= radius ? cost[first + k] : 0;
+      float needed = p < 0 ? d : 0;
+      outside[k] += p > 0 ? p : 0;
+      inside[k] += p < 0 ? p : 0;
+      farthest[k] = needed > farthest[k] ? needed : farthest[k];
+    }
+  *sum = (SporeLocalCost){0};
+  for (int k = 0; k < LANES; k++) {
+    sum->outside += outside[k];
+    sum->inside += inside[k];
+    sum->farthest = farthest[k] > sum->farthest ? farthest[k] : sum->farthest;
+  }
+}
+
+static float sum_lanes(const float *lane) {
+  float sum = 0;
+  for (int k = 0; k < LANES; k++) sum += lane[k];
+  return sum;
+}
+
+static void sum_depths(const SporeWeightedBlock *b, size_t first, float *restrict sum) {
+  float all[LANES] = {0};
+  for (size_t i = 0; i < b->count; i++) {
+    float cx = b->x[i], cy = b->y[i], cz = b->z[i], r = b->r[i], w = b->weight[i];
+    for (int k = 0; k < LANES; k++) {
+      float dx = b->px[first + k] - cx, dy = b->py[first + k] - cy, dz = b->pz[first + k] - cz;
+      float depth = r - sqrtf(dx * dx + dy * dy + dz * dz);
+      all[k] += w * (depth > 0 ? depth : 0);
+    }
+  }
+  for (int k = 0; k < LANES; k++) sum[first + k] = all[k] - b->level;
+}
+
+/* Of what is wrong at each sample, by the sum there. */
+static void slopes_of_samples(const SporeWeightedBlock *b, const float *sum, float *restrict slope) {
+  for (size_t k = 0; k < SPORE_BLOCK; k++) {
+    float depth = b->depth[k], wrong = sum[k] - (depth > 0 ? depth : 0);
+    wrong = depth < 0 && wrong < 0 ? 0 : wrong;
+    slope[k] = b->share[k] * wrong / sqrtf(wrong * wrong + b->smoothing * b->smoothing);
+  }
+}
+
+static float slope_of_level(const SporeWeightedBlock *b, const float *sum, const float *slope) {
+  float all[LANES] = {0};
+  for (size_t first = 0; first < SPORE_BLOCK; first += LANES)
+    for (int k = 0; k < LANES; k++) all[k] -= sum[first + k] > -b->level ? slope[first + k] : 0;
+  return sum_lanes(all);
+}
+
+void SPORE_LEVEL_NAME(spore_weighted_slopes)(const SporeWeightedBlock *b, float *restrict sum, float *restrict slopes) {
+  float slope[SPORE_BLOCK];
+  for (size_t first = 0; first < SPORE_BLOCK; first += LANES) sum_depths(b, first, sum);
+  slopes_of_samples(b, sum, slope);
+  slopes[5 * b->count] = slope_of_level(b, sum, slope);
+  for (size_t i = 0; i < b->count; i++) {
+    float cx = b->x[i], cy = b->y[i], cz = b->z[i], r = b->r[i], w = b->weight[i];
+    float sx[LANES] = {0}, sy[LANES] = {0}, sz[LANES] = {0}, sr[LANES] = {0}, sw[LANES] = {0};
+    for (size_t first = 0; first < SPORE_BLOCK; first += LANES)
+      for (int k = 0; k < LANES; k++) {
+        float dx = b->px[first + k] - cx, dy = b->py[first + k] - cy, dz = b->pz[first + k] - cz;
+        float distance = sqrtf(dx * dx + dy * dy + dz * dz), depth = r - distance;
+        float s = depth > 0 ? slope[first + k] : 0, along = s / (distance > 1e-12f ? distance : 1e-12f);
+        sx[k] += along * dx, sy[k] += along * dy, sz[k] += along * dz, sr[k] += s, sw[k] += s * depth;
+      }
+    float *out = slopes + 5 * i;
+    out[0] = w * sum_lanes(sx), out[1] = w * sum_lanes(sy), out[2] = w * sum_lanes(sz), out[3] = w * sum_lanes(sr);
+    out[4] = sum_lanes(sw);
+  }
+}
+
+void SPORE_LEVEL_NAME(spore_rays_leave)(const float *x, const float *y, const float *z, size_t count,
+                                        const float ball[4], float *restrict from) {
+  float cx = ball[0], cy = ball[1], cz = ball[2], room = ball[3] * ball[3] - (cx * cx + cy * cy + cz * cz);
+  for (size_t first = 0; first < count; first += LANES)
+    for (size_t k = first; k < first + LANES; k++) {
+      float along = cx * x[k] + cy * y[k] + cz * z[k], square = along * along + room;
+      float half = sqrtf(square > 0 ? square : 0), leave = along + half;
+      leave = square > 0 && along - half <= 1 ? leave : 0;
+      from[k] = leave > from[k] ? leave : from[k];
+    }
+}
+
+void SPORE_LEVEL_NAME(spore_rays_volume)(const float *x, const float *y, const float *z, const float *from,
+                                         const float *to, size_t count, const float ball[4], float *sum) {
+  float cx = ball[0], cy = ball[1], cz = ball[2], room = ball[3] * ball[3] - (cx * cx + cy * cy + cz * cz);
+  float sums[LANES] = {0};
+  for (size_t first = 0; first < count; first += LANES)
+    for (int k = 0; k < LANES; k++) {
+      float along = cx * x[first + k] + cy * y[first + k] + cz * z[first + k], square = along * along + room;
+      float leave = square > 0 ? along + sqrtf(square > 0 ? square : 0) : 0, f = from[first + k];
+      leave = leave < to[first + k] ? leave : to[first + k];
+      sums[k] += leave > f ? leave * leave * leave - f * f * f : 0;
+    }
+  *sum = sum_lanes(sums);
+}

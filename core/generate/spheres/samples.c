@@ -1,0 +1,160 @@
+/* Samples of the signed depth of a solid, inside, on its surface and in a band outside. */
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/generate/spheres/private.h"
+
+/* Weights of the kinds of samples, each as a whole. */
+#define WEIGHT_INTERIOR 1.0
+#define WEIGHT_SURFACE 0.6
+#define WEIGHT_OUTSIDE 0.5
+
+#define BAND 0.5     /* of the typical radius */
+#define FARTHEST 1.5 /* of the band */
+#define REPORT_EVERY 1024
+
+typedef struct Kinds {
+  size_t interior, surface, outside;
+} Kinds;
+
+static Kinds wanted_samples(size_t count) {
+  size_t interior = 60 * count;
+  if (interior < 16000) interior = 16000;
+  if (interior > 200000) interior = 200000;
+  return (Kinds){interior, interior * 5 / 8, interior / 2};
+}
+
+/* The largest factor anywhere. */
+static double most_factor(const SporeSolid *solid) {
+  double most = 1;
+  for (size_t i = 0; i < solid->region_count; i++) most = fmax(most, solid->regions[i].value);
+  return most;
+}
+
+/* Keeps of the first `count` points each with the chance factor / most; returns how many. */
+static size_t thin_out(const SporeSolid *solid, double most, double *points, size_t count, SporeRandom *random) {
+  size_t kept = 0;
+  for (size_t i = 0; i < count; i++) {
+    double chance = spore_solid_factor(solid, spore_vec3_load(points + 3 * i)) / most;
+    if (spore_random_unit(random) < chance) memmove(points + 3 * kept++, points + 3 * i, 3 * sizeof *points);
+  }
+  return kept;
+}
+
+/* `count` points of the inside or of the surface, closer by their factor, folded by the symmetry. False: cancelled. */
+static bool draw_points(const SporeSolid *solid, bool surface, size_t count, SporeRandom *random, double *points,
+                        const SporeProgressPart *progress, SporeError *error) {
+  double most = most_factor(solid);
+  for (size_t have = 0; have < count;) {
+    if (surface) spore_solid_surface(solid, count - have, random, points + 3 * have, NULL);
+    else if (!spore_solid_interior(solid, count - have, random, points + 3 * have, progress, error)) return false;
+    have += solid->region_count ? thin_out(solid, most, points + 3 * have, count - have, random) : count - have;
+  }
+  for (size_t i = 0; i < count; i++)
+    spore_vec3_store(points + 3 * i, spore_symmetry_fold(&solid->symmetry, spore_vec3_load(points + 3 * i)));
+  return true;
+}
+
+/* Points off the surface by a normal deviate of the band, kept where they are outside and not far;
+ * kinds->outside becomes how many those are. False: cancelled. */
+static bool outside_points(const SporeSolid *solid, const double *surface, Kinds *kinds, double band,
+                           SporeRandom *random, double *points, double *depth, const SporeProgressPart *progress,
+                           SporeError *error) {
+  size_t found = 0, wanted = kinds->outside;
+  for (size_t i = 0; found < wanted && i < 3 * wanted; i++) {
+    if (i % REPORT_EVERY == 0 && !spore_progress_part(progress, 1, _("Sampling the solid"), error)) return false;
+    double u = 1 - spore_random_unit(random), distance = band * sqrt(-2 * log(u));
+    SporeVec3 p = spore_vec3_add_scaled(spore_vec3_load(surface + 3 * (i % kinds->surface)),
+                                        distance * (1 - 2 * spore_random_unit(random)), spore_random_direction(random));
+    p = spore_symmetry_fold(&solid->symmetry, p);
+    double d = spore_bvh_depth(solid->bvh, p);
+    if (d >= 0 || d < -FARTHEST * band) continue;
+    spore_vec3_store(points + 3 * found, p);
+    depth[found++] = d;
+  }
+  kinds->outside = found;
+  return true;
+}
+
+static bool measure_depths(const SporeSolid *solid, const double *points, size_t count, double *depth,
+                           const SporeProgressPart *progress, SporeError *error) {
+  for (size_t i = 0; i < count; i++) {
+    if (i % REPORT_EVERY == 0 &&
+        !spore_progress_part(progress, (double)i / (double)count, _("Sampling the solid"), error))
+      return false;
+    depth[i] = spore_bvh_distance(solid->bvh, spore_vec3_load(points + 3 * i), NULL, NULL);
+  }
+  return true;
+}
+
+/* Weight of a point among its kind. The error of spheres of size h is about proportional to h, so that as many as give
+ * the least sum of weighted errors are as close as the 3/4th power of the weight; the points are as close as the factor
+ * already. */
+static double point_weight(const SporeSolid *solid, const double *point) {
+  return solid->region_count ? cbrt(spore_solid_factor(solid, spore_vec3_load(point))) : 1;
+}
+
+/* Of the points first .. first + count - 1 together `whole`. */
+static void weigh_kind(const SporeSolid *solid, const double *points, size_t first, size_t count, double whole,
+                       double *weight) {
+  double sum = 0;
+  for (size_t i = first; i < first + count; i++) sum += weight[i] = point_weight(solid, points + 3 * i);
+  for (size_t i = first; i < first + count; i++) weight[i] *= whole / sum;
+}
+
+/* Sorts points, depths and weights into blocks. */
+static bool arrange(SporeSamples *samples, const SporeSolid *solid, const double *points, const double *depth,
+                    double *weight, Kinds kinds, SporeError *error) {
+  size_t count = kinds.interior + kinds.surface + kinds.outside;
+  if (!spore_points_create(&samples->points, points, count)) return spore_generate_no_memory(error);
+  size_t padded = samples->points.block_count * SPORE_BLOCK;
+  samples->depth = SPORE_NEW_ARRAY(double, padded);
+  samples->weight = SPORE_NEW_ARRAY(double, padded);
+  if (!samples->depth || !samples->weight) return spore_generate_no_memory(error);
+  weigh_kind(solid, points, 0, kinds.interior, WEIGHT_INTERIOR, weight);
+  weigh_kind(solid, points, kinds.interior, kinds.surface, WEIGHT_SURFACE, weight);
+  weigh_kind(solid, points, kinds.interior + kinds.surface, kinds.outside, WEIGHT_OUTSIDE, weight);
+  for (size_t i = 0; i < count; i++) {
+    size_t from = samples->points.original[i];
+    samples->depth[i] = depth[from];
+    samples->weight[i] = weight[from];
+  }
+  return true;
+}
+
+bool spore_samples_create(SporeSamples *samples, const SporeSolid *solid, size_t count, SporeRandom *random,
+                          const SporeProgressPart *progress, SporeError *error) {
+  Kinds kinds = wanted_samples(count);
+  size_t most = kinds.interior + kinds.surface + kinds.outside;
+  double *points = SPORE_NEW_ARRAY(double, 3 * most), *depth = SPORE_NEW_ARRAY(double, most),
+         *weight = SPORE_NEW_ARRAY(double, most);
+  *samples = (SporeSamples){0};
+  samples->typical = cbrt(solid->volume / (double)count * 3 / (4 * M_PI));
+  samples->band = BAND * samples->typical;
+  bool done = points && depth && weight;
+  if (!done) spore_generate_no_memory(error);
+  if (done) {
+    double *surface = points + 3 * kinds.interior;
+    size_t before = kinds.interior + kinds.surface;
+    done = draw_points(solid, false, kinds.interior, random, points, progress, error) &&
+           draw_points(solid, true, kinds.surface, random, surface, progress, error) &&
+           measure_depths(solid, points, kinds.interior, depth, progress, error) &&
+           outside_points(solid, surface, &kinds, samples->band, random, points + 3 * before, depth + before, progress,
+                          error) &&
+           arrange(samples, solid, points, depth, weight, kinds, error);
+  }
+  spore_free(points);
+  spore_free(depth);
+  spore_free(weight);
+  if (!done) spore_samples_clear(samples);
+  return done;
+}
+
+void spore_samples_clear(SporeSamples *samples) {
+  spore_points_clear(&samples->points);
+  spore_free(samples->depth);
+  spore_free(samples->weight);
+  *samples = (SporeSamples){0};
+}

@@ -1,0 +1,104 @@
+/* The figures of tetrahedra that were made, and what a user should know of them. */
+
+#include <glib/gi18n.h>
+#include <math.h>
+
+#include "core/generate/tetrahedra/private.h"
+
+#define LEAST_SAID 5e-4 /* of the surface: what would be 0.0 % of it is left to the figures */
+#define MANY 1.1        /* times as many cells as were asked for */
+
+/* Pieces that the surface does not have: nothing holds one to the other. */
+static void say_pieces(GString *text, const SporeTetrahedraReport *report) {
+  if (report->small_components > 0)
+    g_string_append_printf(text,
+                           _("left out: small components that hung together with nothing, %.2g %% of the volume\n"),
+                           100 * report->small_components);
+  if (report->pieces > report->pieces_given)
+    g_string_append_printf(
+        text,
+        _("the cells fall into %zu pieces, the surface into %zu: parts are thinner than a cell; ask for more "
+          "cells, or for smaller ones there by a region\n"),
+        report->pieces, report->pieces_given);
+}
+
+/* Where the solid is not what the surface shows, and what to do about it. */
+static void say_left_out(GString *text, const SporeTetrahedraReport *report) {
+  if (report->inner_share >= LEAST_SAID)
+    g_string_append_printf(
+        text,
+        _("%.1f %% of the surface are walls inside the solid, up to %.2f %% of the diagonal from its outside: "
+          "they are left out, and what they enclose is filled, asked for or not; to keep a lumen, turn the triangles "
+          "of its wall round in the mesh, or give the organ a wall by making a surface of it\n"),
+        100 * report->inner_share, 100 * report->inner_distance);
+  if (report->thickened > 0)
+    g_string_append_printf(
+        text,
+        _("%.1f %% of the surface bound walls that are too thin for the cells of the lattice: they are made "
+          "about %.3g mm thick; ask for more cells, or for smaller ones there by a region\n"),
+        100 * report->thickened, 1e3 * report->thickness);
+  if (report->widened > 0)
+    g_string_append_printf(
+        text,
+        _("%.1f %% of the surface bound slits that are too narrow for the cells of the lattice: they are made "
+          "about %.3g mm wide; ask for more cells, or for smaller ones there by a region\n"),
+        100 * report->widened, 1e3 * report->thickness);
+}
+
+/* What was asked for and did not come. */
+static void say_missed(GString *text, const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
+                       const SporeTetrahedraReport *report) {
+  if (options->cells && (double)mesh->tetrahedron_count > MANY * (double)options->cells)
+    g_string_append_printf(
+        text,
+        _("%zu cells were asked for: fewer than %zu would tear thin parts, or make cells too flat; ask for "
+          "more, or give a plainer surface\n"),
+        options->cells, mesh->tetrahedron_count);
+  if (options->fill && report->filled > 0)
+    g_string_append_printf(text, _("cavities of %.3g ml were filled\n"), 1e6 * report->filled);
+  else if (options->fill)
+    g_string_append(text, _("nothing was filled: no cavity is closed off; give a gap, and openings narrower than it "
+                            "are closed\n"));
+}
+
+char *spore_tetrahedra_remarks(const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
+                               const SporeTetrahedraReport *report) {
+  GString *text = g_string_new(NULL);
+  say_pieces(text, report);
+  say_left_out(text, report);
+  say_missed(text, mesh, options, report);
+  return g_string_free(text, FALSE);
+}
+
+/* What of the surface the solid does not show as it is. */
+static void report_left_out(const SporeTetrahedraWork *work, SporeTetrahedraReport *report) {
+  const double bounding = (double)work->bounding_count;
+  report->inner_share = (double)work->inner_count / (bounding + (double)work->inner_count);
+  if (report->method != SPORE_TETRAHEDRA_VOXELS) return;
+  report->thickened = fmin((double)work->thin.wall_count / bounding, 1);
+  report->widened = fmin((double)work->thin.slit_count / bounding, 1);
+  report->small_components += work->thin.small_components;
+  report->thickness = report->thickened > 0 || report->widened > 0 ? 2 * work->thin.reach : 0;
+}
+
+bool spore_tetrahedra_measure(SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh,
+                              SporeTetrahedraReport *report, SporeError *error) {
+  if (!spore_tetrahedra_progress(work, 0, _("measuring the distance"), error)) return false;
+  spore_tetrahedral_mesh_quality(mesh, &report->quality);
+  report_left_out(work, report);
+  return spore_tetrahedra_distances(work, mesh, &report->hausdorff, &report->inner_distance, &report->area, error);
+}
+
+void spore_tetrahedra_to_metres(SporeTetrahedraReport *report, const SporeTetrahedraWork *work,
+                                SporeTetrahedralMesh *mesh, double diagonal, const double centre[3]) {
+  for (gsize i = 0; i < 3 * mesh->vertex_count; i++) mesh->vertices[i] = mesh->vertices[i] * diagonal + centre[i % 3];
+  report->quality.volume *= pow(diagonal, 3);
+  report->volume = report->quality.volume;
+  report->volume_given = work->volume * pow(diagonal, 3);
+  report->filled = (work->filled + work->filled_by_method) * pow(diagonal, 3);
+  report->area *= diagonal * diagonal;
+  report->thickness *= diagonal;
+  report->area_given = work->area * diagonal * diagonal;
+  report->volume_change = report->volume / report->volume_given - 1;
+  report->area_change = report->area / report->area_given - 1;
+}
