@@ -21,10 +21,11 @@
 /* The device of a tool, whose fields begin with SporeToolFields. */
 #define SPORE_ROW_DEVICE(Type)                                                                                         \
   SPORE_ROW_REFERENCE(Type, device, tool.device, "mouse|track", N_("Device that moves the tool."))
-#define SPORE_ROW_PLACE(Type, field, text)                                                                             \
+#define SPORE_ROW_PLACE(Type, field, text) SPORE_ROW_PLACE_AT(Type, field, field, text)
+#define SPORE_ROW_PLACE_AT(Type, field, member, text)                                                                  \
   {                                                                                                                    \
     .name = #field, .type = SPORE_VECTOR, .unit = "m", .minimum = -SPORE_POSITION_MAXIMUM_M,                           \
-    .maximum = SPORE_POSITION_MAXIMUM_M, .offset = offsetof(Type, field), .change = SPORE_CHANGE_REBUILD, .doc = text  \
+    .maximum = SPORE_POSITION_MAXIMUM_M, .offset = offsetof(Type, member), .change = SPORE_CHANGE_REBUILD, .doc = text \
   }
 #define SPORE_ROW_DIRECTION(Type, field, x, y, z, text)                                                                \
   {                                                                                                                    \

@@ -36,6 +36,8 @@ typedef struct SporeGeometry {
   const SporeRegions *regions; /* NULL: none; for types that take them. Their elements are counted */
 } SporeGeometry;
 
+#define SPORE_NO_BODY UINT32_MAX /* in place of the index of a body: the world itself */
+
 typedef struct SporeModelType SporeModelType;
 
 /* Values of parameters that go together, from measurements. */

@@ -8,24 +8,12 @@
 
 #define FAR_AWAY 0.5 /* of a body's size, outside it */
 
-/* The ways to move that a link takes from two rigid bodies, and whether its point belongs to each of them. */
-typedef struct LinkKind {
-  const char *element;
-  guint held;
-  gboolean point_of_a, point_of_b;
-} LinkKind;
-
-static const LinkKind kinds[] = {{"ball", 3, TRUE, TRUE},
-                                 {"hinge", 5, TRUE, TRUE},
-                                 {"weld", 6, TRUE, TRUE},
-                                 {"slide", 2, TRUE, FALSE},
-                                 {"port", 2, FALSE, TRUE}};
 #define ALL_WAYS 6
 
-static const LinkKind *kind_of(const SporeObject *link) {
-  for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++)
-    if (strcmp(spore_object_type(link)->element, kinds[i].element) == 0) return &kinds[i];
-  return NULL;
+/* The joint that the link is; NULL: a spring, pin or seam. */
+static const SporeLinkType *joint_of(const SporeObject *link) {
+  const SporeLinkType *type = spore_link_type_find(spore_object_type(link)->element);
+  return type && type->is_joint ? type : NULL;
 }
 
 static void check_link(SporeCheck *check, SporeObject *link) {
@@ -57,20 +45,20 @@ static gboolean ties_the_same(const SporeObject *link, const SporeObject *other)
 
 /* Said of the link that is one too many. */
 static void check_ways(SporeCheck *check, SporeObject *link) {
-  const LinkKind *kind = kind_of(link);
+  const SporeLinkType *kind = joint_of(link);
   const SporeObject *a = kind ? tied(link, "body_a") : NULL, *b = kind ? tied(link, "body_b") : NULL;
   if ((!a && !b) || (a && !is_rigid(a)) || (b && !is_rigid(b))) return;
   const SporeObject *links = spore_document_section(check->document, "links");
   guint before = 0;
   for (guint i = 0; i < spore_object_child_count(links) && spore_object_child(links, i) != link; i++) {
     const SporeObject *other = spore_object_child(links, i);
-    if (kind_of(other) && ties_the_same(link, other)) before += kind_of(other)->held;
+    if (joint_of(other) && ties_the_same(link, other)) before += joint_of(other)->held_freedoms;
   }
-  if (before > ALL_WAYS || before + kind->held <= ALL_WAYS) return;
+  if (before > ALL_WAYS || before + kind->held_freedoms <= ALL_WAYS) return;
   spore_check_say(check, SPORE_WARNING, link, _("remove one of the links, or choose kinds that hold less"),
                   _("\"%s\" and the links before it hold %u of the 6 ways in which \"%s\" can move: how much each of "
                     "them bears is not determined"),
-                  spore_object_name(link), before + kind->held, spore_object_name(a ? a : b));
+                  spore_object_name(link), before + kind->held_freedoms, spore_object_name(a ? a : b));
 }
 
 void spore_check_links(SporeCheck *check) {
@@ -124,18 +112,14 @@ static void check_point(const Points *points, SporeObject *link, const char *pro
 }
 
 static void check_points(const Points *points, SporeObject *link) {
-  const LinkKind *kind = kind_of(link);
-  if (kind) {
-    SporeLinkFields fields = {0};
-    spore_object_fields(link, &fields);
-    if (kind->point_of_a) check_point(points, link, "body_a", fields.point);
-    if (kind->point_of_b) check_point(points, link, "body_b", fields.point);
-  } else if (strcmp(spore_object_type(link)->element, "spring") == 0) {
-    SporeSpringFields fields;
-    spore_object_fields(link, &fields);
-    check_point(points, link, "body_a", fields.point_a);
-    check_point(points, link, "body_b", fields.point_b);
-  }
+  const SporeLinkType *type = spore_link_type_find(spore_object_type(link)->element);
+  if (!type) return;
+  SporeLinkDescription fields = {0};
+  spore_object_fields(link, &fields);
+  const SporeVec3 *at_b = type->is_joint ? &fields.point_a : &fields.point_b;
+  const double a[3] = {fields.point_a.x, fields.point_a.y, fields.point_a.z}, b[3] = {at_b->x, at_b->y, at_b->z};
+  if (type->point_on_a) check_point(points, link, "body_a", a);
+  if (type->point_on_b) check_point(points, link, "body_b", b);
 }
 
 void spore_check_link_points(SporeCheck *check, const SporeSimulation *simulation) {

@@ -82,6 +82,10 @@ static void add_model(SporeSchema *schema, const SporeModelType *model) {
   add_kind(schema, "mechanical", model->name, model->label, model->doc, &model->parameters)->type.model = model;
 }
 
+static void add_link(SporeSchema *schema, const SporeLinkType *link) {
+  add_kind(schema, "links", link->element, link->label, link->doc, &link->parameters);
+}
+
 static void add_tool(SporeSchema *schema, const SporeToolType *tool) {
   add_kind(schema, "tools", tool->element, tool->label, tool->doc, &tool->parameters);
 }
@@ -127,6 +131,7 @@ SporeSchema *spore_schema_new(SporeModelRegistry registry, const SporeElement *c
   }
   ((SchemaType *)g_hash_table_lookup(schema->by_element, "collision"))->type.defaults = "contact";
   for (SporeModelRegistry model = registry; *model; model++) add_model(schema, *model);
+  for (const SporeLinkType *const *link = spore_link_types; *link; link++) add_link(schema, *link);
   for (const SporeToolType *const *tool = spore_tool_types; *tool; tool++) add_tool(schema, *tool);
   return schema;
 }

@@ -63,23 +63,10 @@ typedef struct SporeLevelFields {
   const char *settings; /* NULL: none */
 } SporeLevelFields;
 
-typedef struct SporePinFields {
-  const char *name, *body;
-  double point[3], radius;
-} SporePinFields;
-
-typedef struct SporeSpringFields {
+typedef struct SporeSeamFields {
   const char *name, *body_a, *body_b;
-  double point_a[3], point_b[3], stiffness, damping, rest_length, strength;
-} SporeSpringFields;
-
-/* Of a ball, hinge, weld, seam, slide or port; each has a part of the parameters. */
-typedef struct SporeLinkFields {
-  const char *name, *body_a, *body_b;
-  double point[3], direction[3], length, friction, distance;
-  int ends; /* SporeEnds */
-  SporeJointFields joint;
-} SporeLinkFields;
+  double distance, stiffness, damping, strength;
+} SporeSeamFields;
 
 typedef struct SporeCameraFields {
   const char *name, *body;

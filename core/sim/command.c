@@ -80,11 +80,9 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
   switch (command->kind) {
   case SPORE_COMMAND_PULL:
     spore_world_pull(world, command);
-    spore_world_make_plan(world); /* there may be something to link now */
     break;
   case SPORE_COMMAND_RELEASE:
     spore_world_release(world, command->body);
-    spore_world_make_plan(world);
     break;
   case SPORE_COMMAND_RETUNE:
     retune(world, body, command->fields);

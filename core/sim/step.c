@@ -144,7 +144,7 @@ static bool explicit_alone(const SporeWorld *world) {
       return false;
   }
   for (size_t i = 0; i < world->links.count; i++)
-    if (world->links.all[i].kind != SPORE_LINK_SPRING) return false;
+    if (world->links.all[i].type->is_joint) return false;
   return first != NULL;
 }
 
@@ -181,6 +181,7 @@ void spore_world_make_plan(SporeWorld *world) {
   SporePlan *plan = &schedule->plan;
   *plan = (SporePlan){.stages = schedule->plan_stages, .left_out = schedule->left_out};
   schedule->run_count = 0;
+  schedule->stale = false;
   for (size_t i = 0; i < SPORE_STAGE_COUNT; i++) {
     bool included = stages[i].needed(world);
     SporeProfilePhase *profile = &schedule->profiles[i];
@@ -207,6 +208,7 @@ void spore_world_step(SporeWorld *world) {
     uint64_t after = spore_clock_ns();
     spore_profile_add(&schedule->profiles[stage], after - before);
     before = after;
+    if (schedule->stale) spore_world_make_plan(world);
   }
   spore_profile_add(&schedule->profile, before - start);
   schedule->step_us = (double)(before - start) * 1e-3;

@@ -25,6 +25,7 @@ typedef struct SporeSchedule {
   SporePlanLeftOut left_out[SPORE_LEFT_OUT_MAXIMUM];
   uint8_t run[SPORE_STAGE_COUNT]; /* the stages that the world needs, in order: what a step calls */
   size_t run_count;
+  bool stale; /* something that a stage depends on has begun or ended: the schedule is to be made again */
   SporeProfilePhase profiles[SPORE_STAGE_COUNT];
   SporeProfilePhase profile; /* of whole steps */
   double step_us;            /* of the step before */
@@ -37,7 +38,7 @@ typedef struct SporeCommands {
 } SporeCommands;
 
 /* step.c */
-/* Made at create, and again when something that a stage depends on begins or ends. */
+/* Makes the schedule. A step does so by itself where the schedule is stale. */
 void spore_world_make_plan(SporeWorld *world);
 
 /* command.c. Stage: applies the commands that were posted. */

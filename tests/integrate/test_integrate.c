@@ -37,9 +37,9 @@ static SporeWorld *swing(const Swing *swing, SporeIntegratorKind kind, double h)
                                                  .damping = swing->damping,
                                                  .poison_at = HUGE_VAL});
   SporeBodyDescription body = passive_body("chain", model, (SporeVec3){0, 0, 0});
-  SporeLinkDescription links[2] = {{.name = "pin", .kind = SPORE_LINK_PIN, .body_a = 0, .radius = 0.01},
+  SporeLinkDescription links[2] = {{.name = "pin", .type = &spore_link_pin, .body_a = 0, .radius = 0.01},
                                    {.name = "tie",
-                                    .kind = SPORE_LINK_SPRING,
+                                    .type = &spore_link_spring,
                                     .body_a = 0,
                                     .body_b = SPORE_NO_BODY,
                                     .point_a = {0.6, 0, 0},
@@ -309,8 +309,8 @@ static SporeWorld *hang(bool both, double mass, double stiffness, SporeIntegrato
       .count = 10, .mass = mass, .spacing = 0.1, .stiffness = stiffness, .damping = 0.5, .poison_at = HUGE_VAL});
   SporeBodyDescription body = passive_body("chain", model, (SporeVec3){0, 0, 0});
   const SporeLinkDescription pins[2] = {
-      {.name = "left", .kind = SPORE_LINK_PIN, .body_a = 0, .radius = 0.01},
-      {.name = "right", .kind = SPORE_LINK_PIN, .body_a = 0, .point_a = {0.9, 0, 0}, .radius = 0.01}};
+      {.name = "left", .type = &spore_link_pin, .body_a = 0, .radius = 0.01},
+      {.name = "right", .type = &spore_link_pin, .body_a = 0, .point_a = {0.9, 0, 0}, .radius = 0.01}};
   SporeWorldDescription description = world_description(&body, 1);
   description.gravity = GRAVITY;
   description.links = pins;
@@ -412,14 +412,14 @@ static SporeWorld *couple(const Pair *pair) {
   bodies[0].substeps = pair->substeps;
   bodies[0].velocity = (SporeVec3){0.3, 0.5, -0.2};
   SporeLinkDescription links[2] = {{.name = "tie",
-                                    .kind = SPORE_LINK_SPRING,
+                                    .type = &spore_link_spring,
                                     .body_a = 0,
                                     .body_b = 1,
                                     .point_a = {0.4, 0, 0},
                                     .point_b = {0.5, 0, 0},
                                     .stiffness = pair->link,
                                     .damping = pair->damping},
-                                   {.name = "pin", .kind = SPORE_LINK_PIN, .body_a = 1, .radius = 0.01}};
+                                   {.name = "pin", .type = &spore_link_pin, .body_a = 1, .radius = 0.01}};
   links[1].point_a = (SporeVec3){0.9, 0, 0};
   SporeWorldDescription description = world_description(bodies, 2);
   description.gravity = pair->gravity;

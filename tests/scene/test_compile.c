@@ -126,7 +126,7 @@ static const Bad bad[] = {
      "<spore version=\"1.0\"><assets><mesh name=\"m\" file=\"gone.off\"/></assets><bodies><body name=\"b\"><mechanical "
      "geometry=\"m\"><rigid_body/></mechanical></body></bodies></spore>",
      "1:30", "there is no file \"gone.off\""},
-    {"pin-without-body", WITH(PROBE, "<links><pin name=\"l\"/></links>"), "6:8", "the pin \"l\" has no body"},
+    {"pin-without-body", WITH(PROBE, "<links><pin name=\"l\"/></links>"), "6:8", "the link \"l\" has no body"},
     {"pin-body-missing", WITH(PROBE, "<links><pin name=\"l\" body=\"q\"/></links>"), "6:8", "body=\"q\" names nothing"},
     {"seam-of-one", WITH(PROBE, "<links><seam name=\"l\" body_a=\"p\"/></links>"), "6:8", "names fewer"},
     {"seam-without-nodes", WITH(PROBE CUBE("q"), "<links><seam name=\"l\" body_a=\"p\" body_b=\"q\"/></links>"), "7:8",

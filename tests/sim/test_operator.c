@@ -34,7 +34,7 @@ static SporeWorld *make(void) {
   }
   static const SporeLinkDescription links[2] = {
       {.name = "s",
-       .kind = SPORE_LINK_SPRING,
+       .type = &spore_link_spring,
        .body_a = 0,
        .body_b = 1,
        .point_a = {1, 0, 0},
@@ -42,7 +42,7 @@ static SporeWorld *make(void) {
        .stiffness = 30,
        .damping = 2,
        .rest_length = 1.5},
-      {.name = "p", .kind = SPORE_LINK_PIN, .body_a = 0, .point_a = {3, 0, 0}, .radius = 0.1}};
+      {.name = "p", .type = &spore_link_pin, .body_a = 0, .point_a = {3, 0, 0}, .radius = 0.1}};
   SporeWorldDescription description = world_description(bodies, 2);
   description.links = links;
   description.link_count = 2;
@@ -256,7 +256,7 @@ static SporeWorld *make_stiff(SporePool *pool, double stiffness, int reach, Spor
     bodies[b] = passive_body(names[b], model, (SporeVec3){0, 0, b});
     bodies[b].velocity = (SporeVec3){1 + b, 0.1, 0};
     links[b] = (SporeLinkDescription){
-        .name = names[b], .kind = SPORE_LINK_PIN, .body_a = (uint32_t)b, .point_a = {0, 0, b}, .radius = 0.05};
+        .name = names[b], .type = &spore_link_pin, .body_a = (uint32_t)b, .point_a = {0, 0, b}, .radius = 0.05};
   }
   SporeWorldDescription description = world_description(bodies, STIFF_CHAINS);
   description.solver.nonlinear = (int)nonlinear;

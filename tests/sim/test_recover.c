@@ -23,7 +23,7 @@ static SporeWorld *make(double stiffness, int64_t newton, int64_t linear) {
       .count = PARTICLES, .mass = 0.1, .spacing = 0.1, .stiffness = stiffness, .damping = 0, .poison_at = HUGE_VAL});
   SporeBodyDescription body = passive_body("chain", model, (SporeVec3){0, 0, 0});
   static const SporeLinkDescription pin = {
-      .name = "p", .kind = SPORE_LINK_PIN, .body_a = 0, .point_a = {0, 0, 0}, .radius = 0.01};
+      .name = "p", .type = &spore_link_pin, .body_a = 0, .point_a = {0, 0, 0}, .radius = 0.01};
   SporeWorldDescription description = world_description(&body, 1);
   description.gravity = (SporeVec3){0, -9.81, 0};
   description.links = &pin;

@@ -27,7 +27,7 @@ static SporeWorld *swings(SporePool *pool) {
   bodies[HAND] = (SporeBodyDescription){.name = "hand", .role = SPORE_ACTIVE, .pose = spore_pose_identity()};
   bodies[HAND].contact = bodies[0].contact;
   SporeLinkDescription link = {.name = "link",
-                               .kind = SPORE_LINK_SPRING,
+                               .type = &spore_link_spring,
                                .body_a = 1,
                                .body_b = 4,
                                .point_a = {0.5, 1, 0},

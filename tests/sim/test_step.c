@@ -122,7 +122,7 @@ static void test_pin(void) {
       (ChainFields){.count = 6, .mass = 0.1, .spacing = 0.2, .stiffness = 500, .damping = 0.5, .poison_at = HUGE_VAL});
   SporeBodyDescription body = passive_body("chain", model, (SporeVec3){1, 2, 3});
   SporeLinkDescription pin = {
-      .name = "hook", .kind = SPORE_LINK_PIN, .body_a = 0, .point_a = {1, 2, 3}, .radius = 0.01};
+      .name = "hook", .type = &spore_link_pin, .body_a = 0, .point_a = {1, 2, 3}, .radius = 0.01};
   SporeWorldDescription description = world_description(&body, 1);
   description.gravity = GRAVITY;
   description.links = &pin;
@@ -148,7 +148,7 @@ static void test_spring_link(gconstpointer data) {
                                     passive_body("b", particle(3), (SporeVec3){1, 0, 0})};
   bodies[0].velocity = (SporeVec3){0.3, 1, -0.2};
   SporeLinkDescription spring = {.name = "s",
-                                 .kind = SPORE_LINK_SPRING,
+                                 .type = &spore_link_spring,
                                  .body_a = 0,
                                  .body_b = 1,
                                  .point_b = {1, 0, 0},

@@ -113,7 +113,7 @@ static void test_islands_alone(void) {
     bodies[i] = passive_body(i ? "b" : "a", chain(8, HUGE_VAL), (SporeVec3){0, height[i], 0});
     bodies[i].spin = (SporeVec3){0, 1, 2};
   }
-  SporeLinkDescription pin = {.name = "p", .kind = SPORE_LINK_PIN, .body_a = 1, .point_a = {0, 5, 0}, .radius = 0.1};
+  SporeLinkDescription pin = {.name = "p", .type = &spore_link_pin, .body_a = 1, .point_a = {0, 5, 0}, .radius = 0.1};
   SporeWorldDescription description = world_description(bodies, 2);
   description.gravity = GRAVITY;
   description.links = &pin;
@@ -191,7 +191,7 @@ static void test_freeze(gconstpointer data) {
                                     passive_body("well", chain(3, HUGE_VAL), (SporeVec3){0, -1, 0})};
   bodies[0].velocity = (SporeVec3){0, 4, 0};
   SporeLinkDescription spring = {.name = "s",
-                                 .kind = SPORE_LINK_SPRING,
+                                 .type = &spore_link_spring,
                                  .body_a = 0,
                                  .body_b = 1,
                                  .point_b = {0, -1, 0},
@@ -302,14 +302,14 @@ static void test_refusals(void) {
   SporeBodyDescription bodies[2] = {passive_body("soft", model, (SporeVec3){0, 0, 0}),
                                     {.name = "wall", .role = SPORE_UNMOVABLE, .pose = spore_pose_identity()}};
   SporeWorldDescription description = world_description(bodies, 2);
-  SporeLinkDescription link = {.name = "l", .kind = SPORE_LINK_PIN, .body_a = 0, .point_a = {0, 9, 0}, .radius = 0.1};
+  SporeLinkDescription link = {.name = "l", .type = &spore_link_pin, .body_a = 0, .point_a = {0, 9, 0}, .radius = 0.1};
   description.links = &link;
   description.link_count = 1;
   refuse(&description, "links/l", "radius");
   link.body_a = 1;
   refuse(&description, "links/l", "passive");
   link = (SporeLinkDescription){
-      .name = "l", .kind = SPORE_LINK_SPRING, .body_a = 1, .body_b = SPORE_NO_BODY, .stiffness = 1};
+      .name = "l", .type = &spore_link_spring, .body_a = 1, .body_b = SPORE_NO_BODY, .stiffness = 1};
   refuse(&description, "links/l", "passive");
   link.body_a = 0;
   link.stiffness = NAN;
@@ -334,7 +334,7 @@ static void test_create_without_memory(void) {
       {.name = "floor", .role = SPORE_UNMOVABLE, .pose = spore_pose_identity(), .spheres = &floor_set}};
   bodies[0].spheres = &chain_set;
   SporeLinkDescription spring = {
-      .name = "s", .kind = SPORE_LINK_SPRING, .body_a = 0, .body_b = SPORE_NO_BODY, .stiffness = 1};
+      .name = "s", .type = &spore_link_spring, .body_a = 0, .body_b = SPORE_NO_BODY, .stiffness = 1};
   SporeWorldDescription description = world_description(bodies, 2);
   description.links = &spring;
   description.link_count = 1;

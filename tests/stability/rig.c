@@ -177,7 +177,7 @@ SporeBodyDescription *rig_active(Rig *rig, const char *name, const SporeSphereSe
 
 void rig_pin(Rig *rig, guint body, SporeVec3 point, double radius) {
   SporeLinkDescription pin = {.name = "pin",
-                              .kind = SPORE_LINK_PIN,
+                              .type = &spore_link_pin,
                               .body_a = body,
                               .body_b = SPORE_NO_BODY,
                               .point_a = point,
@@ -231,9 +231,10 @@ SporeWorld *rig_build_on(Rig *rig, SporePool *pool) {
 
 SporeWorld *rig_build(Rig *rig) { return rig_build_on(rig, NULL); }
 
-SporeLinkDescription *rig_link(Rig *rig, const char *name, SporeLinkKind kind, uint32_t a, uint32_t b, SporeVec3 at) {
+SporeLinkDescription *rig_link(Rig *rig, const char *name, const SporeLinkType *kind, uint32_t a, uint32_t b,
+                               SporeVec3 at) {
   SporeLinkDescription link = {.name = name,
-                               .kind = kind,
+                               .type = kind,
                                .body_a = a,
                                .body_b = b,
                                .point_a = at,

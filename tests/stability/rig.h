@@ -52,7 +52,8 @@ const SporeSphereSet *rig_floor(Rig *rig, unsigned columns, unsigned rows, doubl
 SporeWorld *rig_build(Rig *rig);                     /* never NULL */
 SporeWorld *rig_build_on(Rig *rig, SporePool *pool); /* likewise, on the pool's threads */
 /* At one point of the world, 1e5 N/m, along y where the kind has a direction; the caller may change it. */
-SporeLinkDescription *rig_link(Rig *rig, const char *name, SporeLinkKind kind, uint32_t a, uint32_t b, SporeVec3 at);
+SporeLinkDescription *rig_link(Rig *rig, const char *name, const SporeLinkType *kind, uint32_t a, uint32_t b,
+                               SporeVec3 at);
 /* A tool of default parameters; the first of its bodies is `body`, it has no others. Description and fields may be
  * changed until the world is built. */
 SporeToolDescription *rig_tool(Rig *rig, const SporeToolType *type, const char *name, uint32_t body);

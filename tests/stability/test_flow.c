@@ -132,7 +132,7 @@ static void test_links(void) {
   for (size_t goes = 0; goes < 3; goes++) {
     Rig *rig = drop(goes == 1, goes == 2, 10, 100);
     SporeLinkDescription spring = {.name = "cord",
-                                   .kind = SPORE_LINK_SPRING,
+                                   .type = &spore_link_spring,
                                    .body_b = SPORE_NO_BODY,
                                    .point_b = {0, -0.01, 0},
                                    .stiffness = 0.1,

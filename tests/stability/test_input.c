@@ -83,7 +83,7 @@ static void case_20(void) { mad(JUMP, "case 20"); }
 
 static void tie(Rig *rig, guint a, guint b, SporeVec3 at, double stiffness) {
   SporeLinkDescription link = {.name = "tie",
-                               .kind = SPORE_LINK_SPRING,
+                               .type = &spore_link_spring,
                                .body_a = a,
                                .body_b = b,
                                .point_a = at,

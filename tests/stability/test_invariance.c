@@ -78,7 +78,7 @@ static Rig *scene(const Change *change, uint32_t **block_order, uint32_t **sheet
 
   double link = l * l * l / (t * t); /* N/m, of bodies whose mass goes with their volume */
   SporeLinkDescription spring = {.name = "tie",
-                                 .kind = SPORE_LINK_SPRING,
+                                 .type = &spore_link_spring,
                                  .body_a = 0,
                                  .body_b = 2,
                                  .point_a = placed(change, spore_vec3(0.005, 0.01, 0.01), spore_vec3(0, 0, 0)).position,

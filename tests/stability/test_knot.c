@@ -138,7 +138,7 @@ static Rig *scene(const Case *of, gboolean held, Hand hands[2]) {
     double go = 0.5 * length - 18 * RADIUS + FORCE / PULL - fabs(ends[i].x);
     hands[i] = (Hand){{&hand_type}, ends[i], spore_vec3(ends[i].x > 0 ? go : -go, 0, 0)};
     SporeLinkDescription ball = {.name = names[i],
-                                 .kind = SPORE_LINK_BALL,
+                                 .type = &spore_link_ball,
                                  .body_a = 0,
                                  .body_b = 1 + i,
                                  .point_a = ends[i],

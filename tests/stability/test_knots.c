@@ -213,11 +213,11 @@ static Fall run_fall(double points, double most_bend, double maximum) {
   rig_passive(rig, "thread", pulley_thread(points, most_bend, maximum), NULL);
   rig_passive(rig, "light", box(light), NULL)->pose.position = over_pulley(0);
   rig_passive(rig, "heavy", box(heavy), NULL)->pose.position = over_pulley(1);
-  rig_link(rig, "knot 1", SPORE_LINK_BALL, 1, 0, over_pulley(0));
-  rig_link(rig, "knot 2", SPORE_LINK_BALL, 2, 0, over_pulley(1));
+  rig_link(rig, "knot 1", &spore_link_ball, 1, 0, over_pulley(0));
+  rig_link(rig, "knot 2", &spore_link_ball, 2, 0, over_pulley(1));
   double share = G_PI * pulley_radius / LENGTH;
   for (int i = 0; i < 7; i++)
-    rig_link(rig, "ring", SPORE_LINK_PORT, 0, SPORE_NO_BODY, over_pulley(0.5 + share * (i / 6. - 0.5)));
+    rig_link(rig, "ring", &spore_link_port, 0, SPORE_NO_BODY, over_pulley(0.5 + share * (i / 6. - 0.5)));
   SporeWorld *world = rig_build(rig);
   rig_run(world, (unsigned)lround(time_s / 1e-3));
   double mass = G_PI * RADIUS * RADIUS * LENGTH * 100;
@@ -367,8 +367,8 @@ static Rig *draped(double twist) {
   rig_passive(rig, "bead", box(1e-5), NULL)->pose.position = spore_vec3(0.06, 0, 0);
   rig_passive(rig, "weight", box(2e-4), NULL)->pose.position = spore_vec3(0.1, 0, 0);
   rig_pin(rig, 0, spore_vec3(0, 0, 0), 1e-4);
-  rig_link(rig, "bead", SPORE_LINK_SLIDE, 2, 0, spore_vec3(0.06, 0, 0));
-  rig_link(rig, "weight", SPORE_LINK_BALL, 3, 0, spore_vec3(0.1, 0, 0));
+  rig_link(rig, "bead", &spore_link_slide, 2, 0, spore_vec3(0.06, 0, 0));
+  rig_link(rig, "weight", &spore_link_ball, 3, 0, spore_vec3(0.1, 0, 0));
   spore_sphere_set_clear(&own);
   g_free(points);
   return rig;

@@ -6,8 +6,8 @@
 #include "tests/stability/rig.h"
 
 #define KINDS 5
-static const SporeLinkKind kinds[KINDS] = {SPORE_LINK_BALL, SPORE_LINK_HINGE, SPORE_LINK_WELD, SPORE_LINK_SLIDE,
-                                           SPORE_LINK_PORT};
+static const SporeLinkType *kinds[KINDS] = {&spore_link_ball, &spore_link_hinge, &spore_link_weld, &spore_link_slide,
+                                            &spore_link_port};
 static const char *const kind_names[KINDS] = {"ball", "hinge", "weld", "slide", "port"};
 
 static SporeModel *box(SporeVec3 sides, double mass) {
@@ -16,10 +16,10 @@ static SporeModel *box(SporeVec3 sides, double mass) {
   return rig_surface_model(&spore_rigid_body, &mesh, "mass", mass, NULL);
 }
 
-static SporeLinkDescription *add_link(Rig *rig, const char *name, SporeLinkKind kind, uint32_t a, uint32_t b,
+static SporeLinkDescription *add_link(Rig *rig, const char *name, const SporeLinkType *kind, uint32_t a, uint32_t b,
                                       SporeVec3 point, SporeVec3 direction) {
   SporeLinkDescription link = {.name = name,
-                               .kind = kind,
+                               .type = kind,
                                .body_a = a,
                                .body_b = b,
                                .point_a = point,
@@ -33,7 +33,7 @@ static SporeLinkDescription *add_link(Rig *rig, const char *name, SporeLinkKind 
 }
 
 /* Two boxes side by side, joined between, thrown and turning. */
-static Rig *two_boxes(SporeLinkKind kind, double stiffness) {
+static Rig *two_boxes(const SporeLinkType *kind, double stiffness) {
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, 0, 0);
   SporeBodyDescription *a = rig_passive(rig, "a", box(spore_vec3(0.03, 0.02, 0.01), 0.05), NULL);
@@ -189,7 +189,7 @@ static void test_jacobian(void) {
 }
 
 /* A rod of 0.1 kg and 0.1 m that hangs on a link of the world at its upper end and swings from the horizontal. */
-static Rig *pendulum(SporeLinkKind kind, SporeIntegratorKind integrator, double h) {
+static Rig *pendulum(const SporeLinkType *kind, SporeIntegratorKind integrator, double h) {
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0, -9.81, 0);
   rig->description.solver.integrator = integrator;
@@ -237,7 +237,7 @@ static void test_drift(void) {
 
 /* The period of a rod that swings by little on a hinge: 2 pi (2 l / 3 g)^1/2. */
 static void test_hinge_period(void) {
-  Rig *rig = pendulum(SPORE_LINK_HINGE, SPORE_INTEGRATOR_TR_BDF2, 1e-3);
+  Rig *rig = pendulum(&spore_link_hinge, SPORE_INTEGRATOR_TR_BDF2, 1e-3);
   SporeBodyDescription *rod = &g_array_index(rig->bodies, SporeBodyDescription, 0);
   double angle = -G_PI / 2 + 0.02;
   rod->pose.position = spore_vec3(0.05 * cos(angle), 0.05 * sin(angle), 0);
@@ -268,7 +268,7 @@ static void test_slide(void) {
   SporeBodyDescription *bead = rig_passive(rig, "bead", box(spore_vec3(0.01, 0.01, 0.01), 0.02), NULL);
   bead->spin = spore_vec3(0, 0, 0);
   SporeVec3 along = {sqrt(0.75), -0.5, 0};
-  add_link(rig, "wire", SPORE_LINK_SLIDE, 0, SPORE_NO_BODY, spore_vec3(0, 0, 0), along);
+  add_link(rig, "wire", &spore_link_slide, 0, SPORE_NO_BODY, spore_vec3(0, 0, 0), along);
   SporeWorld *world = rig_build(rig);
   rig_run(world, 500);
   SporeVec3 at = spore_vec3_load(spore_world_q(world, 0));
@@ -309,7 +309,7 @@ static void test_port_active(void) {
   const SporeVec3 pivot = {0, 0, 0.1};
   Rig *rig = rig_new();
   rig_active(rig, "grasper", rig_sphere(rig, 0.005));
-  add_link(rig, "trocar", SPORE_LINK_PORT, 0, SPORE_NO_BODY, pivot, spore_vec3(0, 0, 1));
+  add_link(rig, "trocar", &spore_link_port, 0, SPORE_NO_BODY, pivot, spore_vec3(0, 0, 1));
   Hand hand = {.base = {&hand_type}};
   SporeWorld *world = rig_build(rig);
   spore_world_set_device(world, 0, &hand.base);
@@ -333,7 +333,7 @@ static void test_port_passive(void) {
   SporeBodyDescription *rod = rig_passive(rig, "rod", box(spore_vec3(0.004, 0.004, 0.2), 0.1), NULL);
   rod->spin = spore_vec3(0.5, 0.3, 0);
   const SporeVec3 pivot = {0, 0, 0.02};
-  add_link(rig, "trocar", SPORE_LINK_PORT, 0, SPORE_NO_BODY, pivot, spore_vec3(0, 0, 1));
+  add_link(rig, "trocar", &spore_link_port, 0, SPORE_NO_BODY, pivot, spore_vec3(0, 0, 1));
   SporeWorld *world = rig_build(rig);
   double worst = 0;
   for (int i = 0; i < 120; i++) {
@@ -391,7 +391,7 @@ static void test_weld_tissue(void) {
   SporeBodyDescription *stone = rig_passive(rig, "stone", box(spore_vec3(0.01, 0.01, 0.01), 0.005), NULL);
   stone->pose.position = spore_vec3(0.045, 0.01, 0.01);
   SporeLinkDescription *link =
-      add_link(rig, "glue", SPORE_LINK_WELD, 1, 0, spore_vec3(0.038, 0.01, 0.01), spore_vec3(0, 0, 0));
+      add_link(rig, "glue", &spore_link_weld, 1, 0, spore_vec3(0.038, 0.01, 0.01), spore_vec3(0, 0, 0));
   link->length = 0.008;
   SporeWorld *world = rig_build(rig);
   double load, drift = largest_drift(world, 500, &load);

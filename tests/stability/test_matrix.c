@@ -67,7 +67,7 @@ static void add_weight(Rig *rig, double mass) {
       rig_passive(rig, "weight", rig_surface_model(&spore_rigid_body, &cube, "mass", mass, NULL), NULL);
   weight->pose.position = spore_vec3(0.02, -0.02, 0.02);
   SporeLinkDescription link = {.name = "cord",
-                               .kind = SPORE_LINK_SPRING,
+                               .type = &spore_link_spring,
                                .body_a = 0,
                                .body_b = 1,
                                .point_a = spore_vec3(0.02, 0, 0.02),

@@ -227,7 +227,7 @@ static Rig *hanging(const Specimen *specimen) {
   rig->description.gravity = spore_vec3(0, 0, -9.81);
   rig_pin(rig, 0, spore_vec3(0, 0, 0), 1e-6);
   SporeLinkDescription spring = {.name = "spring",
-                                 .kind = SPORE_LINK_SPRING,
+                                 .type = &spore_link_spring,
                                  .body_a = 0,
                                  .body_b = SPORE_NO_BODY,
                                  .point_a = spore_vec3(0.1, 0.1, 0),

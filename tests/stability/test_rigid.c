@@ -207,7 +207,7 @@ static SporeWorld *pulled(Rig *rig, SporeIntegratorKind kind, double h) {
   body->spin = spore_vec3(3, 5, -4);
   body->integrator = kind;
   SporeLinkDescription spring = {.name = "spring",
-                                 .kind = SPORE_LINK_SPRING,
+                                 .type = &spore_link_spring,
                                  .body_b = SPORE_NO_BODY,
                                  .point_a = {0.15, 0.1, 0.05},
                                  .point_b = {0.3, 0.4, 0.1},

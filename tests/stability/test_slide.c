@@ -44,7 +44,7 @@ static double run_down(SporeIntegratorKind integrator, double h, double time_s, 
   bead->pose.position = helix(0.02);
   rig_passive(rig, "wire", thread(helix, 120, 1e9, 1, 1000, 0), NULL);
   rig_pin(rig, 1, helix(0.5), 1);
-  rig_link(rig, "bead", SPORE_LINK_SLIDE, 0, 1, helix(0.02));
+  rig_link(rig, "bead", &spore_link_slide, 0, 1, helix(0.02));
   SporeWorld *world = rig_build(rig);
   double start = rig_energy(world);
   *off = *energy = 0;
@@ -110,12 +110,12 @@ static Rig *pulley(double light, double heavy, double friction, double damping) 
   rig_passive(rig, "thread", thread(over_pulley, 96, 1e8, 0.02, THREAD_DENSITY, damping), NULL);
   rig_passive(rig, "light", box(0.002, light), NULL)->pose.position = over_pulley(0);
   rig_passive(rig, "heavy", box(0.002, heavy), NULL)->pose.position = over_pulley(1);
-  rig_link(rig, "knot 1", SPORE_LINK_BALL, 1, 0, over_pulley(0));
-  rig_link(rig, "knot 2", SPORE_LINK_BALL, 2, 0, over_pulley(1));
+  rig_link(rig, "knot 1", &spore_link_ball, 1, 0, over_pulley(0));
+  rig_link(rig, "knot 2", &spore_link_ball, 2, 0, over_pulley(1));
   double share = G_PI * PULLEY_RADIUS / THREAD_LENGTH;
   for (int i = 0; i < RINGS; i++) {
     double t = 0.5 + share * ((double)i / (RINGS - 1) - 0.5);
-    rig_link(rig, "ring", SPORE_LINK_PORT, 0, SPORE_NO_BODY, over_pulley(t))->friction = friction;
+    rig_link(rig, "ring", &spore_link_port, 0, SPORE_NO_BODY, over_pulley(t))->friction = friction;
   }
   return rig;
 }
@@ -187,7 +187,7 @@ static Rig *thrown(SporeIntegratorKind integrator, double h, double stiffness, b
   SporeBodyDescription *line = rig_passive(rig, "thread", thread(arc, 12, 1e6, 1, 1000, 0.01), NULL);
   line->velocity = moving ? spore_vec3(0.1, 0.1, 0) : spore_vec3(0, 0, 0);
   line->spin = moving ? spore_vec3(0, 1, 2) : spore_vec3(0, 0, 0);
-  rig_link(rig, "slide", SPORE_LINK_SLIDE, 0, 1, arc(0.4))->stiffness = stiffness;
+  rig_link(rig, "slide", &spore_link_slide, 0, 1, arc(0.4))->stiffness = stiffness;
   return rig;
 }
 
@@ -341,7 +341,7 @@ static void test_ends(void) {
     rig_passive(rig, "bead", box(0.002, 0.001), NULL)->pose.position = incline(0.7);
     rig_passive(rig, "wire", thread(incline, 20, 1e9, 1, 1000, 0.01), NULL);
     rig_pin(rig, 1, incline(0.5), 1);
-    rig_link(rig, "bead", SPORE_LINK_SLIDE, 0, 1, incline(0.7))->ends = ends;
+    rig_link(rig, "bead", &spore_link_slide, 0, 1, incline(0.7))->ends = ends;
     SporeWorld *world = rig_build(rig);
     rig_run(world, 50);
     g_assert_false(spore_world_link_state(world, 0).broken);

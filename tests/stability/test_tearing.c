@@ -55,7 +55,7 @@ static Rig *strip(unsigned columns, unsigned rows, double stiffness, double shea
     rig_pin(rig, 0, spore_vec3(0, SPACING * row, 0), 1e-4);
     SporeVec3 end = spore_vec3(SPACING * (columns - 1), SPACING * row, 0);
     SporeLinkDescription tie = {.name = "tie",
-                                .kind = SPORE_LINK_SPRING,
+                                .type = &spore_link_spring,
                                 .body_a = 0,
                                 .body_b = 1,
                                 .point_a = end,

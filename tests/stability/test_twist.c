@@ -259,7 +259,7 @@ static Rig *held_thread(double length, int points, double radius) {
   rig_active(rig, "driver", NULL)->pose.position = spore_vec3(length, 0, 0);
   rig_pin(rig, 0, spore_vec3(0, 0, 0), radius);
   SporeLinkDescription weld = {.name = "weld",
-                               .kind = SPORE_LINK_WELD,
+                               .type = &spore_link_weld,
                                .body_a = 0,
                                .body_b = 1,
                                .point_a = spore_vec3(length, 0, 0),

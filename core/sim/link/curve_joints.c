@@ -1,5 +1,6 @@
 /* Lines that links run along: those of rigid bodies, which are straight, and those of threads and tubes, which bend. */
 #include "core/base/text.h"
+#include "core/sim/link/link_rows.h"
 #include "core/sim/world_private.h"
 
 #define OFF_LINE 0.01 /* of a line's length: what is farther from it would be pulled there with a jerk */
@@ -9,14 +10,14 @@
 
 /* The body that the line of a slide or port belongs to. */
 static uint32_t line_body(const SporeLinkDescription *link) {
-  return link->kind == SPORE_LINK_PORT ? link->body_a : link->body_b;
+  return link->type->line == SPORE_LINE_OF_BODY_A ? link->body_a : link->body_b;
 }
 
 /* The line is that of a body that deforms. */
 bool spore_link_is_curved(const SporeWorld *world, const SporeLinkDescription *link) {
   uint32_t body = line_body(link);
   const SporeModel *model = body < world->body_count ? world->bodies[body].model : NULL;
-  return spore_link_runs_along(link->kind) && model && model->type->path;
+  return link->type->line != SPORE_LINE_NONE && model && model->type->path;
 }
 
 bool spore_link_make_line(const SporeWorld *world, SporeLink *link, const SporeLinkDescription *from,
@@ -63,7 +64,7 @@ bool spore_link_make_curve(SporeWorld *world, SporeLink *link, const SporeLinkDe
   term->law = spore_link_law(world, from);
   term->b = (SporeEnd){.mapping = mapping + 1, .body = line_body(from)};
   world->links.active[link->term_start] = true;
-  uint32_t other = from->kind == SPORE_LINK_PORT ? from->body_b : from->body_a;
+  uint32_t other = from->type->line == SPORE_LINE_OF_BODY_A ? from->body_b : from->body_a;
   return spore_world_attach(world, other, place.position, mapping, &term->a, error) &&
          spore_mapping_init_linear(mapping + 1, 1, SPORE_PATH_WIDTH, blocks, weights, error);
 }
@@ -135,7 +136,7 @@ static void follow_curve(SporeWorld *world, SporeLink *link, SporeSpringTerm *te
 
 void spore_link_follow(SporeWorld *world, SporeLink *link) {
   SporeSpringTerm *term = &world->links.springs[link->term_start];
-  if (!spore_link_runs_along(link->kind) || link->broken) return;
+  if (link->type->line == SPORE_LINE_NONE || link->broken) return;
   term->stretch = link->lost ? 0 : spore_spring_term_stretch(term, world->state.sites, world->state.q);
   if (term->curve) follow_curve(world, link, term);
   else follow_line(world, link, term);
@@ -145,3 +146,5 @@ void spore_link_follow(SporeWorld *world, SporeLink *link) {
 void spore_world_lose_lines(SporeWorld *world) {
   for (size_t i = 0; i < world->links.count; i++) world->links.all[i].lost = true;
 }
+
+const char *const spore_link_ends[] = {"stop", "slip_off", NULL};

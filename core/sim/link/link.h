@@ -9,7 +9,7 @@
 /* A link of the scene; its terms lie next to each other. */
 typedef struct SporeLink {
   char *name;
-  SporeLinkKind kind;
+  const SporeLinkType *type;
   size_t term_start, term_count; /* in springs */
   double strength;               /* N; infinite: it never breaks */
   bool broken;
@@ -52,22 +52,14 @@ bool spore_body_create_pins(SporeWorld *world, const SporeWorldDescription *desc
 /* Stage: puts the ends of springs where their bodies are when the step begins. */
 void spore_world_link(SporeWorld *world);
 
-/* joints.c: links that hold points together. */
-size_t spore_link_term_count(const SporeLinkDescription *link);
-/* What is wrong with the link, or NULL. */
-const char *spore_link_fault(const SporeWorld *world, const SporeLinkDescription *link);
-/* Fills the link, whose term_start is set, and its terms. */
-bool spore_link_make(SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error);
-/* Stage, after the step: breaks the links that hold more than they can. */
-void spore_world_break_links(SporeWorld *world);
+/* link_terms.c: links that hold points together. */
 SporeSpring spore_link_law(const SporeWorld *world, const SporeLinkDescription *link);
 /* Breaks the link. */
 void spore_link_release(SporeWorld *world, SporeLink *link);
+/* Stage, after the step: breaks the links that bear more than they can. */
+void spore_world_break_links(SporeWorld *world);
 
 /* curve_joints.c: lines that the point of a link runs along. */
-static inline bool spore_link_runs_along(SporeLinkKind kind) {
-  return kind == SPORE_LINK_SLIDE || kind == SPORE_LINK_PORT;
-}
 /* Whether the line is that of a body that deforms. */
 bool spore_link_is_curved(const SporeWorld *world, const SporeLinkDescription *link);
 /* The straight line of a link that has its term; or a link along a body's own line, with its term. */

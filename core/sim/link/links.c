@@ -1,10 +1,13 @@
-/* Links: pins become held blocks, all others terms. */
+/* Links of a world: checked, made and followed. Pins become held blocks, trocars turn active bodies, all others are
+ * terms. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/constraint/pin.h"
+#include "core/sim/link/link_rows.h"
 #include "core/sim/world_private.h"
 
 static bool no_memory(SporeError *error) {
@@ -39,6 +42,60 @@ static const char *particles_fault(const SporeWorld *world, const SporeWorldDesc
   return NULL;
 }
 
+static bool is_known(const SporeWorld *world, uint32_t body) { return body < world->body_count; }
+
+static bool is_passive(const SporeWorld *world, uint32_t body) {
+  return is_known(world, body) && world->bodies[body].role == SPORE_PASSIVE;
+}
+
+/* Whether the link is a trocar of an active body: no term, but a turn of where the body is to be. */
+static bool is_trocar(const SporeWorld *world, const SporeLinkDescription *link) {
+  return link->type->line == SPORE_LINE_OF_BODY_A && is_known(world, link->body_a) &&
+         world->bodies[link->body_a].role == SPORE_ACTIVE;
+}
+
+static bool is_finite(const SporeLinkDescription *link) {
+  return spore_vec3_is_finite(link->point_a) && spore_vec3_is_finite(link->point_b) &&
+         spore_vec3_is_finite(link->direction) &&
+         isfinite(link->radius + link->length + link->stiffness + link->damping + link->rest_length + link->strength +
+                  link->friction);
+}
+
+static const char *ends_fault(const SporeWorld *world, const SporeLinkDescription *link) {
+  bool to_world = link->body_b == SPORE_NO_BODY, trocar = is_trocar(world, link);
+  if (!is_known(world, link->body_a) || !(to_world || is_known(world, link->body_b)))
+    return _("the link names a body that is not there; expected one of the scene's bodies; correct it");
+  if (link->body_a == link->body_b)
+    return _("both ends of the link are of one body; expected two bodies, or one and the scene; choose another");
+  if (trocar && !to_world && world->bodies[link->body_b].role != SPORE_UNMOVABLE)
+    return _("the port of a body that a device moves must stand still; expected an unmovable body or none; choose one");
+  if (!trocar && !is_passive(world, link->body_a) && !is_passive(world, link->body_b))
+    return _("neither end of the link can move; expected at least one passive body; choose one");
+  return NULL;
+}
+
+const char *spore_link_direction_fault(const SporeLinkDescription *link) {
+  if (spore_vec3_length(link->direction) > 0) return NULL;
+  return _("the link has no direction; expected a vector of any length but 0; set it");
+}
+
+const char *spore_link_length_fault(const SporeLinkDescription *link) {
+  if (link->length > 0) return NULL;
+  return _("the link has no length, so that it cannot keep bodies from turning; expected more than 0 m; set it");
+}
+
+/* What is wrong with a link that has terms, or NULL. */
+static const char *term_fault(const SporeWorld *world, const SporeLinkDescription *link) {
+  const char *fault = ends_fault(world, link);
+  if (fault) return fault;
+  if (!(link->stiffness >= 0) || !(link->strength >= 0) || !(link->friction >= 0))
+    return _("stiffness, strength and friction must not be negative; correct them");
+  if (link->type->line != SPORE_LINE_NONE && !spore_link_is_curved(world, link))
+    fault = spore_link_direction_fault(link);
+  if (!fault && link->type->fault) fault = link->type->fault(link);
+  return fault;
+}
+
 /* What is wrong with a pin's body, or NULL. */
 static const char *pin_fault(const SporeWorld *world, const SporeLinkDescription *link) {
   if (link->body_a < world->body_count && world->bodies[link->body_a].role == SPORE_PASSIVE) return NULL;
@@ -57,9 +114,8 @@ static bool mark_held(const SporeBody *body, const SporeWorldDescription *descri
                       const double *points, uint8_t *marks, SporeError *error) {
   for (size_t i = 0; i < description->link_count; i++) {
     const SporeLinkDescription *link = &description->links[i];
-    if (link->kind != SPORE_LINK_PIN || link->body_a != index) continue;
-    if (spore_pin_select(points, body->block_count - body->model->spare_count, link->point_a, link->radius, marks) > 0)
-      continue;
+    if (!link->type->hold || link->body_a != index) continue;
+    if (link->type->hold(link, points, body->block_count - body->model->spare_count, marks) > 0) continue;
     spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                     _("the pin holds nothing: no node lies within its radius; move it or make the radius larger"));
     return place_error(link, error);
@@ -95,21 +151,15 @@ bool spore_body_create_pins(SporeWorld *world, const SporeWorldDescription *desc
   return good;
 }
 
-/* Ports that active bodies go through are no terms. */
-static bool is_aimed(const SporeWorld *world, const SporeLinkDescription *link) {
-  return link->kind == SPORE_LINK_PORT && link->body_a < world->body_count &&
-         world->bodies[link->body_a].role == SPORE_ACTIVE;
-}
-
 static bool allocate_links(SporeWorld *world, const SporeWorldDescription *description) {
   size_t links = 0, ports = 0;
   for (size_t i = 0; i < description->link_count; i++) {
     const SporeLinkDescription *link = &description->links[i];
-    if (is_aimed(world, link)) {
+    if (is_trocar(world, link)) {
       ports++;
-    } else if (link->kind != SPORE_LINK_PIN) {
+    } else if (link->type->term_count > 0) {
       links++;
-      world->links.term_count += spore_link_term_count(link);
+      world->links.term_count += link->type->term_count;
     }
   }
   world->links.all = SPORE_NEW_ARRAY(SporeLink, links);
@@ -128,23 +178,49 @@ static bool allocate_springs(SporeWorld *world) {
          world->links.order && spore_world_create_pulls(world);
 }
 
+/* Fills the link, whose term_start is set, and its terms. */
+static bool make_terms(SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error) {
+  link->type = from->type;
+  link->term_count = from->type->term_count;
+  link->strength = from->strength > 0 ? from->strength : INFINITY;
+  link->name = spore_copy_text(from->name ? from->name : "");
+  if (!link->name) return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the links"));
+  if (spore_link_is_curved(world, from)) return spore_link_make_curve(world, link, from, error);
+  bool swapped = from->type->line == SPORE_LINE_OF_BODY_A; /* the line is at end b */
+  for (size_t t = 0; t < link->term_count; t++) {
+    size_t index = link->term_start + t;
+    SporeSpringTerm *term = &world->links.springs[index];
+    SporeMapping *mapping = &world->links.mappings[2 * index];
+    SporeVec3 a = from->point_a, b = a;
+    if (from->type->place) from->type->place(from, t, &a, &b);
+    term->law = spore_link_law(world, from);
+    world->links.active[index] = true;
+    if (!spore_world_attach(world, swapped ? from->body_b : from->body_a, a, mapping, &term->a, error) ||
+        !spore_world_attach(world, swapped ? from->body_a : from->body_b, b, mapping + 1, &term->b, error))
+      return false;
+  }
+  return link->type->line == SPORE_LINE_NONE || spore_link_make_line(world, link, from, error);
+}
+
 /* term_count: of the links so far. */
 static bool make_link(SporeWorld *world, const SporeLinkDescription *from, size_t *term_count, SporeError *error) {
-  if (is_aimed(world, from)) {
+  if (is_trocar(world, from)) {
     spore_trocar_make(world, &world->links.trocars[world->links.trocar_count++], from);
     return true;
   }
   SporeLink *link = &world->links.all[world->links.count++];
   link->term_start = *term_count;
-  if (!spore_link_make(world, link, from, error)) return false;
+  if (!make_terms(world, link, from, error)) return false;
   *term_count += link->term_count;
   return true;
 }
 
-static bool compile_link(SporeWorld *world, const SporeWorldDescription *description, const SporeLinkDescription *link,
-                         size_t *term_count, SporeError *error) {
-  bool pin = link->kind == SPORE_LINK_PIN;
-  const char *fault = spore_link_fault(world, link);
+static bool create_link(SporeWorld *world, const SporeWorldDescription *description, const SporeLinkDescription *link,
+                        size_t *term_count, SporeError *error) {
+  bool pin = link->type->term_count == 0;
+  const char *fault = NULL;
+  if (!is_finite(link)) fault = _("a number of the link is not finite; expected points and lengths in m; correct it");
+  else if (!pin) fault = term_fault(world, link);
   if (!fault) fault = particles_fault(world, description, link->body_a);
   if (!fault) fault = particles_fault(world, description, link->body_b);
   if (!fault && pin) fault = pin_fault(world, link);
@@ -157,7 +233,7 @@ bool spore_world_create_links(SporeWorld *world, const SporeWorldDescription *de
   if (!allocate_links(world, description) || !allocate_springs(world)) return no_memory(error);
   size_t term_count = 0;
   for (size_t i = 0; i < description->link_count; i++)
-    if (!compile_link(world, description, &description->links[i], &term_count, error)) return false;
+    if (!create_link(world, description, &description->links[i], &term_count, error)) return false;
   for (uint32_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (!spore_body_create_pins(world, description, b, error)) return false;
@@ -188,4 +264,14 @@ void spore_world_clear_links(SporeWorld *world) {
   spore_free(links->mappings);
   spore_free(links->couplings);
   spore_free(links->order);
+}
+
+void spore_world_reset_links(SporeWorld *world) {
+  spore_world_lose_lines(world);
+  for (size_t i = 0; i < world->links.count; i++) {
+    SporeLink *link = &world->links.all[i];
+    link->broken = link->reported_sharp = false;
+    link->sharp_steps = 0;
+    for (size_t t = 0; t < link->term_count; t++) world->links.active[link->term_start + t] = true;
+  }
 }

@@ -56,6 +56,7 @@ static void set_pulled(SporeWorld *world, size_t index, bool pulled) {
   world->links.active[index] = pulled;
   if (pulled) world->links.pull_count++;
   else world->links.pull_count--;
+  world->schedule.stale = true; /* there may be something to link now, or nothing any more */
 }
 
 void spore_world_pull(SporeWorld *world, const SporeCommand *command) {

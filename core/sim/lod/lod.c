@@ -9,8 +9,6 @@
 
 #define WEIGHT_APART 0.1 /* of a body's mass, by which a level may differ from it */
 
-const char *const spore_level_names[] = {"coarse", "medium", "fine", NULL};
-
 static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a body's levels"));
 }

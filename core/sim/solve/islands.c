@@ -98,7 +98,7 @@ static void count_terms(SporeWorld *world, size_t springs) {
 static void mix_jointed(SporeWorld *world) {
   for (size_t i = 0; i < world->links.count; i++) {
     const SporeLink *link = &world->links.all[i];
-    uint32_t island = link->kind == SPORE_LINK_SPRING ? SPORE_NO_BODY : island_of_spring(world, link->term_start);
+    uint32_t island = link->type->is_joint ? island_of_spring(world, link->term_start) : SPORE_NO_BODY;
     if (island == SPORE_NO_BODY || spore_integrator(world->solve.islands[island].integrator)->implicit) continue;
     world->solve.islands[island].multirate = true;
     world->solve.islands[island].integrator = SPORE_INTEGRATOR_IMPLICIT_EULER;

@@ -1,6 +1,8 @@
 /* Bodies: their models at all levels of detail, and where points given at rest lie in them. */
 #include "core/sim/world_private.h"
 
+const char *const spore_level_names[] = {"coarse", "medium", "fine", NULL};
+
 void spore_body_each_model(const SporeBody *body, void (*call)(SporeModel *model, void *user), void *user) {
   if (!body->levels && body->model) call(body->model, user);
   for (int k = 0; body->levels && k < SPORE_LEVEL_COUNT; k++)
