@@ -54,7 +54,12 @@ static const char *missing_slot(const SporeModelType *type) {
   if (!type->potential) return "potential";
   if (!type->map) return "map";
   if (type->jacobian && !type->pattern) return "pattern";
-  if (type->cut && !type->tie && !type->divide) return "tie";
+  if (type->cut && !type->cut->cut) return "cut.cut";
+  if (type->cut && !type->cut->tie && !type->cut->split) return "cut.tie";
+  if (type->cut && type->cut->split && (!type->cut->corners || !type->settle)) return "cut.corners and settle";
+  if (type->heat && (!type->heat->prepare || !type->heat->coagulate)) return "heat";
+  if (type->adapt && (!type->adapt->weigh_nodes || !type->adapt->change_nodes || !type->settle)) return "adapt";
+  if (type->line && !type->line->path) return "line.path";
   return NULL;
 }
 

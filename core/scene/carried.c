@@ -109,9 +109,9 @@ static gboolean measure_motion(const SporeModel *model, const Points *points, Sp
   g_autofree double *places = g_new(double, 3 * points->count);
   SporeError fault = SPORE_ERROR_INIT;
   SporeMapping mapping = {0};
-  carried->framed = points->mesh && model->type->carry;
+  carried->framed = points->mesh && model->type->line && model->type->line->map_drawn;
   for (gsize i = 0; i < points->count; i++) spore_vec3_store(places + 3 * i, point(points, i));
-  gboolean done = (carried->framed ? model->type->carry(model, points->mesh, &mapping, &fault)
+  gboolean done = (carried->framed ? model->type->line->map_drawn(model, points->mesh, &mapping, &fault)
                                    : model->type->map(model, places, points->count, &mapping, &fault)) &&
                   spore_mapping_measure(model, &mapping, places, &carried->error, &fault);
   if (done && carried->framed) carried->crowd_place = point(points, carried->error.crowd_point);

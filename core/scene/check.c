@@ -112,7 +112,7 @@ static void check_emitter(SporeCheck *check, SporeObject *emitter) {
 typedef gboolean (*CanBeChanged)(const SporeModelType *type);
 
 static gboolean can_be_cut(const SporeModelType *type) { return type->cut != NULL; }
-static gboolean can_be_coagulated(const SporeModelType *type) { return type->coagulate != NULL; }
+static gboolean can_be_coagulated(const SporeModelType *type) { return type->heat != NULL; }
 
 static gboolean can_be_pierced(const SporeModelType *type) { return type->skin != NULL; }
 

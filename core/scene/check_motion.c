@@ -140,8 +140,9 @@ static gboolean has_support(const Start *start, guint body, SporeVec3 down) {
 /* The air holds it up. */
 static gboolean is_smoke(const SporeObject *body) {
   const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
-  return mechanical && spore_object_child_count(mechanical) > 0 &&
-         spore_object_type(spore_object_child(mechanical, 0))->model->puff;
+  if (!mechanical || spore_object_child_count(mechanical) == 0) return FALSE;
+  const SporeModelParticles *particles = spore_object_type(spore_object_child(mechanical, 0))->model->particles;
+  return particles && particles->puff;
 }
 
 static void check_loose(const Start *start) {

@@ -245,6 +245,9 @@ static void mend(SporeModel *model) {
   if (net->ties.gone) spore_net_ties_mend(&net->ties);
 }
 
+static const SporeModelCut cutting = {.prepare = prepare_cut, .cut = cut, .tear = tear, .tie = tie};
+static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coagulate};
+
 const SporeModelType spore_mass_spring_net = {
     .name = "mass_spring_net",
     .label = N_("Mass-spring net"),
@@ -266,11 +269,7 @@ const SporeModelType spore_mass_spring_net = {
     .jacobian = jacobian,
     .tangent = tangent,
     .retune = retune,
-    .prepare_cut = prepare_cut,
-    .cut = cut,
-    .tear = tear,
-    .tie = tie,
-    .prepare_heat = prepare_heat,
-    .coagulate = coagulate,
     .mend = mend,
+    .cut = &cutting,
+    .heat = &heating,
 };

@@ -268,6 +268,8 @@ static const char *notice(const SporeModel *model, const double *q) {
              : NULL;
 }
 
+static const SporeModelParticles particles = {.puff = NULL};
+
 const SporeModelType spore_lennard_jones = {
     .name = "lennard_jones",
     .label = N_("Lennard-Jones fluid"),
@@ -276,7 +278,6 @@ const SporeModelType spore_lennard_jones = {
               "touches other bodies with a sphere at each particle, unless its collision unit names other spheres."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(FluidFields)},
     .geometry = SPORE_GEOMETRY_SOLID,
-    .particles = true,
     .create = create,
     .destroy = destroy,
     .place = place,
@@ -288,4 +289,5 @@ const SporeModelType spore_lennard_jones = {
     .forget = forget,
     .spheres = spheres,
     .notice = notice,
+    .particles = &particles,
 };

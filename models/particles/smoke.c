@@ -167,6 +167,8 @@ static void puff(const SporeModel *model, const double *q, size_t particle, doub
   *opacity = fields->opacity * sqrt(start / square) * fmax(1 - age / fields->life, 0);
 }
 
+static const SporeModelParticles particles = {.puff = puff};
+
 const SporeModelType spore_smoke = {
     .name = "smoke",
     .label = N_("Smoke"),
@@ -175,7 +177,6 @@ const SporeModelType spore_smoke = {
               "bodies only with the spheres that their collision unit names."),
     .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(SmokeFields)},
     .geometry = SPORE_GEOMETRY_SOLID,
-    .particles = true,
     .create = create,
     .destroy = destroy,
     .place = place,
@@ -185,5 +186,5 @@ const SporeModelType spore_smoke = {
     .map = map,
     .retune = retune,
     .rates = rates,
-    .puff = puff,
+    .particles = &particles,
 };

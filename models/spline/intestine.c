@@ -169,8 +169,9 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
                                error);
 }
 
-static bool carry(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error) {
-  return spore_spline_line_carry(&((const Intestine *)model)->line, model, false, mesh, mapping, error);
+static bool map_drawn(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping,
+                      SporeError *error) {
+  return spore_spline_line_map_drawn(&((const Intestine *)model)->line, model, false, mesh, mapping, error);
 }
 
 static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
@@ -188,6 +189,8 @@ static bool retune(SporeModel *model, const void *fields, SporeError *error) {
   tune((Intestine *)model, fields);
   return true;
 }
+
+static const SporeModelLine line = {.path = path, .map_drawn = map_drawn};
 
 const SporeModelType spore_intestine = {
     .name = "intestine",
@@ -207,12 +210,11 @@ const SporeModelType spore_intestine = {
     .force = force,
     .potential = potential,
     .map = map,
-    .carry = carry,
     .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,
     .drift = drift,
     .retune = retune,
     .spheres = spheres,
-    .path = path,
+    .line = &line,
 };

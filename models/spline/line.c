@@ -273,8 +273,8 @@ bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, cons
   return spore_spline_map(line->knots, line->rest, arms, points, count, slack, follows, mapping, error);
 }
 
-bool spore_spline_line_carry(const SporeSplineLine *line, const SporeModel *model, bool arms,
-                             const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error) {
+bool spore_spline_line_map_drawn(const SporeSplineLine *line, const SporeModel *model, bool arms,
+                                 const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error) {
   const SporeVec3 none = {0, 0, 0};
   double *q = SPORE_NEW_ARRAY(double, model->q_room), *v = SPORE_NEW_ARRAY(double, 3 * model->block_room);
   bool made = q && v;

@@ -254,9 +254,10 @@ static bool map(const SporeModel *model, const double *points, size_t count, Spo
                                body->changes.made != NULL, mapping, error);
 }
 
-static bool carry(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error) {
+static bool map_drawn(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping,
+                      SporeError *error) {
   const Spline1d *body = (const Spline1d *)model;
-  return spore_spline_line_carry(&body->line, model, body->twist.span_count > 0, mesh, mapping, error);
+  return spore_spline_line_map_drawn(&body->line, model, body->twist.span_count > 0, mesh, mapping, error);
 }
 
 static bool samples(const SporeModel *model, double **points, size_t *count, size_t *seen) {
@@ -281,6 +282,9 @@ static const char *doubt(const SporeModel *model) {
   return _("its curve still turns by more than most_bend between knots; raise maximum_control_points or most_bend");
 }
 
+static const SporeModelAdapt adapting = {.weigh_nodes = weigh_nodes, .change_nodes = change_nodes};
+static const SporeModelLine line = {.path = path, .map_drawn = map_drawn, .follow = follow};
+
 const SporeModelType spore_spline_1d = {
     .name = "spline_1d",
     .label = N_("Spline"),
@@ -302,7 +306,6 @@ const SporeModelType spore_spline_1d = {
     .force = force,
     .potential = potential,
     .map = map,
-    .carry = carry,
     .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,
@@ -310,10 +313,8 @@ const SporeModelType spore_spline_1d = {
     .spheres = spheres,
     .notice = notice,
     .doubt = doubt,
-    .path = path,
     .settle = settle,
-    .weigh_nodes = weigh_nodes,
-    .change_nodes = change_nodes,
-    .follow = follow,
     .mend = mend,
+    .adapt = &adapting,
+    .line = &line,
 };

@@ -279,7 +279,7 @@ static size_t cut(SporeModel *model, const double *q, const double *triangle, ui
   return spore_tetrahedra_cut_open(&((Body *)model)->cut, q, triangle);
 }
 
-static size_t divide(SporeModel *model, double *q, double *v, const uint32_t **from) {
+static size_t split(SporeModel *model, double *q, double *v, const uint32_t **from) {
   assert(((const Body *)model)->cut.count > 0);
   Body *body = (Body *)model;
   size_t made = spore_tetrahedra_cut_part(&body->cut, &body->tetrahedra, model->block_mass, q, v);
@@ -309,14 +309,16 @@ static const char *notice(const SporeModel *model, const double *q) {
            "cut_reserve");
 }
 
+static const SporeModelCut cutting = {.reserve = reserve, .cut = cut, .split = split, .corners = corners};
+static const SporeModelHeat heating = {.prepare = prepare_heat, .coagulate = coagulate};
+
 /* What the types have in common. */
 #define SLOTS                                                                                                          \
   .parameters = {parameters, sizeof parameters / sizeof *parameters, sizeof(TetrahedraFields)},                        \
   .geometry = SPORE_GEOMETRY_TETRAHEDRA, .regions = true, .presets = spore_tissue_presets, .destroy = destroy,         \
   .place = place, .force = force, .potential = potential, .map = map, .skin = skin, .pattern = pattern,                \
-  .jacobian = jacobian, .retune = retune, .doubt = doubt, .prepare_heat = prepare_heat, .coagulate = coagulate,        \
-  .mend = mend, .reserve = reserve, .cut = cut, .divide = divide, .settle = settle, .corners = corners,                \
-  .notice = notice
+  .jacobian = jacobian, .retune = retune, .doubt = doubt, .mend = mend, .settle = settle, .cut = &cutting,             \
+  .heat = &heating, .notice = notice
 
 static SporeModel *create_corotational(const SporeGeometry *geometry, const void *fields, SporeError *error) {
   static const Material material = {spore_corotation_force_by_level, spore_corotation_potential_by_level,

@@ -44,7 +44,7 @@ static bool try_map(const SporeModel *model, Slot slot, const double *points, si
                     SporeError *error) {
   if (slot == MAP) return model->type->map(model, points, count, mapping, error);
   const SporeTriangleMesh cloud = {.vertex_count = count, .vertices = (double *)points};
-  return model->type->carry(model, &cloud, mapping, error);
+  return model->type->line->map_drawn(model, &cloud, mapping, error);
 }
 
 static void map(const SporeModel *model, Slot slot, const double *points, size_t count, SporeMapping *mapping) {
@@ -219,7 +219,7 @@ static void check_without_memory_of(const Specimen *specimen, Slot slot) {
 static void check_without_memory(gconstpointer data) { check_without_memory_of(data, MAP); }
 static void check_without_memory_carried(gconstpointer data) { check_without_memory_of(data, CARRY); }
 
-static gboolean carries(const SporeModelType *type) { return type->carry != NULL; }
+static gboolean carries(const SporeModelType *type) { return type->line && type->line->map_drawn; }
 static gboolean has_spheres(const SporeModelType *type) { return type->spheres != NULL; }
 
 /* Of particles: one at each material point, which it follows exactly, apart at rest; and nothing passes between them.

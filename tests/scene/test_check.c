@@ -386,7 +386,7 @@ static void test_tissues(void) {
       for (gsize i = 0; registry[i]; i++) {
         int index = spore_parameter_find(&registry[i]->parameters, one->name);
         SporeError fault = SPORE_ERROR_INIT;
-        if (index < 0 || registry[i]->puff) continue; /* smoke is of no tissue */
+        if (index < 0 || strcmp(registry[i]->name, "smoke") == 0) continue; /* smoke is of no tissue */
         g_assert_cmpstr(registry[i]->parameters.parameters[index].unit, ==, one->unit);
         if (!spore_parameter_check(&registry[i]->parameters.parameters[index], &one->typical, &fault))
           g_error("%s: %s", registry[i]->name, fault.message);

@@ -40,11 +40,11 @@ static void check_scale(const SporeModelType *type, gboolean quadratic) {
   double *q = g_new0(double, model->q_count), *v = g_new0(double, 3 * model->block_count);
   stretch(model, 1, q, v);
   double before = type->potential(model, q);
-  g_assert_true(type->prepare_heat(model));
+  g_assert_true(type->heat->prepare(model));
   g_assert_cmpfloat(type->potential(model, q), ==, before);
   const SporeHeat heat = {{0, 0, 0}, 1, 0.013, 1 - LEAST, STIFFENING};
-  for (int i = 0; i < 80; i++) type->coagulate(model, q, &heat);
-  g_assert_cmpuint(type->coagulate(model, q, &heat), ==, 0);
+  for (int i = 0; i < 80; i++) type->heat->coagulate(model, q, &heat);
+  g_assert_cmpuint(type->heat->coagulate(model, q, &heat), ==, 0);
   stretch(model, LEAST, q, v);
   double volume = type == &spore_mass_spring_net ? LEAST * LEAST : LEAST * LEAST * LEAST;
   double expected = STIFFENING * volume * before, after = type->potential(model, q);
@@ -72,9 +72,9 @@ static void check_derivatives(const SporeModelType *type, gboolean quadratic) {
   double *q = g_new0(double, n), *v = g_new0(double, n), *f = g_new0(double, n), *g = g_new0(double, n),
          *d = g_new0(double, n), *y = g_new0(double, n);
   SporeBlockMatrix matrix;
-  g_assert_true(spore_model_matrix_create(model, &matrix) && type->prepare_heat(model));
+  g_assert_true(spore_model_matrix_create(model, &matrix) && type->heat->prepare(model));
   stretch(model, 1, q, v);
-  for (int i = 0; i < 20; i++) type->coagulate(model, q, &(SporeHeat){{0, 0, 0}, 0.03, 0.02, 0.05, STIFFENING});
+  for (int i = 0; i < 20; i++) type->heat->coagulate(model, q, &(SporeHeat){{0, 0, 0}, 0.03, 0.02, 0.05, STIFFENING});
   GRand *random = g_rand_new_with_seed(5);
   for (size_t i = 0; i < n; i++) d[i] = g_rand_double_range(random, -1, 1);
   g_rand_free(random);

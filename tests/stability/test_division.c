@@ -78,7 +78,7 @@ static const SporeModel *model_of(const Bar *bar) {
 static const uint32_t *corners_of(const Bar *bar) {
   size_t count;
   const SporeModel *model = model_of(bar);
-  return model->type->corners(model, &count);
+  return model->type->cut->corners(model, &count);
 }
 
 typedef struct Sums {
@@ -202,7 +202,7 @@ static void lone_init(Lone *lone, const SporeModelType *type, GRand *random) {
   shape_block(&mesh, 5, 4, 4, spore_vec3(0.05, 0.04, 0.04));
   lone->model = rig_solid_model(type, &mesh, "cut_reserve", 8.0, NULL);
   SporeError error = SPORE_ERROR_INIT;
-  g_assert_true(type->reserve(lone->model, &error));
+  g_assert_true(type->cut->reserve(lone->model, &error));
   lone->n = 3 * lone->model->block_count;
   double **all[] = {&lone->q, &lone->v, &lone->f, &lone->g, &lone->d, &lone->y};
   for (size_t i = 0; i < G_N_ELEMENTS(all); i++) *all[i] = g_new0(double, lone->n);
@@ -283,8 +283,8 @@ static void check_random(const SporeModelType *type) {
     double triangle[9];
     const uint32_t *from;
     random_triangle(random, triangle);
-    faces += type->cut(lone.model, lone.q, triangle, 0, &cuts);
-    size_t made = type->divide(lone.model, lone.q, lone.v, &from);
+    faces += type->cut->cut(lone.model, lone.q, triangle, 0, &cuts);
+    size_t made = type->cut->split(lone.model, lone.q, lone.v, &from);
     nodes += made;
     if (made > 0) {
       spore_block_pattern_empty(&lone.pattern);
@@ -347,17 +347,11 @@ static void test_tidy(void) {
 /* The same bits on one thread and on three, and at each level of the processor. */
 static uint64_t hash_with(int threads, SporeCpuLevel level) {
   SporePool *pool = spore_pool_create(threads);
-  SporeError error = SPORE_ERROR_INIT;
   spore_cpu_limit(level);
   Bar *bar = bar_new(&spore_neo_hookean_tetrahedra, 0.5);
   bar->rig->description.gravity = spore_vec3(0, 0, -9.81);
   rig_pin(bar->rig, 0, spore_vec3(0, 0, 0), 0.5 * SIDE);
-  bar->rig->description.bodies = (SporeBodyDescription *)bar->rig->bodies->data;
-  bar->rig->description.body_count = bar->rig->bodies->len;
-  bar->rig->description.links = (SporeLinkDescription *)bar->rig->links->data;
-  bar->rig->description.link_count = bar->rig->links->len;
-  SporeWorld *world = bar->rig->world = spore_world_create(&bar->rig->description, pool, &error);
-  g_assert_nonnull(world);
+  SporeWorld *world = rig_build_on(bar->rig, pool);
   spore_world_set_device(world, 1, &bar->cutter);
   run_to(world, 0.3);
   g_assert_cmpuint(spore_world_tool_state(world, 0).cut, >, 0);
@@ -390,7 +384,7 @@ static void test_reserve(void) {
   shape_block(&mesh, 2, 2, 2, spore_vec3(0.02, 0.02, 0.02));
   SporeModel *model = rig_solid_model(&spore_neo_hookean_tetrahedra, &mesh, "element", 1.0, NULL);
   SporeError error = SPORE_ERROR_INIT;
-  g_assert_false(model->type->reserve(model, &error));
+  g_assert_false(model->type->cut->reserve(model, &error));
   g_test_message("%s", error.message);
   g_assert_nonnull(strstr(error.message, "linear"));
   model->type->destroy(model);

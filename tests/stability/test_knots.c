@@ -62,7 +62,7 @@ static void state_free(State *state) {
 /* Places along the line, or speeds there. */
 #define PLACES 1001
 static double *along(const State *state, const double *x) {
-  SporeSplineKnots knots = state->model->type->path(state->model);
+  SporeSplineKnots knots = state->model->type->line->path(state->model);
   double *places = g_new(double, 3 * PLACES);
   for (int i = 0; i < PLACES; i++)
     spore_vec3_store(places + 3 * i, spore_path_at(knots, x, spore_spline_end(knots) * i / (PLACES - 1)).position);
@@ -101,8 +101,8 @@ static void insert(double twist, double turns) {
     double strain = model->type->potential(model, state.q);
     SporeVec3 p = momentum(&state);
     size_t count = model->node_count;
-    bool changes = model->type->weigh_nodes(model, 1e-3, state.q, NULL);
-    if (changes) model->type->change_nodes(model, state.q, state.v, NULL);
+    bool changes = model->type->adapt->weigh_nodes(model, 1e-3, state.q, NULL);
+    if (changes) model->type->adapt->change_nodes(model, state.q, state.v, NULL);
     double *line_now = along(&state, state.q), *speed_now = along(&state, state.v);
     double moved = apart(line, line_now), turned = apart(speed, speed_now);
     double missed = spore_vec3_distance(p, momentum(&state)) / spore_vec3_length(p);
@@ -136,10 +136,10 @@ static void test_removal(void) {
   const double twist = 0, turns = 0;
   State state = state_new(thread(12, 0.4, 60, twist, turns), 0.012);
   SporeModel *model = state.model;
-  while (model->type->weigh_nodes(model, 1e-3, state.q, NULL)) model->type->change_nodes(model, state.q, state.v, NULL);
+  while (model->type->adapt->weigh_nodes(model, 1e-3, state.q, NULL)) model->type->adapt->change_nodes(model, state.q, state.v, NULL);
   size_t most = model->node_count;
   double worst = 0, mass = spore_model_total_mass(model);
-  SporeSplineKnots knots = model->type->path(model);
+  SporeSplineKnots knots = model->type->line->path(model);
   for (size_t i = 0; i < most; i++) { /* a bow, no longer a hook */
     double mean = 0;                  /* of the knots that the point is led by, where it stands on a straight line */
     for (size_t k = 0; k < 3; k++)
@@ -149,9 +149,9 @@ static void test_removal(void) {
   }
   for (int i = 0; i < 200 && model->node_count > 12; i++) {
     double *line = along(&state, state.q);
-    if (model->type->weigh_nodes(model, 0.05, state.q, NULL)) {
+    if (model->type->adapt->weigh_nodes(model, 0.05, state.q, NULL)) {
       g_assert_cmpint(i, >=, 4);
-      model->type->change_nodes(model, state.q, state.v, NULL);
+      model->type->adapt->change_nodes(model, state.q, state.v, NULL);
     }
     double *now = along(&state, state.q);
     worst = fmax(worst, apart(line, now));
@@ -383,7 +383,7 @@ static void follow(double twist) {
   size_t count = body->collision.spheres.point_count;
   double *parameter = g_new(double, count), *shown = g_new(double, 3 * count), most = 0, beside = 0, drift = 0;
   double *rest = g_new(double, 3 * count);
-  SporeSplineKnots knots = body->model->type->path(body->model);
+  SporeSplineKnots knots = body->model->type->line->path(body->model);
   for (size_t i = 0; i < count; i++) {
     SporeVec3 at = spore_mapping_position(&body->collision.spheres, i, world->state.q + body->q_offset);
     parameter[i] = spore_path_seek(knots, world->state.q + body->q_offset, at).parameter;
@@ -397,7 +397,7 @@ static void follow(double twist) {
     const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
     g_assert_true(spore_world_follow_knots(world, 0, spore_snapshot_knots(world, snapshot, 0), &seen));
     spore_mapping_positions(&seen, snapshot->q + spore_world_q_offset(world, 0), shown);
-    knots = body->model->type->path(body->model);
+    knots = body->model->type->line->path(body->model);
     for (size_t i = 0; i < count; i++) {
       SporeVec3 at = spore_mapping_position(&body->collision.spheres, i, q),
                 line = spore_path_at(knots, q, parameter[i]).position;

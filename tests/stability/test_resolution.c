@@ -269,12 +269,7 @@ static void test_deterministic(void) {
   for (int threads = 1; threads <= 4; threads *= 4) {
     Rig *rig = hanging(&specimen);
     SporePool *pool = spore_pool_create(threads);
-    rig->description.bodies = (const SporeBodyDescription *)(const void *)rig->bodies->data;
-    rig->description.body_count = rig->bodies->len;
-    rig->description.links = (const SporeLinkDescription *)(const void *)rig->links->data;
-    rig->description.link_count = rig->links->len;
-    SporeWorld *world = rig->world = spore_world_create(&rig->description, pool, NULL);
-    g_assert_nonnull(world);
+    SporeWorld *world = rig_build_on(rig, pool);
     for (int run = 0; run < 2; run++) {
       for (int k = 0; k < 3; k++) {
         rig_run(world, 10);

@@ -138,13 +138,7 @@ static void test_held(void) {
 }
 
 static SporeWorld *build_with(Rig *rig, SporePool *pool) {
-  SporeError error = SPORE_ERROR_INIT;
-  rig->description.bodies = (const SporeBodyDescription *)(const void *)rig->bodies->data;
-  rig->description.body_count = rig->bodies->len;
-  rig->description.links = (const SporeLinkDescription *)(const void *)rig->links->data;
-  rig->description.link_count = rig->links->len;
-  rig->world = spore_world_create(&rig->description, pool, &error);
-  g_assert_nonnull(rig->world);
+  rig_build_on(rig, pool);
   return rig->world;
 }
 

@@ -275,7 +275,7 @@ static SporeCurve hook(double straight, double bend) {
 
 /* Farthest that the line lies from the hook, m. */
 static double farthest(const SporeModel *model, double straight, double bend) {
-  SporeSplineKnots knots = model->type->path(model);
+  SporeSplineKnots knots = model->type->line->path(model);
   double most = 0, *q = g_new0(double, model->q_count), *v = g_new0(double, 3 * model->block_count);
   model->type->place(model, spore_pose_identity(), spore_vec3(0, 0, 0), spore_vec3(0, 0, 0), q, v);
   for (int i = 0; i <= 1000; i++) {

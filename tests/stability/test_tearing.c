@@ -299,13 +299,7 @@ static void test_repeats(void) {
     rig->description.solver.time_step = 0.004;
     Hand hand = {.base = {&hand_type}, .speed = 0.05, .pull_s = 1.6};
     SporePool *pool = run ? spore_pool_create(2) : NULL;
-    SporeError error = SPORE_ERROR_INIT;
-    rig->description.bodies = (const SporeBodyDescription *)(void *)rig->bodies->data;
-    rig->description.body_count = rig->bodies->len;
-    rig->description.links = (const SporeLinkDescription *)(void *)rig->links->data;
-    rig->description.link_count = rig->links->len;
-    SporeWorld *world = rig->world = spore_world_create(&rig->description, pool, &error);
-    g_assert_nonnull(world);
+    SporeWorld *world = rig_build_on(rig, pool);
     spore_world_set_device(world, 1, &hand.base);
     rig_run(world, 500);
     hashes[run] = spore_world_hash(world);

@@ -144,11 +144,7 @@ static void test_repeats(void) {
     Hand hand = {.base = {&hand_type}, .open_s = 1.8};
     Rig *rig = scene(&spore_grasper, 2, NULL);
     SporePool *pool = threads > 1 ? spore_pool_create(threads) : NULL;
-    SporeError error = SPORE_ERROR_INIT;
-    rig->description.bodies = (const SporeBodyDescription *)(void *)rig->bodies->data;
-    rig->description.body_count = rig->bodies->len;
-    rig->world = spore_world_create(&rig->description, pool, &error);
-    g_assert_nonnull(rig->world);
+    rig_build_on(rig, pool);
     spore_world_set_device(rig->world, SHAFT, &hand.base);
     run_to(rig->world, 1.2);
     hashes[threads - 1] = spore_world_hash(rig->world);

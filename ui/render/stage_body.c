@@ -149,7 +149,7 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
 static void build_smoke(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation) {
   if (body->world_body == SPORE_NO_BODY) return;
   const SporeModel *model = spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE);
-  if (!model || !model->type->puff) return;
+  if (!model || !model->type->particles || !model->type->particles->puff) return;
   body->smoke = model;
   body->puffs = g_new(SporePuff, model->node_count);
   body->puffs_handle = spore_renderer_add_puffs(stage->renderer, body->style.colour);
@@ -214,7 +214,7 @@ static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeOb
     show_spheres(stage, body, simulation, set, asset);
   } else if (body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object)) {
     const SporeModel *model = spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE);
-    body->particles = model->type->particles;
+    body->particles = model->type->particles != NULL;
     if (model->type->spheres(model, &own, NULL)) show_spheres(stage, body, simulation, &own, NULL);
     spore_sphere_set_clear(&own);
   }
@@ -313,7 +313,7 @@ static void place_smoke(SporeStage *stage, SporeStageBody *body) {
     SporePuff *puff = &body->puffs[count];
     if (spore_particle_is_out(body->q + 3 * i)) continue;
     memcpy(puff->centre, body->q + 3 * i, sizeof puff->centre);
-    body->smoke->type->puff(body->smoke, body->q, i, &puff->radius, &puff->opacity);
+    body->smoke->type->particles->puff(body->smoke, body->q, i, &puff->radius, &puff->opacity);
     puff->seed = 10 * fmod(GOLDEN_TURN * (double)i, 1);
     count++;
   }

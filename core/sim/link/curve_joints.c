@@ -17,7 +17,7 @@ static uint32_t line_body(const SporeLinkDescription *link) {
 bool spore_link_is_curved(const SporeWorld *world, const SporeLinkDescription *link) {
   uint32_t body = line_body(link);
   const SporeModel *model = body < world->body_count ? world->bodies[body].model : NULL;
-  return link->type->line != SPORE_LINE_NONE && model && model->type->path;
+  return link->type->line != SPORE_LINE_NONE && model && model->type->line;
 }
 
 bool spore_link_make_line(const SporeWorld *world, SporeLink *link, const SporeLinkDescription *from,
@@ -50,7 +50,7 @@ bool spore_link_make_curve(SporeWorld *world, SporeLink *link, const SporeLinkDe
   static const double weights[SPORE_PATH_WIDTH] = {0.25, 0.25, 0.25, 0.25}; /* none is 0: each keeps its place */
   const SporeBody *body = &world->bodies[line_body(from)];
   const double *rest = world->state.rest_q + body->q_offset;
-  SporeSplineKnots knots = body->model->type->path(body->model);
+  SporeSplineKnots knots = body->model->type->line->path(body->model);
   SporePathPlace place = spore_path_seek(knots, rest, from->point_a);
   double off = spore_vec3_distance(place.position, from->point_a);
   double most = OFF_LINE * spore_path_length(knots, rest, 0, spore_spline_end(knots));

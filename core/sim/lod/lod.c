@@ -118,11 +118,11 @@ static void take_rest(SporeWorld *world, const SporeBody *body) {
 /* What slides along the body is sought anew on the level's own line. */
 static void seek_curve_joints(SporeWorld *world, uint32_t index) {
   const SporeModel *model = world->bodies[index].model;
-  for (size_t i = 0; model->type->path && i < world->links.count; i++) {
+  for (size_t i = 0; model->type->line && i < world->links.count; i++) {
     SporeLink *link = &world->links.all[i];
     const SporeSpringTerm *term = &world->links.springs[link->term_start];
     if (!term->curve || term->b.body != index || term->curve->points) continue;
-    link->curve.knots = model->type->path(model);
+    link->curve.knots = model->type->line->path(model);
     link->lost = true;
   }
 }

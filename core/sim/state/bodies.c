@@ -36,8 +36,8 @@ bool spore_world_map_level(const SporeWorld *world, uint32_t index, SporeLevelGr
 bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const SporeTriangleMesh *mesh,
                            SporeMapping *mapping, SporeError *error) {
   const SporeModel *model = spore_world_level_model(world, body, level);
-  if (world->bodies[body].role == SPORE_PASSIVE && model->type->carry)
-    return model->type->carry(model, mesh, mapping, error);
+  if (world->bodies[body].role == SPORE_PASSIVE && model->type->line && model->type->line->map_drawn)
+    return model->type->line->map_drawn(model, mesh, mapping, error);
   return spore_world_map_level(world, body, level, mesh->vertices, mesh->vertex_count, mapping, error);
 }
 

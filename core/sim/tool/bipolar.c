@@ -11,7 +11,7 @@ typedef struct SporeBipolar {
   size_t coagulated; /* ties and elements, in the last step */
 } SporeBipolar;
 
-static bool heats(const SporeBody *body) { return body->model && body->model->type->coagulate; }
+static bool heats(const SporeBody *body) { return body->model && body->model->type->heat; }
 
 /* A step's dose changes little: how its matrix is best factorised it still knows. */
 static void warm(SporeWorld *world, uint32_t index) {
@@ -33,7 +33,7 @@ static void use(SporeWorld *world, SporeTool *tool) {
   for (uint32_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (!heats(body)) continue;
-    size_t count = body->model->type->coagulate(body->model, world->state.q + body->q_offset, &heat);
+    size_t count = body->model->type->heat->coagulate(body->model, world->state.q + body->q_offset, &heat);
     if (count > 0) warm(world, b);
     bipolar->coagulated += count;
   }

@@ -56,13 +56,13 @@ static size_t spring_count(const void *fields) { return 1 + 2 * (size_t)((const 
 
 static const SporeModel *thread_model(const SporeWorld *world, uint32_t thread) {
   const SporeModel *model = thread < world->body_count ? world->bodies[thread].model : NULL;
-  return model && model->type->path ? model : NULL;
+  return model && model->type->line ? model : NULL;
 }
 
 /* Knots of the thread as it is now; none where the needle has no thread. */
 static SporeSplineKnots thread_knots(const SporeWorld *world, const SporeNeedle *needle) {
   const SporeModel *model = thread_model(world, needle->thread);
-  return model ? model->type->path(model) : (SporeSplineKnots){0};
+  return model ? model->type->line->path(model) : (SporeSplineKnots){0};
 }
 
 /* Control point of the thread that lies nearest to the swage; *off: how far, in lengths of the thread. */
@@ -70,7 +70,7 @@ static size_t thread_end(const SporeWorld *world, const SporeToolDescription *fr
   SporeVec3 swage = spore_vec3_load(((const SporeNeedleFields *)from->fields)->swage);
   const SporeModel *model = thread_model(world, from->bodies[SPORE_TOOL_THREAD]);
   const double *q = world->state.rest_q + world->bodies[from->bodies[SPORE_TOOL_THREAD]].q_offset;
-  SporeSplineKnots knots = model->type->path(model);
+  SporeSplineKnots knots = model->type->line->path(model);
   size_t last = knots.span_count + 2;
   double first_off = spore_vec3_distance(spore_vec3_load(q), swage);
   double last_off = spore_vec3_distance(spore_vec3_load(q + 3 * last), swage);

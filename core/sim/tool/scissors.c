@@ -33,7 +33,7 @@ static void cut_all(SporeWorld *world, SporeScissors *scissors, const double *tr
     const SporeBody *body = &world->bodies[b];
     if (!spore_body_can_be_cut(body)) continue;
     size_t count =
-        body->model->type->cut(body->model, world->state.q + body->q_offset, triangle, b, &world->topology.cuts);
+        body->model->type->cut->cut(body->model, world->state.q + body->q_offset, triangle, b, &world->topology.cuts);
     if (count > 0) spore_body_was_cut(world, b);
     scissors->cut += count;
   }

@@ -42,7 +42,7 @@ static SporeTool *make_tool(SporeWorld *world, const SporeToolDescription *from,
 
 static void prepare_heat(SporeModel *model, void *user) {
   bool *made = user;
-  *made = *made && model->type->prepare_heat(model);
+  *made = *made && model->type->heat->prepare(model);
 }
 
 /* Room in the models that can be heated. */
@@ -50,7 +50,7 @@ static bool prepare_models(SporeWorld *world, bool heats) {
   bool made = true;
   for (size_t b = 0; heats && made && b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
-    if (body->model && body->model->type->coagulate) spore_body_each_model(body, prepare_heat, &made);
+    if (body->model && body->model->type->heat) spore_body_each_model(body, prepare_heat, &made);
   }
   return made;
 }

@@ -16,7 +16,7 @@ typedef struct Preparation {
 
 static void prepare_model(SporeModel *model, void *user) {
   Preparation *preparation = user;
-  preparation->made = preparation->made && model->type->prepare_cut(model, preparation->edges);
+  preparation->made = preparation->made && model->type->cut->prepare(model, preparation->edges);
 }
 
 static bool prepare_body(SporeWorld *world, SporeBody *body) {
@@ -36,7 +36,7 @@ bool spore_world_create_cutting(SporeWorld *world) {
   for (size_t i = 0; i < world->tools.count; i++) cuts |= world->tools.all[i]->type->cuts;
   for (size_t b = 0; made && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
-    if (!spore_body_can_be_cut(body) || !body->model->type->prepare_cut || !(cuts || body->model->tears)) continue;
+    if (!spore_body_can_be_cut(body) || !body->model->type->cut->prepare || !(cuts || body->model->tears)) continue;
     world->topology.tearing_count += body->model->tears;
     made = prepare_body(world, body);
   }
@@ -66,10 +66,11 @@ static void find_groups(const SporeModel *model, const uint32_t *block, size_t c
   for (size_t i = 0; i < count; i++) group[i] = 0;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j < count; j++)
-      if (i != j && group[i] == 0 && model->type->tie(model, block[i], block[j]) != SPORE_TIE_NONE) group[i] = i + 1;
+      if (i != j && group[i] == 0 && model->type->cut->tie(model, block[i], block[j]) != SPORE_TIE_NONE)
+        group[i] = i + 1;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j < i; j++) {
-      if (group[i] == group[j] || model->type->tie(model, block[i], block[j]) != SPORE_TIE_HOLDS) continue;
+      if (group[i] == group[j] || model->type->cut->tie(model, block[i], block[j]) != SPORE_TIE_HOLDS) continue;
       size_t from = group[i], to = group[j];
       for (size_t k = 0; k < count; k++)
         if (group[k] == from) group[k] = to;
@@ -127,7 +128,7 @@ void spore_world_tear(SporeWorld *world) {
     SporeBody *body = &world->bodies[b];
     if (!spore_body_can_be_cut(body) || !body->model->tears || !spore_body_moves(body)) continue;
     size_t edge = world->topology.cuts.count;
-    size_t count = body->model->type->tear(body->model, world->state.q + body->q_offset, b, &world->topology.cuts);
+    size_t count = body->model->type->cut->tear(body->model, world->state.q + body->q_offset, b, &world->topology.cuts);
     if (count == 0) continue;
     world->state.monitor.torn_springs += count;
     report_tear(world, body, edge);

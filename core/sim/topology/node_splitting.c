@@ -29,7 +29,8 @@ bool spore_world_reserve_nodes(const SporeWorldDescription *description, SporeEr
   if (!has_scissors(description)) return true;
   for (size_t b = 0; b < description->body_count; b++) {
     SporeModel *model = description->bodies[b].model;
-    if (!model || !model->type->reserve || has_levels(&description->bodies[b]) || model->type->reserve(model, error))
+    if (!model || !model->type->cut || !model->type->cut->reserve || has_levels(&description->bodies[b]) ||
+        model->type->cut->reserve(model, error))
       continue;
     char place[200];
     snprintf(place, sizeof place, "bodies/%s", description->bodies[b].name);
@@ -71,7 +72,7 @@ static bool add_hang(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
   const SporeModel *model = world->bodies[index].model;
   SporeAttachedMapping *attached = &world->topology.attached[world->topology.attached_count++];
   size_t count;
-  const uint32_t *corners = model->type->corners(model, &count);
+  const uint32_t *corners = model->type->cut->corners(model, &count);
   *attached = (SporeAttachedMapping){.body = index, .mapping = mapping};
   return spore_mapping_find_places(mapping, corners, count, model->node_count, &attached->places);
 }
@@ -94,12 +95,13 @@ static bool prepare(SporeWorld *world, uint32_t index) {
 
 static void copy_corners(SporeWorld *world, const SporeBody *body) {
   size_t count;
-  const uint32_t *corners = body->model->type->corners(body->model, &count);
+  const uint32_t *corners = body->model->type->cut->corners(body->model, &count);
   memcpy(world->topology.cuts.corners + 4 * body->splitting.corner_start, corners, 4 * count * sizeof *corners);
 }
 
 static bool can_be_parted(const SporeBody *body, size_t *count) {
-  return body->role == SPORE_PASSIVE && body->model->type->corners && body->model->type->corners(body->model, count);
+  return body->role == SPORE_PASSIVE && body->model->type->cut && body->model->type->cut->corners &&
+         body->model->type->cut->corners(body->model, count);
 }
 
 bool spore_world_create_splitting(SporeWorld *world) {
@@ -140,7 +142,7 @@ static void follow(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
   SporeChangingMatrix *changing = &body->changing;
   size_t count;
-  const uint32_t *corners = body->model->type->corners(body->model, &count);
+  const uint32_t *corners = body->model->type->cut->corners(body->model, &count);
   for (size_t i = 0; i < world->topology.attached_count; i++)
     if (world->topology.attached[i].body == index)
       spore_mapping_follow(world->topology.attached[i].mapping, world->topology.attached[i].places, corners);
@@ -162,8 +164,8 @@ static void divide(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
   size_t before = nodes_in_use(body);
   const uint32_t *from;
-  size_t made = body->model->type->divide(body->model, world->state.next_q + body->q_offset,
-                                          world->state.next_v + body->v_offset, &from);
+  size_t made = body->model->type->cut->split(body->model, world->state.next_q + body->q_offset,
+                                              world->state.next_v + body->v_offset, &from);
   if (made == 0) return;
   for (size_t i = 0; i < made; i++) body->changing.pinned[before + i] = body->changing.pinned[from[i]];
   spore_body_list_held(body);

@@ -36,7 +36,7 @@ static bool make_room(SporeWorld *world, SporeBody *body) {
 
 static void show_knots(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
-  SporeSplineKnots knots = body->model->type->path(body->model);
+  SporeSplineKnots knots = body->model->type->line->path(body->model);
   world->topology.lines.span_count[index] = (uint32_t)knots.span_count;
   memcpy(world->topology.lines.breaks + body->refinement.break_start, knots.breaks,
          (knots.span_count + 1) * sizeof *knots.breaks);
@@ -68,7 +68,7 @@ bool spore_world_create_refinement(SporeWorld *world) {
 
 /* Curve joints of links and stitches: the same place of the line, by the points that lead it now. */
 static void move_curve_joints(SporeWorld *world, uint32_t index, const double *q) {
-  SporeSplineKnots knots = world->bodies[index].model->type->path(world->bodies[index].model);
+  SporeSplineKnots knots = world->bodies[index].model->type->line->path(world->bodies[index].model);
   for (size_t i = 0; i < world->links.term_count + world->links.hold_count; i++) {
     SporeSpringTerm *term = &world->links.springs[i];
     if (!term->curve || term->curve->points || term->b.body != index) continue;
@@ -91,12 +91,12 @@ static void move_last_point(SporeWorld *world, uint32_t index, size_t last_befor
 /* Points that are linked to the body. */
 static void move_ends(SporeWorld *world, uint32_t index) {
   const SporeModel *model = world->bodies[index].model;
-  SporeSplineKnots knots = model->type->path(model);
-  model->type->follow(model, knots, &world->bodies[index].collision.spheres);
+  SporeSplineKnots knots = model->type->line->path(model);
+  model->type->line->follow(model, knots, &world->bodies[index].collision.spheres);
   for (size_t i = 0; i < world->links.term_count; i++)
     for (size_t side = 0; side < 2; side++) {
       const SporeEnd *end = side ? &world->links.springs[i].b : &world->links.springs[i].a;
-      if (end->body == index) model->type->follow(model, knots, &world->links.mappings[2 * i + side]);
+      if (end->body == index) model->type->line->follow(model, knots, &world->links.mappings[2 * i + side]);
     }
 }
 
@@ -126,7 +126,8 @@ static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
   lay_out_matrix(body);
   body->changing.step = world->state.step;
   move_ends(world, index);
-  move_last_point(world, index, body->refinement.state.points - 1, body->model->type->path(body->model).span_count + 2);
+  move_last_point(world, index, body->refinement.state.points - 1,
+                  body->model->type->line->path(body->model).span_count + 2);
   move_curve_joints(world, index, q);
   show_knots(world, index);
 }
@@ -139,7 +140,7 @@ static void change(SporeWorld *world, uint32_t index) {
   SporeVec3 pulled;
   bool pull = spore_world_pulled_point(world, index, &pulled);
   SporeMotion before = spore_model_motion(model, q, v, NULL);
-  model->type->change_nodes(model, q, v, body->changing.pinned);
+  model->type->adapt->change_nodes(model, q, v, body->changing.pinned);
   take_nodes(world, index, q);
   if (body->held.count == 0) spore_model_keep_momentum(model, q, &before, before.kinetic, v);
   spore_pin_filter(body->held.blocks, body->held.count, v);
@@ -161,7 +162,8 @@ void spore_world_refine_splines(SporeWorld *world) {
     const double *q = world->state.next_q + body->q_offset;
     SporeSplineRefinement *line = &body->refinement;
     uint64_t start = spore_clock_ns();
-    bool changes = body->model->type->weigh_nodes(body->model, world->solver.time_step, q, body->changing.pinned);
+    bool changes =
+        body->model->type->adapt->weigh_nodes(body->model, world->solver.time_step, q, body->changing.pinned);
     uint64_t looked = spore_clock_ns();
     line->looks++, line->look_ns += looked - start;
     if (!changes) continue;
@@ -210,5 +212,5 @@ SporeSplineKnots spore_snapshot_knots(const SporeWorld *world, const SporeSnapsh
 
 bool spore_world_follow_knots(const SporeWorld *world, uint32_t body, SporeSplineKnots knots, SporeMapping *mapping) {
   const SporeModel *model = world->bodies[body].model;
-  return knots.span_count == 0 || model->type->follow(model, knots, mapping);
+  return knots.span_count == 0 || model->type->line->follow(model, knots, mapping);
 }
