@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 
+/* What long work calls to tell how far it is. */
 typedef struct SporeProgress {
   /* fraction 0..1; stage: translated, may be NULL. Returns false to cancel. Called often from the working thread. */
   bool (*report)(void *data, double fraction, const char *stage);

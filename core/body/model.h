@@ -1,14 +1,16 @@
 /* The interface of a mechanical model: how a body moves.
  *
- * A model is immutable while it runs (retune apart); its state lies in the world's flat arrays:
+ * A model does not change while it runs, except by the slots that say so. Its state lies in the world's flat arrays:
  *   q  configuration, q_count doubles
- *   v  generalised velocity, block_count x 3 doubles
+ *   v  generalised velocity, block_count x 3 doubles; 3 components of v are a block
  * The first node_count blocks are material points: node i is at q[3i], and q' = v for it. A body that turns as a whole
- * has one block more, the angular velocity (world axes) of a frame whose origin is the last node, and behind the nodes
- * the frame's orientation (quaternion wxyz). A rigid body is one node with such a frame.
+ * has a frame: its origin is the last node. The frame has one block more, its angular velocity (world axes), and its
+ * orientation (quaternion wxyz) lies in q behind the nodes. A rigid body is one node with such a frame.
  *
- * The world solves M v' = f(q, v) + gravity + contacts + links. Models add their own internal force and, if they
- * can, its Jacobian in 3x3 blocks. Gravity is the world's: it pulls block i with (1 - buoyancy) block_mass[i] g. */
+ * The world solves M v' = f(q, v) + gravity + contacts + links. A model adds its own internal force and, if it can, the
+ * Jacobian of that force in 3x3 blocks. Gravity belongs to the world: it pulls block i by (1 - buoyancy) block_mass[i]
+ * g.
+ */
 #ifndef SPORE_SIM_MODEL_H
 #define SPORE_SIM_MODEL_H
 
@@ -20,6 +22,7 @@
 #include "core/body/mapping.h"
 #include "core/body/region.h"
 
+/* The kind of geometry that a model is built from. */
 typedef enum SporeGeometryKind {
   SPORE_GEOMETRY_NONE,       /* parameters alone */
   SPORE_GEOMETRY_SURFACE,    /* a triangle mesh, open or closed */
@@ -28,148 +31,87 @@ typedef enum SporeGeometryKind {
   SPORE_GEOMETRY_CURVE       /* a line with radii */
 } SporeGeometryKind;
 
-/* What a model is built from, in the body's frame, m. Borrowed during create; what the model does not need is NULL. */
+/* The geometry that a model is built from, in the body's frame, m. It is borrowed during create. Geometry that the
+ * model does not need is NULL. */
 typedef struct SporeGeometry {
   const SporeTriangleMesh *surface;
   const SporeTetrahedralMesh *tetrahedra;
   const SporeCurve *curve;
-  const SporeRegions *regions; /* NULL: none; for types that take them. Their elements are counted */
+  const SporeRegions *regions; /* for types that take regions; create counts their elements; NULL: none */
 } SporeGeometry;
 
-#define SPORE_NO_BODY UINT32_MAX /* in place of the index of a body: the world itself */
-
+/* A kind of model: its name, its parameters, and the functions that its models have (slots). Defined below. */
 typedef struct SporeModelType SporeModelType;
 
-/* Values of parameters that go together, from measurements. */
+/* Measured values of parameters that go together: a tissue. */
 typedef struct SporePreset {
   const char *name, *label; /* label: for people, translatable (N_) */
   const char *source;       /* where they were published */
   const char *settings[9];  /* a parameter, its value as in the file, the next parameter, ... NULL */
 } SporePreset;
 
-/* Edges of a body's surface that were cut, between nodes a < b, and on which nodes tetrahedra hang that can be parted,
- * so that what is drawn can follow. */
+/* An edge of a body's surface that was cut: between the nodes a < b of the body. */
 typedef struct SporeCutEdge {
   uint32_t body, a, b;
 } SporeCutEdge;
+/* What was cut since time 0, so that a drawn mesh can follow: edges, and the nodes of tetrahedra that cuts may split.
+ */
 typedef struct SporeCuts {
-  size_t count, capacity;
+  size_t count, capacity; /* of edges */
   SporeCutEdge *edges;
-  uint64_t parted;     /* another number: corners differ */
-  size_t corner_count; /* of all such bodies, see spore_world_corner_start */
-  uint32_t *corners;   /* their nodes now, four a tetrahedron, in the order of the mesh */
+  uint64_t parted;     /* changes whenever corners change */
+  size_t corner_count; /* tetrahedra of all bodies whose nodes may be split; see spore_world_corner_start */
+  uint32_t *corners;   /* corner_count x 4: the present nodes of each tetrahedron, in the order of its mesh */
 } SporeCuts;
 
-/* What a step's heat does to tissue nearer than radius to the point: it coagulates by `dose` more, of the 1 that is all
- * of it. With the dose its lengths at rest lose `shrinkage`, and its stiffness gains `stiffening` - 1, of what they
- * were when the model was created. */
+/* Heat that a step brings to tissue. It acts on what is nearer than `radius` to the point. Coagulation of an element
+ * goes from 0 to 1. At coagulation c, lengths at rest are (1 - shrinkage c) times, and stiffness is (1 + (stiffening -
+ * 1) c) times what they were when the model was created. */
 typedef struct SporeHeat {
-  SporeVec3 point;
-  double radius; /* m */
-  double dose, shrinkage, stiffening;
+  SporeVec3 point;   /* m, world */
+  double radius;     /* m */
+  double dose;       /* coagulation that the step adds */
+  double shrinkage;  /* part of the length */
+  double stiffening; /* factor on the stiffness */
 } SporeHeat;
-/* What of the dose tissue still takes that got so much before. */
+/* The part of the dose that an element still takes whose coagulation is `before`: none above 1 in all. */
 static inline double spore_heat_dose(const SporeHeat *heat, double before) {
   return heat->dose < 1 - before ? heat->dose : 1 - before;
 }
 
-/* Whether an edge of a body's surface ties two of its nodes. */
+/* Whether an edge of a body's surface ties two of the body's nodes. */
 typedef enum SporeTie {
-  SPORE_TIE_NONE, /* and never did */
+  SPORE_TIE_NONE, /* it never did */
   SPORE_TIE_GONE, /* it was cut, or tore */
   SPORE_TIE_HOLDS
 } SporeTie;
 
 /* Where and how a model's force is linearised for Newton's method. */
 typedef struct SporeTangent {
-  const double *q, *shape, *v; /* as for force */
-  const double *from;          /* the configuration from which Newton's last step led to q; NULL: none did */
-  double stiffness_scale, damping_scale;
-  bool whole; /* the exact matrix, even where it is indefinite */
+  const double *q, *shape, *v; /* as for the slot force */
+  const double *from; /* configuration from which the last iteration of Newton's method led to q; NULL: none did */
+  double stiffness_scale, damping_scale; /* as for the slot jacobian */
+  bool whole;                            /* the exact matrix, even where it is indefinite */
 } SporeTangent;
 
-/* Base of every model: the first member of the model's own structure. Filled by create. */
+/* Base of every model: the first member of the model's own structure. `create` fills it; spore_model_init does most. */
 typedef struct SporeModel {
   const SporeModelType *type;
   size_t q_count, block_count, node_count;
-  size_t spare_count; /* of the nodes, the last: of next to no mass and still, until a cut makes them one after the
-                         other */
-  size_t q_room, block_room; /* what q_count and block_count may become: more where nodes come and go */
-  size_t line_room;          /* points that may lead its line then */
-  size_t pair_room;          /* pairs of blocks that its pattern may then have, repeats and all */
-  double *block_mass;        /* kg, block_room; above 0 for nodes, 0 for the turning of a frame */
-  double buoyancy;           /* share of its weight that the air around bears: above 1 it rises */
-  double life_s;    /* of particles, after which they are taken out of the world, with the age of each, s, behind the
-                       nodes in q; 0: they last */
-  bool tears;       /* tear has to be called at each step */
-  double map_slack; /* m: how far off the body a point may lie that map cannot carry, and be put onto it */
-  SporePool *pool;  /* for long loops of force and jacobian, given by the world; whatever it is, the same bits */
+  size_t spare_count; /* of the nodes, the last ones: they have next to no mass and stand still until a cut takes them
+                         into use, one after the other */
+  size_t q_room, block_room; /* the largest values that q_count and block_count may take; larger than these only where
+                                nodes come and go */
+  size_t line_room;          /* largest number of control points, where these come and go */
+  size_t pair_room;          /* largest number of pairs of blocks in its pattern then, repeated pairs counted */
+  double *block_mass;        /* kg, block_room; above 0 for nodes, 0 for the block of a frame's angular velocity */
+  double buoyancy;           /* part of its weight that the air around it carries; above 1 it rises */
+  double life_s; /* s, of particles: older ones are taken out of the world; the age of each particle, s, lies behind the
+                    nodes in q; 0: they last for ever */
+  bool tears;    /* the world calls tear after each step */
+  double map_slack; /* m: a point that map cannot carry is put onto the body if it is no farther off than this */
+  SporePool *pool;  /* threads for long loops, set by the world; the results must not depend on it */
 } SporeModel;
-
-/* What a model whose ties or nodes scissors take apart can do, or one that tears. */
-typedef struct SporeModelCut {
-  /* Makes spare nodes, when the world has scissors, before anything else is made of the model. Refuses what it cannot
-   * split, with the remedy. NULL: no spare nodes are needed. */
-  bool (*reserve)(SporeModel *model, SporeError *error);
-  /* Room for what mend needs, when the world has scissors, or the model tears; *edges += how many can be cut. NULL: no
-   * edges. False: no memory. */
-  bool (*prepare)(SporeModel *model, size_t *edges);
-  /* Required. Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend, and adds the
-   * edges among these ties to `cuts`, as edges of `body`. Returns the number of ties. Allocates nothing, and the
-   * pattern stays. */
-  size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
-  /* The same for what is strained, at q, more than it bears. Required where model->tears. */
-  size_t (*tear)(SporeModel *model, const double *q, uint32_t body, SporeCuts *cuts);
-  /* Whether nodes a and b are tied, after prepare. Required where there is no split. */
-  SporeTie (*tie)(const SporeModel *model, uint32_t a, uint32_t b);
-  /* Of a model whose nodes are split; `cut` only says where. Makes nodes, at this state, which it sets for them; new
-   * nodes follow those made before. *from: the node that each of them was made from. Returns the number of new nodes.
-   * Allocates nothing. The pattern is another one then: until settle nothing is asked of the model. */
-  size_t (*split)(SporeModel *model, double *q, double *v, const uint32_t **from);
-  /* The nodes of the model's tetrahedra now, 4 *count; NULL where it was made so that it cannot be split. Required
-   * where there is a split. */
-  const uint32_t *(*corners)(const SporeModel *model, size_t *count);
-} SporeModelCut;
-
-/* What a model that heat coagulates can do. Both slots are required. */
-typedef struct SporeModelHeat {
-  /* Room for coagulate, and what mend needs after it, when the world has something that heats. False: no memory. */
-  bool (*prepare)(SporeModel *model);
-  /* Coagulates, at q, until mend. Returns how many ties or elements took some of the dose. Allocates nothing, and the
-   * pattern stays. */
-  size_t (*coagulate)(SporeModel *model, const double *q, const SporeHeat *heat);
-} SporeModelHeat;
-
-/* What a model whose nodes come and go while it runs can do. Both slots are required, and settle. */
-typedef struct SporeModelAdapt {
-  /* Whether nodes are to come or go, at this state, after a step of h seconds. held: a flag a block, of what a pin
-   * holds. The model keeps in mind what it would do, and sees to it that there is room. */
-  bool (*weigh_nodes)(SporeModel *model, double h, const double *q, const uint8_t *held);
-  /* Does what weigh_nodes found: the state and the flags become those of the nodes that there are then. Nodes that lead
-   * a line stay one run of blocks. Allocates nothing. The pattern is another one then: until settle nothing is asked of
-   * the model. */
-  void (*change_nodes)(SporeModel *model, double *q, double *v, uint8_t *held);
-} SporeModelAdapt;
-
-/* A model of particles: its points keep no neighbours, and what is drawn is the skin around them, not a surface that
- * follows them. */
-typedef struct SporeModelParticles {
-  /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. NULL: they are not. */
-  void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);
-} SporeModelParticles;
-
-/* A model with a line that runs through the body, led by its first nodes (core/body/path.h). */
-typedef struct SporeModelLine {
-  /* Required. Knots of the line: what slides along the line may be linked to it. */
-  SporeSplineKnots (*path)(const SporeModel *model);
-  /* As map, for the vertices of a surface that is only drawn, where sections of the body turn as a whole. NULL: map
-   * serves. */
-  bool (*map_drawn)(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error);
-  /* Makes the rows of a mapping that `map` made anew, for these knots of the line; place and map themselves speak of
-   * the knots that the model was made with. Any thread may ask. It may allocate, but not for the knots that path says
-   * now. Points that do not go with knots are left alone. False: no memory. Required where nodes come and go. */
-  bool (*follow)(const SporeModel *model, SporeSplineKnots knots, SporeMapping *mapping);
-} SporeModelLine;
 
 struct SporeModelType {
   const char *name;  /* as in the file: "mass_spring_net" */
@@ -179,6 +121,7 @@ struct SporeModelType {
   SporeGeometryKind geometry;
   const SporePreset *presets; /* ended by one without a name; NULL: none */
   bool regions;               /* takes regions of other stiffness and density */
+  bool particles; /* its points keep no neighbours: shown by the skin around them, not by a surface that follows them */
 
   /* Required. */
   /* Builds from geometry and fields (a structure of parameters.size bytes, checked already). Refuses, with place
@@ -199,6 +142,10 @@ struct SporeModelType {
   double (*potential)(const SporeModel *model, const double *q);
   /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. */
   bool (*map)(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error);
+
+  /* The same of the vertices of a surface that is only drawn, where sections of the body turn as a whole. NULL: map
+   * serves. */
+  bool (*carry)(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error);
 
   /* Required of a model with a frame: its inertia at q, world axes, symmetric positive definite, kg m^2. */
   SporeMat3 (*inertia)(const SporeModel *model, const double *q);
@@ -233,46 +180,84 @@ struct SporeModelType {
   /* Corners of the triangles of its surface, nodes, three each, from spore_allocate: what a needle pierces. False: no
    * memory. NULL: it cannot be pierced. */
   bool (*skin)(const SporeModel *model, uint32_t **triangles, size_t *count);
+  /* Knots of the line that runs through the body, led by its first nodes (core/body/path.h): what slides along
+   * it may be linked to it. NULL: it has none. */
+  SporeSplineKnots (*path)(const SporeModel *model);
   /* Material points in the body's frame at rest that tell its configuration, 3 each, from spore_allocate; of a model
    * whose nodes are no material points. The first *seen of them lie in the body. NULL: the nodes do. */
   bool (*samples)(const SporeModel *model, double **points, size_t *count, size_t *seen);
-  /* Looks up the model's blocks in a matrix of its pattern of now. Required where the pattern changes. */
+  /* Makes spare nodes, when the world has scissors, before anything else is made of the model. Refuses what it cannot
+   * part, with the remedy. NULL: none are needed. */
+  bool (*reserve)(SporeModel *model, SporeError *error);
+  /* Room for what mend needs, when the world has scissors, or the model tears; *edges += how many can be
+   * cut. False: no memory. */
+  bool (*prepare_cut)(SporeModel *model, size_t *edges);
+  /* Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend, and adds the edges among
+   * it to `cuts`, as of `body`. How many ties; allocates nothing, and the pattern stays. NULL: cannot be cut. */
+  size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
+  /* The same for what is strained, at q, more than it bears. Required where the model says that it tears. */
+  size_t (*tear)(SporeModel *model, const double *q, uint32_t body, SporeCuts *cuts);
+  /* After prepare_cut. Required where something can be cut that has no divide. */
+  SporeTie (*tie)(const SporeModel *model, uint32_t a, uint32_t b);
+  /* Of a model whose cuts divide nodes; `cut` only says where. Makes nodes, at this state, which it sets for them; they
+   * follow those made before. *from: the node that each of them was made from. How many; allocates nothing. The pattern
+   * is another then: until settle nothing is asked of the model. */
+  size_t (*divide)(SporeModel *model, double *q, double *v, const uint32_t **from);
+  /* Looks up its blocks in a matrix of its pattern of now. */
   void (*settle)(SporeModel *model, const SporeBlockMatrix *matrix);
+  /* Of a model whose nodes come and go as it bends, and who sees to it that there is room: whether they are to, at this
+   * state, after a step of h seconds; held: a flag a block, of what a pin holds. What it would do it keeps in mind. */
+  bool (*weigh_nodes)(SporeModel *model, double h, const double *q, const uint8_t *held);
+  /* Does it: the state and the flags become those of the nodes that there are then, first come first; what leads a line
+   * stays one run of blocks. Allocates nothing. The pattern is another then: until settle nothing is asked of it. */
+  void (*change_nodes)(SporeModel *model, double *q, double *v, uint8_t *held);
+  /* The rows of a mapping that `map` made, for these knots of the line through the body; place and map themselves speak
+   * of those that it was made with. Any thread may ask; it may allocate, but for those that path says now. Points that
+   * do not go with knots are left alone. False: no memory. */
+  bool (*follow)(const SporeModel *model, SporeSplineKnots knots, SporeMapping *mapping);
+  /* The nodes of its tetrahedra now, 4 *count; NULL where it was made so that it cannot be parted. */
+  const uint32_t *(*corners)(const SporeModel *model, size_t *count);
+  /* Room for coagulate, and what mend needs after it, when the world has something that heats. False: no memory. */
+  bool (*prepare_heat)(SporeModel *model);
+  /* Coagulates, at q, until mend. How many ties or elements took some of the dose; allocates nothing, and the pattern
+   * stays. NULL: heat does nothing. */
+  size_t (*coagulate)(SporeModel *model, const double *q, const SporeHeat *heat);
   /* As it was created: of a model that was prepared for either, or whose nodes come and go. */
   void (*mend)(SporeModel *model);
+  /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. */
+  void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);
   /* What the last evaluation had to mend, or what the state after a step is not meant for (translated: cause and
    * remedy), or NULL. Told once a body. */
   const char *(*notice)(const SporeModel *model, const double *q);
   /* What the model as it was made computes badly (translated: "what; what to do"), or NULL. `spore check` tells it. */
   const char *(*doubt)(const SporeModel *model);
-
-  /* What only some models can do; NULL: this one cannot. */
-  const SporeModelCut *cut;
-  const SporeModelHeat *heat;
-  const SporeModelAdapt *adapt;
-  const SporeModelParticles *particles;
-  const SporeModelLine *line;
 };
 
-/* Helpers for models. */
+/* Fills the base of a model of node_count nodes; framed: the last node is the origin of a frame, which has one block
+ * and one quaternion more. block_mass is allocated and zero. False: no memory. */
 bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node_count, bool framed, SporeError *error);
+/* Frees what spore_model_init allocated, and zeroes the base. */
 void spore_model_clear(SporeModel *model);
+/* Whether all blocks are nodes: the model has no frame. */
 static inline bool spore_model_is_nodal(const SporeModel *model) { return model->node_count == model->block_count; }
-/* One frame and no other node: points follow it rigidly. */
+/* Whether the model is one frame and no other node: points follow it rigidly. */
 static inline bool spore_model_is_rigid(const SporeModel *model) {
   return model->node_count == 1 && model->block_count == 2;
 }
-/* Block-diagonal mass at q, block_count x 9. */
+/* Mass at q as a block-diagonal matrix: block_count x 9, kg; kg m^2 for the block of a frame. */
 void spore_model_mass(const SporeModel *model, const double *q, double *blocks);
+/* Sum of block_mass, kg. */
 double spore_model_total_mass(const SporeModel *model);
-/* A matrix of the model's own pattern, in which it looks up its blocks. False: no memory. */
+/* A matrix with the model's own pattern, in which the model can look up its blocks. The caller clears it. False: no
+ * memory. */
 bool spore_model_matrix_create(const SporeModel *model, SporeBlockMatrix *matrix);
 
-/* A registry is an explicit NULL-terminated array; models/registry.c holds the one of this program. */
+/* A registry is a NULL-terminated array of types; models/registry.c holds the one of this program. */
 typedef const SporeModelType *const *SporeModelRegistry;
+/* The type of that name; NULL: there is none. */
 const SporeModelType *spore_model_type_find(SporeModelRegistry registry, const char *name);
-/* Refuses a type that misses a required slot or whose table is inconsistent (duplicate names, default out of range,
- * presets of other parameters). */
+/* False for a type without a required slot, or whose table is inconsistent: parameters of one name, defaults out of
+ * range, presets of parameters that do not exist. The error's place is "models/NAME". */
 bool spore_model_type_check(const SporeModelType *type, SporeError *error);
 
 #endif

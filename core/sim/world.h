@@ -1,8 +1,12 @@
-/* The world: a scene compiled for running. Flat arrays sized exactly; a step allocates, locks and prints nothing (room
- * for more contacts than ever before apart).
+/* The world: a scene compiled for running. All arrays are flat, and get their size when the world is created. A step
+ * allocates, locks and prints nothing, with one exception: it makes room where there are more contacts than ever
+ * before.
  *
- * Threads: one thread steps a world. Other threads read spore_world_snapshot_acquire (one reader) and write
- * spore_world_post (one writer). */
+ * Threads: one thread steps a world. One other thread may read it by spore_world_snapshot_acquire, and one other thread
+ * may change it by spore_world_post. All other functions belong to the thread that steps, unless they say otherwise.
+ *
+ * Arguments `body`, `link` and `tool` are indices, in the order of the description, and lie below the count of their
+ * kind. Units are SI. */
 #ifndef SPORE_SIM_WORLD_H
 #define SPORE_SIM_WORLD_H
 
@@ -12,78 +16,144 @@
 #include "core/haptic/device.h"
 #include "core/integrate/solver.h"
 #include "core/body/model.h"
-#include "core/sim/link/link_type.h"
 #include "core/sim/tool/tool_type.h"
 
+/* A world; its structure is private. */
 typedef struct SporeWorld SporeWorld;
 
-typedef enum SporeRole { SPORE_UNMOVABLE, SPORE_ACTIVE, SPORE_PASSIVE } SporeRole;
+/* What moves a body. */
+typedef enum SporeRole {
+  SPORE_UNMOVABLE, /* nothing: the body stays in its pose */
+  SPORE_ACTIVE,    /* its device, or a tool: they prescribe its pose, and get the reaction force */
+  SPORE_PASSIVE    /* physics: the body has a model */
+} SporeRole;
 
-/* Contact law of a body; two bodies in contact take the harmonic sum of stiffness and damping (springs in series)
- * and the smaller friction. The table is spore_contact_parameters. */
+/* What other bodies feel of an unmovable or active body. */
 typedef enum SporeSurface {
   SPORE_SURFACE_SPHERES,    /* each sphere by itself */
-  SPORE_SURFACE_DEPTH_FIELD /* all spheres as one: core/collide/depth_field.h */
+  SPORE_SURFACE_DEPTH_FIELD /* all spheres as one smooth depth: core/collide/depth_field.h */
 } SporeSurface;
 
+/* Contact law of a body. The springs and dampers of two bodies in contact are in series (1/k = 1/k_a + 1/k_b), and the
+ * smaller friction coefficient counts. */
 typedef struct SporeContactFields {
-  double stiffness; /* N/m, each sphere's */
-  double damping;   /* N s/m */
+  double stiffness; /* N/m, of each sphere */
+  double damping;   /* N s/m, of each sphere */
   double friction;  /* Coulomb coefficient */
-  bool self;        /* spheres of this body collide with each other, those that touch at rest excepted */
-  double margin;    /* m: pairs are looked after in a step from so far apart, for each body that has it */
-  int64_t group;    /* bodies of one group never collide with each other; 0: of none */
-  int surface;      /* SporeSurface, of an unmovable or active body: what passive ones feel */
+  bool self;        /* spheres of this body collide with each other, except those that touch at rest */
+  double margin;    /* m: spheres nearer than the sum of both bodies' margins are contacts already */
+  int64_t group;    /* bodies of one group never collide with each other; 0: the body is in no group */
+  int surface;      /* SporeSurface; only of an unmovable or active body */
 } SporeContactFields;
+/* The parameters of SporeContactFields. */
 extern const SporeParameterTable spore_contact_parameters;
 
-/* How finely a body is made. */
+/* Levels of detail of a body. */
 typedef enum SporeLevelGrade { SPORE_LEVEL_COARSE, SPORE_LEVEL_MEDIUM, SPORE_LEVEL_FINE } SporeLevelGrade;
-#define SPORE_LEVEL_COUNT 3
+#define SPORE_LEVEL_COUNT 3                   /* number of levels of detail */
 extern const char *const spore_level_names[]; /* as in the file, NULL at the end */
 
-/* The same body less finely made, to change to while it runs. */
+/* The same body made less finely. A running world can change the body to such a level. */
 typedef struct SporeLevelsDescription {
-  SporeModel *model[SPORE_LEVEL_FINE]; /* of the body's own type, owned like that; NULL: there is no such level */
-  SporeLevelGrade first;               /* at time 0 */
-  double tolerance;                    /* m: a change that moves a point of the body further is refused */
+  SporeModel
+      *model[SPORE_LEVEL_FINE]; /* of the same type as the body's model, and owned as that is; NULL: no such level */
+  SporeLevelGrade first;        /* the level at time 0 */
+  double tolerance;             /* m: a change that moves a point of the body further than this is refused */
   size_t surface_count;
-  const double *surface; /* points besides spheres and nodes that the error is measured on, 3 each; borrowed */
+  const double *surface; /* surface_count x 3, body's frame at rest, borrowed: points that the error of a change is
+                            measured on, besides spheres and nodes */
 } SporeLevelsDescription;
 
+/* A body of a world that is to be made. */
 typedef struct SporeBodyDescription {
-  const char *name;
+  const char *name; /* unique, not empty */
   SporeRole role;
-  SporeModel *model;              /* passive: owned by the world once spore_world_create succeeded; else NULL */
-  SporeLevelsDescription levels;  /* besides that model, which is the level `fine` */
-  SporeIntegratorKind integrator; /* passive; SPORE_INTEGRATOR_DEFAULT: the world's */
-  size_t substeps;                /* of its integrator in a step; 0: the world's */
+  SporeModel *model; /* of a passive body: owned by the world once spore_world_create succeeded; else NULL */
+  SporeLevelsDescription levels;  /* coarser levels of detail; `model` is the level SPORE_LEVEL_FINE */
+  SporeIntegratorKind integrator; /* of a passive body; SPORE_INTEGRATOR_DEFAULT: as the world's solver says */
+  size_t substeps;                /* of the integrator in a step; 0: as the world's solver says */
   SporePose pose;                 /* of the body's frame at time 0 */
-  SporeVec3 velocity, spin;       /* at time 0 */
-  const SporeSphereSet *spheres;  /* body's frame at rest; borrowed; NULL: no collision unit */
+  SporeVec3 velocity, spin;       /* at time 0, m/s and rad/s, world axes */
+  const SporeSphereSet *spheres;  /* collision unit, body's frame at rest; borrowed; NULL: none */
   SporeContactFields contact;
 } SporeBodyDescription;
 
-/* Where particles of a fluid come from while it runs: a wound that bleeds. The fluid keeps `reserve` of its particles
- * back at time 0; those, and what suction takes away, come out again. The table is spore_emitter_parameters. */
+/* What ties bodies. All but the pin are stiff springs between material points, so that any method bears them:
+ *   pin     holds still every block of body_a whose position at time 0 lies within `radius` of `point_a`
+ *   spring  between the points that lie at point_a and point_b
+ *   ball    the point of both bodies at point_a stays together; all ways to turn are free
+ *   hinge   the same with an axis through it: held at two points `length` apart
+ *   weld    the same without a way to turn: held at four points of a tetrahedron whose edges are `length` long
+ *   slide   the point of body_a at point_a stays on the line through it along `direction`, which belongs to body_b
+ *   port    the line through point_a along `direction`, which belongs to body_a, goes through the point of body_b there
+ * The line of a slide or port belongs to a rigid body, or to what physics does not move; or it is that of a body along
+ * a curve, which deforms, and whose nearest point is taken: what slides passes through that wherever it goes, without
+ * energy, but for friction. An active body in a port of
+ * the scene is turned about its origin, which stays where the device says, until the line goes through the port. */
+typedef enum SporeLinkKind {
+  SPORE_LINK_PIN,
+  SPORE_LINK_SPRING,
+  SPORE_LINK_BALL,
+  SPORE_LINK_HINGE,
+  SPORE_LINK_WELD,
+  SPORE_LINK_SLIDE,
+  SPORE_LINK_PORT
+} SporeLinkKind;
+
+/* What a body's own line does at its ends with what slides along it. */
+typedef enum SporeEnds {
+  SPORE_ENDS_STOP,    /* holds it there */
+  SPORE_ENDS_SLIP_OFF /* lets it go, for good */
+} SporeEnds;
+
+/* How a joint (all kinds below spring) holds. The table is spore_joint_parameters. */
+typedef struct SporeJointFields {
+  double stiffness; /* N/m, of all its points together */
+  double damping;   /* N s/m, the same; negative: critical for the lighter of its bodies */
+  double strength;  /* N: breaks above; 0: never */
+} SporeJointFields;
+extern const SporeParameterTable spore_joint_parameters;
+
+/* Points are of the world, at time 0, m. body_b = SPORE_NO_BODY ties to the world. */
+#define SPORE_NO_BODY UINT32_MAX
+typedef struct SporeLinkDescription {
+  const char *name;
+  SporeLinkKind kind;
+  uint32_t body_a, body_b;
+  SporeVec3 point_a, point_b;
+  SporeVec3 direction;       /* hinge, slide, port: any length but 0; not used of a body's own line */
+  double radius;             /* pin, m */
+  double length;             /* hinge, weld, m */
+  double stiffness, damping; /* N/m and N s/m; damping negative: critical for the lighter of its bodies */
+  double rest_length;        /* spring, m; negative: the distance at time 0 */
+  double strength;           /* N: what its points feel together, above which it breaks; 0: never */
+  double friction;           /* slide, port: Coulomb coefficient along the line */
+  int ends;                  /* slide, port: SporeEnds, of a body's own line */
+} SporeLinkDescription;
+
+/* How particles of a fluid come into the world while it runs: a wound that bleeds. The fluid has `reserve` of its
+ * particles out of the world at time 0. The emitter puts these into the world, and those that suction took away. */
 typedef struct SporeEmitterFields {
-  double rate;     /* particles a second, at most: none comes where one still is */
-  double speed;    /* m/s */
+  double rate;     /* particles a second at most: no particle is put where another one still is */
+  double speed;    /* m/s, of a new particle */
   double radius;   /* m, of the mouth */
-  double start;    /* s */
+  double start;    /* s, simulated time before which nothing comes */
   int64_t reserve; /* particles */
-  int trigger;     /* SporeFlowTrigger; button: of the device that moves the source */
+  int trigger;     /* SporeFlowTrigger; the button is that of the device that moves the source */
 } SporeEmitterFields;
+/* The parameters of SporeEmitterFields. */
 extern const SporeParameterTable spore_emitter_parameters;
 
+/* An emitter of a world that is to be made. */
 typedef struct SporeEmitterDescription {
   const char *name;
   uint32_t body;              /* the fluid */
-  uint32_t source;            /* body that the mouth is in; SPORE_NO_BODY: the world */
-  SporeVec3 point, direction; /* world, at time 0 */
+  uint32_t source;            /* the body that the mouth moves with; SPORE_NO_BODY: the world */
+  SporeVec3 point, direction; /* middle of the mouth, m, and the way out of the mouth; world, at time 0 */
   SporeEmitterFields fields;
 } SporeEmitterDescription;
 
+/* All that a world is made from. The arrays are borrowed during spore_world_create. */
 typedef struct SporeWorldDescription {
   size_t body_count, link_count, tool_count, emitter_count;
   const SporeToolDescription *tools;
@@ -94,208 +164,265 @@ typedef struct SporeWorldDescription {
   SporeSolverFields solver;
 } SporeWorldDescription;
 
-/* Names are copied. On failure the models still belong to the caller. Refuses: no memory, a pin that holds nothing, a
- * link on a body without degrees of freedom at both ends, non-finite values; place is "bodies/NAME" or "links/NAME".
- */
+/* A world at time 0, to be freed by spore_world_free. Names are copied; the models belong to the world from then on.
+ * pool: threads for long loops, borrowed as long as the world lives; NULL: the calling thread alone. The results do not
+ * depend on the pool.
+ * NULL with the error where there is no memory, where a number is not finite or out of its range, where a pin holds
+ * nothing, where nothing that a link ties can move, or where a body cannot be integrated as asked. The error's place is
+ * "bodies/NAME", "links/NAME" or the like. The models still belong to the caller then. */
 SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error);
+/* Frees the world and its models. Devices and the pool stay. NULL is allowed. */
 void spore_world_free(SporeWorld *world);
 
-/* One step of solver.time_step. See world.c: it reads as the list in the architecture. */
+/* One step of solver.time_step seconds. The stages of the step stand in one table, in step.c. */
 void spore_world_step(SporeWorld *world);
-/* Back to time 0, bit for bit. */
+/* Back to time 0: the state is the same to the bit. */
 void spore_world_reset(SporeWorld *world);
 
-/* Input of an active body; borrowed; NULL leaves it where it is. */
+/* Sets the device that moves an active body. The device is borrowed. NULL: the body stays where it is. */
 void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *device);
 
-/* What the device of an active body was taken to say in the last step (after the guard), and at what simulated time;
- * for recording. NULL: it has none, or that has not spoken yet. */
+/* The input that the last step took from the device of an active body, for recording. The guard has checked that input.
+ * *time_s: the simulated time of the input. NULL: the body has no device, or the device has not given any input yet. */
 const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t body, double *time_s);
 
+/* Number of bodies. */
 size_t spore_world_body_count(const SporeWorld *world);
-uint32_t spore_world_find_body(const SporeWorld *world, const char *name); /* SPORE_NO_BODY: none */
+/* Index of the body of that name; SPORE_NO_BODY: there is none. */
+uint32_t spore_world_find_body(const SporeWorld *world, const char *name);
+/* Name of the body; owned by the world. */
 const char *spore_world_body_name(const SporeWorld *world, uint32_t body);
+/* What moves the body. */
 SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body);
-/* The body whose device moves the active body: the shaft for a jaw, else itself; SPORE_NO_BODY for one not active. */
+/* The body whose device moves the active body: the shaft for a jaw, else the body itself. SPORE_NO_BODY: the body is
+ * not active. */
 uint32_t spore_world_hand(const SporeWorld *world, uint32_t body);
-const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body); /* NULL: none */
+/* Model of the body at its present level of detail; owned by the world. NULL: physics does not move the body. */
+const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body);
+/* Number of steps since time 0. */
 uint64_t spore_world_step_count(const SporeWorld *world);
+/* Simulated time since time 0, s. */
 double spore_world_time_s(const SporeWorld *world);
-const SporeSpheres *spore_world_spheres(const SporeWorld *world); /* as of the last step's map phase */
-/* Radii that a set's spheres have as balls, in the world as to whom checks or draws it: those of one with weights reach
- * out only as far as their sum is felt. set->count of them, each `stride` numbers behind the one before. False: no
- * memory; they are those of the set then. */
+/* Spheres of all bodies, where the last step mapped them: from the state with which that step began. */
+const SporeSpheres *spore_world_spheres(const SporeWorld *world);
+/* Radius, m, at which each sphere of a set is felt when it touches something else. Without weights this is the radius
+ * in the set. With weights, the depth is a weighted sum over spheres less the set's level; the radius at which that sum
+ * begins to be felt is smaller than the radius in the set. Checks and pictures use these radii.
+ * radius: set->count values, `stride` doubles from one to the next. False: no memory; the values are the radii in the
+ * set then. */
 bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t stride);
+/* Number of the body's collision spheres. */
 size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body);
-size_t spore_world_dof(const SporeWorld *world); /* velocity components that physics moves */
-/* Body's state, for measuring and carrying over; valid until the next step. A body without a model has the 7 + 6 of a
- * pose. */
+/* Number of velocity components that physics moves. */
+size_t spore_world_dof(const SporeWorld *world);
+/* Configuration of the body: q_count doubles of its model, see core/body/model.h. A body without a model has 7:
+ * position and quaternion wxyz of its frame. Valid until the next step. */
 const double *spore_world_q(const SporeWorld *world, uint32_t body);
+/* Velocity of the body: 3 doubles a block of its model. A body without a model has 6: velocity and angular velocity,
+ * world axes. Valid until the next step. */
 const double *spore_world_v(const SporeWorld *world, uint32_t body);
-/* Overwrites a body's state (carry-over, tests). Counts must match its model. */
+/* Overwrites the state of a body, with as many numbers as spore_world_q and spore_world_v give. Wakes all bodies, and
+ * drops the contacts and the friction of the state before. For carrying a state over to another world, and for tests.
+ */
 void spore_world_set_state(SporeWorld *world, uint32_t body, const double *q, const double *v);
-/* Puts a body at a level that it has, with its state at time 0; set its state next. */
+/* Puts a body at a level of detail that it has, with the level's state at time 0. The caller sets the state next. */
 void spore_world_set_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
 
-/* Mapping of points given in the body's frame at rest, whatever its role; for viewers and measuring.
- * Feed it with the body's part of a snapshot: snapshot->q + spore_world_q_offset(world, body). */
+/* Makes the mapping of points to the body at its present level of detail, whatever its role; for viewers and measuring.
+ * points: count x 3, body's frame at rest, m. The caller frees the mapping by spore_mapping_clear. A viewer evaluates
+ * it at the body's part of a snapshot: snapshot->q + spore_world_q_offset(world, body). False: no memory, or a point
+ * lies where the body cannot carry it. */
 bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,
                      SporeError *error);
+/* Where the body begins in q of a snapshot, in doubles. Any thread may ask. */
 size_t spore_world_q_offset(const SporeWorld *world, uint32_t body);
-/* Its first tetrahedron in a snapshot's cuts; SIZE_MAX: it is of none that can be parted. */
+/* Index of the body's first tetrahedron in SporeCuts.corners of a snapshot. SIZE_MAX: no cut can split nodes of the
+ * body.
+ */
 size_t spore_world_corner_start(const SporeWorld *world, uint32_t body);
+/* Where the body begins in v of a snapshot, in doubles. Any thread may ask. */
 size_t spore_world_v_offset(const SporeWorld *world, uint32_t body);
 
-/* Levels of a body. Those that there are, their models and that of time 0 never change; any thread may ask for them. */
+/* Level of detail of the body at time 0. Any thread may ask. */
 SporeLevelGrade spore_world_first_level(const SporeWorld *world, uint32_t body);
-const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t body, SporeLevelGrade level); /* or NULL */
-/* spore_world_map at a level. */
+/* Model of the body at a level of detail; owned by the world. NULL: there is no such level. Any thread may ask. */
+const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t body, SporeLevelGrade level);
+/* As spore_world_map, at a level of detail that the body has. */
 bool spore_world_map_level(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const double *points,
                            size_t count, SporeMapping *mapping, SporeError *error);
-/* The same of what is drawn of the body (SporeModelType.carry). */
+/* As spore_world_map_level, of the vertices of a mesh that is only drawn, where the model has a mapping of its own for
+ * such meshes (SporeModelType.carry). mesh: body's frame at rest. */
 bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const SporeTriangleMesh *mesh,
                            SporeMapping *mapping, SporeError *error);
+/* Level of detail of a body, and what changes of level did since time 0. */
 typedef struct SporeLevelState {
-  SporeLevelGrade level;     /* now */
-  uint64_t changes, refused; /* since time 0 */
-  double error;              /* m: how far the changes moved a sphere, a node or a point of the surface at most */
-  double energy;             /* J: own energy (kinetic and internal) that a change added at most; negative: all lost */
-  double momentum;           /* N s: by which a change missed the momentum of a free body at most, and the angular one
-                                about its centre over its extent */
+  SporeLevelGrade level; /* now */
+  uint64_t changes;      /* of level that were made */
+  uint64_t refused;      /* changes of level that were refused */
+  double error;          /* m: largest distance by which a change moved a sphere, a node or a point of the surface */
+  double energy;   /* J: largest gain of the body's own energy (kinetic and internal) by a change; negative: each lost
+                      some */
+  double momentum; /* N s: largest error that a change made in the momentum of a free body, or in its angular momentum
+                      about its centre divided by its extent */
 } SporeLevelState;
-/* False: the body has but one level. */
+/* Fills *state. False: the body has but one level. */
 bool spore_world_level_state(const SporeWorld *world, uint32_t body, SporeLevelState *state);
-/* Bytes of the mappings, matrices and states that having levels takes, without models and factors. */
+/* Bytes of the mappings, matrices and states that the levels of a body take, without models and factors. */
 size_t spore_world_level_memory(const SporeWorld *world, uint32_t body);
 
-/* Lines that get knots where they bend while it runs. */
+/* A line whose control points are inserted where it bends, and removed where it is straight again. */
 typedef struct SporeLineState {
-  size_t made, points, peak, reserve; /* control points: at time 0, now, at most so far, that there may be */
-  uint64_t inserted, removed;         /* since time 0 */
-  size_t memory_bytes;                /* that the reserve takes in the world */
-  double look_us, change_us; /* that looking at its bends takes a step in the mean, and a change of its points */
+  size_t made, points, peak, reserve; /* control points: at time 0; now; at most so far; that there is room for */
+  uint64_t inserted, removed;         /* control points, since time 0 */
+  size_t memory_bytes;                /* of the room in the world */
+  double look_us, change_us;          /* mean time of looking for bends in a step, and of a change of control points */
 } SporeLineState;
-/* False: the body is none such. */
+/* Fills *state. False: the body is no such line. */
 bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineState *state);
 
-/* Links, without the pins, in the order of the description: what they did in the last step. */
+/* What a link did in the last step. */
 typedef struct SporeLinkState {
-  const char *name;
-  SporeVec3 force; /* on body_a, N */
-  double load;     /* what its points feel together, N: what strength is compared with */
-  double drift;    /* how far the points that are to be together were apart at most when the step began, m; 0 for a
-                      spring */
-  double along;    /* of a body's own line: where on it the point is, 0 at its start to 1 at its end, by its spans */
-  bool broken;     /* or slipped off; for good, until reset */
+  const char *name; /* owned by the world */
+  SporeVec3 force;  /* on body_a, N */
+  double load;      /* sum of the forces at the link's points, N: the link breaks where this exceeds its strength */
+  double drift;     /* largest distance between points that the link holds together, when the step began, m; 0 for a
+                       spring */
+  double along;     /* of a link along the line of a body: the place of the point on that line, as a part of the line's
+                       parameter: 0 at its start, 1 at its end */
+  bool broken;      /* the link broke, or its point slipped off the line; lasts until reset */
 } SporeLinkState;
+/* Number of links, pins not counted. */
 size_t spore_world_link_count(const SporeWorld *world);
+/* State of a link, in the order of the description without the pins. */
 SporeLinkState spore_world_link_state(const SporeWorld *world, size_t link);
 
-/* Tools, in the order of the description. */
+/* Number of tools. */
 size_t spore_world_tool_count(const SporeWorld *world);
+/* State of a tool, in the order of the description. */
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t tool);
 
-/* Particles of a body that are in the world: not kept back, taken away or dissolved. Those stand so far off that they
- * are told by it. */
+/* Number of the body's particles that are in the world: neither in reserve, nor taken away, nor dissolved. */
 size_t spore_world_particle_count(const SporeWorld *world, uint32_t body);
+/* A particle out of the world is kept far away from everything: its x coordinate is larger than this, m. */
 #define SPORE_PARTICLES_OUT_M 500.
+/* Whether a particle is out of the world. position: 3 doubles, m. */
 static inline bool spore_particle_is_out(const double *position) { return position[0] > SPORE_PARTICLES_OUT_M; }
 
 /* Energy, J. */
 typedef struct SporeEnergy {
-  double kinetic, internal, gravity, contact;
+  double kinetic;
+  double internal; /* of the models, links, holds and pulls */
+  double gravity;  /* sum of -m g . x over all nodes; x: position in the world */
+  double contact;  /* of the contact springs */
 } SporeEnergy;
+/* Energy of the present state. */
 SporeEnergy spore_world_energy(const SporeWorld *world);
 
-/* Bits of q, v, step and time. */
+/* Hash of the bits of q, v, step and time. */
 uint64_t spore_world_hash(const SporeWorld *world);
 
-/* Plan: which stages this world runs, and why; which it leaves out, and why. */
+/* A stage of the step, in the world's plan. */
 typedef struct SporePlanStage {
-  const char *name; /* "detect" */
-  bool included;
-  const char *reason;               /* translated */
-  size_t items;                     /* what it works on: spheres, pairs, links, degrees of freedom */
-  const SporeProfilePhase *profile; /* NULL when left out */
+  const char *name;                 /* "detect" */
+  bool included;                    /* the step runs the stage */
+  const char *reason;               /* why it is included or not; translated */
+  size_t items;                     /* what the stage works on: spheres, pairs, links, degrees of freedom, ... */
+  const SporeProfilePhase *profile; /* times that the stage took; NULL where it is not included */
 } SporePlanStage;
+/* Something that the world does without. */
 typedef struct SporePlanLeftOut {
   const char *what, *reason; /* translated; owned by the world */
 } SporePlanLeftOut;
+/* Which stages the step of a world runs, what the world does without, and why. */
 typedef struct SporePlan {
   size_t stage_count, left_out_count;
-  const SporePlanStage *stages;
+  const SporePlanStage *stages; /* in the order of the step */
   const SporePlanLeftOut *left_out;
 } SporePlan;
+/* The plan; owned by the world. It changes where a command starts or ends a pull. */
 const SporePlan *spore_world_plan(const SporeWorld *world);
 
-/* How a body that physics moves is integrated and solved now, and who says so. */
+/* Who chose a method. */
 typedef enum SporeMethodSource {
-  SPORE_SOURCE_BODY,      /* its mechanical unit */
-  SPORE_SOURCE_SCENE,     /* the solver section */
-  SPORE_SOURCE_AUTOMATIC, /* left open: chosen by itself, and for nonlinear and linear anew as the work of steps tells
-                           */
-  SPORE_SOURCE_MONITOR    /* a safer one than the scene says */
+  SPORE_SOURCE_BODY,      /* the body's mechanical unit */
+  SPORE_SOURCE_SCENE,     /* the scene's solver section */
+  SPORE_SOURCE_AUTOMATIC, /* the world, since the scene leaves it open; solvers are chosen anew as the work of steps
+                             shows */
+  SPORE_SOURCE_MONITOR    /* the monitor: a safer one than the scene's */
 } SporeMethodSource;
+/* A method and who chose it. */
 typedef struct SporeChoice {
-  const char *name; /* as in the file; NULL: nothing is to be solved, the body is integrated explicitly */
+  const char *name; /* as in the file; NULL: the body is integrated explicitly, so that there is nothing to solve */
   SporeMethodSource source;
 } SporeChoice;
+/* How a passive body is integrated and solved now. */
 typedef struct SporeMethod {
   SporeChoice integrator, nonlinear, linear;
   size_t substeps;
   SporeMethodSource substeps_source;
 } SporeMethod;
-/* False: physics does not move the body. */
+/* Fills *method. False: physics does not move the body. */
 bool spore_world_body_method(const SporeWorld *world, uint32_t body, SporeMethod *method);
-const SporeProfilePhase *spore_world_profile(const SporeWorld *world); /* of whole steps */
+/* Times of whole steps. */
+const SporeProfilePhase *spore_world_profile(const SporeWorld *world);
 
-/* Monitor: what went wrong, and what was done about it. Counts are of steps, or of islands in them where several are
- * solved in one. Of message_count messages the last are kept: number i, from 0, at i % SPORE_MONITOR_MESSAGES. */
-#define SPORE_MONITOR_MESSAGES 64
+#define SPORE_MONITOR_MESSAGES 64 /* that the monitor keeps: the last ones */
+/* A message of the monitor. */
 typedef struct SporeMonitorMessage {
-  uint64_t step;
-  char text[256]; /* names body and cause, translated */
+  uint64_t step;  /* in which it was written */
+  char text[256]; /* names the body and the cause; translated */
 } SporeMonitorMessage;
+/* Monitor: what went wrong since time 0, and what was done about it. A step is counted once for each island in which
+ * the trouble was met. */
 typedef struct SporeMonitor {
-  uint64_t recoveries;       /* steps taken again from the last good state, implicitly and in smaller ones */
-  uint64_t substeps;         /* extra steps that this cost */
-  uint64_t not_finite;       /* taken again for that; what cannot be mended is frozen */
-  uint64_t too_fast;         /* the same, above maximum_speed */
-  uint64_t energy;           /* the same, where an explicit step made energy without bound; implicit from then on */
-  uint64_t not_converged;    /* solver ended above its tolerance; taken again where it did by far, or gained energy */
-  uint64_t deep_contacts;    /* contacts deeper than the smaller sphere's radius: said, and let be */
-  uint64_t soft_contacts;    /* contacts at rest that hold less than half of what they should: said, and let be */
-  uint64_t over_budget;      /* steps that took longer than the budget: said, and let be */
-  uint64_t held_inputs;      /* device states refused (not finite, or a jump) */
-  uint64_t shortened_forces; /* that would have given a hand more energy than it gave */
-  uint64_t broken_links;     /* that held too much, or slipped off their line */
-  uint64_t lost_holds;       /* of jaws, the same */
-  uint64_t torn_springs;     /* of nets, strained more than they bear, and what went with those */
-  uint64_t message_count;    /* ever */
-  SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
+  uint64_t recoveries;       /* steps taken again from the last good state: implicitly, or in smaller parts */
+  uint64_t substeps;         /* extra parts of steps that this took */
+  uint64_t not_finite;       /* steps taken again since the result was not finite; where that does not help, the body is
+                                frozen */
+  uint64_t too_fast;         /* steps taken again since something was faster than maximum_speed */
+  uint64_t energy;           /* steps taken again since an explicit integrator made energy without bound; the body is
+                                integrated implicitly from then on */
+  uint64_t not_converged;    /* steps whose solver ended above its tolerance; taken again where the residual is large or
+                                energy was gained */
+  uint64_t deep_contacts;    /* contacts deeper than the radius of the smaller sphere; reported only */
+  uint64_t soft_contacts;    /* contacts at rest with less than half of the stiffness they should have; reported only */
+  uint64_t over_budget;      /* steps that took longer than the budget; reported only */
+  uint64_t held_inputs;      /* inputs of devices that were refused: not finite, or a jump */
+  uint64_t shortened_forces; /* forces on a device that were reduced since they gave the hand more energy than it had
+                                put in */
+  uint64_t broken_links;     /* links that broke, or whose point slipped off its line */
+  uint64_t lost_holds;       /* holds of jaws, and stitches, that tore away */
+  uint64_t torn_springs;     /* springs of nets that tore by too much strain, and springs that tore with them */
+  uint64_t message_count;    /* messages ever written */
+  SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES]; /* message i, from 0, is at i % SPORE_MONITOR_MESSAGES */
 } SporeMonitor;
+/* The monitor; owned by the world. */
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);
-/* Time that a step may take, us of the clock; 0: any. A longer one is counted and said, and changes nothing else. */
+/* Sets the time that a step may take, us of the clock; 0: any. A longer step is counted and reported; nothing else
+ * changes. */
 void spore_world_set_budget(SporeWorld *world, double budget_us);
-/* Whether an explicit step is too long for the body to lie in a pile of its like, or for particles on what holds them.
- */
+/* How much of its contacts' stiffness an explicit step leaves, and what would leave enough of it. */
 typedef struct SporePileLimit {
-  double share;    /* of its contacts' stiffness that the step leaves */
-  size_t substeps; /* that leave enough; more than SPORE_SUBSTEPS_MAXIMUM are too many */
-  double damping;  /* of its contacts that leaves enough, N s/m; 0: none does */
-  bool implicit;   /* an implicit integrator would do as well */
+  double share;    /* part of the contacts' stiffness that remains in effect */
+  size_t substeps; /* that leave enough; more than SPORE_SUBSTEPS_MAXIMUM: too many to be taken */
+  double damping;  /* contact damping that leaves enough, N s/m; 0: none does */
+  bool implicit;   /* an implicit integrator would leave enough, too */
 } SporePileLimit;
+/* Whether explicit steps are too long for contacts at rest: the body would sink into a pile of bodies like it, or, of
+ * particles, into what holds them. True: *limit says how much, and what to do. */
 bool spore_world_pile_sinks(const SporeWorld *world, uint32_t body, SporePileLimit *limit);
-/* "take ...", translated. */
+/* Writes the remedy: "take ...", translated. text: room for `size` bytes. */
 void spore_pile_remedy(const SporePileLimit *limit, char *text, size_t size);
-/* The monitor integrates the body implicitly, which the scene does not. */
+/* Whether the monitor integrates the body by a safer integrator than the scene's. */
 bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body);
+/* Whether the monitor froze the body: it stands still until SPORE_COMMAND_THAW or a reset. */
 bool spore_world_body_frozen(const SporeWorld *world, uint32_t body);
+/* Whether the body sleeps: it was at rest for long enough, and is not computed until something wakes it. */
 bool spore_world_body_asleep(const SporeWorld *world, uint32_t body);
 
-/* What a step leaves for between the steps, where memory may be taken: a body that scissors parted is solved by
- * conjugate gradients alone until its new pattern is analysed here, when nothing was cut for 16 steps. To be called
- * after each step, or never. True: something was done. */
+/* Work between two steps that may allocate. A body whose nodes or control points changed is solved by conjugate
+ * gradients alone. When nothing changed for 16 steps, this function makes a factor of its new matrix. The caller calls
+ * it after each step, or never. True: something was done. */
 bool spore_world_tidy(SporeWorld *world);
 
 /* Counts of the last step. */
@@ -303,66 +430,76 @@ typedef struct SporeStepCounts {
   size_t contacts, islands; /* of bodies that are awake */
   size_t sleeping;          /* bodies asleep during the step */
   size_t newton_iterations, linear_iterations, force_evaluations;
-  double residual; /* worst relative residual of the islands' solves; 0 for explicit ones */
+  double residual; /* largest relative residual of the islands' solves; 0 for explicit ones */
 } SporeStepCounts;
+/* Counts of the last step; all 0 before the first one. */
 SporeStepCounts spore_world_counts(const SporeWorld *world);
 
-/* Snapshot: published at the end of each step through a triple buffer, never blocking either side. */
+/* A contact in a snapshot. */
 typedef struct SporeSnapshotContact {
-  SporeVec3 point, force; /* on sphere a */
-  uint32_t sphere_a, sphere_b;
+  SporeVec3 point, force;      /* world, m; force on sphere a, N */
+  uint32_t sphere_a, sphere_b; /* indices in spore_world_spheres */
 } SporeSnapshotContact;
-/* What all tools have done so far, as SporeToolState. */
+/* What all tools together have done so far; see SporeToolState. */
 typedef struct SporeToolCounts {
   size_t cut, pierced, stitches;
 } SporeToolCounts;
-/* Knots of lines whose knots come and go: see spore_snapshot_knots. */
+/* Knots of the lines whose control points are inserted and removed; read them by spore_snapshot_knots. */
 typedef struct SporeLines {
-  uint64_t number; /* another one: some differ */
-  size_t break_count;
-  double *breaks;
-  uint32_t *span_count; /* a body; NULL: there is no such line */
+  uint64_t number;      /* changes whenever knots of any line change */
+  size_t break_count;   /* room for the breaks of all lines */
+  double *breaks;       /* break_count */
+  uint32_t *span_count; /* one a body; NULL: the world has no such line */
 } SporeLines;
+/* A state of the world for a reader. Each step publishes one through a triple buffer; neither side waits for the other.
+ * The arrays belong to the world. */
 typedef struct SporeSnapshot {
   uint64_t step;
   double time_s;
   size_t q_count, v_count;
-  const double *q, *v;  /* all bodies, by spore_world_q_offset and _v_offset */
-  uint8_t *level;       /* body_count, of SporeLevelGrade: q and v are of; NULL: each body has but one */
+  const double *q, *v; /* all bodies; see spore_world_q_offset and spore_world_v_offset */
+  uint8_t *level; /* body_count, SporeLevelGrade: the level of detail that q and v are of; NULL: bodies have but one */
   double *reaction;     /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
-  size_t contact_count; /* total of bodies that are awake; at most contact_capacity are listed */
+  size_t contact_count; /* of bodies that are awake; at most contact_capacity of these contacts are listed */
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
   SporeCuts cuts;   /* since time 0 */
-  uint64_t cut_run; /* another number: they began anew */
+  uint64_t cut_run; /* changes whenever the list of cuts begins anew, by a reset */
   SporeLines lines;
   SporeStepCounts counts;
   SporeToolCounts tools;
-  SporeEnergy energy;     /* of this state, or of the first one after the snapshot before was acquired */
-  uint64_t message_count; /* of the monitor, and its messages */
+  SporeEnergy energy; /* of this state, or of an earlier one: it is computed for the first step after a reader acquired
+                         a snapshot */
+  uint64_t message_count; /* as in SporeMonitor */
   SporeMonitorMessage messages[SPORE_MONITOR_MESSAGES];
-  double step_us;
+  double step_us; /* time that the step took, us of the clock */
 } SporeSnapshot;
-/* spore_world_hash of the state that is shown. */
+/* spore_world_hash of the state in the snapshot. */
 uint64_t spore_snapshot_hash(const SporeSnapshot *snapshot);
-/* Knots of the body's line in the snapshot, of which its q is; no spans: they never change. And the rows of a mapping
- * of spore_world_map, which is of the knots of time 0, for others; false: no memory. */
+/* Knots of a body's line in the snapshot, to which the body's q in the snapshot belongs; breaks are borrowed from the
+ * snapshot. Without spans: the knots of the body never change. */
 SporeSplineKnots spore_snapshot_knots(const SporeWorld *world, const SporeSnapshot *snapshot, uint32_t body);
+/* Adapts a mapping to these knots of the body's line. The mapping was made by spore_world_map or its like, for the
+ * knots at time 0. Does nothing where `knots` has no spans. False: no memory. */
 bool spore_world_follow_knots(const SporeWorld *world, uint32_t body, SporeSplineKnots knots, SporeMapping *mapping);
-/* The newest snapshot; stays valid until the next call. Never NULL: before the first step it is time 0. */
+/* The newest snapshot. Valid until the next call; never NULL: before the first step it is that of time 0. For one
+ * reader, on any thread. */
 const SporeSnapshot *spore_world_snapshot_acquire(SporeWorld *world);
 
-/* Commands: applied at the start of the next step. False: the queue (1024) is full. */
+/* Kinds of commands, and the fields of SporeCommand that each uses. */
 typedef enum SporeCommandKind {
-  SPORE_COMMAND_GRAVITY, /* vector */
-  SPORE_COMMAND_PULL,    /* pulls the material point of `body` nearest to `point` toward `vector`, stiffness in number;
-                            the point is chosen on the first PULL after a RELEASE */
-  SPORE_COMMAND_RELEASE, /* ends a pull on `body` */
-  SPORE_COMMAND_RETUNE, /* model of `body` takes `fields` (parameters.size bytes; freed by the world with spore_free) */
-  SPORE_COMMAND_CONTACT, /* contact law of `body`: contact */
-  SPORE_COMMAND_THAW,    /* a frozen body moves again */
-  SPORE_COMMAND_LEVEL    /* `body` changes to `level`, or the monitor says why not */
+  SPORE_COMMAND_GRAVITY, /* sets gravity to `vector`, m/s^2 */
+  SPORE_COMMAND_PULL,    /* pulls the point of `body` that lies nearest to `point` toward `vector` (both world, m), by a
+                            spring of stiffness `number`, N/m; the point of the body is chosen by the first PULL after a
+                            RELEASE */
+  SPORE_COMMAND_RELEASE, /* ends the pull on `body` */
+  SPORE_COMMAND_RETUNE,  /* gives the model of `body` new parameters: `fields`, parameters.size bytes of its type, from
+                            spore_allocate, freed by the world */
+  SPORE_COMMAND_CONTACT, /* sets the contact law of `body` to `contact` */
+  SPORE_COMMAND_THAW,    /* lets a frozen body move again */
+  SPORE_COMMAND_LEVEL    /* changes `body` to `level`; where that is refused, the monitor says why */
 } SporeCommandKind;
+/* A change of a running world. */
 typedef struct SporeCommand {
   SporeCommandKind kind;
   uint32_t body;
@@ -372,6 +509,8 @@ typedef struct SporeCommand {
   SporeContactFields contact;
   SporeLevelGrade level;
 } SporeCommand;
+/* Queues a command; the next step applies it when it begins. For one writer, on any thread. False: the queue is full
+ * (1024 commands); `fields` still belong to the caller then. */
 bool spore_world_post(SporeWorld *world, const SporeCommand *command);
 
 #endif

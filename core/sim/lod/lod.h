@@ -1,25 +1,25 @@
-/* Levels of a body: the same body made less finely, to change to while it runs. Private to the room.
+/* Levels of detail of a body: the same body made less finely. The body can change to such a level while the world runs.
  *
- * The active level lies in the SporeBody itself, as if there were no other; the others wait here. A body's place in the
- * world's vectors has room for its largest level, and what a smaller one leaves of it is 0. Spheres, links and grips
- * are of material points, so that each level has them: by mappings of its own. */
+ * The active level lies in the SporeBody itself, as if there were no other level. The other levels lie here. In the
+ * world's vectors a body has room for its largest level; a smaller level leaves the rest of that room 0. Spheres, links
+ * and holds belong to material points. So each level carries them, by mappings of its own. */
 #ifndef SPORE_SIM_LOD_H
 #define SPORE_SIM_LOD_H
 
 #include "core/linalg/block_cholesky.h"
 #include "core/sim/state/state.h"
 
-/* What a SporeBody has of its level; of the active one only what does not lie in the body. */
+/* One level of a body. Of the active level, only the first part is in use; the second part lies in the body. */
 typedef struct SporeLevel {
-  SporeModel *model;                 /* always; NULL: there is no such level */
+  SporeModel *model;                 /* NULL: there is no such level */
   double *rest_q, *rest_v;           /* at time 0 */
   SporeMapping samples;              /* where the level puts the samples of all levels */
-  size_t sample_start, sample_count; /* the level's own among them */
-  size_t seen_count;                 /* of those, the first ones, that lie in the body */
-  uint32_t *nearest;                 /* a node: the sample that lies next to it at time 0 */
-  double *diagonal;                  /* a block: of the fit's normal equations */
-  SporeMapping *ends;                /* as SporeLevels.ends */
-  /* Of a level that is not active. */
+  size_t sample_start, sample_count; /* samples that this level brought in */
+  size_t seen_count;                 /* of those, the first ones: they lie in the body */
+  uint32_t *nearest;                 /* one a node: the sample nearest to the node at time 0 */
+  double *diagonal;                  /* one a block: diagonal of the normal equations of the fit */
+  SporeMapping *ends;                /* end_count: mappings of the ends that SporeLevels.ends lists */
+  /* Second part, of a level that is not active. */
   SporeMapping spheres;
   double *whole_weight;
   SporeBlockMatrix matrix;
@@ -29,48 +29,51 @@ typedef struct SporeLevel {
   size_t held_count, pin_count;
 } SporeLevel;
 
+/* The levels of a body. */
 typedef struct SporeLevels {
   SporeLevel level[SPORE_LEVEL_COUNT];
   SporeLevelGrade first; /* at time 0 */
   double tolerance;      /* m */
-  size_t q_room, v_room; /* doubles of the world's vectors: of the largest level */
+  size_t q_room, v_room; /* doubles in the world's vectors: those of the largest level */
   size_t end_count;
-  uint32_t *ends; /* in spring_mappings, of links and the pull */
-  /* Material points by which one level is fitted to another, and on which the error of that is measured. */
+  uint32_t *ends; /* end_count: indices in SporeLinkSystem.mappings of the ends of links and of the pull on this body */
+  /* Samples: material points by which one level is fitted to another, and at which the error of the fit is measured. */
   size_t sample_count;
-  double *sample_weight;          /* in the fit; 0: only looked at */
-  double *before, *speed, *after; /* 3 a sample: where they were, how fast; where they are */
-  double *q, *v;                  /* the candidate */
-  double *work;                   /* LEVEL_VECTORS x v_room */
+  double *sample_weight;          /* sample_count: weight in the fit; 0: only the error is measured there */
+  double *before, *speed, *after; /* sample_count x 3: positions and velocities before the change; positions after */
+  double *q, *v;                  /* the fitted state, before it is accepted */
+  double *work;                   /* SPORE_LEVEL_VECTORS x v_room */
   SporeLevelState state;
 } SporeLevels;
 #define SPORE_LEVEL_VECTORS 4
 
-/* Puts the body at the level as it is. */
+/* Makes the level the active one. The state of the body is not set. */
 void spore_world_exchange_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
 
-/* samples.c: all that fitting one level to another needs, once all are made. */
+/* samples.c: makes the samples, after all levels were made. */
 bool spore_levels_sample(SporeWorld *world, const SporeBodyDescription *from, uint32_t body, SporeError *error);
 
-/* fit.c: the configuration and velocity of level `to`, in levels->q and v, that put the samples where the body
- * has them now; with the momentum that the body has. `from`: the active one, whose state is q, v. */
+/* fit.c: computes the state of level `to`, in levels->q and levels->v. It puts the samples where the active level has
+ * them now (weighted least squares), and keeps the momentum of the body. */
 void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to);
-/* Greatest distance between where the samples that lie in the body were and where the candidate puts them, m. */
+/* Largest distance between the positions of the samples before and after the change, of those that lie in the body, m.
+ */
 double spore_level_error(const SporeLevels *levels, SporeLevelGrade to);
 
 /* lod.c */
+/* Takes the models of the levels from the description, and checks them. */
 bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error);
 /* Makes what the levels that are not active need, after everything else of the world was made. */
 bool spore_world_create_levels(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
 void spore_levels_free(SporeBody *body);
 /* Gives the models back to the caller. */
 void spore_levels_give_up(SporeBody *body);
-/* Makes the level active, with its state at time 0 for that of the body. */
+/* Makes the level the active one, and its state at time 0 that of the body (rest_q, rest_v). */
 void spore_world_select_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
 /* Back to the levels of time 0. */
 void spore_world_reset_levels(SporeWorld *world);
 
-/* change.c: while the world runs, at the start of a step. */
+/* change.c: changes to the level at the start of a step, unless the fit moves a point by more than the tolerance. */
 void spore_world_change_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
 
 #endif

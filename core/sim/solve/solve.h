@@ -1,5 +1,9 @@
-/* Solving: islands of coupled bodies, their integration by the methods of their bodies, preconditioners, recovery of
- * steps that went wrong, and sleep. */
+/* Solving. The bodies that move are sorted into islands: bodies that contacts and links couple in this step. Each
+ * island is integrated by itself, on any thread, by the integrator of its bodies. A step that went wrong is taken again
+ * (recovery). An island at rest sleeps.
+ *
+ * "Local vectors" hold the states of islands one after the other, where the bodies of an island do not lie next to each
+ * other in the world's vectors. c and c2 are the coefficients of an implicit step's matrix M + c D + c2 K. */
 #ifndef SPORE_SIM_SOLVE_H
 #define SPORE_SIM_SOLVE_H
 
@@ -10,205 +14,219 @@
 /* How a body is integrated. */
 typedef struct SporeBodyMethod {
   SporeIntegratorKind integrator; /* now */
-  SporeIntegratorKind chosen;     /* by the scene; the monitor may have taken a safer one */
+  SporeIntegratorKind chosen;     /* by the scene or the world; the monitor may since have taken a safer one */
   size_t substeps;                /* of the integrator in a step */
   SporeMethodSource integrator_source, substeps_source;
 } SporeBodyMethod;
 
-/* Blocks of a body that stand still: those that pins hold, then particles and spare nodes that are out of the world. */
+/* Blocks of a body that stand still: first those that pins hold, then particles out of the world and spare nodes. */
 typedef struct SporeHeldBlocks {
   uint32_t *blocks; /* ascending within each of the two parts */
   size_t count, pin_count;
-  uint8_t *flags; /* one a block, for the factor; NULL: no factor */
+  uint8_t *flags; /* one a block: it stands still; for the factor; NULL: the body has no factor */
 } SporeHeldBlocks;
 
+/* The linearisation that a step began with: none, a new one, or one kept from an earlier step. */
 typedef enum SporeStart { SPORE_START_NONE, SPORE_START_NEW, SPORE_START_KEPT } SporeStart;
 
 /* Whether the matrix of a body is factorised, how long a linearisation is kept, and the measured work that led to
  * this choice: see preconditioner.c. */
 typedef struct SporeFactorChoice {
-  bool factorised, needed;  /* needed: conjugate gradients alone did not solve a step */
-  bool stuck;               /* neither did Newton's method with them, and only a factor takes the whole tangent */
-  uint32_t votes, patience; /* steps in which work was counted; steps that it takes to judge */
-  double present, other;    /* work of those steps, and what the other choice would have taken */
-  uint32_t steps;           /* since the last change */
-  double iterations;        /* conjugate gradients a Newton iteration before the change */
-  SporeStart start;         /* whether the present step began with a linearisation of an earlier step */
-  uint64_t made;            /* step of the linearisation that the present step began with */
-  uint32_t keep;            /* steps that a linearisation is kept */
-  uint32_t calm, trial;     /* steps in which keeping went well; after how many it may be kept longer */
-  double fresh, excess;     /* iterations of a step with a new linearisation; what later steps took above that */
+  bool factorised; /* the present choice */
+  bool needed;     /* conjugate gradients alone did not solve a step: a factor is needed */
+  bool stuck;      /* Newton's method with conjugate gradients did not solve a step: the exact tangent is needed,
+                      and only a factor can use it */
+  uint32_t votes, patience; /* steps in which work was counted; number of such steps before the choice may change */
+  double present, other;    /* work of the counted steps; estimate of their work with the other choice */
+  uint32_t steps;           /* since the choice last changed */
+  double iterations;        /* of conjugate gradients in a Newton iteration, before the choice changed */
+  SporeStart start;         /* linearisation that the present step began with */
+  uint64_t made;            /* number of the step in which that linearisation was made */
+  uint32_t keep;            /* steps for which a linearisation is kept */
+  uint32_t calm, trial;     /* steps in which keeping it went well; number of such steps before `keep` grows */
+  double fresh;             /* iterations of a step with a new linearisation */
+  double excess;            /* iterations above that of the steps that kept the linearisation */
   uint32_t factors;         /* made in the present step */
-  double linear, debt;      /* among couplings: conjugate gradients a Newton iteration with a new factor; work above
-                               that since the factor was made */
+  double linear;            /* among couplings: conjugate gradient iterations in a Newton iteration with a new factor */
+  double debt;              /* among couplings: work above that since the factor was made */
 } SporeFactorChoice;
 
-/* Matrix of a body and what is made of it to solve with. */
+/* Matrix of a body, and the factor of that matrix. */
 typedef struct SporePreconditioner {
-  SporeBlockMatrix matrix;              /* M + c D + c2 K of the model alone; empty where that is M */
-  double matrix_c, matrix_c2;           /* as assembled; 0: not assembled */
-  uint64_t matrix_step;                 /* step in which it was assembled */
-  SporeBlockCholesky factor;            /* without blocks: a factor is not worth it for this body */
-  bool factor_ready;                    /* the factor is of the current matrix, or a kept one */
-  bool factor_alone;                    /* it was made without couplings */
-  bool factor_kept;                     /* among couplings: serves later matrices of the same c and c2 too */
+  SporeBlockMatrix
+      matrix; /* M + c D + c2 K of the model alone, without couplings; empty where the model has no Jacobian */
+  double matrix_c, matrix_c2; /* c and c2 of the assembled matrix; 0: not assembled */
+  uint64_t matrix_step;       /* number of the step in which the matrix was assembled */
+  SporeBlockCholesky factor;  /* without blocks: this body is never factorised */
+  bool factor_ready;          /* the factor may be used: it belongs to the present matrix, or is kept */
+  bool factor_alone;          /* the factor was made without couplings */
+  bool factor_kept;           /* among couplings: the factor also serves later matrices with the same c and c2 */
   double rounding_soft, rounding_stiff; /* squares, of the last preconditioner: see spore_island_rounding */
   SporeFactorChoice choice;
 } SporePreconditioner;
 
-/* What an integrator remembers of the step before, see SporeHistory: by which method, and for which step alone. */
+/* What multistep integrators know of the last step of a body (see SporeHistory): integrator, length, and number of the
+ * step for which the history is valid. */
 typedef struct SporeBodyHistory {
   SporeIntegratorKind kind;
   double step_s;
   uint64_t step;
 } SporeBodyHistory;
 
-/* Energy of a body that is watched for growth: see energy_watch.c. J. */
+/* Energy of a body, watched for growth: see energy_watch.c. J. */
 typedef struct SporeEnergyWatch {
   bool started;
   uint32_t steps;     /* since the watch began */
-  double own, height; /* kinetic plus strain energy, and that of gravity, when it began */
+  double own, height; /* kinetic plus strain energy, and energy of gravity, when the watch began */
   double given;       /* by contacts and links since then */
 } SporeEnergyWatch;
 
 /* Rest and sleep of a body: see sleep.c. */
 typedef struct SporeBodySleep {
   bool asleep;
-  uint32_t next;      /* in the ring of bodies that fell asleep together */
-  uint64_t steps;     /* in a row that the body was at rest */
-  double speed, spin; /* m/s and 1/s: at rest below */
-  double energy;      /* of the contacts that sleep, kept with the first body of an island, J */
+  uint32_t next;      /* next body in the ring of bodies that fell asleep together */
+  uint64_t steps;     /* steps in a row in which the body was at rest */
+  double speed, spin; /* m/s and 1/s: slower than both, the body is at rest */
+  double energy;      /* J, of the contacts of a sleeping island: kept with the first body of that island */
 } SporeBodySleep;
 
+/* An island: where its bodies, contacts and springs lie, how it is integrated, and what came of that. */
 typedef struct SporeIsland {
   size_t body_start, body_count;             /* in island_bodies */
-  size_t contact_start, contact_count;       /* in the contacts' order */
-  size_t lanes_start;                        /* in the contacts' lanes */
-  size_t spring_start, spring_count;         /* in the springs' order */
+  size_t contact_start, contact_count;       /* in SporeContactSystem.order */
+  size_t lanes_start;                        /* in SporeContactSystem.lanes */
+  size_t spring_start, spring_count;         /* in SporeLinkSystem.order */
   size_t q_start, q_count, v_start, v_count; /* in the local vectors */
-  /* From which state to which state a step takes the island: see spore_island_gather. */
+  /* A step takes the island from q0, v0 to q1, v1: set by spore_island_gather. */
   const double *q0, *v0;
   double *q1, *v1;
   bool in_place; /* q1 and v1 lie in next_q and next_v */
   SporeIntegratorKind integrator;
   size_t substeps;         /* of the integrator */
-  bool multirate;          /* its bodies move by several methods: see multirate.c */
-  double gravity_momentum; /* (M g . g)^1/2 */
+  bool multirate;          /* its bodies have different integrators or substeps: see multirate.c */
+  double gravity_momentum; /* (M g . g)^(1/2), a scale for residuals */
   SporeHistory history;    /* in the local vectors */
-  uint32_t attempts;       /* at this step */
+  uint32_t attempts;       /* made at this step */
   /* What came of the step. */
   SporeStepResult result;
   SporeTrouble trouble;      /* the worst that was met, corrected or not */
-  uint32_t offender;         /* body that the trouble was met in */
-  bool made_safer;           /* this step changed the integrator */
-  uint64_t mending_substeps; /* that recovery took; 0: none needed */
-  size_t kept_count;         /* bodies behind these were frozen by this step */
+  uint32_t offender;         /* body in which the trouble was met */
+  bool made_safer;           /* this step took a safer integrator, for good */
+  uint64_t mending_substeps; /* substeps that recovery took; 0: it was not needed */
+  size_t kept_count;         /* bodies not frozen by this step: they come first in the island */
   bool rests, falls_asleep;
 } SporeIsland;
 
+/* The solver's part of a world. */
 typedef struct SporeSolve {
   uint32_t *parent;        /* union-find over bodies */
-  uint32_t *island_of;     /* by body; SPORE_NO_BODY: it does not move */
+  uint32_t *island_of;     /* one a body: index of its island; SPORE_NO_BODY: the body does not move */
   uint32_t *island_bodies; /* bodies that move, island by island */
   size_t island_count;
-  SporeIsland *islands;   /* body_count */
-  SporeSite *local_sites; /* where bodies begin in their island's part of the local vectors */
+  SporeIsland *islands;   /* body_count: room for as many */
+  SporeSite *local_sites; /* one a body: where it begins in the part of the local vectors that is its island's */
   double *local_q0, *local_v0, *local_q1, *local_v1;
-  double *best_q, *best_v; /* as these: of the attempts at a step that went wrong */
+  double *best_q, *best_v; /* like the local vectors: the best attempt of recovery at a step that went wrong */
   double *history_a, *history_b, *local_history_a, *local_history_b; /* as v and local_v0 */
   double *still;                                                     /* zeros: velocity of the largest body at rest */
   double *scratch;                                                   /* of the integrators */
   size_t scratch_per_block;                                          /* doubles of scratch a block */
-  double *precondition;                                              /* 9 doubles a block, as local_v0 */
-  size_t sleeping_count;                                             /* bodies asleep */
+  double
+      *precondition; /* 9 doubles a block, in the order of the local vectors: diagonal blocks of the preconditioner */
+  size_t sleeping_count; /* bodies asleep */
 } SporeSolve;
 
 void spore_solve_clear(SporeSolve *solve);
-bool spore_world_create_solve(SporeWorld *world); /* the vectors above; false: no memory */
+bool spore_world_create_solve(SporeWorld *world); /* makes the vectors above; false: no memory */
 
 /* islands.c */
 /* Stage: sorts the bodies that move into islands. An island whose bodies lie next to each other is integrated from one
  * pair of world vectors to the other; the state of any other is gathered in the local vectors. */
 void spore_world_find_islands(SporeWorld *world);
-/* Places of the bodies of an island in its vectors, and their last good state there. */
+/* Sets where the bodies of the island lie in its vectors, and brings their last good state there. */
 void spore_island_gather(SporeWorld *world, SporeIsland *island);
-/* Keeps what the integrator remembers of this step, for the next. */
+/* Keeps the history of this step for the integrator's next step. */
 void spore_island_remember(SporeWorld *world, const SporeIsland *island);
-/* Stage: writes what was solved into the next state. */
+/* Stage: writes the results of all islands into the next state. */
 void spore_world_accept(SporeWorld *world);
 /* Stage: makes the next state the last good one. */
 void spore_world_advance(SporeWorld *world);
 
 /* sleep.c */
 void spore_world_create_sleep(SporeWorld *world);
-/* Stage: wakes bodies that something moving touches, or is tied to. */
+/* Stage: wakes bodies that something moving touches, or is linked to. */
 void spore_world_wake_touched(SporeWorld *world);
 /* Whether the step just taken left the island at rest. */
 bool spore_island_rests(const SporeWorld *world, const SporeIsland *island);
-/* Sends an island to sleep that has rested for long enough: writes the next state. */
+/* Sends the island to sleep if it has rested for long enough: it has velocity 0 in the next state then. */
 void spore_island_let_sleep(SporeWorld *world, SporeIsland *island);
-/* Keeps the energy of the contacts of an island that falls asleep. Its last state is the world's by then. */
+/* Keeps the contact energy of an island that falls asleep. To be called when the island's last state is the world's. */
 void spore_island_keep_energy(SporeWorld *world, const SporeIsland *island);
-/* Wakes the body, and those that fell asleep with it. */
+/* Wakes the body, and all bodies that fell asleep together with it. */
 void spore_world_wake(SporeWorld *world, uint32_t body);
 void spore_world_wake_all(SporeWorld *world);
 
 /* preconditioner.c */
-/* An empty matrix of the body's model, where that has a Jacobian. False: no memory. */
+/* Makes the matrix of the body, zero, if the body's model has a Jacobian. False: no memory. */
 bool spore_body_create_matrix(SporeBody *body, SporeError *error);
+/* Makes the factors of all bodies that may be factorised. False: no memory. */
 bool spore_world_create_factors(SporeWorld *world, SporeError *error);
-/* Makes the factor of the body anew. False: no memory, and no factor. */
+/* Makes the factor of the body anew, for its present pattern. False: no memory; the body has no factor then. */
 bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeError *error);
-/* Forgets what steps before led to, after the body was changed from outside. */
+/* Forgets what earlier steps have left with the solver. To be called after the body was changed from outside. */
 void spore_body_forget_steps(const SporeWorld *world, SporeBody *body);
-/* The same after its model was changed, and wakes it. */
+/* The same after the body's model was changed; also wakes the body. */
 void spore_body_changed_model(SporeWorld *world, uint32_t body);
+/* Starts the choice of a preconditioner anew. */
 void spore_body_reset_choice(const SporeWorld *world, SporeBody *body);
-/* What the parts of a stage cost this body, in floating-point operations of the kind of a product with its matrix. */
+/* Estimated work of a linearisation, and of a conjugate gradient iteration, for this body: in floating-point operations
+ * as a product with its matrix makes them. */
 double spore_body_linearisation_work(const SporeBody *body);
 double spore_body_iteration_work(const SporeBody *body);
-/* Chooses anew how each body of the island is preconditioned, after a step that went like its result. True where the
- * step failed for want of a factor and should be taken again. */
+/* Chooses anew how each body of the island is preconditioned, from the work of the step just taken (island->result).
+ * True: the step failed for lack of a factor, and should be taken again. */
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
 
 /* integrate.c */
 /* Stage: integrates the islands, each on its own and on any thread. */
 void spore_world_integrate(SporeWorld *world);
-/* What attempts at a step that went wrong may still take, all together. */
+/* What all attempts of recovery at one step may still take. */
 typedef struct SporeEffort {
-  size_t iterations; /* nonlinear ones left; a part of a step takes one at least */
-  double hopeless;   /* a part that misses more than this of the load is not solved, and the attempt is given up */
-  bool given_up;     /* q1 and v1 are those of some part of the step */
+  size_t iterations; /* nonlinear iterations left; a part of a step takes at least one */
+  double hopeless;   /* relative residual: an attempt with a larger one is given up */
+  bool given_up;     /* the attempt ended early: q1 and v1 are the state after some of its parts */
 } SporeEffort;
-/* One step of the world in `substeps` parts, from q0 and v0 of the island to q1 and v1; spoils the local vectors.
- * effort: counted down; NULL for a first attempt, whose parts take as many iterations each as the scene allows. */
+/* Takes the island through one step of the world in `substeps` parts, from its q0 and v0 to q1 and v1. Overwrites the
+ * island's part of the local vectors. effort: counted down; NULL for the first attempt, each part of which may take as
+ * many iterations as the scene allows. */
 SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps,
                                      SporeEffort *effort);
 
 /* multirate.c: one step of an island whose bodies move by several methods. */
 SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *island);
-/* Doubles of scratch a block. */
+/* Doubles of scratch that this takes a block. */
 size_t spore_multirate_scratch(void);
 
 /* recovery.c */
-/* Sets island->trouble and, where there is any, island->offender. */
+/* Looks at the result of a step. Sets island->trouble and, where there is any, island->offender. */
 void spore_island_examine(SporeWorld *world, SporeIsland *island);
-/* Corrects or accepts a step in trouble: island->trouble is the worst that was met. */
+/* Corrects a step in trouble, or accepts it. island->trouble is the worst that was met, also after it was corrected. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island);
 
-/* step_limit.c: refuses a body that cannot be integrated as the scene asks, with the largest step where a step is too
- * large. */
+/* step_limit.c: false for a body that cannot be integrated as the scene asks; the error names the largest possible step
+ * where the step is too large. */
 bool spore_body_check_step(const SporeWorld *world, uint32_t body, SporeError *error);
 
-/* energy_watch.c: false where a body of the island has more energy after the step than can be; island->offender. */
+/* energy_watch.c: false where a body of the island has gained more energy than contacts, links and gravity gave it;
+ * sets island->offender to that body. */
 bool spore_island_energy_holds(SporeWorld *world, SporeIsland *island);
 
 /* island_system.c */
-/* Motion of a body free of force; q1 and v1 may be q0 and v. */
+/* Moves a body free of force for h seconds; q1 and v1 may be q0 and v. */
 void spore_body_drift(const SporeBody *body, const double *q0, const double *v, double h, double *q1, double *v1);
-/* Mass and its inverse, of the body at the world's q. */
+/* Sets mass and mass_inverse of the body, at the last good state. */
 void spore_body_set_mass(SporeWorld *world, const SporeBody *body);
-/* The same at q, of a frame that has turned. */
+/* The same at q, for the block of a frame alone: only this block depends on q. */
 void spore_body_turn_mass(SporeWorld *world, const SporeBody *body, const double *q);
 
 #endif

@@ -1,4 +1,5 @@
-/* Tools: what instruments do besides being there, and particles that come into the world and leave it. */
+/* Tools: what instruments do besides touching. They hold, cut, suck, coagulate and sew. This room also takes particles
+ * out of the world and puts them back: tools, emitters, and particles that dissolve. */
 #ifndef SPORE_SIM_TOOL_H
 #define SPORE_SIM_TOOL_H
 
@@ -10,17 +11,19 @@ typedef struct SporeTool {
   const SporeToolType *type;
   char *name;
   uint32_t bodies[SPORE_TOOL_BODIES]; /* as in the description */
-  size_t spring_start, spring_count;  /* in the world's springs */
+  size_t spring_start, spring_count;  /* its springs in SporeLinkSystem.springs */
 } SporeTool;
 
+/* A source of particles; see SporeEmitterDescription. */
 typedef struct SporeEmitter {
   uint32_t body, source;
   SporeVec3 point, direction; /* in the frame of the source */
   SporeEmitterFields fields;
-  double due;     /* particles that may come by now */
-  uint64_t tries; /* state of the random numbers that places are drawn by */
+  double due;     /* particles that the rate allows by now; whole ones are put */
+  uint64_t tries; /* state of the random numbers by which places in the mouth are chosen */
 } SporeEmitter;
 
+/* All tools and emitters of a world. */
 typedef struct SporeToolSystem {
   size_t count, emitter_count;
   SporeTool **all;
@@ -29,38 +32,42 @@ typedef struct SporeToolSystem {
 } SporeToolSystem;
 
 /* tools.c */
+/* Makes the tools, with room in the world and its models for what the tools do. */
 bool spore_world_create_tools(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
-/* Springs that all tools take to hold with. */
+/* Number of springs that all tools together need to hold tissue. */
 size_t spore_tools_spring_count(const SporeWorldDescription *description);
 void spore_world_reset_tools(SporeWorld *world);
 void spore_world_clear_tools(SporeWorld *world);
-/* Stages: tools act on what the last step did; after the step, holds that bear too much tear away. */
+/* Stage: tools act on the last good state. */
 void spore_world_use_tools(SporeWorld *world);
+/* Stage: releases holds whose force exceeds their strength. */
 void spore_world_tear_holds(SporeWorld *world);
-/* Adds what the tools' other bodies feel to what the devices are told. */
+/* Adds to the commands of devices the forces on the other bodies of their tools, such as jaws. */
 void spore_world_feed_back_tools(SporeWorld *world);
-/* A direction of the world at time 0 in the frame of a body. */
+/* A direction of the world at time 0, as a unit vector in the frame of a body. */
 SporeVec3 spore_tool_direction(const SporeWorld *world, uint32_t body, const double direction[3]);
 /* Whether the first button of the device that moves the body is down. */
 bool spore_tool_button(const SporeWorld *world, uint32_t body);
 
-/* particles.c: particles that leave the world and come back. */
+/* particles.c: particles that leave the world and come back. A particle out of the world is kept far away, at rest. */
 bool spore_world_create_particles(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
-/* Stage: what dissolves, what suction takes, and what emitters give. The next state is written by then, but not the
- * last good one yet. */
+/* Stage: takes dissolved particles and those in the mouths of suction out of the world, and puts those of emitters into
+ * it. All this is done in the next state, which the solver has written by then. */
 void spore_world_exchange_particles(SporeWorld *world);
-/* Whether anything may take or give particles. */
+/* Whether anything in the world may take or put particles. */
 bool spore_world_exchanges_particles(const SporeWorld *world);
-/* After a body's state was set from outside: which of its particles are out of the world. */
+/* Finds anew which particles of a body are out of the world, after q of the body was set from outside. */
 void spore_body_find_parked(SporeBody *body, const double *q);
 void spore_world_reset_particles(SporeWorld *world);
+/* Whether the body is made of particles. */
 bool spore_body_is_fluid(const SporeBody *body);
 /* Takes a particle out of the world, in the next state. */
 void spore_world_take_particle(SporeWorld *world, SporeBody *body, size_t particle);
-/* Where a body that keeps its shape is in the next state; the world itself: where it always is. */
+/* Pose of an unmovable, active or rigid body in the next state; SPORE_NO_BODY: the identity. */
 SporePose spore_world_next_pose(const SporeWorld *world, uint32_t body);
 extern const char *const spore_flow_triggers[3]; /* choices of `trigger`, NULL at the end */
-/* How many particles a flow of `rate` a second may move by now, `due` before. */
+/* Number of particles that a flow may move by now. rate: particles a second; due: what was left of this number before;
+ * trigger: SporeFlowTrigger, of the device that moves the body. */
 double spore_flow_due(const SporeWorld *world, double rate, int trigger, uint32_t body, double due);
 
 #endif

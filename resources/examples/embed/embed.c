@@ -14,7 +14,7 @@ enum { SIDE = 7, TABLE_SPHERES = SIDE * SIDE };
 
 /* A rigid body from a closed surface mesh; NULL, and the reason in *error, when the model cannot be made.
  * Any other model is made in the same way: find its type, fill its parameters, hand over the geometry that it asks for
- * (`spore models NAME` lists both). */
+ * (`spore models NAME --json` lists both). */
 static SporeModel *make_stone(SporeError *error) {
   /* A tetrahedron. Triangles turn counter-clockwise when they are seen from outside. */
   double corners[] = {0, 0, 0, .02, 0, 0, 0, .02, 0, 0, 0, .02};
