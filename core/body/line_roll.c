@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -51,6 +52,7 @@ static void follow_chord(const SporeLineFrames *frames, Turn *turn) {
 }
 
 static Turn turn_at(const SporeLineFrames *frames, const double *q) {
+  assert(q);
   Turn turn = {.rotation = spore_mat3_identity()};
   if (frames->rooted) turn.rotation = spore_quat_to_mat3(spore_quat_load(q + frames->quaternion));
   else if (frames->straight) follow_chord(frames, &turn);
@@ -174,6 +176,7 @@ static void settle_rolls(const SporeLineFrames *frames, const double *q) {
 }
 
 void spore_line_roll_place(const SporeLineFrames *frames, const double *q) {
+  assert(frames->station_count >= 2 && q);
   place_stations(frames, q);
   if (frames->arms) follow_arms(frames, q);
   else settle_rolls(frames, q);
@@ -192,6 +195,7 @@ static SporeVec3 roll_of_arm(const SporeLineFrame *frame) {
 }
 
 static SporeVec3 rate_of(const SporeLineFrames *frames, size_t k) {
+  assert(k < frames->station_count);
   return spore_vec3_load(frames->tangent_rate + 3 * k);
 }
 
@@ -241,6 +245,7 @@ static void rate_of_rolls(const SporeLineFrames *frames, const double *q, const 
 }
 
 void spore_line_roll_rate(const SporeLineFrames *frames, const double *q, const double *v) {
+  assert(q && v);
   for (size_t k = 0; k < frames->station_count; k++) {
     const SporeLineRow *row = &frames->stations[k].row;
     const SporeLineFrame *frame = &frames->frames[k];
@@ -265,6 +270,7 @@ static void pull_arms(const SporeLineFrames *frames, double *f) {
 
 /* What the rates of station k in rate_of_rolls get, of which `system` says what a' gets; returns the torque. */
 static SporeVec3 pull_anchor(const SporeLineFrames *frames, size_t k) {
+  assert(k < frames->station_count);
   const SporeLineFrame *frame = &frames->frames[k];
   double at[2], weight = frames->stations[k].weight, *to = frames->system + 2 * k;
   SporeVec3 axis = spore_vec3_cross(frame->source, frame->tangent);
@@ -298,6 +304,7 @@ static void pull_rolls(const SporeLineFrames *frames, const double *q, double *f
 }
 
 void spore_line_roll_pull(const SporeLineFrames *frames, const double *q, double *f) {
+  assert(q && f);
   if (frames->arms) pull_arms(frames, f);
   else pull_rolls(frames, q, f);
   for (size_t k = 0; k < frames->station_count; k++) {

@@ -1,5 +1,6 @@
 #include "core/body/mapping_error.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -9,6 +10,7 @@
 
 /* Sum of the absolute weights of a point of a linear mapping; 1 of others. */
 static double leverage_of(const SporeMapping *mapping, size_t point) {
+  assert(point < mapping->point_count);
   double sum = 0;
   if (mapping->kind != SPORE_MAPPING_LINEAR) return 1;
   for (uint32_t k = mapping->row_start[point]; k < mapping->row_start[point + 1]; k++) sum += fabs(mapping->weight[k]);
@@ -24,6 +26,7 @@ typedef struct Field {
 } Field;
 
 static SporeVec3 arc_at(const Field *field, SporeVec3 arm) {
+  assert(field->radius > 0);
   double along = spore_vec3_dot(field->along, arm), aside = spore_vec3_dot(field->aside, arm);
   double angle = along / field->radius, within = field->radius - aside;
   SporeVec3 moved = spore_vec3_add_scaled(arm, within * sin(angle) - along, field->along);
@@ -39,6 +42,7 @@ static SporeVec3 field_at(const Field *field, SporeVec3 x) {
 }
 
 static Field still(const double *nodes, size_t count, int *longest, double *length) {
+  assert(count == 0 || nodes);
   double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < 3 * count; i++) {
     lower[i % 3] = fmin(lower[i % 3], nodes[i]);
@@ -136,6 +140,8 @@ static void run_trials(Trial *trial, SporeMappingError *measured) {
 
 bool spore_mapping_measure(const SporeModel *model, const SporeMapping *mapping, const double *points,
                            SporeMappingError *measured, SporeError *error) {
+  assert(model && mapping && measured);
+  assert(mapping->point_count == 0 || points);
   Trial trial = {model,
                  mapping,
                  points,

@@ -1,6 +1,9 @@
+#include <assert.h>
+
 #include "core/constraint/term_ends.h"
 
 SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) {
+  assert(h > 0 && inverse_mass >= 0 && stiffness >= 0);
   double stiff = 2 * h * h * stiffness * inverse_mass;
   return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};
 }
@@ -105,6 +108,7 @@ static double unbalanced(const SporeContactLaw *law, double ahead, double faster
 /* It falls with the gap speed that it leads to, so false position (the Illinois variant) closes in on it. */
 double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
                                        double gap_speed, double most) {
+  assert(ahead >= 0 && faster >= 0);
   double low = 0, high = most, above = unbalanced(law, ahead, faster, depth, gap_speed, low);
   double below = unbalanced(law, ahead, faster, depth, gap_speed, high);
   if (!(above > 0)) return low;
@@ -151,6 +155,7 @@ static void soften_contact(SporeContactTerm *term, const SporeContactState *stat
 
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                               double elapsed_s, double *f) {
+  assert((term->a.prescribed && term->b.prescribed) || (sites && q && v && f));
   SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
   term->force = spore_contact_force(&term->law, &state);
   term->yield = term->pressing = spore_vec3_dot(term->normal, term->force);
@@ -160,6 +165,7 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
 
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double elapsed_s, double c, double c2) {
+  assert(c >= 0 && c2 >= 0);
   SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
   return spore_contact_jacobian(&term->law, &state, c2, c, &term->drag);
 }

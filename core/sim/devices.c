@@ -1,4 +1,5 @@
 /* Devices: poses of active bodies from them, and the forces that bodies feel back to them. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/text.h"
@@ -8,6 +9,8 @@ static const SporeGuardLimits limits = SPORE_GUARD_LIMITS;
 
 /* Between reading where a hand is and pushing it. */
 static void push(SporeWorld *world, SporeBody *body) {
+  assert(body->device.device);
+  assert(world->solver.time_step > 0);
   SporeDevice *device = body->device.device;
   if (!device->type->push) return;
   SporeDeviceCommand command = body->device.command;
@@ -18,6 +21,7 @@ static void push(SporeWorld *world, SporeBody *body) {
 }
 
 static void sense(SporeWorld *world, SporeBody *body) {
+  assert(body->role == SPORE_ACTIVE && body->q_count == SPORE_POSE_Q);
   double time_s = (double)(world->state.step + 1) * world->solver.time_step;
   SporeDeviceState said = body->device.input;
   bool spoke = body->device.device->type->exchange(body->device.device, time_s, &body->device.command, &said);
@@ -51,6 +55,7 @@ static SporeVec3 origin(const SporeWorld *world, const SporeBody *body) {
 }
 
 static void add_reaction(SporeWorld *world, uint32_t index, SporeVec3 point, SporeVec3 force) {
+  assert(index == SPORE_NO_BODY || index < world->body_count);
   if (index == SPORE_NO_BODY || world->bodies[index].sleep.asleep) return;
   SporeVec3 arm = spore_vec3_sub(point, origin(world, &world->bodies[index]));
   spore_vec3_accumulate(world->state.reaction + 6 * (size_t)index, force);
@@ -58,6 +63,8 @@ static void add_reaction(SporeWorld *world, uint32_t index, SporeVec3 point, Spo
 }
 
 void spore_world_add_reactions(SporeWorld *world) {
+  assert(world->state.reaction);
+  assert(world->contact.count <= world->contact.capacity);
   /* What sleeps is held as it was when it fell asleep. */
   for (size_t b = 0; b < world->body_count; b++)
     if (!world->bodies[b].sleep.asleep) memset(world->state.reaction + 6 * b, 0, 6 * sizeof *world->state.reaction);

@@ -1,3 +1,5 @@
+#include <assert.h>
+
 #include "core/sim/contact/contact_lanes.h"
 
 #include "core/math/simd_matrix.h"
@@ -113,6 +115,7 @@ SPORE_INLINE SporeVd3 hold(SporeContactLanes *lanes, int k, SporeVd3 n, SporeVd3
 }
 
 SPORE_INLINE void evaluate(SporeContactLanes *lanes, int k, const double *at, const double *v, double elapsed_s) {
+  assert(k + SPORE_WIDTH <= SPORE_LANES);
   SporeVd3 n = load(&lanes->normal, k), driven = load(&lanes->driven, k);
   EndState a = end_state(lanes, &lanes->a, k, at, v), b = end_state(lanes, &lanes->b, k, at, v);
   SporeVd3 own = spore_vd3_sub(a.velocity, b.velocity), velocity = spore_vd3_add(own, driven);
@@ -141,5 +144,7 @@ SPORE_INLINE void evaluate(SporeContactLanes *lanes, int k, const double *at, co
 
 void SPORE_LEVEL_NAME(spore_contact_lanes_force)(SporeContactLanes *lanes, const double *at, const double *v,
                                                  double elapsed_s) {
+  assert(lanes->kind != SPORE_LANES_APART);
+  assert(lanes->count <= SPORE_LANES);
   for (int k = 0; k < SPORE_LANES; k += SPORE_WIDTH) evaluate(lanes, k, at, v, elapsed_s);
 }

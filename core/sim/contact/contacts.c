@@ -1,4 +1,5 @@
 /* Spheres from the state, contacts from the spheres, terms from the contacts. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,6 +9,8 @@
 
 /* An active body's spheres have the velocity that takes them to its target in one step. */
 static void map_active(SporeWorld *world, const SporeBody *body, double *centre, double *velocity) {
+  assert(body->role == SPORE_ACTIVE);
+  assert(world->solver.time_step > 0);
   spore_mapping_positions(&body->collision.spheres, world->state.target_q + body->q_offset, velocity);
   double rate = 1 / world->solver.time_step;
   for (size_t k = 0; k < 3 * body->collision.spheres.point_count; k++) velocity[k] = (velocity[k] - centre[k]) * rate;
@@ -19,6 +22,7 @@ void spore_world_map_spheres(SporeWorld *world) {
     if (body->role == SPORE_UNMOVABLE || body->collision.spheres.point_count == 0 ||
         body->changed <= world->contact.mapped)
       continue;
+    assert(body->collision.start + body->collision.spheres.point_count <= world->contact.spheres.count);
     const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
     double *centre = world->contact.spheres.centre + 3 * body->collision.start;
     double *velocity = world->contact.spheres.velocity + 3 * body->collision.start;
@@ -30,6 +34,7 @@ void spore_world_map_spheres(SporeWorld *world) {
 }
 
 bool spore_world_reserve_contacts(SporeWorld *world) {
+  assert(world->contact.grid);
   size_t old = world->contact.capacity, wanted = spore_grid_capacity(world->contact.grid) + world->contact.missed;
   if (world->contact.missed) wanted += wanted / 2;
   if (world->contact.missed && !spore_grid_reserve(world->contact.grid, wanted)) return false;
@@ -54,6 +59,8 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
 }
 
 bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphereSet *set, SporeError *error) {
+  assert(index < world->body_count);
+  assert(!set || set->count == 0 || set->spheres);
   SporeBody *body = &world->bodies[index];
   size_t count = set ? set->count : 0;
   double *points = SPORE_NEW_ARRAY(double, 3 * count);
@@ -69,6 +76,7 @@ bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphere
 }
 
 static void find_contacts(SporeWorld *world) {
+  assert(world->contact.reach);
   SporeSpheres reaching = world->contact.spheres;
   reaching.radius = world->contact.reach;
   world->contact.count =
@@ -78,6 +86,7 @@ static void find_contacts(SporeWorld *world) {
 /* A contact without room would be a body that falls through another, and a run that cannot be repeated: room is made at
  * once. It is the one place where a step may allocate, and since room only grows, seldom. */
 void spore_world_detect(SporeWorld *world) {
+  assert(world->contact.grid);
   find_contacts(world);
   while (world->contact.missed && spore_world_reserve_contacts(world)) find_contacts(world);
   if (!world->contact.missed) return;
@@ -91,6 +100,8 @@ void spore_world_detect(SporeWorld *world) {
 }
 
 void spore_world_fill_end(const SporeWorld *world, SporeEnd *end) {
+  assert(end->body == SPORE_NO_BODY || end->body < world->body_count);
+  assert(end->mapping && end->point < end->mapping->point_count);
   const SporeVec3 none = {0, 0, 0};
   end->velocity = end->offset = none;
   end->prescribed = end->body == SPORE_NO_BODY || !spore_body_moves(&world->bodies[end->body]);
@@ -107,6 +118,7 @@ void spore_world_fill_end(const SporeWorld *world, SporeEnd *end) {
 }
 
 static void fill_sphere_end(const SporeWorld *world, uint32_t sphere, SporeEnd *end) {
+  assert(sphere < world->contact.spheres.count);
   const SporeVec3 none = {0, 0, 0};
   uint32_t index = world->contact.spheres.body[sphere];
   const SporeBody *body = &world->bodies[index];
@@ -135,6 +147,7 @@ static SporeVec3 frame_arm(const SporeWorld *world, const SporeEnd *end, SporeVe
 
 /* From the spheres' centres to the contact point, in the middle of the depth. */
 static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
+  assert(term->sphere_a < world->contact.spheres.count && term->sphere_b < world->contact.spheres.count);
   double radius_a = world->contact.spheres.radius[term->sphere_a],
          radius_b = world->contact.spheres.radius[term->sphere_b];
   SporeVec3 apart = spore_vec3_sub(term->b.position, term->a.position);
@@ -150,6 +163,7 @@ static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
  * that. */
 static void turn_driven_end(const SporeWorld *world, SporeEnd *end, SporeVec3 frame_arm, SporeVec3 arm, bool field,
                             SporeVec3 normal) {
+  assert(end->body < world->body_count);
   const SporeBody *body = &world->bodies[end->body];
   if (body->role != SPORE_ACTIVE || end->mapping->kind != SPORE_MAPPING_RIGID) return;
   SporeQuat target = spore_quat_load(world->state.target_q + body->q_offset + 3);
@@ -160,6 +174,7 @@ static void turn_driven_end(const SporeWorld *world, SporeEnd *end, SporeVec3 fr
 }
 
 static void fill_term(const SporeWorld *world, const SporeManifoldContact *felt, SporeContactTerm *term) {
+  assert(felt->contact.a != felt->contact.b);
   const SporeContact *contact = &felt->contact;
   fill_sphere_end(world, contact->a, &term->a);
   fill_sphere_end(world, contact->b, &term->b);
@@ -185,6 +200,7 @@ static void fill_term(const SporeWorld *world, const SporeManifoldContact *felt,
 
 void spore_world_respond(SporeWorld *world) {
   world->contact.count = spore_world_find_manifold(world);
+  assert(world->contact.count <= world->contact.capacity);
   for (size_t i = 0; i < world->contact.count; i++)
     fill_term(world, &world->contact.manifold[i], &world->contact.terms[i]);
   spore_world_restore_friction(world);

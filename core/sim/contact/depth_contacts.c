@@ -3,6 +3,7 @@
  * with each of the sides. Of two such bodies the one of the larger spheres is felt so, by the spheres of the other,
  * which lie closer to its true surface; of equals the first. A sphere that the body may lie flat on meets its spheres
  * one by one: one contact would not hold it. */
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -35,6 +36,7 @@ static bool wants_field(const SporeBody *body) {
 
 /* points: centres, `stride` numbers each. */
 static bool make_field(SporeDepthField *field, const double *points, size_t stride, const SporeSphereSet *set) {
+  assert(set && stride >= 3);
   double *centre = SPORE_NEW_ARRAY(double, 3 * set->count), *radius = SPORE_NEW_ARRAY(double, set->count);
   bool made = centre && radius;
   for (size_t i = 0; made && i < set->count; i++) {
@@ -48,6 +50,7 @@ static bool make_field(SporeDepthField *field, const double *points, size_t stri
 }
 
 bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t stride) {
+  assert(set && radius && stride > 0);
   SporeDepthField field = {0};
   for (size_t i = 0; i < set->count; i++) radius[stride * i] = set->spheres[4 * i + 3];
   if (!set->weights) return true;
@@ -58,6 +61,7 @@ bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t strid
 }
 
 bool spore_world_create_fields(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  assert(description->body_count == world->body_count);
   const SporeSpheres *spheres = &world->contact.spheres;
   world->contact.reach = SPORE_NEW_ARRAY(double, spheres->count);
   bool made = world->contact.reach;
@@ -86,7 +90,9 @@ static bool is_fast(const SporeWorld *world, const SporeContact *contact) {
 /* Depth and normal from the field of the body that `owner` belongs to, for the ball `probe`; false where they stay
  * apart in this step. The contact's normal points from b to a, the field's out of the body. */
 static bool feel(const SporeWorld *world, uint32_t owner, uint32_t probe, SporeContact *contact) {
+  assert(owner < world->contact.spheres.count && probe < world->contact.spheres.count);
   const SporeBody *body = &world->bodies[world->contact.spheres.body[owner]];
+  assert(has_field(body));
   const double *q = world->state.q + body->q_offset;
   bool turned = body->collision.spheres.kind == SPORE_MAPPING_RIGID;
   SporePose pose = {turned ? spore_vec3_load(q) : spore_vec3(0, 0, 0),
@@ -123,13 +129,16 @@ static bool seen(const SporeVec3 *sides, size_t count, SporeVec3 normal) {
 
 /* Of a sphere of a body with a field; what is felt of it alone is no larger. */
 static double full_radius(const SporeWorld *world, uint32_t sphere) {
+  assert(sphere < world->contact.spheres.count);
   const SporeBody *body = &world->bodies[world->contact.spheres.body[sphere]];
+  assert(sphere >= body->collision.start && sphere - body->collision.start < body->collision.field.count);
   return body->collision.field.ball[4 * (sphere - body->collision.start) + 3];
 }
 
 /* The deepest pair on a side that was not looked at yet; `count` where there is none. */
 static size_t next_place(const SporeWorld *world, const SporeManifoldContact *pairs, size_t count, bool owner_is_a,
                          const SporeVec3 *looked, size_t looked_count) {
+  assert(pairs && count > 0);
   size_t deepest = count;
   double most = -HUGE_VAL;
   for (size_t i = 0; i < count; i++) {
@@ -176,6 +185,7 @@ static bool meets_spheres(const SporeWorld *world, const SporeContact *nearest, 
  * many. `to` may be `pairs`. */
 static size_t merge(const SporeWorld *world, const SporeManifoldContact *pairs, size_t count, bool owner_is_a,
                     SporeManifoldContact *to) {
+  assert(count > 0 && to);
   SporeManifoldContact made[PLACES];
   SporeVec3 looked[2 * PLACES], sides[PLACES];
   size_t looked_count = 0, made_count = 0;
@@ -220,6 +230,7 @@ static bool pair_before(const SporeManifoldContact *a, const SporeManifoldContac
 
 /* Of a sphere of a body without a field. */
 static double margin_of(const SporeWorld *world, uint32_t sphere) {
+  assert(sphere < world->contact.spheres.count);
   return world->contact.reach[sphere] - world->contact.spheres.radius[sphere];
 }
 
@@ -238,8 +249,10 @@ static size_t feel_sphere(const SporeWorld *world, SporeManifoldContact *felt, s
 /* What comes of all pairs of a body with a field that lie in its spheres a, in place: first those that feel it as one,
  * probe by probe, then others. */
 static size_t feel_body(const SporeWorld *world, const SporeContact *found, SporeManifoldContact *felt, size_t count) {
+  assert(count > 0 && found && felt);
   const uint32_t *body = world->contact.spheres.body;
   const SporeBody *a = &world->bodies[body[found->a]];
+  assert(has_field(a));
   size_t own = 0, made = 0;
   for (size_t i = 0; i < count; i++)
     if (felt_as_one(a, &world->bodies[body[found[i].b]], true)) felt[own++].contact = found[i];
@@ -260,6 +273,8 @@ static size_t feel_body(const SporeWorld *world, const SporeContact *found, Spor
 }
 
 size_t spore_world_find_manifold(SporeWorld *world) {
+  assert(world->contact.count == 0 || world->contact.grid);
+  assert(world->contact.count <= world->contact.capacity);
   const SporeContact *found = spore_grid_contacts(world->contact.grid);
   const uint32_t *body = world->contact.spheres.body;
   size_t made = 0;

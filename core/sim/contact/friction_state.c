@@ -1,4 +1,6 @@
 /* What friction holds from one step to the next: how far the spring of each pair of spheres is stretched. */
+#include <assert.h>
+
 #include "core/base/memory.h"
 #include "core/sim/world_private.h"
 
@@ -12,6 +14,7 @@ static uint64_t pair_of(uint32_t sphere_a, uint32_t sphere_b) { return (uint64_t
 static uint64_t pair_of_grip(const SporeFrictionState *grip) { return pair_of(grip->sphere_a, grip->sphere_b); }
 
 bool spore_friction_reserve(SporeWorld *world, size_t old_contacts, size_t contacts) {
+  assert(contacts >= old_contacts);
   size_t old = GRIPS_PER_CONTACT * old_contacts, wanted = GRIPS_PER_CONTACT * contacts;
   SporeFrictionState *grips = spore_reallocate(world->contact.friction, old, wanted, sizeof *grips);
   if (grips) world->contact.friction = grips;
@@ -21,6 +24,7 @@ bool spore_friction_reserve(SporeWorld *world, size_t old_contacts, size_t conta
 }
 
 static bool sleeps(const SporeWorld *world, const SporeFrictionState *grip) {
+  assert(grip->sphere_a < world->contact.spheres.count && grip->sphere_b < world->contact.spheres.count);
   const uint32_t *body = world->contact.spheres.body;
   return world->bodies[body[grip->sphere_a]].sleep.asleep || world->bodies[body[grip->sphere_b]].sleep.asleep;
 }
@@ -32,6 +36,7 @@ static void keep(SporeWorld *world, size_t *count, SporeFrictionState grip) {
 
 /* Contacts, and grips, are in the order of their pairs. */
 void spore_world_keep_friction(SporeWorld *world) {
+  assert(world->contact.friction_count <= GRIPS_PER_CONTACT * world->contact.capacity);
   size_t count = 0, old = 0, old_count = world->contact.friction_count;
   for (size_t i = 0; i < world->contact.count; i++) {
     const SporeContactTerm *term = &world->contact.terms[i];
@@ -68,6 +73,7 @@ static const SporeFrictionState *grip_of(const SporeWorld *world, size_t first, 
 }
 
 void spore_world_restore_friction(SporeWorld *world) {
+  assert(world->contact.count <= world->contact.capacity);
   size_t next = 0;
   for (size_t i = 0; i < world->contact.count; i++) {
     SporeContactTerm *term = &world->contact.terms[i];

@@ -3,6 +3,7 @@
  *   1 / (1 + L) of k depth,   L = w (h d + h t k)
  * since the ends do not know that their neighbours push back as well, and a pile sinks in until that holds. For light
  * particles it is most often the damping d that takes it: the usual one is large beside that of their oscillation. */
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -16,12 +17,14 @@
 #define SINKING 0.25    /* of their radius, that particles may sink in */
 
 static double share_held(double h, double w, const SporeContactLaw *law) {
+  assert(h > 0 && w >= 0);
   SporeSoftening softening = spore_softening(h, w, law->stiffness);
   return 1 / (1 + w * h * (law->damping + softening.ahead * law->stiffness));
 }
 
 /* Of a step of time_step seconds; more than SPORE_SUBSTEPS_MAXIMUM: too many. */
 static size_t substeps_to_hold(double time_step, double w, const SporeContactLaw *law) {
+  assert(time_step > 0);
   size_t substeps = 1;
   while (substeps <= SPORE_SUBSTEPS_MAXIMUM && share_held(time_step / (double)substeps, w, law) < GOOD_SHARE)
     substeps++;
@@ -30,6 +33,7 @@ static size_t substeps_to_hold(double time_step, double w, const SporeContactLaw
 
 /* Damping with which a step of h seconds leaves the good share; 0: none does. */
 static double damping_to_hold(double h, double w, const SporeContactLaw *law) {
+  assert(h > 0 && w >= 0);
   SporeSoftening softening = spore_softening(h, w, law->stiffness);
   return fmax((1 / GOOD_SHARE - 1) / (w * h) - softening.ahead * law->stiffness, 0);
 }
@@ -50,6 +54,7 @@ static SporePileLimit limit_of(double time_step, double h, double w, const Spore
 }
 
 void spore_pile_remedy(const SporePileLimit *limit, char *text, size_t size) {
+  assert(limit && text && size > 0);
   char substeps[64] = "", damping[64] = "";
   if (limit->substeps <= SPORE_SUBSTEPS_MAXIMUM)
     snprintf(substeps, sizeof substeps, _("%zu substeps, "), limit->substeps);
@@ -76,6 +81,7 @@ static void report(SporeWorld *world, const SporeBody *body, const SporeContactT
 
 /* A body is watched from the first of the steps in a row that it has such a contact in. */
 static bool watch_body(SporeWorld *world, const SporeEnd *end, const SporeContactTerm *term) {
+  assert(end->prescribed || end->body < world->body_count);
   if (end->prescribed) return false;
   SporeBody *body = &world->bodies[end->body];
   if (body->collision.soft_last + 1 < world->state.step + 1) body->collision.soft_since = world->state.step + 1;
@@ -88,6 +94,7 @@ static bool watch_body(SporeWorld *world, const SporeEnd *end, const SporeContac
 }
 
 static void watch_island(SporeWorld *world, const SporeIsland *island) {
+  assert(island->contact_start + island->contact_count <= world->contact.count);
   for (size_t i = 0; i < island->contact_count; i++) {
     const SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
     if (!softened_at_rest(world, term)) continue;
@@ -103,6 +110,7 @@ void spore_world_watch_contacts(SporeWorld *world) {
 
 /* Of the body's lightest end in a contact with its like. */
 static double pile_inverse_mass(const SporeWorld *world, const SporeBody *body) {
+  assert(spore_model_is_rigid(body->model));
   const double *inverse = world->state.mass_inverse + 3 * body->v_offset;
   double w = inverse[0];
   if (body->collision.fields.friction > 0) {
@@ -128,6 +136,7 @@ static bool may_be_piled(const SporeWorld *world, const SporeBody *body) {
 
 /* Particles, whose own forces bear those above: each as deep as the column on it presses it into what holds it. */
 static bool particles_sink(const SporeWorld *world, const SporeBody *body, double share) {
+  assert(body->collision.spheres.point_count > 0);
   double count = (double)body->collision.spheres.point_count, radius = HUGE_VAL;
   for (size_t i = 0; i < body->collision.spheres.point_count; i++)
     radius = fmin(radius, world->contact.spheres.radius[body->collision.start + i]);
@@ -136,7 +145,10 @@ static bool particles_sink(const SporeWorld *world, const SporeBody *body, doubl
 }
 
 bool spore_world_pile_sinks(const SporeWorld *world, uint32_t index, SporePileLimit *limit) {
+  assert(index < world->body_count);
+  assert(limit);
   const SporeBody *body = &world->bodies[index];
+  assert(body->method.substeps >= 1);
   bool particles = is_of_particles(body);
   if (!(particles || may_be_piled(world, body)) || spore_integrator(body->method.integrator)->implicit) return false;
   SporeContactMaterial its = {body->collision.fields.stiffness, body->collision.fields.damping,

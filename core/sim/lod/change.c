@@ -4,6 +4,7 @@
  * Positions and velocities follow material points (fit.c). Linear and angular momentum of a free body are kept,
  * and kinetic energy is taken from what moves besides them where the internal energy grew. Links and pulls hold on to
  * the same points, jaws and friction to the same spheres. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,6 +17,7 @@
 
 /* A needle leads the body, or goes through it: those ends are of one level alone. Jaws hold spheres. */
 static bool is_sewn(const SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   const SporeMapping *spheres = &world->bodies[index].collision.spheres;
   for (size_t i = 0; i < world->tools.count; i++)
     for (int part = 1; part < SPORE_TOOL_BODIES; part++)
@@ -28,6 +30,8 @@ static bool is_sewn(const SporeWorld *world, uint32_t index) {
 }
 
 static const char *fault_of(const SporeWorld *world, uint32_t index, SporeLevelGrade level) {
+  assert(index < world->body_count);
+  assert((unsigned)level < SPORE_LEVEL_COUNT);
   const SporeBody *body = &world->bodies[index];
   if (!body->levels || !body->levels->level[level].model) return _("it has no such level; add one to its fidelity");
   if (body->frozen) return _("it is frozen; thaw it first");
@@ -46,6 +50,7 @@ static double momentum_missed(const SporeModel *from, const double *q, const dou
                               const double *q1, const double *v1) {
   SporeMotion before = spore_model_motion(from, q, v, NULL);
   SporeMotion after = spore_model_motion(to, q1, v1, &before.centre);
+  assert(before.mass > 0 && after.mass > 0);
   double extent = sqrt(spore_mat3_trace(after.inertia) / after.mass);
   return fmax(spore_vec3_distance(before.momentum, after.momentum),
               spore_vec3_distance(before.angular, after.angular) / extent);
@@ -53,6 +58,7 @@ static double momentum_missed(const SporeModel *from, const double *q, const dou
 
 /* What the candidate has of energy, kinetic and internal, above what the body has. */
 static double energy_gained(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to) {
+  assert(body->levels && body->levels->level[to].model);
   const SporeLevels *levels = body->levels;
   return own_energy(levels->level[to].model, levels->q, levels->v) -
          own_energy(body->model, world->state.q + body->q_offset, world->state.v + body->v_offset);
@@ -73,6 +79,7 @@ static void note_change(const SporeWorld *world, const SporeBody *body, SporeLev
 }
 
 static void accept(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  assert(world->bodies[index].level != to);
   SporeBody *body = &world->bodies[index];
   SporeVec3 pulled;
   bool pull = spore_world_pulled_point(world, index, &pulled);
@@ -94,6 +101,7 @@ static void accept(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
 }
 
 static void refuse(SporeWorld *world, SporeBody *body, SporeLevelGrade to, const char *reason) {
+  assert(reason);
   if (body->levels) body->levels->state.refused++;
   spore_world_report(world, _("%s: does not change to level %s: %s"), body->name, spore_level_names[to], reason);
 }
@@ -120,6 +128,8 @@ static bool refuses(const SporeWorld *world, const SporeBody *body, SporeLevelGr
 }
 
 void spore_world_change_level(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  assert(index < world->body_count);
+  assert((unsigned)to < SPORE_LEVEL_COUNT);
   SporeBody *body = &world->bodies[index];
   if (body->level == to) return;
   const char *fault = fault_of(world, index, to);
@@ -139,8 +149,11 @@ void spore_world_change_level(SporeWorld *world, uint32_t index, SporeLevelGrade
 }
 
 void spore_world_set_level(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  assert(index < world->body_count);
+  assert((unsigned)to < SPORE_LEVEL_COUNT);
   SporeBody *body = &world->bodies[index];
   if (!body->levels || body->level == to) return;
+  assert(body->levels->level[to].model);
   spore_world_wake(world, index);
   spore_world_exchange_level(world, index, to);
   body->levels->state.level = to;
@@ -148,6 +161,8 @@ void spore_world_set_level(SporeWorld *world, uint32_t index, SporeLevelGrade to
 }
 
 void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, const double *v) {
+  assert(index < world->body_count);
+  assert(q && v);
   SporeBody *body = &world->bodies[index];
   spore_world_wake_all(world);
   memcpy(world->state.next_q + body->q_offset, q, body->q_count * sizeof *q);

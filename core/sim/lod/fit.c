@@ -4,6 +4,7 @@
  * node has moved with the point next to it. What one level can do and another as well comes through to rounding: a
  * spline among more control points, whose knots are among them. Pinned nodes stay at their places of time 0, and a
  * frame is one and the same thing at each level. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/constraint/pin.h"
@@ -27,6 +28,7 @@ static void filter(const Fit *fit, double *x) {
 
 /* r = W^T w (target - W x); target NULL: 0, and the sign turned: r = W^T w W x. */
 static void residual(const Fit *fit, const double *target, const double *x, double *r) {
+  assert(fit->level->samples.point_count == fit->levels->sample_count);
   const SporeLevels *levels = fit->levels;
   double *at = levels->after;
   spore_mapping_positions(&fit->level->samples, x, at);
@@ -51,6 +53,7 @@ static double dot(const double *a, const double *b, size_t count) {
 }
 
 static void solve(const Fit *fit, const double *target, double *x) {
+  assert(3 * fit->level->model->block_count <= fit->levels->v_room);
   size_t n = 3 * fit->level->model->block_count, room = fit->levels->v_room;
   double *r = fit->levels->work, *z = r + room, *p = z + room, *ap = p + room;
   residual(fit, target, x, r);
@@ -71,6 +74,7 @@ static void solve(const Fit *fit, const double *target, double *x) {
 
 /* Nodes as far from where they were at time 0 as the sample next to them. */
 static void begin(const Fit *fit, double *q) {
+  assert(fit->level->model->q_count <= fit->levels->q_room);
   const SporeLevel *level = fit->level;
   double *rest = fit->levels->after;
   memcpy(q, level->rest_q, level->model->q_count * sizeof *q);
@@ -87,6 +91,7 @@ static void begin(const Fit *fit, double *q) {
 /* The frame of `from` by that of `to`: each stood somewhere in the body at time 0, and stands there still. */
 static void place_frame(const SporeModel *from, const double *from_rest, const double *q, const double *v,
                         const SporeModel *to, const double *to_rest, double *q1, double *v1) {
+  assert(!spore_model_is_nodal(from) && !spore_model_is_nodal(to));
   size_t a = 3 * (from->node_count - 1), b = 3 * (to->node_count - 1);
   SporeQuat turn =
       spore_quat_multiply(spore_quat_load(q + a + 3), spore_quat_conjugate(spore_quat_load(from_rest + a + 3)));
@@ -114,6 +119,8 @@ static void keep_motion(const SporeModel *from, const double *q, const double *v
 }
 
 void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to) {
+  assert(body->levels && body->level != to);
+  assert(body->levels->level[to].model);
   const SporeLevels *levels = body->levels;
   const SporeLevel *from = &levels->level[body->level], *level = &levels->level[to];
   const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
@@ -135,6 +142,7 @@ void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelG
 
 /* Of `count` samples from the start on. */
 static double distance_of(const SporeLevels *levels, size_t start, size_t count) {
+  assert(start + count <= levels->sample_count);
   double worst = 0;
   for (size_t s = start; s < start + count; s++) {
     double apart = spore_vec3_distance(spore_vec3_load(levels->before + 3 * s), spore_vec3_load(levels->after + 3 * s));
@@ -145,6 +153,7 @@ static double distance_of(const SporeLevels *levels, size_t start, size_t count)
 }
 
 double spore_level_error(const SporeLevels *levels, SporeLevelGrade to) {
+  assert(levels->level[to].model);
   double worst = 0;
   size_t own = 0;
   spore_mapping_positions(&levels->level[to].samples, levels->q, levels->after);

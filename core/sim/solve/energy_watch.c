@@ -7,6 +7,8 @@
  * 2) / (1 - h w / 2), 14 at most where h w < 1.73 (Hairer, Lubich and Wanner, Acta Numerica 12, 2003, section 1: the
  * modified energy of Stoermer and Verlet). Rigid bodies are not watched: nothing in them is stiff, and contacts are
  * softened for explicit steps. */
+#include <assert.h>
+
 #include "core/sim/world_private.h"
 
 #define GROWTH 20.
@@ -16,11 +18,13 @@
 
 /* A model with a Jacobian is elastic: its potential is least, 0, at rest. */
 static bool is_watched(const SporeBody *body) {
+  assert(body->model);
   return body->model->type->jacobian && spore_integrator(body->method.integrator)->damping < SPORE_DAMPING_FULL;
 }
 
 /* What an end's force of this step gave to the body it hangs on, or took. */
 static void add_work(SporeWorld *world, const SporeIsland *island, const SporeEnd *end, SporeVec3 force) {
+  assert(end->prescribed || end->body < world->body_count);
   if (end->prescribed) return;
   SporeBody *body = &world->bodies[end->body];
   if (!is_watched(body)) return;
@@ -30,6 +34,7 @@ static void add_work(SporeWorld *world, const SporeIsland *island, const SporeEn
 }
 
 static void add_works(SporeWorld *world, const SporeIsland *island) {
+  assert(island->contact_start + island->contact_count <= world->contact.count);
   for (size_t i = 0; i < island->contact_count; i++) {
     const SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
     add_work(world, island, &term->a, term->force);
@@ -56,6 +61,7 @@ static double noise(const SporeWorld *world, const SporeBody *body) {
 
 /* Often at first, for what was changed may go wrong at once: after 1, 2, 4, 8, ... steps. */
 static bool is_time_to_look(uint32_t steps, uint32_t between) {
+  assert(steps >= 1 && between >= 1);
   return steps < between ? (steps & (steps - 1)) == 0 : steps % between == 0;
 }
 
@@ -72,6 +78,7 @@ static void start(const SporeWorld *world, SporeBody *body) {
 }
 
 static bool holds(const SporeWorld *world, SporeBody *body, const double *q, const double *v) {
+  assert(body->watch.started);
   SporeEnergyWatch *watch = &body->watch;
   if (!is_time_to_look(++watch->steps, steps_between(body))) return true;
   double had = watch->own + watch->given + fmax(watch->height - spore_body_gravity_energy(world, body, q), 0);
@@ -80,6 +87,8 @@ static bool holds(const SporeWorld *world, SporeBody *body, const double *q, con
 }
 
 bool spore_island_energy_holds(SporeWorld *world, SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   bool watched = false;
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];

@@ -1,4 +1,5 @@
 /* Integrates the islands, each on its own and on any thread. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -7,6 +8,7 @@
 /* Of the next part, leaving one for each of those behind it. */
 static void limit_iterations(const SporeEffort *effort, size_t behind, const SporeSolverFields *solver,
                              SporeSolverFields *fields) {
+  assert(solver->newton_iterations >= 1);
   int64_t left = effort->iterations > behind ? (int64_t)(effort->iterations - behind) : 1;
   fields->newton_iterations = left < solver->newton_iterations ? left : solver->newton_iterations;
 }
@@ -22,6 +24,7 @@ static bool go_on(SporeEffort *effort, const SporeStepResult *result) {
 /* How fast a body by the static method seems to be is how far its balance was: where another method stands in, it
  * starts from rest. */
 static const double *start_velocity(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind) {
+  assert(island->v_start + island->v_count <= world->state.v_count);
   const double *v0 = island->v0;
   for (size_t i = 0; kind != island->integrator && i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
@@ -35,6 +38,8 @@ static const double *start_velocity(SporeWorld *world, const SporeIsland *island
 
 SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps,
                                      SporeEffort *effort) {
+  assert(substeps >= 1 && island->kept_count >= 1);
+  assert(island->q0 && island->v0 && island->q1 && island->v1);
   SporeIslandSystem system = {
       .world = world, .island = island, .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
   SporeDynamics dynamics = spore_island_system_dynamics(&system);
@@ -78,6 +83,7 @@ static bool has_particles(const SporeWorld *world, const SporeIsland *island) {
  * press, only the step's end tells: an explicit method evaluates forces where the bodies are still apart or already
  * past each other, or softens all of them alike, and would let them go through. */
 static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
+  assert(island->contact_start + island->contact_count <= world->contact.count);
   for (size_t i = 0; i < island->contact_count; i++)
     if (spore_contact_term_meets(&world->contact.terms[world->contact.order[island->contact_start + i]])) return true;
   return false;
@@ -87,6 +93,7 @@ static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
  * damped enough throw bodies out faster than they came. Implicit Euler meets it in their place, unless the method looks
  * after its error. */
 static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) {
+  assert(island->substeps >= 1);
   const SporeIntegrator *integrator = spore_integrator(island->integrator);
   if (!integrator->implicit)
     return meets_in_step(world, island) && !has_particles(world, island) ? SPORE_INTEGRATOR_IMPLICIT_EULER
@@ -127,6 +134,7 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
 }
 
 static void integrate_island(void *data, size_t index) {
+  assert(index < ((SporeWorld *)data)->solve.island_count);
   SporeWorld *world = data;
   SporeIsland *island = &world->solve.islands[index];
   spore_island_gather(world, island);
@@ -159,6 +167,7 @@ static size_t count_work(const SporeWorld *world) {
 }
 
 void spore_world_integrate(SporeWorld *world) {
+  assert(world->solve.island_count <= world->body_count);
   spore_pool_run(spore_pool_for(world->pool, count_work(world)), world->solve.island_count, integrate_island, world);
   SporeStepCounts *counts = &world->state.counts;
   *counts = (SporeStepCounts){.islands = world->solve.island_count, .sleeping = world->solve.sleeping_count};

@@ -2,6 +2,7 @@
 #ifndef SPORE_SIM_GROUP_H
 #define SPORE_SIM_GROUP_H
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -35,18 +36,24 @@ void spore_island_system_keep_contacts(const SporeIslandSystem *system);
 
 /* The i-th body of the island, and where its part begins in the local vectors. */
 static inline SporeBody *spore_island_system_body(const SporeIslandSystem *system, size_t i, const SporeSite **site) {
+  assert(i < system->island->body_count);
   uint32_t index = system->world->solve.island_bodies[system->island->body_start + i];
+  assert(index < system->world->body_count);
   *site = &system->world->solve.local_sites[index];
   return &system->world->bodies[index];
 }
 
 static inline SporeContactTerm *spore_island_system_contact(const SporeIslandSystem *system, size_t i) {
+  assert(i < system->island->contact_count);
   uint32_t index = system->world->contact.order[system->island->contact_start + i];
+  assert(index < system->world->contact.count);
   return &system->world->contact.terms[index];
 }
 
 static inline SporeSpringTerm *spore_island_system_spring(const SporeIslandSystem *system, size_t i) {
+  assert(i < system->island->spring_count);
   uint32_t index = system->world->links.order[system->island->spring_start + i];
+  assert(index < spore_world_spring_count(system->world));
   return &system->world->links.springs[index];
 }
 

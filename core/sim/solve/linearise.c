@@ -1,5 +1,6 @@
 /* The matrix A = M + c D + c2 K of an island: the models' block by block, terms matrix-free on top, and what
  * preconditions it. */
+#include <assert.h>
 #include <float.h>
 #include <string.h>
 
@@ -18,6 +19,7 @@ static SporeCoupling *spring_couplings(const SporeIslandSystem *system) {
 /* Folded into the matrix of `body`, if any, with the rest of the term. */
 static void bend_curve_joint(const SporeIslandSystem *system, SporeSpringTerm *term, const double *q, double c2,
                              uint32_t body) {
+  assert(term->curve && (body == SPORE_NO_BODY || body < system->world->body_count));
   spore_curve_joint_bend(term, system->world->solve.local_sites, q, c2);
   term->curve->bend.folded = body != SPORE_NO_BODY && term->curve->bend.turn > 0;
   if (term->curve->bend.folded) spore_body_assemble_bend(&system->world->bodies[body], &term->curve->bend);
@@ -61,6 +63,7 @@ static void linearise_terms(SporeIslandSystem *system, const double *q, const do
 
 /* Diagonal blocks of the models' part of A; M alone where there is no matrix. */
 static void body_diagonal(const SporeIslandSystem *system, const SporeBody *body, double *blocks) {
+  assert(body->block_count == body->model->block_count);
   if (!spore_island_system_assembles(system, body)) {
     const double *mass = spore_island_system_mass(system, body);
     for (size_t e = 0; e < 9 * body->block_count; e++) blocks[e] = spore_island_system_inertia(system, body) * mass[e];
@@ -74,6 +77,7 @@ static void body_diagonal(const SporeIslandSystem *system, const SporeBody *body
 /* The body's own matrix with the diagonal blocks of the terms; where it is not positive definite in floating point,
  * block-Jacobi stands in. */
 static void factorise(SporeBody *body, const double *blocks, bool alone) {
+  assert(body->preconditioner.matrix.block_count == body->block_count);
   bool may_round = body->preconditioner.factor.solve_flops > FLOPS_TO_ROUND;
   body->preconditioner.factor_alone = alone;
   body->preconditioner.factor_ready = spore_block_cholesky_factorise(
@@ -91,6 +95,7 @@ static double stiffness_of(const double *block, const double *mass) {
 
 /* And along its soft axes, from the inverse of A's. */
 static double softest_stiffness(const double *inverse, double weight) {
+  assert(weight > 0);
   double flexible = (inverse[0] + inverse[4] + inverse[8]) / 3;
   return fmax(1 / flexible - 1 / weight, 0);
 }
@@ -137,6 +142,7 @@ static void make_preconditioner(SporeIslandSystem *system, const double *q) {
 }
 
 static void assemble(const SporeIslandSystem *system, SporeBody *body, const SporeTangent *at, double c, double c2) {
+  assert(body->preconditioner.matrix.block_count == body->block_count && at->q && at->v);
   const SporeModelType *type = body->model->type;
   spore_block_matrix_zero(&body->preconditioner.matrix);
   if (type->tangent) type->tangent(body->model, at, &body->preconditioner.matrix);
@@ -188,6 +194,7 @@ static bool assemble_bodies(const SporeIslandSystem *system, const double *q, co
 
 void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
                                    double c2) {
+  assert(c > 0 && c2 >= 0);
   SporeIslandSystem *system = data;
   assemble_bodies(system, q, from, v, c, c2, true);
   linearise_terms(system, q, v, c, c2, false);
@@ -263,6 +270,7 @@ bool spore_island_system_factorised(void *data) {
 }
 
 void spore_island_system_multiply(void *data, const double *x, double *y) {
+  assert(x != y);
   SporeIslandSystem *system = data;
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
@@ -293,6 +301,7 @@ void spore_island_system_multiply_dragged(void *data, const double *x, double *y
 bool spore_island_system_drags(void *data) { return ((const SporeIslandSystem *)data)->dragging > 0; }
 
 void spore_island_system_precondition(void *data, const double *r, double *z) {
+  assert(r != z);
   SporeIslandSystem *system = data;
   const double *inverse = spore_island_system_precondition_blocks(system);
   for (size_t b = 0; b < system->island->kept_count; b++) {
@@ -307,6 +316,7 @@ void spore_island_system_precondition(void *data, const double *r, double *z) {
 
 /* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness; by the q of the last linearisation. */
 double spore_island_system_rounding(void *data, double c, bool stiff_axes) {
+  assert(c > 0);
   const SporeIslandSystem *system = data;
   double sum = 0;
   for (size_t b = 0; b < system->island->kept_count; b++) {

@@ -15,6 +15,7 @@
  * Where the stage is not solved (friction on nodes that are light without their body's own stiffness), the step is
  * taken whole by implicit Euler: see integrate.c. Static bodies of such an island have next to no inertia and forget
  * their velocity, where pins hold them. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -35,6 +36,7 @@ typedef struct Multirate {
 static bool is_explicit(const SporeBody *body) { return !spore_integrator(body->method.integrator)->implicit; }
 
 static Multirate begin(SporeWorld *world, SporeIsland *island) {
+  assert(world->solver.time_step > 0 && world->solve.scratch_per_block >= spore_multirate_scratch());
   size_t n = island->v_count;
   Multirate multirate = {.world = world, .island = island, .parts = 1};
   for (size_t i = 0; i < island->kept_count; i++) {
@@ -56,6 +58,7 @@ static Multirate begin(SporeWorld *world, SporeIsland *island) {
  * v1, the island's vectors. */
 static void go_alone(const Multirate *multirate, size_t i, const double *given, const double *q0, const double *v0,
                      double *q1, double *v1, SporeStepResult *result) {
+  assert(i < multirate->island->kept_count && multirate->parts >= 1);
   SporeWorld *world = multirate->world;
   uint32_t index = world->solve.island_bodies[multirate->island->body_start + i];
   const SporeBody *body = &world->bodies[index];
@@ -72,6 +75,7 @@ static void go_alone(const Multirate *multirate, size_t i, const double *given, 
   const SporeIntegrator *integrator = spore_integrator(body->method.integrator);
   SporeHistory history = {.a = multirate->memory};
   size_t substeps = (body->method.substeps + multirate->parts - 1) / multirate->parts;
+  assert(substeps >= 1);
   double *q = multirate->scratch, *v = q + 2 * alone.v_count, *scratch = v + alone.v_count;
   world->solve.local_sites[index] = (SporeSite){0, 0};
   memcpy(q1 + site.q, q0 + site.q, body->q_count * sizeof *q1);
@@ -90,6 +94,7 @@ static void go_alone(const Multirate *multirate, size_t i, const double *given, 
 /* Where the stage starts from: so that moving freely with va for h leads to (q*, v*), or for others from (q0, v0). */
 static void place_start(const Multirate *multirate, const double *q0, const double *v0, double *q1, double *v1,
                         SporeStepResult *result) {
+  assert(multirate->h > 0);
   SporeWorld *world = multirate->world;
   for (size_t i = 0; i < multirate->island->kept_count; i++) {
     uint32_t index = world->solve.island_bodies[multirate->island->body_start + i];
@@ -128,6 +133,7 @@ static void go_again(const Multirate *multirate, const double *q0, const double 
 
 static SporeStepResult advance_part(const Multirate *multirate, SporeIslandSystem *system, const double *q0,
                                     const double *v0) {
+  assert(q0 != multirate->island->q1 && v0 != multirate->island->v1);
   SporeIsland *island = multirate->island;
   SporeDynamics dynamics = spore_island_system_dynamics(system);
   double *q1 = island->q1, *v1 = island->v1;
@@ -147,6 +153,8 @@ static SporeStepResult advance_part(const Multirate *multirate, SporeIslandSyste
 }
 
 SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *island) {
+  assert(island->multirate);
+  assert(island->q0 && island->v0 && island->q1 && island->v1);
   Multirate multirate = begin(world, island);
   SporeIslandSystem system = {.world = world, .island = island, .apart = true, .now_s = -1};
   SporeStepResult total = {.converged = true};

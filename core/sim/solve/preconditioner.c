@@ -3,6 +3,7 @@
  * Conjugate gradients with block-Jacobi are cheap where the step is short for the stiffness, and never finish where it
  * is very long. What the last steps cost one way is compared with what they would have cost the other way, counted in
  * floating-point operations and not by a clock, so that every run chooses alike. */
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -29,6 +30,7 @@
 
 /* Of one iteration without its preconditioner: the product, and six vector operations. */
 static double product_work(const SporeBody *body) {
+  assert(body->preconditioner.matrix.block_count > 0);
   return 18. * body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count] +
          36. * (double)body->block_count;
 }
@@ -45,6 +47,7 @@ static double factor_work(const SporeBody *body) { return FACTOR_WEIGHT * body->
 double spore_body_linearisation_work(const SporeBody *body) { return jacobian_work(body) + factor_work(body); }
 
 double spore_body_iteration_work(const SporeBody *body) {
+  assert(body->block_count > 0);
   return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
 }
 
@@ -54,12 +57,14 @@ static SporeFactorLayout layout_of(int linear) {
 }
 
 bool spore_body_create_matrix(SporeBody *body, SporeError *error) {
+  assert(!body->model || body->model->block_count == body->block_count);
   if (!body->model || !body->model->type->jacobian) return true;
   return spore_model_matrix_create(body->model, &body->preconditioner.matrix) ||
          spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
 }
 
 bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeError *error) {
+  assert(body->held.count == 0 || body->held.blocks);
   spore_block_cholesky_clear(&body->preconditioner.factor);
   /* Of a matrix without couplings the diagonal blocks are all. */
   if (body->preconditioner.matrix.block_count == 0 ||
@@ -102,6 +107,7 @@ void spore_body_forget_steps(const SporeWorld *world, SporeBody *body) {
 }
 
 static void change(SporeBody *body, double iterations) {
+  assert(iterations >= 0);
   SporeFactorChoice *choice = &body->preconditioner.choice;
   choice->factorised = !choice->factorised;
   choice->iterations = iterations;
@@ -136,6 +142,7 @@ static double expected_without(const SporeBody *body, const SporeStepResult *res
 /* A linearisation is kept as long as that costs less than a new one. Where keeping it leads to a new one in the middle
  * of a step, it was kept too long; where that does not happen for a while, it may be kept longer. */
 static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepResult *result) {
+  assert(body->preconditioner.matrix_step <= world->state.step);
   SporeFactorChoice *choice = &body->preconditioner.choice;
   SporeStart start = choice->start;
   choice->start = SPORE_START_NONE;
@@ -163,6 +170,7 @@ static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepR
 /* Among couplings Newton makes a new matrix in every iteration, but keeps the factor as long as the conjugate gradients
  * that its age costs are less work than a new one. */
 static void judge_kept_factor(SporeBody *body, const SporeStepResult *result) {
+  assert(body->preconditioner.factor.block_count > 0);
   SporeFactorChoice *choice = &body->preconditioner.choice;
   if (!body->preconditioner.factor_kept || result->newton_iterations == 0) return;
   double iterations = (double)result->newton_iterations, linear = (double)result->linear_iterations / iterations;
@@ -177,6 +185,7 @@ static void judge_kept_factor(SporeBody *body, const SporeStepResult *result) {
 
 /* alone: no contact or link couples bodies, for which a factor would be no start of Broyden's. */
 static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result, bool alone) {
+  assert(body->preconditioner.choice.patience >= 1);
   SporeFactorChoice *choice = &body->preconditioner.choice;
   uint32_t factors = choice->factors;
   choice->factors = 0;
@@ -211,6 +220,8 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
 }
 
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   const SporeStepResult *result = &island->result;
   SporeIslandSystem group = {.world = world, .island = island};
   bool again = false, alone = !spore_island_system_couples(&group);

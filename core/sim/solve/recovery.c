@@ -1,5 +1,6 @@
 /* What to do when a step goes wrong. The last good state is still in the world's q and v: it is stepped again in
  * smaller steps and implicitly; a body that cannot be helped is held where it was good, and the others go on. */
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -28,6 +29,8 @@ static double top_speed(const SporeBody *body, const double *v) {
 }
 
 void spore_island_examine(SporeWorld *world, SporeIsland *island) {
+  assert(island->body_count >= 1);
+  assert(island->body_start + island->body_count <= world->body_count);
   double top = world->solver.maximum_speed;
   island->trouble = island->result.converged ? SPORE_TROUBLE_NONE : SPORE_TROUBLE_NOT_CONVERGED;
   island->offender = world->solve.island_bodies[island->body_start];
@@ -50,6 +53,7 @@ void spore_island_examine(SporeWorld *world, SporeIsland *island) {
 
 /* A body whose own forces are not finite at the last good state, or SPORE_NO_BODY. */
 static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
+  assert(island->v_start + island->v_count <= world->state.v_count);
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
     const SporeBody *body = &world->bodies[b];
@@ -63,6 +67,7 @@ static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
 }
 
 static void prescribe(SporeWorld *world, SporeEnd *end, uint32_t body) {
+  assert(body < world->body_count);
   if (end->body != body) return;
   const SporeVec3 none = {0, 0, 0};
   end->prescribed = true;
@@ -72,12 +77,15 @@ static void prescribe(SporeWorld *world, SporeEnd *end, uint32_t body) {
 
 /* Takes the body out of the island for good; its terms see it standing still. */
 static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
+  assert(index < world->body_count && !world->bodies[index].frozen);
+  assert(island->kept_count >= 1);
   uint32_t *bodies = world->solve.island_bodies + island->body_start;
   world->bodies[index].frozen = true;
   if (!spore_model_is_nodal(world->bodies[index].model))
     spore_body_turn_mass(world, &world->bodies[index], world->state.q + world->bodies[index].q_offset);
   size_t at = 0;
   while (bodies[at] != index) at++;
+  assert(at < island->kept_count);
   memmove(bodies + at, bodies + at + 1, (island->kept_count - at - 1) * sizeof *bodies);
   bodies[--island->kept_count] = index;
   for (size_t i = 0; i < island->contact_count; i++) {
@@ -129,6 +137,7 @@ static bool gained_energy(const SporeWorld *world, const SporeIsland *island) {
 
 /* Whether an answer that is not solved to tolerance will do; `miss`: what it may miss of the load. */
 static bool stands(const SporeWorld *world, const SporeIsland *island, double miss) {
+  assert(miss > 0);
   if (island->trouble != SPORE_TROUBLE_NOT_CONVERGED) return island->trouble == SPORE_TROUBLE_NONE;
   double residual = island->result.residual;
   if (residual <= MISS_TO_STAND * world->solver.tolerance) return true;
@@ -169,6 +178,7 @@ typedef struct Best {
 } Best;
 
 static void remember_best(SporeWorld *world, const SporeIsland *island, Best *best) {
+  assert(island->q_start + island->q_count <= world->state.q_count);
   if (island->trouble > SPORE_TROUBLE_NOT_CONVERGED) return;
   double residual = island->result.residual;
   Worth worth = gained_energy(world, island) ? WORTH_GAINED : residual < MISS_OF_STEP ? WORTH_STEP : WORTH_MISSED;
@@ -179,6 +189,7 @@ static void remember_best(SporeWorld *world, const SporeIsland *island, Best *be
 }
 
 static void restore_best(const SporeWorld *world, SporeIsland *island, const Best *best) {
+  assert(best->worth > WORTH_NOTHING);
   memcpy(island->q1, world->solve.best_q + island->q_start, island->q_count * sizeof(double));
   memcpy(island->v1, world->solve.best_v + island->v_start, island->v_count * sizeof(double));
   island->result.converged = false;
@@ -189,6 +200,7 @@ static void restore_best(const SporeWorld *world, SporeIsland *island, const Bes
 
 /* Adds what an attempt cost to what came of it, and to what came of those before. */
 static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps, SporeEffort *effort) {
+  assert(substeps >= 1 && island->kept_count >= 1);
   SporeStepResult spent = island->result;
   spore_island_gather(world, island);
   substeps *= island->substeps;
@@ -216,6 +228,7 @@ static bool try_without_friction(SporeWorld *world, SporeIsland *island, size_t 
  * no more hope are given up. In the end the best of all stands: an answer that is sound but not solved to tolerance is
  * better than a frozen body. */
 static void try_substeps(SporeWorld *world, SporeIsland *island) {
+  assert(world->solver.newton_iterations >= 1);
   bool helped = false;
   Best best = {WORTH_NOTHING, HUGE_VAL};
   remember_best(world, island, &best);
@@ -248,6 +261,7 @@ static void make_safer(SporeWorld *world, SporeIsland *island) {
 
 /* Ends with what the trouble was at its worst, and the body that it was met in first. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
+  assert(island->trouble != SPORE_TROUBLE_NONE && island->offender < world->body_count);
   bool paused = pauses(world, island);
   if (stands(world, island, paused ? 1 : MISS_OF_LOAD)) return;
   SporeTrouble worst = island->trouble;

@@ -6,6 +6,7 @@
  * swings about an equilibrium, and an energy of at most M rest_speed^2 / 2. The bodies that fell asleep together wake
  * together, before anything else is done with them in the step: when one of them is touched by, or is tied to, what
  * moves by physics or by a device; and when a command or an edit may have changed the forces on them. */
+#include <assert.h>
 #include <float.h>
 #include <string.h>
 
@@ -18,6 +19,7 @@
 
 /* Widest side of the bounds of `count` balls about `centre` (3 a ball), m. radius may be NULL. */
 static double extent_of(const double *centre, const double *radius, size_t count) {
+  assert(count == 0 || centre);
   double widest = 0;
   for (size_t k = 0; k < 3; k++) {
     double lower = HUGE_VAL, upper = -HUGE_VAL;
@@ -52,6 +54,7 @@ void spore_world_create_sleep(SporeWorld *world) {
 }
 
 static bool all_below(const double *values, size_t count, double limit) {
+  assert(limit >= 0);
   for (size_t i = 0; i < count; i += CHUNK) {
     size_t outside = 0, end = i + CHUNK < count ? i + CHUNK : count;
     for (size_t k = i; k < end; k++) outside += !(fabs(values[k]) <= limit);
@@ -68,6 +71,7 @@ static bool body_rests(const SporeBody *body, const double *v) {
 }
 
 static bool is_driven(const SporeWorld *world, const SporeEnd *end) {
+  assert(end->body == SPORE_NO_BODY || end->body < world->body_count);
   return end->body != SPORE_NO_BODY && world->bodies[end->body].role == SPORE_ACTIVE;
 }
 
@@ -84,6 +88,8 @@ static bool touches_driven(const SporeWorld *world, const SporeIsland *island) {
 }
 
 bool spore_island_rests(const SporeWorld *world, const SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   if (!(world->solver.sleep_speed > 0) || island->trouble != SPORE_TROUBLE_NONE) return false;
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
@@ -93,6 +99,8 @@ bool spore_island_rests(const SporeWorld *world, const SporeIsland *island) {
 }
 
 static void set_asleep(SporeWorld *world, uint32_t index, bool asleep) {
+  assert(index < world->body_count && world->bodies[index].sleep.asleep != asleep);
+  assert(asleep || world->solve.sleeping_count > 0);
   SporeBody *body = &world->bodies[index];
   body->sleep.asleep = asleep;
   body->sleep.steps = 0;
@@ -115,6 +123,7 @@ static uint64_t count_rest(SporeWorld *world, const SporeIsland *island) {
 }
 
 void spore_island_let_sleep(SporeWorld *world, SporeIsland *island) {
+  assert(island->body_start + island->body_count <= world->body_count);
   island->falls_asleep = false;
   if (!(world->solver.sleep_speed > 0) || island->kept_count == 0) return;
   if ((double)count_rest(world, island) * world->solver.time_step < REST_TIME_S) return;
@@ -129,6 +138,7 @@ void spore_island_let_sleep(SporeWorld *world, SporeIsland *island) {
 }
 
 void spore_island_keep_energy(SporeWorld *world, const SporeIsland *island) {
+  assert(island->falls_asleep && island->kept_count >= 1);
   double *energy = &world->bodies[world->solve.island_bodies[island->body_start]].sleep.energy;
   for (size_t i = 0; i < island->contact_count; i++) {
     const SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
@@ -137,6 +147,7 @@ void spore_island_keep_energy(SporeWorld *world, const SporeIsland *island) {
 }
 
 void spore_world_wake(SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   while (world->bodies[body].sleep.asleep) {
     set_asleep(world, body, false);
     body = world->bodies[body].sleep.next;
@@ -149,6 +160,8 @@ void spore_world_wake_all(SporeWorld *world) {
 
 /* True when one of the two slept and the other moves: physics or a device moves it. */
 static bool wake_either(SporeWorld *world, uint32_t a, uint32_t b) {
+  assert(a == SPORE_NO_BODY || a < world->body_count);
+  assert(b == SPORE_NO_BODY || b < world->body_count);
   if (a == SPORE_NO_BODY || b == SPORE_NO_BODY) return false;
   const SporeBody *first = &world->bodies[a], *second = &world->bodies[b];
   if (first->sleep.asleep == second->sleep.asleep) return false;
@@ -177,6 +190,7 @@ static bool wake_touched(SporeWorld *world) {
 
 /* Who wakes may touch others that sleep. */
 void spore_world_wake_touched(SporeWorld *world) {
+  assert(world->solve.sleeping_count <= world->body_count);
   while (world->solve.sleeping_count > 0) {
     bool tied = wake_tied(world), touched = wake_touched(world);
     if (!tied && !touched) return;

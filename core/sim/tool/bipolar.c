@@ -1,5 +1,7 @@
 /* Bipolar forceps: heat shrinks and stiffens tissue near their tips, for good. It does so in time, by no more than
  * `rate` allows, so that energy comes in little by little. */
+#include <assert.h>
+
 #include "core/base/parameter_rows.h"
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
@@ -15,12 +17,14 @@ static bool heats(const SporeBody *body) { return body->model && body->model->ty
 
 /* A step's dose changes little: how its matrix is best factorised it still knows. */
 static void warm(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   SporeFactorChoice choice = world->bodies[index].preconditioner.choice;
   spore_body_changed_model(world, index);
   world->bodies[index].preconditioner.choice = choice;
 }
 
 static void use(SporeWorld *world, SporeTool *tool) {
+  assert(tool->bodies[0] < world->body_count);
   SporeBipolar *bipolar = (SporeBipolar *)tool;
   const SporeBody *holder = &world->bodies[tool->bodies[0]];
   bipolar->coagulated = 0;

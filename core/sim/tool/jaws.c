@@ -4,6 +4,7 @@
  * their torque, and give way above it: what lies between them is pressed by no more. Once half of the torque presses,
  * or the jaws are shut, each sphere that a jaw touches is tied to it where it is, by a spring without length; opening
  * lets go. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -37,6 +38,8 @@ const char *spore_hinge_fault(const SporeJawFields *fields) {
 }
 
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
+  assert(from->fields && tool->bodies[0] < world->body_count);
+  assert(tool->spring_start + tool->spring_count <= spore_world_spring_count(world));
   static const double origin[3] = {0, 0, 0};
   SporeJaws *jaws = (SporeJaws *)tool;
   const SporePose *frame = &world->bodies[tool->bodies[0]].rest_pose;
@@ -70,6 +73,7 @@ void spore_jaws_clear(SporeTool *tool) { spore_free(((SporeJaws *)tool)->holds);
 /* Holds. */
 
 static void let_go(SporeWorld *world, SporeJaws *jaws) {
+  assert(jaws->holds);
   for (size_t i = 0; i < jaws->tool.spring_count; i++) {
     jaws->holds[i].state = SPORE_HOLD_FREE;
     world->links.active[jaws->tool.spring_start + i] = false;
@@ -90,6 +94,8 @@ static SporeHold *find_place(const SporeJaws *jaws, uint32_t sphere) {
 
 /* Ties the sphere to the jaw where it is. */
 static void hold_sphere(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, uint32_t sphere) {
+  assert(jaw < world->body_count);
+  assert(sphere < world->contact.spheres.count);
   SporeHold *hold = find_place(jaws, sphere);
   if (!hold) return;
   *hold = (SporeHold){SPORE_HOLD_TIED, sphere};
@@ -113,6 +119,7 @@ static void hold_sphere(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, uint32
 
 /* What the jaws press, by the contacts of the last step. */
 static void hold_touched(SporeWorld *world, SporeJaws *jaws) {
+  assert(world->contact.count <= world->contact.capacity);
   for (size_t i = 0; i < world->contact.count; i++) {
     const SporeContactTerm *term = &world->contact.terms[i];
     if (!(spore_vec3_dot(term->force, term->normal) > 0)) continue;
@@ -147,6 +154,7 @@ static void tear(SporeWorld *world, SporeTool *tool) {
 
 /* Torque about the hinge that opens the jaw, of the last step. */
 static double opening_torque(const SporeWorld *world, const SporeJaws *jaws, const SporeJaw *jaw) {
+  assert(jaw->body == SPORE_NO_BODY || jaw->body < world->body_count);
   if (jaw->body == SPORE_NO_BODY) return 0;
   const double *shaft = world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset;
   const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
@@ -171,6 +179,7 @@ static double wanted_opening(SporeJaws *jaws, const SporeDeviceState *input, boo
 
 /* The slower the nearer the squeeze is to what the jaws can; above, they give way. */
 static double next_opening(const SporeJaws *jaws, double wanted, double h) {
+  assert(h > 0 && jaws->fields.torque > 0);
   double most = h * jaws->fields.speed, change = fmin(fmax(wanted - jaws->opening, -most), most);
   if (change >= 0) return jaws->opening + change;
   double left = 1 - jaws->squeeze / jaws->fields.torque;
@@ -179,6 +188,7 @@ static double next_opening(const SporeJaws *jaws, double wanted, double h) {
 }
 
 static void place_jaw(SporeWorld *world, const SporeJaws *jaws, const SporeJaw *jaw) {
+  assert(jaw->body < world->body_count);
   const double *shaft = world->state.target_q + world->bodies[jaws->tool.bodies[0]].q_offset;
   const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
   double *target = world->state.target_q + world->bodies[jaw->body].q_offset;
@@ -191,6 +201,7 @@ static void place_jaw(SporeWorld *world, const SporeJaws *jaws, const SporeJaw *
 }
 
 void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
+  assert(tool->bodies[0] < world->body_count);
   SporeJaws *jaws = (SporeJaws *)tool;
   const SporeBody *body = &world->bodies[jaws->tool.bodies[0]];
   double wanted = wanted_opening(jaws, &body->device.input, body->device.has_input);
@@ -208,6 +219,7 @@ void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
 }
 
 void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool) {
+  assert(tool->bodies[0] < world->body_count);
   const SporeJaws *jaws = (const SporeJaws *)tool;
   SporeDeviceCommand *command = &world->bodies[jaws->tool.bodies[0]].device.command;
   SporeVec3 origin = spore_vec3_load(world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset);

@@ -4,6 +4,7 @@
  * before it, held where it was met, until it presses with the force that pierces, or has come as deep as pierces. From
  * then on that place of the tissue slides along the needle, and behind the swage along the thread: a spring that runs
  * on a path (core/constraint/curve_joint.c), with friction. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -67,6 +68,7 @@ static SporeSplineKnots thread_knots(const SporeWorld *world, const SporeNeedle 
 
 /* Control point of the thread that lies nearest to the swage; *off: how far, in lengths of the thread. */
 static size_t thread_end(const SporeWorld *world, const SporeToolDescription *from, double *off) {
+  assert(from->bodies[SPORE_TOOL_THREAD] < world->body_count);
   SporeVec3 swage = spore_vec3_load(((const SporeNeedleFields *)from->fields)->swage);
   const SporeModel *model = thread_model(world, from->bodies[SPORE_TOOL_THREAD]);
   const double *q = world->state.rest_q + world->bodies[from->bodies[SPORE_TOOL_THREAD]].q_offset;
@@ -102,6 +104,7 @@ static const char *fault(const SporeWorld *world, const SporeToolDescription *fr
 
 /* On the circle through three points, or the line, by the share of the way from a to c. */
 static SporeVec3 arc_at(SporeVec3 a, SporeVec3 b, SporeVec3 c, double share) {
+  assert(share >= 0 && share <= 1);
   SporeVec3 u = spore_vec3_sub(b, a), w = spore_vec3_sub(c, a), n = spore_vec3_cross(u, w);
   double square = spore_vec3_dot(n, n), uu = spore_vec3_dot(u, u), ww = spore_vec3_dot(w, w);
   if (square < 1e-8 * uu * ww) return spore_vec3_add_scaled(a, share, w);
@@ -131,6 +134,7 @@ static void make_path(const SporeWorld *world, SporeNeedle *needle) {
 
 /* The end of the thread at the swage. */
 static bool tie_thread(SporeWorld *world, SporeNeedle *needle, const SporeToolDescription *from) {
+  assert(needle->thread < world->body_count);
   SporeSpringTerm *term = &world->links.springs[needle->tool.spring_start];
   SporeMapping *mapping = &world->links.mappings[2 * needle->tool.spring_start];
   const SporeBody *body = &world->bodies[needle->thread];
@@ -148,6 +152,7 @@ static bool tie_thread(SporeWorld *world, SporeNeedle *needle, const SporeToolDe
 
 /* Both terms of a stitch have the same place of the tissue at end a. */
 static bool make_stitch(SporeWorld *world, SporeNeedle *needle, size_t index) {
+  assert(index < (size_t)needle->fields.stitches);
   static const uint32_t blocks[SPORE_PATH_WIDTH] = {0, 1, 2, 3};
   static const double third[3] = {1. / 3, 1. / 3, 1. / 3}, quarter[4] = {0.25, 0.25, 0.25, 0.25}, origin[3] = {0};
   SporeStitch *stitch = &needle->stitches[index];
@@ -201,12 +206,14 @@ static void clear(SporeTool *tool) {
 /* Stitches. */
 
 static size_t term_of(const SporeNeedle *needle, const SporeStitch *stitch, SporeStitchState state) {
+  assert(stitch >= needle->stitches && stitch < needle->stitches + needle->fields.stitches);
   size_t index = (size_t)(stitch - needle->stitches);
   return needle->tool.spring_start + 1 + 2 * index + (state == SPORE_STITCH_ON_THREAD);
 }
 
 /* From one state to another; what holds it then has not slid yet. */
 static void go_to(SporeWorld *world, const SporeNeedle *needle, SporeStitch *stitch, SporeStitchState state) {
+  assert(state == SPORE_STITCH_FREE || stitch->body < world->body_count);
   size_t now = term_of(needle, stitch, state);
   if (stitch->state != SPORE_STITCH_FREE) world->links.active[term_of(needle, stitch, stitch->state)] = false;
   stitch->state = state;
@@ -240,10 +247,12 @@ static SporeVec3 ahead_of_tip(const SporeNeedle *needle, const double *q) {
 }
 
 static SporeVec3 tissue_at(const SporeWorld *world, const SporeSpringTerm *term) {
+  assert(term->a.body < world->body_count);
   return spore_mapping_position(term->a.mapping, 0, world->state.q + world->bodies[term->a.body].q_offset);
 }
 
 static void pierce(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
+  assert(stitch->state == SPORE_STITCH_PRESSED);
   go_to(world, needle, stitch, SPORE_STITCH_ON_NEEDLE);
   SporeSpringTerm *term = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_ON_NEEDLE)];
   term->curve = &stitch->needle;
@@ -255,6 +264,7 @@ static void pierce(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) 
 
 /* The tip pushes it on, pierces it, or is drawn back from it. */
 static void press(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
+  assert(stitch->state == SPORE_STITCH_PRESSED);
   const double *target = world->state.target_q + world->bodies[needle->tool.bodies[0]].q_offset;
   const SporeSpringTerm *term = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_PRESSED)];
   SporeVec3 ahead = ahead_of_tip(needle, target);
@@ -266,6 +276,7 @@ static void press(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
 
 /* The path's place nearest to the tissue; how far that is beyond an end of it, m. */
 static double follow(const SporeWorld *world, SporeSpringTerm *term, const double *local) {
+  assert(term->curve && local);
   SporeVec3 at = tissue_at(world, term);
   term->stretch = spore_spring_term_stretch(term, world->state.sites, world->state.q);
   SporePathPlace place = spore_curve_joint_place(term->curve, local, at);
@@ -276,6 +287,7 @@ static double follow(const SporeWorld *world, SporeSpringTerm *term, const doubl
 
 /* Along the needle; behind the swage it goes over to the thread, before the tip it comes off. */
 static void slide_on_needle(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
+  assert(stitch->state == SPORE_STITCH_ON_NEEDLE);
   SporeSpringTerm *term = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_ON_NEEDLE)];
   double beyond = follow(world, term, world->state.target_q + world->bodies[needle->tool.bodies[0]].q_offset);
   if (!(beyond > 0)) return;
@@ -289,6 +301,7 @@ static void slide_on_needle(SporeWorld *world, SporeNeedle *needle, SporeStitch 
 }
 
 static void slide_on_thread(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
+  assert(stitch->state == SPORE_STITCH_ON_THREAD && needle->thread < world->body_count);
   SporeSpringTerm *term = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_ON_THREAD)];
   double beyond = follow(world, term, world->state.q + world->bodies[needle->thread].q_offset);
   bool at_swage = needle->from_end == (stitch->thread.start > 0);
@@ -344,6 +357,7 @@ static bool is_met(const SporeWorld *world, const SporeNeedle *needle, uint32_t 
 }
 
 static void touch(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch, const Crossing *crossing, SporeVec3 at) {
+  assert(crossing->corners && crossing->body < world->body_count);
   const SporeModel *model = world->bodies[crossing->body].model;
   SporeSpringTerm *terms = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_PRESSED)];
   SporeMapping *place = &world->links.mappings[2 * term_of(needle, stitch, SPORE_STITCH_PRESSED)];

@@ -1,5 +1,7 @@
 /* Scissors: what they take from bodies. The way of a blade in a step is two triangles; a model says itself what of it
  * crosses them. */
+#include <assert.h>
+
 #include "core/base/text.h"
 #include "core/sim/tool/jaws.h"
 #include "core/sim/world_private.h"
@@ -29,6 +31,7 @@ static void store_triangle(double *triangle, SporeVec3 a, SporeVec3 b, SporeVec3
 }
 
 static void cut_all(SporeWorld *world, SporeScissors *scissors, const double *triangle) {
+  assert(triangle);
   for (uint32_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (!spore_body_can_be_cut(body)) continue;
@@ -46,6 +49,7 @@ static void cut_all(SporeWorld *world, SporeScissors *scissors, const double *tr
 /* The blades, half of the angle each, go with their body from the last state to its target, and close from one opening
  * to another. */
 static void cut_between(SporeWorld *world, SporeScissors *scissors, double from, double to) {
+  assert(to < from);
   from = fmin(scissors->jaws.stroke, from + OVERLAP_RAD);
   size_t at = world->bodies[scissors->jaws.tool.bodies[0]].q_offset;
   const double *before = world->state.q + at, *after = world->state.target_q + at;

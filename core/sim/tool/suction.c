@@ -1,4 +1,6 @@
 /* Suction: takes the particles of fluids away that come into its mouth. */
+#include <assert.h>
+
 #include "core/base/parameter_rows.h"
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
@@ -12,6 +14,7 @@ typedef struct SporeSuction {
 } SporeSuction;
 
 static void suck_from(SporeWorld *world, SporeSuction *suction, uint32_t index, SporeVec3 mouth) {
+  assert(index < world->body_count && spore_body_is_fluid(&world->bodies[index]));
   SporeBody *body = &world->bodies[index];
   const double *state =
       body->sleep.asleep ? world->state.q : world->state.next_q; /* of one that sleeps, the next is not written */

@@ -1,9 +1,15 @@
 /* What bodies share whose matrix changes its pattern while they run: held blocks, and a factor that is made later. */
+#include <assert.h>
+
 #include "core/sim/world_private.h"
 
-static size_t nodes_in_use(const SporeBody *body) { return body->model->node_count - body->model->spare_count; }
+static size_t nodes_in_use(const SporeBody *body) {
+  assert(body->model->spare_count <= body->model->node_count);
+  return body->model->node_count - body->model->spare_count;
+}
 
 void spore_body_list_held(SporeBody *body) {
+  assert(body->changing.pinned && body->held.blocks);
   body->held.count = 0;
   for (size_t i = 0; i < nodes_in_use(body); i++)
     if (body->changing.pinned[i]) body->held.blocks[body->held.count++] = (uint32_t)i;

@@ -1,5 +1,6 @@
 /* Bodies that lose what ties their nodes, to scissors or by tearing, and how the spheres there follow: one that hangs
  * on nodes that nothing ties any more stays with those that it hangs on more. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -15,11 +16,13 @@ typedef struct Preparation {
 } Preparation;
 
 static void prepare_model(SporeModel *model, void *user) {
+  assert(model->type->prepare_cut);
   Preparation *preparation = user;
   preparation->made = preparation->made && model->type->prepare_cut(model, preparation->edges);
 }
 
 static bool prepare_body(SporeWorld *world, SporeBody *body) {
+  assert(body->model && !body->collision.whole_weight);
   Preparation preparation = {&world->topology.cuts.capacity, true};
   spore_body_each_model(body, prepare_model, &preparation);
   if (!preparation.made) return false;
@@ -49,6 +52,7 @@ static void mend(SporeModel *model, void *user) {
 }
 
 void spore_world_reset_cutting(SporeWorld *world) {
+  assert(world->topology.cuts.count <= world->topology.cuts.capacity);
   world->topology.cuts.count = 0;
   world->topology.cut_run++;
   for (size_t b = 0; b < world->body_count; b++) {
@@ -63,6 +67,7 @@ void spore_world_reset_cutting(SporeWorld *world) {
 
 /* Numbers the nodes of a row by what still hangs together, from 1; 0: nothing ever tied it to another of them. */
 static void find_groups(const SporeModel *model, const uint32_t *block, size_t count, size_t group[ROW_MAXIMUM]) {
+  assert(count <= ROW_MAXIMUM);
   for (size_t i = 0; i < count; i++) group[i] = 0;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j < count; j++)
@@ -78,6 +83,7 @@ static void find_groups(const SporeModel *model, const uint32_t *block, size_t c
 
 /* Leaves the sphere to the nodes of one group; those of none stay with it. */
 static void part_row(const SporeModel *model, const SporeMapping *spheres, size_t point) {
+  assert(spheres->kind == SPORE_MAPPING_LINEAR && point < spheres->point_count);
   uint32_t start = spheres->row_start[point];
   size_t count = spheres->row_start[point + 1] - start, group[ROW_MAXIMUM], most = 0;
   double *weight = spheres->weight + start, sum[ROW_MAXIMUM + 1] = {0}, tied = 0;
@@ -94,6 +100,7 @@ static void part_row(const SporeModel *model, const SporeMapping *spheres, size_
 
 /* What the body remembers of steps before is of one that was whole. */
 void spore_body_changed_model(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   SporeBody *body = &world->bodies[index];
   spore_world_wake(world, index);
   body->altered = true;
@@ -101,6 +108,7 @@ void spore_body_changed_model(SporeWorld *world, uint32_t index) {
 }
 
 void spore_body_was_cut(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   SporeBody *body = &world->bodies[index];
   if (body->splitting.possible) { /* not yet: see node_splitting.c */
     body->splitting.wanted = true;
@@ -113,6 +121,7 @@ void spore_body_was_cut(SporeWorld *world, uint32_t index) {
 }
 
 static void report_tear(SporeWorld *world, SporeBody *body, size_t edge) {
+  assert(world->topology.cuts.count <= world->topology.cuts.capacity);
   if (body->reported.torn || edge == world->topology.cuts.count) return;
   const double *q = world->state.q + body->q_offset;
   const SporeCutEdge *cut = &world->topology.cuts.edges[edge];

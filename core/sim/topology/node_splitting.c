@@ -4,6 +4,7 @@
  *
  * All of that lies in room made before, so that a step allocates nothing. A factor is another matter: its fill differs.
  * A parted body does without, by conjugate gradients, until that is analysed between two steps. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -41,9 +42,13 @@ bool spore_world_reserve_nodes(const SporeWorldDescription *description, SporeEr
 
 /* Setting up. */
 
-static size_t nodes_in_use(const SporeBody *body) { return body->model->node_count - body->model->spare_count; }
+static size_t nodes_in_use(const SporeBody *body) {
+  assert(body->model->spare_count <= body->model->node_count);
+  return body->model->node_count - body->model->spare_count;
+}
 
 static bool hold_spares(SporeWorld *world, SporeBody *body) {
+  assert(!body->changing.pinned);
   SporeChangingMatrix *changing = &body->changing;
   changing->pinned = SPORE_NEW_ARRAY(uint8_t, body->block_count);
   uint32_t *held = spore_reallocate(body->held.blocks, body->held.count, body->block_count, sizeof *held);
@@ -67,6 +72,8 @@ static bool make_roomy(SporeBody *body) {
 }
 
 static bool add_hang(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
+  assert(index < world->body_count);
+  assert(world->topology.attached_count < world->body_count + 2 * world->links.term_count);
   if (mapping->kind != SPORE_MAPPING_LINEAR) return true;
   const SporeModel *model = world->bodies[index].model;
   SporeAttachedMapping *attached = &world->topology.attached[world->topology.attached_count++];
@@ -95,6 +102,7 @@ static bool prepare(SporeWorld *world, uint32_t index) {
 static void copy_corners(SporeWorld *world, const SporeBody *body) {
   size_t count;
   const uint32_t *corners = body->model->type->corners(body->model, &count);
+  assert(body->splitting.corner_start + count <= world->topology.cuts.corner_count);
   memcpy(world->topology.cuts.corners + 4 * body->splitting.corner_start, corners, 4 * count * sizeof *corners);
 }
 
@@ -137,6 +145,7 @@ void spore_world_clear_topology(SporeWorld *world) {
 
 /* What hangs on the body goes with its tetrahedra, and its matrix has the pattern that it has now. */
 static void follow(SporeWorld *world, uint32_t index) {
+  assert(world->bodies[index].splitting.possible);
   SporeBody *body = &world->bodies[index];
   SporeChangingMatrix *changing = &body->changing;
   size_t count;
@@ -159,12 +168,14 @@ static void drop_factor(SporeBody *body) {
 
 /* What holds a node holds its copies. */
 static void divide(SporeWorld *world, uint32_t index) {
+  assert(world->bodies[index].splitting.possible);
   SporeBody *body = &world->bodies[index];
   size_t before = nodes_in_use(body);
   const uint32_t *from;
   size_t made = body->model->type->divide(body->model, world->state.next_q + body->q_offset,
                                           world->state.next_v + body->v_offset, &from);
   if (made == 0) return;
+  assert(before + made <= body->model->node_count);
   for (size_t i = 0; i < made; i++) body->changing.pinned[before + i] = body->changing.pinned[from[i]];
   spore_body_list_held(body);
   follow(world, index);

@@ -5,6 +5,7 @@
  *
  * Momentum of a free body is kept to rounding: what lumping the mass loses of it is given back as a rigid motion.
  * Kinetic energy does not grow. What links hold keeps its velocity as it is, since what held it takes part. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -18,6 +19,7 @@ static bool changes_nodes(const SporeBody *body) {
 
 /* The matrix again, with room; and which blocks pins hold, now and at time 0. */
 static bool make_room(SporeWorld *world, SporeBody *body) {
+  assert(!body->changing.pinned && body->block_count <= body->model->block_room);
   const SporeModel *model = body->model;
   SporeChangingMatrix *changing = &body->changing;
   changing->pinned = SPORE_NEW_ARRAY(uint8_t, 2 * model->block_room);
@@ -35,8 +37,10 @@ static bool make_room(SporeWorld *world, SporeBody *body) {
 }
 
 static void show_knots(SporeWorld *world, uint32_t index) {
+  assert(world->bodies[index].refinement.possible);
   SporeBody *body = &world->bodies[index];
   SporeSplineKnots knots = body->model->type->path(body->model);
+  assert(body->refinement.break_start + knots.span_count < world->topology.lines.break_count);
   world->topology.lines.span_count[index] = (uint32_t)knots.span_count;
   memcpy(world->topology.lines.breaks + body->refinement.break_start, knots.breaks,
          (knots.span_count + 1) * sizeof *knots.breaks);
@@ -68,6 +72,8 @@ bool spore_world_create_refinement(SporeWorld *world) {
 
 /* Curve joints of links and stitches: the same place of the line, by the points that lead it now. */
 static void move_curve_joints(SporeWorld *world, uint32_t index, const double *q) {
+  assert(index < world->body_count);
+  assert(q);
   SporeSplineKnots knots = world->bodies[index].model->type->path(world->bodies[index].model);
   for (size_t i = 0; i < world->links.term_count + world->links.hold_count; i++) {
     SporeSpringTerm *term = &world->links.springs[i];
@@ -90,6 +96,7 @@ static void move_last_point(SporeWorld *world, uint32_t index, size_t last_befor
 
 /* Points that are linked to the body. */
 static void move_ends(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   const SporeModel *model = world->bodies[index].model;
   SporeSplineKnots knots = model->type->path(model);
   model->type->follow(model, knots, &world->bodies[index].collision.spheres);
@@ -115,6 +122,7 @@ static void lay_out_matrix(SporeBody *body) {
 /* After its model changed its nodes; q: where they are. */
 static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
   SporeBody *body = &world->bodies[index];
+  assert(body->model->q_count <= body->model->q_room && body->model->block_count <= body->model->block_room);
   size_t free_before = body->block_count - body->held.count;
   body->q_count = body->model->q_count;
   body->block_count = body->model->block_count;
@@ -133,6 +141,7 @@ static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
 
 static void change(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
+  assert(body->refinement.possible && body->model->type->change_nodes);
   SporeModel *model = body->model;
   double *q = world->state.next_q + body->q_offset, *v = world->state.next_v + body->v_offset;
   size_t points = body->refinement.state.points;
@@ -193,6 +202,8 @@ static size_t reserved_memory(const SporeWorld *world, const SporeBody *body) {
 }
 
 bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineState *state) {
+  assert(body < world->body_count);
+  assert(state);
   const SporeSplineRefinement *line = &world->bodies[body].refinement;
   *state = line->state;
   if (!line->possible) return false;
@@ -203,12 +214,14 @@ bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineSta
 }
 
 SporeSplineKnots spore_snapshot_knots(const SporeWorld *world, const SporeSnapshot *snapshot, uint32_t body) {
+  assert(body < world->body_count);
   const SporeBody *line = &world->bodies[body];
   if (!line->refinement.possible) return (SporeSplineKnots){0};
   return (SporeSplineKnots){snapshot->lines.span_count[body], snapshot->lines.breaks + line->refinement.break_start};
 }
 
 bool spore_world_follow_knots(const SporeWorld *world, uint32_t body, SporeSplineKnots knots, SporeMapping *mapping) {
+  assert(body < world->body_count);
   const SporeModel *model = world->bodies[body].model;
   return knots.span_count == 0 || model->type->follow(model, knots, mapping);
 }
