@@ -20,18 +20,18 @@ static void push(SporeWorld *world, SporeBody *body) {
   device->type->push(device, &command);
 }
 
-static void sense(SporeWorld *world, SporeBody *body) {
+static void read_device(SporeWorld *world, SporeBody *body) {
   assert(body->role == SPORE_ACTIVE && body->q_count == SPORE_POSE_Q);
   double time_s = (double)(world->state.step + 1) * world->solver.time_step;
-  SporeDeviceState said = body->device.input;
-  bool spoke = body->device.device->type->exchange(body->device.device, time_s, &body->device.command, &said);
-  if (!spore_guard_input(&body->device.guard, &limits, time_s, spoke ? &said : NULL, &body->device.input) &&
+  SporeDeviceState fresh = body->device.input;
+  bool answered = body->device.device->type->exchange(body->device.device, time_s, &body->device.command, &fresh);
+  if (!spore_guard_input(&body->device.guard, &limits, time_s, answered ? &fresh : NULL, &body->device.input) &&
       world->state.monitor.held_inputs++ == 0)
     spore_world_report(world, _("%s: its device said what cannot be; held, or followed at %g m/s; check the device"),
                        body->name, limits.speed);
   push(world, body);
   body->device.input_time_s = time_s;
-  body->device.has_input |= spoke;
+  body->device.has_input |= answered;
   double *target = world->state.target_q + body->q_offset;
   memcpy(target, body->device.input.position, sizeof body->device.input.position);
   spore_quat_store(target + 3, spore_quat_normalise(spore_quat_load(body->device.input.orientation)));
@@ -41,7 +41,7 @@ void spore_world_read_devices(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (body->role != SPORE_ACTIVE) continue;
-    if (body->device.device) sense(world, body);
+    if (body->device.device) read_device(world, body);
   }
   for (size_t i = 0; i < world->links.trocar_count; i++) spore_trocar_aim(world, &world->links.trocars[i]);
   for (uint32_t b = 0; b < world->body_count; b++)

@@ -4,7 +4,7 @@
 
 #include "core/sim/solve/island_system.h"
 
-static SporeContactLanes *group_lanes(const SporeIslandSystem *system, size_t i) {
+static SporeContactLanes *lanes_at(const SporeIslandSystem *system, size_t i) {
   assert(i < spore_lanes_for(system->island->contact_count));
   return &system->world->contact.lanes[system->island->lanes_start + i];
 }
@@ -136,7 +136,7 @@ void spore_island_system_lay_contacts(SporeIslandSystem *system) {
   begin_terms(system);
   system->frames = false;
   for (size_t i = 0; i < lanes_count(system); i++) {
-    SporeContactLanes *lanes = group_lanes(system, i);
+    SporeContactLanes *lanes = lanes_at(system, i);
     size_t first = i * SPORE_LANES, count = count_in(system, i);
     lanes->kind = kind_of(system, first, count);
     lanes->count = (uint32_t)count;
@@ -150,7 +150,7 @@ void spore_island_system_lay_contacts(SporeIslandSystem *system) {
 
 void spore_island_system_soften_lanes(const SporeIslandSystem *system) {
   for (size_t i = 0; i < lanes_count(system); i++) {
-    SporeContactLanes *lanes = group_lanes(system, i);
+    SporeContactLanes *lanes = lanes_at(system, i);
     lanes->softened = false;
     for (size_t k = 0; k < lanes->count; k++) {
       const SporeSoftening *softening = &spore_island_system_contact(system, i * SPORE_LANES + k)->softening;
@@ -163,7 +163,7 @@ void spore_island_system_soften_lanes(const SporeIslandSystem *system) {
 
 void spore_island_system_keep_contacts(const SporeIslandSystem *system) {
   for (size_t i = 0; i < lanes_count(system); i++) {
-    const SporeContactLanes *lanes = group_lanes(system, i);
+    const SporeContactLanes *lanes = lanes_at(system, i);
     if (lanes->kind == SPORE_LANES_APART) continue;
     for (size_t k = 0; k < lanes->count; k++) {
       SporeContactTerm *term = spore_island_system_contact(system, i * SPORE_LANES + k);
@@ -210,7 +210,7 @@ void spore_island_system_add_contact_forces(const SporeIslandSystem *system, con
   assert(q && v && f);
   if (system->frames) find_frames(system, q, v);
   for (size_t i = 0; i < lanes_count(system); i++) {
-    SporeContactLanes *lanes = group_lanes(system, i);
+    SporeContactLanes *lanes = lanes_at(system, i);
     if (lanes->kind == SPORE_LANES_APART) {
       for (size_t k = 0; k < lanes->count; k++)
         spore_contact_term_force(spore_island_system_contact(system, i * SPORE_LANES + k),

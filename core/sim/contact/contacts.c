@@ -47,12 +47,12 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   SporeContactLanes *lanes = spore_reallocate(world->contact.lanes, old ? spore_lanes_for(old) + bodies : 0,
                                               spore_lanes_for(wanted) + bodies, sizeof *lanes);
   if (lanes) world->contact.lanes = lanes;
-  SporeManifoldContact *felt = spore_reallocate(world->contact.manifold, old, wanted, sizeof *felt);
-  if (felt) world->contact.manifold = felt;
-  bool gripped = spore_friction_reserve(world, old, wanted);
+  SporeManifoldContact *manifold = spore_reallocate(world->contact.manifold, old, wanted, sizeof *manifold);
+  if (manifold) world->contact.manifold = manifold;
+  bool friction = spore_friction_reserve(world, old, wanted);
   uint32_t *order = spore_reallocate(world->contact.order, old, wanted, sizeof *order);
   if (order) world->contact.order = order;
-  if (!terms || !couplings || !lanes || !felt || !gripped || !order) return false;
+  if (!terms || !couplings || !lanes || !manifold || !friction || !order) return false;
   world->contact.capacity = wanted;
   world->contact.missed = 0;
   return true;
@@ -173,18 +173,18 @@ static void turn_driven_end(const SporeWorld *world, SporeEnd *end, SporeVec3 fr
   end->velocity = spore_vec3_scale(1 / world->solver.time_step, end->offset);
 }
 
-static void fill_term(const SporeWorld *world, const SporeManifoldContact *felt, SporeContactTerm *term) {
-  assert(felt->contact.a != felt->contact.b);
-  const SporeContact *contact = &felt->contact;
+static void fill_term(const SporeWorld *world, const SporeManifoldContact *found, SporeContactTerm *term) {
+  assert(found->contact.a != found->contact.b);
+  const SporeContact *contact = &found->contact;
   fill_sphere_end(world, contact->a, &term->a);
   fill_sphere_end(world, contact->b, &term->b);
   SporeContactMaterial a = material(&world->bodies[term->a.body]), b = material(&world->bodies[term->b.body]);
   term->sphere_a = contact->a;
   term->sphere_b = contact->b;
-  term->pair_a = felt->pair_a;
-  term->pair_b = felt->pair_b;
-  term->field_a = felt->field_a;
-  term->field_b = felt->field_b;
+  term->pair_a = found->pair_a;
+  term->pair_b = found->pair_b;
+  term->field_a = found->field_a;
+  term->field_b = found->field_b;
   term->normal = contact->normal;
   term->depth = contact->depth;
   term->slack = 0;

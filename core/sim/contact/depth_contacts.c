@@ -21,7 +21,7 @@
 static bool has_field(const SporeBody *body) { return body->collision.field.count > 0; }
 
 /* Whether the contacts of bodies a and b are with the field of the first, or of the second. */
-static bool felt_as_one(const SporeBody *body, const SporeBody *other, bool first) {
+static bool is_one_field(const SporeBody *body, const SporeBody *other, bool first) {
   if (!has_field(body) || !has_field(other)) return has_field(body);
   double mean = body->collision.field.mean_radius, others = other->collision.field.mean_radius;
   return mean > others || (mean == others && first);
@@ -89,7 +89,7 @@ static bool is_fast(const SporeWorld *world, const SporeContact *contact) {
 
 /* Depth and normal from the field of the body that `owner` belongs to, for the ball `probe`; false where they stay
  * apart in this step. The contact's normal points from b to a, the field's out of the body. */
-static bool feel(const SporeWorld *world, uint32_t owner, uint32_t probe, SporeContact *contact) {
+static bool evaluate_field(const SporeWorld *world, uint32_t owner, uint32_t probe, SporeContact *contact) {
   assert(owner < world->contact.spheres.count && probe < world->contact.spheres.count);
   const SporeBody *body = &world->bodies[world->contact.spheres.body[owner]];
   assert(has_field(body));
@@ -181,8 +181,8 @@ static bool meets_spheres(const SporeWorld *world, const SporeContact *nearest, 
   return world->contact.spheres.radius[probe] > field->half_width || is_fast(world, nearest);
 }
 
-/* Of the pairs of one probe with one body, which lie next to each other, makes the contacts that are felt; returns how
- * many. `to` may be `pairs`. */
+/* Of the pairs of one probe with one body, which lie next to each other, makes the contacts that are manifold; returns
+ * how many. `to` may be `pairs`. */
 static size_t merge(const SporeWorld *world, const SporeManifoldContact *pairs, size_t count, bool owner_is_a,
                     SporeManifoldContact *to) {
   assert(count > 0 && to);
@@ -196,7 +196,7 @@ static size_t merge(const SporeWorld *world, const SporeManifoldContact *pairs, 
     uint32_t owner = owner_is_a ? contact.a : contact.b, probe = owner_is_a ? contact.b : contact.a;
     if (place == 0 && meets_spheres(world, &contact, owner, probe)) return meet(world, pairs, count, to);
     looked[looked_count++] = direction(world, owner, probe);
-    if (!feel(world, owner, probe, &contact)) continue;
+    if (!evaluate_field(world, owner, probe, &contact)) continue;
     SporeVec3 out = spore_vec3_scale(owner_is_a ? -1 : 1, contact.normal);
     if (seen(sides, made_count, out)) continue;
     looked[looked_count++] = sides[made_count] = out;
@@ -207,14 +207,14 @@ static size_t merge(const SporeWorld *world, const SporeManifoldContact *pairs, 
 }
 
 /* Shell's sort, which needs no memory. */
-static void sort(SporeManifoldContact *felt, size_t count,
+static void sort(SporeManifoldContact *manifold, size_t count,
                  bool (*before)(const SporeManifoldContact *a, const SporeManifoldContact *b)) {
   for (size_t gap = count / 2; gap > 0; gap /= 2)
     for (size_t i = gap; i < count; i++) {
-      SporeManifoldContact moving = felt[i];
+      SporeManifoldContact moving = manifold[i];
       size_t k = i;
-      for (; k >= gap && before(&moving, &felt[k - gap]); k -= gap) felt[k] = felt[k - gap];
-      felt[k] = moving;
+      for (; k >= gap && before(&moving, &manifold[k - gap]); k -= gap) manifold[k] = manifold[k - gap];
+      manifold[k] = moving;
     }
 }
 
@@ -235,40 +235,41 @@ static double margin_of(const SporeWorld *world, uint32_t sphere) {
 }
 
 /* What comes of pairs of one sphere a with one body, in place. */
-static size_t feel_sphere(const SporeWorld *world, SporeManifoldContact *felt, size_t count) {
+static size_t make_probe_contacts(const SporeWorld *world, SporeManifoldContact *manifold, size_t count) {
   const uint32_t *body = world->contact.spheres.body;
-  const SporeBody *a = &world->bodies[body[felt->contact.a]], *b = &world->bodies[body[felt->contact.b]];
-  if (felt_as_one(b, a, false)) return merge(world, felt, count, false, felt);
+  const SporeBody *a = &world->bodies[body[manifold->contact.a]], *b = &world->bodies[body[manifold->contact.b]];
+  if (is_one_field(b, a, false)) return merge(world, manifold, count, false, manifold);
   for (size_t i = 0; i < count; i++) {
-    felt[i] = one_by_one(felt[i].contact);
-    felt[i].contact.depth -= margin_of(world, felt[i].contact.a) + margin_of(world, felt[i].contact.b);
+    manifold[i] = one_by_one(manifold[i].contact);
+    manifold[i].contact.depth -= margin_of(world, manifold[i].contact.a) + margin_of(world, manifold[i].contact.b);
   }
   return count;
 }
 
 /* What comes of all pairs of a body with a field that lie in its spheres a, in place: first those that feel it as one,
  * probe by probe, then others. */
-static size_t feel_body(const SporeWorld *world, const SporeContact *found, SporeManifoldContact *felt, size_t count) {
-  assert(count > 0 && found && felt);
+static size_t make_field_contacts(const SporeWorld *world, const SporeContact *found, SporeManifoldContact *manifold,
+                                  size_t count) {
+  assert(count > 0 && found && manifold);
   const uint32_t *body = world->contact.spheres.body;
   const SporeBody *a = &world->bodies[body[found->a]];
   assert(has_field(a));
   size_t own = 0, made = 0;
   for (size_t i = 0; i < count; i++)
-    if (felt_as_one(a, &world->bodies[body[found[i].b]], true)) felt[own++].contact = found[i];
-  sort(felt, own, probe_before);
+    if (is_one_field(a, &world->bodies[body[found[i].b]], true)) manifold[own++].contact = found[i];
+  sort(manifold, own, probe_before);
   for (size_t i = 0, end; i < own; i = end) {
-    for (end = i + 1; end < own && felt[end].contact.b == felt[i].contact.b;) end++;
-    made += merge(world, felt + i, end - i, true, felt + made);
+    for (end = i + 1; end < own && manifold[end].contact.b == manifold[i].contact.b;) end++;
+    made += merge(world, manifold + i, end - i, true, manifold + made);
   }
   for (size_t i = 0, end; i < count; i = end) {
     end = i + 1;
-    if (felt_as_one(a, &world->bodies[body[found[i].b]], true)) continue;
+    if (is_one_field(a, &world->bodies[body[found[i].b]], true)) continue;
     while (end < count && found[end].a == found[i].a && body[found[end].b] == body[found[i].b]) end++;
-    for (size_t k = i; k < end; k++) felt[made + k - i].contact = found[k];
-    made += feel_sphere(world, felt + made, end - i);
+    for (size_t k = i; k < end; k++) manifold[made + k - i].contact = found[k];
+    made += make_probe_contacts(world, manifold + made, end - i);
   }
-  sort(felt, made, pair_before);
+  sort(manifold, made, pair_before);
   return made;
 }
 
@@ -280,17 +281,17 @@ size_t spore_world_find_manifold(SporeWorld *world) {
   size_t made = 0;
   for (size_t i = 0, end; i < world->contact.count; i = end) {
     uint32_t a = body[found[i].a], b = body[found[i].b];
-    SporeManifoldContact *felt = world->contact.manifold + made;
+    SporeManifoldContact *manifold = world->contact.manifold + made;
     end = i + 1;
     if (has_field(&world->bodies[a])) {
       while (end < world->contact.count && body[found[end].a] == a) end++;
-      made += feel_body(world, found + i, felt, end - i);
+      made += make_field_contacts(world, found + i, manifold, end - i);
       continue;
     }
     if (has_field(&world->bodies[b]))
       while (end < world->contact.count && found[end].a == found[i].a && body[found[end].b] == b) end++;
-    for (size_t k = i; k < end; k++) felt[k - i].contact = found[k];
-    made += feel_sphere(world, felt, end - i);
+    for (size_t k = i; k < end; k++) manifold[k - i].contact = found[k];
+    made += make_probe_contacts(world, manifold, end - i);
   }
   return made;
 }

@@ -1,6 +1,6 @@
 /* An island as the integrators see it, for island_system.c (forces, motion) and linearise.c (matrices). */
-#ifndef SPORE_SIM_GROUP_H
-#define SPORE_SIM_GROUP_H
+#ifndef SPORE_SIM_ISLAND_SYSTEM_H
+#define SPORE_SIM_ISLAND_SYSTEM_H
 
 #include <assert.h>
 #include <math.h>

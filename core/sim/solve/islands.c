@@ -104,7 +104,7 @@ static void count_terms(SporeWorld *world, size_t springs) {
 }
 
 /* Joints are stiff: however the bodies move otherwise, by joints they move implicitly. */
-static void mix_jointed(SporeWorld *world) {
+static void make_jointed_multirate(SporeWorld *world) {
   for (size_t i = 0; i < world->links.count; i++) {
     const SporeLink *link = &world->links.all[i];
     uint32_t island = link->kind == SPORE_LINK_SPRING ? SPORE_NO_BODY : island_of_spring(world, link->term_start);
@@ -161,7 +161,7 @@ void spore_world_find_islands(SporeWorld *world) {
   tie_bodies(world);
   number_islands(world);
   count_terms(world, springs);
-  mix_jointed(world);
+  make_jointed_multirate(world);
   set_starts(world);
   fill_islands(world, springs);
 }

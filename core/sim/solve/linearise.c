@@ -21,14 +21,14 @@ static void bend_curve_joint(const SporeIslandSystem *system, SporeSpringTerm *t
                              uint32_t body) {
   assert(term->curve && (body == SPORE_NO_BODY || body < system->world->body_count));
   spore_curve_joint_bend(term, system->world->solve.local_sites, q, c2);
-  term->curve->bend.folded = body != SPORE_NO_BODY && term->curve->bend.turn > 0;
-  if (term->curve->bend.folded) spore_body_assemble_bend(&system->world->bodies[body], &term->curve->bend);
+  term->curve->bend.assembled = body != SPORE_NO_BODY && term->curve->bend.turn > 0;
+  if (term->curve->bend.assembled) spore_body_assemble_bend(&system->world->bodies[body], &term->curve->bend);
 }
 
 static void multiply_bends(const SporeIslandSystem *system, const double *x, double *y) {
   for (size_t i = 0; system->world->links.curve_joint_count > 0 && i < system->island->spring_count; i++) {
     const SporeSpringTerm *term = spore_island_system_spring(system, i);
-    if (term->curve && term->curve->bend.turn > 0 && !term->curve->bend.folded)
+    if (term->curve && term->curve->bend.turn > 0 && !term->curve->bend.assembled)
       spore_curve_joint_bend_multiply(term, system->world->solve.local_sites, x, y);
   }
 }

@@ -1,7 +1,7 @@
 /* Terms that hang on nodes of one body alone, such as its contacts with what does not move: they are added to the
  * body's own matrix, so that a factor of it knows them. Private to the room. */
-#ifndef SPORE_SIM_FOLD_H
-#define SPORE_SIM_FOLD_H
+#ifndef SPORE_SIM_LOCAL_ASSEMBLY_H
+#define SPORE_SIM_LOCAL_ASSEMBLY_H
 
 #include "core/sim/solve/island_system.h"
 

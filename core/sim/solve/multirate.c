@@ -23,7 +23,7 @@
 #include "core/sim/solve/island_system.h"
 
 /* Vectors of 3 block_count behind which the solver's or the method's own scratch lies. */
-#define MIXED_VECTORS 9
+#define MULTIRATE_VECTORS 9
 
 typedef struct Multirate {
   SporeWorld *world;
@@ -175,5 +175,5 @@ SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *i
 
 size_t spore_multirate_scratch(void) {
   size_t method = spore_integrator_scratch(), stage = 3 * SPORE_STAGE_SCRATCH;
-  return 3 * MIXED_VECTORS + (method + 9 > stage ? method + 9 : stage); /* 9: q and v of a body that goes alone */
+  return 3 * MULTIRATE_VECTORS + (method + 9 > stage ? method + 9 : stage); /* 9: q and v of a body that goes alone */
 }

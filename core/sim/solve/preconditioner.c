@@ -223,8 +223,8 @@ bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
   assert(island->kept_count <= island->body_count);
   assert(island->body_start + island->body_count <= world->body_count);
   const SporeStepResult *result = &island->result;
-  SporeIslandSystem group = {.world = world, .island = island};
-  bool again = false, alone = !spore_island_system_couples(&group);
+  SporeIslandSystem system = {.world = world, .island = island};
+  bool again = false, alone = !spore_island_system_couples(&system);
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
     SporeFactorChoice *choice = &body->preconditioner.choice;

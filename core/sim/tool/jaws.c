@@ -166,13 +166,13 @@ static double opening_torque(const SporeWorld *world, const SporeJaws *jaws, con
 }
 
 /* The opening that the device asks for. */
-static double wanted_opening(SporeJaws *jaws, const SporeDeviceState *input, bool spoke) {
+static double wanted_opening(SporeJaws *jaws, const SporeDeviceState *input, bool has_input) {
   if (jaws->latches && (input->buttons & SECOND_BUTTON)) {
     jaws->latched = false;
     return jaws->fields.opening;
   }
   if (jaws->latched) return 0;
-  if (!spoke) return jaws->opening;
+  if (!has_input) return jaws->opening;
   if (jaws->fields.trigger == SPORE_TRIGGER_BUTTON) return input->buttons & 1u ? 0 : jaws->fields.opening;
   return fmin(fmax(input->grip_rad, 0), jaws->fields.opening);
 }

@@ -66,36 +66,38 @@ void spore_world_reset_cutting(SporeWorld *world) {
 }
 
 /* Numbers the nodes of a row by what still hangs together, from 1; 0: nothing ever tied it to another of them. */
-static void find_groups(const SporeModel *model, const uint32_t *block, size_t count, size_t group[ROW_MAXIMUM]) {
+static void find_components(const SporeModel *model, const uint32_t *block, size_t count,
+                            size_t component[ROW_MAXIMUM]) {
   assert(count <= ROW_MAXIMUM);
-  for (size_t i = 0; i < count; i++) group[i] = 0;
+  for (size_t i = 0; i < count; i++) component[i] = 0;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j < count; j++)
-      if (i != j && group[i] == 0 && model->type->tie(model, block[i], block[j]) != SPORE_TIE_NONE) group[i] = i + 1;
+      if (i != j && component[i] == 0 && model->type->tie(model, block[i], block[j]) != SPORE_TIE_NONE)
+        component[i] = i + 1;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j < i; j++) {
-      if (group[i] == group[j] || model->type->tie(model, block[i], block[j]) != SPORE_TIE_HOLDS) continue;
-      size_t from = group[i], to = group[j];
+      if (component[i] == component[j] || model->type->tie(model, block[i], block[j]) != SPORE_TIE_HOLDS) continue;
+      size_t from = component[i], to = component[j];
       for (size_t k = 0; k < count; k++)
-        if (group[k] == from) group[k] = to;
+        if (component[k] == from) component[k] = to;
     }
 }
 
 /* Leaves the sphere to the nodes of one group; those of none stay with it. */
-static void part_row(const SporeModel *model, const SporeMapping *spheres, size_t point) {
+static void keep_one_component(const SporeModel *model, const SporeMapping *spheres, size_t point) {
   assert(spheres->kind == SPORE_MAPPING_LINEAR && point < spheres->point_count);
   uint32_t start = spheres->row_start[point];
-  size_t count = spheres->row_start[point + 1] - start, group[ROW_MAXIMUM], most = 0;
+  size_t count = spheres->row_start[point + 1] - start, component[ROW_MAXIMUM], most = 0;
   double *weight = spheres->weight + start, sum[ROW_MAXIMUM + 1] = {0}, tied = 0;
   if (count > ROW_MAXIMUM) return;
-  find_groups(model, spheres->block + start, count, group);
-  for (size_t i = 0; i < count; i++) sum[group[i]] += weight[i];
-  for (size_t i = 0; i < count; i++) tied += group[i] > 0 ? weight[i] : 0;
+  find_components(model, spheres->block + start, count, component);
+  for (size_t i = 0; i < count; i++) sum[component[i]] += weight[i];
+  for (size_t i = 0; i < count; i++) tied += component[i] > 0 ? weight[i] : 0;
   for (size_t i = 1; i <= count; i++)
     if (sum[i] / tied > sum[most] / tied || most == 0) most = i;
   if (count == 0 || fabs(sum[most] - tied) < 1e-12) return;
   for (size_t i = 0; i < count; i++)
-    if (group[i] > 0) weight[i] = group[i] == most ? weight[i] * tied / sum[most] : 0;
+    if (component[i] > 0) weight[i] = component[i] == most ? weight[i] * tied / sum[most] : 0;
 }
 
 /* What the body remembers of steps before is of one that was whole. */
@@ -117,7 +119,7 @@ void spore_body_was_cut(SporeWorld *world, uint32_t index) {
   }
   spore_body_changed_model(world, index);
   for (size_t i = 0; body->collision.whole_weight && i < body->collision.spheres.point_count; i++)
-    part_row(body->model, &body->collision.spheres, i);
+    keep_one_component(body->model, &body->collision.spheres, i);
 }
 
 static void report_tear(SporeWorld *world, SporeBody *body, size_t edge) {

@@ -71,7 +71,7 @@ static bool make_roomy(SporeBody *body) {
                                          changing->pattern.pair_count, &changing->room);
 }
 
-static bool add_hang(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
+static bool attach_mapping(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
   assert(index < world->body_count);
   assert(world->topology.attached_count < world->body_count + 2 * world->links.term_count);
   if (mapping->kind != SPORE_MAPPING_LINEAR) return true;
@@ -83,11 +83,11 @@ static bool add_hang(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
   return spore_mapping_find_places(mapping, corners, count, model->node_count, &attached->places);
 }
 
-static bool hang_links(SporeWorld *world, uint32_t index) {
+static bool attach_links(SporeWorld *world, uint32_t index) {
   for (size_t i = 0; i < world->links.term_count; i++) {
     const SporeSpringTerm *term = &world->links.springs[i];
-    if (term->a.body == index && !add_hang(world, index, &world->links.mappings[2 * i])) return false;
-    if (term->b.body == index && !add_hang(world, index, &world->links.mappings[2 * i + 1])) return false;
+    if (term->a.body == index && !attach_mapping(world, index, &world->links.mappings[2 * i])) return false;
+    if (term->b.body == index && !attach_mapping(world, index, &world->links.mappings[2 * i + 1])) return false;
   }
   return true;
 }
@@ -95,8 +95,8 @@ static bool hang_links(SporeWorld *world, uint32_t index) {
 static bool prepare(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
   body->splitting.possible = true;
-  return hold_spares(world, body) && make_roomy(body) && add_hang(world, index, &body->collision.spheres) &&
-         hang_links(world, index);
+  return hold_spares(world, body) && make_roomy(body) && attach_mapping(world, index, &body->collision.spheres) &&
+         attach_links(world, index);
 }
 
 static void copy_corners(SporeWorld *world, const SporeBody *body) {
@@ -106,14 +106,14 @@ static void copy_corners(SporeWorld *world, const SporeBody *body) {
   memcpy(world->topology.cuts.corners + 4 * body->splitting.corner_start, corners, 4 * count * sizeof *corners);
 }
 
-static bool can_be_parted(const SporeBody *body, size_t *count) {
+static bool can_be_split(const SporeBody *body, size_t *count) {
   return body->role == SPORE_PASSIVE && body->model->type->corners && body->model->type->corners(body->model, count);
 }
 
 bool spore_world_create_splitting(SporeWorld *world) {
   size_t count, total = 0;
   for (size_t b = 0; b < world->body_count; b++) {
-    if (!can_be_parted(&world->bodies[b], &count)) continue;
+    if (!can_be_split(&world->bodies[b], &count)) continue;
     world->bodies[b].splitting.corner_start = total;
     total += count;
   }
@@ -123,7 +123,7 @@ bool spore_world_create_splitting(SporeWorld *world) {
   world->topology.attached = SPORE_NEW_ARRAY(SporeAttachedMapping, world->body_count + 2 * world->links.term_count);
   bool made = world->topology.cuts.corners && world->topology.attached;
   for (uint32_t b = 0; made && b < world->body_count; b++) {
-    if (!can_be_parted(&world->bodies[b], &count)) continue;
+    if (!can_be_split(&world->bodies[b], &count)) continue;
     made = prepare(world, b);
     if (made) copy_corners(world, &world->bodies[b]);
   }
@@ -167,7 +167,7 @@ static void drop_factor(SporeBody *body) {
 }
 
 /* What holds a node holds its copies. */
-static void divide(SporeWorld *world, uint32_t index) {
+static void split_body(SporeWorld *world, uint32_t index) {
   assert(world->bodies[index].splitting.possible);
   SporeBody *body = &world->bodies[index];
   size_t before = nodes_in_use(body);
@@ -192,7 +192,7 @@ void spore_world_split_nodes(SporeWorld *world) {
     SporeBody *body = &world->bodies[b];
     if (!body->splitting.wanted || body->frozen || body->sleep.asleep) continue;
     body->splitting.wanted = false;
-    divide(world, b);
+    split_body(world, b);
   }
 }
 
