@@ -1,3 +1,4 @@
+/* Frames along a line: stations, and the sections of points that follow them. */
 #include "core/body/line_frames.h"
 
 #include <assert.h>
@@ -9,8 +10,8 @@
 #include "core/body/path.h"
 #include "core/mesh/attach.h"
 
-#define REACH 4.0     /* mean radii, over which sections give way to one another */
-#define STRAIGHT 1e-6 /* of the moment along a line, across it: square of how far off straight it is */
+#define REACH 4.0     /* mean radii: length over which sections even out their roll */
+#define STRAIGHT 1e-6 /* moment across a straight line, of that along it */
 
 void spore_line_frames_clear(SporeLineFrames *frames) {
   spore_free(frames->stations);
@@ -44,7 +45,7 @@ static bool allocate(SporeLineFrames *frames, size_t stations, size_t points) {
          frames->system;
 }
 
-/* Lengths, and places from the middle. Returns the length of the line. */
+/* Sets lengths of the stations, and their places from the middle. Returns the length of the line. */
 static double measure_stations(SporeLineFrames *frames, const SporeLine *line) {
   assert(line->q);
   SporeVec3 middle = {0, 0, 0};
@@ -67,7 +68,7 @@ static double measure_stations(SporeLineFrames *frames, const SporeLine *line) {
   return whole;
 }
 
-/* Normals at rest, carried along the line; what rolls there is counted from them. */
+/* Sets the normals at rest, carried along the line. Roll is counted from them. */
 static void set_normals(SporeLineFrames *frames, const SporeLine *line) {
   SporeVec3 tangent = {1, 0, 0}, normal = {0, 1, 0};
   for (size_t k = 0; k < frames->station_count; k++) {
@@ -83,7 +84,7 @@ static void set_normals(SporeLineFrames *frames, const SporeLine *line) {
   }
 }
 
-/* Whether the line is straight at rest, and its direction. */
+/* Finds whether the line is straight at rest, and its direction. */
 static void find_chord(SporeLineFrames *frames) {
   SporeMat3 moment = {{0}}, axes;
   double value[3];
@@ -116,7 +117,7 @@ static double mean_radius(const SporeLine *line) {
   return sum;
 }
 
-/* The nodes of the stations and of what is behind the control points. */
+/* Sets the nodes of the stations, of arms and of the root, for these knots. */
 static void lead(SporeLineFrames *frames, SporeSplineKnots knots) {
   size_t count = knots.span_count + 3;
   frames->root = count;
@@ -147,7 +148,7 @@ static void set_stations(SporeLineFrames *frames, const SporeLine *line) {
   set_system(frames, REACH * mean_radius(line));
 }
 
-/* A point's frame, and what it is made of. */
+/* Frame of the line at a point, and its parts. */
 typedef struct Section {
   SporeVec3 position, tangent, normal;
   double inverse;
@@ -253,8 +254,8 @@ void spore_line_frames_positions(const SporeLineFrames *frames, size_t point, co
   }
 }
 
-/* The frame turns with its tangent, and rolls as the normal that is carried from the station before and its part of the
- * twist to the next one do. */
+/* The frame turns with its tangent. It rolls with the normal that is carried from the station before, and by its share
+ * of the twist to the next station. */
 void spore_line_frames_velocities(const SporeLineFrames *frames, size_t point, const double *q, const double *v,
                                   double *velocities) {
   spore_line_roll_place(frames, q);

@@ -1,3 +1,4 @@
+/* Mappings: points that follow a body, their velocities, and forces back to the body. */
 #include "core/body/mapping.h"
 
 #include <assert.h>
@@ -100,7 +101,7 @@ static bool list_corners(const uint32_t *corners, size_t count, size_t node_coun
   return true;
 }
 
-/* Whether all blocks are nodes of the tetrahedron; their corners. */
+/* Whether all blocks are nodes of the tetrahedron. Sets their corners. */
 static bool place_row(const uint32_t *block, size_t count, const uint32_t *corners, uint32_t tetrahedron,
                       uint32_t *places) {
   for (size_t k = 0; k < count; k++) {

@@ -1,3 +1,4 @@
+/* Error of a mapping: how far its points are off under motions that are known. */
 #include "core/body/mapping_error.h"
 
 #include <assert.h>
@@ -6,9 +7,9 @@
 #include "core/base/memory.h"
 #include "core/base/text.h"
 
-#define BEND 0.1 /* how far an end goes off the line, of the length */
+#define BEND 0.1 /* of the length: how far an end goes off the line */
 
-/* Sum of the absolute weights of a point of a linear mapping; 1 of others. */
+/* Sum of the absolute weights of a point of a linear mapping; 1 for other mappings. */
 static double leverage_of(const SporeMapping *mapping, size_t point) {
   assert(point < mapping->point_count);
   double sum = 0;
@@ -17,8 +18,9 @@ static double leverage_of(const SporeMapping *mapping, size_t point) {
   return sum;
 }
 
-/* x' = centre + stretch (x - centre) + shift + along^2 aside, along the longest side of the box around the nodes; with
- * a radius instead an arc of a circle, to which planes across that side stay square, in its plane with aside. */
+/* x' = centre + stretch (x - centre) + shift + along^2 aside, along the longest side of the box around the nodes.
+ * With a radius: that side becomes an arc of a circle, in its plane with aside, and planes across the side stay square
+ * to the arc. */
 typedef struct Field {
   SporeVec3 centre, shift, along, aside;
   SporeMat3 stretch;
@@ -82,7 +84,7 @@ static Field arc_field(const double *nodes, size_t count) {
   return field;
 }
 
-/* What is measured, with room for a state and for places of the points. */
+/* The model and mapping to measure, with room for a state and for places of the points. */
 typedef struct Trial {
   const SporeModel *model;
   const SporeMapping *mapping;

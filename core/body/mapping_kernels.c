@@ -1,3 +1,4 @@
+/* Points of linear mappings as weighted sums of nodes, one kernel for each level of the processor. */
 #include "core/body/mapping_kernels.h"
 
 #include <assert.h>

@@ -1,3 +1,4 @@
+/* Models: creation of their common part, and the check of a model type. */
 #include "core/body/model.h"
 
 #include <assert.h>

@@ -1,4 +1,4 @@
-/* Momentum of a body, and velocities that have it. */
+/* Momentum of a body, and velocities with a given momentum. */
 #include "core/body/momentum.h"
 
 #include <assert.h>
@@ -21,7 +21,7 @@ static void add_node(SporeMotion *motion, double mass, SporeVec3 arm, SporeVec3 
   motion->inertia = spore_mat3_sub(motion->inertia, spore_mat3_scale(mass, spore_mat3_multiply(skew, skew)));
 }
 
-/* The turning of a frame. */
+/* Adds the turning of a frame. */
 static void add_frame(SporeMotion *motion, const SporeModel *model, const double *q, const double *v) {
   assert(model->block_count == model->node_count + 1);
   SporeMat3 inertia = model->type->inertia(model, q);
@@ -50,7 +50,7 @@ static void add_rigid(const SporeModel *model, const double *q, SporeVec3 centre
   if (!spore_model_is_nodal(model)) spore_vec3_accumulate(v + 3 * model->node_count, w);
 }
 
-/* Spin that has this angular momentum; of a line about itself, which has none, none. */
+/* Spin with this angular momentum. About an axis without inertia, such as that of a line, the spin is 0. */
 static SporeVec3 spin_of(const SporeMat3 *inertia, SporeVec3 angular) {
   double values[3], most = 0;
   SporeMat3 vectors;
@@ -64,7 +64,7 @@ static SporeVec3 spin_of(const SporeMat3 *inertia, SporeVec3 angular) {
   return spin;
 }
 
-/* A second time for what rounding took. */
+/* Gives the velocities the momentum of `before`. The second round corrects rounding. */
 static void correct(const SporeModel *model, const double *q, const SporeMotion *before, SporeVec3 centre, double *v) {
   assert(before->mass > 0);
   SporeVec3 shift = spore_vec3_sub(before->centre, centre);

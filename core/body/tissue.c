@@ -1,3 +1,4 @@
+/* Tissues: the table of measured quantities, and look-ups in it. */
 #include "core/body/tissue.h"
 
 #include <assert.h>

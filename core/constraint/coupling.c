@@ -1,3 +1,4 @@
+/* Couplings: terms between bodies as symmetric blocks, multiplied without a matrix. */
 #include "core/constraint/coupling.h"
 
 #include <assert.h>

@@ -1,10 +1,10 @@
-/* Rails: paths of bodies that the ends of springs run along. */
+/* Curve joints: the end of a spring slides along a path of a body. */
 #include <assert.h>
 
 #include "core/constraint/term_ends.h"
 
-#define SOFT_STOP 0.01 /* of a span: over this a stop begins to damp */
-#define LEAST_BEND 0.1 /* nearer to its centre of curvature a path has no nearest place that moves smoothly */
+#define SOFT_STOP 0.01 /* of a span: over this length a stop begins to damp */
+#define LEAST_BEND 0.1 /* nearer to the centre of curvature, the nearest place of a path does not move smoothly */
 
 bool spore_curve_joint_may_stop(const SporeCurveJoint *joint) {
   return joint->stops &&

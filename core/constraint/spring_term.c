@@ -1,4 +1,4 @@
-/* Springs as terms: between two points, or along a line or a path with what slides there. */
+/* Spring terms: springs between two points, or with an end that slides along a line or a path. */
 #include <assert.h>
 
 #include "core/constraint/term_ends.h"
@@ -16,7 +16,7 @@ static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, Spo
                      scale * spore_vec3_dot(row_z, force)};
 }
 
-/* What physics does not move is a line for the length of a step. */
+/* Whether the end slides along a path that moves. A path that physics does not move is a line during a step. */
 INLINE bool runs(const SporeSpringTerm *term) { return term->curve && !term->b.prescribed; }
 
 static double joint_length(const SporeCurveJoint *joint, const double *local, double to) {
@@ -41,7 +41,7 @@ static void run_along(SporeSpringTerm *term, const SporeSite *sites, const doubl
   if (term->law.friction > 0) term->slid = joint_length(term->curve, local, place.parameter);
 }
 
-/* Where the ends are, or will be after `ahead`; how far friction's spring has slid by then. */
+/* Positions of the ends, now or after `ahead`, and how far the spring of friction has slid by then. */
 static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v, SporeVec3 *a,
                         SporeVec3 *b) {
   assert(term->law.rest_length >= 0 && term->law.friction >= 0);
@@ -50,8 +50,8 @@ static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const dou
   if (runs(term)) run_along(term, sites, q, *a);
   *b = locate(&term->b, none, sites, q);
   if (term->law.friction > 0 && !runs(term)) term->slid = slid_along_line(term, *a, *b);
-  /* What holds two points together pulls in any direction: both bodies feel it where the first is, so that together
-   * they are not turned by it. */
+  /* A spring without length pulls in any direction. Its force acts on both bodies at the place of the first end, so
+   * that it does not turn the two together. */
   if (term->law.rest_length == 0 && !term->b.prescribed && term->b.mapping->kind == SPORE_MAPPING_RIGID)
     term->b.offset = spore_vec3_add(term->b.offset, spore_vec3_sub(*a, *b));
   if (!(term->softening.ahead > 0)) return;
@@ -62,7 +62,7 @@ static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const dou
   term->slid += spore_vec3_dot(term->law.free, spore_vec3_sub(ahead_a, ahead_b));
 }
 
-/* Toward the path, where end a is beyond an end of it that stops. */
+/* Force of a stop, where end a is beyond an end of the path that stops it. */
 static SporeContactNormal stop_of(const SporeSpringTerm *term, SporeVec3 a, SporeVec3 b, SporeVec3 velocity_a,
                                   SporeVec3 velocity_b) {
   const SporeCurveJoint *joint = term->curve;

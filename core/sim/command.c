@@ -80,7 +80,7 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
   }
   if (command->body >= world->body_count) return;
   SporeBody *body = &world->bodies[command->body];
-  /* Others may lie on what does not move by physics. */
+  /* Sleeping bodies may lie on a body that physics does not move. */
   if (body->role == SPORE_PASSIVE && !body->frozen) spore_world_wake(world, command->body);
   else spore_world_wake_all(world);
   switch (command->kind) {

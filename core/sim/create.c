@@ -1,4 +1,4 @@
-/* From a description to a world: everything is sized and checked here, so that a step need not. */
+/* Makes a world from a description. All sizes are set and all input is checked here, so that a step does neither. */
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -69,12 +69,12 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
   return true;
 }
 
-/* Contacts are found once a step; in more substeps particles may go so far that they are found deep inside others. So
- * many are taken unasked. */
+/* Most substeps that are chosen without being asked for. Contacts are found once a step: in more substeps than these,
+ * particles may move so far that the next detection finds them deep inside others. */
 #define SUBSTEPS_UNASKED 20
 
-/* What the scene leaves open of a model that is to be moved by explicit steps. An implicit method that somebody asks
- * for has no Jacobian to go by and needs as small ones. */
+/* Chooses the integrator and the substeps that the scene leaves open, for a model that has rates and no Jacobian. An
+ * implicit method that the scene asks for has no Jacobian either, and needs steps as small as an explicit one. */
 static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBodyDescription *from) {
   assert(body->model->type->rates);
   assert(world->solver.time_step > 0);
@@ -94,7 +94,7 @@ static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBo
   body->method.substeps_source = SPORE_SOURCE_AUTOMATIC;
 }
 
-/* Offsets and names; the models are borrowed until the world stands. */
+/* Sets offsets and names. The models stay the caller's until the world is complete. */
 static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
   assert((from->role == SPORE_PASSIVE) == (from->model != NULL));
   assert(!body->name);
@@ -163,7 +163,7 @@ static bool create_bodies(SporeWorld *world, const SporeWorldDescription *descri
   return true;
 }
 
-/* Spheres of the bodies with this role, behind those that are there. */
+/* Appends the spheres of the unmovable bodies, or of all other bodies. */
 static bool add_spheres(SporeWorld *world, const SporeWorldDescription *description, bool unmovable,
                         SporeError *error) {
   assert(description->body_count == world->body_count);
@@ -195,7 +195,7 @@ static bool make_grid(SporeWorld *world, SporeError *error) {
   assert(world->contact.reach && !world->contact.grid);
   SporeGridBody *bodies = SPORE_NEW_ARRAY(SporeGridBody, world->body_count);
   if (!bodies) return no_memory(error);
-  size_t with = 0; /* bodies without spheres are no reason for a grid */
+  size_t with = 0; /* bodies with spheres: only these can need a grid */
   for (size_t i = 0; i < world->body_count; i++)
     if (world->bodies[i].collision.spheres.point_count > 0) bodies[with++] = grid_body(&world->bodies[i]);
   bool needed = spore_grid_body_pairs(bodies, with) > 0;
@@ -241,7 +241,7 @@ static bool allocate_vectors(SporeWorld *world, SporeError *error) {
   return made || no_memory(error);
 }
 
-/* Each body at each of its levels of detail. */
+/* Checks the time step for each body at each of its levels of detail. */
 static bool check_steps(SporeWorld *world, SporeError *error) {
   assert(world->state.rest_q && world->state.rest_v);
   for (uint32_t b = 0; b < world->body_count; b++)
@@ -253,7 +253,7 @@ static bool check_steps(SporeWorld *world, SporeError *error) {
   return true;
 }
 
-/* The models go back to the caller. */
+/* Frees the unfinished world. The models stay the caller's. */
 static SporeWorld *give_up(SporeWorld *world) {
   for (size_t i = 0; world->bodies && i < world->body_count; i++) {
     spore_levels_give_up(&world->bodies[i]);

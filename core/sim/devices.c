@@ -1,4 +1,4 @@
-/* Devices: poses of active bodies from them, and the forces that bodies feel back to them. */
+/* Device input and feedback: poses of active bodies come from devices, and forces on these bodies go back. */
 #include <assert.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 
 static const SporeGuardLimits limits = SPORE_GUARD_LIMITS;
 
-/* Between reading where a hand is and pushing it. */
+/* Pushes the hand between two readings, with no more force than keeps the device passive. */
 static void push(SporeWorld *world, SporeBody *body) {
   assert(body->device.device);
   assert(world->solver.time_step > 0);
@@ -48,7 +48,7 @@ void spore_world_read_devices(SporeWorld *world) {
     if (world->bodies[b].role == SPORE_ACTIVE) spore_active_set_velocity(world, b);
 }
 
-/* What torque is about: the frame's origin, or for a set of nodes that of its frame at time 0. */
+/* Point that torques on the body refer to: the origin of its frame; for a set of nodes, that origin at time 0. */
 static SporeVec3 origin(const SporeWorld *world, const SporeBody *body) {
   bool frame = !body->model || spore_model_is_rigid(body->model);
   return frame ? spore_vec3_load(world->state.q + body->q_offset) : body->rest_pose.position;
@@ -65,7 +65,7 @@ static void add_reaction(SporeWorld *world, uint32_t index, SporeVec3 point, Spo
 void spore_world_add_reactions(SporeWorld *world) {
   assert(world->state.reaction);
   assert(world->contact.count <= world->contact.capacity);
-  /* What sleeps is held as it was when it fell asleep. */
+  /* A sleeping body keeps the reaction that it had when it fell asleep. */
   for (size_t b = 0; b < world->body_count; b++)
     if (!world->bodies[b].sleep.asleep) memset(world->state.reaction + 6 * b, 0, 6 * sizeof *world->state.reaction);
   for (size_t i = 0; i < world->contact.count; i++) {

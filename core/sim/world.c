@@ -1,4 +1,4 @@
-/* A world as its users see it: freed, reset, and asked about its bodies. */
+/* The world's interface to its users: freeing, resetting, and queries about its bodies. */
 #include "core/sim/world.h"
 
 #include <assert.h>

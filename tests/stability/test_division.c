@@ -356,6 +356,8 @@ static uint64_t hash_with(int threads, SporeCpuLevel level) {
   bar->rig->description.body_count = bar->rig->bodies->len;
   bar->rig->description.links = (SporeLinkDescription *)bar->rig->links->data;
   bar->rig->description.link_count = bar->rig->links->len;
+  bar->rig->description.tools = (SporeToolDescription *)bar->rig->tools->data;
+  bar->rig->description.tool_count = bar->rig->tools->len;
   SporeWorld *world = bar->rig->world = spore_world_create(&bar->rig->description, pool, &error);
   g_assert_nonnull(world);
   spore_world_set_device(world, 1, &bar->cutter);

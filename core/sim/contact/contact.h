@@ -1,5 +1,5 @@
-/* Contacts: spheres that follow the state, the pairs of them that touch, the contact manifold, contact terms, and what
- * friction remembers from one step to the next. */
+/* Contacts: spheres that follow the state, pairs of spheres that touch, the contact manifold, contact terms, and the
+ * state of friction between two steps. */
 #ifndef SPORE_SIM_CONTACT_H
 #define SPORE_SIM_CONTACT_H
 
@@ -9,26 +9,26 @@
 #include "core/sim/contact/contact_lanes.h"
 #include "core/sim/state/state.h"
 
-/* A contact of the manifold: what a body feels, and the pair of spheres that friction remembers the contact by. */
+/* A contact of the manifold, and the pair of spheres that identifies the contact for friction. */
 typedef struct SporeManifoldContact {
   SporeContact contact;
-  uint32_t pair_a, pair_b; /* spheres; of a body with a depth field the first sphere of the body */
-  bool field_a, field_b;   /* the body is felt as one depth field */
+  uint32_t pair_a, pair_b; /* spheres; for a body with a depth field, its first sphere */
+  bool field_a, field_b;   /* the contact is with the depth field of the body */
 } SporeManifoldContact;
 
-/* What friction holds of a pair of spheres between two steps. */
+/* State of friction between a pair of spheres, from one step to the next. */
 typedef struct SporeFrictionState {
   uint32_t sphere_a, sphere_b;
   SporeVec3 stretch; /* of the tangential spring, m */
-  SporeVec3 normal;  /* of the contact: a sphere may touch a body with a depth field in several places */
+  SporeVec3 normal;  /* of the contact: a sphere may touch a depth field in several places */
 } SporeFrictionState;
 
 typedef struct SporeContactSystem {
   SporeSpheres spheres;
   uint64_t mapped; /* number of the state that the spheres were last mapped from */
-  double *reach;   /* radius of each sphere as the grid sees it, m */
+  double *reach;   /* radius of each sphere for the grid, m */
   SporeGrid *grid; /* NULL where nothing can touch */
-  size_t missed;   /* contacts without room in the last detection */
+  size_t missed;   /* contacts that found no room in the last detection */
   size_t count, capacity;
   SporeManifoldContact *manifold; /* capacity */
   SporeContactTerm *terms;        /* capacity */
@@ -44,8 +44,8 @@ typedef struct SporeContactSystem {
 typedef struct SporeCollisionUnit {
   SporeContactFields fields;
   SporeMapping spheres;
-  size_t start;                   /* its first sphere in the world's */
-  SporeDepthField field;          /* empty: its spheres are felt one by one */
+  size_t start;                   /* its first sphere among those of the world */
+  SporeDepthField field;          /* empty: others touch its spheres one by one */
   double *whole_weight;           /* weights of the mapping before anything was cut; NULL: nothing cuts the body */
   uint64_t soft_since, soft_last; /* see soft_contact.c: number of the step, from 1 */
 } SporeCollisionUnit;
@@ -55,25 +55,25 @@ typedef struct SporeCollisionUnit {
 void spore_world_map_spheres(SporeWorld *world);
 void spore_world_detect(SporeWorld *world);
 void spore_world_respond(SporeWorld *world);
-/* Puts the end where its body is when the step begins. */
+/* Sets the place of the end when the step begins, and its velocity where it is prescribed. */
 void spore_world_fill_end(const SporeWorld *world, SporeEnd *end);
-/* Room for as many contacts as the grid finds. False: no memory. */
+/* Makes room for as many contacts as the grid finds. False: no memory. */
 bool spore_world_reserve_contacts(SporeWorld *world);
 void spore_contacts_clear(SporeContactSystem *contact);
 
-/* depth_contacts.c: bodies that are felt as one depth field. */
+/* depth_contacts.c: bodies whose surface is one depth field. */
 bool spore_world_create_fields(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
-/* Fills the manifold from the contacts found, in the order of their pairs; returns the number of its contacts. */
+/* Fills the manifold from the contacts found, in the order of their pairs. Returns the number of contacts. */
 size_t spore_world_find_manifold(SporeWorld *world);
 
 /* friction_state.c */
 bool spore_friction_reserve(SporeWorld *world, size_t old_contacts, size_t contacts);
-/* Gives new contacts what friction held for their pairs when the last step ended. */
+/* Gives each new contact the state of friction that its pair had when the last step ended. */
 void spore_world_restore_friction(SporeWorld *world);
-/* Stage: keeps what friction holds now that the step has ended. */
+/* Stage: keeps the state of friction at the end of the step. */
 void spore_world_keep_friction(SporeWorld *world);
 
-/* soft_contact.c. Stage: says which contacts at rest do not hold for the length of the step. */
+/* soft_contact.c. Stage: reports contacts at rest that are too soft because the step is too long. */
 void spore_world_watch_contacts(SporeWorld *world);
 
 #endif

@@ -1,3 +1,4 @@
+/* Forces of contacts in lanes, several at once, one kernel for each level of the processor. */
 #include <assert.h>
 
 #include "core/sim/contact/contact_lanes.h"
@@ -20,7 +21,8 @@ SPORE_INLINE SporeVd3 across(SporeVd3 normal, SporeVd3 a) {
   return spore_vd3_sub(a, spore_vd3_scale(spore_vd3_dot(normal, a), normal));
 }
 
-/* Of an end by physics: how far it has come, its velocity where the force acts, and how far its arm has turned. */
+/* State of an end that physics moves: its displacement, its velocity where the force acts, and the motion of its arm by
+ * turning. */
 typedef struct EndState {
   SporeVd3 motion, velocity, turned;
 } EndState;
@@ -64,7 +66,8 @@ SPORE_INLINE SporeVd step(SporeVd x, SporeVd width, SporeVd *slope) {
   return spore_vd_select(inside, y * y * (3 - 2 * y), spore_vd_select(x > zero, one, zero));
 }
 
-/* Where the two ends alone, stepped by the law's slopes, are thrown apart so fast that the law bends: by the law. */
+/* Normal force by the law itself. For lanes where a step by the slopes of the law would throw the two ends apart so
+ * fast that the law is no longer linear. */
 static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, int k, SporeVl fast, SporeVd depth,
                                               SporeVd gap_speed, SporeVd pressing) {
   for (int i = 0; i < SPORE_WIDTH; i++) {
@@ -79,7 +82,7 @@ static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, in
   return pressing;
 }
 
-/* N of the law, and what is left of it where the contact is softened. */
+/* N of the law; less where the contact is softened. */
 SPORE_INLINE SporeVd press(const SporeContactLanes *lanes, int k, SporeVd depth, SporeVd gap_speed, SporeVd viscous,
                            SporeVd viscous_slope) {
   const double half_exit = 0.5 * SPORE_CONTACT_EXIT_SPEED;
@@ -97,7 +100,7 @@ SPORE_INLINE SporeVd press(const SporeContactLanes *lanes, int k, SporeVd depth,
   return pressing;
 }
 
-/* T, and the yield. moved: of the contact point of a on b since the step began. */
+/* T, and the yield. moved: motion of the contact point of a on b since the step began. */
 SPORE_INLINE SporeVd3 hold(SporeContactLanes *lanes, int k, SporeVd3 n, SporeVd3 moved, SporeVd3 velocity,
                            SporeVd viscous, SporeVd pressing) {
   SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, softer = spore_vd_all(1);

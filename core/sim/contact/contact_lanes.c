@@ -1,3 +1,4 @@
+/* Contact lanes: fills lanes with the contacts of an island, and adds their forces to the bodies. */
 #include "core/sim/contact/contact_lanes.h"
 
 #include <assert.h>
@@ -11,14 +12,14 @@ static SporeContactLanes *lanes_at(const SporeIslandSystem *system, size_t i) {
 
 static size_t lanes_count(const SporeIslandSystem *system) { return spore_lanes_for(system->island->contact_count); }
 
-/* Contacts that lie in the i-th lanes. */
+/* Number of contacts in the i-th lanes. */
 static size_t count_in(const SporeIslandSystem *system, size_t i) {
   assert(i * SPORE_LANES < system->island->contact_count);
   size_t left = system->island->contact_count - i * SPORE_LANES;
   return left < SPORE_LANES ? left : SPORE_LANES;
 }
 
-/* How the ends of a contact are evaluated; `kind`: of the ends before. */
+/* Kind of the lanes with this end too. `kind`: of the ends before. */
 static SporeLanesKind join_kind(const SporeIslandSystem *system, const SporeEnd *end, bool field, SporeLanesKind kind) {
   assert(end->prescribed || end->body < system->world->body_count);
   assert(end->mapping && end->point < end->mapping->point_count);
@@ -90,7 +91,7 @@ static void fill_lane(const SporeIslandSystem *system, const SporeContactTerm *t
   lanes->rubs |= term->law.friction > 0;
 }
 
-/* A lane that feels nothing and reads what the first one reads. */
+/* A lane without force. It reads node 0, so that it reads no invalid memory. */
 static void empty_lane(SporeContactLanes *lanes, size_t k) {
   assert(k < SPORE_LANES);
   SporeLaneEnd *ends[2] = {&lanes->a, &lanes->b};

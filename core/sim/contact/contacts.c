@@ -1,4 +1,4 @@
-/* Spheres from the state, contacts from the spheres, terms from the contacts. */
+/* Contacts of a step: maps spheres from the state, finds contacts of the spheres, and makes terms of the contacts. */
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-/* An active body's spheres have the velocity that takes them to its target in one step. */
+/* Spheres of an active body have the velocity that takes them to their target in one step. */
 static void map_active(SporeWorld *world, const SporeBody *body, double *centre, double *velocity) {
   assert(body->role == SPORE_ACTIVE);
   assert(world->solver.time_step > 0);
@@ -43,7 +43,7 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   if (terms) world->contact.terms = terms;
   SporeCoupling *couplings = spore_reallocate(world->contact.couplings, old, wanted, sizeof *couplings);
   if (couplings) world->contact.couplings = couplings;
-  size_t bodies = world->body_count; /* each island may leave lanes empty */
+  size_t bodies = world->body_count; /* each island may leave some lanes empty */
   SporeContactLanes *lanes = spore_reallocate(world->contact.lanes, old ? spore_lanes_for(old) + bodies : 0,
                                               spore_lanes_for(wanted) + bodies, sizeof *lanes);
   if (lanes) world->contact.lanes = lanes;
@@ -83,14 +83,14 @@ static void find_contacts(SporeWorld *world) {
       spore_grid_detect(world->contact.grid, &reaching, world->solver.time_step, &world->contact.missed);
 }
 
-/* A contact without room would be a body that falls through another, and a run that cannot be repeated: room is made at
- * once. It is the one place where a step may allocate, and since room only grows, seldom. */
+/* Without room for a contact, a body would fall through another, and the run could not be repeated. So room is made at
+ * once. This is the only place where a step may allocate. It does so seldom, since the room never shrinks. */
 void spore_world_detect(SporeWorld *world) {
   assert(world->contact.grid);
   find_contacts(world);
   while (world->contact.missed && spore_world_reserve_contacts(world)) find_contacts(world);
   if (!world->contact.missed) return;
-  find_contacts(world); /* a reservation that failed half-way lost what was found */
+  find_contacts(world); /* a reservation that failed half-way lost the contacts found */
   if (world->contact.count > world->contact.capacity) {
     world->contact.missed += world->contact.count - world->contact.capacity;
     world->contact.count = world->contact.capacity;
@@ -138,14 +138,14 @@ static SporeContactMaterial material(const SporeBody *body) {
                                 body->collision.fields.friction};
 }
 
-/* An arm in the frame of the rigid body that it turns with. */
+/* The arm in the frame of its rigid body; 0 for other bodies. */
 static SporeVec3 frame_arm(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm) {
   if (end->mapping->kind != SPORE_MAPPING_RIGID) return (SporeVec3){0, 0, 0};
   SporeQuat turn = spore_quat_load(world->state.q + world->bodies[end->body].q_offset + 3);
   return spore_quat_rotate(spore_quat_conjugate(turn), arm);
 }
 
-/* From the spheres' centres to the contact point, in the middle of the depth. */
+/* Arms lead from the centres of the spheres to the contact point, in the middle of the depth. */
 static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
   assert(term->sphere_a < world->contact.spheres.count && term->sphere_b < world->contact.spheres.count);
   double radius_a = world->contact.spheres.radius[term->sphere_a],
@@ -159,8 +159,8 @@ static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
   term->frame_arm_b = frame_arm(world, &term->b, term->arm_b);
 }
 
-/* A driven end has the velocity of its contact point: a tool that turns drags. How deep a sphere is does not change by
- * that. */
+/* Gives a driven end the velocity of its contact point, so that a tool that turns drags tissue along. The depth of a
+ * sphere does not change by the turning. */
 static void turn_driven_end(const SporeWorld *world, SporeEnd *end, SporeVec3 frame_arm, SporeVec3 arm, bool field,
                             SporeVec3 normal) {
   assert(end->body < world->body_count);
@@ -205,8 +205,8 @@ void spore_world_respond(SporeWorld *world) {
     fill_term(world, &world->contact.manifold[i], &world->contact.terms[i]);
   spore_world_restore_friction(world);
   for (size_t i = 0; i < world->contact.count; i++) {
-    /* Two bodies that physics does not move (a tool and a wall, or one is frozen) still press on each other: the tool
-     * is to feel it. */
+    /* Two bodies that physics does not move still press on each other, such as a tool on a wall. The force goes to the
+     * tool's device. */
     SporeContactTerm *term = &world->contact.terms[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, 0, NULL);
     const double *radius = world->contact.spheres.radius;

@@ -1,8 +1,11 @@
-/* Contacts with bodies that are felt as one depth field: a sphere that touches several spheres of such a body has one
- * contact with it, whose depth and normal change smoothly where it slides from one to the next; or in a corner, one
- * with each of the sides. Of two such bodies the one of the larger spheres is felt so, by the spheres of the other,
- * which lie closer to its true surface; of equals the first. A sphere that the body may lie flat on meets its spheres
- * one by one: one contact would not hold it. */
+/* Contacts with bodies whose surface is one depth field.
+ *
+ * A sphere (the probe) that touches several spheres of such a body has one contact with the field. Depth and normal
+ * change smoothly when the probe slides from one sphere to the next. In a corner the probe has one contact with each
+ * side. Where both bodies have a field, the field is that of the body with the larger spheres, and the smaller spheres
+ * of the other are the probes, since they lie closer to its true surface. Where both are equal, the first body has the
+ * field. A probe on which the body may lie flat touches the spheres of the body one by one: a single contact would not
+ * hold the body. */
 #include <assert.h>
 #include <math.h>
 
@@ -11,23 +14,23 @@
 #include "core/collide/narrow.h"
 #include "core/sim/world_private.h"
 
-/* A field is felt between its spheres before they are: they are looked for with radii larger by this part. */
+/* Between its spheres a field reaches further than the spheres do. So the grid takes radii larger by this part. */
 #define REACH 0.5
-/* Sides of a corner whose normals are nearer than this (cosine) are felt as one that is rounded; and how many places
- * are looked at. */
+/* Sides of a corner whose normals are nearer than this (cosine) count as one rounded side. PLACES: number of places
+ * that are looked at. */
 #define SAME_SIDE 0.5
 #define PLACES 4
 
 static bool has_field(const SporeBody *body) { return body->collision.field.count > 0; }
 
-/* Whether the contacts of bodies a and b are with the field of the first, or of the second. */
+/* Whether contacts between the two bodies are with the field of `body`. first: `body` has the lower index. */
 static bool is_one_field(const SporeBody *body, const SporeBody *other, bool first) {
   if (!has_field(body) || !has_field(other)) return has_field(body);
   double mean = body->collision.field.mean_radius, others = other->collision.field.mean_radius;
   return mean > others || (mean == others && first);
 }
 
-/* Only what is rigid has a field that can be made once. */
+/* Only a body that keeps its shape has a field that can be made once. */
 static bool wants_field(const SporeBody *body) {
   SporeMappingKind kind = body->collision.spheres.kind;
   return body->collision.fields.surface == SPORE_SURFACE_DEPTH_FIELD && body->collision.spheres.point_count > 1 &&
@@ -78,8 +81,8 @@ bool spore_world_create_fields(SporeWorld *world, const SporeWorldDescription *d
                                  _("not enough memory for smooth surfaces; use fewer spheres, or surface spheres"));
 }
 
-/* Whether the two spheres move so far past each other in the step that the field of now says nothing of where they
- * meet. */
+/* Whether the two spheres move so far past each other in the step that the present field cannot predict their
+ * contact. */
 static bool is_fast(const SporeWorld *world, const SporeContact *contact) {
   const double *velocity = world->contact.spheres.velocity, *radius = world->contact.spheres.radius;
   SporeVec3 a = spore_vec3_load(velocity + 3 * (size_t)contact->a),
@@ -87,8 +90,8 @@ static bool is_fast(const SporeWorld *world, const SporeContact *contact) {
   return spore_vec3_distance(a, b) * world->solver.time_step > fmin(radius[contact->a], radius[contact->b]);
 }
 
-/* Depth and normal from the field of the body that `owner` belongs to, for the ball `probe`; false where they stay
- * apart in this step. The contact's normal points from b to a, the field's out of the body. */
+/* Sets depth and normal by the field of the body that has the sphere `owner`, for the sphere `probe`. False: they stay
+ * apart in this step. The normal of the contact points from b to a, the normal of the field out of the body. */
 static bool evaluate_field(const SporeWorld *world, uint32_t owner, uint32_t probe, SporeContact *contact) {
   assert(owner < world->contact.spheres.count && probe < world->contact.spheres.count);
   const SporeBody *body = &world->bodies[world->contact.spheres.body[owner]];
@@ -113,7 +116,7 @@ static bool evaluate_field(const SporeWorld *world, uint32_t owner, uint32_t pro
   return depth - world->solver.time_step * contact->gap_speed > 0;
 }
 
-/* Where the spheres of a pair lie from each other, towards the probe. */
+/* Unit direction from the owner to the probe. */
 static SporeVec3 direction(const SporeWorld *world, uint32_t owner, uint32_t probe) {
   const double *centre = world->contact.spheres.centre;
   SporeVec3 apart =
@@ -127,7 +130,7 @@ static bool seen(const SporeVec3 *sides, size_t count, SporeVec3 normal) {
   return false;
 }
 
-/* Of a sphere of a body with a field; what is felt of it alone is no larger. */
+/* Radius of a sphere in the field of its body. The radius of the sphere alone is no larger. */
 static double full_radius(const SporeWorld *world, uint32_t sphere) {
   assert(sphere < world->contact.spheres.count);
   const SporeBody *body = &world->bodies[world->contact.spheres.body[sphere]];
@@ -135,7 +138,7 @@ static double full_radius(const SporeWorld *world, uint32_t sphere) {
   return body->collision.field.ball[4 * (sphere - body->collision.start) + 3];
 }
 
-/* The deepest pair on a side that was not looked at yet; `count` where there is none. */
+/* Index of the deepest pair on a side that was not looked at yet; `count`: there is none. */
 static size_t next_place(const SporeWorld *world, const SporeManifoldContact *pairs, size_t count, bool owner_is_a,
                          const SporeVec3 *looked, size_t looked_count) {
   assert(pairs && count > 0);
@@ -163,7 +166,7 @@ static SporeManifoldContact as_one(const SporeWorld *world, SporeContact contact
                                 !owner_is_a};
 }
 
-/* Pairs of spheres, as if there was no field. */
+/* Contacts of pairs of spheres, without the field. */
 static size_t meet(const SporeWorld *world, const SporeManifoldContact *pairs, size_t count, SporeManifoldContact *to) {
   size_t made = 0;
   for (size_t i = 0; i < count; i++) {
@@ -174,8 +177,8 @@ static size_t meet(const SporeWorld *world, const SporeManifoldContact *pairs, s
   return made;
 }
 
-/* Whether the probe does not feel the field: the body may lie flat on it, or it is so fast that only the step will tell
- * which sphere stops it. */
+/* Whether the probe touches the spheres and not the field. Either the body may lie flat on the probe, or the probe is
+ * so fast that only the step itself shows which sphere stops it. */
 static bool meets_spheres(const SporeWorld *world, const SporeContact *nearest, uint32_t owner, uint32_t probe) {
   const SporeDepthField *field = &world->bodies[world->contact.spheres.body[owner]].collision.field;
   return world->contact.spheres.radius[probe] > field->half_width || is_fast(world, nearest);
@@ -228,7 +231,7 @@ static bool pair_before(const SporeManifoldContact *a, const SporeManifoldContac
   return a->contact.a < b->contact.a || (a->contact.a == b->contact.a && a->contact.b < b->contact.b);
 }
 
-/* Of a sphere of a body without a field. */
+/* Margin of a sphere of a body without a field, m. */
 static double margin_of(const SporeWorld *world, uint32_t sphere) {
   assert(sphere < world->contact.spheres.count);
   return world->contact.reach[sphere] - world->contact.spheres.radius[sphere];

@@ -1,12 +1,12 @@
-/* What friction holds from one step to the next: how far the spring of each pair of spheres is stretched. */
+/* State of friction from one step to the next: how far the tangential spring of each pair of spheres is stretched. */
 #include <assert.h>
 
 #include "core/base/memory.h"
 #include "core/sim/world_private.h"
 
-/* Pairs that sleep are not contacts, but hold; there is room for them beside as many contacts. */
+/* Pairs of sleeping bodies are no contacts, but keep their state. So there is room for more states than contacts. */
 #define STATES_PER_CONTACT 4
-/* A contact whose normal has turned by more than to this cosine holds nothing of what it held. */
+/* Cosine. A contact whose normal has turned further than this loses its state. */
 #define SAME_SIDE 0.7
 
 static uint64_t pair_of(uint32_t sphere_a, uint32_t sphere_b) { return (uint64_t)sphere_a << 32 | sphere_b; }
@@ -35,7 +35,7 @@ static void keep(SporeWorld *world, size_t *count, SporeFrictionState state) {
     world->contact.friction_scratch[(*count)++] = state;
 }
 
-/* Contacts, and grips, are in the order of their pairs. */
+/* Contacts and states of friction are both in the order of their pairs. */
 void spore_world_keep_friction(SporeWorld *world) {
   assert(world->contact.friction_count <= STATES_PER_CONTACT * world->contact.capacity);
   size_t count = 0, old = 0, old_count = world->contact.friction_count;
@@ -56,13 +56,13 @@ void spore_world_keep_friction(SporeWorld *world) {
   world->contact.friction_count = count;
 }
 
-/* The stretch turned into the plane that the pair touches in now. */
+/* The stretch, turned into the present tangent plane of the contact. */
 static SporeVec3 turn_stretch(SporeVec3 stretch, SporeVec3 normal) {
   SporeVec3 flat = spore_vec3_add_scaled(stretch, -spore_vec3_dot(stretch, normal), normal);
   return spore_vec3_scale(spore_vec3_length(stretch), spore_vec3_normalise(flat, (SporeVec3){0, 0, 0}));
 }
 
-/* Of the grips of the contact's pair, from `first` on, the one of the same side; NULL: none. */
+/* The state of this pair, from index `first` on, whose normal is nearest; NULL: none is near enough. */
 static const SporeFrictionState *find_state(const SporeWorld *world, size_t first, uint64_t pair, SporeVec3 normal) {
   const SporeFrictionState *found = NULL;
   double best = SAME_SIDE;

@@ -1,9 +1,9 @@
-/* One level fitted to another: its nodes so that material points lie where the other has them, in the mean square.
+/* Fits one level to another: places its nodes so that material points lie where the other level has them.
  *
- * Least squares, min sum_s w_s |p_s - (W q)_s|^2, by conjugate gradients on W^T w W with its diagonal, begun where each
- * node has moved with the point next to it. What one level can do and another as well comes through to rounding: a
- * spline among more control points, whose knots are among them. Pinned nodes stay at their places of time 0, and a
- * frame is one and the same thing at each level. */
+ * Least squares, min sum_s w_s |p_s - (W q)_s|^2, by conjugate gradients on W^T w W, preconditioned by its diagonal.
+ * The start moves each node with the material point next to it. A shape that both levels can take is reproduced to
+ * rounding, such as a spline by one with more knots. Pinned nodes stay at their places of time 0. A frame is the same
+ * at each level. */
 #include <assert.h>
 #include <string.h>
 
@@ -12,9 +12,9 @@
 #include "core/sim/world_private.h"
 
 #define ITERATIONS 300
-#define SMALL 1e-28 /* of the first residual's square: rounding */
+#define SMALL 1e-28 /* of the square of the first residual: below, it is rounding */
 
-/* Unknowns of a fit: blocks of nodes, those behind `count` and the held ones apart. */
+/* Unknowns of a fit: the first `count` blocks, without the held ones. */
 typedef struct Fit {
   const SporeLevels *levels;
   const SporeLevel *level;
@@ -26,7 +26,7 @@ static void filter(const Fit *fit, double *x) {
   spore_pin_filter(fit->level->held, fit->level->held_count, x);
 }
 
-/* r = W^T w (target - W x); target NULL: 0, and the sign turned: r = W^T w W x. */
+/* r = W^T w (target - W x); without a target r = W^T w W x. */
 static void residual(const Fit *fit, const double *target, const double *x, double *r) {
   assert(fit->level->samples.point_count == fit->levels->sample_count);
   const SporeLevels *levels = fit->levels;
@@ -72,7 +72,7 @@ static void solve(const Fit *fit, const double *target, double *x) {
   }
 }
 
-/* Nodes as far from where they were at time 0 as the sample next to them. */
+/* Start of the fit: each node is displaced from its place of time 0 like the sample next to it. */
 static void begin(const Fit *fit, double *q) {
   assert(fit->level->model->q_count <= fit->levels->q_room);
   const SporeLevel *level = fit->level;
@@ -88,7 +88,7 @@ static void begin(const Fit *fit, double *q) {
     memcpy(q + 3 * (size_t)level->held[i], level->rest_q + 3 * (size_t)level->held[i], 3 * sizeof *q);
 }
 
-/* The frame of `from` by that of `to`: each stood somewhere in the body at time 0, and stands there still. */
+/* Places the frame of `to` by that of `from`: each keeps its place in the body of time 0. */
 static void place_frame(const SporeModel *from, const double *from_rest, const double *q, const double *v,
                         const SporeModel *to, const double *to_rest, double *q1, double *v1) {
   assert(!spore_model_is_nodal(from) && !spore_model_is_nodal(to));
@@ -103,7 +103,8 @@ static void place_frame(const SporeModel *from, const double *from_rest, const d
   spore_vec3_store(v1 + b + 3, spin);
 }
 
-/* What the change is to keep of motion; a body that is pinned hands momentum to its pins. */
+/* Keeps momentum, and does not let energy grow. A pinned body gives momentum to its pins, so that only energy counts.
+ */
 static void keep_motion(const SporeModel *from, const double *q, const double *v, const SporeLevel *to, bool free,
                         double *q1, double *v1) {
   SporeMotion before = spore_model_motion(from, q, v, NULL);
@@ -140,7 +141,7 @@ void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelG
   keep_motion(body->model, q, v, level, free, levels->q, levels->v);
 }
 
-/* Of `count` samples from the start on. */
+/* Greatest distance of `count` samples from index `start` on, m. */
 static double distance_of(const SporeLevels *levels, size_t start, size_t count) {
   assert(start + count <= levels->sample_count);
   double worst = 0;

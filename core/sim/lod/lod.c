@@ -1,4 +1,4 @@
-/* Levels: what is made of them before a world runs, and how one takes the place of another. */
+/* Levels of detail: makes them before the world runs, and exchanges one for another. */
 #include "core/sim/world_private.h"
 
 #include <assert.h>
@@ -75,9 +75,9 @@ bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescri
   return true;
 }
 
-/* One for another. */
+/* Exchange. */
 
-/* Out of the body and back into it: nothing is copied but pointers. */
+/* The parts of a level move out of the body and into it. Only pointers are copied. */
 
 static void put_away(SporeWorld *world, SporeBody *body) {
   assert(body->levels->level[body->level].model == body->model);
@@ -125,7 +125,7 @@ static void take_rest(SporeWorld *world, const SporeBody *body) {
   memcpy(v, level->rest_v, 3 * body->block_count * sizeof *v);
 }
 
-/* What slides along the body is sought anew on the level's own line. */
+/* Curve joints along the body are placed anew on the level's own line. */
 static void seek_curve_joints(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
   const SporeModel *model = world->bodies[index].model;
@@ -163,12 +163,13 @@ void spore_world_reset_levels(SporeWorld *world) {
     SporeLevels *levels = world->bodies[b].levels;
     if (!levels) continue;
     spore_world_select_level(world, b, levels->first);
-    take_rest(world, &world->bodies[b]); /* changes while it runs leave that of another level there */
+    take_rest(world,
+              &world->bodies[b]); /* a change while the world runs leaves the rest state of another level there */
     levels->state = (SporeLevelState){.level = levels->first};
   }
 }
 
-/* Making one: it is put into the body as if that were its only one. */
+/* Making a level: the level is put into the body as if it were its only one. */
 
 static bool remember_rest(const SporeWorld *world, const SporeBody *body, SporeLevel *level) {
   assert(!level->rest_q && !level->rest_v);
@@ -180,7 +181,7 @@ static bool remember_rest(const SporeWorld *world, const SporeBody *body, SporeL
   return true;
 }
 
-/* What links hold and the pull may hold, where the finest level has it. */
+/* Maps the points that links hold and the pull may hold, where the finest level has them. */
 static bool map_ends(SporeWorld *world, uint32_t index, SporeMapping *ends, SporeError *error) {
   const SporeBody *body = &world->bodies[index];
   const SporeLevels *levels = body->levels;
@@ -275,7 +276,7 @@ bool spore_world_create_levels(SporeWorld *world, const SporeWorldDescription *d
   return true;
 }
 
-/* The end. */
+/* Freeing. */
 
 static void free_level(SporeLevels *levels, SporeLevel *level, bool active) {
   spore_free(level->rest_q);
@@ -314,7 +315,7 @@ void spore_levels_give_up(SporeBody *body) {
   for (int k = 0; body->levels && k < SPORE_LEVEL_COUNT; k++) body->levels->level[k].model = NULL;
 }
 
-/* Asking. */
+/* Queries. */
 
 static size_t mapping_memory(const SporeMapping *mapping) {
   size_t entries = mapping->row_start ? mapping->row_start[mapping->point_count] : 0;

@@ -1,5 +1,5 @@
-/* The material points by which levels are fitted to each other: those of each level, which tell its configuration, and
- * the spheres and the surface, which are only looked at. */
+/* Samples: the material points by which levels are fitted to each other. Those of each level determine its
+ * configuration. Those of the spheres and of the surface only measure the error. */
 #include <assert.h>
 #include <float.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@ static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a body's levels"));
 }
 
-/* Nodes in the body's frame at rest; a frame's origin is none of them. */
+/* Nodes in the body's frame at rest, without the origin of a frame. */
 static bool take_nodes(const SporeModel *model, double **points, size_t *count, size_t *seen) {
   double *q = SPORE_NEW_ARRAY(double, model->q_count), *v = SPORE_NEW_ARRAY(double, 3 * model->block_count);
   *count = model->node_count - !spore_model_is_nodal(model);
@@ -34,7 +34,7 @@ static bool append(double **all, size_t *count, const double *points, size_t mor
   return true;
 }
 
-/* Each level's own. */
+/* Collects the samples of each level's own. */
 static bool collect_own(SporeLevels *levels, double **all) {
   for (int k = 0; k < SPORE_LEVEL_COUNT; k++) {
     SporeLevel *level = &levels->level[k];
@@ -51,7 +51,7 @@ static bool collect_own(SporeLevels *levels, double **all) {
   return true;
 }
 
-/* Each level's weigh the same together. */
+/* The samples of each level have the same weight together. */
 static bool weigh(SporeLevels *levels) {
   levels->sample_weight = SPORE_NEW_ARRAY(double, levels->sample_count);
   if (!levels->sample_weight) return false;
@@ -82,7 +82,7 @@ static size_t next_to(const double *points, size_t count, const double *at) {
   return nearest;
 }
 
-/* A node that is a sample of its own is next to itself; others look among the samples of their level. */
+/* A node that is itself a sample is its own nearest; other nodes search the samples of their level. */
 static bool find_nearest(SporeLevel *level, const double *all) {
   assert(level->model && all);
   double *nodes = NULL;

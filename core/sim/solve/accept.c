@@ -1,4 +1,4 @@
-/* Accepts what was solved: writes the islands' states into the next state, and makes that the last good one. */
+/* Accepts solved steps: writes the islands' states into the next state, and makes it the last good one. */
 #include <assert.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ static void accept_body(SporeWorld *world, const SporeIsland *island, uint32_t i
   memcpy(world->state.next_v + body->v_offset, island->v1 + site->v, 3 * body->block_count * sizeof(double));
 }
 
-/* A body that this step has frozen stays where it was good. */
+/* A body that this step has frozen stays at its last good configuration. */
 static void hold_body(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count && world->bodies[index].frozen);
   SporeBody *body = &world->bodies[index];
@@ -33,7 +33,7 @@ static void accept_island(SporeWorld *world, SporeIsland *island) {
   spore_island_let_sleep(world, island);
 }
 
-/* Active bodies stand where their devices put them. Their velocity was set when the devices were read. */
+/* Active bodies go to the poses of their devices. Their velocity was set when the devices were read. */
 static void accept_active(SporeWorld *world, SporeBody *body) {
   assert(body->role == SPORE_ACTIVE && body->q_count == SPORE_POSE_Q);
   spore_body_mark_changed(world, body);
@@ -47,7 +47,7 @@ void spore_world_accept(SporeWorld *world) {
     if (world->bodies[b].role == SPORE_ACTIVE) accept_active(world, &world->bodies[b]);
 }
 
-/* What follows from the island's new state, once that is the world's. */
+/* Updates what depends on the island's new state, once it is the world's. */
 static void settle_island(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     const SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];

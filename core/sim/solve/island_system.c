@@ -1,4 +1,4 @@
-/* An island as the integrators see it: forces of the models and of the terms, and motion. */
+/* Island system: forces of the models and of the terms of an island, and its motion, for the integrators. */
 #include <assert.h>
 #include <string.h>
 
@@ -53,7 +53,7 @@ static void body_force(void *data, const double *q, const double *v, double *f) 
   spore_island_system_filter(system, f);
 }
 
-/* Counts a term at each block that the end hangs on; counts: a double a block. */
+/* Counts a term at each block that moves the end; counts: a double for each block. */
 static void count_end(const SporeWorld *world, const SporeEnd *end, double *counts) {
   assert(end->prescribed || end->body < world->body_count);
   assert(end->prescribed || end->point < end->mapping->point_count);
@@ -73,8 +73,9 @@ static double quadratic(const double *a, SporeVec3 c) {
          c.z * (a[6] * c.x + a[7] * c.y + a[8] * c.z);
 }
 
-/* Sum of n/m over those blocks, for a force along any direction that acts up to `arm` away from the end; or for one
- * along `normal`, on whose line it acts: that turns a body only by what it misses its centre of mass. */
+/* Sum of n/m over the blocks that move the end, n the number of terms at the block. The force may have any direction
+ * and act up to `arm` away from the end. With `normal` the force acts along that line, and turns a body only by the
+ * distance of the line from the centre of mass. */
 static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm, const SporeVec3 *normal,
                                const double *counts) {
   assert(end->prescribed || end->body < world->body_count);
@@ -240,7 +241,7 @@ static void drift(void *data, const double *q0, const double *v, double h, doubl
   }
 }
 
-/* Of a frame, whose inertia turns: the change of momentum is carried over. */
+/* For a frame, whose inertia turns with it: adds the same change of angular momentum. */
 static void carry_turning(const SporeIslandSystem *system, const SporeBody *body, const double *dv, const double *q1,
                           double *v1) {
   assert(body->block_count == body->model->node_count + 1);
@@ -291,7 +292,7 @@ static double distance(void *data, const double *x) {
   return most;
 }
 
-/* Whether a pin or a link to what does not move by physics holds the island. */
+/* Whether a pin holds the island, or a link to a body that physics does not move. */
 static bool is_held(const SporeIslandSystem *system) {
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
@@ -304,8 +305,7 @@ static bool is_held(const SporeIslandSystem *system) {
   return false;
 }
 
-/* Whether some force sets in or ends as things move: those of contacts, of what holds by friction, and of what stops.
- */
+/* Whether some force begins or ends as bodies move: forces of contacts, of friction, and of stops of curve joints. */
 static bool switches(const SporeIslandSystem *system) {
   if (system->island->contact_count > 0) return true;
   for (size_t i = 0; i < system->island->spring_count; i++) {

@@ -1,5 +1,5 @@
-/* Islands: bodies that terms tie together this step. What physics does not move ties nothing: it takes part in the
- * terms of every island it touches. */
+/* Islands: sets of bodies that terms couple in this step. A body that physics does not move couples nothing. It takes
+ * part in the terms of every island that it touches. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -30,8 +30,8 @@ static void tie_bodies(SporeWorld *world) {
     if (world->links.active[i]) tie(world->solve.parent, &world->links.springs[i].a, &world->links.springs[i].b);
 }
 
-/* Bodies that choose alike move by what they choose. Implicit ones that do not, by the method that damps most; others
- * are mixed, by implicit Euler where they couple. */
+/* Adds the body's choice of a method. Bodies with the same choice move by it. Implicit bodies with different choices
+ * move by the method that damps most. Other islands are multirate: implicit Euler couples their bodies. */
 static void add_choice(SporeIsland *island, const SporeBody *body) {
   assert(body->method.substeps >= 1 && island->substeps >= 1);
   const SporeIntegrator *its = spore_integrator(body->method.integrator),
@@ -103,7 +103,7 @@ static void count_terms(SporeWorld *world, size_t springs) {
   }
 }
 
-/* Joints are stiff: however the bodies move otherwise, by joints they move implicitly. */
+/* Joints are stiff, so explicit islands with joints are multirate: their joints are implicit. */
 static void make_jointed_multirate(SporeWorld *world) {
   for (size_t i = 0; i < world->links.count; i++) {
     const SporeLink *link = &world->links.all[i];
@@ -171,7 +171,8 @@ static bool remembers(const SporeWorld *world, const SporeIsland *island, const 
          body->history.kind == island->integrator;
 }
 
-/* What all bodies of the island remember, of steps of one size; the smallest where a method chooses its own. */
+/* Gathers the history, if all bodies have one of the same step size; the smallest size if the method chooses its own.
+ */
 static void gather_history(SporeWorld *world, SporeIsland *island) {
   assert(island->body_start + island->body_count <= world->body_count);
   island->history = (SporeHistory){.a = world->solve.local_history_a + island->v_start,
@@ -207,7 +208,7 @@ void spore_island_remember(SporeWorld *world, const SporeIsland *island) {
   }
 }
 
-/* Gives the bodies their places next to each other; true when that is how they lie in the world's vectors. */
+/* Places the bodies next to each other. True: they lie like that in the world's vectors too. */
 static bool place_bodies(SporeWorld *world, SporeIsland *island) {
   const uint32_t *bodies = world->solve.island_bodies + island->body_start;
   const SporeBody *first = &world->bodies[bodies[0]];

@@ -1,10 +1,11 @@
+/* Local assembly: adds terms on nodes of one body to the matrix of that body. */
 #include "core/sim/solve/local_assembly.h"
 
 #include <assert.h>
 
 #define NODES_MAXIMUM 16 /* of both ends of a term */
 
-/* How the motion of one end relative to the other is made of that of nodes. */
+/* The nodes whose motion makes up the motion of one end relative to the other, and their weights. */
 typedef struct Nodes {
   size_t count;
   uint32_t block[NODES_MAXIMUM];

@@ -1,3 +1,4 @@
+/* Step limit: the largest stable step of explicit integrators, by power iteration. */
 #include "core/sim/solve/step_limit.h"
 
 #include <assert.h>
@@ -32,7 +33,7 @@ static bool invert_mass(const SporeModel *model, const double *q, double *blocks
   return true;
 }
 
-/* A start that is no eigenvector of anything symmetric, and the same on every machine. */
+/* Start of the iteration: no eigenvector of a symmetric body, and the same on every machine. */
 static void fill_start(double *x, size_t count) {
   uint32_t state = 12345;
   for (size_t i = 0; i < count; i++) {
@@ -56,8 +57,8 @@ static void solve_mass(const Power *power, const double *x, double *y) {
   }
 }
 
-/* Largest eigenvalue of M^-1 K + s, as the Rayleigh quotient x.K x / x.M x. Iterates r = M x, so that M itself is not
- * needed: x = M^-1 r, r <- K x. */
+/* Largest eigenvalue of M^-1 K + s, as the Rayleigh quotient x.K x / x.M x. The iteration is in r = M x, so that M
+ * itself is not needed: x = M^-1 r, r <- K x. */
 static double largest_eigenvalue(const Power *power) {
   assert(power->matrix.block_count > 0);
   size_t n = 3 * power->matrix.block_count;
@@ -107,7 +108,7 @@ static double stable_step(const SporeIntegrator *integrator, double square, doub
   return (sqrt(b * b + 4 * a * square) - b) / (2 * square);
 }
 
-/* Whether a step of explicit Euler makes some motion grow: where h K is more than D. */
+/* Whether a step of explicit Euler makes some motion grow: h K is more than D in its direction. */
 static bool grows(Power *power, const SporeModel *model, const double *q, const double *v, double h) {
   assert(h > 0 && power->shift > 0);
   spore_block_matrix_zero(&power->matrix);
@@ -122,7 +123,7 @@ static double explicit_euler_step(Power *power, const SporeModel *model, const d
   assert(limit->frequency >= 0 && limit->damping >= 0);
   if (limit->frequency == 0) return limit->damping > 0 ? 2 / limit->damping : HUGE_VAL;
   if (limit->damping == 0) return 0;
-  power->shift = 1.02 * limit->damping; /* keeps it positive definite */
+  power->shift = 1.02 * limit->damping; /* keeps the matrix positive definite */
   double high = fmin(2 / limit->damping, limit->damping / (limit->frequency * limit->frequency)), low = 0;
   for (int i = 0; i < HALVINGS; i++) {
     double middle = i == 0 ? high : 0.5 * (low + high);
@@ -230,7 +231,7 @@ bool spore_body_check_step(const SporeWorld *world, uint32_t index, SporeError *
   SporeIntegratorKind kind = body->method.integrator;
   if (spore_integrator(kind)->implicit) {
     if (!body->model->type->rates) return true;
-    kind = SPORE_INTEGRATOR_VERLET; /* it has no Jacobian to go by, and needs as small steps */
+    kind = SPORE_INTEGRATOR_VERLET; /* without a Jacobian, an implicit method needs steps as small */
   }
   SporeStepLimit limit;
   if (!spore_step_limit(body->model, kind, world->state.rest_q + body->q_offset, world->state.rest_v + body->v_offset,

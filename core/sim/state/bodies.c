@@ -1,4 +1,4 @@
-/* Bodies: their models at all levels of detail, and where points given at rest lie in them. */
+/* Bodies: their models at all levels of detail, and mappings of points that are given at rest. */
 #include <assert.h>
 
 #include "core/sim/world_private.h"
@@ -18,7 +18,7 @@ const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t inde
   return level == SPORE_LEVEL_FINE ? body->model : NULL;
 }
 
-/* Points of an unmovable body stand where its pose puts them. */
+/* Points of an unmovable body are fixed where its pose puts them. */
 static bool map_fixed(const SporeBody *body, const double *points, size_t count, SporeMapping *mapping,
                       SporeError *error) {
   assert(body->role == SPORE_UNMOVABLE);

@@ -1,3 +1,4 @@
+/* Energy of bodies and of the world: kinetic, internal, of gravity and of contacts. */
 #include <assert.h>
 
 #include "core/sim/world_private.h"

@@ -1,4 +1,4 @@
-/* What the monitor says of what went wrong, and counts. */
+/* Messages and counts of the monitor about steps that went wrong. */
 #include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -45,7 +45,7 @@ static void report_frozen(SporeWorld *world, const SporeIsland *island) {
   }
 }
 
-/* Each body's troubles are told of once, the worst last. */
+/* Each trouble of a body is reported once. Only a worse trouble is reported after it. */
 static void report_mended(SporeWorld *world, const SporeIsland *island) {
   assert(island->offender < world->body_count);
   SporeBody *body = &world->bodies[island->offender];
@@ -102,7 +102,7 @@ void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term) {
                      a->name, term->depth, b->name);
 }
 
-/* The body that the solvers were busiest with, by the counts of the step. */
+/* Name of the first body of the island that took most work, by the counts of the step. */
 static const char *busiest_body(const SporeWorld *world) {
   const char *name = NULL;
   size_t most = 0;

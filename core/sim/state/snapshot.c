@@ -1,8 +1,8 @@
 /* Snapshots through a triple buffer: the writer fills one, the reader holds one, the third waits in the middle.
  *
- * The state of the world is the one in the newest snapshot: the writer reads it there, as the reader does, and writes
- * the next one into the buffer that is its own. A body that stood still since that buffer was last written is there
- * already: states are numbered, and a body keeps the number of the one that it changed in. */
+ * The state of the world is the one in the newest snapshot. The writer reads the state there, as the reader does, and
+ * writes the next state into a buffer of its own. States are numbered, and each body keeps the number of the state in
+ * which it last changed. A body that has not changed since the buffer was last written need not be copied. */
 #include <assert.h>
 #include <string.h>
 
@@ -84,7 +84,7 @@ static void copy_contacts(const SporeWorld *world, SporeSnapshot *snapshot) {
   }
 }
 
-/* The buffer has those that it was given before. */
+/* Copies the messages that the buffer does not have yet. */
 static void copy_messages(const SporeWorld *world, SporeSnapshot *snapshot) {
   const SporeMonitor *monitor = &world->state.monitor;
   assert(snapshot->message_count <= monitor->message_count);
@@ -95,7 +95,7 @@ static void copy_messages(const SporeWorld *world, SporeSnapshot *snapshot) {
   snapshot->message_count = monitor->message_count;
 }
 
-/* The same. */
+/* Copies the cuts that the buffer does not have yet. */
 static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
   assert(world->topology.cuts.count <= snapshot->cuts.capacity);
   assert(world->topology.cuts.corner_count == snapshot->cuts.corner_count);
@@ -109,7 +109,7 @@ static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
   memcpy(cuts->corners, world->topology.cuts.corners, 4 * cuts->corner_count * sizeof *cuts->corners);
 }
 
-/* The same. */
+/* Copies the knots of lines where they have changed. */
 static void copy_lines(const SporeWorld *world, SporeSnapshot *snapshot) {
   SporeLines *lines = &snapshot->lines;
   assert(lines->break_count == world->topology.lines.break_count);
@@ -147,8 +147,8 @@ void spore_world_advance_state(SporeWorld *world) {
   world->state.v = world->state.next_v;
 }
 
-/* Velocity that takes the body from where it is to its target in one step. It is made from the poses, not from what
- * the device says, so that a recorded track gives the same motion again. */
+/* The velocity takes the body from its pose to its target in one step. It is computed from the two poses and not from
+ * the velocity that the device reports, so that a recorded track gives the same motion again. */
 void spore_active_set_velocity(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
   assert(world->bodies[index].role == SPORE_ACTIVE);
@@ -162,7 +162,7 @@ void spore_active_set_velocity(SporeWorld *world, uint32_t index) {
   spore_vec3_store(v + 3, spore_vec3_scale(rate, spore_quat_to_rotation_vector(turn)));
 }
 
-/* Energy costs as much as a force: it is not worth taking when nobody looks. */
+/* Energy costs as much as a force, so it is computed only when a reader wants it. */
 static SporeEnergy recent_energy(SporeWorld *world) {
   if (atomic_exchange_explicit(&world->state.snapshots.energy_wanted, false, memory_order_relaxed) ||
       world->state.step == 0)

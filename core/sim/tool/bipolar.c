@@ -1,5 +1,5 @@
-/* Bipolar forceps: heat shrinks and stiffens tissue near their tips, for good. It does so in time, by no more than
- * `rate` allows, so that energy comes in little by little. */
+/* Bipolar forceps: heat shrinks and stiffens tissue near their tips for good. The tissue changes no faster than `rate`
+ * allows, so that its energy grows little in a step. */
 #include <assert.h>
 
 #include "core/base/parameter_rows.h"
@@ -15,7 +15,7 @@ typedef struct SporeBipolar {
 
 static bool heats(const SporeBody *body) { return body->model && body->model->type->coagulate; }
 
-/* A step's dose changes little: how its matrix is best factorised it still knows. */
+/* Marks the model as changed. One step changes it little, so the choice of its preconditioner stays. */
 static void warm(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
   SporeFactorChoice choice = world->bodies[index].preconditioner.choice;

@@ -1,9 +1,9 @@
 /* Jaws: two active bodies on a hinge of a third.
  *
- * They turn as fast as they can toward where the device wants them, the slower the nearer what they press comes to
- * their torque, and give way above it: what lies between them is pressed by no more. Once half of the torque presses,
- * or the jaws are shut, each sphere that a jaw touches is tied to it where it is, by a spring without length; opening
- * lets go. */
+ * The jaws turn toward the opening that the device wants. They turn the slower, the nearer the squeeze comes to their
+ * torque, and give way above it, so that they never press with more. When the squeeze reaches half of the torque, or
+ * the jaws are shut, each sphere that a jaw touches is tied to the jaw by a spring without length. Opening the jaws
+ * releases the spheres. */
 #include <assert.h>
 #include <string.h>
 
@@ -12,8 +12,8 @@
 #include "core/sim/tool/jaws.h"
 #include "core/sim/world_private.h"
 
-#define HOLD_SHARE 0.5     /* of the torque: from here on jaws hold */
-#define LET_GO_RAD 0.02    /* opening beyond where it began to hold that lets go */
+#define HOLD_SHARE 0.5     /* of the torque: squeeze from which jaws hold */
+#define LET_GO_RAD 0.02    /* opening beyond that at which holding began, which releases */
 #define SECOND_BUTTON 0x2u /* opens a clamp */
 
 const char *const spore_jaw_triggers[] = {"grip", "button", NULL};
@@ -81,7 +81,7 @@ static void let_go(SporeWorld *world, SporeJaws *jaws) {
   jaws->held_at = -1;
 }
 
-/* A place for the sphere; NULL: there is none, or it has one. */
+/* A free hold for the sphere; NULL: there is none, or the sphere is held already. */
 static SporeHold *find_place(const SporeJaws *jaws, uint32_t sphere) {
   SporeHold *place = NULL;
   for (size_t i = 0; i < jaws->tool.spring_count; i++) {
@@ -92,7 +92,7 @@ static SporeHold *find_place(const SporeJaws *jaws, uint32_t sphere) {
   return place;
 }
 
-/* Ties the sphere to the jaw where it is. */
+/* Ties the sphere to the jaw at its present place. */
 static void hold_sphere(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, uint32_t sphere) {
   assert(jaw < world->body_count);
   assert(sphere < world->contact.spheres.count);
@@ -117,7 +117,7 @@ static void hold_sphere(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, uint32
   spore_world_wake(world, held);
 }
 
-/* What the jaws press, by the contacts of the last step. */
+/* Holds the spheres that the jaws press, found by the contacts of the last step. */
 static void hold_touched(SporeWorld *world, SporeJaws *jaws) {
   assert(world->contact.count <= world->contact.capacity);
   for (size_t i = 0; i < world->contact.count; i++) {
@@ -177,7 +177,8 @@ static double wanted_opening(SporeJaws *jaws, const SporeDeviceState *input, boo
   return fmin(fmax(input->grip_rad, 0), jaws->fields.opening);
 }
 
-/* The slower the nearer the squeeze is to what the jaws can; above, they give way. */
+/* The opening at the end of the step. The jaws close the slower, the nearer the squeeze is to their torque. Above their
+ * torque they give way. */
 static double next_opening(const SporeJaws *jaws, double wanted, double h) {
   assert(h > 0 && jaws->fields.torque > 0);
   double most = h * jaws->fields.speed, change = fmin(fmax(wanted - jaws->opening, -most), most);

@@ -1,4 +1,4 @@
-/* The kinds of tools that there are. */
+/* Registry of tools: the list of their kinds. */
 #include <assert.h>
 #include <string.h>
 

@@ -1,12 +1,12 @@
-/* Kinds of tools: what a tool is called, its parameters, and what it does. registry.c lists the kinds; each is a file
- * of its own. */
+/* Kinds of tools: the name of a tool, its parameters, and its functions. registry.c lists the kinds; each is a file of
+ * its own. */
 #ifndef SPORE_SIM_TOOL_TYPE_H
 #define SPORE_SIM_TOOL_TYPE_H
 
 #include "core/base/parameter.h"
 #include "core/body/model.h"
 
-#define SPORE_TOOL_BODIES 3 /* that the parameters of a tool refer to at most */
+#define SPORE_TOOL_BODIES 3 /* most bodies that the parameters of a tool refer to */
 
 struct SporeWorld;
 struct SporeTool;
@@ -25,7 +25,7 @@ typedef struct SporeToolFields {
   const char *name, *body, *device;
 } SporeToolFields;
 
-/* What a tool does and did. */
+/* Actions of a tool, now and so far. */
 typedef struct SporeToolState {
   const char *name;
   double opening;    /* rad */
@@ -43,7 +43,7 @@ struct SporeToolType {
   const char *label;   /* for people, translatable (N_) */
   const char *doc;     /* one sentence, translatable (N_) */
   SporeParameterTable parameters;
-  bool cuts, heats, takes_particles; /* what models have to be prepared for */
+  bool cuts, heats, takes_particles; /* models make room for these actions */
 
   /* Required. */
   size_t size; /* bytes of the tool's own structure, whose first member is a SporeTool */
@@ -51,22 +51,22 @@ struct SporeToolType {
   bool (*make)(struct SporeWorld *world, struct SporeTool *tool, const SporeToolDescription *from);
 
   /* Optional. */
-  /* Springs that the tool takes to hold with. NULL: none. */
+  /* Number of springs that the tool needs for holding. NULL: none. */
   size_t (*spring_count)(const void *fields);
-  /* What is wrong with the description (translated: what, what was expected, what to do), or NULL. */
+  /* The fault of the description (translated: what, what was expected, what to do); NULL: it has none. */
   const char *(*fault)(const struct SporeWorld *world, const SporeToolDescription *from);
   void (*clear)(struct SporeTool *tool);
   /* Back to time 0. */
   void (*reset)(struct SporeWorld *world, struct SporeTool *tool);
-  /* Between reading the devices and mapping the spheres: acts on what the last step did. */
+  /* Acts on the state after the last step, between reading the devices and mapping the spheres. */
   void (*use)(struct SporeWorld *world, struct SporeTool *tool);
   /* Takes particles out of the next state. */
   void (*exchange)(struct SporeWorld *world, struct SporeTool *tool);
-  /* After the step: holds that bear too much tear away. */
+  /* After the step: overloaded holds tear away. */
   void (*tear)(struct SporeWorld *world, struct SporeTool *tool);
-  /* Adds what the tool's other bodies feel to what the device is told. */
+  /* Adds forces on the tool's other bodies to the feedback of the device. */
   void (*feed_back)(struct SporeWorld *world, const struct SporeTool *tool);
-  /* Adds what the tool does and did to the state. */
+  /* Adds the tool's actions, now and so far, to the state. */
   void (*state)(const struct SporeTool *tool, SporeToolState *state);
 };
 

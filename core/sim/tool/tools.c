@@ -1,5 +1,5 @@
-/* Tools of a world: made, used and asked of by the slots of their types. They act between reading the devices and
- * mapping the spheres, on what the last step did, so that a run is repeated by its input alone. */
+/* Tools of a world: made, used and queried by the slots of their types. They act between reading the devices and
+ * mapping the spheres, on the state after the last step. So the same input gives the same run. */
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
@@ -49,7 +49,7 @@ static void prepare_heat(SporeModel *model, void *user) {
   *made = *made && model->type->prepare_heat(model);
 }
 
-/* Room in the models that can be heated. */
+/* Makes room in the models that can be heated. */
 static bool prepare_models(SporeWorld *world, bool heats) {
   bool made = true;
   for (size_t b = 0; heats && made && b < world->body_count; b++) {

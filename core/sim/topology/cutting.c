@@ -1,5 +1,5 @@
-/* Bodies that lose what ties their nodes, to scissors or by tearing, and how the spheres there follow: one that hangs
- * on nodes that nothing ties any more stays with those that it hangs on more. */
+/* Cutting and tearing: bodies lose ties between their nodes, and their spheres follow. A sphere whose nodes come apart
+ * stays with the connected nodes that have the largest weight. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-#define ROW_MAXIMUM 8 /* nodes that a sphere of such a body hangs on; one on more is left as it is */
+#define ROW_MAXIMUM 8 /* nodes that a sphere of such a body follows; a sphere with more stays as it is */
 
 typedef struct Preparation {
   size_t *edges;
@@ -65,7 +65,7 @@ void spore_world_reset_cutting(SporeWorld *world) {
   }
 }
 
-/* Numbers the nodes of a row by what still hangs together, from 1; 0: nothing ever tied it to another of them. */
+/* Numbers the connected components of the nodes of a row, from 1. 0: the node never had a tie to another of them. */
 static void find_components(const SporeModel *model, const uint32_t *block, size_t count,
                             size_t component[ROW_MAXIMUM]) {
   assert(count <= ROW_MAXIMUM);
@@ -83,7 +83,7 @@ static void find_components(const SporeModel *model, const uint32_t *block, size
     }
 }
 
-/* Leaves the sphere to the nodes of one group; those of none stay with it. */
+/* Leaves the sphere to the nodes of one component. Nodes of no component keep their weight. */
 static void keep_one_component(const SporeModel *model, const SporeMapping *spheres, size_t point) {
   assert(spheres->kind == SPORE_MAPPING_LINEAR && point < spheres->point_count);
   uint32_t start = spheres->row_start[point];
@@ -100,7 +100,7 @@ static void keep_one_component(const SporeModel *model, const SporeMapping *sphe
     if (component[i] > 0) weight[i] = component[i] == most ? weight[i] * tied / sum[most] : 0;
 }
 
-/* What the body remembers of steps before is of one that was whole. */
+/* What the body remembers of earlier steps belongs to the uncut body, so it is dropped. */
 void spore_body_changed_model(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
   SporeBody *body = &world->bodies[index];
@@ -112,7 +112,7 @@ void spore_body_changed_model(SporeWorld *world, uint32_t index) {
 void spore_body_was_cut(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
   SporeBody *body = &world->bodies[index];
-  if (body->splitting.possible) { /* not yet: see node_splitting.c */
+  if (body->splitting.possible) { /* split later in the step: see node_splitting.c */
     body->splitting.wanted = true;
     spore_world_wake(world, index);
     return;

@@ -1,9 +1,11 @@
-/* Tetrahedra that are divided by cuts. Scissors say where while a step begins; at its end, when the next state is
- * known, nodes are divided: their copies, held out of the way until then, take the state of those that they are of, the
- * matrix gets the pattern that the model has now, and spheres and links go with the tetrahedra that they hang on.
+/* Node splitting: tetrahedra come apart at cuts.
  *
- * All of that lies in room made before, so that a step allocates nothing. A factor is another matter: its fill differs.
- * A parted body does without, by conjugate gradients, until that is analysed between two steps. */
+ * Scissors mark the cuts when a step begins. Nodes are split at its end, when the next state is known. The copy of a
+ * node is a spare node, which was held until then, and takes the state of its original. The matrix gets the new pattern
+ * of the model. Spheres and links follow the tetrahedra that they are mapped to.
+ *
+ * All arrays have room from the start, so that a step allocates nothing. Only the factor needs new memory, since its
+ * fill changes. A split body is solved by conjugate gradients until its factor is made anew between two steps. */
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,7 +21,7 @@ static bool has_scissors(const SporeWorldDescription *description) {
   return false;
 }
 
-/* Blades pass through what changes its level: a finer or coarser one would not know of the cut. */
+/* A body with levels of detail is not split: its other levels would not have the cut. */
 static bool has_levels(const SporeBodyDescription *body) {
   for (size_t i = 0; i < SPORE_LEVEL_FINE; i++)
     if (body->levels.model[i]) return true;
@@ -61,7 +63,7 @@ static bool hold_spares(SporeWorld *world, SporeBody *body) {
   return true;
 }
 
-/* The matrix again, with room. */
+/* Makes the matrix anew, with room for patterns to come. */
 static bool make_roomy(SporeBody *body) {
   SporeChangingMatrix *changing = &body->changing;
   spore_block_matrix_clear(&body->preconditioner.matrix);
@@ -141,9 +143,9 @@ void spore_world_clear_topology(SporeWorld *world) {
   spore_free(topology->lines.span_count);
 }
 
-/* Parting. */
+/* Splitting. */
 
-/* What hangs on the body goes with its tetrahedra, and its matrix has the pattern that it has now. */
+/* Mapped points follow their tetrahedra, and the matrix gets the present pattern. */
 static void follow(SporeWorld *world, uint32_t index) {
   assert(world->bodies[index].splitting.possible);
   SporeBody *body = &world->bodies[index];
@@ -161,12 +163,12 @@ static void follow(SporeWorld *world, uint32_t index) {
   world->topology.cuts.parted++;
 }
 
-/* Its numbers may be many more now. */
+/* Drops the factor: its fill may be much larger now. */
 static void drop_factor(SporeBody *body) {
   body->preconditioner.factor.block_count = body->preconditioner.factor.band.block_count = 0;
 }
 
-/* What holds a node holds its copies. */
+/* Splits nodes. A pin that holds a node holds its copies too. */
 static void split_body(SporeWorld *world, uint32_t index) {
   assert(world->bodies[index].splitting.possible);
   SporeBody *body = &world->bodies[index];

@@ -1,10 +1,11 @@
-/* Bodies whose nodes come and go while it runs: lines that get knots where they bend. At the end of a step, when the
- * state is known, the model says whether any are to; then the state becomes that of the nodes that there are then, the
- * matrix and a banded factor get their pattern, and spheres, links and curve joints go with the points of the line that
- * they hang on, whose parameters stay. All of it lies in room made before, so that a step allocates nothing.
+/* Spline refinement: lines get control points where they bend, and lose them where they are straight.
  *
- * Momentum of a free body is kept to rounding: what lumping the mass loses of it is given back as a rigid motion.
- * Kinetic energy does not grow. What links hold keeps its velocity as it is, since what held it takes part. */
+ * At the end of a step, when the next state is known, the model decides about its nodes. Where they change, the state
+ * is transferred to the new nodes, and the matrix and a banded factor get the new pattern. Spheres, links and curve
+ * joints stay at their parameters of the line. All arrays have room from the start, so that a step allocates nothing.
+ *
+ * Momentum of a free body is kept to rounding: the part that lumping the mass loses is given back as a rigid motion.
+ * Kinetic energy does not grow. A body that pins hold gets no such motion. */
 #include <assert.h>
 #include <string.h>
 
@@ -17,7 +18,7 @@ static bool changes_nodes(const SporeBody *body) {
   return body->model && !body->levels && body->model->q_room > body->model->q_count;
 }
 
-/* The matrix again, with room; and which blocks pins hold, now and at time 0. */
+/* Makes the matrix anew, with room, and lists the blocks that pins hold now and at time 0. */
 static bool make_room(SporeWorld *world, SporeBody *body) {
   assert(!body->changing.pinned && body->block_count <= body->model->block_room);
   const SporeModel *model = body->model;
@@ -70,7 +71,7 @@ bool spore_world_create_refinement(SporeWorld *world) {
   return true;
 }
 
-/* Curve joints of links and stitches: the same place of the line, by the points that lead it now. */
+/* Curve joints of links and stitches keep their place on the line, by its new control points. */
 static void move_curve_joints(SporeWorld *world, uint32_t index, const double *q) {
   assert(index < world->body_count);
   assert(q);
@@ -84,7 +85,7 @@ static void move_curve_joints(SporeWorld *world, uint32_t index, const double *q
   }
 }
 
-/* A needle holds its thread by the last point, however many points the thread has. */
+/* A needle may hold its thread by the last control point, whose index changes. */
 static void move_last_point(SporeWorld *world, uint32_t index, size_t last_before, size_t last) {
   size_t tools = world->links.term_count;
   for (size_t i = tools; i < tools + world->links.hold_count; i++) {
@@ -94,7 +95,7 @@ static void move_last_point(SporeWorld *world, uint32_t index, size_t last_befor
   }
 }
 
-/* Points that are linked to the body. */
+/* Spheres, and points of the body that links hold, follow the new control points. */
 static void move_ends(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
   const SporeModel *model = world->bodies[index].model;
@@ -119,7 +120,7 @@ static void lay_out_matrix(SporeBody *body) {
       had && !spore_block_cholesky_lay_out(&body->preconditioner.factor, &body->preconditioner.matrix);
 }
 
-/* After its model changed its nodes; q: where they are. */
+/* Updates the body after its model changed its nodes; q: the new configuration. */
 static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
   SporeBody *body = &world->bodies[index];
   assert(body->model->q_count <= body->model->q_room && body->model->block_count <= body->model->block_room);
@@ -165,7 +166,7 @@ void spore_world_refine_splines(SporeWorld *world) {
   for (uint32_t b = 0; world->topology.line_count > 0 && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!body->refinement.possible || !spore_body_moves(body)) continue;
-    /* The step was found short enough for the points that there were at the start. */
+    /* An explicit step is only known to be stable for the points of time 0. */
     if (!spore_integrator(body->method.integrator)->implicit) continue;
     const double *q = world->state.next_q + body->q_offset;
     SporeSplineRefinement *line = &body->refinement;
@@ -194,7 +195,7 @@ void spore_world_reset_refinement(SporeWorld *world) {
   }
 }
 
-/* State, scratch and matrix of the blocks that are kept back at time 0. */
+/* Bytes of state, scratch and matrix of the blocks that are in reserve at time 0. */
 static size_t reserved_memory(const SporeWorld *world, const SporeBody *body) {
   size_t spare = body->model->block_room - body->refinement.state.made, pairs = body->model->pair_room;
   size_t a_block = 8 * 3 + 12 * 3 + 3 * 9 + world->solve.scratch_per_block; /* doubles: as q, as v, as mass */
