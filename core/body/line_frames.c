@@ -1,5 +1,7 @@
+/* Frames along a line: stations, and the sections of points that follow them. */
 #include "core/body/line_frames.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -8,8 +10,8 @@
 #include "core/body/path.h"
 #include "core/mesh/attach.h"
 
-#define REACH 4.0     /* mean radii, over which sections give way to one another */
-#define STRAIGHT 1e-6 /* of the moment along a line, across it: square of how far off straight it is */
+#define REACH 4.0     /* mean radii: length over which sections even out their roll */
+#define STRAIGHT 1e-6 /* moment across a straight line, of that along it */
 
 void spore_line_frames_clear(SporeLineFrames *frames) {
   spore_free(frames->stations);
@@ -30,6 +32,7 @@ static SporeLineRow row_at(SporeSplineKnots knots, double parameter) {
 }
 
 static bool allocate(SporeLineFrames *frames, size_t stations, size_t points) {
+  assert(stations >= 2);
   frames->station_count = stations;
   frames->point_count = points;
   frames->stations = SPORE_NEW_ARRAY(SporeLineStation, stations);
@@ -42,8 +45,9 @@ static bool allocate(SporeLineFrames *frames, size_t stations, size_t points) {
          frames->system;
 }
 
-/* Lengths, and places from the middle. Returns the length of the line. */
+/* Sets lengths of the stations, and their places from the middle. Returns the length of the line. */
 static double measure_stations(SporeLineFrames *frames, const SporeLine *line) {
+  assert(line->q);
   SporeVec3 middle = {0, 0, 0};
   double whole = 0;
   for (size_t k = 0; k + 1 < frames->station_count; k++) {
@@ -64,7 +68,7 @@ static double measure_stations(SporeLineFrames *frames, const SporeLine *line) {
   return whole;
 }
 
-/* Normals at rest, carried along the line; what rolls there is counted from them. */
+/* Sets the normals at rest, carried along the line. Roll is counted from them. */
 static void set_normals(SporeLineFrames *frames, const SporeLine *line) {
   SporeVec3 tangent = {1, 0, 0}, normal = {0, 1, 0};
   for (size_t k = 0; k < frames->station_count; k++) {
@@ -80,7 +84,7 @@ static void set_normals(SporeLineFrames *frames, const SporeLine *line) {
   }
 }
 
-/* Whether the line is straight at rest, and its direction. */
+/* Finds whether the line is straight at rest, and its direction. */
 static void find_chord(SporeLineFrames *frames) {
   SporeMat3 moment = {{0}}, axes;
   double value[3];
@@ -95,6 +99,7 @@ static void find_chord(SporeLineFrames *frames) {
 }
 
 static void set_system(SporeLineFrames *frames, double reach) {
+  assert(reach > 0);
   double excess = 0;
   for (size_t k = 0; k < frames->station_count; k++) {
     SporeLineStation *station = &frames->stations[k];
@@ -112,7 +117,7 @@ static double mean_radius(const SporeLine *line) {
   return sum;
 }
 
-/* The nodes of the stations and of what is behind the control points. */
+/* Sets the nodes of the stations, of arms and of the root, for these knots. */
 static void lead(SporeLineFrames *frames, SporeSplineKnots knots) {
   size_t count = knots.span_count + 3;
   frames->root = count;
@@ -126,6 +131,7 @@ static void lead(SporeLineFrames *frames, SporeSplineKnots knots) {
 }
 
 void spore_line_frames_follow(SporeLineFrames *frames, SporeSplineKnots knots) {
+  assert(knots.span_count > 0);
   lead(frames, knots);
   for (size_t i = 0; i < frames->point_count; i++) frames->points[i].row = row_at(knots, frames->points[i].parameter);
 }
@@ -142,7 +148,7 @@ static void set_stations(SporeLineFrames *frames, const SporeLine *line) {
   set_system(frames, REACH * mean_radius(line));
 }
 
-/* A point's frame, and what it is made of. */
+/* Frame of the line at a point, and its parts. */
 typedef struct Section {
   SporeVec3 position, tangent, normal;
   double inverse;
@@ -150,6 +156,7 @@ typedef struct Section {
 } Section;
 
 static Section section_at(const SporeLineFrames *frames, const SporeLinePoint *point, const double *q) {
+  assert(point->station + 1 < frames->station_count);
   const SporeLineFrame *before = &frames->frames[point->station];
   SporeVec3 slope = spore_line_sum(&point->row, point->row.slope, q);
   Section section = {.position = spore_line_sum(&point->row, point->row.value, q)};
@@ -183,6 +190,7 @@ static bool sample(const SporeLine *line, SporeCurve *samples, SporeError *error
 
 static void set_point(SporeLineFrames *frames, const SporeLine *line, uint32_t sample, SporeVec3 p,
                       SporeLinePoint *point) {
+  assert(sample <= SPORE_LINE_SAMPLES * line->knots.span_count);
   double start = spore_spline_part(line->knots, SPORE_LINE_SAMPLES, sample);
   SporePathPlace place = spore_path_follow(line->knots, line->q, start, p);
   size_t low = 0, high = frames->station_count - 1;
@@ -223,6 +231,7 @@ static bool attach(SporeLineFrames *frames, const SporeLine *line, const SporeTr
 
 bool spore_line_frames_init(SporeLineFrames *frames, const SporeLine *line, const SporeTriangleMesh *mesh,
                             SporeError *error) {
+  assert(line->knots.span_count > 0 && line->q && line->radius);
   size_t stations = (line->arms ? 1 : 2) * line->knots.span_count + 1;
   *frames = (SporeLineFrames){.arms = line->arms, .rooted = line->rooted};
   if (!allocate(frames, stations, mesh->vertex_count)) return no_memory(mesh->vertex_count, error);
@@ -233,6 +242,7 @@ bool spore_line_frames_init(SporeLineFrames *frames, const SporeLine *line, cons
 
 static size_t first_of(size_t point) { return point == SPORE_LINE_ALL ? 0 : point; }
 static size_t end_of(const SporeLineFrames *frames, size_t point) {
+  assert(point == SPORE_LINE_ALL || point < frames->point_count);
   return point == SPORE_LINE_ALL ? frames->point_count : point + 1;
 }
 
@@ -244,8 +254,8 @@ void spore_line_frames_positions(const SporeLineFrames *frames, size_t point, co
   }
 }
 
-/* The frame turns with its tangent, and rolls as the normal that is carried from the station before and its part of the
- * twist to the next one do. */
+/* The frame turns with its tangent. It rolls with the normal that is carried from the station before, and by its share
+ * of the twist to the next station. */
 void spore_line_frames_velocities(const SporeLineFrames *frames, size_t point, const double *q, const double *v,
                                   double *velocities) {
   spore_line_roll_place(frames, q);
@@ -269,6 +279,7 @@ void spore_line_frames_velocities(const SporeLineFrames *frames, size_t point, c
 
 static void pull_point(const SporeLineFrames *frames, const SporeLinePoint *point, const double *q, SporeVec3 force,
                        double *f) {
+  assert(f);
   Section section = section_at(frames, point, q);
   SporeVec3 torque = spore_vec3_cross(arm_of(point, &section), force);
   double roll = spore_vec3_dot(torque, section.tangent), *rates = frames->tangent_rate + 3 * point->station;
@@ -295,6 +306,7 @@ void spore_line_frames_add_forces(const SporeLineFrames *frames, size_t point, c
 }
 
 double spore_line_frames_crowd(const SporeLineFrames *frames, size_t *point, double *share) {
+  assert(point && share);
   double most = 0;
   *point = 0;
   *share = 0;

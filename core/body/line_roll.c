@@ -1,17 +1,19 @@
+/* Roll of the frames along a line: at the stations, its rate, and the forces by it. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
 #include "core/body/line_frames.h"
 
-#define SHORT 1e-150 /* of what has no direction */
+#define SHORT 1e-150 /* length of a vector without direction */
 
 static const SporeVec3 none = {0, 0, 0};
 
-/* The turn of the body as a whole, and what is needed to derive it. */
+/* Turn of the body as a whole, and the parts of its derivative. */
 typedef struct Turn {
-  SporeMat3 rotation, inverse; /* inverse of tr(S) 1 - S, where rotation S is what is fitted */
-  SporeVec3 direction, bend;   /* of a straight line now; from how it was at rest */
-  double along;                /* 1 / length of what it is the direction of */
+  SporeMat3 rotation, inverse; /* inverse of tr(S) 1 - S, where rotation S is the fitted moment */
+  SporeVec3 direction, bend;   /* present direction of a straight line; bend from its direction at rest */
+  double along;                /* 1 / length of the vector with this direction */
 } Turn;
 
 static SporeMat3 least_turn(SporeVec3 from, SporeVec3 to) {
@@ -51,6 +53,7 @@ static void follow_chord(const SporeLineFrames *frames, Turn *turn) {
 }
 
 static Turn turn_at(const SporeLineFrames *frames, const double *q) {
+  assert(q);
   Turn turn = {.rotation = spore_mat3_identity()};
   if (frames->rooted) turn.rotation = spore_quat_to_mat3(spore_quat_load(q + frames->quaternion));
   else if (frames->straight) follow_chord(frames, &turn);
@@ -58,7 +61,7 @@ static Turn turn_at(const SporeLineFrames *frames, const double *q) {
   return turn;
 }
 
-/* How fast the turn goes on, rad/s. */
+/* Rate of the turn, rad/s. */
 static SporeVec3 turn_rate(const SporeLineFrames *frames, const Turn *turn, const double *v) {
   if (frames->rooted) return spore_vec3_load(v + 3 * (frames->root + 1));
   SporeVec3 sum = none;
@@ -122,8 +125,8 @@ static void follow_arms(const SporeLineFrames *frames, const double *q) {
   }
 }
 
-/* The normal at rest, turned with the body and then by the least turn of its tangent, times `near`: smooth even where
- * there are many least turns, since it is nothing there. */
+/* The normal at rest, turned with the body and then by the least turn of its tangent, times `near`. It is smooth even
+ * where the least turn is not unique, since `near` is 0 there. */
 static SporeVec3 drawn_to(const SporeLineStation *station, const SporeMat3 *rotation, SporeLineFrame *frame) {
   SporeVec3 normal = spore_mat3_apply(*rotation, station->normal);
   frame->source = spore_mat3_apply(*rotation, station->tangent);
@@ -134,7 +137,7 @@ static SporeVec3 drawn_to(const SporeLineStation *station, const SporeMat3 *rota
   return spore_vec3_add_scaled(spore_vec3_scale(frame->near, turned), 0.5 * spore_vec3_dot(axis, normal), axis);
 }
 
-/* The system of the rolls, for `system` in place. */
+/* Solves the system of the rolls, with `system` as right-hand side and solution. */
 static void solve(const SporeLineFrames *frames) {
   double *x = frames->system;
   const SporeLineStation *stations = frames->stations;
@@ -174,6 +177,7 @@ static void settle_rolls(const SporeLineFrames *frames, const double *q) {
 }
 
 void spore_line_roll_place(const SporeLineFrames *frames, const double *q) {
+  assert(frames->station_count >= 2 && q);
   place_stations(frames, q);
   if (frames->arms) follow_arms(frames, q);
   else settle_rolls(frames, q);
@@ -185,13 +189,14 @@ void spore_line_roll_place(const SporeLineFrames *frames, const double *q) {
   }
 }
 
-/* How an arm's direction rolls: by its end, and as it leans over the line by the tangent. */
+/* Roll of an arm's direction for a motion of its end. */
 static SporeVec3 roll_of_arm(const SporeLineFrame *frame) {
   SporeVec3 flat = spore_line_across(frame->arm, frame->tangent);
   return spore_vec3_scale(1 / fmax(spore_vec3_dot(flat, flat), SHORT), spore_vec3_cross(frame->tangent, frame->arm));
 }
 
 static SporeVec3 rate_of(const SporeLineFrames *frames, size_t k) {
+  assert(k < frames->station_count);
   return spore_vec3_load(frames->tangent_rate + 3 * k);
 }
 
@@ -206,7 +211,7 @@ static void rate_of_arms(const SporeLineFrames *frames, const double *v) {
   }
 }
 
-/* Direction of what a station is drawn to, seen from the reference. */
+/* Direction of the anchor of a station, seen from the reference. */
 static void direction_of(const SporeLineFrame *frame, double direction[2]) {
   double size = hypot(frame->anchor[0], frame->anchor[1]);
   direction[0] = size > SHORT ? frame->anchor[0] / size : 1;
@@ -217,7 +222,7 @@ static void direction_of(const SporeLineFrame *frame, double direction[2]) {
 static void rate_of_rolls(const SporeLineFrames *frames, const double *q, const double *v) {
   Turn turn = turn_at(frames, q);
   SporeVec3 spin = turn_rate(frames, &turn, v), before = none;
-  double carried = 0; /* how the reference rolls */
+  double carried = 0; /* roll rate of the reference */
   for (size_t k = 0; k < frames->station_count; k++) {
     const SporeLineFrame *frame = &frames->frames[k];
     SporeVec3 rate = rate_of(frames, k), axis = spore_vec3_cross(frame->source, frame->tangent);
@@ -241,6 +246,7 @@ static void rate_of_rolls(const SporeLineFrames *frames, const double *q, const 
 }
 
 void spore_line_roll_rate(const SporeLineFrames *frames, const double *q, const double *v) {
+  assert(q && v);
   for (size_t k = 0; k < frames->station_count; k++) {
     const SporeLineRow *row = &frames->stations[k].row;
     const SporeLineFrame *frame = &frames->frames[k];
@@ -263,8 +269,9 @@ static void pull_arms(const SporeLineFrames *frames, double *f) {
   }
 }
 
-/* What the rates of station k in rate_of_rolls get, of which `system` says what a' gets; returns the torque. */
+/* Transpose of rate_of_rolls for station k, from the part of a' in `system`. Returns the torque on the turn. */
 static SporeVec3 pull_anchor(const SporeLineFrames *frames, size_t k) {
+  assert(k < frames->station_count);
   const SporeLineFrame *frame = &frames->frames[k];
   double at[2], weight = frames->stations[k].weight, *to = frames->system + 2 * k;
   SporeVec3 axis = spore_vec3_cross(frame->source, frame->tangent);
@@ -298,6 +305,7 @@ static void pull_rolls(const SporeLineFrames *frames, const double *q, double *f
 }
 
 void spore_line_roll_pull(const SporeLineFrames *frames, const double *q, double *f) {
+  assert(q && f);
   if (frames->arms) pull_arms(frames, f);
   else pull_rolls(frames, q, f);
   for (size_t k = 0; k < frames->station_count; k++) {

@@ -1,5 +1,7 @@
+/* Mappings: points that follow a body, their velocities, and forces back to the body. */
 #include "core/body/mapping.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,6 +16,8 @@ static bool no_memory(SporeMapping *mapping, SporeError *error) {
 
 bool spore_mapping_init_points(SporeMapping *mapping, SporeMappingKind fixed_or_rigid, const double *points,
                                size_t count, SporeError *error) {
+  assert(fixed_or_rigid == SPORE_MAPPING_FIXED || fixed_or_rigid == SPORE_MAPPING_RIGID);
+  assert(count == 0 || points);
   *mapping = (SporeMapping){.kind = fixed_or_rigid, .point_count = count};
   mapping->points = SPORE_NEW_ARRAY(double, 3 * count);
   if (!mapping->points) return no_memory(mapping, error);
@@ -34,6 +38,7 @@ static bool row_is_affine(const double *weights, size_t width) {
 
 bool spore_mapping_init_linear(SporeMapping *mapping, size_t count, size_t width, const uint32_t *blocks,
                                const double *weights, SporeError *error) {
+  assert(count == 0 || (width > 0 && blocks && weights));
   *mapping = (SporeMapping){.kind = SPORE_MAPPING_LINEAR, .point_count = count};
   size_t entries = 0;
   for (size_t k = 0; k < count * width; k++) entries += weights[k] != 0;
@@ -87,13 +92,16 @@ static bool list_corners(const uint32_t *corners, size_t count, size_t node_coun
   *start = SPORE_NEW_ARRAY(uint32_t, node_count + 2);
   *list = SPORE_NEW_ARRAY(uint32_t, count);
   if (!*start || !*list) return false;
-  for (size_t i = 0; i < count; i++) (*start)[corners[i] + 2]++;
+  for (size_t i = 0; i < count; i++) {
+    assert(corners[i] < node_count);
+    (*start)[corners[i] + 2]++;
+  }
   for (size_t i = 0; i < node_count; i++) (*start)[i + 2] += (*start)[i + 1];
   for (size_t i = 0; i < count; i++) (*list)[(*start)[corners[i] + 1]++] = (uint32_t)i;
   return true;
 }
 
-/* Whether all blocks are nodes of the tetrahedron; their corners. */
+/* Whether all blocks are nodes of the tetrahedron. Sets their corners. */
 static bool place_row(const uint32_t *block, size_t count, const uint32_t *corners, uint32_t tetrahedron,
                       uint32_t *places) {
   for (size_t k = 0; k < count; k++) {
@@ -107,6 +115,7 @@ static bool place_row(const uint32_t *block, size_t count, const uint32_t *corne
 
 static void find_row(const SporeMapping *mapping, size_t point, const uint32_t *corners, const uint32_t *start,
                      const uint32_t *list, uint32_t *places) {
+  assert(point < mapping->point_count);
   uint32_t first = mapping->row_start[point], count = mapping->row_start[point + 1] - first;
   if (count == 0) return;
   const uint32_t *block = mapping->block + first;
@@ -117,6 +126,7 @@ static void find_row(const SporeMapping *mapping, size_t point, const uint32_t *
 
 bool spore_mapping_find_places(const SporeMapping *mapping, const uint32_t *corners, size_t tetrahedron_count,
                                size_t node_count, uint32_t **places) {
+  assert(tetrahedron_count == 0 || corners);
   uint32_t *start = NULL, *list = NULL;
   *places = NULL;
   if (mapping->kind != SPORE_MAPPING_LINEAR) return true;
@@ -129,6 +139,7 @@ bool spore_mapping_find_places(const SporeMapping *mapping, const uint32_t *corn
 }
 
 void spore_mapping_follow(SporeMapping *mapping, const uint32_t *places, const uint32_t *corners) {
+  assert(corners);
   if (mapping->kind != SPORE_MAPPING_LINEAR || !places) return;
   for (uint32_t k = 0; k < mapping->row_start[mapping->point_count]; k++)
     if (places[k] != UINT32_MAX) mapping->block[k] = corners[places[k]];
@@ -143,10 +154,12 @@ static SporeVec3 linear_combination(const SporeMapping *mapping, size_t point, c
 
 /* From the body's origin to the point, in world axes. */
 static SporeVec3 lever(const SporeMapping *mapping, size_t point, const double *q) {
+  assert(mapping->points && q);
   return spore_quat_rotate(spore_quat_load(q + 3), spore_vec3_load(mapping->points + 3 * point));
 }
 
 SporeVec3 spore_mapping_position(const SporeMapping *mapping, size_t point, const double *q) {
+  assert(point < mapping->point_count);
   double place[3];
   switch (mapping->kind) {
   case SPORE_MAPPING_FIXED:
@@ -165,6 +178,7 @@ SporeVec3 spore_mapping_position(const SporeMapping *mapping, size_t point, cons
 }
 
 SporeVec3 spore_mapping_velocity(const SporeMapping *mapping, size_t point, const double *q, const double *v) {
+  assert(point < mapping->point_count && v);
   double speed[3];
   switch (mapping->kind) {
   case SPORE_MAPPING_FIXED:
@@ -183,6 +197,7 @@ SporeVec3 spore_mapping_velocity(const SporeMapping *mapping, size_t point, cons
 }
 
 void spore_mapping_add_force(const SporeMapping *mapping, size_t point, const double *q, SporeVec3 force, double *f) {
+  assert(point < mapping->point_count && f);
   double one[3];
   switch (mapping->kind) {
   case SPORE_MAPPING_FIXED:
@@ -211,6 +226,7 @@ static void add_block(double *block, double scale, const SporeMat3 *k) {
 
 void spore_mapping_add_diagonal(const SporeMapping *mapping, size_t point, const double *q, const SporeMat3 *k,
                                 double *blocks) {
+  assert(point < mapping->point_count && blocks);
   switch (mapping->kind) {
   case SPORE_MAPPING_FRAMES:
   case SPORE_MAPPING_FIXED:
@@ -234,6 +250,7 @@ void spore_mapping_add_diagonal(const SporeMapping *mapping, size_t point, const
 }
 
 void spore_mapping_positions(const SporeMapping *mapping, const double *q, double *positions) {
+  assert(mapping->point_count == 0 || positions);
   size_t n = mapping->point_count;
   switch (mapping->kind) {
   case SPORE_MAPPING_FIXED:
@@ -260,6 +277,7 @@ void spore_mapping_positions(const SporeMapping *mapping, const double *q, doubl
 }
 
 void spore_mapping_velocities(const SporeMapping *mapping, const double *q, const double *v, double *velocities) {
+  assert(mapping->point_count == 0 || velocities);
   size_t n = mapping->point_count;
   switch (mapping->kind) {
   case SPORE_MAPPING_FIXED:
@@ -287,6 +305,7 @@ void spore_mapping_velocities(const SporeMapping *mapping, const double *q, cons
 }
 
 void spore_mapping_add_forces(const SporeMapping *mapping, const double *q, const double *forces, double *f) {
+  assert(mapping->point_count == 0 || (forces && f));
   if (mapping->kind == SPORE_MAPPING_FRAMES) {
     spore_line_frames_add_forces(mapping->frames, SPORE_LINE_ALL, q, forces, f);
     return;

@@ -1,22 +1,26 @@
+/* Error of a mapping: how far its points are off under motions that are known. */
 #include "core/body/mapping_error.h"
 
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
 
-#define BEND 0.1 /* how far an end goes off the line, of the length */
+#define BEND 0.1 /* of the length: how far an end goes off the line */
 
-/* Sum of the absolute weights of a point of a linear mapping; 1 of others. */
+/* Sum of the absolute weights of a point of a linear mapping; 1 for other mappings. */
 static double leverage_of(const SporeMapping *mapping, size_t point) {
+  assert(point < mapping->point_count);
   double sum = 0;
   if (mapping->kind != SPORE_MAPPING_LINEAR) return 1;
   for (uint32_t k = mapping->row_start[point]; k < mapping->row_start[point + 1]; k++) sum += fabs(mapping->weight[k]);
   return sum;
 }
 
-/* x' = centre + stretch (x - centre) + shift + along^2 aside, along the longest side of the box around the nodes; with
- * a radius instead an arc of a circle, to which planes across that side stay square, in its plane with aside. */
+/* x' = centre + stretch (x - centre) + shift + along^2 aside, along the longest side of the box around the nodes.
+ * With a radius: that side becomes an arc of a circle, in its plane with aside, and planes across the side stay square
+ * to the arc. */
 typedef struct Field {
   SporeVec3 centre, shift, along, aside;
   SporeMat3 stretch;
@@ -24,6 +28,7 @@ typedef struct Field {
 } Field;
 
 static SporeVec3 arc_at(const Field *field, SporeVec3 arm) {
+  assert(field->radius > 0);
   double along = spore_vec3_dot(field->along, arm), aside = spore_vec3_dot(field->aside, arm);
   double angle = along / field->radius, within = field->radius - aside;
   SporeVec3 moved = spore_vec3_add_scaled(arm, within * sin(angle) - along, field->along);
@@ -39,6 +44,7 @@ static SporeVec3 field_at(const Field *field, SporeVec3 x) {
 }
 
 static Field still(const double *nodes, size_t count, int *longest, double *length) {
+  assert(count == 0 || nodes);
   double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < 3 * count; i++) {
     lower[i % 3] = fmin(lower[i % 3], nodes[i]);
@@ -78,7 +84,7 @@ static Field arc_field(const double *nodes, size_t count) {
   return field;
 }
 
-/* What is measured, with room for a state and for places of the points. */
+/* The model and mapping to measure, with room for a state and for places of the points. */
 typedef struct Trial {
   const SporeModel *model;
   const SporeMapping *mapping;
@@ -136,6 +142,8 @@ static void run_trials(Trial *trial, SporeMappingError *measured) {
 
 bool spore_mapping_measure(const SporeModel *model, const SporeMapping *mapping, const double *points,
                            SporeMappingError *measured, SporeError *error) {
+  assert(model && mapping && measured);
+  assert(mapping->point_count == 0 || points);
   Trial trial = {model,
                  mapping,
                  points,

@@ -1,6 +1,10 @@
+/* Points of linear mappings as weighted sums of nodes, one kernel for each level of the processor. */
 #include "core/body/mapping_kernels.h"
 
+#include <assert.h>
+
 void SPORE_LEVEL_NAME(spore_mapping_combine)(const SporeMapping *mapping, const double *values, double *combined) {
+  assert(mapping->kind == SPORE_MAPPING_LINEAR);
   for (size_t i = 0; i < mapping->point_count; i++, combined += 3) {
     uint32_t k = mapping->row_start[i], end = mapping->row_start[i + 1];
 #if SPORE_WIDTH > 2

@@ -1,5 +1,7 @@
+/* Models: creation of their common part, and the check of a model type. */
 #include "core/body/model.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,6 +10,7 @@
 
 bool spore_model_init(SporeModel *model, const SporeModelType *type, size_t node_count, bool framed,
                       SporeError *error) {
+  assert(type);
   size_t block_count = node_count + framed;
   *model = (SporeModel){
       .type = type, .q_count = 3 * node_count + (framed ? 4 : 0), .block_count = block_count, .node_count = node_count};
@@ -25,6 +28,7 @@ void spore_model_clear(SporeModel *model) {
 }
 
 void spore_model_mass(const SporeModel *model, const double *q, double *blocks) {
+  assert(blocks);
   for (size_t i = 0; i < model->block_count; i++) {
     double m = model->block_mass[i];
     SporeMat3 block = i < model->node_count ? spore_mat3_diagonal(m, m, m) : model->type->inertia(model, q);
@@ -39,6 +43,7 @@ double spore_model_total_mass(const SporeModel *model) {
 }
 
 const SporeModelType *spore_model_type_find(SporeModelRegistry registry, const char *name) {
+  assert(registry && name);
   for (; *registry; registry++)
     if (!strcmp((*registry)->name, name)) return *registry;
   return NULL;
@@ -64,6 +69,7 @@ static const char *missing_slot(const SporeModelType *type) {
 }
 
 static bool check_parameter(const SporeParameterTable *table, size_t index, const char *place, SporeError *error) {
+  assert(index < table->count);
   const SporeParameter *parameter = &table->parameters[index];
   if (!parameter->name || !parameter->unit || !parameter->doc)
     return spore_error_set(error, SPORE_ERROR_INTERNAL, place, _("parameter %zu has no name, unit or doc"), index);
@@ -114,6 +120,7 @@ bool spore_model_type_check(const SporeModelType *type, SporeError *error) {
 }
 
 bool spore_model_matrix_create(const SporeModel *model, SporeBlockMatrix *matrix) {
+  assert(matrix);
   SporeBlockPattern pattern;
   spore_block_pattern_init(&pattern, model->block_count);
   bool made =

@@ -40,6 +40,8 @@ typedef struct SporeGeometry {
   const SporeRegions *regions; /* for types that take regions; create counts their elements; NULL: none */
 } SporeGeometry;
 
+#define SPORE_NO_BODY UINT32_MAX /* in place of the index of a body: the world itself */
+
 /* A kind of model: its name, its parameters, and the functions that its models have (slots). Defined below. */
 typedef struct SporeModelType SporeModelType;
 
@@ -113,6 +115,71 @@ typedef struct SporeModel {
   SporePool *pool;  /* threads for long loops, set by the world; the results must not depend on it */
 } SporeModel;
 
+/* What a model whose ties or nodes scissors take apart can do, or one that tears. */
+typedef struct SporeModelCut {
+  /* Makes spare nodes, when the world has scissors, before anything else is made of the model. Refuses what it cannot
+   * split, with the remedy. NULL: no spare nodes are needed. */
+  bool (*reserve)(SporeModel *model, SporeError *error);
+  /* Room for what mend needs, when the world has scissors, or the model tears; *edges += how many can be cut. NULL: no
+   * edges. False: no memory. */
+  bool (*prepare)(SporeModel *model, size_t *edges);
+  /* Required. Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend, and adds the
+   * edges among these ties to `cuts`, as edges of `body`. Returns the number of ties. Allocates nothing, and the
+   * pattern stays. */
+  size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
+  /* The same for what is strained, at q, more than it bears. Required where model->tears. */
+  size_t (*tear)(SporeModel *model, const double *q, uint32_t body, SporeCuts *cuts);
+  /* Whether nodes a and b are tied, after prepare. Required where there is no split. */
+  SporeTie (*tie)(const SporeModel *model, uint32_t a, uint32_t b);
+  /* Of a model whose nodes are split; `cut` only says where. Makes nodes, at this state, which it sets for them; new
+   * nodes follow those made before. *from: the node that each of them was made from. Returns the number of new nodes.
+   * Allocates nothing. The pattern is another one then: until settle nothing is asked of the model. */
+  size_t (*split)(SporeModel *model, double *q, double *v, const uint32_t **from);
+  /* The nodes of the model's tetrahedra now, 4 *count; NULL where it was made so that it cannot be split. Required
+   * where there is a split. */
+  const uint32_t *(*corners)(const SporeModel *model, size_t *count);
+} SporeModelCut;
+
+/* What a model that heat coagulates can do. Both slots are required. */
+typedef struct SporeModelHeat {
+  /* Room for coagulate, and what mend needs after it, when the world has something that heats. False: no memory. */
+  bool (*prepare)(SporeModel *model);
+  /* Coagulates, at q, until mend. Returns how many ties or elements took some of the dose. Allocates nothing, and the
+   * pattern stays. */
+  size_t (*coagulate)(SporeModel *model, const double *q, const SporeHeat *heat);
+} SporeModelHeat;
+
+/* What a model whose nodes come and go while it runs can do. Both slots are required, and settle. */
+typedef struct SporeModelAdapt {
+  /* Whether nodes are to come or go, at this state, after a step of h seconds. held: a flag a block, of what a pin
+   * holds. The model keeps in mind what it would do, and sees to it that there is room. */
+  bool (*weigh_nodes)(SporeModel *model, double h, const double *q, const uint8_t *held);
+  /* Does what weigh_nodes found: the state and the flags become those of the nodes that there are then. Nodes that lead
+   * a line stay one run of blocks. Allocates nothing. The pattern is another one then: until settle nothing is asked of
+   * the model. */
+  void (*change_nodes)(SporeModel *model, double *q, double *v, uint8_t *held);
+} SporeModelAdapt;
+
+/* A model of particles: its points keep no neighbours, and what is drawn is the skin around them, not a surface that
+ * follows them. */
+typedef struct SporeModelParticles {
+  /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. NULL: they are not. */
+  void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);
+} SporeModelParticles;
+
+/* A model with a line that runs through the body, led by its first nodes (core/body/path.h). */
+typedef struct SporeModelLine {
+  /* Required. Knots of the line: what slides along the line may be linked to it. */
+  SporeSplineKnots (*path)(const SporeModel *model);
+  /* As map, for the vertices of a surface that is only drawn, where sections of the body turn as a whole. NULL: map
+   * serves. */
+  bool (*map_drawn)(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error);
+  /* Makes the rows of a mapping that `map` made anew, for these knots of the line; place and map themselves speak of
+   * the knots that the model was made with. Any thread may ask. It may allocate, but not for the knots that path says
+   * now. Points that do not go with knots are left alone. False: no memory. Required where nodes come and go. */
+  bool (*follow)(const SporeModel *model, SporeSplineKnots knots, SporeMapping *mapping);
+} SporeModelLine;
+
 struct SporeModelType {
   const char *name;  /* as in the file: "mass_spring_net" */
   const char *label; /* for people, translatable (N_) */
@@ -121,7 +188,6 @@ struct SporeModelType {
   SporeGeometryKind geometry;
   const SporePreset *presets; /* ended by one without a name; NULL: none */
   bool regions;               /* takes regions of other stiffness and density */
-  bool particles; /* its points keep no neighbours: shown by the skin around them, not by a surface that follows them */
 
   /* Required. */
   /* Builds from geometry and fields (a structure of parameters.size bytes, checked already). Refuses, with place
@@ -142,10 +208,6 @@ struct SporeModelType {
   double (*potential)(const SporeModel *model, const double *q);
   /* Mapping of `count` points given in the body's frame at rest; reproduces them at rest to rounding. */
   bool (*map)(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error);
-
-  /* The same of the vertices of a surface that is only drawn, where sections of the body turn as a whole. NULL: map
-   * serves. */
-  bool (*carry)(const SporeModel *model, const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error);
 
   /* Required of a model with a frame: its inertia at q, world axes, symmetric positive definite, kg m^2. */
   SporeMat3 (*inertia)(const SporeModel *model, const double *q);
@@ -180,57 +242,25 @@ struct SporeModelType {
   /* Corners of the triangles of its surface, nodes, three each, from spore_allocate: what a needle pierces. False: no
    * memory. NULL: it cannot be pierced. */
   bool (*skin)(const SporeModel *model, uint32_t **triangles, size_t *count);
-  /* Knots of the line that runs through the body, led by its first nodes (core/body/path.h): what slides along
-   * it may be linked to it. NULL: it has none. */
-  SporeSplineKnots (*path)(const SporeModel *model);
   /* Material points in the body's frame at rest that tell its configuration, 3 each, from spore_allocate; of a model
    * whose nodes are no material points. The first *seen of them lie in the body. NULL: the nodes do. */
   bool (*samples)(const SporeModel *model, double **points, size_t *count, size_t *seen);
-  /* Makes spare nodes, when the world has scissors, before anything else is made of the model. Refuses what it cannot
-   * part, with the remedy. NULL: none are needed. */
-  bool (*reserve)(SporeModel *model, SporeError *error);
-  /* Room for what mend needs, when the world has scissors, or the model tears; *edges += how many can be
-   * cut. False: no memory. */
-  bool (*prepare_cut)(SporeModel *model, size_t *edges);
-  /* Takes away, at q, what ties nodes on both sides of a triangle (9 doubles, m), until mend, and adds the edges among
-   * it to `cuts`, as of `body`. How many ties; allocates nothing, and the pattern stays. NULL: cannot be cut. */
-  size_t (*cut)(SporeModel *model, const double *q, const double *triangle, uint32_t body, SporeCuts *cuts);
-  /* The same for what is strained, at q, more than it bears. Required where the model says that it tears. */
-  size_t (*tear)(SporeModel *model, const double *q, uint32_t body, SporeCuts *cuts);
-  /* After prepare_cut. Required where something can be cut that has no divide. */
-  SporeTie (*tie)(const SporeModel *model, uint32_t a, uint32_t b);
-  /* Of a model whose cuts divide nodes; `cut` only says where. Makes nodes, at this state, which it sets for them; they
-   * follow those made before. *from: the node that each of them was made from. How many; allocates nothing. The pattern
-   * is another then: until settle nothing is asked of the model. */
-  size_t (*divide)(SporeModel *model, double *q, double *v, const uint32_t **from);
-  /* Looks up its blocks in a matrix of its pattern of now. */
+  /* Looks up the model's blocks in a matrix of its pattern of now. Required where the pattern changes. */
   void (*settle)(SporeModel *model, const SporeBlockMatrix *matrix);
-  /* Of a model whose nodes come and go as it bends, and who sees to it that there is room: whether they are to, at this
-   * state, after a step of h seconds; held: a flag a block, of what a pin holds. What it would do it keeps in mind. */
-  bool (*weigh_nodes)(SporeModel *model, double h, const double *q, const uint8_t *held);
-  /* Does it: the state and the flags become those of the nodes that there are then, first come first; what leads a line
-   * stays one run of blocks. Allocates nothing. The pattern is another then: until settle nothing is asked of it. */
-  void (*change_nodes)(SporeModel *model, double *q, double *v, uint8_t *held);
-  /* The rows of a mapping that `map` made, for these knots of the line through the body; place and map themselves speak
-   * of those that it was made with. Any thread may ask; it may allocate, but for those that path says now. Points that
-   * do not go with knots are left alone. False: no memory. */
-  bool (*follow)(const SporeModel *model, SporeSplineKnots knots, SporeMapping *mapping);
-  /* The nodes of its tetrahedra now, 4 *count; NULL where it was made so that it cannot be parted. */
-  const uint32_t *(*corners)(const SporeModel *model, size_t *count);
-  /* Room for coagulate, and what mend needs after it, when the world has something that heats. False: no memory. */
-  bool (*prepare_heat)(SporeModel *model);
-  /* Coagulates, at q, until mend. How many ties or elements took some of the dose; allocates nothing, and the pattern
-   * stays. NULL: heat does nothing. */
-  size_t (*coagulate)(SporeModel *model, const double *q, const SporeHeat *heat);
   /* As it was created: of a model that was prepared for either, or whose nodes come and go. */
   void (*mend)(SporeModel *model);
-  /* Of particles that are seen as puffs: radius, m, and opacity, 0..1, of one. */
-  void (*puff)(const SporeModel *model, const double *q, size_t particle, double *radius, double *opacity);
   /* What the last evaluation had to mend, or what the state after a step is not meant for (translated: cause and
    * remedy), or NULL. Told once a body. */
   const char *(*notice)(const SporeModel *model, const double *q);
   /* What the model as it was made computes badly (translated: "what; what to do"), or NULL. `spore check` tells it. */
   const char *(*doubt)(const SporeModel *model);
+
+  /* What only some models can do; NULL: this one cannot. */
+  const SporeModelCut *cut;
+  const SporeModelHeat *heat;
+  const SporeModelAdapt *adapt;
+  const SporeModelParticles *particles;
+  const SporeModelLine *line;
 };
 
 /* Fills the base of a model of node_count nodes; framed: the last node is the origin of a frame, which has one block

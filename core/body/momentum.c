@@ -1,9 +1,12 @@
-/* Momentum of a body, and velocities that have it. */
+/* Momentum of a body, and velocities with a given momentum. */
 #include "core/body/momentum.h"
+
+#include <assert.h>
 
 static SporeVec3 node_at(const double *q, size_t i) { return spore_vec3_load(q + 3 * i); }
 
 static SporeVec3 centre_of_mass(const SporeModel *model, const double *q, double mass) {
+  assert(mass > 0);
   SporeVec3 sum = {0, 0, 0};
   for (size_t i = 0; i < model->node_count; i++) sum = spore_vec3_add_scaled(sum, model->block_mass[i], node_at(q, i));
   return spore_vec3_scale(1 / mass, sum);
@@ -18,8 +21,9 @@ static void add_node(SporeMotion *motion, double mass, SporeVec3 arm, SporeVec3 
   motion->inertia = spore_mat3_sub(motion->inertia, spore_mat3_scale(mass, spore_mat3_multiply(skew, skew)));
 }
 
-/* The turning of a frame. */
+/* Adds the turning of a frame. */
 static void add_frame(SporeMotion *motion, const SporeModel *model, const double *q, const double *v) {
+  assert(model->block_count == model->node_count + 1);
   SporeMat3 inertia = model->type->inertia(model, q);
   SporeVec3 spin = spore_vec3_load(v + 3 * model->node_count), angular = spore_mat3_apply(inertia, spin);
   motion->inertia = spore_mat3_add(motion->inertia, inertia);
@@ -28,6 +32,7 @@ static void add_frame(SporeMotion *motion, const SporeModel *model, const double
 }
 
 SporeMotion spore_model_motion(const SporeModel *model, const double *q, const double *v, const SporeVec3 *centre) {
+  assert(q && v);
   SporeMotion motion = {.mass = spore_model_total_mass(model)};
   motion.centre = centre ? *centre : centre_of_mass(model, q, motion.mass);
   for (size_t i = 0; i < model->node_count; i++)
@@ -45,7 +50,7 @@ static void add_rigid(const SporeModel *model, const double *q, SporeVec3 centre
   if (!spore_model_is_nodal(model)) spore_vec3_accumulate(v + 3 * model->node_count, w);
 }
 
-/* Spin that has this angular momentum; of a line about itself, which has none, none. */
+/* Spin with this angular momentum. About an axis without inertia, such as that of a line, the spin is 0. */
 static SporeVec3 spin_of(const SporeMat3 *inertia, SporeVec3 angular) {
   double values[3], most = 0;
   SporeMat3 vectors;
@@ -59,8 +64,9 @@ static SporeVec3 spin_of(const SporeMat3 *inertia, SporeVec3 angular) {
   return spin;
 }
 
-/* A second time for what rounding took. */
+/* Gives the velocities the momentum of `before`. The second round corrects rounding. */
 static void correct(const SporeModel *model, const double *q, const SporeMotion *before, SporeVec3 centre, double *v) {
+  assert(before->mass > 0);
   SporeVec3 shift = spore_vec3_sub(before->centre, centre);
   SporeVec3 wanted = spore_vec3_add(before->angular, spore_vec3_cross(shift, before->momentum));
   for (int round = 0; round < 2; round++) {
@@ -72,6 +78,7 @@ static void correct(const SporeModel *model, const double *q, const SporeMotion 
 
 void spore_model_keep_momentum(const SporeModel *model, const double *q, const SporeMotion *before, double kinetic,
                                double *v) {
+  assert(kinetic >= 0);
   SporeVec3 centre = centre_of_mass(model, q, spore_model_total_mass(model));
   correct(model, q, before, centre, v);
   SporeMotion now = spore_model_motion(model, q, v, &centre);

@@ -1,5 +1,7 @@
+/* Tissues: the table of measured quantities, and look-ups in it. */
 #include "core/body/tissue.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/text.h"
@@ -23,6 +25,7 @@ const char *const spore_material_names[] = {"none", SPORE_TISSUES NULL};
 const char *const spore_tissue_wanted[] = {"young_modulus", "poisson_ratio", "density", "stiffness_damping", NULL};
 
 const SporeTissueQuantity *spore_tissue_find(const SporeTissue *tissue, const char *parameter) {
+  assert(tissue && parameter);
   for (const SporeTissueQuantity *quantity = tissue->quantities; quantity->name; quantity++)
     if (strcmp(quantity->name, parameter) == 0) return quantity;
   return NULL;
@@ -33,6 +36,7 @@ bool spore_tissue_fills(const char *parameter) {
 }
 
 const SporeValue *spore_tissue_value(const SporeTissue *tissue, const SporeParameter *parameter) {
+  assert(parameter->name);
   const SporeTissueQuantity *quantity =
       spore_tissue_fills(parameter->name) ? spore_tissue_find(tissue, parameter->name) : NULL;
   if (!quantity || quantity->typical.type != parameter->type) return NULL;

@@ -1,6 +1,10 @@
+/* Couplings: terms between bodies as symmetric blocks, multiplied without a matrix. */
 #include "core/constraint/coupling.h"
 
+#include <assert.h>
+
 static unsigned char couple(const SporeEnd *end, const SporeSite *sites, SporeCoupledEnd *coupled) {
+  assert(end->prescribed || end->point < end->mapping->point_count);
   *coupled = (SporeCoupledEnd){.end = end};
   if (end->prescribed) return SPORE_COUPLED_NOTHING;
   coupled->v = sites[end->body].v;
@@ -21,6 +25,7 @@ static unsigned char couple(const SporeEnd *end, const SporeSite *sites, SporeCo
 }
 
 SporeCoupling spore_coupling(const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k, const SporeSite *sites) {
+  assert(!a->prescribed || !b->prescribed);
   SporeCoupling coupling = {.k = {k->m[0], k->m[1], k->m[2], k->m[4], k->m[5], k->m[8]}};
   coupling.kind_a = couple(a, sites, &coupling.a);
   coupling.kind_b = couple(b, sites, &coupling.b);
@@ -60,6 +65,7 @@ static inline void scatter(unsigned char kind, const SporeCoupledEnd *end, Spore
 }
 
 void spore_couplings_multiply(const SporeCoupling *couplings, size_t count, const double *x, double *y) {
+  assert(count == 0 || (couplings && x != y));
   for (size_t i = 0; i < count; i++) {
     const SporeCoupling *c = &couplings[i];
     SporeVec3 u = spore_vec3_sub(gather(c->kind_a, &c->a, x), gather(c->kind_b, &c->b, x));
@@ -85,6 +91,7 @@ static void add_diagonal(unsigned char kind, const SporeCoupledEnd *end, const S
 }
 
 void spore_couplings_diagonal(const SporeCoupling *couplings, size_t count, double *blocks) {
+  assert(count == 0 || (couplings && blocks));
   for (size_t i = 0; i < count; i++) {
     const SporeCoupling *c = &couplings[i];
     SporeMat3 k = {{c->k[0], c->k[1], c->k[2], c->k[1], c->k[3], c->k[4], c->k[2], c->k[4], c->k[5]}};

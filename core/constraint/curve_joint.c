@@ -1,8 +1,10 @@
-/* Rails: paths of bodies that the ends of springs run along. */
+/* Curve joints: the end of a spring slides along a path of a body. */
+#include <assert.h>
+
 #include "core/constraint/term_ends.h"
 
-#define SOFT_STOP 0.01 /* of a span: over this a stop begins to damp */
-#define LEAST_BEND 0.1 /* nearer to its centre of curvature a path has no nearest place that moves smoothly */
+#define SOFT_STOP 0.01 /* of a span: over this length a stop begins to damp */
+#define LEAST_BEND 0.1 /* nearer to the centre of curvature, the nearest place of a path does not move smoothly */
 
 bool spore_curve_joint_may_stop(const SporeCurveJoint *joint) {
   return joint->stops &&
@@ -10,12 +12,14 @@ bool spore_curve_joint_may_stop(const SporeCurveJoint *joint) {
 }
 
 double spore_curve_joint_overshoot(const SporeCurveJoint *joint, const SporePathPlace *place, SporeVec3 p) {
+  assert(joint->knots.span_count > 0);
   SporeVec3 outward = spore_vec3_scale(spore_path_end(joint->knots, place->parameter),
                                        spore_vec3_normalise(place->slope, (SporeVec3){0, 0, 0}));
   return fmax(0, spore_vec3_dot(outward, spore_vec3_sub(p, place->position)));
 }
 
 SporePathPlace spore_curve_joint_place(const SporeCurveJoint *joint, const double *local, SporeVec3 p) {
+  assert(local);
   if (!joint->points) return spore_path_follow(joint->knots, local, joint->start, p);
   SporePose frame = {spore_vec3_load(local), spore_quat_load(local + 3)};
   SporeVec3 in_frame = spore_quat_rotate(spore_quat_conjugate(frame.orientation), spore_vec3_sub(p, frame.position));
@@ -26,6 +30,7 @@ SporePathPlace spore_curve_joint_place(const SporeCurveJoint *joint, const doubl
 }
 
 void spore_curve_joint_set(SporeSpringTerm *term, const SporePathPlace *place) {
+  assert(term->curve && term->curve->mapping);
   SporeCurveJoint *joint = term->curve;
   term->law.free = spore_vec3_normalise(place->slope, (SporeVec3){0, 0, 0});
   joint->end = joint->stops ? spore_path_end(joint->knots, place->parameter) : 0;
@@ -42,6 +47,7 @@ void spore_curve_joint_set(SporeSpringTerm *term, const SporePathPlace *place) {
 }
 
 void spore_curve_joint_bend(SporeSpringTerm *term, const SporeSite *sites, const double *q, double c2) {
+  assert(term->curve && c2 >= 0);
   SporeCurveJoint *joint = term->curve;
   joint->bend = (SporeCurveJointBend){0};
   if (term->b.prescribed || joint->points || !(spore_vec3_dot(term->law.free, term->law.free) > 0)) return;
@@ -64,6 +70,7 @@ void spore_curve_joint_bend(SporeSpringTerm *term, const SporeSite *sites, const
 }
 
 void spore_curve_joint_bend_multiply(const SporeSpringTerm *term, const SporeSite *sites, const double *x, double *y) {
+  assert(term->curve && !term->b.prescribed);
   const SporeCurveJointBend *bend = &term->curve->bend;
   size_t at = sites[term->b.body].v + 3 * bend->first;
   double past = spore_vec3_dot(bend->tangent, gather(&term->a, sites, x)), turned = 0;
@@ -81,6 +88,7 @@ void spore_curve_joint_bend_multiply(const SporeSpringTerm *term, const SporeSit
 }
 
 SporeMat3 spore_curve_joint_bend_block(const SporeCurveJointBend *bend, size_t i, size_t j) {
+  assert(i < SPORE_PATH_WIDTH && j < SPORE_PATH_WIDTH);
   SporeVec3 p = spore_vec3_scale(-bend->weight[i], bend->tangent),
             r = spore_vec3_scale(-bend->weight[j], bend->tangent);
   SporeVec3 e = bend->turned[i], f = bend->turned[j];

@@ -1,4 +1,6 @@
-/* Springs as terms: between two points, or along a line or a path with what slides there. */
+/* Spring terms: springs between two points, or with an end that slides along a line or a path. */
+#include <assert.h>
+
 #include "core/constraint/term_ends.h"
 
 /* (I + w jacobian)^-1 force, jacobian = h D + h t K: symmetric and at least I, so the adjugate does. */
@@ -14,10 +16,11 @@ static SporeVec3 soften(const SporeSoftening *softening, SporeMat3 jacobian, Spo
                      scale * spore_vec3_dot(row_z, force)};
 }
 
-/* What physics does not move is a line for the length of a step. */
+/* Whether the end slides along a path that moves. A path that physics does not move is a line during a step. */
 INLINE bool runs(const SporeSpringTerm *term) { return term->curve && !term->b.prescribed; }
 
 static double joint_length(const SporeCurveJoint *joint, const double *local, double to) {
+  assert(joint->points || local);
   return spore_path_length(joint->knots, joint->points ? joint->points : local, joint->start, to);
 }
 
@@ -31,22 +34,24 @@ static double slid_along_line(const SporeSpringTerm *term, SporeVec3 a, SporeVec
 }
 
 static void run_along(SporeSpringTerm *term, const SporeSite *sites, const double *q, SporeVec3 a) {
+  assert(!term->b.prescribed);
   const double *local = q + sites[term->b.body].q;
   SporePathPlace place = spore_curve_joint_place(term->curve, local, a);
   spore_curve_joint_set(term, &place);
   if (term->law.friction > 0) term->slid = joint_length(term->curve, local, place.parameter);
 }
 
-/* Where the ends are, or will be after `ahead`; how far friction's spring has slid by then. */
+/* Positions of the ends, now or after `ahead`, and how far the spring of friction has slid by then. */
 static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v, SporeVec3 *a,
                         SporeVec3 *b) {
+  assert(term->law.rest_length >= 0 && term->law.friction >= 0);
   const SporeVec3 none = {0, 0, 0};
   *a = locate(&term->a, none, sites, q);
   if (runs(term)) run_along(term, sites, q, *a);
   *b = locate(&term->b, none, sites, q);
   if (term->law.friction > 0 && !runs(term)) term->slid = slid_along_line(term, *a, *b);
-  /* What holds two points together pulls in any direction: both bodies feel it where the first is, so that together
-   * they are not turned by it. */
+  /* A spring without length pulls in any direction. Its force acts on both bodies at the place of the first end, so
+   * that it does not turn the two together. */
   if (term->law.rest_length == 0 && !term->b.prescribed && term->b.mapping->kind == SPORE_MAPPING_RIGID)
     term->b.offset = spore_vec3_add(term->b.offset, spore_vec3_sub(*a, *b));
   if (!(term->softening.ahead > 0)) return;
@@ -57,7 +62,7 @@ static void spring_ends(SporeSpringTerm *term, const SporeSite *sites, const dou
   term->slid += spore_vec3_dot(term->law.free, spore_vec3_sub(ahead_a, ahead_b));
 }
 
-/* Toward the path, where end a is beyond an end of it that stops. */
+/* Force of a stop, where end a is beyond an end of the path that stops it. */
 static SporeContactNormal stop_of(const SporeSpringTerm *term, SporeVec3 a, SporeVec3 b, SporeVec3 velocity_a,
                                   SporeVec3 velocity_b) {
   const SporeCurveJoint *joint = term->curve;
@@ -71,6 +76,7 @@ static SporeContactNormal stop_of(const SporeSpringTerm *term, SporeVec3 a, Spor
 
 static SporeMat3 spring_jacobian(const SporeSpringTerm *term, SporeVec3 a, SporeVec3 b, SporeVec3 velocity_a,
                                  SporeVec3 velocity_b, double c, double c2) {
+  assert(c >= 0 && c2 >= 0);
   SporeMat3 stiffness, damping;
   spore_spring_jacobian(&term->law, a, b, &stiffness, &damping);
   SporeContactNormal stop = stop_of(term, a, b, velocity_a, velocity_b);
@@ -118,6 +124,7 @@ SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sit
 }
 
 double spore_spring_term_stretch(const SporeSpringTerm *term, const SporeSite *sites, const double *q) {
+  assert(!(term->law.friction > 0) || term->law.stiffness > 0);
   if (!(term->law.friction > 0)) return 0;
   SporeVec3 a = position_of(&term->a, sites, q);
   double slid = runs(term) ? slid_along_curve(term, q + sites[term->b.body].q, a)

@@ -1,11 +1,15 @@
+/* Contact terms: depth, friction, softening and force of a contact between two ends. */
+#include <assert.h>
+
 #include "core/constraint/term_ends.h"
 
 SporeSoftening spore_softening(double h, double inverse_mass, double stiffness) {
+  assert(h > 0 && inverse_mass >= 0 && stiffness >= 0);
   double stiff = 2 * h * h * stiffness * inverse_mass;
   return (SporeSoftening){h, h * stiff / (1 + stiff), inverse_mass};
 }
 
-/* Relative velocity of the ends without what is prescribed: that is where it will be already. */
+/* Relative velocity of the ends that physics moves. A prescribed end is at its final place already. */
 INLINE SporeVec3 own_motion(const SporeEnd *a, const SporeEnd *b, const SporeSite *sites, const double *v) {
   return spore_vec3_sub(gather(a, sites, v), gather(b, sites, v));
 }
@@ -14,7 +18,7 @@ INLINE SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
   return spore_vec3_add_scaled(a, -spore_vec3_dot(normal, a), normal);
 }
 
-/* How far the end's material point that was the contact point has come; `position` of the end. A node does not turn its
+/* Displacement of the end's material point that was the contact point; `position`: of the end. A node does not turn its
  * sphere. */
 static SporeVec3 contact_point_motion(const SporeEnd *end, SporeVec3 position, SporeVec3 frame_arm, SporeVec3 arm,
                                       const SporeSite *sites, const double *q) {
@@ -24,9 +28,9 @@ static SporeVec3 contact_point_motion(const SporeEnd *end, SporeVec3 position, S
   return spore_vec3_add(motion, spore_vec3_sub(turned, arm));
 }
 
-/* What depth and friction follow of the two ends at positions a and b. */
+/* Displacements of the two ends, for depth and friction. */
 typedef struct Motion {
-  SporeVec3 depth_a, depth_b; /* of the sphere's centre, or of a field's contact point */
+  SporeVec3 depth_a, depth_b; /* of the centre of the sphere, or of the contact point of a depth field */
   SporeVec3 point_a, point_b; /* of the contact points; only where there is friction or a field */
 } Motion;
 
@@ -46,7 +50,7 @@ INLINE double depth_after(const SporeContactTerm *term, const Motion *motion) {
   return term->depth + spore_vec3_dot(term->normal, spore_vec3_sub(motion->depth_b, motion->depth_a));
 }
 
-/* Stretch with all slip of the step in it. */
+/* Stretch with all slip of the step. */
 INLINE SporeVec3 stretch_after(const SporeContactTerm *term, const Motion *motion) {
   return spore_vec3_add(term->stretch, across(term->normal, spore_vec3_sub(motion->point_a, motion->point_b)));
 }
@@ -59,8 +63,8 @@ static Motion motion_at(const SporeContactTerm *term, const SporeSite *sites, co
   return motion_of(term, position_of(&term->a, sites, q), position_of(&term->b, sites, q), sites, q);
 }
 
-/* A body that is felt as one gets its force where the sphere presses on it, wherever that has slid to in the step: at
- * one point, so that the two gain no angular momentum from each other. */
+/* A body with a depth field gets its force where the sphere presses on it now. Both forces act at one point, so that
+ * the two bodies gain no angular momentum from each other. */
 INLINE void meet_at(SporeEnd *end, SporeVec3 point, const SporeSite *sites, const double *q) {
   if (turns(end)) end->offset = spore_vec3_sub(point, spore_vec3_load(q + sites[end->body].q));
 }
@@ -71,7 +75,7 @@ SporeVec3 spore_contact_term_stretch(const SporeContactTerm *term, const SporeSi
   return spore_contact_slip(&term->law, stretch_after(term, &motion), term->yield);
 }
 
-/* At q and v; a little ahead where the term is softened. */
+/* State of the contact at q and v; a little ahead in time where the term is softened. */
 INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                        double elapsed_s) {
   SporeVec3 a = locate(&term->a, term->arm_a, sites, q), b = locate(&term->b, term->arm_b, sites, q);
@@ -94,17 +98,18 @@ INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *
   return state;
 }
 
-/* What is left of N when the ends alone take a step in which N' presses: the law at the gap speed and depth that it
- * leads to, less N'. */
+/* Residual of the implicit normal force N': the law at the gap speed and depth after a step of the two ends alone under
+ * N', less N'. */
 static double unbalanced(const SporeContactLaw *law, double ahead, double faster, double depth, double gap_speed,
                          double pressing) {
   double change = faster * pressing;
   return spore_contact_normal(law, depth - ahead * change, gap_speed + change).force - pressing;
 }
 
-/* It falls with the gap speed that it leads to, so false position (the Illinois variant) closes in on it. */
+/* The residual falls with N', so false position (the Illinois variant) converges. */
 double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
                                        double gap_speed, double most) {
+  assert(ahead >= 0 && faster >= 0);
   double low = 0, high = most, above = unbalanced(law, ahead, faster, depth, gap_speed, low);
   double below = unbalanced(law, ahead, faster, depth, gap_speed, high);
   if (!(above > 0)) return low;
@@ -126,8 +131,8 @@ double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead,
   return low;
 }
 
-/* Softens along the normal by the law's slopes, or, where that would throw the ends apart so fast that the law bends,
- * by the law itself. Friction's spring is softened by itself, and cut by what then presses. */
+/* Softens the normal force by the slopes of the law. Where that would throw the ends apart so fast that the law is not
+ * linear, by the law itself. The spring of friction is softened on its own, and cut by the softened normal force. */
 static void soften_contact(SporeContactTerm *term, const SporeContactState *state) {
   const SporeSoftening *softening = &term->softening;
   double w = softening->inverse_mass, h = softening->h;
@@ -151,6 +156,7 @@ static void soften_contact(SporeContactTerm *term, const SporeContactState *stat
 
 void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                               double elapsed_s, double *f) {
+  assert((term->a.prescribed && term->b.prescribed) || (sites && q && v && f));
   SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
   term->force = spore_contact_force(&term->law, &state);
   term->yield = term->pressing = spore_vec3_dot(term->normal, term->force);
@@ -160,6 +166,7 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
 
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double elapsed_s, double c, double c2) {
+  assert(c >= 0 && c2 >= 0);
   SporeContactState state = contact_state(term, sites, q, v, elapsed_s);
   return spore_contact_jacobian(&term->law, &state, c2, c, &term->drag);
 }

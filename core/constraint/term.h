@@ -75,7 +75,7 @@ typedef struct SporeCurveJointBend {
   double weight[SPORE_PATH_WIDTH];
   SporeVec3 turned[SPORE_PATH_WIDTH]; /* e */
   double along, turn, load;           /* times c2; all 0: nothing is added */
-  bool folded;                        /* it is in the body's matrix */
+  bool assembled;                     /* it is in the body's matrix */
 } SporeCurveJointBend;
 
 typedef struct SporeCurveJoint {

@@ -29,8 +29,17 @@ static void check_references(SporeCheck *check, SporeObject *object) {
   for (guint i = 0; i < spore_object_child_count(object); i++) check_references(check, spore_object_child(object, i));
 }
 
-/* Elements of the tools that move a body. */
-#define TOOLS "probe|grasper|clamp|scissors|suction|bipolar|needle"
+/* Whether a device moves a body by such a tool; a camera has none. */
+static gboolean has_device(const SporeObject *tool) {
+  return spore_parameter_find(spore_object_type(tool)->table, "device") >= 0;
+}
+
+static gboolean is_moved(const SporeCheck *check, const SporeObject *body) {
+  const GPtrArray *users = g_hash_table_lookup(check->users, body);
+  for (guint i = 0; users && i < users->len; i++)
+    if (has_device(users->pdata[i])) return TRUE;
+  return FALSE;
+}
 
 /* Bodies. */
 
@@ -57,7 +66,7 @@ static void check_body(SporeCheck *check, SporeObject *body) {
     spore_check_say(check, SPORE_NOTE, body,
                     _("generate spheres and name them in its collision unit, if it should be felt"),
                     _("\"%s\" has no collision spheres: everything passes through it"), name);
-  if (role == SPORE_ACTIVE && !spore_check_is_used(check, body, TOOLS))
+  if (role == SPORE_ACTIVE && !is_moved(check, body))
     spore_check_say(check, SPORE_WARNING, body, _("add a tool that names it, with a device"),
                     _("\"%s\" is active, but no tool moves it"), name);
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity");
@@ -85,7 +94,7 @@ static void check_jaw(SporeCheck *check, SporeObject *tool, const char *property
 
 static void check_tool(SporeCheck *check, SporeObject *tool) {
   const char *name = spore_object_name(tool), *element = spore_object_type(tool)->element;
-  if (!spore_element_in_list(TOOLS, element)) return;
+  if (!has_device(tool)) return;
   gboolean probe = strcmp(element, "probe") == 0; /* others cannot do without a body */
   if (!spore_object_text(tool, "body"))
     spore_check_say(check, probe ? SPORE_WARNING : SPORE_FAULT, tool, _("name an active body"),

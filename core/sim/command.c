@@ -1,12 +1,16 @@
 /* Commands from another thread: a ring with one writer and one reader. */
+#include <assert.h>
+
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
 bool spore_world_post(SporeWorld *world, const SporeCommand *command) {
+  assert(command);
   SporeCommands *commands = &world->commands;
   size_t written = atomic_load_explicit(&commands->written, memory_order_relaxed);
   size_t applied = atomic_load_explicit(&commands->applied, memory_order_acquire);
+  assert(written - applied <= SPORE_COMMAND_CAPACITY);
   if (written - applied == SPORE_COMMAND_CAPACITY) return false;
   commands->ring[written % SPORE_COMMAND_CAPACITY] = *command;
   atomic_store_explicit(&commands->written, written + 1, memory_order_release);
@@ -20,6 +24,7 @@ typedef struct Retuning {
 
 static void retune_model(SporeModel *model, void *user) {
   Retuning *retuning = user;
+  assert(model->type->retune && retuning->fields);
   if (!*retuning->error.message) model->type->retune(model, retuning->fields, &retuning->error);
 }
 
@@ -43,6 +48,7 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
 }
 
 static void set_contact(SporeWorld *world, SporeBody *body, const SporeContactFields *contact) {
+  assert(contact);
   SporeError error = SPORE_ERROR_INIT;
   if (spore_parameters_check(&spore_contact_parameters, contact, &error)) body->collision.fields = *contact;
   else spore_world_report(world, "%s: %s", body->name, error.message);
@@ -74,7 +80,7 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
   }
   if (command->body >= world->body_count) return;
   SporeBody *body = &world->bodies[command->body];
-  /* Others may lie on what does not move by physics. */
+  /* Sleeping bodies may lie on a body that physics does not move. */
   if (body->role == SPORE_PASSIVE && !body->frozen) spore_world_wake(world, command->body);
   else spore_world_wake_all(world);
   switch (command->kind) {
@@ -105,6 +111,7 @@ void spore_world_apply_commands(SporeWorld *world) {
   SporeCommands *commands = &world->commands;
   size_t applied = atomic_load_explicit(&commands->applied, memory_order_relaxed);
   size_t written = atomic_load_explicit(&commands->written, memory_order_acquire);
+  assert(written - applied <= SPORE_COMMAND_CAPACITY);
   for (; applied != written; applied++) {
     SporeCommand *command = &commands->ring[applied % SPORE_COMMAND_CAPACITY];
     apply(world, command);

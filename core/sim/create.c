@@ -1,4 +1,5 @@
-/* From a description to a world: everything is sized and checked here, so that a step need not. */
+/* Makes a world from a description. All sizes are set and all input is checked here, so that a step does neither. */
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,12 +14,14 @@ static bool no_memory(SporeError *error) {
 }
 
 static bool finite_all(const double *values, size_t count) {
+  assert(count == 0 || values);
   for (size_t i = 0; i < count; i++)
     if (!isfinite(values[i])) return false;
   return true;
 }
 
 static bool fail(SporeError *error, const char *body, const char *text) {
+  assert(body && text);
   char place[200];
   snprintf(place, sizeof place, "bodies/%s", body);
   return spore_error_set(error, SPORE_ERROR_INPUT, place, "%s", text);
@@ -66,13 +69,15 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
   return true;
 }
 
-/* Contacts are found once a step; in more substeps particles may go so far that they are found deep inside others. So
- * many are taken unasked. */
+/* Most substeps that are chosen without being asked for. Contacts are found once a step: in more substeps than these,
+ * particles may move so far that the next detection finds them deep inside others. */
 #define SUBSTEPS_UNASKED 20
 
-/* What the scene leaves open of a model that is to be moved by explicit steps. An implicit method that somebody asks
- * for has no Jacobian to go by and needs as small ones. */
+/* Chooses the integrator and the substeps that the scene leaves open, for a model that has rates and no Jacobian. An
+ * implicit method that the scene asks for has no Jacobian either, and needs steps as small as an explicit one. */
 static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBodyDescription *from) {
+  assert(body->model->type->rates);
+  assert(world->solver.time_step > 0);
   if (from->integrator == SPORE_INTEGRATOR_DEFAULT && spore_integrator(body->method.integrator)->implicit) {
     body->method.integrator = body->method.chosen = SPORE_INTEGRATOR_VERLET;
     body->method.integrator_source = SPORE_SOURCE_AUTOMATIC;
@@ -89,8 +94,10 @@ static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBo
   body->method.substeps_source = SPORE_SOURCE_AUTOMATIC;
 }
 
-/* Offsets and names; the models are borrowed until the world stands. */
+/* Sets offsets and names. The models stay the caller's until the world is complete. */
 static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
+  assert((from->role == SPORE_PASSIVE) == (from->model != NULL));
+  assert(!body->name);
   body->role = from->role;
   body->level = SPORE_LEVEL_FINE;
   body->model = from->model;
@@ -120,6 +127,8 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
 }
 
 static void place_body(SporeWorld *world, const SporeBody *body, const SporeBodyDescription *from) {
+  assert(body->q_offset + body->q_count <= world->state.q_count);
+  assert(body->v_offset + 3 * body->block_count <= world->state.v_count);
   double *q = world->state.rest_q + body->q_offset, *v = world->state.rest_v + body->v_offset;
   if (body->model) {
     body->model->type->place(body->model, body->rest_pose, from->velocity, from->spin, q, v);
@@ -130,6 +139,7 @@ static void place_body(SporeWorld *world, const SporeBody *body, const SporeBody
 }
 
 static bool create_bodies(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  assert(description->body_count == 0 || description->bodies);
   if (!check_description(description, error) || !spore_world_reserve_nodes(description, error)) return false;
   size_t n = world->body_count = description->body_count;
   world->bodies = SPORE_NEW_ARRAY(SporeBody, n);
@@ -153,9 +163,10 @@ static bool create_bodies(SporeWorld *world, const SporeWorldDescription *descri
   return true;
 }
 
-/* Spheres of the bodies with this role, behind those that are there. */
+/* Appends the spheres of the unmovable bodies, or of all other bodies. */
 static bool add_spheres(SporeWorld *world, const SporeWorldDescription *description, bool unmovable,
                         SporeError *error) {
+  assert(description->body_count == world->body_count);
   SporeSpheres *all = &world->contact.spheres;
   for (size_t i = 0; i < world->body_count; i++) {
     SporeBody *body = &world->bodies[i];
@@ -163,6 +174,7 @@ static bool add_spheres(SporeWorld *world, const SporeWorldDescription *descript
     if ((body->role == SPORE_UNMOVABLE) != unmovable) continue;
     body->collision.start = all->count;
     if (!spore_body_map_spheres(world, (uint32_t)i, set, error)) return false;
+    assert(body->collision.spheres.point_count == (set ? set->count : 0));
     if (set && !spore_spheres_radii(set, all->radius + all->count, 1)) return no_memory(error);
     for (size_t s = 0; set && s < set->count; s++) all->body[all->count + s] = (uint32_t)i;
     spore_mapping_positions(&body->collision.spheres, world->state.rest_q + body->q_offset,
@@ -180,9 +192,10 @@ static SporeGridBody grid_body(const SporeBody *body) {
 }
 
 static bool make_grid(SporeWorld *world, SporeError *error) {
+  assert(world->contact.reach && !world->contact.grid);
   SporeGridBody *bodies = SPORE_NEW_ARRAY(SporeGridBody, world->body_count);
   if (!bodies) return no_memory(error);
-  size_t with = 0; /* bodies without spheres are no reason for a grid */
+  size_t with = 0; /* bodies with spheres: only these can need a grid */
   for (size_t i = 0; i < world->body_count; i++)
     if (world->bodies[i].collision.spheres.point_count > 0) bodies[with++] = grid_body(&world->bodies[i]);
   bool needed = spore_grid_body_pairs(bodies, with) > 0;
@@ -197,6 +210,7 @@ static bool make_grid(SporeWorld *world, SporeError *error) {
 }
 
 static bool create_spheres(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  assert(world->contact.spheres.count == 0);
   size_t count = 0;
   for (size_t i = 0; i < description->body_count; i++)
     count += description->bodies[i].spheres ? description->bodies[i].spheres->count : 0;
@@ -213,6 +227,7 @@ static bool create_spheres(SporeWorld *world, const SporeWorldDescription *descr
 }
 
 static bool allocate_vectors(SporeWorld *world, SporeError *error) {
+  assert(world->state.v_count % 3 == 0);
   SporeState *state = &world->state;
   size_t bodies = world->body_count, q = state->q_count, v = state->v_count;
   state->target_q = SPORE_NEW_ARRAY(double, q);
@@ -226,8 +241,9 @@ static bool allocate_vectors(SporeWorld *world, SporeError *error) {
   return made || no_memory(error);
 }
 
-/* Each body at each of its levels of detail. */
+/* Checks the time step for each body at each of its levels of detail. */
 static bool check_steps(SporeWorld *world, SporeError *error) {
+  assert(world->state.rest_q && world->state.rest_v);
   for (uint32_t b = 0; b < world->body_count; b++)
     for (int level = 0; level < SPORE_LEVEL_COUNT; level++) {
       if (!spore_world_level_model(world, b, (SporeLevelGrade)level)) continue;
@@ -237,7 +253,7 @@ static bool check_steps(SporeWorld *world, SporeError *error) {
   return true;
 }
 
-/* The models go back to the caller. */
+/* Frees the unfinished world. The models stay the caller's. */
 static SporeWorld *give_up(SporeWorld *world) {
   for (size_t i = 0; world->bodies && i < world->body_count; i++) {
     spore_levels_give_up(&world->bodies[i]);
@@ -250,6 +266,9 @@ static SporeWorld *give_up(SporeWorld *world) {
 static void set_pool(SporeModel *model, void *pool) { model->pool = pool; }
 
 SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error) {
+  assert(description);
+  assert(description->tool_count == 0 || description->tools);
+  assert(description->emitter_count == 0 || description->emitters);
   SporeWorld *world = SPORE_NEW(SporeWorld);
   if (!world) {
     no_memory(error);

@@ -1,4 +1,5 @@
-/* Devices: poses of active bodies from them, and the forces that bodies feel back to them. */
+/* Device input and feedback: poses of active bodies come from devices, and forces on these bodies go back. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/text.h"
@@ -6,8 +7,10 @@
 
 static const SporeGuardLimits limits = SPORE_GUARD_LIMITS;
 
-/* Between reading where a hand is and pushing it. */
+/* Pushes the hand between two readings, with no more force than keeps the device passive. */
 static void push(SporeWorld *world, SporeBody *body) {
+  assert(body->device.device);
+  assert(world->solver.time_step > 0);
   SporeDevice *device = body->device.device;
   if (!device->type->push) return;
   SporeDeviceCommand command = body->device.command;
@@ -17,17 +20,18 @@ static void push(SporeWorld *world, SporeBody *body) {
   device->type->push(device, &command);
 }
 
-static void sense(SporeWorld *world, SporeBody *body) {
+static void read_device(SporeWorld *world, SporeBody *body) {
+  assert(body->role == SPORE_ACTIVE && body->q_count == SPORE_POSE_Q);
   double time_s = (double)(world->state.step + 1) * world->solver.time_step;
-  SporeDeviceState said = body->device.input;
-  bool spoke = body->device.device->type->exchange(body->device.device, time_s, &body->device.command, &said);
-  if (!spore_guard_input(&body->device.guard, &limits, time_s, spoke ? &said : NULL, &body->device.input) &&
+  SporeDeviceState fresh = body->device.input;
+  bool answered = body->device.device->type->exchange(body->device.device, time_s, &body->device.command, &fresh);
+  if (!spore_guard_input(&body->device.guard, &limits, time_s, answered ? &fresh : NULL, &body->device.input) &&
       world->state.monitor.held_inputs++ == 0)
     spore_world_report(world, _("%s: its device said what cannot be; held, or followed at %g m/s; check the device"),
                        body->name, limits.speed);
   push(world, body);
   body->device.input_time_s = time_s;
-  body->device.has_input |= spoke;
+  body->device.has_input |= answered;
   double *target = world->state.target_q + body->q_offset;
   memcpy(target, body->device.input.position, sizeof body->device.input.position);
   spore_quat_store(target + 3, spore_quat_normalise(spore_quat_load(body->device.input.orientation)));
@@ -37,20 +41,21 @@ void spore_world_read_devices(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (body->role != SPORE_ACTIVE) continue;
-    if (body->device.device) sense(world, body);
+    if (body->device.device) read_device(world, body);
   }
   for (size_t i = 0; i < world->links.trocar_count; i++) spore_trocar_aim(world, &world->links.trocars[i]);
   for (uint32_t b = 0; b < world->body_count; b++)
     if (world->bodies[b].role == SPORE_ACTIVE) spore_active_set_velocity(world, b);
 }
 
-/* What torque is about: the frame's origin, or for a set of nodes that of its frame at time 0. */
+/* Point that torques on the body refer to: the origin of its frame; for a set of nodes, that origin at time 0. */
 static SporeVec3 origin(const SporeWorld *world, const SporeBody *body) {
   bool frame = !body->model || spore_model_is_rigid(body->model);
   return frame ? spore_vec3_load(world->state.q + body->q_offset) : body->rest_pose.position;
 }
 
 static void add_reaction(SporeWorld *world, uint32_t index, SporeVec3 point, SporeVec3 force) {
+  assert(index == SPORE_NO_BODY || index < world->body_count);
   if (index == SPORE_NO_BODY || world->bodies[index].sleep.asleep) return;
   SporeVec3 arm = spore_vec3_sub(point, origin(world, &world->bodies[index]));
   spore_vec3_accumulate(world->state.reaction + 6 * (size_t)index, force);
@@ -58,7 +63,9 @@ static void add_reaction(SporeWorld *world, uint32_t index, SporeVec3 point, Spo
 }
 
 void spore_world_add_reactions(SporeWorld *world) {
-  /* What sleeps is held as it was when it fell asleep. */
+  assert(world->state.reaction);
+  assert(world->contact.count <= world->contact.capacity);
+  /* A sleeping body keeps the reaction that it had when it fell asleep. */
   for (size_t b = 0; b < world->body_count; b++)
     if (!world->bodies[b].sleep.asleep) memset(world->state.reaction + 6 * b, 0, 6 * sizeof *world->state.reaction);
   for (size_t i = 0; i < world->contact.count; i++) {

@@ -1,6 +1,7 @@
-/* A world as its users see it: freed, reset, and asked about its bodies. */
+/* The world's interface to its users: freeing, resetting, and queries about its bodies. */
 #include "core/sim/world.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -56,6 +57,8 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
 }
 
 void spore_world_reset(SporeWorld *world) {
+  assert(world->state.rest_q && world->state.rest_v);
+  assert(world->state.next_q && world->state.next_v);
   spore_world_wake_all(world);
   spore_world_reset_cutting(world);
   spore_world_reset_levels(world);
@@ -90,6 +93,8 @@ void spore_world_set_device(SporeWorld *world, uint32_t body, SporeDevice *devic
 }
 
 const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t index, double *time_s) {
+  assert(index < world->body_count);
+  assert(time_s);
   const SporeBody *body = &world->bodies[index];
   if (!body->device.has_input) return NULL;
   *time_s = body->device.input_time_s;
@@ -99,42 +104,70 @@ const SporeDeviceState *spore_world_input(const SporeWorld *world, uint32_t inde
 size_t spore_world_body_count(const SporeWorld *world) { return world->body_count; }
 
 uint32_t spore_world_find_body(const SporeWorld *world, const char *name) {
+  assert(name);
   for (uint32_t b = 0; b < world->body_count; b++)
     if (!strcmp(world->bodies[b].name, name)) return b;
   return SPORE_NO_BODY;
 }
 
-const char *spore_world_body_name(const SporeWorld *world, uint32_t body) { return world->bodies[body].name; }
-SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body) { return world->bodies[body].role; }
+const char *spore_world_body_name(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].name;
+}
+SporeRole spore_world_body_role(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].role;
+}
 uint32_t spore_world_hand(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   if (world->bodies[body].role != SPORE_ACTIVE) return SPORE_NO_BODY;
   for (size_t i = 0; i < world->tools.count; i++)
     for (int part = 1; part < SPORE_TOOL_BODIES; part++)
       if (world->tools.all[i]->bodies[part] == body) return world->tools.all[i]->bodies[0];
   return body;
 }
-const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body) { return world->bodies[body].model; }
+const SporeModel *spore_world_body_model(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].model;
+}
 bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   return world->bodies[body].method.integrator != world->bodies[body].method.chosen;
 }
-bool spore_world_body_frozen(const SporeWorld *world, uint32_t body) { return world->bodies[body].frozen; }
-bool spore_world_body_asleep(const SporeWorld *world, uint32_t body) { return world->bodies[body].sleep.asleep; }
+bool spore_world_body_frozen(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].frozen;
+}
+bool spore_world_body_asleep(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].sleep.asleep;
+}
 uint64_t spore_world_step_count(const SporeWorld *world) { return world->state.step; }
 const SporeSpheres *spore_world_spheres(const SporeWorld *world) { return &world->contact.spheres; }
 size_t spore_world_body_sphere_count(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   return world->bodies[body].collision.spheres.point_count;
 }
 size_t spore_world_dof(const SporeWorld *world) { return world->state.dof; }
-size_t spore_world_q_offset(const SporeWorld *world, uint32_t body) { return world->bodies[body].q_offset; }
+size_t spore_world_q_offset(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].q_offset;
+}
 size_t spore_world_corner_start(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   const SporeNodeSplitting *splitting = &world->bodies[body].splitting;
   return splitting->possible ? splitting->corner_start : SIZE_MAX;
 }
-size_t spore_world_v_offset(const SporeWorld *world, uint32_t body) { return world->bodies[body].v_offset; }
+size_t spore_world_v_offset(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
+  return world->bodies[body].v_offset;
+}
 const double *spore_world_q(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   return world->state.q + world->bodies[body].q_offset;
 }
 const double *spore_world_v(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   return world->state.v + world->bodies[body].v_offset;
 }
 const SporeProfilePhase *spore_world_profile(const SporeWorld *world) { return &world->schedule.profile; }

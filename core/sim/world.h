@@ -16,6 +16,7 @@
 #include "core/haptic/device.h"
 #include "core/integrate/solver.h"
 #include "core/body/model.h"
+#include "core/sim/link/link_type.h"
 #include "core/sim/tool/tool_type.h"
 
 /* A world; its structure is private. */
@@ -77,59 +78,6 @@ typedef struct SporeBodyDescription {
   const SporeSphereSet *spheres;  /* collision unit, body's frame at rest; borrowed; NULL: none */
   SporeContactFields contact;
 } SporeBodyDescription;
-
-/* What ties bodies. All but the pin are stiff springs between material points, so that any method bears them:
- *   pin     holds still every block of body_a whose position at time 0 lies within `radius` of `point_a`
- *   spring  between the points that lie at point_a and point_b
- *   ball    the point of both bodies at point_a stays together; all ways to turn are free
- *   hinge   the same with an axis through it: held at two points `length` apart
- *   weld    the same without a way to turn: held at four points of a tetrahedron whose edges are `length` long
- *   slide   the point of body_a at point_a stays on the line through it along `direction`, which belongs to body_b
- *   port    the line through point_a along `direction`, which belongs to body_a, goes through the point of body_b there
- * The line of a slide or port belongs to a rigid body, or to what physics does not move; or it is that of a body along
- * a curve, which deforms, and whose nearest point is taken: what slides passes through that wherever it goes, without
- * energy, but for friction. An active body in a port of
- * the scene is turned about its origin, which stays where the device says, until the line goes through the port. */
-typedef enum SporeLinkKind {
-  SPORE_LINK_PIN,
-  SPORE_LINK_SPRING,
-  SPORE_LINK_BALL,
-  SPORE_LINK_HINGE,
-  SPORE_LINK_WELD,
-  SPORE_LINK_SLIDE,
-  SPORE_LINK_PORT
-} SporeLinkKind;
-
-/* What a body's own line does at its ends with what slides along it. */
-typedef enum SporeEnds {
-  SPORE_ENDS_STOP,    /* holds it there */
-  SPORE_ENDS_SLIP_OFF /* lets it go, for good */
-} SporeEnds;
-
-/* How a joint (all kinds below spring) holds. The table is spore_joint_parameters. */
-typedef struct SporeJointFields {
-  double stiffness; /* N/m, of all its points together */
-  double damping;   /* N s/m, the same; negative: critical for the lighter of its bodies */
-  double strength;  /* N: breaks above; 0: never */
-} SporeJointFields;
-extern const SporeParameterTable spore_joint_parameters;
-
-/* Points are of the world, at time 0, m. body_b = SPORE_NO_BODY ties to the world. */
-#define SPORE_NO_BODY UINT32_MAX
-typedef struct SporeLinkDescription {
-  const char *name;
-  SporeLinkKind kind;
-  uint32_t body_a, body_b;
-  SporeVec3 point_a, point_b;
-  SporeVec3 direction;       /* hinge, slide, port: any length but 0; not used of a body's own line */
-  double radius;             /* pin, m */
-  double length;             /* hinge, weld, m */
-  double stiffness, damping; /* N/m and N s/m; damping negative: critical for the lighter of its bodies */
-  double rest_length;        /* spring, m; negative: the distance at time 0 */
-  double strength;           /* N: what its points feel together, above which it breaks; 0: never */
-  double friction;           /* slide, port: Coulomb coefficient along the line */
-  int ends;                  /* slide, port: SporeEnds, of a body's own line */
-} SporeLinkDescription;
 
 /* How particles of a fluid come into the world while it runs: a wound that bleeds. The fluid has `reserve` of its
  * particles out of the world at time 0. The emitter puts these into the world, and those that suction took away. */

@@ -1,5 +1,5 @@
-/* The world from inside: its bodies, and one structure for each room of core/sim. Every file of these rooms sees it;
- * which room may call which is said in core/README.md. */
+/* The structure of a world: its bodies, and one structure for each room of core/sim. Every file of these rooms includes
+ * this header; core/README.md defines which room may call which. */
 #ifndef SPORE_SIM_WORLD_PRIVATE_H
 #define SPORE_SIM_WORLD_PRIVATE_H
 
@@ -14,15 +14,15 @@
 #include "core/sim/topology/topology.h"
 #include "core/sim/world.h"
 
-/* The device of an active body, and what passes between the two. */
+/* The device of an active body, its input and its feedback. */
 typedef struct SporeBodyDevice {
   SporeDevice *device; /* borrowed; NULL: none */
   SporeGuard guard;
-  SporeDeviceState input;     /* as the guard let it through */
-  SporeDeviceCommand command; /* to the device */
-  SporePassivity passivity;   /* of a device that pushes a hand */
+  SporeDeviceState input;     /* after the guard */
+  SporeDeviceCommand command; /* feedback to the device */
+  SporePassivity passivity;   /* limits the feedback of a device that pushes a hand */
   double input_time_s;
-  bool has_input; /* the device has spoken */
+  bool has_input; /* the device has reported a state since the last reset */
 } SporeBodyDevice;
 
 struct SporeBody {
@@ -32,13 +32,13 @@ struct SporeBody {
   SporeModel *model;
   double total_mass;                               /* kg, of the model */
   SporeLevels *levels;                             /* NULL: the body has one level of detail */
-  SporeLevelGrade level;                           /* active: all that depends on the model is of this level */
+  SporeLevelGrade level;                           /* active level: model, matrix, spheres and pins are of this level */
   size_t q_offset, q_count, v_offset, block_count; /* place in q and v; v_offset in doubles */
-  size_t q_most, block_most; /* largest counts so far: behind its own values its room is 0 up to there */
-  uint64_t changed;          /* number of the state in which the body last differed from the state before */
-  bool altered;              /* cut, torn or coagulated since time 0: it keeps its level */
+  size_t q_most, block_most; /* largest counts so far: values behind the present ones are 0 up to there */
+  uint64_t changed;          /* number of the newest state in which the body differs from the state before */
+  bool altered;              /* cut, torn or coagulated since time 0: the body keeps its level */
   bool frozen;
-  double parking_gap; /* m, between particles out of the world; 0: none ever are */
+  double parking_gap; /* m, between particles out of the world; 0: no particle leaves */
   SporeBodyMethod method;
   SporeHeldBlocks held;
   SporeCollisionUnit collision;
@@ -74,15 +74,15 @@ struct SporeWorld {
 static inline bool spore_body_moves(const SporeBody *body) {
   return body->role == SPORE_PASSIVE && !body->frozen && !body->sleep.asleep;
 }
-/* Whether forces of the body's own do not depend on how it moves. */
+/* Whether the body's own forces are independent of its velocity. */
 static inline bool spore_body_is_static(const SporeBody *body) {
   return body->method.integrator == SPORE_INTEGRATOR_STATIC;
 }
-/* Gravity that the body feels: the world's less what the air around bears, m/s^2. */
+/* Gravity on the body, less its buoyancy in air, m/s^2. */
 static inline SporeVec3 spore_body_gravity(const SporeWorld *world, const SporeBody *body) {
   return spore_vec3_scale(1 - body->model->buoyancy, world->state.gravity);
 }
-/* Whether ties between the body's nodes may be cut. What is seen follows cuts of the finest level alone. */
+/* Whether ties between the body's nodes may be cut. The drawn surface follows cuts of the finest level only. */
 static inline bool spore_body_can_be_cut(const SporeBody *body) {
   return body->model && body->model->type->cut && body->level == SPORE_LEVEL_FINE;
 }
@@ -94,14 +94,14 @@ static inline size_t spore_world_spring_count(const SporeWorld *world) {
 /* Calls `call` for the body's model at each of its levels of detail. */
 void spore_body_each_model(const SporeBody *body, void (*call)(SporeModel *model, void *user), void *user);
 
-/* contact/contacts.c: where the model's present level puts the centres of the set, into the body's collision unit.
+/* contact/contacts.c: maps the centres of the set onto the body's present level, into its collision unit.
  * set: may be NULL. */
 bool spore_body_map_spheres(SporeWorld *world, uint32_t body, const SporeSphereSet *set, SporeError *error);
 
-/* Sets the mapping of one point that lies at `at` (world, m) at time 0, and the end of a term there. */
+/* Maps one point that lies at `at` (world, m) at time 0, and sets the end of a term there. */
 bool spore_world_attach(SporeWorld *world, uint32_t body, SporeVec3 at, SporeMapping *mapping, SporeEnd *end,
                         SporeError *error);
-/* A world point at time 0 in the frame of a body. */
+/* A point of the world at time 0, in the frame of a body. */
 SporeVec3 spore_world_to_frame(const SporeWorld *world, uint32_t body, SporeVec3 at);
 
 #endif

@@ -1,3 +1,4 @@
+/* Contact parameters of a body. */
 #include <math.h>
 
 #include "core/base/text.h"

@@ -1,3 +1,6 @@
+/* Forces of contacts in lanes, several at once, one kernel for each level of the processor. */
+#include <assert.h>
+
 #include "core/sim/contact/contact_lanes.h"
 
 #include "core/math/simd_matrix.h"
@@ -18,7 +21,8 @@ SPORE_INLINE SporeVd3 across(SporeVd3 normal, SporeVd3 a) {
   return spore_vd3_sub(a, spore_vd3_scale(spore_vd3_dot(normal, a), normal));
 }
 
-/* Of an end by physics: how far it has come, its velocity where the force acts, and how far its arm has turned. */
+/* State of an end that physics moves: its displacement, its velocity where the force acts, and the motion of its arm by
+ * turning. */
 typedef struct EndState {
   SporeVd3 motion, velocity, turned;
 } EndState;
@@ -62,7 +66,8 @@ SPORE_INLINE SporeVd step(SporeVd x, SporeVd width, SporeVd *slope) {
   return spore_vd_select(inside, y * y * (3 - 2 * y), spore_vd_select(x > zero, one, zero));
 }
 
-/* Where the two ends alone, stepped by the law's slopes, are thrown apart so fast that the law bends: by the law. */
+/* Normal force by the law itself. For lanes where a step by the slopes of the law would throw the two ends apart so
+ * fast that the law is no longer linear. */
 static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, int k, SporeVl fast, SporeVd depth,
                                               SporeVd gap_speed, SporeVd pressing) {
   for (int i = 0; i < SPORE_WIDTH; i++) {
@@ -77,7 +82,7 @@ static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, in
   return pressing;
 }
 
-/* N of the law, and what is left of it where the contact is softened. */
+/* N of the law; less where the contact is softened. */
 SPORE_INLINE SporeVd press(const SporeContactLanes *lanes, int k, SporeVd depth, SporeVd gap_speed, SporeVd viscous,
                            SporeVd viscous_slope) {
   const double half_exit = 0.5 * SPORE_CONTACT_EXIT_SPEED;
@@ -95,7 +100,7 @@ SPORE_INLINE SporeVd press(const SporeContactLanes *lanes, int k, SporeVd depth,
   return pressing;
 }
 
-/* T, and the yield. moved: of the contact point of a on b since the step began. */
+/* T, and the yield. moved: motion of the contact point of a on b since the step began. */
 SPORE_INLINE SporeVd3 hold(SporeContactLanes *lanes, int k, SporeVd3 n, SporeVd3 moved, SporeVd3 velocity,
                            SporeVd viscous, SporeVd pressing) {
   SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, softer = spore_vd_all(1);
@@ -113,6 +118,7 @@ SPORE_INLINE SporeVd3 hold(SporeContactLanes *lanes, int k, SporeVd3 n, SporeVd3
 }
 
 SPORE_INLINE void evaluate(SporeContactLanes *lanes, int k, const double *at, const double *v, double elapsed_s) {
+  assert(k + SPORE_WIDTH <= SPORE_LANES);
   SporeVd3 n = load(&lanes->normal, k), driven = load(&lanes->driven, k);
   EndState a = end_state(lanes, &lanes->a, k, at, v), b = end_state(lanes, &lanes->b, k, at, v);
   SporeVd3 own = spore_vd3_sub(a.velocity, b.velocity), velocity = spore_vd3_add(own, driven);
@@ -141,5 +147,7 @@ SPORE_INLINE void evaluate(SporeContactLanes *lanes, int k, const double *at, co
 
 void SPORE_LEVEL_NAME(spore_contact_lanes_force)(SporeContactLanes *lanes, const double *at, const double *v,
                                                  double elapsed_s) {
+  assert(lanes->kind != SPORE_LANES_APART);
+  assert(lanes->count <= SPORE_LANES);
   for (int k = 0; k < SPORE_LANES; k += SPORE_WIDTH) evaluate(lanes, k, at, v, elapsed_s);
 }

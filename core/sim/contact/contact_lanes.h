@@ -1,12 +1,12 @@
-/* Contacts side by side, one a lane, so that the forces of several are evaluated at once: what term.c says of one
- * contact, for spheres on nodes or on rigid bodies. Others are evaluated one by one. Private to the room. */
+/* Contacts side by side, one a lane, so that the forces of several contacts are evaluated at once. The law is that of
+ * term.c, for spheres on nodes or on rigid bodies. Other contacts are evaluated one by one. Private to the room. */
 #ifndef SPORE_SIM_CONTACT_LANES_H
 #define SPORE_SIM_CONTACT_LANES_H
 
 #include "core/math/simd.h"
 #include "core/constraint/term.h"
 
-#define SPORE_LANE_FIXED UINT32_MAX /* in place of where an end's velocity lies: physics does not move it */
+#define SPORE_LANE_FIXED UINT32_MAX /* instead of an index of an end's velocity: physics does not move the end */
 /* Of a rigid body: the rows of its rotation, position, velocity, spin. */
 #define SPORE_FRAME_DOUBLES 18
 
@@ -21,18 +21,18 @@ typedef struct SporeLaneVector {
 } SporeLaneVector;
 
 typedef struct SporeLaneEnd {
-  uint32_t at[SPORE_LANES]; /* thirds of where its node begins in q, or its body in the frames; 0: it does not move */
-  uint32_t v[SPORE_LANES];  /* thirds of where its node or body begins in v, or SPORE_LANE_FIXED */
+  uint32_t at[SPORE_LANES]; /* third of the index of its node in q, or of its body in the frames; 0: it does not move */
+  uint32_t v[SPORE_LANES];  /* third of the index of its node or body in v, or SPORE_LANE_FIXED */
   uint32_t v_node[SPORE_LANES];                 /* the same; 0: it does not move */
   int64_t moves[SPORE_LANES];                   /* -1, or 0 */
-  SporeLaneVector start;                        /* where it was when the step began, m */
+  SporeLaneVector start;                        /* its position when the step began, m */
   SporeLaneVector point, arm, frame_arm, lever; /* of frames: see SporeContactTerm and SporeEnd */
 } SporeLaneEnd;
 
-/* Consecutive contacts of an island; lanes behind the last feel nothing. */
+/* Consecutive contacts of an island. Lanes behind the last contact have no force. */
 typedef struct SporeContactLanes {
   SporeLanesKind kind;
-  bool rubs, softened; /* some lane does, or is */
+  bool rubs, softened; /* whether some lane has friction, is softened */
   uint32_t count;
   SporeLaneEnd a, b;
   SporeLaneVector normal, driven; /* driven: velocity of prescribed ends, a less b, m/s */
@@ -45,7 +45,7 @@ typedef struct SporeContactLanes {
   double pressing[SPORE_LANES], yield[SPORE_LANES];
 } SporeContactLanes;
 
-/* How many contacts take up. */
+/* Number of SporeContactLanes that so many contacts take. */
 static inline size_t spore_lanes_for(size_t contacts) { return (contacts + SPORE_LANES - 1) / SPORE_LANES; }
 
 /* Force, pressing and yield, and the levers of frames. `at`: q, or the frames; elapsed_s: since the step began. */

@@ -1,4 +1,5 @@
-/* Spheres from the state, contacts from the spheres, terms from the contacts. */
+/* Contacts of a step: maps spheres from the state, finds contacts of the spheres, and makes terms of the contacts. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -6,8 +7,10 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-/* An active body's spheres have the velocity that takes them to its target in one step. */
+/* Spheres of an active body have the velocity that takes them to their target in one step. */
 static void map_active(SporeWorld *world, const SporeBody *body, double *centre, double *velocity) {
+  assert(body->role == SPORE_ACTIVE);
+  assert(world->solver.time_step > 0);
   spore_mapping_positions(&body->collision.spheres, world->state.target_q + body->q_offset, velocity);
   double rate = 1 / world->solver.time_step;
   for (size_t k = 0; k < 3 * body->collision.spheres.point_count; k++) velocity[k] = (velocity[k] - centre[k]) * rate;
@@ -19,6 +22,7 @@ void spore_world_map_spheres(SporeWorld *world) {
     if (body->role == SPORE_UNMOVABLE || body->collision.spheres.point_count == 0 ||
         body->changed <= world->contact.mapped)
       continue;
+    assert(body->collision.start + body->collision.spheres.point_count <= world->contact.spheres.count);
     const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
     double *centre = world->contact.spheres.centre + 3 * body->collision.start;
     double *velocity = world->contact.spheres.velocity + 3 * body->collision.start;
@@ -30,6 +34,7 @@ void spore_world_map_spheres(SporeWorld *world) {
 }
 
 bool spore_world_reserve_contacts(SporeWorld *world) {
+  assert(world->contact.grid);
   size_t old = world->contact.capacity, wanted = spore_grid_capacity(world->contact.grid) + world->contact.missed;
   if (world->contact.missed) wanted += wanted / 2;
   if (world->contact.missed && !spore_grid_reserve(world->contact.grid, wanted)) return false;
@@ -38,22 +43,24 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   if (terms) world->contact.terms = terms;
   SporeCoupling *couplings = spore_reallocate(world->contact.couplings, old, wanted, sizeof *couplings);
   if (couplings) world->contact.couplings = couplings;
-  size_t bodies = world->body_count; /* each island may leave lanes empty */
+  size_t bodies = world->body_count; /* each island may leave some lanes empty */
   SporeContactLanes *lanes = spore_reallocate(world->contact.lanes, old ? spore_lanes_for(old) + bodies : 0,
                                               spore_lanes_for(wanted) + bodies, sizeof *lanes);
   if (lanes) world->contact.lanes = lanes;
-  SporeManifoldContact *felt = spore_reallocate(world->contact.manifold, old, wanted, sizeof *felt);
-  if (felt) world->contact.manifold = felt;
-  bool gripped = spore_friction_reserve(world, old, wanted);
+  SporeManifoldContact *manifold = spore_reallocate(world->contact.manifold, old, wanted, sizeof *manifold);
+  if (manifold) world->contact.manifold = manifold;
+  bool friction = spore_friction_reserve(world, old, wanted);
   uint32_t *order = spore_reallocate(world->contact.order, old, wanted, sizeof *order);
   if (order) world->contact.order = order;
-  if (!terms || !couplings || !lanes || !felt || !gripped || !order) return false;
+  if (!terms || !couplings || !lanes || !manifold || !friction || !order) return false;
   world->contact.capacity = wanted;
   world->contact.missed = 0;
   return true;
 }
 
 bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphereSet *set, SporeError *error) {
+  assert(index < world->body_count);
+  assert(!set || set->count == 0 || set->spheres);
   SporeBody *body = &world->bodies[index];
   size_t count = set ? set->count : 0;
   double *points = SPORE_NEW_ARRAY(double, 3 * count);
@@ -69,19 +76,21 @@ bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphere
 }
 
 static void find_contacts(SporeWorld *world) {
+  assert(world->contact.reach);
   SporeSpheres reaching = world->contact.spheres;
   reaching.radius = world->contact.reach;
   world->contact.count =
       spore_grid_detect(world->contact.grid, &reaching, world->solver.time_step, &world->contact.missed);
 }
 
-/* A contact without room would be a body that falls through another, and a run that cannot be repeated: room is made at
- * once. It is the one place where a step may allocate, and since room only grows, seldom. */
+/* Without room for a contact, a body would fall through another, and the run could not be repeated. So room is made at
+ * once. This is the only place where a step may allocate. It does so seldom, since the room never shrinks. */
 void spore_world_detect(SporeWorld *world) {
+  assert(world->contact.grid);
   find_contacts(world);
   while (world->contact.missed && spore_world_reserve_contacts(world)) find_contacts(world);
   if (!world->contact.missed) return;
-  find_contacts(world); /* a reservation that failed half-way lost what was found */
+  find_contacts(world); /* a reservation that failed half-way lost the contacts found */
   if (world->contact.count > world->contact.capacity) {
     world->contact.missed += world->contact.count - world->contact.capacity;
     world->contact.count = world->contact.capacity;
@@ -91,6 +100,8 @@ void spore_world_detect(SporeWorld *world) {
 }
 
 void spore_world_fill_end(const SporeWorld *world, SporeEnd *end) {
+  assert(end->body == SPORE_NO_BODY || end->body < world->body_count);
+  assert(end->mapping && end->point < end->mapping->point_count);
   const SporeVec3 none = {0, 0, 0};
   end->velocity = end->offset = none;
   end->prescribed = end->body == SPORE_NO_BODY || !spore_body_moves(&world->bodies[end->body]);
@@ -107,6 +118,7 @@ void spore_world_fill_end(const SporeWorld *world, SporeEnd *end) {
 }
 
 static void fill_sphere_end(const SporeWorld *world, uint32_t sphere, SporeEnd *end) {
+  assert(sphere < world->contact.spheres.count);
   const SporeVec3 none = {0, 0, 0};
   uint32_t index = world->contact.spheres.body[sphere];
   const SporeBody *body = &world->bodies[index];
@@ -126,15 +138,16 @@ static SporeContactMaterial material(const SporeBody *body) {
                                 body->collision.fields.friction};
 }
 
-/* An arm in the frame of the rigid body that it turns with. */
+/* The arm in the frame of its rigid body; 0 for other bodies. */
 static SporeVec3 frame_arm(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm) {
   if (end->mapping->kind != SPORE_MAPPING_RIGID) return (SporeVec3){0, 0, 0};
   SporeQuat turn = spore_quat_load(world->state.q + world->bodies[end->body].q_offset + 3);
   return spore_quat_rotate(spore_quat_conjugate(turn), arm);
 }
 
-/* From the spheres' centres to the contact point, in the middle of the depth. */
+/* Arms lead from the centres of the spheres to the contact point, in the middle of the depth. */
 static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
+  assert(term->sphere_a < world->contact.spheres.count && term->sphere_b < world->contact.spheres.count);
   double radius_a = world->contact.spheres.radius[term->sphere_a],
          radius_b = world->contact.spheres.radius[term->sphere_b];
   SporeVec3 apart = spore_vec3_sub(term->b.position, term->a.position);
@@ -146,10 +159,11 @@ static void set_arms(const SporeWorld *world, SporeContactTerm *term) {
   term->frame_arm_b = frame_arm(world, &term->b, term->arm_b);
 }
 
-/* A driven end has the velocity of its contact point: a tool that turns drags. How deep a sphere is does not change by
- * that. */
+/* Gives a driven end the velocity of its contact point, so that a tool that turns drags tissue along. The depth of a
+ * sphere does not change by the turning. */
 static void turn_driven_end(const SporeWorld *world, SporeEnd *end, SporeVec3 frame_arm, SporeVec3 arm, bool field,
                             SporeVec3 normal) {
+  assert(end->body < world->body_count);
   const SporeBody *body = &world->bodies[end->body];
   if (body->role != SPORE_ACTIVE || end->mapping->kind != SPORE_MAPPING_RIGID) return;
   SporeQuat target = spore_quat_load(world->state.target_q + body->q_offset + 3);
@@ -159,17 +173,18 @@ static void turn_driven_end(const SporeWorld *world, SporeEnd *end, SporeVec3 fr
   end->velocity = spore_vec3_scale(1 / world->solver.time_step, end->offset);
 }
 
-static void fill_term(const SporeWorld *world, const SporeManifoldContact *felt, SporeContactTerm *term) {
-  const SporeContact *contact = &felt->contact;
+static void fill_term(const SporeWorld *world, const SporeManifoldContact *found, SporeContactTerm *term) {
+  assert(found->contact.a != found->contact.b);
+  const SporeContact *contact = &found->contact;
   fill_sphere_end(world, contact->a, &term->a);
   fill_sphere_end(world, contact->b, &term->b);
   SporeContactMaterial a = material(&world->bodies[term->a.body]), b = material(&world->bodies[term->b.body]);
   term->sphere_a = contact->a;
   term->sphere_b = contact->b;
-  term->pair_a = felt->pair_a;
-  term->pair_b = felt->pair_b;
-  term->field_a = felt->field_a;
-  term->field_b = felt->field_b;
+  term->pair_a = found->pair_a;
+  term->pair_b = found->pair_b;
+  term->field_a = found->field_a;
+  term->field_b = found->field_b;
   term->normal = contact->normal;
   term->depth = contact->depth;
   term->slack = 0;
@@ -185,12 +200,13 @@ static void fill_term(const SporeWorld *world, const SporeManifoldContact *felt,
 
 void spore_world_respond(SporeWorld *world) {
   world->contact.count = spore_world_find_manifold(world);
+  assert(world->contact.count <= world->contact.capacity);
   for (size_t i = 0; i < world->contact.count; i++)
     fill_term(world, &world->contact.manifold[i], &world->contact.terms[i]);
   spore_world_restore_friction(world);
   for (size_t i = 0; i < world->contact.count; i++) {
-    /* Two bodies that physics does not move (a tool and a wall, or one is frozen) still press on each other: the tool
-     * is to feel it. */
+    /* Two bodies that physics does not move still press on each other, such as a tool on a wall. The force goes to the
+     * tool's device. */
     SporeContactTerm *term = &world->contact.terms[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, 0, NULL);
     const double *radius = world->contact.spheres.radius;

@@ -1,8 +1,12 @@
-/* Contacts with bodies that are felt as one depth field: a sphere that touches several spheres of such a body has one
- * contact with it, whose depth and normal change smoothly where it slides from one to the next; or in a corner, one
- * with each of the sides. Of two such bodies the one of the larger spheres is felt so, by the spheres of the other,
- * which lie closer to its true surface; of equals the first. A sphere that the body may lie flat on meets its spheres
- * one by one: one contact would not hold it. */
+/* Contacts with bodies whose surface is one depth field.
+ *
+ * A sphere (the probe) that touches several spheres of such a body has one contact with the field. Depth and normal
+ * change smoothly when the probe slides from one sphere to the next. In a corner the probe has one contact with each
+ * side. Where both bodies have a field, the field is that of the body with the larger spheres, and the smaller spheres
+ * of the other are the probes, since they lie closer to its true surface. Where both are equal, the first body has the
+ * field. A probe on which the body may lie flat touches the spheres of the body one by one: a single contact would not
+ * hold the body. */
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -10,23 +14,23 @@
 #include "core/collide/narrow.h"
 #include "core/sim/world_private.h"
 
-/* A field is felt between its spheres before they are: they are looked for with radii larger by this part. */
+/* Between its spheres a field reaches further than the spheres do. So the grid takes radii larger by this part. */
 #define REACH 0.5
-/* Sides of a corner whose normals are nearer than this (cosine) are felt as one that is rounded; and how many places
- * are looked at. */
+/* Sides of a corner whose normals are nearer than this (cosine) count as one rounded side. PLACES: number of places
+ * that are looked at. */
 #define SAME_SIDE 0.5
 #define PLACES 4
 
 static bool has_field(const SporeBody *body) { return body->collision.field.count > 0; }
 
-/* Whether the contacts of bodies a and b are with the field of the first, or of the second. */
-static bool felt_as_one(const SporeBody *body, const SporeBody *other, bool first) {
+/* Whether contacts between the two bodies are with the field of `body`. first: `body` has the lower index. */
+static bool is_one_field(const SporeBody *body, const SporeBody *other, bool first) {
   if (!has_field(body) || !has_field(other)) return has_field(body);
   double mean = body->collision.field.mean_radius, others = other->collision.field.mean_radius;
   return mean > others || (mean == others && first);
 }
 
-/* Only what is rigid has a field that can be made once. */
+/* Only a body that keeps its shape has a field that can be made once. */
 static bool wants_field(const SporeBody *body) {
   SporeMappingKind kind = body->collision.spheres.kind;
   return body->collision.fields.surface == SPORE_SURFACE_DEPTH_FIELD && body->collision.spheres.point_count > 1 &&
@@ -35,6 +39,7 @@ static bool wants_field(const SporeBody *body) {
 
 /* points: centres, `stride` numbers each. */
 static bool make_field(SporeDepthField *field, const double *points, size_t stride, const SporeSphereSet *set) {
+  assert(set && stride >= 3);
   double *centre = SPORE_NEW_ARRAY(double, 3 * set->count), *radius = SPORE_NEW_ARRAY(double, set->count);
   bool made = centre && radius;
   for (size_t i = 0; made && i < set->count; i++) {
@@ -48,6 +53,7 @@ static bool make_field(SporeDepthField *field, const double *points, size_t stri
 }
 
 bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t stride) {
+  assert(set && radius && stride > 0);
   SporeDepthField field = {0};
   for (size_t i = 0; i < set->count; i++) radius[stride * i] = set->spheres[4 * i + 3];
   if (!set->weights) return true;
@@ -58,6 +64,7 @@ bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t strid
 }
 
 bool spore_world_create_fields(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  assert(description->body_count == world->body_count);
   const SporeSpheres *spheres = &world->contact.spheres;
   world->contact.reach = SPORE_NEW_ARRAY(double, spheres->count);
   bool made = world->contact.reach;
@@ -74,8 +81,8 @@ bool spore_world_create_fields(SporeWorld *world, const SporeWorldDescription *d
                                  _("not enough memory for smooth surfaces; use fewer spheres, or surface spheres"));
 }
 
-/* Whether the two spheres move so far past each other in the step that the field of now says nothing of where they
- * meet. */
+/* Whether the two spheres move so far past each other in the step that the present field cannot predict their
+ * contact. */
 static bool is_fast(const SporeWorld *world, const SporeContact *contact) {
   const double *velocity = world->contact.spheres.velocity, *radius = world->contact.spheres.radius;
   SporeVec3 a = spore_vec3_load(velocity + 3 * (size_t)contact->a),
@@ -83,10 +90,12 @@ static bool is_fast(const SporeWorld *world, const SporeContact *contact) {
   return spore_vec3_distance(a, b) * world->solver.time_step > fmin(radius[contact->a], radius[contact->b]);
 }
 
-/* Depth and normal from the field of the body that `owner` belongs to, for the ball `probe`; false where they stay
- * apart in this step. The contact's normal points from b to a, the field's out of the body. */
-static bool feel(const SporeWorld *world, uint32_t owner, uint32_t probe, SporeContact *contact) {
+/* Sets depth and normal by the field of the body that has the sphere `owner`, for the sphere `probe`. False: they stay
+ * apart in this step. The normal of the contact points from b to a, the normal of the field out of the body. */
+static bool evaluate_field(const SporeWorld *world, uint32_t owner, uint32_t probe, SporeContact *contact) {
+  assert(owner < world->contact.spheres.count && probe < world->contact.spheres.count);
   const SporeBody *body = &world->bodies[world->contact.spheres.body[owner]];
+  assert(has_field(body));
   const double *q = world->state.q + body->q_offset;
   bool turned = body->collision.spheres.kind == SPORE_MAPPING_RIGID;
   SporePose pose = {turned ? spore_vec3_load(q) : spore_vec3(0, 0, 0),
@@ -107,7 +116,7 @@ static bool feel(const SporeWorld *world, uint32_t owner, uint32_t probe, SporeC
   return depth - world->solver.time_step * contact->gap_speed > 0;
 }
 
-/* Where the spheres of a pair lie from each other, towards the probe. */
+/* Unit direction from the owner to the probe. */
 static SporeVec3 direction(const SporeWorld *world, uint32_t owner, uint32_t probe) {
   const double *centre = world->contact.spheres.centre;
   SporeVec3 apart =
@@ -121,15 +130,18 @@ static bool seen(const SporeVec3 *sides, size_t count, SporeVec3 normal) {
   return false;
 }
 
-/* Of a sphere of a body with a field; what is felt of it alone is no larger. */
+/* Radius of a sphere in the field of its body. The radius of the sphere alone is no larger. */
 static double full_radius(const SporeWorld *world, uint32_t sphere) {
+  assert(sphere < world->contact.spheres.count);
   const SporeBody *body = &world->bodies[world->contact.spheres.body[sphere]];
+  assert(sphere >= body->collision.start && sphere - body->collision.start < body->collision.field.count);
   return body->collision.field.ball[4 * (sphere - body->collision.start) + 3];
 }
 
-/* The deepest pair on a side that was not looked at yet; `count` where there is none. */
+/* Index of the deepest pair on a side that was not looked at yet; `count`: there is none. */
 static size_t next_place(const SporeWorld *world, const SporeManifoldContact *pairs, size_t count, bool owner_is_a,
                          const SporeVec3 *looked, size_t looked_count) {
+  assert(pairs && count > 0);
   size_t deepest = count;
   double most = -HUGE_VAL;
   for (size_t i = 0; i < count; i++) {
@@ -154,7 +166,7 @@ static SporeManifoldContact as_one(const SporeWorld *world, SporeContact contact
                                 !owner_is_a};
 }
 
-/* Pairs of spheres, as if there was no field. */
+/* Contacts of pairs of spheres, without the field. */
 static size_t meet(const SporeWorld *world, const SporeManifoldContact *pairs, size_t count, SporeManifoldContact *to) {
   size_t made = 0;
   for (size_t i = 0; i < count; i++) {
@@ -165,17 +177,18 @@ static size_t meet(const SporeWorld *world, const SporeManifoldContact *pairs, s
   return made;
 }
 
-/* Whether the probe does not feel the field: the body may lie flat on it, or it is so fast that only the step will tell
- * which sphere stops it. */
+/* Whether the probe touches the spheres and not the field. Either the body may lie flat on the probe, or the probe is
+ * so fast that only the step itself shows which sphere stops it. */
 static bool meets_spheres(const SporeWorld *world, const SporeContact *nearest, uint32_t owner, uint32_t probe) {
   const SporeDepthField *field = &world->bodies[world->contact.spheres.body[owner]].collision.field;
   return world->contact.spheres.radius[probe] > field->half_width || is_fast(world, nearest);
 }
 
-/* Of the pairs of one probe with one body, which lie next to each other, makes the contacts that are felt; returns how
- * many. `to` may be `pairs`. */
+/* Of the pairs of one probe with one body, which lie next to each other, makes the contacts that are manifold; returns
+ * how many. `to` may be `pairs`. */
 static size_t merge(const SporeWorld *world, const SporeManifoldContact *pairs, size_t count, bool owner_is_a,
                     SporeManifoldContact *to) {
+  assert(count > 0 && to);
   SporeManifoldContact made[PLACES];
   SporeVec3 looked[2 * PLACES], sides[PLACES];
   size_t looked_count = 0, made_count = 0;
@@ -186,7 +199,7 @@ static size_t merge(const SporeWorld *world, const SporeManifoldContact *pairs, 
     uint32_t owner = owner_is_a ? contact.a : contact.b, probe = owner_is_a ? contact.b : contact.a;
     if (place == 0 && meets_spheres(world, &contact, owner, probe)) return meet(world, pairs, count, to);
     looked[looked_count++] = direction(world, owner, probe);
-    if (!feel(world, owner, probe, &contact)) continue;
+    if (!evaluate_field(world, owner, probe, &contact)) continue;
     SporeVec3 out = spore_vec3_scale(owner_is_a ? -1 : 1, contact.normal);
     if (seen(sides, made_count, out)) continue;
     looked[looked_count++] = sides[made_count] = out;
@@ -197,14 +210,14 @@ static size_t merge(const SporeWorld *world, const SporeManifoldContact *pairs, 
 }
 
 /* Shell's sort, which needs no memory. */
-static void sort(SporeManifoldContact *felt, size_t count,
+static void sort(SporeManifoldContact *manifold, size_t count,
                  bool (*before)(const SporeManifoldContact *a, const SporeManifoldContact *b)) {
   for (size_t gap = count / 2; gap > 0; gap /= 2)
     for (size_t i = gap; i < count; i++) {
-      SporeManifoldContact moving = felt[i];
+      SporeManifoldContact moving = manifold[i];
       size_t k = i;
-      for (; k >= gap && before(&moving, &felt[k - gap]); k -= gap) felt[k] = felt[k - gap];
-      felt[k] = moving;
+      for (; k >= gap && before(&moving, &manifold[k - gap]); k -= gap) manifold[k] = manifold[k - gap];
+      manifold[k] = moving;
     }
 }
 
@@ -218,64 +231,70 @@ static bool pair_before(const SporeManifoldContact *a, const SporeManifoldContac
   return a->contact.a < b->contact.a || (a->contact.a == b->contact.a && a->contact.b < b->contact.b);
 }
 
-/* Of a sphere of a body without a field. */
+/* Margin of a sphere of a body without a field, m. */
 static double margin_of(const SporeWorld *world, uint32_t sphere) {
+  assert(sphere < world->contact.spheres.count);
   return world->contact.reach[sphere] - world->contact.spheres.radius[sphere];
 }
 
 /* What comes of pairs of one sphere a with one body, in place. */
-static size_t feel_sphere(const SporeWorld *world, SporeManifoldContact *felt, size_t count) {
+static size_t make_probe_contacts(const SporeWorld *world, SporeManifoldContact *manifold, size_t count) {
   const uint32_t *body = world->contact.spheres.body;
-  const SporeBody *a = &world->bodies[body[felt->contact.a]], *b = &world->bodies[body[felt->contact.b]];
-  if (felt_as_one(b, a, false)) return merge(world, felt, count, false, felt);
+  const SporeBody *a = &world->bodies[body[manifold->contact.a]], *b = &world->bodies[body[manifold->contact.b]];
+  if (is_one_field(b, a, false)) return merge(world, manifold, count, false, manifold);
   for (size_t i = 0; i < count; i++) {
-    felt[i] = one_by_one(felt[i].contact);
-    felt[i].contact.depth -= margin_of(world, felt[i].contact.a) + margin_of(world, felt[i].contact.b);
+    manifold[i] = one_by_one(manifold[i].contact);
+    manifold[i].contact.depth -= margin_of(world, manifold[i].contact.a) + margin_of(world, manifold[i].contact.b);
   }
   return count;
 }
 
 /* What comes of all pairs of a body with a field that lie in its spheres a, in place: first those that feel it as one,
  * probe by probe, then others. */
-static size_t feel_body(const SporeWorld *world, const SporeContact *found, SporeManifoldContact *felt, size_t count) {
+static size_t make_field_contacts(const SporeWorld *world, const SporeContact *found, SporeManifoldContact *manifold,
+                                  size_t count) {
+  assert(count > 0 && found && manifold);
   const uint32_t *body = world->contact.spheres.body;
   const SporeBody *a = &world->bodies[body[found->a]];
+  assert(has_field(a));
   size_t own = 0, made = 0;
   for (size_t i = 0; i < count; i++)
-    if (felt_as_one(a, &world->bodies[body[found[i].b]], true)) felt[own++].contact = found[i];
-  sort(felt, own, probe_before);
+    if (is_one_field(a, &world->bodies[body[found[i].b]], true)) manifold[own++].contact = found[i];
+  sort(manifold, own, probe_before);
   for (size_t i = 0, end; i < own; i = end) {
-    for (end = i + 1; end < own && felt[end].contact.b == felt[i].contact.b;) end++;
-    made += merge(world, felt + i, end - i, true, felt + made);
+    for (end = i + 1; end < own && manifold[end].contact.b == manifold[i].contact.b;) end++;
+    made += merge(world, manifold + i, end - i, true, manifold + made);
   }
   for (size_t i = 0, end; i < count; i = end) {
     end = i + 1;
-    if (felt_as_one(a, &world->bodies[body[found[i].b]], true)) continue;
+    if (is_one_field(a, &world->bodies[body[found[i].b]], true)) continue;
     while (end < count && found[end].a == found[i].a && body[found[end].b] == body[found[i].b]) end++;
-    for (size_t k = i; k < end; k++) felt[made + k - i].contact = found[k];
-    made += feel_sphere(world, felt + made, end - i);
+    for (size_t k = i; k < end; k++) manifold[made + k - i].contact = found[k];
+    made += make_probe_contacts(world, manifold + made, end - i);
   }
-  sort(felt, made, pair_before);
+  sort(manifold, made, pair_before);
   return made;
 }
 
 size_t spore_world_find_manifold(SporeWorld *world) {
+  assert(world->contact.count == 0 || world->contact.grid);
+  assert(world->contact.count <= world->contact.capacity);
   const SporeContact *found = spore_grid_contacts(world->contact.grid);
   const uint32_t *body = world->contact.spheres.body;
   size_t made = 0;
   for (size_t i = 0, end; i < world->contact.count; i = end) {
     uint32_t a = body[found[i].a], b = body[found[i].b];
-    SporeManifoldContact *felt = world->contact.manifold + made;
+    SporeManifoldContact *manifold = world->contact.manifold + made;
     end = i + 1;
     if (has_field(&world->bodies[a])) {
       while (end < world->contact.count && body[found[end].a] == a) end++;
-      made += feel_body(world, found + i, felt, end - i);
+      made += make_field_contacts(world, found + i, manifold, end - i);
       continue;
     }
     if (has_field(&world->bodies[b]))
       while (end < world->contact.count && found[end].a == found[i].a && body[found[end].b] == b) end++;
-    for (size_t k = i; k < end; k++) felt[k - i].contact = found[k];
-    made += feel_sphere(world, felt, end - i);
+    for (size_t k = i; k < end; k++) manifold[k - i].contact = found[k];
+    made += make_probe_contacts(world, manifold, end - i);
   }
   return made;
 }

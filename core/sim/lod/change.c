@@ -1,9 +1,10 @@
-/* A body changes its level while it runs: the state of one becomes that of another, or it stays as it is and the
- * monitor says why.
+/* Change of a body's level while the world runs: the state of one level becomes that of another, or the body stays as
+ * it is and the monitor reports the reason.
  *
- * Positions and velocities follow material points (fit.c). Linear and angular momentum of a free body are kept,
- * and kinetic energy is taken from what moves besides them where the internal energy grew. Links and pulls hold on to
- * the same points, jaws and friction to the same spheres. */
+ * Positions and velocities follow material points (fit.c). Linear and angular momentum of a free body are kept. Where
+ * the internal energy grows, the kinetic energy of the remaining motion shrinks as much. Links and pulls keep their
+ * points, jaws and friction keep their spheres. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,8 +15,10 @@
 
 #define WEIGHT 9.81 /* N/kg */
 
-/* A needle leads the body, or goes through it: those ends are of one level alone. Jaws hold spheres. */
+/* Whether a needle leads the body or goes through it: such ends exist at one level only. Jaws hold spheres, which each
+ * level has. */
 static bool is_sewn(const SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   const SporeMapping *spheres = &world->bodies[index].collision.spheres;
   for (size_t i = 0; i < world->tools.count; i++)
     for (int part = 1; part < SPORE_TOOL_BODIES; part++)
@@ -28,6 +31,8 @@ static bool is_sewn(const SporeWorld *world, uint32_t index) {
 }
 
 static const char *fault_of(const SporeWorld *world, uint32_t index, SporeLevelGrade level) {
+  assert(index < world->body_count);
+  assert((unsigned)level < SPORE_LEVEL_COUNT);
   const SporeBody *body = &world->bodies[index];
   if (!body->levels || !body->levels->level[level].model) return _("it has no such level; add one to its fidelity");
   if (body->frozen) return _("it is frozen; thaw it first");
@@ -41,18 +46,20 @@ static double own_energy(const SporeModel *model, const double *q, const double 
   return model->type->potential(model, q) + spore_model_motion(model, q, v, NULL).kinetic;
 }
 
-/* What the change missed of the momentum, N s. */
+/* Change of momentum by the change of level, N s. */
 static double momentum_missed(const SporeModel *from, const double *q, const double *v, const SporeModel *to,
                               const double *q1, const double *v1) {
   SporeMotion before = spore_model_motion(from, q, v, NULL);
   SporeMotion after = spore_model_motion(to, q1, v1, &before.centre);
+  assert(before.mass > 0 && after.mass > 0);
   double extent = sqrt(spore_mat3_trace(after.inertia) / after.mass);
   return fmax(spore_vec3_distance(before.momentum, after.momentum),
               spore_vec3_distance(before.angular, after.angular) / extent);
 }
 
-/* What the candidate has of energy, kinetic and internal, above what the body has. */
+/* Kinetic and internal energy of the candidate, less that of the body, J. */
 static double energy_gained(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to) {
+  assert(body->levels && body->levels->level[to].model);
   const SporeLevels *levels = body->levels;
   return own_energy(levels->level[to].model, levels->q, levels->v) -
          own_energy(body->model, world->state.q + body->q_offset, world->state.v + body->v_offset);
@@ -73,6 +80,7 @@ static void note_change(const SporeWorld *world, const SporeBody *body, SporeLev
 }
 
 static void accept(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  assert(world->bodies[index].level != to);
   SporeBody *body = &world->bodies[index];
   SporeVec3 pulled;
   bool pull = spore_world_pulled_point(world, index, &pulled);
@@ -94,12 +102,13 @@ static void accept(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
 }
 
 static void refuse(SporeWorld *world, SporeBody *body, SporeLevelGrade to, const char *reason) {
+  assert(reason);
   if (body->levels) body->levels->state.refused++;
   spore_world_report(world, _("%s: does not change to level %s: %s"), body->name, spore_level_names[to], reason);
 }
 
-/* Why the candidate is not taken, into the text; false: it is. More energy than the body has, and lifting it by the
- * tolerance would take, is not a matter of how finely it is made. */
+/* Whether the candidate is refused, and the reason as text. It may have more energy than the body only by what lifting
+ * the body by the tolerance takes: the levels' fineness does not explain more. */
 static bool refuses(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to, double error, char *text,
                     size_t size) {
   double own = own_energy(body->model, world->state.q + body->q_offset, world->state.v + body->v_offset);
@@ -120,6 +129,8 @@ static bool refuses(const SporeWorld *world, const SporeBody *body, SporeLevelGr
 }
 
 void spore_world_change_level(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  assert(index < world->body_count);
+  assert((unsigned)to < SPORE_LEVEL_COUNT);
   SporeBody *body = &world->bodies[index];
   if (body->level == to) return;
   const char *fault = fault_of(world, index, to);
@@ -139,8 +150,11 @@ void spore_world_change_level(SporeWorld *world, uint32_t index, SporeLevelGrade
 }
 
 void spore_world_set_level(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+  assert(index < world->body_count);
+  assert((unsigned)to < SPORE_LEVEL_COUNT);
   SporeBody *body = &world->bodies[index];
   if (!body->levels || body->level == to) return;
+  assert(body->levels->level[to].model);
   spore_world_wake(world, index);
   spore_world_exchange_level(world, index, to);
   body->levels->state.level = to;
@@ -148,6 +162,8 @@ void spore_world_set_level(SporeWorld *world, uint32_t index, SporeLevelGrade to
 }
 
 void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, const double *v) {
+  assert(index < world->body_count);
+  assert(q && v);
   SporeBody *body = &world->bodies[index];
   spore_world_wake_all(world);
   memcpy(world->state.next_q + body->q_offset, q, body->q_count * sizeof *q);
@@ -159,7 +175,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   spore_world_advance_state(world);
   spore_body_forget_steps(world, body);
   if (body->model && body->model->type->forget) body->model->type->forget(body->model);
-  world->contact.count = world->contact.friction_count = 0; /* they belong to the state before */
+  world->contact.count = world->contact.friction_count = 0; /* contacts belong to the state before */
   spore_world_lose_lines(world);
   if (body->model) spore_body_set_mass(world, body);
   spore_world_map_spheres(world);

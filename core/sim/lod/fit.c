@@ -1,9 +1,10 @@
-/* One level fitted to another: its nodes so that material points lie where the other has them, in the mean square.
+/* Fits one level to another: places its nodes so that material points lie where the other level has them.
  *
- * Least squares, min sum_s w_s |p_s - (W q)_s|^2, by conjugate gradients on W^T w W with its diagonal, begun where each
- * node has moved with the point next to it. What one level can do and another as well comes through to rounding: a
- * spline among more control points, whose knots are among them. Pinned nodes stay at their places of time 0, and a
- * frame is one and the same thing at each level. */
+ * Least squares, min sum_s w_s |p_s - (W q)_s|^2, by conjugate gradients on W^T w W, preconditioned by its diagonal.
+ * The start moves each node with the material point next to it. A shape that both levels can take is reproduced to
+ * rounding, such as a spline by one with more knots. Pinned nodes stay at their places of time 0. A frame is the same
+ * at each level. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/constraint/pin.h"
@@ -11,9 +12,9 @@
 #include "core/sim/world_private.h"
 
 #define ITERATIONS 300
-#define SMALL 1e-28 /* of the first residual's square: rounding */
+#define SMALL 1e-28 /* of the square of the first residual: below, it is rounding */
 
-/* Unknowns of a fit: blocks of nodes, those behind `count` and the held ones apart. */
+/* Unknowns of a fit: the first `count` blocks, without the held ones. */
 typedef struct Fit {
   const SporeLevels *levels;
   const SporeLevel *level;
@@ -25,8 +26,9 @@ static void filter(const Fit *fit, double *x) {
   spore_pin_filter(fit->level->held, fit->level->held_count, x);
 }
 
-/* r = W^T w (target - W x); target NULL: 0, and the sign turned: r = W^T w W x. */
+/* r = W^T w (target - W x); without a target r = W^T w W x. */
 static void residual(const Fit *fit, const double *target, const double *x, double *r) {
+  assert(fit->level->samples.point_count == fit->levels->sample_count);
   const SporeLevels *levels = fit->levels;
   double *at = levels->after;
   spore_mapping_positions(&fit->level->samples, x, at);
@@ -51,6 +53,7 @@ static double dot(const double *a, const double *b, size_t count) {
 }
 
 static void solve(const Fit *fit, const double *target, double *x) {
+  assert(3 * fit->level->model->block_count <= fit->levels->v_room);
   size_t n = 3 * fit->level->model->block_count, room = fit->levels->v_room;
   double *r = fit->levels->work, *z = r + room, *p = z + room, *ap = p + room;
   residual(fit, target, x, r);
@@ -69,8 +72,9 @@ static void solve(const Fit *fit, const double *target, double *x) {
   }
 }
 
-/* Nodes as far from where they were at time 0 as the sample next to them. */
+/* Start of the fit: each node is displaced from its place of time 0 like the sample next to it. */
 static void begin(const Fit *fit, double *q) {
+  assert(fit->level->model->q_count <= fit->levels->q_room);
   const SporeLevel *level = fit->level;
   double *rest = fit->levels->after;
   memcpy(q, level->rest_q, level->model->q_count * sizeof *q);
@@ -84,9 +88,10 @@ static void begin(const Fit *fit, double *q) {
     memcpy(q + 3 * (size_t)level->held[i], level->rest_q + 3 * (size_t)level->held[i], 3 * sizeof *q);
 }
 
-/* The frame of `from` by that of `to`: each stood somewhere in the body at time 0, and stands there still. */
+/* Places the frame of `to` by that of `from`: each keeps its place in the body of time 0. */
 static void place_frame(const SporeModel *from, const double *from_rest, const double *q, const double *v,
                         const SporeModel *to, const double *to_rest, double *q1, double *v1) {
+  assert(!spore_model_is_nodal(from) && !spore_model_is_nodal(to));
   size_t a = 3 * (from->node_count - 1), b = 3 * (to->node_count - 1);
   SporeQuat turn =
       spore_quat_multiply(spore_quat_load(q + a + 3), spore_quat_conjugate(spore_quat_load(from_rest + a + 3)));
@@ -98,7 +103,8 @@ static void place_frame(const SporeModel *from, const double *from_rest, const d
   spore_vec3_store(v1 + b + 3, spin);
 }
 
-/* What the change is to keep of motion; a body that is pinned hands momentum to its pins. */
+/* Keeps momentum, and does not let energy grow. A pinned body gives momentum to its pins, so that only energy counts.
+ */
 static void keep_motion(const SporeModel *from, const double *q, const double *v, const SporeLevel *to, bool free,
                         double *q1, double *v1) {
   SporeMotion before = spore_model_motion(from, q, v, NULL);
@@ -114,6 +120,8 @@ static void keep_motion(const SporeModel *from, const double *q, const double *v
 }
 
 void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to) {
+  assert(body->levels && body->level != to);
+  assert(body->levels->level[to].model);
   const SporeLevels *levels = body->levels;
   const SporeLevel *from = &levels->level[body->level], *level = &levels->level[to];
   const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
@@ -133,8 +141,9 @@ void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelG
   keep_motion(body->model, q, v, level, free, levels->q, levels->v);
 }
 
-/* Of `count` samples from the start on. */
+/* Greatest distance of `count` samples from index `start` on, m. */
 static double distance_of(const SporeLevels *levels, size_t start, size_t count) {
+  assert(start + count <= levels->sample_count);
   double worst = 0;
   for (size_t s = start; s < start + count; s++) {
     double apart = spore_vec3_distance(spore_vec3_load(levels->before + 3 * s), spore_vec3_load(levels->after + 3 * s));
@@ -145,6 +154,7 @@ static double distance_of(const SporeLevels *levels, size_t start, size_t count)
 }
 
 double spore_level_error(const SporeLevels *levels, SporeLevelGrade to) {
+  assert(levels->level[to].model);
   double worst = 0;
   size_t own = 0;
   spore_mapping_positions(&levels->level[to].samples, levels->q, levels->after);

@@ -1,6 +1,7 @@
-/* Levels: what is made of them before a world runs, and how one takes the place of another. */
+/* Levels of detail: makes them before the world runs, and exchanges one for another. */
 #include "core/sim/world_private.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,6 +15,7 @@ static bool no_memory(SporeError *error) {
 }
 
 static bool refuse(const SporeBody *body, int grade, const char *reason, SporeError *error) {
+  assert(grade >= 0 && grade < SPORE_LEVEL_COUNT);
   char place[200];
   snprintf(place, sizeof place, "bodies/%s", body->name);
   return spore_error_set(error, SPORE_ERROR_INPUT, place, _("level %s: %s"), spore_level_names[grade], reason);
@@ -22,6 +24,7 @@ static bool refuse(const SporeBody *body, int grade, const char *reason, SporeEr
 /* Sizes. */
 
 static bool check_model(const SporeBody *body, int grade, SporeError *error) {
+  assert(body->model && body->levels->level[grade].model);
   const SporeModel *fine = body->model, *model = body->levels->level[grade].model;
   if (fine->type->particles || spore_model_is_rigid(fine))
     return refuse(body, grade,
@@ -46,6 +49,7 @@ static bool make_room(SporeLevels *levels, const SporeModel *model) {
 }
 
 bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
+  assert(!body->levels);
   SporeModel *const *model = from->levels.model;
   if (!model[SPORE_LEVEL_COARSE] && !model[SPORE_LEVEL_MEDIUM]) return true;
   SporeLevels *levels = body->levels = SPORE_NEW(SporeLevels);
@@ -69,11 +73,12 @@ bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescri
   return true;
 }
 
-/* One for another. */
+/* Exchange. */
 
-/* Out of the body and back into it: nothing is copied but pointers. */
+/* The parts of a level move out of the body and into it. Only pointers are copied. */
 
 static void put_away(SporeWorld *world, SporeBody *body) {
+  assert(body->levels->level[body->level].model == body->model);
   SporeLevel *level = &body->levels->level[body->level];
   level->spheres = body->collision.spheres;
   level->whole_weight = body->collision.whole_weight;
@@ -88,6 +93,7 @@ static void put_away(SporeWorld *world, SporeBody *body) {
 }
 
 static void take_out(SporeWorld *world, SporeBody *body, SporeLevelGrade grade) {
+  assert(body->levels->level[grade].model);
   SporeLevel *level = &body->levels->level[grade];
   body->level = grade;
   body->model = level->model;
@@ -107,6 +113,8 @@ static void take_out(SporeWorld *world, SporeBody *body, SporeLevelGrade grade) 
 }
 
 static void take_rest(SporeWorld *world, const SporeBody *body) {
+  assert(body->q_count <= body->levels->q_room);
+  assert(3 * body->block_count <= body->levels->v_room);
   const SporeLevel *level = &body->levels->level[body->level];
   double *q = world->state.rest_q + body->q_offset, *v = world->state.rest_v + body->v_offset;
   memset(q, 0, body->levels->q_room * sizeof *q);
@@ -115,8 +123,9 @@ static void take_rest(SporeWorld *world, const SporeBody *body) {
   memcpy(v, level->rest_v, 3 * body->block_count * sizeof *v);
 }
 
-/* What slides along the body is sought anew on the level's own line. */
+/* Curve joints along the body are placed anew on the level's own line. */
 static void seek_curve_joints(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   const SporeModel *model = world->bodies[index].model;
   for (size_t i = 0; model->type->line && i < world->links.count; i++) {
     SporeLink *link = &world->links.all[i];
@@ -128,6 +137,8 @@ static void seek_curve_joints(SporeWorld *world, uint32_t index) {
 }
 
 void spore_world_exchange_level(SporeWorld *world, uint32_t index, SporeLevelGrade grade) {
+  assert(index < world->body_count);
+  assert(world->bodies[index].levels);
   SporeBody *body = &world->bodies[index];
   size_t free_before = body->block_count - body->held.count;
   put_away(world, body);
@@ -137,6 +148,8 @@ void spore_world_exchange_level(SporeWorld *world, uint32_t index, SporeLevelGra
 }
 
 void spore_world_select_level(SporeWorld *world, uint32_t index, SporeLevelGrade grade) {
+  assert(index < world->body_count);
+  assert((unsigned)grade < SPORE_LEVEL_COUNT);
   SporeBody *body = &world->bodies[index];
   if (!body->levels || body->level == grade) return;
   spore_world_exchange_level(world, index, grade);
@@ -148,14 +161,16 @@ void spore_world_reset_levels(SporeWorld *world) {
     SporeLevels *levels = world->bodies[b].levels;
     if (!levels) continue;
     spore_world_select_level(world, b, levels->first);
-    take_rest(world, &world->bodies[b]); /* changes while it runs leave that of another level there */
+    take_rest(world,
+              &world->bodies[b]); /* a change while the world runs leaves the rest state of another level there */
     levels->state = (SporeLevelState){.level = levels->first};
   }
 }
 
-/* Making one: it is put into the body as if that were its only one. */
+/* Making a level: the level is put into the body as if it were its only one. */
 
 static bool remember_rest(const SporeWorld *world, const SporeBody *body, SporeLevel *level) {
+  assert(!level->rest_q && !level->rest_v);
   level->rest_q = SPORE_NEW_ARRAY(double, body->q_count);
   level->rest_v = SPORE_NEW_ARRAY(double, 3 * body->block_count);
   if (!level->rest_q || !level->rest_v) return false;
@@ -164,11 +179,12 @@ static bool remember_rest(const SporeWorld *world, const SporeBody *body, SporeL
   return true;
 }
 
-/* What links hold and the pull may hold, where the finest level has it. */
+/* Maps the points that links hold and the pull may hold, where the finest level has them. */
 static bool map_ends(SporeWorld *world, uint32_t index, SporeMapping *ends, SporeError *error) {
   const SporeBody *body = &world->bodies[index];
   const SporeLevels *levels = body->levels;
   const double *fine = levels->level[SPORE_LEVEL_FINE].rest_q;
+  assert(fine);
   for (size_t e = 0; e < levels->end_count; e++) {
     double point[3];
     if (levels->ends[e] == 2 * spore_world_pull_index(world, index)) {
@@ -183,6 +199,7 @@ static bool map_ends(SporeWorld *world, uint32_t index, SporeMapping *ends, Spor
 }
 
 static bool fill_level(SporeWorld *world, const SporeWorldDescription *description, uint32_t index, SporeError *error) {
+  assert(description->body_count == world->body_count);
   SporeBody *body = &world->bodies[index];
   const SporeBodyDescription *from = &description->bodies[index];
   double *q = world->state.rest_q + body->q_offset, *v = world->state.rest_v + body->v_offset;
@@ -202,6 +219,7 @@ static bool keep_whole_weight(const SporeBody *body, SporeLevel *level) {
 
 static bool make_level(SporeWorld *world, const SporeWorldDescription *description, uint32_t index,
                        SporeLevelGrade grade, SporeError *error) {
+  assert(grade != SPORE_LEVEL_FINE && world->bodies[index].level == SPORE_LEVEL_FINE);
   SporeBody *body = &world->bodies[index];
   SporeLevel *level = &body->levels->level[grade];
   SporeMapping *ends = SPORE_NEW_ARRAY(SporeMapping, body->levels->end_count);
@@ -218,6 +236,7 @@ static bool make_level(SporeWorld *world, const SporeWorldDescription *descripti
 }
 
 static bool find_ends(SporeWorld *world, uint32_t index) {
+  assert(world->bodies[index].levels && !world->bodies[index].levels->ends);
   SporeLevels *levels = world->bodies[index].levels;
   size_t springs = world->links.term_count;
   levels->ends = SPORE_NEW_ARRAY(uint32_t, 2 * springs + 1);
@@ -255,7 +274,7 @@ bool spore_world_create_levels(SporeWorld *world, const SporeWorldDescription *d
   return true;
 }
 
-/* The end. */
+/* Freeing. */
 
 static void free_level(SporeLevels *levels, SporeLevel *level, bool active) {
   spore_free(level->rest_q);
@@ -276,6 +295,7 @@ static void free_level(SporeLevels *levels, SporeLevel *level, bool active) {
 }
 
 void spore_levels_free(SporeBody *body) {
+  assert(body->levels);
   SporeLevels *levels = body->levels;
   for (int k = 0; k < SPORE_LEVEL_COUNT; k++) free_level(levels, &levels->level[k], (SporeLevelGrade)k == body->level);
   spore_free(levels->ends);
@@ -293,7 +313,7 @@ void spore_levels_give_up(SporeBody *body) {
   for (int k = 0; body->levels && k < SPORE_LEVEL_COUNT; k++) body->levels->level[k].model = NULL;
 }
 
-/* Asking. */
+/* Queries. */
 
 static size_t mapping_memory(const SporeMapping *mapping) {
   size_t entries = mapping->row_start ? mapping->row_start[mapping->point_count] : 0;
@@ -309,6 +329,7 @@ static size_t waiting_memory(const SporeLevel *level) {
 }
 
 size_t spore_world_level_memory(const SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   const SporeBody *body = &world->bodies[index];
   const SporeLevels *levels = body->levels;
   size_t bytes = 0;
@@ -324,11 +345,14 @@ size_t spore_world_level_memory(const SporeWorld *world, uint32_t index) {
 }
 
 SporeLevelGrade spore_world_first_level(const SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   const SporeLevels *levels = world->bodies[body].levels;
   return levels ? levels->first : SPORE_LEVEL_FINE;
 }
 
 bool spore_world_level_state(const SporeWorld *world, uint32_t body, SporeLevelState *state) {
+  assert(body < world->body_count);
+  assert(state);
   if (!world->bodies[body].levels) return false;
   *state = world->bodies[body].levels->state;
   return true;

@@ -1,5 +1,6 @@
-/* The material points by which levels are fitted to each other: those of each level, which tell its configuration, and
- * the spheres and the surface, which are only looked at. */
+/* Samples: the material points by which levels are fitted to each other. Those of each level determine its
+ * configuration. Those of the spheres and of the surface only measure the error. */
+#include <assert.h>
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +13,7 @@ static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for a body's levels"));
 }
 
-/* Nodes in the body's frame at rest; a frame's origin is none of them. */
+/* Nodes in the body's frame at rest, without the origin of a frame. */
 static bool take_nodes(const SporeModel *model, double **points, size_t *count, size_t *seen) {
   double *q = SPORE_NEW_ARRAY(double, model->q_count), *v = SPORE_NEW_ARRAY(double, 3 * model->block_count);
   *count = model->node_count - !spore_model_is_nodal(model);
@@ -24,6 +25,7 @@ static bool take_nodes(const SporeModel *model, double **points, size_t *count, 
 }
 
 static bool append(double **all, size_t *count, const double *points, size_t more) {
+  assert(more == 0 || points);
   double *longer = spore_reallocate(*all, 3 * *count, 3 * (*count + more), sizeof *longer);
   if (!longer) return false;
   if (more) memcpy(longer + 3 * *count, points, 3 * more * sizeof *longer);
@@ -32,7 +34,7 @@ static bool append(double **all, size_t *count, const double *points, size_t mor
   return true;
 }
 
-/* Each level's own. */
+/* Collects the samples of each level's own. */
 static bool collect_own(SporeLevels *levels, double **all) {
   for (int k = 0; k < SPORE_LEVEL_COUNT; k++) {
     SporeLevel *level = &levels->level[k];
@@ -49,7 +51,7 @@ static bool collect_own(SporeLevels *levels, double **all) {
   return true;
 }
 
-/* Each level's weigh the same together. */
+/* The samples of each level have the same weight together. */
 static bool weigh(SporeLevels *levels) {
   levels->sample_weight = SPORE_NEW_ARRAY(double, levels->sample_count);
   if (!levels->sample_weight) return false;
@@ -70,6 +72,7 @@ static bool collect(SporeLevels *levels, const SporeBodyDescription *from, doubl
 }
 
 static size_t next_to(const double *points, size_t count, const double *at) {
+  assert(count > 0);
   size_t nearest = 0;
   double best = DBL_MAX;
   for (size_t s = 0; s < count; s++) {
@@ -79,8 +82,9 @@ static size_t next_to(const double *points, size_t count, const double *at) {
   return nearest;
 }
 
-/* A node that is a sample of its own is next to itself; others look among the samples of their level. */
+/* A node that is itself a sample is its own nearest; other nodes search the samples of their level. */
 static bool find_nearest(SporeLevel *level, const double *all) {
+  assert(level->model && all);
   double *nodes = NULL;
   size_t count = 0, seen;
   bool good = take_nodes(level->model, &nodes, &count, &seen);
@@ -96,6 +100,7 @@ static bool find_nearest(SporeLevel *level, const double *all) {
 }
 
 static bool find_diagonal(const SporeLevels *levels, SporeLevel *level) {
+  assert(level->samples.kind == SPORE_MAPPING_LINEAR && level->samples.point_count == levels->sample_count);
   const SporeMapping *samples = &level->samples;
   level->diagonal = SPORE_NEW_ARRAY(double, level->model->block_count);
   if (!level->diagonal) return false;
@@ -106,6 +111,7 @@ static bool find_diagonal(const SporeLevels *levels, SporeLevel *level) {
 }
 
 static bool map_level(SporeWorld *world, uint32_t index, int k, const double *all, SporeError *error) {
+  assert(k >= 0 && k < SPORE_LEVEL_COUNT);
   const SporeBody *body = &world->bodies[index];
   SporeLevel *level = &body->levels->level[k];
   SporeError reason = SPORE_ERROR_INIT;
@@ -133,7 +139,9 @@ static bool allocate(SporeLevels *levels) {
 }
 
 bool spore_levels_sample(SporeWorld *world, const SporeBodyDescription *from, uint32_t index, SporeError *error) {
+  assert(index < world->body_count);
   SporeLevels *levels = world->bodies[index].levels;
+  assert(levels && levels->level[SPORE_LEVEL_FINE].model);
   double *all = NULL;
   bool good = (collect(levels, from, &all) && allocate(levels)) || no_memory(error);
   for (int k = 0; good && k < SPORE_LEVEL_COUNT; k++)

@@ -1,9 +1,12 @@
-/* Accepts what was solved: writes the islands' states into the next state, and makes that the last good one. */
+/* Accepts solved steps: writes the islands' states into the next state, and makes it the last good one. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/sim/world_private.h"
 
 static void accept_body(SporeWorld *world, const SporeIsland *island, uint32_t index) {
+  assert(index < world->body_count);
+  assert(island->q1 && island->v1);
   SporeBody *body = &world->bodies[index];
   const SporeSite *site = &world->solve.local_sites[index];
   spore_body_mark_changed(world, body);
@@ -12,8 +15,9 @@ static void accept_body(SporeWorld *world, const SporeIsland *island, uint32_t i
   memcpy(world->state.next_v + body->v_offset, island->v1 + site->v, 3 * body->block_count * sizeof(double));
 }
 
-/* A body that this step has frozen stays where it was good. */
+/* A body that this step has frozen stays at its last good configuration. */
 static void hold_body(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count && world->bodies[index].frozen);
   SporeBody *body = &world->bodies[index];
   spore_body_mark_changed(world, body);
   memcpy(world->state.next_q + body->q_offset, world->state.q + body->q_offset, body->q_count * sizeof(double));
@@ -21,14 +25,17 @@ static void hold_body(SporeWorld *world, uint32_t index) {
 }
 
 static void accept_island(SporeWorld *world, SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   const uint32_t *bodies = world->solve.island_bodies + island->body_start;
   for (size_t i = 0; i < island->kept_count; i++) accept_body(world, island, bodies[i]);
   for (size_t i = island->kept_count; i < island->body_count; i++) hold_body(world, bodies[i]);
   spore_island_let_sleep(world, island);
 }
 
-/* Active bodies stand where their devices put them. Their velocity was set when the devices were read. */
+/* Active bodies go to the poses of their devices. Their velocity was set when the devices were read. */
 static void accept_active(SporeWorld *world, SporeBody *body) {
+  assert(body->role == SPORE_ACTIVE && body->q_count == SPORE_POSE_Q);
   spore_body_mark_changed(world, body);
   memcpy(world->state.next_q + body->q_offset, world->state.target_q + body->q_offset, body->q_count * sizeof(double));
 }
@@ -40,7 +47,7 @@ void spore_world_accept(SporeWorld *world) {
     if (world->bodies[b].role == SPORE_ACTIVE) accept_active(world, &world->bodies[b]);
 }
 
-/* What follows from the island's new state, once that is the world's. */
+/* Updates what depends on the island's new state, once it is the world's. */
 static void settle_island(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     const SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];

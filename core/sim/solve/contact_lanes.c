@@ -1,21 +1,28 @@
+/* Contact lanes: fills lanes with the contacts of an island, and adds their forces to the bodies. */
 #include "core/sim/contact/contact_lanes.h"
+
+#include <assert.h>
 
 #include "core/sim/solve/island_system.h"
 
-static SporeContactLanes *group_lanes(const SporeIslandSystem *system, size_t i) {
+static SporeContactLanes *lanes_at(const SporeIslandSystem *system, size_t i) {
+  assert(i < spore_lanes_for(system->island->contact_count));
   return &system->world->contact.lanes[system->island->lanes_start + i];
 }
 
 static size_t lanes_count(const SporeIslandSystem *system) { return spore_lanes_for(system->island->contact_count); }
 
-/* Contacts that lie in the i-th lanes. */
+/* Number of contacts in the i-th lanes. */
 static size_t count_in(const SporeIslandSystem *system, size_t i) {
+  assert(i * SPORE_LANES < system->island->contact_count);
   size_t left = system->island->contact_count - i * SPORE_LANES;
   return left < SPORE_LANES ? left : SPORE_LANES;
 }
 
-/* How the ends of a contact are evaluated; `kind`: of the ends before. */
+/* Kind of the lanes with this end too. `kind`: of the ends before. */
 static SporeLanesKind join_kind(const SporeIslandSystem *system, const SporeEnd *end, bool field, SporeLanesKind kind) {
+  assert(end->prescribed || end->body < system->world->body_count);
+  assert(end->mapping && end->point < end->mapping->point_count);
   if (field) return SPORE_LANES_APART;
   if (end->prescribed) return kind;
   SporeLanesKind its = SPORE_LANES_APART;
@@ -26,6 +33,7 @@ static SporeLanesKind join_kind(const SporeIslandSystem *system, const SporeEnd 
 }
 
 static SporeLanesKind kind_of(const SporeIslandSystem *system, size_t first, size_t count) {
+  assert(count > 0 && first + count <= system->island->contact_count);
   const SporeContactTerm *term = spore_island_system_contact(system, first);
   const SporeEnd *moving = term->a.prescribed ? &term->b : &term->a;
   bool frames = !moving->prescribed && moving->mapping->kind == SPORE_MAPPING_RIGID;
@@ -48,6 +56,7 @@ static SporeVec3 lane_of(const SporeLaneVector *vector, size_t k) {
 
 static void fill_end(const SporeIslandSystem *system, const SporeEnd *end, SporeVec3 arm, SporeVec3 frame_arm,
                      SporeLaneEnd *lanes, size_t k) {
+  assert(k < SPORE_LANES);
   set_lane(&lanes->start, k, end->position);
   lanes->moves[k] = end->prescribed ? 0 : -1;
   lanes->at[k] = lanes->v_node[k] = 0;
@@ -82,8 +91,9 @@ static void fill_lane(const SporeIslandSystem *system, const SporeContactTerm *t
   lanes->rubs |= term->law.friction > 0;
 }
 
-/* A lane that feels nothing and reads what the first one reads. */
+/* A lane without force. It reads node 0, so that it reads no invalid memory. */
 static void empty_lane(SporeContactLanes *lanes, size_t k) {
+  assert(k < SPORE_LANES);
   SporeLaneEnd *ends[2] = {&lanes->a, &lanes->b};
   const SporeVec3 none = {0, 0, 0};
   for (int e = 0; e < 2; e++) {
@@ -127,7 +137,7 @@ void spore_island_system_lay_contacts(SporeIslandSystem *system) {
   begin_terms(system);
   system->frames = false;
   for (size_t i = 0; i < lanes_count(system); i++) {
-    SporeContactLanes *lanes = group_lanes(system, i);
+    SporeContactLanes *lanes = lanes_at(system, i);
     size_t first = i * SPORE_LANES, count = count_in(system, i);
     lanes->kind = kind_of(system, first, count);
     lanes->count = (uint32_t)count;
@@ -141,7 +151,7 @@ void spore_island_system_lay_contacts(SporeIslandSystem *system) {
 
 void spore_island_system_soften_lanes(const SporeIslandSystem *system) {
   for (size_t i = 0; i < lanes_count(system); i++) {
-    SporeContactLanes *lanes = group_lanes(system, i);
+    SporeContactLanes *lanes = lanes_at(system, i);
     lanes->softened = false;
     for (size_t k = 0; k < lanes->count; k++) {
       const SporeSoftening *softening = &spore_island_system_contact(system, i * SPORE_LANES + k)->softening;
@@ -154,7 +164,7 @@ void spore_island_system_soften_lanes(const SporeIslandSystem *system) {
 
 void spore_island_system_keep_contacts(const SporeIslandSystem *system) {
   for (size_t i = 0; i < lanes_count(system); i++) {
-    const SporeContactLanes *lanes = group_lanes(system, i);
+    const SporeContactLanes *lanes = lanes_at(system, i);
     if (lanes->kind == SPORE_LANES_APART) continue;
     for (size_t k = 0; k < lanes->count; k++) {
       SporeContactTerm *term = spore_island_system_contact(system, i * SPORE_LANES + k);
@@ -166,6 +176,7 @@ void spore_island_system_keep_contacts(const SporeIslandSystem *system) {
 }
 
 static void find_frames(const SporeIslandSystem *system, const double *q, const double *v) {
+  assert(system->world->contact.frames);
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
@@ -197,9 +208,10 @@ static void scatter_lanes(const SporeContactLanes *lanes, double *f) {
 
 void spore_island_system_add_contact_forces(const SporeIslandSystem *system, const double *q, const double *v,
                                             double *f) {
+  assert(q && v && f);
   if (system->frames) find_frames(system, q, v);
   for (size_t i = 0; i < lanes_count(system); i++) {
-    SporeContactLanes *lanes = group_lanes(system, i);
+    SporeContactLanes *lanes = lanes_at(system, i);
     if (lanes->kind == SPORE_LANES_APART) {
       for (size_t k = 0; k < lanes->count; k++)
         spore_contact_term_force(spore_island_system_contact(system, i * SPORE_LANES + k),

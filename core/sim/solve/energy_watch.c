@@ -1,26 +1,33 @@
-/* Whether a step still holds the energy of a body. Where an explicit one does not, the body is stiffer than the step
- * bears, and its energy grows without bound; and a method that only keeps the energy of what is linear, or damps it,
- * may gain it where a step does not resolve what is not: what is very stiff and turns is stretched a little in each
- * step, to the order of the method, and its stiffness makes that energy. No other trouble looks like that, so the bound
- * can be wide: GROWTH times all that the body had when the watch began and has been given since, by gravity and by
- * contacts and links. Below the largest stable step kinetic plus strain energy of a mode swings by a factor (1 + h w /
- * 2) / (1 - h w / 2), 14 at most where h w < 1.73 (Hairer, Lubich and Wanner, Acta Numerica 12, 2003, section 1: the
- * modified energy of Stoermer and Verlet). Rigid bodies are not watched: nothing in them is stiff, and contacts are
- * softened for explicit steps. */
+/* Energy watch: detects a body whose energy grows because its step is too long.
+ *
+ * In explicit steps that are too long for the stiffness, the energy of a body grows without bound. An implicit method
+ * that keeps or damps the energy of linear motion may still gain energy where a step does not resolve nonlinear motion:
+ * a very stiff body that turns is stretched a little in each step, to the order of the method, and its stiffness turns
+ * the stretch into energy. No other trouble looks like that, so the bound can be wide: GROWTH times the energy that the
+ * body had when the watch began, plus what gravity, contacts and links have given it since.
+ *
+ * Below the largest stable step, kinetic plus strain energy of a mode swings by a factor (1 + h w / 2) / (1 - h w / 2),
+ * 14 at most where h w < 1.73 (Hairer, Lubich and Wanner, Acta Numerica 12, 2003, section 1: the modified energy of
+ * Stoermer and Verlet). Rigid bodies are not watched: nothing in them is stiff, and contacts are softened for explicit
+ * steps. */
+#include <assert.h>
+
 #include "core/sim/world_private.h"
 
 #define GROWTH 20.
-#define GROWTH_DAMPED 2.    /* of methods that damp what is linear and not resolved: they swing by nothing */
-#define WATCH_STEPS 32      /* energy costs as much as a force, so that it is looked at so seldom in explicit ones */
+#define GROWTH_DAMPED 2.    /* of methods that damp modes they do not resolve: the energy of these does not swing */
+#define WATCH_STEPS 32      /* between two checks in explicit steps, since energy costs as much as a force */
 #define SMALLEST_SPEED 1e-6 /* m/s: below, it is rounding */
 
 /* A model with a Jacobian is elastic: its potential is least, 0, at rest. */
 static bool is_watched(const SporeBody *body) {
+  assert(body->model);
   return body->model->type->jacobian && spore_integrator(body->method.integrator)->damping < SPORE_DAMPING_FULL;
 }
 
-/* What an end's force of this step gave to the body it hangs on, or took. */
+/* Adds the work of the end's force on its body in this step, whatever its sign. */
 static void add_work(SporeWorld *world, const SporeIsland *island, const SporeEnd *end, SporeVec3 force) {
+  assert(end->prescribed || end->body < world->body_count);
   if (end->prescribed) return;
   SporeBody *body = &world->bodies[end->body];
   if (!is_watched(body)) return;
@@ -30,6 +37,7 @@ static void add_work(SporeWorld *world, const SporeIsland *island, const SporeEn
 }
 
 static void add_works(SporeWorld *world, const SporeIsland *island) {
+  assert(island->contact_start + island->contact_count <= world->contact.count);
   for (size_t i = 0; i < island->contact_count; i++) {
     const SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
     add_work(world, island, &term->a, term->force);
@@ -42,20 +50,21 @@ static void add_works(SporeWorld *world, const SporeIsland *island) {
   }
 }
 
-/* Steps between two looks at most. To one that solves equations it adds little, which may go wrong in a single one. */
+/* Most steps between two checks. In an implicit step a check costs little, and a single step may go wrong. */
 static uint32_t steps_between(const SporeBody *body) {
   return spore_integrator(body->method.integrator)->implicit ? 1 : WATCH_STEPS;
 }
 
-/* Slower than this it may be by rounding, and by gravity within the time between two looks. */
+/* Energy that rounding, and gravity between two checks, may give the body, J. */
 static double noise(const SporeWorld *world, const SporeBody *body) {
   double speed =
       SMALLEST_SPEED + steps_between(body) * world->solver.time_step * spore_vec3_length(world->state.gravity);
   return body->total_mass * speed * speed;
 }
 
-/* Often at first, for what was changed may go wrong at once: after 1, 2, 4, 8, ... steps. */
+/* Checks are frequent at first, after 1, 2, 4, 8, ... steps, since a changed body may go wrong at once. */
 static bool is_time_to_look(uint32_t steps, uint32_t between) {
+  assert(steps >= 1 && between >= 1);
   return steps < between ? (steps & (steps - 1)) == 0 : steps % between == 0;
 }
 
@@ -63,7 +72,7 @@ static double own_energy(const SporeWorld *world, const SporeBody *body, const d
   return spore_body_kinetic_energy(world, body, v) + body->model->type->potential(body->model, q);
 }
 
-/* From the state that the step began in. */
+/* Begins the watch, from the state that the step began in. */
 static void start(const SporeWorld *world, SporeBody *body) {
   const double *q = world->state.q + body->q_offset;
   body->watch = (SporeEnergyWatch){.started = true,
@@ -72,6 +81,7 @@ static void start(const SporeWorld *world, SporeBody *body) {
 }
 
 static bool holds(const SporeWorld *world, SporeBody *body, const double *q, const double *v) {
+  assert(body->watch.started);
   SporeEnergyWatch *watch = &body->watch;
   if (!is_time_to_look(++watch->steps, steps_between(body))) return true;
   double had = watch->own + watch->given + fmax(watch->height - spore_body_gravity_energy(world, body, q), 0);
@@ -80,6 +90,8 @@ static bool holds(const SporeWorld *world, SporeBody *body, const double *q, con
 }
 
 bool spore_island_energy_holds(SporeWorld *world, SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   bool watched = false;
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];

@@ -1,17 +1,19 @@
 /* Integrates the islands, each on its own and on any thread. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
 #include "core/sim/solve/island_system.h"
 
-/* Of the next part, leaving one for each of those behind it. */
+/* Limits the iterations of the next part of the step, and leaves one for each part behind it. */
 static void limit_iterations(const SporeEffort *effort, size_t behind, const SporeSolverFields *solver,
                              SporeSolverFields *fields) {
+  assert(solver->newton_iterations >= 1);
   int64_t left = effort->iterations > behind ? (int64_t)(effort->iterations - behind) : 1;
   fields->newton_iterations = left < solver->newton_iterations ? left : solver->newton_iterations;
 }
 
-/* Whether an attempt is still worth its next part, after one that went like `result`. */
+/* Whether an attempt is still worth its next part, after a part with this result. */
 static bool go_on(SporeEffort *effort, const SporeStepResult *result) {
   size_t spent = result->newton_iterations;
   effort->iterations -= spent < effort->iterations ? spent : effort->iterations;
@@ -19,9 +21,10 @@ static bool go_on(SporeEffort *effort, const SporeStepResult *result) {
   return !effort->given_up;
 }
 
-/* How fast a body by the static method seems to be is how far its balance was: where another method stands in, it
- * starts from rest. */
+/* Velocity that the step starts from. The velocity of a body by the static method only shows how far its balance moved,
+ * so where another method stands in, such a body starts from rest. */
 static const double *start_velocity(SporeWorld *world, const SporeIsland *island, SporeIntegratorKind kind) {
+  assert(island->v_start + island->v_count <= world->state.v_count);
   const double *v0 = island->v0;
   for (size_t i = 0; kind != island->integrator && i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
@@ -35,6 +38,8 @@ static const double *start_velocity(SporeWorld *world, const SporeIsland *island
 
 SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, SporeIntegratorKind kind, size_t substeps,
                                      SporeEffort *effort) {
+  assert(substeps >= 1 && island->kept_count >= 1);
+  assert(island->q0 && island->v0 && island->q1 && island->v1);
   SporeIslandSystem system = {
       .world = world, .island = island, .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
   SporeDynamics dynamics = spore_island_system_dynamics(&system);
@@ -43,7 +48,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
   double *q1 = island->q1, *v1 = island->v1;
   double *scratch = world->solve.scratch + world->solve.scratch_per_block * (island->v_start / 3);
   double h = world->solver.time_step / (double)substeps;
-  /* What one method remembers says nothing to another. */
+  /* The history of one method is of no use to another. */
   SporeHistory none = {0}, *history = kind == island->integrator ? &island->history : &none;
   if (kind != island->integrator) island->history.step_s = 0;
   SporeStepResult total = {.converged = true};
@@ -74,19 +79,21 @@ static bool has_particles(const SporeWorld *world, const SporeIsland *island) {
   return false;
 }
 
-/* Whether bodies that are apart as yet meet within the step, which only fast ones do. Which of their contacts will
- * press, only the step's end tells: an explicit method evaluates forces where the bodies are still apart or already
- * past each other, or softens all of them alike, and would let them go through. */
+/* Whether bodies that are still apart meet within the step. Only fast bodies do. Which of their contacts press is only
+ * known at the end of the step. An explicit method evaluates forces where the bodies are still apart or already past
+ * each other, or softens all contacts alike, and would let the bodies pass through each other. */
 static bool meets_in_step(const SporeWorld *world, const SporeIsland *island) {
+  assert(island->contact_start + island->contact_count <= world->contact.count);
   for (size_t i = 0; i < island->contact_count; i++)
     if (spore_contact_term_meets(&world->contact.terms[world->contact.order[island->contact_start + i]])) return true;
   return false;
 }
 
-/* A contact that the step does not resolve is an impact, which no method follows to second order: those that are not
- * damped enough throw bodies out faster than they came. Implicit Euler meets it in their place, unless the method looks
- * after its error. */
+/* The method of the island in this step. A contact that the step does not resolve is an impact, which no method follows
+ * to second order: a method with too little damping throws bodies out faster than they came in. Then implicit Euler
+ * takes its place, unless the method controls its error. */
 static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) {
+  assert(island->substeps >= 1);
   const SporeIntegrator *integrator = spore_integrator(island->integrator);
   if (!integrator->implicit)
     return meets_in_step(world, island) && !has_particles(world, island) ? SPORE_INTEGRATOR_IMPLICIT_EULER
@@ -98,9 +105,9 @@ static SporeIntegratorKind method(SporeWorld *world, const SporeIsland *island) 
   return resolved ? island->integrator : SPORE_INTEGRATOR_IMPLICIT_EULER;
 }
 
-/* A step of implicit Euler in an explicit one's place would push bodies apart all at once that lie deeper in each other
- * than their contacts hold, for explicit steps soften these: it would give back more energy than the contacts took.
- * What overlaps already is only kept from going deeper. */
+/* Sets the slack of contacts for a step of implicit Euler in place of an explicit one. Explicit steps soften contacts,
+ * so bodies may lie deeper in each other than the law allows. Implicit Euler would push such bodies apart at once, and
+ * give back more energy than the contacts took. With the slack it only keeps them from going deeper. */
 static void slacken(SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->contact_count; i++) {
     SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
@@ -113,7 +120,8 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
     island->history.step_s = 0;
     SporeStepResult multirate = spore_island_advance_multirate(world, island);
     if (multirate.converged) return multirate;
-    /* Friction on nodes that are light without what holds them in their body: with it they may be solved. */
+    /* It fails on friction on nodes that are light without the stiffness of their body. With it the step may be solved.
+     */
     spore_island_gather(world, island);
     SporeStepResult whole = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, 1, NULL);
     spore_step_result_add(&multirate, &whole);
@@ -127,6 +135,7 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
 }
 
 static void integrate_island(void *data, size_t index) {
+  assert(index < ((SporeWorld *)data)->solve.island_count);
   SporeWorld *world = data;
   SporeIsland *island = &world->solve.islands[index];
   spore_island_gather(world, island);
@@ -147,7 +156,7 @@ static void integrate_island(void *data, size_t index) {
   island->rests = spore_island_rests(world, island);
 }
 
-/* What the islands will cost, counted in units of roughly 10 ns. */
+/* Estimated work of the islands, in units of roughly 10 ns. */
 static size_t count_work(const SporeWorld *world) {
   size_t work = 0;
   for (size_t i = 0; i < world->solve.island_count; i++) {
@@ -159,6 +168,7 @@ static size_t count_work(const SporeWorld *world) {
 }
 
 void spore_world_integrate(SporeWorld *world) {
+  assert(world->solve.island_count <= world->body_count);
   spore_pool_run(spore_pool_for(world->pool, count_work(world)), world->solve.island_count, integrate_island, world);
   SporeStepCounts *counts = &world->state.counts;
   *counts = (SporeStepCounts){.islands = world->solve.island_count, .sleeping = world->solve.sleeping_count};

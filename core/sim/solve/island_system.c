@@ -1,4 +1,5 @@
-/* An island as the integrators see it: forces of the models and of the terms, and motion. */
+/* Island system: forces of the models and of the terms of an island, and its motion, for the integrators. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/sim/solve/island_system.h"
@@ -52,8 +53,10 @@ static void body_force(void *data, const double *q, const double *v, double *f) 
   spore_island_system_filter(system, f);
 }
 
-/* Counts a term at each block that the end hangs on; counts: a double a block. */
+/* Counts a term at each block that moves the end; counts: a double for each block. */
 static void count_end(const SporeWorld *world, const SporeEnd *end, double *counts) {
+  assert(end->prescribed || end->body < world->body_count);
+  assert(end->prescribed || end->point < end->mapping->point_count);
   if (end->prescribed) return;
   double *local = counts + world->solve.local_sites[end->body].v / 3;
   const SporeMapping *mapping = end->mapping;
@@ -70,10 +73,12 @@ static double quadratic(const double *a, SporeVec3 c) {
          c.z * (a[6] * c.x + a[7] * c.y + a[8] * c.z);
 }
 
-/* Sum of n/m over those blocks, for a force along any direction that acts up to `arm` away from the end; or for one
- * along `normal`, on whose line it acts: that turns a body only by what it misses its centre of mass. */
+/* Sum of n/m over the blocks that move the end, n the number of terms at the block. The force may have any direction
+ * and act up to `arm` away from the end. With `normal` the force acts along that line, and turns a body only by the
+ * distance of the line from the centre of mass. */
 static double end_inverse_mass(const SporeWorld *world, const SporeEnd *end, SporeVec3 arm, const SporeVec3 *normal,
                                const double *counts) {
+  assert(end->prescribed || end->body < world->body_count);
   if (end->prescribed) return 0;
   const double *local = counts + world->solve.local_sites[end->body].v / 3;
   const SporeBody *body = &world->bodies[end->body];
@@ -119,6 +124,7 @@ static double contact_inverse_mass(const SporeWorld *world, const SporeContactTe
 #define RESOLVED 0.25
 
 static bool resolves(double h, double inverse_mass, double stiffness, double damping) {
+  assert(h > 0 && inverse_mass >= 0);
   return h * inverse_mass * (h * stiffness + damping) <= RESOLVED;
 }
 
@@ -128,6 +134,7 @@ static SporeSoftening softening(double h, bool resolved, double inverse_mass, do
 }
 
 static bool soften(void *data, double h, bool resolved) {
+  assert(h > 0);
   const SporeVec3 none = {0, 0, 0};
   SporeIslandSystem *system = data;
   const SporeWorld *world = system->world;
@@ -152,6 +159,7 @@ static bool soften(void *data, double h, bool resolved) {
 }
 
 bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h) {
+  assert(h > 0);
   if (system->island->contact_count == 0) return true;
   double *counts = spore_island_system_precondition_blocks(system); /* free: no matrix is made yet */
   count_terms(system, counts);
@@ -215,6 +223,7 @@ static void kick(void *data, const double *f, double h, double *v) {
 }
 
 void spore_body_drift(const SporeBody *body, const double *q0, const double *v, double h, double *q1, double *v1) {
+  assert(body->model && q0 && v && q1 && v1);
   if (body->model->type->drift) {
     body->model->type->drift(body->model, q0, v, h, q1, v1);
     return;
@@ -232,9 +241,10 @@ static void drift(void *data, const double *q0, const double *v, double h, doubl
   }
 }
 
-/* Of a frame, whose inertia turns: the change of momentum is carried over. */
+/* For a frame, whose inertia turns with it: adds the same change of angular momentum. */
 static void carry_turning(const SporeIslandSystem *system, const SporeBody *body, const double *dv, const double *q1,
                           double *v1) {
+  assert(body->block_count == body->model->node_count + 1);
   size_t at = body->model->node_count;
   double momentum[3];
   spore_blocks_apply(spore_island_system_mass(system, body) + 9 * at, 1, dv + 3 * at, momentum);
@@ -270,6 +280,7 @@ static double distance(void *data, const double *x) {
     const SporeBody *body = spore_island_system_body(system, b, &site);
     const double *mass = spore_island_system_mass(system, body), *local = x + site->v;
     double square = 0;
+    assert(body->total_mass > 0);
     for (size_t i = 0; i < body->block_count; i++, mass += 9, local += 3) {
       double weighed[3];
       spore_blocks_apply(mass, 1, local, weighed);
@@ -281,7 +292,7 @@ static double distance(void *data, const double *x) {
   return most;
 }
 
-/* Whether a pin or a link to what does not move by physics holds the island. */
+/* Whether a pin holds the island, or a link to a body that physics does not move. */
 static bool is_held(const SporeIslandSystem *system) {
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
@@ -294,8 +305,7 @@ static bool is_held(const SporeIslandSystem *system) {
   return false;
 }
 
-/* Whether some force sets in or ends as things move: those of contacts, of what holds by friction, and of what stops.
- */
+/* Whether some force begins or ends as bodies move: forces of contacts, of friction, and of stops of curve joints. */
 static bool switches(const SporeIslandSystem *system) {
   if (system->island->contact_count > 0) return true;
   for (size_t i = 0; i < system->island->spring_count; i++) {
@@ -306,6 +316,8 @@ static bool switches(const SporeIslandSystem *system) {
 }
 
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
+  assert(system->world && system->island);
+  assert(system->island->v_count % 3 == 0);
   spore_island_system_lay_contacts(system);
   return (SporeDynamics){.data = system,
                          .q_count = system->island->q_count,
@@ -337,17 +349,20 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
 }
 
 static void invert_mass(SporeWorld *world, const SporeBody *body, size_t start, size_t count) {
+  assert(start + count <= body->block_count);
   double *mass = world->state.mass + 3 * body->v_offset, *inverse = world->state.mass_inverse + 3 * body->v_offset;
   memcpy(inverse + 9 * start, mass + 9 * start, 9 * count * sizeof *mass);
   spore_blocks_invert(inverse + 9 * start, count);
 }
 
 void spore_body_set_mass(SporeWorld *world, const SporeBody *body) {
+  assert(body->model && body->block_count == body->model->block_count);
   spore_model_mass(body->model, world->state.q + body->q_offset, world->state.mass + 3 * body->v_offset);
   invert_mass(world, body, 0, body->block_count);
 }
 
 void spore_body_turn_mass(SporeWorld *world, const SporeBody *body, const double *q) {
+  assert(body->model && q);
   size_t at = body->model->node_count;
   if (spore_model_is_nodal(body->model)) return;
   SporeMat3 inertia = body->model->type->inertia(body->model, q);

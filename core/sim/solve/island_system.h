@@ -1,7 +1,9 @@
-/* An island as the integrators see it, for island_system.c (forces, motion) and linearise.c (matrices). */
-#ifndef SPORE_SIM_GROUP_H
-#define SPORE_SIM_GROUP_H
+/* Island system: an island as the integrators see it. For island_system.c (forces, motion) and linearise.c (matrices).
+ */
+#ifndef SPORE_SIM_ISLAND_SYSTEM_H
+#define SPORE_SIM_ISLAND_SYSTEM_H
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -9,58 +11,63 @@
 #include "core/math/vector.h"
 #include "core/sim/world_private.h"
 
-/* The island as the integrators see it. The structure lives as long as the dynamics that are made of it. */
+/* An island, and what an integrator has set for it. Must live as long as the dynamics that are made of it. */
 typedef struct SporeIslandSystem {
   SporeWorld *world;
   const SporeIsland *island;
-  const double *shape;   /* as q of the island: where viscous forces are taken; NULL: where each force is */
-  double shape_s;        /* forces are asked for where nodes moved from there along v for so long; 0: anywhere */
+  const double *shape;   /* a q of the island: where viscous forces are evaluated; NULL: at the q of each force */
+  double shape_s;        /* forces are evaluated where nodes moved from `shape` along v for this time; 0: anywhere */
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
-  bool apart;            /* explicit bodies are masses alone: see multirate.c */
-  double start_s, now_s; /* after the world step's start: the integrator's step, and where prescribed ends are */
-  size_t contact_couplings, spring_couplings; /* of the current A, first in their arrays: see local_assembly.h */
-  size_t dragging;                            /* contacts that the current A does not know all of: see their drag */
-  bool driven;                                /* some end is moved by a device */
+  bool apart;            /* explicit bodies take part by their mass only: see multirate.c */
+  double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */
+  size_t contact_couplings, spring_couplings; /* couplings of the current A: see local_assembly.h */
+  size_t dragging;                            /* contacts with a drag, which the current A leaves out */
+  bool driven;                                /* a device moves some end */
   bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
   bool asked_couples, couples;                /* see spore_island_system_couples */
-  double softened_s;                          /* the step that terms are softened for; 0: they are not */
+  double softened_s;                          /* the step that terms are softened for; 0: not softened */
 } SporeIslandSystem;
 
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
 /* Whether a step of h seconds is short for all contacts of the island. */
 bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h);
-/* contact_lanes.c: when the island's forces were evaluated for the last time: what its contacts came to, into the
- * terms. */
+/* contact_lanes.c: writes the forces of contacts into the terms, after the last evaluation. */
 void spore_island_system_keep_contacts(const SporeIslandSystem *system);
 
-/* The i-th body of the island, and where its part begins in the local vectors. */
+/* The i-th body of the island, and its place in the local vectors. */
 static inline SporeBody *spore_island_system_body(const SporeIslandSystem *system, size_t i, const SporeSite **site) {
+  assert(i < system->island->body_count);
   uint32_t index = system->world->solve.island_bodies[system->island->body_start + i];
+  assert(index < system->world->body_count);
   *site = &system->world->solve.local_sites[index];
   return &system->world->bodies[index];
 }
 
 static inline SporeContactTerm *spore_island_system_contact(const SporeIslandSystem *system, size_t i) {
+  assert(i < system->island->contact_count);
   uint32_t index = system->world->contact.order[system->island->contact_start + i];
+  assert(index < system->world->contact.count);
   return &system->world->contact.terms[index];
 }
 
 static inline SporeSpringTerm *spore_island_system_spring(const SporeIslandSystem *system, size_t i) {
+  assert(i < system->island->spring_count);
   uint32_t index = system->world->links.order[system->island->spring_start + i];
+  assert(index < spore_world_spring_count(system->world));
   return &system->world->links.springs[index];
 }
 
-/* Whether the body moves by a method of its own in this system, and takes part with its mass alone: see multirate.c. */
+/* Whether the body moves by a method of its own, and takes part in this system by its mass only: see multirate.c. */
 static inline bool spore_island_system_leaves(const SporeIslandSystem *system, const SporeBody *body) {
   return system->apart && !spore_integrator(body->method.integrator)->implicit;
 }
 
-/* Whether the body has a matrix of its own in A; else its mass stands for it. */
+/* Whether the body has a matrix of its own in A; else it has its mass there. */
 static inline bool spore_island_system_assembles(const SporeIslandSystem *system, const SporeBody *body) {
   return body->preconditioner.matrix.block_count > 0 && !spore_island_system_leaves(system, body);
 }
 
-/* What is left of the inertia of a body in steps: static ones that pins hold have next to none beside others. */
+/* Share of its inertia that a body keeps in steps: a static body that pins hold has next to none beside others. */
 static inline double spore_island_system_inertia(const SporeIslandSystem *system, const SporeBody *body) {
   return system->apart && spore_body_is_static(body) && body->held.pin_count > 0 ? 1e-6 : 1;
 }
@@ -130,14 +137,14 @@ static inline void spore_island_system_filter(const SporeIslandSystem *system, d
   }
 }
 
-/* contact_lanes.c: terms are as stiff as they are, and contacts lie in lanes; adds the forces of all contacts; takes
- * over how the terms were softened. */
+/* contact_lanes.c. Removes the softening of all terms, and puts contacts into lanes. Adds the forces of all contacts.
+ * Copies the softening of the terms into the lanes. */
 void spore_island_system_lay_contacts(SporeIslandSystem *system);
 void spore_island_system_add_contact_forces(const SporeIslandSystem *system, const double *q, const double *v,
                                             double *f);
 void spore_island_system_soften_lanes(const SporeIslandSystem *system);
 
-/* linearise.c: the slots of SporeDynamics that stand for A = M + c D + c2 K. */
+/* linearise.c: the slots of SporeDynamics for A = M + c D + c2 K. */
 void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
                                    double c2);
 bool spore_island_system_reuse(void *data, const double *q, const double *v, double c, double c2);

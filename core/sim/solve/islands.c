@@ -1,5 +1,6 @@
-/* Islands: bodies that terms tie together this step. What physics does not move ties nothing: it takes part in the
- * terms of every island it touches. */
+/* Islands: sets of bodies that terms couple in this step. A body that physics does not move couples nothing. It takes
+ * part in the terms of every island that it touches. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -13,6 +14,7 @@ static uint32_t find_root(uint32_t *parent, uint32_t i) {
 
 /* The lower index becomes the root, so that islands come in the order of their first bodies. */
 static void tie(uint32_t *parent, const SporeEnd *a, const SporeEnd *b) {
+  assert(a->prescribed || b->prescribed || (a->body != SPORE_NO_BODY && b->body != SPORE_NO_BODY));
   if (a->prescribed || b->prescribed || a->body == b->body) return;
   uint32_t i = find_root(parent, a->body), j = find_root(parent, b->body);
   if (i < j) parent[j] = i;
@@ -28,9 +30,10 @@ static void tie_bodies(SporeWorld *world) {
     if (world->links.active[i]) tie(world->solve.parent, &world->links.springs[i].a, &world->links.springs[i].b);
 }
 
-/* Bodies that choose alike move by what they choose. Implicit ones that do not, by the method that damps most; others
- * are mixed, by implicit Euler where they couple. */
+/* Adds the body's choice of a method. Bodies with the same choice move by it. Implicit bodies with different choices
+ * move by the method that damps most. Other islands are multirate: implicit Euler couples their bodies. */
 static void add_choice(SporeIsland *island, const SporeBody *body) {
+  assert(body->method.substeps >= 1 && island->substeps >= 1);
   const SporeIntegrator *its = spore_integrator(body->method.integrator),
                         *before = spore_integrator(island->integrator);
   bool alike = body->method.integrator == island->integrator && body->method.substeps == island->substeps;
@@ -54,6 +57,7 @@ static void number_islands(SporeWorld *world) {
     world->solve.island_of[b] = SPORE_NO_BODY;
     if (!spore_body_moves(body)) continue;
     uint32_t root = find_root(world->solve.parent, b);
+    assert(root <= b);
     if (root == b) {
       world->solve.islands[world->solve.island_count] =
           (SporeIsland){.integrator = body->method.integrator, .substeps = body->method.substeps};
@@ -70,20 +74,25 @@ static void number_islands(SporeWorld *world) {
 }
 
 static uint32_t island_of_term(const SporeWorld *world, const SporeEnd *a, const SporeEnd *b) {
+  assert(a->prescribed || a->body < world->body_count);
+  assert(b->prescribed || b->body < world->body_count);
   if (!a->prescribed) return world->solve.island_of[a->body];
   return b->prescribed ? SPORE_NO_BODY : world->solve.island_of[b->body];
 }
 
 static uint32_t island_of_contact(const SporeWorld *world, size_t i) {
+  assert(i < world->contact.count);
   return island_of_term(world, &world->contact.terms[i].a, &world->contact.terms[i].b);
 }
 
 static uint32_t island_of_spring(const SporeWorld *world, size_t i) {
+  assert(i < spore_world_spring_count(world));
   if (!world->links.active[i]) return SPORE_NO_BODY;
   return island_of_term(world, &world->links.springs[i].a, &world->links.springs[i].b);
 }
 
 static void count_terms(SporeWorld *world, size_t springs) {
+  assert(springs == spore_world_spring_count(world));
   for (size_t i = 0; i < world->contact.count; i++) {
     uint32_t island = island_of_contact(world, i);
     if (island != SPORE_NO_BODY) world->solve.islands[island].contact_count++;
@@ -94,8 +103,8 @@ static void count_terms(SporeWorld *world, size_t springs) {
   }
 }
 
-/* Joints are stiff: however the bodies move otherwise, by joints they move implicitly. */
-static void mix_jointed(SporeWorld *world) {
+/* Joints are stiff, so explicit islands with joints are multirate: their joints are implicit. */
+static void make_jointed_multirate(SporeWorld *world) {
   for (size_t i = 0; i < world->links.count; i++) {
     const SporeLink *link = &world->links.all[i];
     uint32_t island = link->type->is_joint ? island_of_spring(world, link->term_start) : SPORE_NO_BODY;
@@ -127,6 +136,7 @@ static void set_starts(SporeWorld *world) {
 }
 
 static void fill_islands(SporeWorld *world, size_t springs) {
+  assert(springs == spore_world_spring_count(world));
   for (uint32_t b = 0; b < world->body_count; b++) {
     if (world->solve.island_of[b] == SPORE_NO_BODY) continue;
     SporeIsland *island = &world->solve.islands[world->solve.island_of[b]];
@@ -151,7 +161,7 @@ void spore_world_find_islands(SporeWorld *world) {
   tie_bodies(world);
   number_islands(world);
   count_terms(world, springs);
-  mix_jointed(world);
+  make_jointed_multirate(world);
   set_starts(world);
   fill_islands(world, springs);
 }
@@ -161,8 +171,10 @@ static bool remembers(const SporeWorld *world, const SporeIsland *island, const 
          body->history.kind == island->integrator;
 }
 
-/* What all bodies of the island remember, of steps of one size; the smallest where a method chooses its own. */
+/* Gathers the history, if all bodies have one of the same step size; the smallest size if the method chooses its own.
+ */
 static void gather_history(SporeWorld *world, SporeIsland *island) {
+  assert(island->body_start + island->body_count <= world->body_count);
   island->history = (SporeHistory){.a = world->solve.local_history_a + island->v_start,
                                    .b = world->solve.local_history_b + island->v_start};
   double step_s = HUGE_VAL;
@@ -181,6 +193,8 @@ static void gather_history(SporeWorld *world, SporeIsland *island) {
 }
 
 void spore_island_remember(SporeWorld *world, const SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   if (!spore_integrator(island->integrator)->remembers) return;
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
@@ -194,7 +208,7 @@ void spore_island_remember(SporeWorld *world, const SporeIsland *island) {
   }
 }
 
-/* Gives the bodies their places next to each other; true when that is how they lie in the world's vectors. */
+/* Places the bodies next to each other. True: they lie like that in the world's vectors too. */
 static bool place_bodies(SporeWorld *world, SporeIsland *island) {
   const uint32_t *bodies = world->solve.island_bodies + island->body_start;
   const SporeBody *first = &world->bodies[bodies[0]];
@@ -224,6 +238,8 @@ static void copy_together(SporeWorld *world, const SporeIsland *island) {
 }
 
 void spore_island_gather(SporeWorld *world, SporeIsland *island) {
+  assert(island->body_count >= 1 && island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   const uint32_t *bodies = world->solve.island_bodies + island->body_start;
   const SporeBody *first = &world->bodies[bodies[0]];
   double mass = 0;
@@ -247,6 +263,7 @@ void spore_island_gather(SporeWorld *world, SporeIsland *island) {
 }
 
 bool spore_world_create_solve(SporeWorld *world) {
+  assert(world->state.v_count % 3 == 0);
   SporeSolve *solve = &world->solve;
   size_t bodies = world->body_count, q = world->state.q_count, v = world->state.v_count;
   solve->scratch_per_block = spore_multirate_scratch();

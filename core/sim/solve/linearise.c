@@ -1,11 +1,12 @@
-/* The matrix A = M + c D + c2 K of an island: the models' block by block, terms matrix-free on top, and what
- * preconditions it. */
+/* The matrix A = M + c D + c2 K of an island, and its preconditioner. The models' part is stored block by block; terms
+ * that couple bodies are applied without a matrix. */
+#include <assert.h>
 #include <float.h>
 #include <string.h>
 
 #include "core/sim/solve/local_assembly.h"
 
-#define FLOPS_TO_ROUND 1e5 /* of a solution: below, its factor is quick to read as it is */
+#define FLOPS_TO_ROUND 1e5 /* of a solution: below, a factor in full precision is fast enough */
 
 static SporeCoupling *contact_couplings(const SporeIslandSystem *system) {
   return system->world->contact.couplings + system->island->contact_start;
@@ -15,26 +16,27 @@ static SporeCoupling *spring_couplings(const SporeIslandSystem *system) {
   return system->world->links.couplings + system->island->spring_start;
 }
 
-/* Folded into the matrix of `body`, if any, with the rest of the term. */
+/* Adds the bending of the curve joint to the matrix of `body`, if there is one, like the rest of the term. */
 static void bend_curve_joint(const SporeIslandSystem *system, SporeSpringTerm *term, const double *q, double c2,
                              uint32_t body) {
+  assert(term->curve && (body == SPORE_NO_BODY || body < system->world->body_count));
   spore_curve_joint_bend(term, system->world->solve.local_sites, q, c2);
-  term->curve->bend.folded = body != SPORE_NO_BODY && term->curve->bend.turn > 0;
-  if (term->curve->bend.folded) spore_body_assemble_bend(&system->world->bodies[body], &term->curve->bend);
+  term->curve->bend.assembled = body != SPORE_NO_BODY && term->curve->bend.turn > 0;
+  if (term->curve->bend.assembled) spore_body_assemble_bend(&system->world->bodies[body], &term->curve->bend);
 }
 
 static void multiply_bends(const SporeIslandSystem *system, const double *x, double *y) {
   for (size_t i = 0; system->world->links.curve_joint_count > 0 && i < system->island->spring_count; i++) {
     const SporeSpringTerm *term = spore_island_system_spring(system, i);
-    if (term->curve && term->curve->bend.turn > 0 && !term->curve->bend.folded)
+    if (term->curve && term->curve->bend.turn > 0 && !term->curve->bend.assembled)
       spore_curve_joint_bend_multiply(term, system->world->solve.local_sites, x, y);
   }
 }
 
 static bool drags(const SporeContactTerm *term) { return spore_vec3_dot(term->drag, term->drag) > 0; }
 
-/* Couplings are those terms that no body's matrix takes in; the others are added there, unless the matrices are kept
- * as they are. */
+/* A term is added to the matrix of its body, unless the matrices are kept as they are. A term that fits into no body's
+ * matrix becomes a coupling. */
 static void linearise_terms(SporeIslandSystem *system, const double *q, const double *v, double c, double c2,
                             bool kept) {
   const SporeSite *sites = system->world->solve.local_sites;
@@ -61,6 +63,7 @@ static void linearise_terms(SporeIslandSystem *system, const double *q, const do
 
 /* Diagonal blocks of the models' part of A; M alone where there is no matrix. */
 static void body_diagonal(const SporeIslandSystem *system, const SporeBody *body, double *blocks) {
+  assert(body->block_count == body->model->block_count);
   if (!spore_island_system_assembles(system, body)) {
     const double *mass = spore_island_system_mass(system, body);
     for (size_t e = 0; e < 9 * body->block_count; e++) blocks[e] = spore_island_system_inertia(system, body) * mass[e];
@@ -71,9 +74,10 @@ static void body_diagonal(const SporeIslandSystem *system, const SporeBody *body
            9 * sizeof *blocks);
 }
 
-/* The body's own matrix with the diagonal blocks of the terms; where it is not positive definite in floating point,
- * block-Jacobi stands in. */
+/* Factorises the body's own matrix with the diagonal blocks of the terms. Where that is not positive definite in
+ * floating point, block-Jacobi is used instead. */
 static void factorise(SporeBody *body, const double *blocks, bool alone) {
+  assert(body->preconditioner.matrix.block_count == body->block_count);
   bool may_round = body->preconditioner.factor.solve_flops > FLOPS_TO_ROUND;
   body->preconditioner.factor_alone = alone;
   body->preconditioner.factor_ready = spore_block_cholesky_factorise(
@@ -89,13 +93,14 @@ static double stiffness_of(const double *block, const double *mass) {
   return sqrt(sum / 3);
 }
 
-/* And along its soft axes, from the inverse of A's. */
+/* Stiffness along the soft axes, from the inverse of the block of A. */
 static double softest_stiffness(const double *inverse, double weight) {
+  assert(weight > 0);
   double flexible = (inverse[0] + inverse[4] + inverse[8]) / 3;
   return fmax(1 / flexible - 1 / weight, 0);
 }
 
-/* Inverts A's diagonal blocks, and sums up what they say of rounding on the way, see spore_island_system_rounding. */
+/* Inverts the diagonal blocks of A, and sums up their share of rounding: see spore_island_system_rounding. */
 static void invert_diagonal(const SporeIslandSystem *system, SporeBody *body, const double *q, double *blocks) {
   const double *mass = spore_island_system_mass(system, body),
                *inverse = system->world->state.mass_inverse + 3 * body->v_offset;
@@ -112,8 +117,8 @@ static void invert_diagonal(const SporeIslandSystem *system, SporeBody *body, co
   }
 }
 
-/* Among couplings conjugate gradients make up for what a factor does not know, so that one of an earlier matrix does as
- * long as it does well: see preconditioner.c. Alone it is all there is. */
+/* With couplings, conjugate gradients correct what a factor leaves out, so the factor of an earlier matrix is kept
+ * while it serves well: see preconditioner.c. Without couplings the factor is the whole solver, and must be current. */
 static void make_preconditioner(SporeIslandSystem *system, const double *q) {
   bool alone = system->contact_couplings + system->spring_couplings == 0;
   double *blocks = spore_island_system_precondition_blocks(system);
@@ -137,6 +142,7 @@ static void make_preconditioner(SporeIslandSystem *system, const double *q) {
 }
 
 static void assemble(const SporeIslandSystem *system, SporeBody *body, const SporeTangent *at, double c, double c2) {
+  assert(body->preconditioner.matrix.block_count == body->block_count && at->q && at->v);
   const SporeModelType *type = body->model->type;
   spore_block_matrix_zero(&body->preconditioner.matrix);
   if (type->tangent) type->tangent(body->model, at, &body->preconditioner.matrix);
@@ -156,14 +162,15 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
   body->preconditioner.matrix_step = system->world->state.step;
 }
 
-/* What is compressed may make the whole matrix indefinite. A factor tells, and then the matrix is made again without
- * that; conjugate gradients are not put at risk, nor are terms that no factor knows. */
+/* Whether the body takes its whole tangent. Compression may make the whole tangent indefinite. A factor detects that,
+ * and the matrix is made again without the indefinite part. Conjugate gradients would not detect it, nor would a factor
+ * that lacks some terms. */
 static bool takes_whole(const SporeIslandSystem *system, const SporeBody *body) {
   return body->preconditioner.choice.factorised && body->model->type->tangent && !spore_body_is_static(body) &&
          system->island->contact_count + system->island->spring_count == 0;
 }
 
-/* whole: as far as a body takes it; else what has no factor yet, without. */
+/* whole: assembles all bodies, by the whole tangent where a body takes it; else only the bodies whose factor failed. */
 static bool assemble_bodies(const SporeIslandSystem *system, const double *q, const double *from, const double *v,
                             double c, double c2, bool whole) {
   bool any = false;
@@ -188,6 +195,7 @@ static bool assemble_bodies(const SporeIslandSystem *system, const double *q, co
 
 void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
                                    double c2) {
+  assert(c > 0 && c2 >= 0);
   SporeIslandSystem *system = data;
   assemble_bodies(system, q, from, v, c, c2, true);
   linearise_terms(system, q, v, c, c2, false);
@@ -195,7 +203,7 @@ void spore_island_system_linearise(void *data, const double *q, const double *fr
   if (assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
 }
 
-/* Whether factors that are as good as when they were made are all of the preconditioner. */
+/* Whether the preconditioner consists of factors only, which were made without couplings. */
 static bool has_factors_alone(SporeIslandSystem *system) {
   if (spore_island_system_couples(system)) return false;
   for (size_t b = 0; b < system->island->kept_count; b++) {
@@ -209,7 +217,7 @@ static bool has_factors_alone(SporeIslandSystem *system) {
   return true;
 }
 
-/* Whether every matrix of the island is that of c and c2, and not older than it is kept. */
+/* Whether every matrix of the island is that of c and c2, and not too old. */
 static bool may_reuse(const SporeIslandSystem *system, double c, double c2) {
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
@@ -248,7 +256,7 @@ double spore_island_system_factor_cost(void *data) {
     linearisation += spore_body_linearisation_work(body);
     iteration += spore_body_iteration_work(body);
   }
-  /* No factor knows how terms couple bodies. */
+  /* A factor does not contain couplings of bodies. */
   return iteration > 0 && !spore_island_system_couples(system) ? linearisation / iteration : 0;
 }
 
@@ -263,6 +271,7 @@ bool spore_island_system_factorised(void *data) {
 }
 
 void spore_island_system_multiply(void *data, const double *x, double *y) {
+  assert(x != y);
   SporeIslandSystem *system = data;
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
@@ -293,6 +302,7 @@ void spore_island_system_multiply_dragged(void *data, const double *x, double *y
 bool spore_island_system_drags(void *data) { return ((const SporeIslandSystem *)data)->dragging > 0; }
 
 void spore_island_system_precondition(void *data, const double *r, double *z) {
+  assert(r != z);
   SporeIslandSystem *system = data;
   const double *inverse = spore_island_system_precondition_blocks(system);
   for (size_t b = 0; b < system->island->kept_count; b++) {
@@ -305,8 +315,9 @@ void spore_island_system_precondition(void *data, const double *r, double *z) {
   spore_island_system_filter(system, z);
 }
 
-/* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness; by the q of the last linearisation. */
+/* Positions are known to DBL_EPSILON |q|, so forces to that times the stiffness. q: of the last linearisation. */
 double spore_island_system_rounding(void *data, double c, bool stiff_axes) {
+  assert(c > 0);
   const SporeIslandSystem *system = data;
   double sum = 0;
   for (size_t b = 0; b < system->island->kept_count; b++) {

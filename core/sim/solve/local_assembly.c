@@ -1,8 +1,11 @@
+/* Local assembly: adds terms on nodes of one body to the matrix of that body. */
 #include "core/sim/solve/local_assembly.h"
+
+#include <assert.h>
 
 #define NODES_MAXIMUM 16 /* of both ends of a term */
 
-/* How the motion of one end relative to the other is made of that of nodes. */
+/* The nodes whose motion makes up the motion of one end relative to the other, and their weights. */
 typedef struct Nodes {
   size_t count;
   uint32_t block[NODES_MAXIMUM];
@@ -10,6 +13,7 @@ typedef struct Nodes {
 } Nodes;
 
 static bool add_end(Nodes *nodes, const SporeEnd *end, double sign) {
+  assert(end->prescribed || end->point < end->mapping->point_count);
   if (end->prescribed) return true;
   const SporeMapping *mapping = end->mapping;
   if (mapping->kind == SPORE_MAPPING_IDENTITY) {
@@ -33,10 +37,12 @@ static bool find_nodes(Nodes *nodes, const SporeEnd *a, const SporeEnd *b) {
 }
 
 static size_t find_block(const SporeBlockMatrix *matrix, uint32_t i, uint32_t j) {
+  assert(i < matrix->block_count && j < matrix->block_count);
   return i == j ? matrix->diagonal[i] : spore_block_matrix_find(matrix, i, j);
 }
 
 uint32_t spore_island_system_local_body(const SporeIslandSystem *system, const SporeEnd *a, const SporeEnd *b) {
+  assert(!a->prescribed || !b->prescribed);
   if (!a->prescribed && !b->prescribed && a->body != b->body) return SPORE_NO_BODY;
   uint32_t index = a->prescribed ? b->body : a->body;
   const SporeBody *body = &system->world->bodies[index];
@@ -49,6 +55,7 @@ uint32_t spore_island_system_local_body(const SporeIslandSystem *system, const S
 }
 
 void spore_body_assemble_term(SporeBody *body, const SporeEnd *a, const SporeEnd *b, const SporeMat3 *k) {
+  assert(body->preconditioner.matrix.block_count == body->block_count);
   Nodes nodes;
   find_nodes(&nodes, a, b);
   for (size_t i = 0; i < nodes.count; i++)
@@ -61,6 +68,7 @@ void spore_body_assemble_term(SporeBody *body, const SporeEnd *a, const SporeEnd
 }
 
 void spore_body_assemble_bend(SporeBody *body, const SporeCurveJointBend *bend) {
+  assert(bend->first + SPORE_PATH_WIDTH <= body->block_count);
   for (size_t i = 0; i < SPORE_PATH_WIDTH; i++)
     for (size_t j = 0; j < SPORE_PATH_WIDTH; j++) {
       SporeMat3 k = spore_curve_joint_bend_block(bend, i, j);

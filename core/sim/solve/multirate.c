@@ -1,33 +1,34 @@
-/* An island whose bodies choose differently: explicit ones keep their own method and substeps, what couples them to
- * others is implicit.
+/* Multirate steps of an island whose bodies have different methods: explicit bodies keep their own method and substeps,
+ * and the terms between bodies are implicit.
  *
  * Each explicit body first goes alone through the step, without contacts and links, to (q*, v*). Then one stage of
- * implicit Euler is solved for the whole island: explicit bodies are free masses there, so that they cost no Jacobian,
+ * implicit Euler is solved for the whole island. Explicit bodies are free masses there, so that they need no Jacobian,
  *   M (v - v*) = h f_terms,   q = q* + h (v - v*),
- * the others are as ever. What the terms have given an explicit body, J = M (v - v*), is then spread over its step as a
- * constant force J/h, and it goes again. What one body gets another loses, so momentum is kept to the solver's
- * tolerance. On a mode of frequency w of the explicit body a term of any stiffness acts as the map
- *   F = -g q*, g <= m/h^2,   (q, v) -> rotation by h w with F constant,
- * whose eigenvalues lie in the unit disk for all h w and g (their product is 1 - g (1 - cos h w) / (m w^2), and
- * 1 +- sum + product >= 0): applied at the end of the step instead, as in impulse multiple time stepping, the same
- * force resonates near h w = pi. A body at rest on a stiff term stands h^2 a / 2 off, a the term's acceleration.
+ * and the other bodies are as in any implicit step. The impulse of the terms on an explicit body, J = M (v - v*), is
+ * then spread over its step as a constant force J/h, and the body goes through the step again. The impulses are equal
+ * and opposite, so momentum is kept to the solver's tolerance. On a mode of frequency w of the explicit body a term of
+ * any stiffness acts as the map F = -g q*, g <= m/h^2,   (q, v) -> rotation by h w with F constant, whose eigenvalues
+ * lie in the unit disk for all h w and g (their product is 1 - g (1 - cos h w) / (m w^2), and 1 +- sum + product >= 0):
+ * applied at the end of the step instead, as in impulse multiple time stepping, the same force resonates near h w = pi.
+ * A body at rest on a stiff term is off by h^2 a / 2, a the acceleration by the term.
  *
- * Where the stage is not solved (friction on nodes that are light without their body's own stiffness), the step is
- * taken whole by implicit Euler: see integrate.c. Static bodies of such an island have next to no inertia and forget
- * their velocity, where pins hold them. */
+ * Where the stage is not solved (friction on nodes that are light without their body's own stiffness), implicit Euler
+ * takes the whole step: see integrate.c. In such an island a static body that pins hold has next to no inertia, and
+ * loses its velocity. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
 #include "core/integrate/stage.h"
 #include "core/sim/solve/island_system.h"
 
-/* Vectors of 3 block_count behind which the solver's or the method's own scratch lies. */
-#define MIXED_VECTORS 9
+/* Vectors of 3 block_count in front of the scratch of the solver or the method. */
+#define MULTIRATE_VECTORS 9
 
 typedef struct Multirate {
   SporeWorld *world;
   SporeIsland *island;
-  size_t parts; /* of the world's step */
+  size_t parts; /* of the world's step, each solved on its own */
   double h;
   double *qa, *va, *v, *given, *memory, *q, *scratch; /* q, v: of the part before, where there are several */
 } Multirate;
@@ -35,6 +36,7 @@ typedef struct Multirate {
 static bool is_explicit(const SporeBody *body) { return !spore_integrator(body->method.integrator)->implicit; }
 
 static Multirate begin(SporeWorld *world, SporeIsland *island) {
+  assert(world->solver.time_step > 0 && world->solve.scratch_per_block >= spore_multirate_scratch());
   size_t n = island->v_count;
   Multirate multirate = {.world = world, .island = island, .parts = 1};
   for (size_t i = 0; i < island->kept_count; i++) {
@@ -56,6 +58,7 @@ static Multirate begin(SporeWorld *world, SporeIsland *island) {
  * v1, the island's vectors. */
 static void go_alone(const Multirate *multirate, size_t i, const double *given, const double *q0, const double *v0,
                      double *q1, double *v1, SporeStepResult *result) {
+  assert(i < multirate->island->kept_count && multirate->parts >= 1);
   SporeWorld *world = multirate->world;
   uint32_t index = world->solve.island_bodies[multirate->island->body_start + i];
   const SporeBody *body = &world->bodies[index];
@@ -72,6 +75,7 @@ static void go_alone(const Multirate *multirate, size_t i, const double *given, 
   const SporeIntegrator *integrator = spore_integrator(body->method.integrator);
   SporeHistory history = {.a = multirate->memory};
   size_t substeps = (body->method.substeps + multirate->parts - 1) / multirate->parts;
+  assert(substeps >= 1);
   double *q = multirate->scratch, *v = q + 2 * alone.v_count, *scratch = v + alone.v_count;
   world->solve.local_sites[index] = (SporeSite){0, 0};
   memcpy(q1 + site.q, q0 + site.q, body->q_count * sizeof *q1);
@@ -87,9 +91,10 @@ static void go_alone(const Multirate *multirate, size_t i, const double *given, 
   world->solve.local_sites[index] = site;
 }
 
-/* Where the stage starts from: so that moving freely with va for h leads to (q*, v*), or for others from (q0, v0). */
+/* Start of the stage: free motion with va for h leads explicit bodies to (q*, v*); other bodies start at (q0, v0). */
 static void place_start(const Multirate *multirate, const double *q0, const double *v0, double *q1, double *v1,
                         SporeStepResult *result) {
+  assert(multirate->h > 0);
   SporeWorld *world = multirate->world;
   for (size_t i = 0; i < multirate->island->kept_count; i++) {
     uint32_t index = world->solve.island_bodies[multirate->island->body_start + i];
@@ -113,7 +118,7 @@ static bool all_zero(const double *values, size_t count) {
   return true;
 }
 
-/* The explicit bodies again, with what the terms give them. */
+/* Steps the explicit bodies again, with the forces of the terms. */
 static void go_again(const Multirate *multirate, const double *q0, const double *v0, double *q1, double *v1,
                      SporeStepResult *result) {
   SporeWorld *world = multirate->world;
@@ -128,6 +133,7 @@ static void go_again(const Multirate *multirate, const double *q0, const double 
 
 static SporeStepResult advance_part(const Multirate *multirate, SporeIslandSystem *system, const double *q0,
                                     const double *v0) {
+  assert(q0 != multirate->island->q1 && v0 != multirate->island->v1);
   SporeIsland *island = multirate->island;
   SporeDynamics dynamics = spore_island_system_dynamics(system);
   double *q1 = island->q1, *v1 = island->v1;
@@ -147,6 +153,8 @@ static SporeStepResult advance_part(const Multirate *multirate, SporeIslandSyste
 }
 
 SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *island) {
+  assert(island->multirate);
+  assert(island->q0 && island->v0 && island->q1 && island->v1);
   Multirate multirate = begin(world, island);
   SporeIslandSystem system = {.world = world, .island = island, .apart = true, .now_s = -1};
   SporeStepResult total = {.converged = true};
@@ -167,5 +175,5 @@ SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *i
 
 size_t spore_multirate_scratch(void) {
   size_t method = spore_integrator_scratch(), stage = 3 * SPORE_STAGE_SCRATCH;
-  return 3 * MIXED_VECTORS + (method + 9 > stage ? method + 9 : stage); /* 9: q and v of a body that goes alone */
+  return 3 * MULTIRATE_VECTORS + (method + 9 > stage ? method + 9 : stage); /* 9: q and v of a body that goes alone */
 }

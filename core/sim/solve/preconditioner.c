@@ -1,34 +1,36 @@
-/* How a body is preconditioned: by its diagonal blocks, or by a factor of its whole matrix.
+/* Preconditioner of a body: its diagonal blocks, or a factor of its whole matrix.
  *
- * Conjugate gradients with block-Jacobi are cheap where the step is short for the stiffness, and never finish where it
- * is very long. What the last steps cost one way is compared with what they would have cost the other way, counted in
- * floating-point operations and not by a clock, so that every run chooses alike. */
+ * Conjugate gradients with block-Jacobi are cheap where the step is short for the stiffness. They never converge where
+ * the step is very long. The cost of the last steps with the present choice is compared with the estimated cost of the
+ * other choice. Costs are counted in floating-point operations and not by a clock, so that every run chooses alike. */
+#include <assert.h>
 #include <math.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/sim/solve/local_assembly.h"
 
-#define WORTH_ITERATIONS 2000 /* a factor that costs more than so many iterations is not made */
-#define GAIN 1.25             /* what a change must promise */
-#define PATIENCE 4            /* steps that must promise it, taken together */
+#define WORTH_ITERATIONS 2000 /* a factor that costs more than this many iterations is not made */
+#define GAIN 1.25             /* cost of the present choice over the other, above which it changes */
+#define PATIENCE 4            /* steps over which costs are compared */
 #define PATIENCE_MAXIMUM 256
-#define TRIAL_STEPS 128      /* a factor is put to the question so often */
-#define CONTACT_STEPS 32     /* and so often among contacts, which come and go */
+#define TRIAL_STEPS 128      /* after so many steps the choice of a factor is tested */
+#define CONTACT_STEPS 32     /* the same among contacts, which come and go */
 #define FACTOR_ITERATIONS 2. /* expected of conjugate gradients with the factor, a Newton iteration */
 #define KEEP 4               /* steps that a linearisation is kept at first, and at most */
 #define KEEP_MAXIMUM 64
 #define TRIAL_MAXIMUM 32
-/* Work is counted in operations of a product with the matrix. Dense ones are quicker by these factors; a model's
- * Jacobian takes so many a block, its force and the vectors of an iteration so many a node. */
+/* Work is counted in operations of a product with the matrix. Operations of a dense factor are faster by these weights.
+ * A Jacobian takes JACOBIAN_WORK a block; a force and the vectors of an iteration take the others a node. */
 #define FACTOR_WEIGHT 0.25
 #define SOLVE_WEIGHT 0.4
 #define JACOBIAN_WORK 150.
 #define FORCE_WORK 300.
 #define BROYDEN_WORK 250.
 
-/* Of one iteration without its preconditioner: the product, and six vector operations. */
+/* Work of one iteration without its preconditioner: the product, and six vector operations. */
 static double product_work(const SporeBody *body) {
+  assert(body->preconditioner.matrix.block_count > 0);
   return 18. * body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count] +
          36. * (double)body->block_count;
 }
@@ -45,6 +47,7 @@ static double factor_work(const SporeBody *body) { return FACTOR_WEIGHT * body->
 double spore_body_linearisation_work(const SporeBody *body) { return jacobian_work(body) + factor_work(body); }
 
 double spore_body_iteration_work(const SporeBody *body) {
+  assert(body->block_count > 0);
   return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
 }
 
@@ -54,14 +57,16 @@ static SporeFactorLayout layout_of(int linear) {
 }
 
 bool spore_body_create_matrix(SporeBody *body, SporeError *error) {
+  assert(!body->model || body->model->block_count == body->block_count);
   if (!body->model || !body->model->type->jacobian) return true;
   return spore_model_matrix_create(body->model, &body->preconditioner.matrix) ||
          spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
 }
 
 bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeError *error) {
+  assert(body->held.count == 0 || body->held.blocks);
   spore_block_cholesky_clear(&body->preconditioner.factor);
-  /* Of a matrix without couplings the diagonal blocks are all. */
+  /* A matrix without couplings consists of diagonal blocks only. */
   if (body->preconditioner.matrix.block_count == 0 ||
       body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count] ==
           body->preconditioner.matrix.block_count)
@@ -81,7 +86,7 @@ bool spore_world_create_factors(SporeWorld *world, SporeError *error) {
   return true;
 }
 
-/* A band takes less than the matrix that it is made of: there is nothing to choose. */
+/* A banded factor takes less work than the matrix itself, so it is always chosen. */
 static bool is_banded(const SporeBody *body) { return body->preconditioner.factor.band.block_count > 0; }
 
 void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
@@ -102,6 +107,7 @@ void spore_body_forget_steps(const SporeWorld *world, SporeBody *body) {
 }
 
 static void change(SporeBody *body, double iterations) {
+  assert(iterations >= 0);
   SporeFactorChoice *choice = &body->preconditioner.choice;
   choice->factorised = !choice->factorised;
   choice->iterations = iterations;
@@ -109,8 +115,9 @@ static void change(SporeBody *body, double iterations) {
   choice->present = choice->other = 0;
 }
 
-/* What the step took by conjugate gradients alone, and what it would take with a factor: Newton makes one and two
- * products with it an iteration, Broyden keeps one for some steps. */
+/* Work of the step with conjugate gradients alone, and estimated work with a factor. Newton's method makes a factor in
+ * each linearisation, and solves with it about FACTOR_ITERATIONS times an iteration. Broyden's keeps one for some
+ * steps. */
 static double work_without(const SporeBody *body, const SporeStepResult *result) {
   return (double)result->linear_iterations * jacobi_work(body) + (double)result->linearisations * jacobian_work(body);
 }
@@ -122,7 +129,7 @@ static double expected_with(const SporeBody *body, const SporeStepResult *result
          FACTOR_ITERATIONS * iterations * (solve_work(body) + product_work(body));
 }
 
-/* What it took with a factor, and what it would take without, by the conjugate gradients of then. */
+/* Work of the step with a factor, and estimated work without, from the conjugate gradients before the change. */
 static double work_with(const SporeBody *body, const SporeStepResult *result, uint32_t factors) {
   return (double)result->linearisations * jacobian_work(body) + factors * factor_work(body) +
          (double)result->linear_iterations * (solve_work(body) + product_work(body));
@@ -133,13 +140,15 @@ static double expected_without(const SporeBody *body, const SporeStepResult *res
          (body->preconditioner.choice.iterations * jacobi_work(body) + jacobian_work(body));
 }
 
-/* A linearisation is kept as long as that costs less than a new one. Where keeping it leads to a new one in the middle
- * of a step, it was kept too long; where that does not happen for a while, it may be kept longer. */
+/* Judges how long a linearisation is kept: as long as the extra iterations cost less than a new one. Where a new one is
+ * needed in the middle of a step, the old one was kept too long. Where that does not happen for a while, the next may
+ * be kept longer. */
 static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepResult *result) {
   SporeFactorChoice *choice = &body->preconditioner.choice;
   SporeStart start = choice->start;
   choice->start = SPORE_START_NONE;
   if (start == SPORE_START_NONE) return;
+  assert(choice->made <= world->state.step && body->preconditioner.matrix_step <= world->state.step);
   double iterations = (double)result->newton_iterations;
   uint32_t age = (uint32_t)(world->state.step - choice->made);
   if (start == SPORE_START_NEW) {
@@ -160,9 +169,10 @@ static void judge_age(const SporeWorld *world, SporeBody *body, const SporeStepR
   if (choice->keep < KEEP_MAXIMUM) choice->keep += (choice->keep + 1) / 2;
 }
 
-/* Among couplings Newton makes a new matrix in every iteration, but keeps the factor as long as the conjugate gradients
- * that its age costs are less work than a new one. */
+/* With couplings, Newton's method makes a new matrix in every iteration. The factor is kept as long as the additional
+ * conjugate gradients are less work than a new factor. */
 static void judge_kept_factor(SporeBody *body, const SporeStepResult *result) {
+  assert(body->preconditioner.factor.block_count > 0);
   SporeFactorChoice *choice = &body->preconditioner.choice;
   if (!body->preconditioner.factor_kept || result->newton_iterations == 0) return;
   double iterations = (double)result->newton_iterations, linear = (double)result->linear_iterations / iterations;
@@ -175,20 +185,22 @@ static void judge_kept_factor(SporeBody *body, const SporeStepResult *result) {
   if (choice->debt > factor_work(body) || result->unsolved > 0) body->preconditioner.factor_kept = false;
 }
 
-/* alone: no contact or link couples bodies, for which a factor would be no start of Broyden's. */
+/* Chooses whether the body is factorised. alone: no contact or link couples bodies. With couplings a factor would not
+ * serve as the start of Broyden's method. */
 static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResult *result, bool alone) {
+  assert(body->preconditioner.choice.patience >= 1);
   SporeFactorChoice *choice = &body->preconditioner.choice;
   uint32_t factors = choice->factors;
   choice->factors = 0;
   if (alone && choice->factorised && is_banded(body)) return;
   if (choice->needed) {
-    /* What once did not converge without a factor may do now; where not, that step is taken again. */
+    /* A body that did not converge without a factor may converge now. If not, that step is taken again. */
     if (++choice->steps < TRIAL_STEPS) return;
     choice->needed = choice->stuck = false;
     change(body, 0);
     return;
   }
-  if (result->newton_iterations == 0) return; /* at rest: nothing to learn */
+  if (result->newton_iterations == 0) return; /* at rest: there is nothing to compare */
   double iterations = (double)result->linear_iterations / (double)result->newton_iterations;
   bool broyden = alone && world->solver.nonlinear != SPORE_NONLINEAR_NEWTON;
   choice->present += choice->factorised ? work_with(body, result, factors) : work_without(body, result);
@@ -206,25 +218,27 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   }
   if (choice->factorised && choice->steps >= (alone ? TRIAL_STEPS : CONTACT_STEPS)) {
     change(body, iterations);
-    choice->votes = choice->patience - 1; /* one step of the other way tells */
+    choice->votes = choice->patience - 1; /* one step with the other choice decides */
   }
 }
 
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   const SporeStepResult *result = &island->result;
-  SporeIslandSystem group = {.world = world, .island = island};
-  bool again = false, alone = !spore_island_system_couples(&group);
+  SporeIslandSystem system = {.world = world, .island = island};
+  bool again = false, alone = !spore_island_system_couples(&system);
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
     SporeFactorChoice *choice = &body->preconditioner.choice;
     if (body->preconditioner.factor.block_count == 0) continue;
     if (island->multirate && !spore_integrator(body->method.integrator)->implicit)
-      continue; /* its matrix was not asked for */
+      continue; /* its matrix was not used */
     judge_age(world, body, result);
     judge_kept_factor(body, result);
     if (world->solver.linear != SPORE_LINEAR_AUTOMATIC) continue;
-    /* Newton's method, which did not get there, may with a factor: only that takes the tangent whole. */
-    bool loose = island->contact_count + island->spring_count == 0; /* among terms it is not taken whole */
+    /* Newton's method that did not converge may converge with a factor: only a factor takes the whole tangent. */
+    bool loose = island->contact_count + island->spring_count == 0; /* with terms the tangent is not taken whole */
     bool stuck = loose && !result->converged && body->model->type->tangent != NULL;
     if ((result->unsolved > 0 || stuck) && !choice->factorised) {
       change(body, 0);

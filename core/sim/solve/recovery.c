@@ -1,5 +1,7 @@
-/* What to do when a step goes wrong. The last good state is still in the world's q and v: it is stepped again in
- * smaller steps and implicitly; a body that cannot be helped is held where it was good, and the others go on. */
+/* Recovery of steps that went wrong. The last good state is still in the world's q and v. The step is taken again from
+ * there, in smaller steps and implicitly. A body that this does not help is frozen where it was good, and the others go
+ * on. */
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -8,18 +10,20 @@
 #include "core/sim/world_private.h"
 
 #define SUBSTEPS_MAXIMUM 8
-/* An answer that misses its tolerance by no more than this factor is counted and told of, but stands: a step again
- * would cost more than it mends. So does one that misses this part of the load and has not gained energy. */
+/* A solution that misses its tolerance by no more than MISS_TO_STAND is counted and reported, but accepted: another
+ * attempt would cost more than it improves. So is a solution that misses no more than MISS_OF_LOAD of the load and has
+ * not gained energy. */
 #define MISS_TO_STAND 10
 #define MISS_OF_LOAD 1e-3
-#define MISS_OF_STEP 0.1     /* what is not even solved to that part of the load says little */
-#define PAUSE_MAXIMUM 32     /* steps */
-#define EFFORT 3             /* what all smaller steps together may take, of the iterations that a step may take */
-#define ITERATIONS_MINIMUM 4 /* a smaller step, or it is not begun; 1 where a step may take fewer */
+#define MISS_OF_STEP 0.1 /* of the load: a worse solution is of little use */
+#define PAUSE_MAXIMUM 32 /* steps */
+#define EFFORT 3         /* iterations of all smaller steps together, in those that a step may take */
+#define ITERATIONS_MINIMUM                                                                                             \
+  4 /* left for each smaller step, or the attempt is not begun; 1 where a step may take fewer */
 
 static bool finite_all(const double *values, size_t count) { return spore_vector_within(count, values, DBL_MAX); }
 
-/* Fastest block of a body that has weight, m/s. */
+/* Speed of the fastest block with mass, m/s. */
 static double top_speed(const SporeBody *body, const double *v) {
   double top = 0;
   for (size_t i = 0; i < body->block_count; i++)
@@ -28,6 +32,8 @@ static double top_speed(const SporeBody *body, const double *v) {
 }
 
 void spore_island_examine(SporeWorld *world, SporeIsland *island) {
+  assert(island->body_count >= 1);
+  assert(island->body_start + island->body_count <= world->body_count);
   double top = world->solver.maximum_speed;
   island->trouble = island->result.converged ? SPORE_TROUBLE_NONE : SPORE_TROUBLE_NOT_CONVERGED;
   island->offender = world->solve.island_bodies[island->body_start];
@@ -36,7 +42,7 @@ void spore_island_examine(SporeWorld *world, SporeIsland *island) {
     const SporeBody *body = &world->bodies[b];
     const SporeSite *site = &world->solve.local_sites[b];
     const double *q = island->q1 + site->q, *v = island->v1 + site->v;
-    /* A block this slow in each direction is slow enough; that is nearly always so. */
+    /* A block this slow in each direction is slow enough. Nearly all blocks are. */
     if (spore_vector_within(3 * body->block_count, v, 0.5 * top) && finite_all(q, body->q_count)) continue;
     bool finite = finite_all(q, body->q_count) && finite_all(v, 3 * body->block_count);
     double speed = finite ? top_speed(body, v) : HUGE_VAL;
@@ -50,6 +56,7 @@ void spore_island_examine(SporeWorld *world, SporeIsland *island) {
 
 /* A body whose own forces are not finite at the last good state, or SPORE_NO_BODY. */
 static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
+  assert(island->v_start + island->v_count <= world->state.v_count);
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
     const SporeBody *body = &world->bodies[b];
@@ -63,6 +70,7 @@ static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
 }
 
 static void prescribe(SporeWorld *world, SporeEnd *end, uint32_t body) {
+  assert(body < world->body_count);
   if (end->body != body) return;
   const SporeVec3 none = {0, 0, 0};
   end->prescribed = true;
@@ -70,14 +78,17 @@ static void prescribe(SporeWorld *world, SporeEnd *end, uint32_t body) {
   end->position = spore_mapping_position(end->mapping, end->point, world->state.q + world->bodies[body].q_offset);
 }
 
-/* Takes the body out of the island for good; its terms see it standing still. */
+/* Takes the body out of the island for good. For its terms the body stands still. */
 static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
+  assert(index < world->body_count && !world->bodies[index].frozen);
+  assert(island->kept_count >= 1);
   uint32_t *bodies = world->solve.island_bodies + island->body_start;
   world->bodies[index].frozen = true;
   if (!spore_model_is_nodal(world->bodies[index].model))
     spore_body_turn_mass(world, &world->bodies[index], world->state.q + world->bodies[index].q_offset);
   size_t at = 0;
   while (bodies[at] != index) at++;
+  assert(at < island->kept_count);
   memmove(bodies + at, bodies + at + 1, (island->kept_count - at - 1) * sizeof *bodies);
   bodies[--island->kept_count] = index;
   for (size_t i = 0; i < island->contact_count; i++) {
@@ -92,8 +103,8 @@ static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
   }
 }
 
-/* Implicit Euler stands what others do not, where it has Jacobians to go by; particles are best helped by smaller steps
- * alone, of a method that remembers nothing. */
+/* Method of the smaller steps. Implicit Euler is the most robust where bodies have Jacobians. Particles have none, and
+ * are helped best by smaller steps of a method without history. */
 static SporeIntegratorKind mending_method(const SporeWorld *world, const SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++)
     if (!world->bodies[world->solve.island_bodies[island->body_start + i]].model->type->rates)
@@ -118,8 +129,8 @@ static double energy(const SporeWorld *world, const SporeIsland *island, const S
   return sum;
 }
 
-/* More than when the step began, tools being where they are now, and by more than a part of what gravity gives in a
- * step. */
+/* Whether the island has more energy than when the step began, with tools where they are now, by more than a part of
+ * what gravity gives in a step. */
 static bool gained_energy(const SporeWorld *world, const SporeIsland *island) {
   double speed = world->solver.time_step * island->gravity_momentum;
   double before = energy(world, island, world->state.sites, world->state.q, world->state.v);
@@ -127,15 +138,16 @@ static bool gained_energy(const SporeWorld *world, const SporeIsland *island) {
            before + MISS_OF_LOAD * speed * speed);
 }
 
-/* Whether an answer that is not solved to tolerance will do; `miss`: what it may miss of the load. */
+/* Whether the solution is accepted; `miss`: the part of the load that it may miss. */
 static bool stands(const SporeWorld *world, const SporeIsland *island, double miss) {
+  assert(miss > 0);
   if (island->trouble != SPORE_TROUBLE_NOT_CONVERGED) return island->trouble == SPORE_TROUBLE_NONE;
   double residual = island->result.residual;
   if (residual <= MISS_TO_STAND * world->solver.tolerance) return true;
   return residual <= miss && island->integrator != SPORE_INTEGRATOR_STATIC && !gained_energy(world, island);
 }
 
-/* Smaller steps that did not help would not at once again: they are tried after a pause, twice as long each time. */
+/* Smaller steps that did not help are not tried again at once, but after a pause, which doubles each time. */
 static bool pauses(SporeWorld *world, const SporeIsland *island) {
   bool paused = false;
   for (size_t i = 0; i < island->kept_count; i++) {
@@ -153,22 +165,23 @@ static void set_pause(SporeWorld *world, const SporeIsland *island, bool helped)
   }
 }
 
-/* What an attempt at a step came to that did not solve it, best last. */
+/* Worth of an attempt that did not solve the step, best last. */
 typedef enum Worth {
-  WORTH_NOTHING, /* it is not sound */
+  WORTH_NOTHING, /* its state is not valid */
   WORTH_GAINED,  /* it gained energy */
-  WORTH_MISSED,  /* it misses much of what there was to solve */
+  WORTH_MISSED,  /* it misses much of the load */
   WORTH_STEP
 } Worth;
 
-/* The best of the attempts: of those that are worth a step the one that misses least, of others the last, whose steps
- * were smallest. */
+/* The best attempt: among those that are worth a step, the one that misses least; else the last one, which had the
+ * smallest steps. */
 typedef struct Best {
   Worth worth;
   double residual;
 } Best;
 
 static void remember_best(SporeWorld *world, const SporeIsland *island, Best *best) {
+  assert(island->q_start + island->q_count <= world->state.q_count);
   if (island->trouble > SPORE_TROUBLE_NOT_CONVERGED) return;
   double residual = island->result.residual;
   Worth worth = gained_energy(world, island) ? WORTH_GAINED : residual < MISS_OF_STEP ? WORTH_STEP : WORTH_MISSED;
@@ -179,16 +192,18 @@ static void remember_best(SporeWorld *world, const SporeIsland *island, Best *be
 }
 
 static void restore_best(const SporeWorld *world, SporeIsland *island, const Best *best) {
+  assert(best->worth > WORTH_NOTHING);
   memcpy(island->q1, world->solve.best_q + island->q_start, island->q_count * sizeof(double));
   memcpy(island->v1, world->solve.best_v + island->v_start, island->v_count * sizeof(double));
   island->result.converged = false;
   island->result.residual = best->residual;
-  island->history.step_s = 0; /* it is that of the last attempt */
+  island->history.step_s = 0; /* the history is that of the last attempt */
   island->trouble = SPORE_TROUBLE_NOT_CONVERGED;
 }
 
-/* Adds what an attempt cost to what came of it, and to what came of those before. */
+/* Takes the step again. The result counts the work of this attempt and of those before. */
 static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps, SporeEffort *effort) {
+  assert(substeps >= 1 && island->kept_count >= 1);
   SporeStepResult spent = island->result;
   spore_island_gather(world, island);
   substeps *= island->substeps;
@@ -201,9 +216,9 @@ static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps, S
   island->result = spent;
 }
 
-/* Friction, which changes with what presses, is what keeps contacts from having one answer that Newton finds from
- * anywhere: where a body hits many spheres at once in a long step, it may end spinning, with more energy than there
- * was. Then the step is taken without. */
+/* Takes the step without friction. Friction depends on the normal force, so contacts with friction may have no unique
+ * solution that Newton's method finds from any start. A body that hits many spheres at once in a long step may end up
+ * spinning, with more energy than it had. */
 static bool try_without_friction(SporeWorld *world, SporeIsland *island, size_t iterations) {
   SporeEffort effort = {.iterations = iterations, .hopeless = HUGE_VAL};
   for (size_t i = 0; i < island->contact_count; i++)
@@ -212,10 +227,11 @@ static bool try_without_friction(SporeWorld *world, SporeIsland *island, size_t 
   return !effort.given_up && stands(world, island, MISS_OF_LOAD);
 }
 
-/* Smaller and smaller steps, as long as the step's iterations last. Where an attempt was worth a step, those that leave
- * no more hope are given up. In the end the best of all stands: an answer that is sound but not solved to tolerance is
- * better than a frozen body. */
+/* Tries smaller and smaller steps, as long as the iterations last. Once an attempt was worth a step, hopeless attempts
+ * are given up early. In the end the best attempt is accepted: a valid state that is not solved to tolerance is better
+ * than a frozen body. */
 static void try_substeps(SporeWorld *world, SporeIsland *island) {
+  assert(world->solver.newton_iterations >= 1);
   bool helped = false;
   Best best = {WORTH_NOTHING, HUGE_VAL};
   remember_best(world, island, &best);
@@ -235,7 +251,7 @@ static void try_substeps(SporeWorld *world, SporeIsland *island) {
   set_pause(world, island, helped);
 }
 
-/* What a step that damps nothing made unsound once, it makes so again: the one that mended it is kept. */
+/* A method without damping that failed once will fail again, so the bodies keep the method that helped. */
 static void make_safer(SporeWorld *world, SporeIsland *island) {
   for (size_t i = 0; i < island->kept_count; i++) {
     SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
@@ -246,8 +262,9 @@ static void make_safer(SporeWorld *world, SporeIsland *island) {
   }
 }
 
-/* Ends with what the trouble was at its worst, and the body that it was met in first. */
+/* In the end island->trouble is the worst trouble, and island->offender the body that had the first. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
+  assert(island->offender < world->body_count);
   bool paused = pauses(world, island);
   if (stands(world, island, paused ? 1 : MISS_OF_LOAD)) return;
   SporeTrouble worst = island->trouble;

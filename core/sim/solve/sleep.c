@@ -1,11 +1,14 @@
-/* Islands at rest sleep: they are neither mapped, nor looked at for contacts among themselves, nor integrated.
+/* Sleep: islands at rest are not mapped, not checked for contacts among themselves, and not integrated.
  *
- * An island falls asleep when for REST_TIME_S all its bodies were slower than their rest_speed, see below, and nothing
- * that a device drives touches it. Its velocity is then set to 0. What is lost is the rest of the way to where the
- * island would have come to rest: at most rest_speed times its longest time constant where the motion dies away or
- * swings about an equilibrium, and an energy of at most M rest_speed^2 / 2. The bodies that fell asleep together wake
- * together, before anything else is done with them in the step: when one of them is touched by, or is tied to, what
- * moves by physics or by a device; and when a command or an edit may have changed the forces on them. */
+ * An island falls asleep when all its bodies were slower than their rest speed for REST_TIME_S, and no body that a
+ * device moves touches it. Its velocity is then set to 0. The island loses the rest of the way to its equilibrium: at
+ * most the rest speed times its longest time constant where the motion dies away or swings about an equilibrium, and an
+ * energy of at most M rest_speed^2 / 2.
+ *
+ * Bodies that fell asleep together wake together, before anything else is done with them in the step. They wake when a
+ * body that moves touches one of them or is linked to it, and when a command or an edit may have changed the forces on
+ * them. */
+#include <assert.h>
 #include <float.h>
 #include <string.h>
 
@@ -14,10 +17,11 @@
 #define REST_TIME_S 0.5
 #define REST_EXTENTS_PER_S                                                                                             \
   1e-3           /* a body that takes less than this time, 1000 s, to move by its own size is not at rest */
-#define CHUNK 64 /* values looked at together */
+#define CHUNK 64 /* values compared together */
 
 /* Widest side of the bounds of `count` balls about `centre` (3 a ball), m. radius may be NULL. */
 static double extent_of(const double *centre, const double *radius, size_t count) {
+  assert(count == 0 || centre);
   double widest = 0;
   for (size_t k = 0; k < 3; k++) {
     double lower = HUGE_VAL, upper = -HUGE_VAL;
@@ -52,6 +56,7 @@ void spore_world_create_sleep(SporeWorld *world) {
 }
 
 static bool all_below(const double *values, size_t count, double limit) {
+  assert(limit >= 0);
   for (size_t i = 0; i < count; i += CHUNK) {
     size_t outside = 0, end = i + CHUNK < count ? i + CHUNK : count;
     for (size_t k = i; k < end; k++) outside += !(fabs(values[k]) <= limit);
@@ -68,6 +73,7 @@ static bool body_rests(const SporeBody *body, const double *v) {
 }
 
 static bool is_driven(const SporeWorld *world, const SporeEnd *end) {
+  assert(end->body == SPORE_NO_BODY || end->body < world->body_count);
   return end->body != SPORE_NO_BODY && world->bodies[end->body].role == SPORE_ACTIVE;
 }
 
@@ -84,6 +90,8 @@ static bool touches_driven(const SporeWorld *world, const SporeIsland *island) {
 }
 
 bool spore_island_rests(const SporeWorld *world, const SporeIsland *island) {
+  assert(island->kept_count <= island->body_count);
+  assert(island->body_start + island->body_count <= world->body_count);
   if (!(world->solver.sleep_speed > 0) || island->trouble != SPORE_TROUBLE_NONE) return false;
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
@@ -93,6 +101,8 @@ bool spore_island_rests(const SporeWorld *world, const SporeIsland *island) {
 }
 
 static void set_asleep(SporeWorld *world, uint32_t index, bool asleep) {
+  assert(index < world->body_count && world->bodies[index].sleep.asleep != asleep);
+  assert(asleep || world->solve.sleeping_count > 0);
   SporeBody *body = &world->bodies[index];
   body->sleep.asleep = asleep;
   body->sleep.steps = 0;
@@ -103,7 +113,7 @@ static void set_asleep(SporeWorld *world, uint32_t index, bool asleep) {
   if (world->contact.grid) spore_grid_set_asleep(world->contact.grid, index, asleep);
 }
 
-/* Steps in a row that the island has been at rest for, this one included; its bodies may have come together lately. */
+/* Number of consecutive steps at rest, this one included: the least of the bodies, which may have met lately. */
 static uint64_t count_rest(SporeWorld *world, const SporeIsland *island) {
   uint64_t least = UINT64_MAX;
   for (size_t i = 0; i < island->kept_count; i++) {
@@ -115,6 +125,7 @@ static uint64_t count_rest(SporeWorld *world, const SporeIsland *island) {
 }
 
 void spore_island_let_sleep(SporeWorld *world, SporeIsland *island) {
+  assert(island->body_start + island->body_count <= world->body_count);
   island->falls_asleep = false;
   if (!(world->solver.sleep_speed > 0) || island->kept_count == 0) return;
   if ((double)count_rest(world, island) * world->solver.time_step < REST_TIME_S) return;
@@ -129,6 +140,7 @@ void spore_island_let_sleep(SporeWorld *world, SporeIsland *island) {
 }
 
 void spore_island_keep_energy(SporeWorld *world, const SporeIsland *island) {
+  assert(island->falls_asleep && island->kept_count >= 1);
   double *energy = &world->bodies[world->solve.island_bodies[island->body_start]].sleep.energy;
   for (size_t i = 0; i < island->contact_count; i++) {
     const SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
@@ -137,6 +149,7 @@ void spore_island_keep_energy(SporeWorld *world, const SporeIsland *island) {
 }
 
 void spore_world_wake(SporeWorld *world, uint32_t body) {
+  assert(body < world->body_count);
   while (world->bodies[body].sleep.asleep) {
     set_asleep(world, body, false);
     body = world->bodies[body].sleep.next;
@@ -147,8 +160,10 @@ void spore_world_wake_all(SporeWorld *world) {
   for (uint32_t b = 0; b < world->body_count && world->solve.sleeping_count > 0; b++) spore_world_wake(world, b);
 }
 
-/* True when one of the two slept and the other moves: physics or a device moves it. */
+/* Wakes a sleeping body if the other body is moved by physics or by a device. True: one was woken. */
 static bool wake_either(SporeWorld *world, uint32_t a, uint32_t b) {
+  assert(a == SPORE_NO_BODY || a < world->body_count);
+  assert(b == SPORE_NO_BODY || b < world->body_count);
   if (a == SPORE_NO_BODY || b == SPORE_NO_BODY) return false;
   const SporeBody *first = &world->bodies[a], *second = &world->bodies[b];
   if (first->sleep.asleep == second->sleep.asleep) return false;
@@ -175,8 +190,9 @@ static bool wake_touched(SporeWorld *world) {
   return woken;
 }
 
-/* Who wakes may touch others that sleep. */
+/* A body that wakes may touch others that sleep, so this goes on until none wakes. */
 void spore_world_wake_touched(SporeWorld *world) {
+  assert(world->solve.sleeping_count <= world->body_count);
   while (world->solve.sleeping_count > 0) {
     bool tied = wake_tied(world), touched = wake_touched(world);
     if (!tied && !touched) return;

@@ -1,5 +1,7 @@
+/* Step limit: the largest stable step of explicit integrators, by power iteration. */
 #include "core/sim/solve/step_limit.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,7 +33,7 @@ static bool invert_mass(const SporeModel *model, const double *q, double *blocks
   return true;
 }
 
-/* A start that is no eigenvector of anything symmetric, and the same on every machine. */
+/* Start of the iteration: no eigenvector of a symmetric body, and the same on every machine. */
 static void fill_start(double *x, size_t count) {
   uint32_t state = 12345;
   for (size_t i = 0; i < count; i++) {
@@ -55,9 +57,10 @@ static void solve_mass(const Power *power, const double *x, double *y) {
   }
 }
 
-/* Largest eigenvalue of M^-1 K + s, as the Rayleigh quotient x.K x / x.M x. Iterates r = M x, so that M itself is not
- * needed: x = M^-1 r, r <- K x. */
+/* Largest eigenvalue of M^-1 K + s, as the Rayleigh quotient x.K x / x.M x. The iteration is in r = M x, so that M
+ * itself is not needed: x = M^-1 r, r <- K x. */
 static double largest_eigenvalue(const Power *power) {
+  assert(power->matrix.block_count > 0);
   size_t n = 3 * power->matrix.block_count;
   double *r = power->z, *x = power->x, *k = power->y, value = 0;
   fill_start(r, n);
@@ -99,13 +102,15 @@ static void clear(Power *power) {
 
 /* Root of w^2 h^2 + b d h = a - 1. */
 static double stable_step(const SporeIntegrator *integrator, double square, double damping) {
+  assert(integrator->stable_square > 1);
   double a = integrator->stable_square - 1, b = integrator->stable_damping * damping;
   if (square <= 0) return damping > 0 ? a / b : HUGE_VAL;
   return (sqrt(b * b + 4 * a * square) - b) / (2 * square);
 }
 
-/* Whether a step of explicit Euler makes some motion grow: where h K is more than D. */
+/* Whether a step of explicit Euler makes some motion grow: h K is more than D in its direction. */
 static bool grows(Power *power, const SporeModel *model, const double *q, const double *v, double h) {
+  assert(h > 0 && power->shift > 0);
   spore_block_matrix_zero(&power->matrix);
   model->type->jacobian(model, q, q, v, h, -1, &power->matrix);
   return largest_eigenvalue(power) > power->shift * (1 + 1e-6);
@@ -115,9 +120,10 @@ static bool grows(Power *power, const SporeModel *model, const double *q, const 
 
 static double explicit_euler_step(Power *power, const SporeModel *model, const double *q, const double *v,
                                   const SporeStepLimit *limit) {
+  assert(limit->frequency >= 0 && limit->damping >= 0);
   if (limit->frequency == 0) return limit->damping > 0 ? 2 / limit->damping : HUGE_VAL;
   if (limit->damping == 0) return 0;
-  power->shift = 1.02 * limit->damping; /* keeps it positive definite */
+  power->shift = 1.02 * limit->damping; /* keeps the matrix positive definite */
   double high = fmin(2 / limit->damping, limit->damping / (limit->frequency * limit->frequency)), low = 0;
   for (int i = 0; i < HALVINGS; i++) {
     double middle = i == 0 ? high : 0.5 * (low + high);
@@ -130,6 +136,8 @@ static double explicit_euler_step(Power *power, const SporeModel *model, const d
 
 bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const double *q, const double *v,
                       const uint32_t *held, size_t held_count, SporeStepLimit *limit, SporeError *error) {
+  assert(model && limit);
+  assert(held_count == 0 || held);
   *limit = (SporeStepLimit){0, 0, HUGE_VAL};
   const SporeIntegrator *integrator = spore_integrator(kind);
   if (model->type->rates) {
@@ -159,6 +167,7 @@ bool spore_step_limit(const SporeModel *model, SporeIntegratorKind kind, const d
 }
 
 static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_s, SporeError *error) {
+  assert(body->method.substeps >= 1);
   char place[200];
   const char *name = spore_integrator_names[body->method.integrator];
   double h = world->solver.time_step / (double)body->method.substeps, needed = ceil(world->solver.time_step / limit_s);
@@ -191,6 +200,7 @@ static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_
 
 /* Whether a pin or a link may hold the body, or contacts. */
 static bool may_be_held(const SporeWorld *world, size_t index) {
+  assert(index < world->body_count);
   const SporeBody *body = &world->bodies[index];
   if (body->held.pin_count > 0 || body->collision.spheres.point_count > 0) return true;
   for (size_t i = 0; i < world->links.term_count; i++)
@@ -199,6 +209,7 @@ static bool may_be_held(const SporeWorld *world, size_t index) {
 }
 
 static bool check_static(const SporeWorld *world, size_t index, SporeError *error) {
+  assert(spore_body_is_static(&world->bodies[index]));
   char place[200];
   snprintf(place, sizeof place, "bodies/%s", world->bodies[index].name);
   if (world->bodies[index].model->type->rates)
@@ -212,13 +223,15 @@ static bool check_static(const SporeWorld *world, size_t index, SporeError *erro
 }
 
 bool spore_body_check_step(const SporeWorld *world, uint32_t index, SporeError *error) {
+  assert(index < world->body_count);
+  assert(world->solver.time_step > 0);
   const SporeBody *body = &world->bodies[index];
   if (body->role != SPORE_PASSIVE) return true;
   if (spore_body_is_static(body) && !check_static(world, index, error)) return false;
   SporeIntegratorKind kind = body->method.integrator;
   if (spore_integrator(kind)->implicit) {
     if (!body->model->type->rates) return true;
-    kind = SPORE_INTEGRATOR_VERLET; /* it has no Jacobian to go by, and needs as small steps */
+    kind = SPORE_INTEGRATOR_VERLET; /* without a Jacobian, an implicit method needs steps as small */
   }
   SporeStepLimit limit;
   if (!spore_step_limit(body->model, kind, world->state.rest_q + body->q_offset, world->state.rest_v + body->v_offset,

@@ -1,23 +1,29 @@
-/* Bodies: their models at all levels of detail, and where points given at rest lie in them. */
+/* Bodies: their models at all levels of detail, and mappings of points that are given at rest. */
+#include <assert.h>
+
 #include "core/sim/world_private.h"
 
 const char *const spore_level_names[] = {"coarse", "medium", "fine", NULL};
 
 void spore_body_each_model(const SporeBody *body, void (*call)(SporeModel *model, void *user), void *user) {
+  assert(call);
   if (!body->levels && body->model) call(body->model, user);
   for (int k = 0; body->levels && k < SPORE_LEVEL_COUNT; k++)
     if (body->levels->level[k].model) call(body->levels->level[k].model, user);
 }
 
 const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t index, SporeLevelGrade level) {
+  assert(index < world->body_count);
+  assert((unsigned)level < SPORE_LEVEL_COUNT);
   const SporeBody *body = &world->bodies[index];
   if (body->levels) return body->levels->level[level].model;
   return level == SPORE_LEVEL_FINE ? body->model : NULL;
 }
 
-/* Points of an unmovable body stand where its pose puts them. */
+/* Points of an unmovable body are fixed where its pose puts them. */
 static bool map_fixed(const SporeBody *body, const double *points, size_t count, SporeMapping *mapping,
                       SporeError *error) {
+  assert(body->role == SPORE_UNMOVABLE);
   if (!spore_mapping_init_points(mapping, SPORE_MAPPING_FIXED, points, count, error)) return false;
   for (size_t i = 0; i < count; i++)
     spore_vec3_store(mapping->points + 3 * i, spore_pose_apply(body->rest_pose, spore_vec3_load(points + 3 * i)));
@@ -26,8 +32,10 @@ static bool map_fixed(const SporeBody *body, const double *points, size_t count,
 
 bool spore_world_map_level(const SporeWorld *world, uint32_t index, SporeLevelGrade level, const double *points,
                            size_t count, SporeMapping *mapping, SporeError *error) {
+  assert(count == 0 || points);
   const SporeBody *body = &world->bodies[index];
   const SporeModel *model = spore_world_level_model(world, index, level);
+  assert(body->role != SPORE_PASSIVE || model);
   if (body->role == SPORE_UNMOVABLE) return map_fixed(body, points, count, mapping, error);
   if (body->role == SPORE_ACTIVE) return spore_mapping_init_points(mapping, SPORE_MAPPING_RIGID, points, count, error);
   return model->type->map(model, points, count, mapping, error);
@@ -35,6 +43,7 @@ bool spore_world_map_level(const SporeWorld *world, uint32_t index, SporeLevelGr
 
 bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const SporeTriangleMesh *mesh,
                            SporeMapping *mapping, SporeError *error) {
+  assert(mesh);
   const SporeModel *model = spore_world_level_model(world, body, level);
   if (world->bodies[body].role == SPORE_PASSIVE && model->type->line && model->type->line->map_drawn)
     return model->type->line->map_drawn(model, mesh, mapping, error);
@@ -43,15 +52,19 @@ bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGra
 
 bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,
                      SporeError *error) {
+  assert(body < world->body_count);
   return spore_world_map_level(world, body, world->bodies[body].level, points, count, mapping, error);
 }
 
 SporeVec3 spore_world_to_frame(const SporeWorld *world, uint32_t body, SporeVec3 at) {
+  assert(body < world->body_count);
   return spore_pose_apply_inverse(world->bodies[body].rest_pose, at);
 }
 
 bool spore_world_attach(SporeWorld *world, uint32_t body, SporeVec3 at, SporeMapping *mapping, SporeEnd *end,
                         SporeError *error) {
+  assert(body == SPORE_NO_BODY || body < world->body_count);
+  assert(mapping && end);
   double point[3];
   *end = (SporeEnd){.mapping = mapping, .body = body};
   spore_vec3_store(point, body == SPORE_NO_BODY ? at : spore_world_to_frame(world, body, at));

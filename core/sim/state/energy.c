@@ -1,6 +1,10 @@
+/* Energy of bodies and of the world: kinetic, internal, of gravity and of contacts. */
+#include <assert.h>
+
 #include "core/sim/world_private.h"
 
 double spore_body_kinetic_energy(const SporeWorld *world, const SporeBody *body, const double *v) {
+  assert(world->state.mass && v);
   const double *mass = world->state.mass + 3 * body->v_offset;
   double twice = 0;
   for (size_t i = 0; i < body->block_count; i++, mass += 9, v += 3)
@@ -9,6 +13,7 @@ double spore_body_kinetic_energy(const SporeWorld *world, const SporeBody *body,
 }
 
 double spore_body_gravity_energy(const SporeWorld *world, const SporeBody *body, const double *q) {
+  assert(body->model && q);
   SporeVec3 gravity = spore_body_gravity(world, body);
   double energy = 0;
   for (size_t i = 0; i < body->model->node_count; i++)
@@ -17,6 +22,7 @@ double spore_body_gravity_energy(const SporeWorld *world, const SporeBody *body,
 }
 
 SporeEnergy spore_world_energy(const SporeWorld *world) {
+  assert(world->contact.count <= world->contact.capacity);
   SporeEnergy energy = {0, 0, 0, 0};
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];

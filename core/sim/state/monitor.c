@@ -1,4 +1,5 @@
-/* What the monitor says of what went wrong, and counts. */
+/* Messages and counts of the monitor about steps that went wrong. */
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -6,6 +7,7 @@
 #include "core/sim/world_private.h"
 
 void spore_world_report(SporeWorld *world, const char *format, ...) {
+  assert(format);
   SporeMonitor *monitor = &world->state.monitor;
   SporeMonitorMessage *message = &monitor->messages[monitor->message_count++ % SPORE_MONITOR_MESSAGES];
   message->step = world->state.step;
@@ -32,6 +34,8 @@ static const char *cause(SporeTrouble trouble) {
 }
 
 static void report_frozen(SporeWorld *world, const SporeIsland *island) {
+  assert(island->trouble != SPORE_TROUBLE_NONE);
+  assert(island->body_start + island->body_count <= world->body_count);
   const uint32_t *bodies = world->solve.island_bodies + island->body_start;
   for (size_t i = island->kept_count; i < island->body_count; i++) {
     SporeBody *body = &world->bodies[bodies[i]];
@@ -41,8 +45,9 @@ static void report_frozen(SporeWorld *world, const SporeIsland *island) {
   }
 }
 
-/* Each body's troubles are told of once, the worst last. */
+/* Each trouble of a body is reported once. Only a worse trouble is reported after it. */
 static void report_mended(SporeWorld *world, const SporeIsland *island) {
+  assert(island->offender < world->body_count);
   SporeBody *body = &world->bodies[island->offender];
   if (island->made_safer)
     spore_world_report(world,
@@ -86,6 +91,7 @@ void spore_world_report_islands(SporeWorld *world) {
 }
 
 void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term) {
+  assert(term->a.body < world->body_count && term->b.body < world->body_count);
   SporeBody *a = &world->bodies[term->a.body], *b = &world->bodies[term->b.body];
   world->state.monitor.deep_contacts++;
   if (a->reported.deep && b->reported.deep) return;
@@ -96,7 +102,7 @@ void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term) {
                      a->name, term->depth, b->name);
 }
 
-/* The body that the solvers were busiest with, by the counts of the step. */
+/* Name of the first body of the island that took most work, by the counts of the step. */
 static const char *busiest_body(const SporeWorld *world) {
   const char *name = NULL;
   size_t most = 0;
@@ -117,6 +123,7 @@ void spore_world_report_budget(SporeWorld *world) {
     const SporeProfilePhase *phase = &world->schedule.profiles[world->schedule.run[i]];
     if (!slowest || spore_profile_last_ns(phase) > spore_profile_last_ns(slowest)) slowest = phase;
   }
+  assert(slowest);
   const char *body = busiest_body(world);
   spore_world_report(world,
                      _("%s: a step took %.3g us of the %.3g us it may take, most of it to %s; make the scene "

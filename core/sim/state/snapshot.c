@@ -1,8 +1,9 @@
 /* Snapshots through a triple buffer: the writer fills one, the reader holds one, the third waits in the middle.
  *
- * The state of the world is the one in the newest snapshot: the writer reads it there, as the reader does, and writes
- * the next one into the buffer that is its own. A body that stood still since that buffer was last written is there
- * already: states are numbered, and a body keeps the number of the one that it changed in. */
+ * The state of the world is the one in the newest snapshot. The writer reads the state there, as the reader does, and
+ * writes the next state into a buffer of its own. States are numbered, and each body keeps the number of the state in
+ * which it last changed. A body that has not changed since the buffer was last written need not be copied. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/hash.h"
@@ -19,6 +20,7 @@ static bool init_lines(const SporeWorld *world, SporeLines *lines) {
 }
 
 static bool init_buffer(SporeWorld *world, int index) {
+  assert(index >= 0 && index < 3);
   SporeSnapshots *snapshots = &world->state.snapshots;
   SporeSnapshot *snapshot = &snapshots->buffers[index];
   size_t capacity = 2 * world->contact.spheres.count;
@@ -72,6 +74,7 @@ static void clear_snapshots(SporeSnapshots *snapshots) {
 }
 
 static void copy_contacts(const SporeWorld *world, SporeSnapshot *snapshot) {
+  assert(world->contact.count <= world->contact.capacity);
   snapshot->contact_count = world->contact.count;
   size_t listed = world->contact.count < snapshot->contact_capacity ? world->contact.count : snapshot->contact_capacity;
   for (size_t i = 0; i < listed; i++) {
@@ -81,9 +84,10 @@ static void copy_contacts(const SporeWorld *world, SporeSnapshot *snapshot) {
   }
 }
 
-/* The buffer has those that it was given before. */
+/* Copies the messages that the buffer does not have yet. */
 static void copy_messages(const SporeWorld *world, SporeSnapshot *snapshot) {
   const SporeMonitor *monitor = &world->state.monitor;
+  assert(snapshot->message_count <= monitor->message_count);
   uint64_t missing = monitor->message_count - snapshot->message_count;
   if (missing > SPORE_MONITOR_MESSAGES) missing = SPORE_MONITOR_MESSAGES;
   for (uint64_t i = monitor->message_count - missing; i < monitor->message_count; i++)
@@ -91,8 +95,10 @@ static void copy_messages(const SporeWorld *world, SporeSnapshot *snapshot) {
   snapshot->message_count = monitor->message_count;
 }
 
-/* The same. */
+/* Copies the cuts that the buffer does not have yet. */
 static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
+  assert(world->topology.cuts.count <= snapshot->cuts.capacity);
+  assert(world->topology.cuts.corner_count == snapshot->cuts.corner_count);
   SporeCuts *cuts = &snapshot->cuts;
   if (snapshot->cut_run != world->topology.cut_run) cuts->count = 0;
   snapshot->cut_run = world->topology.cut_run;
@@ -103,9 +109,10 @@ static void copy_cuts(const SporeWorld *world, SporeSnapshot *snapshot) {
   memcpy(cuts->corners, world->topology.cuts.corners, 4 * cuts->corner_count * sizeof *cuts->corners);
 }
 
-/* The same. */
+/* Copies the knots of lines where they have changed. */
 static void copy_lines(const SporeWorld *world, SporeSnapshot *snapshot) {
   SporeLines *lines = &snapshot->lines;
+  assert(lines->break_count == world->topology.lines.break_count);
   if (lines->number == world->topology.lines.number) return;
   lines->number = world->topology.lines.number;
   memcpy(lines->breaks, world->topology.lines.breaks, lines->break_count * sizeof *lines->breaks);
@@ -117,6 +124,7 @@ void spore_body_mark_changed(const SporeWorld *world, SporeBody *body) {
 }
 
 void spore_body_clear_unused(SporeWorld *world, const SporeBody *body) {
+  assert(body->q_count <= body->q_most && body->block_count <= body->block_most);
   size_t q = body->q_count, v = 3 * body->block_count;
   memset(world->state.next_q + body->q_offset + q, 0, (body->q_most - q) * sizeof(double));
   memset(world->state.next_v + body->v_offset + v, 0, (3 * body->block_most - v) * sizeof(double));
@@ -125,6 +133,7 @@ void spore_body_clear_unused(SporeWorld *world, const SporeBody *body) {
 void spore_world_advance_state(SporeWorld *world) {
   SporeSnapshots *snapshots = &world->state.snapshots;
   uint64_t *there = &snapshots->number[snapshots->triple.writing];
+  assert(*there <= snapshots->newest);
   for (size_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (body->q_most > body->q_count || body->block_most > body->block_count) spore_body_clear_unused(world, body);
@@ -138,9 +147,12 @@ void spore_world_advance_state(SporeWorld *world) {
   world->state.v = world->state.next_v;
 }
 
-/* Velocity that takes the body from where it is to its target in one step. It is made from the poses, not from what
- * the device says, so that a recorded track gives the same motion again. */
+/* The velocity takes the body from its pose to its target in one step. It is computed from the two poses and not from
+ * the velocity that the device reports, so that a recorded track gives the same motion again. */
 void spore_active_set_velocity(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
+  assert(world->bodies[index].role == SPORE_ACTIVE);
+  assert(world->solver.time_step > 0);
   const SporeBody *body = &world->bodies[index];
   const double *from = world->state.q + body->q_offset, *to = world->state.target_q + body->q_offset;
   double rate = 1 / world->solver.time_step, *v = world->state.next_v + body->v_offset;
@@ -150,7 +162,7 @@ void spore_active_set_velocity(SporeWorld *world, uint32_t index) {
   spore_vec3_store(v + 3, spore_vec3_scale(rate, spore_quat_to_rotation_vector(turn)));
 }
 
-/* Energy costs as much as a force: it is not worth taking when nobody looks. */
+/* Energy costs as much as a force, so it is computed only when a reader wants it. */
 static SporeEnergy recent_energy(SporeWorld *world) {
   if (atomic_exchange_explicit(&world->state.snapshots.energy_wanted, false, memory_order_relaxed) ||
       world->state.step == 0)
@@ -163,6 +175,7 @@ double spore_world_time_s(const SporeWorld *world) { return (double)world->state
 void spore_world_publish(SporeWorld *world) {
   SporeSnapshots *snapshots = &world->state.snapshots;
   SporeSnapshot *snapshot = &snapshots->buffers[snapshots->triple.writing];
+  assert(world->state.q == snapshot->q && world->state.v == snapshot->v);
   snapshot->step = world->state.step;
   snapshot->time_s = spore_world_time_s(world);
   memcpy(snapshot->reaction, world->state.reaction, 6 * world->body_count * sizeof *world->state.reaction);
@@ -194,6 +207,8 @@ const SporeSnapshot *spore_world_snapshot_acquire(SporeWorld *world) {
 
 static uint64_t hash_state(const double *q, size_t q_count, const double *v, size_t v_count, uint64_t step,
                            double time_s) {
+  assert(q_count == 0 || q);
+  assert(v_count == 0 || v);
   uint64_t hash = spore_hash(SPORE_HASH_INIT, q, q_count * sizeof *q);
   hash = spore_hash(hash, v, v_count * sizeof *v);
   hash = spore_hash(hash, &step, sizeof step);

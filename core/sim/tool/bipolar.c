@@ -1,5 +1,7 @@
-/* Bipolar forceps: heat shrinks and stiffens tissue near their tips, for good. It does so in time, by no more than
- * `rate` allows, so that energy comes in little by little. */
+/* Bipolar forceps: heat shrinks and stiffens tissue near their tips for good. The tissue changes no faster than `rate`
+ * allows, so that its energy grows little in a step. */
+#include <assert.h>
+
 #include "core/base/parameter_rows.h"
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
@@ -13,14 +15,16 @@ typedef struct SporeBipolar {
 
 static bool heats(const SporeBody *body) { return body->model && body->model->type->heat; }
 
-/* A step's dose changes little: how its matrix is best factorised it still knows. */
+/* Marks the model as changed. One step changes it little, so the choice of its preconditioner stays. */
 static void warm(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   SporeFactorChoice choice = world->bodies[index].preconditioner.choice;
   spore_body_changed_model(world, index);
   world->bodies[index].preconditioner.choice = choice;
 }
 
 static void use(SporeWorld *world, SporeTool *tool) {
+  assert(tool->bodies[0] < world->body_count);
   SporeBipolar *bipolar = (SporeBipolar *)tool;
   const SporeBody *holder = &world->bodies[tool->bodies[0]];
   bipolar->coagulated = 0;

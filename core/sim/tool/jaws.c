@@ -1,9 +1,10 @@
 /* Jaws: two active bodies on a hinge of a third.
  *
- * They turn as fast as they can toward where the device wants them, the slower the nearer what they press comes to
- * their torque, and give way above it: what lies between them is pressed by no more. Once half of the torque presses,
- * or the jaws are shut, each sphere that a jaw touches is tied to it where it is, by a spring without length; opening
- * lets go. */
+ * The jaws turn toward the opening that the device wants. They turn the slower, the nearer the squeeze comes to their
+ * torque, and give way above it, so that they never press with more. When the squeeze reaches half of the torque, or
+ * the jaws are shut, each sphere that a jaw touches is tied to the jaw by a spring without length. Opening the jaws
+ * releases the spheres. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -11,8 +12,8 @@
 #include "core/sim/tool/jaws.h"
 #include "core/sim/world_private.h"
 
-#define HOLD_SHARE 0.5     /* of the torque: from here on jaws hold */
-#define LET_GO_RAD 0.02    /* opening beyond where it began to hold that lets go */
+#define HOLD_SHARE 0.5     /* of the torque: squeeze from which jaws hold */
+#define LET_GO_RAD 0.02    /* opening beyond that at which holding began, which releases */
 #define SECOND_BUTTON 0x2u /* opens a clamp */
 
 const char *const spore_jaw_triggers[] = {"grip", "button", NULL};
@@ -37,6 +38,8 @@ const char *spore_hinge_fault(const SporeJawFields *fields) {
 }
 
 bool spore_jaws_make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {
+  assert(from->fields && tool->bodies[0] < world->body_count);
+  assert(tool->spring_start + tool->spring_count <= spore_world_spring_count(world));
   static const double origin[3] = {0, 0, 0};
   SporeJaws *jaws = (SporeJaws *)tool;
   const SporePose *frame = &world->bodies[tool->bodies[0]].rest_pose;
@@ -70,6 +73,7 @@ void spore_jaws_clear(SporeTool *tool) { spore_free(((SporeJaws *)tool)->holds);
 /* Holds. */
 
 static void let_go(SporeWorld *world, SporeJaws *jaws) {
+  assert(jaws->holds);
   for (size_t i = 0; i < jaws->tool.spring_count; i++) {
     jaws->holds[i].state = SPORE_HOLD_FREE;
     world->links.active[jaws->tool.spring_start + i] = false;
@@ -77,7 +81,7 @@ static void let_go(SporeWorld *world, SporeJaws *jaws) {
   jaws->held_at = -1;
 }
 
-/* A place for the sphere; NULL: there is none, or it has one. */
+/* A free hold for the sphere; NULL: there is none, or the sphere is held already. */
 static SporeHold *find_place(const SporeJaws *jaws, uint32_t sphere) {
   SporeHold *place = NULL;
   for (size_t i = 0; i < jaws->tool.spring_count; i++) {
@@ -88,8 +92,10 @@ static SporeHold *find_place(const SporeJaws *jaws, uint32_t sphere) {
   return place;
 }
 
-/* Ties the sphere to the jaw where it is. */
+/* Ties the sphere to the jaw at its present place. */
 static void hold_sphere(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, uint32_t sphere) {
+  assert(jaw < world->body_count);
+  assert(sphere < world->contact.spheres.count);
   SporeHold *hold = find_place(jaws, sphere);
   if (!hold) return;
   *hold = (SporeHold){SPORE_HOLD_TIED, sphere};
@@ -111,8 +117,9 @@ static void hold_sphere(SporeWorld *world, SporeJaws *jaws, uint32_t jaw, uint32
   spore_world_wake(world, held);
 }
 
-/* What the jaws press, by the contacts of the last step. */
+/* Holds the spheres that the jaws press, found by the contacts of the last step. */
 static void hold_touched(SporeWorld *world, SporeJaws *jaws) {
+  assert(world->contact.count <= world->contact.capacity);
   for (size_t i = 0; i < world->contact.count; i++) {
     const SporeContactTerm *term = &world->contact.terms[i];
     if (!(spore_vec3_dot(term->force, term->normal) > 0)) continue;
@@ -147,6 +154,7 @@ static void tear(SporeWorld *world, SporeTool *tool) {
 
 /* Torque about the hinge that opens the jaw, of the last step. */
 static double opening_torque(const SporeWorld *world, const SporeJaws *jaws, const SporeJaw *jaw) {
+  assert(jaw->body == SPORE_NO_BODY || jaw->body < world->body_count);
   if (jaw->body == SPORE_NO_BODY) return 0;
   const double *shaft = world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset;
   const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
@@ -158,19 +166,21 @@ static double opening_torque(const SporeWorld *world, const SporeJaws *jaws, con
 }
 
 /* The opening that the device asks for. */
-static double wanted_opening(SporeJaws *jaws, const SporeDeviceState *input, bool spoke) {
+static double wanted_opening(SporeJaws *jaws, const SporeDeviceState *input, bool has_input) {
   if (jaws->latches && (input->buttons & SECOND_BUTTON)) {
     jaws->latched = false;
     return jaws->fields.opening;
   }
   if (jaws->latched) return 0;
-  if (!spoke) return jaws->opening;
+  if (!has_input) return jaws->opening;
   if (jaws->fields.trigger == SPORE_TRIGGER_BUTTON) return input->buttons & 1u ? 0 : jaws->fields.opening;
   return fmin(fmax(input->grip_rad, 0), jaws->fields.opening);
 }
 
-/* The slower the nearer the squeeze is to what the jaws can; above, they give way. */
+/* The opening at the end of the step. The jaws close the slower, the nearer the squeeze is to their torque. Above their
+ * torque they give way. */
 static double next_opening(const SporeJaws *jaws, double wanted, double h) {
+  assert(h > 0 && jaws->fields.torque > 0);
   double most = h * jaws->fields.speed, change = fmin(fmax(wanted - jaws->opening, -most), most);
   if (change >= 0) return jaws->opening + change;
   double left = 1 - jaws->squeeze / jaws->fields.torque;
@@ -179,6 +189,7 @@ static double next_opening(const SporeJaws *jaws, double wanted, double h) {
 }
 
 static void place_jaw(SporeWorld *world, const SporeJaws *jaws, const SporeJaw *jaw) {
+  assert(jaw->body < world->body_count);
   const double *shaft = world->state.target_q + world->bodies[jaws->tool.bodies[0]].q_offset;
   const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
   double *target = world->state.target_q + world->bodies[jaw->body].q_offset;
@@ -191,6 +202,7 @@ static void place_jaw(SporeWorld *world, const SporeJaws *jaws, const SporeJaw *
 }
 
 void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
+  assert(tool->bodies[0] < world->body_count);
   SporeJaws *jaws = (SporeJaws *)tool;
   const SporeBody *body = &world->bodies[jaws->tool.bodies[0]];
   double wanted = wanted_opening(jaws, &body->device.input, body->device.has_input);
@@ -208,6 +220,7 @@ void spore_jaws_use(SporeWorld *world, SporeTool *tool) {
 }
 
 void spore_jaws_feed_back(SporeWorld *world, const SporeTool *tool) {
+  assert(tool->bodies[0] < world->body_count);
   const SporeJaws *jaws = (const SporeJaws *)tool;
   SporeDeviceCommand *command = &world->bodies[jaws->tool.bodies[0]].device.command;
   SporeVec3 origin = spore_vec3_load(world->state.q + world->bodies[jaws->tool.bodies[0]].q_offset);

@@ -1,4 +1,4 @@
-/* Jaws: two active bodies on a hinge of a third, which graspers, clamps and scissors have. */
+/* Jaws of graspers, clamps and scissors: two active bodies on a hinge of a third. */
 #ifndef SPORE_SIM_JAWS_H
 #define SPORE_SIM_JAWS_H
 
@@ -13,9 +13,9 @@ typedef struct SporeHold {
 } SporeHold;
 
 typedef struct SporeJaw {
-  uint32_t body;    /* SPORE_NO_BODY: none, of scissors */
+  uint32_t body;    /* SPORE_NO_BODY: none, for scissors */
   SporePose closed; /* in the frame of the tool's body */
-  double side;      /* 1, -1: how it opens about the axis */
+  double side;      /* 1, -1: direction in which it opens about the axis */
 } SporeJaw;
 
 typedef struct SporeJaws {
@@ -44,7 +44,7 @@ void spore_jaws_state(const SporeTool *tool, SporeToolState *state);
 
 extern const char *const spore_jaw_triggers[3]; /* choices of `trigger`, NULL at the end */
 
-/* Rows of every tool with jaws; `name` to `axis` come first, then those of the tool's own. */
+/* Rows of every tool with jaws: `name` to `axis` come first, then rows of the tool's own, then the others. */
 #define SPORE_JAW_BODY_ROWS                                                                                            \
   SPORE_ROW_NAME(SporeJawFields, tool.name, N_("Name of the tool.")),                                                  \
       SPORE_ROW_BODY(SporeJawFields, body, tool.body, N_("Active body that the tool moves: the shaft.")),              \

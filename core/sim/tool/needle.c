@@ -1,9 +1,10 @@
 /* A curved needle with its thread.
  *
- * The needle has no spheres that touch: its tip feels tissue by crossing its surface. What the tip crosses it presses
- * before it, held where it was met, until it presses with the force that pierces, or has come as deep as pierces. From
- * then on that place of the tissue slides along the needle, and behind the swage along the thread: a spring that runs
- * on a path (core/constraint/curve_joint.c), with friction. */
+ * The needle has no spheres that touch. Its tip meets tissue where it crosses a surface. The crossed place of the
+ * tissue is held at the tip, and the tip presses on it. The tip pierces when it presses with the piercing force, or has
+ * pushed the surface by the piercing depth. From then on that place of the tissue slides along the needle, and behind
+ * the swage along the thread: a spring along a curve joint (core/constraint/curve_joint.c), with friction. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -11,11 +12,11 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-#define BEHIND 0.05 /* of the needle's length, behind its tip: what lies between is looked for */
+#define BEHIND 0.05 /* of the needle's length, behind its tip: where the search for a crossed surface begins */
 
 #define SPANS 24 /* of the path along the needle */
 
-/* Where one place of tissue is on its way from the tip along the needle onto the thread. */
+/* State of a stitch: its place of tissue moves from the tip along the needle onto the thread. */
 typedef enum SporeStitchState {
   SPORE_STITCH_FREE,
   SPORE_STITCH_PRESSED, /* the tip presses on it */
@@ -26,26 +27,26 @@ typedef enum SporeStitchState {
 typedef struct SporeStitch {
   SporeStitchState state;
   uint32_t body;
-  SporeVec3 touched; /* where the tip first pressed, m */
+  SporeVec3 touched; /* where the tip first pressed; world, m */
   SporeCurveJoint needle, thread;
 } SporeStitch;
 
-/* Triangles of a body that can be pierced, by its nodes. */
+/* Surface of a body that can be pierced: triangles of its nodes. */
 typedef struct SporeSkin {
   uint32_t body;
   size_t count;
   uint32_t *triangles;
 } SporeSkin;
 
-/* Springs of a needle: the thread's end at the swage, then two for each stitch, along the needle and along the
- * thread. */
+/* The springs of a needle are: one for the thread's end at the swage, then two for each stitch, along the needle and
+ * along the thread. */
 typedef struct SporeNeedle {
   SporeTool tool;
   SporeNeedleFields fields;
   double path[3 * (SPANS + 3)]; /* in the body's frame, from the tip to the swage, m */
   double length;                /* m */
   uint32_t thread;              /* SPORE_NO_BODY: none */
-  bool from_end;                /* the swage has the thread's last point, not its first */
+  bool from_end;                /* the thread's last point is at the swage, not its first */
   size_t skin_count;
   SporeSkin *skins;
   SporeStitch *stitches; /* fields.stitches */
@@ -59,14 +60,15 @@ static const SporeModel *thread_model(const SporeWorld *world, uint32_t thread) 
   return model && model->type->line ? model : NULL;
 }
 
-/* Knots of the thread as it is now; none where the needle has no thread. */
+/* Present knots of the thread; none: the needle has no thread. */
 static SporeSplineKnots thread_knots(const SporeWorld *world, const SporeNeedle *needle) {
   const SporeModel *model = thread_model(world, needle->thread);
   return model ? model->type->line->path(model) : (SporeSplineKnots){0};
 }
 
-/* Control point of the thread that lies nearest to the swage; *off: how far, in lengths of the thread. */
+/* The end of the thread nearest to the swage, as a control point; *off: its distance, in lengths of the thread. */
 static size_t thread_end(const SporeWorld *world, const SporeToolDescription *from, double *off) {
+  assert(from->bodies[SPORE_TOOL_THREAD] < world->body_count);
   SporeVec3 swage = spore_vec3_load(((const SporeNeedleFields *)from->fields)->swage);
   const SporeModel *model = thread_model(world, from->bodies[SPORE_TOOL_THREAD]);
   const double *q = world->state.rest_q + world->bodies[from->bodies[SPORE_TOOL_THREAD]].q_offset;
@@ -100,8 +102,9 @@ static const char *fault(const SporeWorld *world, const SporeToolDescription *fr
   return NULL;
 }
 
-/* On the circle through three points, or the line, by the share of the way from a to c. */
+/* Point on the circle (or line) through three points, at this share of the way from a to c. */
 static SporeVec3 arc_at(SporeVec3 a, SporeVec3 b, SporeVec3 c, double share) {
+  assert(share >= 0 && share <= 1);
   SporeVec3 u = spore_vec3_sub(b, a), w = spore_vec3_sub(c, a), n = spore_vec3_cross(u, w);
   double square = spore_vec3_dot(n, n), uu = spore_vec3_dot(u, u), ww = spore_vec3_dot(w, w);
   if (square < 1e-8 * uu * ww) return spore_vec3_add_scaled(a, share, w);
@@ -115,8 +118,8 @@ static SporeVec3 arc_at(SporeVec3 a, SporeVec3 b, SporeVec3 c, double share) {
   return spore_vec3_add(centre, spore_quat_rotate(turn, from));
 }
 
-/* Control points at the means of their knots: the path is as near to the arc as a span's length squared, times its
- * curvature, over 6. */
+/* Control points lie on the arc, each at the mean of its knots. The path is off the arc by the square of a span's
+ * length, times the curvature, over 6. */
 static void make_path(const SporeWorld *world, SporeNeedle *needle) {
   SporeVec3 tip = spore_world_to_frame(world, needle->tool.bodies[0], spore_vec3_load(needle->fields.tip));
   SporeVec3 middle = spore_world_to_frame(world, needle->tool.bodies[0], spore_vec3_load(needle->fields.middle));
@@ -129,8 +132,9 @@ static void make_path(const SporeWorld *world, SporeNeedle *needle) {
   needle->length = spore_path_length(spore_spline_uniform(SPANS), needle->path, 0, SPANS);
 }
 
-/* The end of the thread at the swage. */
+/* Ties the end of the thread to the swage. */
 static bool tie_thread(SporeWorld *world, SporeNeedle *needle, const SporeToolDescription *from) {
+  assert(needle->thread < world->body_count);
   SporeSpringTerm *term = &world->links.springs[needle->tool.spring_start];
   SporeMapping *mapping = &world->links.mappings[2 * needle->tool.spring_start];
   const SporeBody *body = &world->bodies[needle->thread];
@@ -146,8 +150,9 @@ static bool tie_thread(SporeWorld *world, SporeNeedle *needle, const SporeToolDe
          spore_mapping_init_points(mapping + 1, SPORE_MAPPING_RIGID, swage, 1, NULL);
 }
 
-/* Both terms of a stitch have the same place of the tissue at end a. */
+/* Makes the two terms of a stitch. End a of both is the same place of the tissue. */
 static bool make_stitch(SporeWorld *world, SporeNeedle *needle, size_t index) {
+  assert(index < (size_t)needle->fields.stitches);
   static const uint32_t blocks[SPORE_PATH_WIDTH] = {0, 1, 2, 3};
   static const double third[3] = {1. / 3, 1. / 3, 1. / 3}, quarter[4] = {0.25, 0.25, 0.25, 0.25}, origin[3] = {0};
   SporeStitch *stitch = &needle->stitches[index];
@@ -201,12 +206,14 @@ static void clear(SporeTool *tool) {
 /* Stitches. */
 
 static size_t term_of(const SporeNeedle *needle, const SporeStitch *stitch, SporeStitchState state) {
+  assert(stitch >= needle->stitches && stitch < needle->stitches + needle->fields.stitches);
   size_t index = (size_t)(stitch - needle->stitches);
   return needle->tool.spring_start + 1 + 2 * index + (state == SPORE_STITCH_ON_THREAD);
 }
 
-/* From one state to another; what holds it then has not slid yet. */
+/* Changes the state of a stitch. The spring of the new state begins without stretch. */
 static void go_to(SporeWorld *world, const SporeNeedle *needle, SporeStitch *stitch, SporeStitchState state) {
+  assert(state == SPORE_STITCH_FREE || stitch->body < world->body_count);
   size_t now = term_of(needle, stitch, state);
   if (stitch->state != SPORE_STITCH_FREE) world->links.active[term_of(needle, stitch, stitch->state)] = false;
   stitch->state = state;
@@ -240,10 +247,12 @@ static SporeVec3 ahead_of_tip(const SporeNeedle *needle, const double *q) {
 }
 
 static SporeVec3 tissue_at(const SporeWorld *world, const SporeSpringTerm *term) {
+  assert(term->a.body < world->body_count);
   return spore_mapping_position(term->a.mapping, 0, world->state.q + world->bodies[term->a.body].q_offset);
 }
 
 static void pierce(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
+  assert(stitch->state == SPORE_STITCH_PRESSED);
   go_to(world, needle, stitch, SPORE_STITCH_ON_NEEDLE);
   SporeSpringTerm *term = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_ON_NEEDLE)];
   term->curve = &stitch->needle;
@@ -253,8 +262,9 @@ static void pierce(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) 
   spore_world_report(world, _("%s: pierced %s"), needle->tool.name, world->bodies[stitch->body].name);
 }
 
-/* The tip pushes it on, pierces it, or is drawn back from it. */
+/* The tip pushes the tissue on, pierces it, or is drawn back from it. */
 static void press(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
+  assert(stitch->state == SPORE_STITCH_PRESSED);
   const double *target = world->state.target_q + world->bodies[needle->tool.bodies[0]].q_offset;
   const SporeSpringTerm *term = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_PRESSED)];
   SporeVec3 ahead = ahead_of_tip(needle, target);
@@ -264,8 +274,10 @@ static void press(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
   else if (pushed > needle->fields.depth || force > needle->fields.force) pierce(world, needle, stitch);
 }
 
-/* The path's place nearest to the tissue; how far that is beyond an end of it, m. */
+/* Moves the curve joint to the place of its path nearest to the tissue. Returns how far the tissue is beyond an end of
+ * the path, m. */
 static double follow(const SporeWorld *world, SporeSpringTerm *term, const double *local) {
+  assert(term->curve && local);
   SporeVec3 at = tissue_at(world, term);
   term->stretch = spore_spring_term_stretch(term, world->state.sites, world->state.q);
   SporePathPlace place = spore_curve_joint_place(term->curve, local, at);
@@ -274,8 +286,9 @@ static double follow(const SporeWorld *world, SporeSpringTerm *term, const doubl
   return spore_curve_joint_overshoot(term->curve, &place, at);
 }
 
-/* Along the needle; behind the swage it goes over to the thread, before the tip it comes off. */
+/* The stitch slides along the needle. Behind the swage it goes over to the thread, before the tip it comes off. */
 static void slide_on_needle(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
+  assert(stitch->state == SPORE_STITCH_ON_NEEDLE);
   SporeSpringTerm *term = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_ON_NEEDLE)];
   double beyond = follow(world, term, world->state.target_q + world->bodies[needle->tool.bodies[0]].q_offset);
   if (!(beyond > 0)) return;
@@ -289,6 +302,7 @@ static void slide_on_needle(SporeWorld *world, SporeNeedle *needle, SporeStitch 
 }
 
 static void slide_on_thread(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch) {
+  assert(stitch->state == SPORE_STITCH_ON_THREAD && needle->thread < world->body_count);
   SporeSpringTerm *term = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_ON_THREAD)];
   double beyond = follow(world, term, world->state.q + world->bodies[needle->thread].q_offset);
   bool at_swage = needle->from_end == (stitch->thread.start > 0);
@@ -313,11 +327,11 @@ static void tear_out(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch
 typedef struct Crossing {
   uint32_t body;
   const uint32_t *corners; /* NULL: none */
-  double weight[3], share; /* share of the way */
+  double weight[3], share; /* weights of the corners; share of the way */
 } Crossing;
 
-/* Where the way from p by d goes through a triangle (T. Moeller and B. Trumbore, "Fast, minimum storage ray/triangle
- * intersection", 1997), if that is nearer than the crossing. */
+/* Sets the crossing to that of the way from p by d through a triangle, if it is nearer (T. Moeller and B. Trumbore,
+ * "Fast, minimum storage ray/triangle intersection", 1997). */
 static void cross_triangle(Crossing *crossing, uint32_t body, const uint32_t *corners, const double *q, SporeVec3 p,
                            SporeVec3 d) {
   SporeVec3 a = spore_vec3_load(q + 3 * (size_t)corners[0]);
@@ -332,7 +346,7 @@ static void cross_triangle(Crossing *crossing, uint32_t body, const uint32_t *co
   *crossing = (Crossing){body, corners, {1 - second - third, second, third}, share};
 }
 
-/* What was met here already. */
+/* Whether the tip or the needle has already met the body here. */
 static bool is_met(const SporeWorld *world, const SporeNeedle *needle, uint32_t body, SporeVec3 at) {
   for (size_t i = 0; i < (size_t)needle->fields.stitches; i++) {
     const SporeStitch *stitch = &needle->stitches[i];
@@ -344,6 +358,7 @@ static bool is_met(const SporeWorld *world, const SporeNeedle *needle, uint32_t 
 }
 
 static void touch(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch, const Crossing *crossing, SporeVec3 at) {
+  assert(crossing->corners && crossing->body < world->body_count);
   const SporeModel *model = world->bodies[crossing->body].model;
   SporeSpringTerm *terms = &world->links.springs[term_of(needle, stitch, SPORE_STITCH_PRESSED)];
   SporeMapping *place = &world->links.mappings[2 * term_of(needle, stitch, SPORE_STITCH_PRESSED)];
@@ -361,12 +376,12 @@ static void touch(SporeWorld *world, SporeNeedle *needle, SporeStitch *stitch, c
     terms[t].law = (SporeSpring){
         .stiffness = needle->fields.stiffness, .damping = damping, .friction = t ? needle->fields.friction : 0};
   }
-  terms[0].curve = NULL; /* held at the tip */
+  terms[0].curve = NULL; /* a fixed place at the tip */
   memcpy(place[1].points, needle->path, 3 * sizeof(double));
   go_to(world, needle, stitch, SPORE_STITCH_PRESSED);
 }
 
-/* The surface that lies between the needle just behind its tip, and where the tip goes; unless the tip goes back. */
+/* Finds the surface between the needle just behind its tip and the target of the tip, unless the tip goes back. */
 static void meet(SporeWorld *world, SporeNeedle *needle) {
   size_t offset = world->bodies[needle->tool.bodies[0]].q_offset;
   const double *now = world->state.q + offset, *target = world->state.target_q + offset;

@@ -1,6 +1,7 @@
-/* Particles that leave the world, by suction or as they dissolve, and come into it, from a wound. A particle out of the
- * world is held far away from everything and from its like, where forces of short reach do not find it: the number of
- * unknowns stays. */
+/* Particles that leave the world, by suction or by dissolving, and particles that come into it from emitters. The
+ * number of unknowns stays: a particle out of the world is held far away from all bodies and other particles, out of
+ * the reach of all forces. */
+#include <assert.h>
 #include <stdio.h>
 
 #include "core/base/memory.h"
@@ -9,22 +10,24 @@
 #include "core/sim/world_private.h"
 
 #define PARKING_M (2 * SPORE_PARTICLES_OUT_M) /* along x */
-#define GAP_SPACINGS 10.                      /* between them, in mean distances of the fluid's particles */
-#define NEAREST 1.1 /* of that distance: as near another a particle may come into the world without being thrown */
-#define TRIES 8     /* places in an emitter's mouth that are looked at in a step, for a particle */
+#define GAP_SPACINGS 10. /* between particles out of the world, in mean distances of the fluid's particles */
+#define NEAREST 1.1      /* of that distance: a particle that comes nearer to another would be thrown out */
+#define TRIES 8          /* random places in an emitter's mouth that are tried for a particle in a step */
 
 /* Parking. */
 
 bool spore_body_is_fluid(const SporeBody *body) { return body->model && body->model->type->particles; }
 
 static SporeVec3 parking_place(const SporeBody *body, size_t particle) {
+  assert(body->parking_gap > 0);
   return (SporeVec3){PARKING_M + body->parking_gap * (double)particle, 0, 0};
 }
 
 static double spacing(const SporeBody *body) { return body->parking_gap / GAP_SPACINGS; }
 
-/* Room to hold all of its particles, and how far they are apart out of the world. */
+/* Makes room to hold all particles of the body, and sets their distance out of the world. */
 static bool make_parking(SporeWorld *world, SporeBody *body) {
+  assert(spore_body_is_fluid(body));
   const double *q = world->state.rest_q + body->q_offset;
   double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY}, volume = 1;
   if (body->parking_gap > 0) return true;
@@ -40,18 +43,21 @@ static bool make_parking(SporeWorld *world, SporeBody *body) {
 }
 
 void spore_body_find_parked(SporeBody *body, const double *q) {
+  assert(body->held.blocks && body->held.pin_count <= body->held.count);
   body->held.count = body->held.pin_count;
   for (size_t i = 0; i < body->block_count; i++)
     if (spore_particle_is_out(q + 3 * i)) body->held.blocks[body->held.count++] = (uint32_t)i;
 }
 
 size_t spore_world_particle_count(const SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   const SporeBody *body = &world->bodies[index];
   return body->block_count - (body->held.count - body->held.pin_count);
 }
 
-/* What the last step's contacts of the particle would say of a place that it is no longer at. */
+/* Removes the forces of the particle's contacts of the last step: they belong to its old place. */
 static void drop_contacts(SporeWorld *world, const SporeBody *body, size_t particle) {
+  assert(particle < body->block_count);
   if (body->collision.spheres.kind != SPORE_MAPPING_IDENTITY || body->collision.spheres.point_count == 0) return;
   uint32_t sphere = (uint32_t)(body->collision.start + particle);
   for (size_t i = 0; i < world->contact.count; i++) {
@@ -62,12 +68,14 @@ static void drop_contacts(SporeWorld *world, const SporeBody *body, size_t parti
   }
 }
 
-/* Of particles that dissolve. */
+/* Age of a particle that dissolves, s. */
 static double *age_of(SporeBody *body, double *q, size_t particle) {
+  assert(body->model->life_s > 0 && particle < body->model->node_count);
   return &q[3 * body->model->node_count + particle];
 }
 
 static void put(SporeWorld *world, SporeBody *body, size_t particle, SporeVec3 at, SporeVec3 velocity) {
+  assert(particle < body->block_count);
   spore_vec3_store(world->state.next_q + body->q_offset + 3 * particle, at);
   if (body->model->life_s > 0) *age_of(body, world->state.next_q + body->q_offset, particle) = 0;
   spore_vec3_store(world->state.next_v + body->v_offset + 3 * particle, velocity);
@@ -76,6 +84,7 @@ static void put(SporeWorld *world, SporeBody *body, size_t particle, SporeVec3 a
 }
 
 void spore_world_take_particle(SporeWorld *world, SporeBody *body, size_t particle) {
+  assert(body->held.count < body->block_count && particle < body->block_count);
   body->held.blocks[body->held.count++] = (uint32_t)particle;
   put(world, body, particle, parking_place(body, particle), (SporeVec3){0, 0, 0});
 }
@@ -86,25 +95,27 @@ static bool dissolves(const SporeBody *body) { return body->model && body->model
 
 static void dissolve(SporeWorld *world, SporeBody *body) {
   double *q = world->state.next_q + body->q_offset;
-  if (body->sleep.asleep || body->frozen) return; /* nor does it grow older */
+  if (body->sleep.asleep || body->frozen) return; /* and its particles do not age */
   for (size_t i = 0; i < body->block_count; i++)
     if (*age_of(body, q, i) >= body->model->life_s && !spore_particle_is_out(q + 3 * i))
       spore_world_take_particle(world, body, i);
 }
 
 SporePose spore_world_next_pose(const SporeWorld *world, uint32_t body) {
+  assert(body == SPORE_NO_BODY || body < world->body_count);
   if (body == SPORE_NO_BODY) return spore_pose_identity();
   if (world->bodies[body].role == SPORE_UNMOVABLE) return world->bodies[body].rest_pose;
   const double *q = world->state.next_q + world->bodies[body].q_offset;
   return (SporePose){spore_vec3_load(q), spore_quat_load(q + 3)};
 }
 
-/* Whether the trigger of what is in a body is pulled. */
+/* Whether a flow is on: always, or by the button of its body. */
 static bool flows(const SporeWorld *world, int trigger, uint32_t body) {
   return trigger == SPORE_FLOW_ALWAYS || spore_tool_button(world, body);
 }
 
 double spore_flow_due(const SporeWorld *world, double rate, int trigger, uint32_t body, double due) {
+  assert(rate >= 0 && due >= 0);
   double most = rate * world->solver.time_step;
   return flows(world, trigger, body) ? fmin(due + most, fmax(most, 1)) : 0;
 }
@@ -119,13 +130,13 @@ static double next_random(uint64_t *state) {
 
 static bool is_free(const SporeWorld *world, const SporeBody *body, SporeVec3 at) {
   const double *q = world->state.next_q + body->q_offset;
-  if (dissolves(body)) return true; /* puffs mingle */
+  if (dissolves(body)) return true; /* smoke may overlap */
   for (size_t i = 0; i < body->block_count; i++)
     if (spore_vec3_distance(spore_vec3_load(q + 3 * i), at) < NEAREST * spacing(body)) return false;
   return true;
 }
 
-/* A place in the mouth where no particle is. */
+/* Finds a place in the mouth without a particle. */
 static bool find_place(const SporeWorld *world, SporeEmitter *emitter, const SporePose *frame, SporeVec3 *at) {
   const SporeBody *body = &world->bodies[emitter->body];
   SporeVec3 one = spore_vec3_cross(emitter->direction,
@@ -143,6 +154,7 @@ static bool find_place(const SporeWorld *world, SporeEmitter *emitter, const Spo
 }
 
 static void emit(SporeWorld *world, SporeEmitter *emitter) {
+  assert(emitter->body < world->body_count && spore_body_is_fluid(&world->bodies[emitter->body]));
   SporeBody *body = &world->bodies[emitter->body];
   const SporeEmitterFields *fields = &emitter->fields;
   double time_s = (double)(world->state.step + 1) * world->solver.time_step;
@@ -150,7 +162,7 @@ static void emit(SporeWorld *world, SporeEmitter *emitter) {
   emitter->due = spore_flow_due(world, fields->rate, fields->trigger, emitter->source, emitter->due);
   if (emitter->due < 1) return;
   if (body->sleep.asleep) {
-    spore_world_wake(world, emitter->body); /* and is given to after the next step */
+    spore_world_wake(world, emitter->body); /* it gets particles after the next step */
     return;
   }
   SporePose frame = spore_world_next_pose(world, emitter->source);
@@ -205,7 +217,7 @@ static const char *emitter_fault(const SporeWorld *world, const SporeEmitterDesc
   return NULL;
 }
 
-/* How many particles a fluid has is known only once its surface is filled. */
+/* The reserve is checked here, since the number of particles is known only once the surface is filled. */
 static bool check_emitter(const SporeWorld *world, const SporeEmitterDescription *from, SporeError *error) {
   char place[200];
   snprintf(place, sizeof place, "effects/%s", from->name ? from->name : "");
@@ -219,8 +231,9 @@ static bool check_emitter(const SporeWorld *world, const SporeEmitterDescription
                          reserve, left, left);
 }
 
-/* The last particles that are still in the world are kept back. */
+/* Keeps back the last `count` particles that are still in the world. */
 static void keep_back(SporeWorld *world, SporeBody *body, size_t count) {
+  assert(count <= body->block_count - (body->held.count - body->held.pin_count));
   for (size_t i = body->block_count; i-- > 0 && count > 0;) {
     double *q = world->state.rest_q + body->q_offset + 3 * i;
     if (spore_particle_is_out(q)) continue;
@@ -232,6 +245,7 @@ static void keep_back(SporeWorld *world, SporeBody *body, size_t count) {
 }
 
 static void make_emitter(SporeWorld *world, SporeEmitter *emitter, const SporeEmitterDescription *from) {
+  assert(from->source == SPORE_NO_BODY || from->source < world->body_count);
   SporePose frame = from->source == SPORE_NO_BODY ? spore_pose_identity() : world->bodies[from->source].rest_pose;
   SporeQuat back = spore_quat_conjugate(frame.orientation);
   SporeVec3 direction = spore_vec3_normalise(from->direction, (SporeVec3){0, 0, 0});

@@ -1,4 +1,5 @@
-/* The kinds of tools that there are. */
+/* Registry of tools: the list of their kinds. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/sim/tool/tool_type.h"
@@ -8,6 +9,7 @@ const SporeToolType *const spore_tool_types[] = {
 };
 
 const SporeToolType *spore_tool_type_find(const char *element) {
+  assert(element);
   const SporeToolType *const *type = spore_tool_types;
   while (*type && strcmp((*type)->element, element)) type++;
   return *type;

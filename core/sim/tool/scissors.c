@@ -1,5 +1,7 @@
-/* Scissors: what they take from bodies. The way of a blade in a step is two triangles; a model says itself what of it
- * crosses them. */
+/* Scissors: blades that cut bodies. The way of a blade in a step is two triangles. Each model finds which of its parts
+ * cross them. */
+#include <assert.h>
+
 #include "core/base/text.h"
 #include "core/sim/tool/jaws.h"
 #include "core/sim/world_private.h"
@@ -10,7 +12,7 @@ typedef struct SporeScissors {
   size_t cut;    /* ties so far */
 } SporeScissors;
 
-/* The end of a blade, world. */
+/* The end of a blade, in the world, m. */
 static SporeVec3 blade_tip(const SporeScissors *scissors, const double *shaft, double half) {
   const SporePose frame = {spore_vec3_load(shaft), spore_quat_load(shaft + 3)};
   SporeQuat turn = spore_quat_from_rotation_vector(spore_vec3_scale(half, scissors->jaws.axis));
@@ -29,6 +31,7 @@ static void store_triangle(double *triangle, SporeVec3 a, SporeVec3 b, SporeVec3
 }
 
 static void cut_all(SporeWorld *world, SporeScissors *scissors, const double *triangle) {
+  assert(triangle);
   for (uint32_t b = 0; b < world->body_count; b++) {
     const SporeBody *body = &world->bodies[b];
     if (!spore_body_can_be_cut(body)) continue;
@@ -39,13 +42,14 @@ static void cut_all(SporeWorld *world, SporeScissors *scissors, const double *tr
   }
 }
 
-/* What is cut moves between steps: the blades cut a little behind them too, where they have been in this stroke, so
- * that nothing slips past. */
+/* Tissue moves between steps. So that none slips past, blades also cut a little behind them, within their present
+ * stroke. */
 #define OVERLAP_RAD 0.1
 
-/* The blades, half of the angle each, go with their body from the last state to its target, and close from one opening
- * to another. */
+/* Cuts along the way of the blades: they move with their body from the last state to its target, and close from one
+ * opening to another, by half of the angle each. */
 static void cut_between(SporeWorld *world, SporeScissors *scissors, double from, double to) {
+  assert(to < from);
   from = fmin(scissors->jaws.stroke, from + OVERLAP_RAD);
   size_t at = world->bodies[scissors->jaws.tool.bodies[0]].q_offset;
   const double *before = world->state.q + at, *after = world->state.target_q + at;
@@ -60,12 +64,12 @@ static void cut_between(SporeWorld *world, SporeScissors *scissors, double from,
     cut_all(world, scissors, triangle);
   }
   if (to > 0) return;
-  /* What lies just where the blades meet is on the way of neither. */
+  /* Tissue just where the blades meet is on the way of neither blade. */
   store_triangle(triangle, root, blade_tip(scissors, before, 0.5 * from), blade_tip(scissors, before, -0.5 * from));
   cut_all(world, scissors, triangle);
 }
 
-/* Blades alone, without bodies that are seen and felt of them, are scissors too. */
+/* Scissors may have blades only, without bodies for them. */
 static const char *fault(const SporeWorld *world, const SporeToolDescription *from) {
   const SporeJawFields *fields = from->fields;
   if (!spore_vec3_is_finite(spore_vec3_load(fields->tip)))

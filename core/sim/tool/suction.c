@@ -1,4 +1,6 @@
-/* Suction: takes the particles of fluids away that come into its mouth. */
+/* Suction: removes particles of fluids that come into its mouth. */
+#include <assert.h>
+
 #include "core/base/parameter_rows.h"
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
@@ -12,14 +14,15 @@ typedef struct SporeSuction {
 } SporeSuction;
 
 static void suck_from(SporeWorld *world, SporeSuction *suction, uint32_t index, SporeVec3 mouth) {
+  assert(index < world->body_count && spore_body_is_fluid(&world->bodies[index]));
   SporeBody *body = &world->bodies[index];
   const double *state =
-      body->sleep.asleep ? world->state.q : world->state.next_q; /* of one that sleeps, the next is not written */
+      body->sleep.asleep ? world->state.q : world->state.next_q; /* the next state of a sleeping body is not written */
   for (size_t i = 0; i < body->block_count && suction->due >= 1; i++) {
     const double *q = state + body->q_offset + 3 * i;
     if (spore_vec3_distance(spore_vec3_load(q), mouth) > suction->fields.radius) continue;
     if (body->sleep.asleep) {
-      spore_world_wake(world, index); /* and is taken from after the next step */
+      spore_world_wake(world, index); /* its particles are taken after the next step */
       return;
     }
     spore_world_take_particle(world, body, i);

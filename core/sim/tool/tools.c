@@ -1,5 +1,6 @@
-/* Tools of a world: made, used and asked of by the slots of their types. They act between reading the devices and
- * mapping the spheres, on what the last step did, so that a run is repeated by its input alone. */
+/* Tools of a world: made, used and queried by the slots of their types. They act between reading the devices and
+ * mapping the spheres, on the state after the last step. So the same input gives the same run. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,6 +19,7 @@ size_t spore_tools_spring_count(const SporeWorldDescription *description) {
 }
 
 static const char *tool_fault(const SporeWorld *world, const SporeToolDescription *from) {
+  assert(from->type && from->fields);
   if (from->bodies[0] >= world->body_count || world->bodies[from->bodies[0]].role != SPORE_ACTIVE)
     return _("the tool's body is not active; expected a body that a device moves; choose one");
   return from->type->fault ? from->type->fault(world, from) : NULL;
@@ -29,6 +31,8 @@ static const char *name_of(const SporeToolDescription *from) {
 }
 
 static SporeTool *make_tool(SporeWorld *world, const SporeToolDescription *from, size_t spring_start) {
+  assert(from->type->make && from->type->size >= sizeof(SporeTool));
+  assert(spring_start <= spore_world_spring_count(world));
   SporeTool *tool = spore_allocate(1, from->type->size);
   if (!tool) return NULL;
   world->tools.all[world->tools.count++] = tool;
@@ -45,7 +49,7 @@ static void prepare_heat(SporeModel *model, void *user) {
   *made = *made && model->type->heat->prepare(model);
 }
 
-/* Room in the models that can be heated. */
+/* Makes room in the models that can be heated. */
 static bool prepare_models(SporeWorld *world, bool heats) {
   bool made = true;
   for (size_t b = 0; heats && made && b < world->body_count; b++) {
@@ -128,11 +132,13 @@ void spore_world_feed_back_tools(SporeWorld *world) {
 }
 
 SporeVec3 spore_tool_direction(const SporeWorld *world, uint32_t body, const double direction[3]) {
+  assert(body < world->body_count);
   SporeQuat back = spore_quat_conjugate(world->bodies[body].rest_pose.orientation);
   return spore_quat_rotate(back, spore_vec3_normalise(spore_vec3_load(direction), (SporeVec3){0, 0, 0}));
 }
 
 bool spore_tool_button(const SporeWorld *world, uint32_t body) {
+  assert(body == SPORE_NO_BODY || body < world->body_count);
   const SporeBodyDevice *device = body == SPORE_NO_BODY ? NULL : &world->bodies[body].device;
   return device && device->has_input && (device->input.buttons & 1u);
 }
@@ -140,6 +146,7 @@ bool spore_tool_button(const SporeWorld *world, uint32_t body) {
 size_t spore_world_tool_count(const SporeWorld *world) { return world->tools.count; }
 
 SporeToolState spore_world_tool_state(const SporeWorld *world, size_t index) {
+  assert(index < world->tools.count);
   const SporeTool *tool = world->tools.all[index];
   SporeToolState state = {.name = tool->name};
   if (tool->type->state) tool->type->state(tool, &state);

@@ -1,9 +1,16 @@
-/* What bodies share whose matrix changes its pattern while they run: held blocks, and a factor that is made later. */
+/* Bodies whose matrix changes its pattern while the world runs: their held blocks, and their factor that is made later.
+ */
+#include <assert.h>
+
 #include "core/sim/world_private.h"
 
-static size_t nodes_in_use(const SporeBody *body) { return body->model->node_count - body->model->spare_count; }
+static size_t nodes_in_use(const SporeBody *body) {
+  assert(body->model->spare_count <= body->model->node_count);
+  return body->model->node_count - body->model->spare_count;
+}
 
 void spore_body_list_held(SporeBody *body) {
+  assert(body->changing.pinned && body->held.blocks);
   body->held.count = 0;
   for (size_t i = 0; i < nodes_in_use(body); i++)
     if (body->changing.pinned[i]) body->held.blocks[body->held.count++] = (uint32_t)i;
@@ -13,7 +20,7 @@ void spore_body_list_held(SporeBody *body) {
     body->held.flags[i] = i >= nodes_in_use(body) || body->changing.pinned[i];
 }
 
-#define CALM_STEPS 16 /* before a factor is made: as long as the blades go on, it would not last */
+#define CALM_STEPS 16 /* without a change, before a factor is made: while blades keep cutting, it would not last */
 
 bool spore_world_tidy(SporeWorld *world) {
   bool done = false;
@@ -22,7 +29,7 @@ bool spore_world_tidy(SporeWorld *world) {
     SporeBody *body = &world->bodies[b];
     if (!body->changing.factor_is_old || world->state.step < body->changing.step + CALM_STEPS) continue;
     body->changing.factor_is_old = false;
-    if (!spore_body_create_factor(world, body, NULL)) continue; /* by conjugate gradients, then */
+    if (!spore_body_create_factor(world, body, NULL)) continue; /* no memory: conjugate gradients stay */
     spore_body_reset_choice(world, body);
     done = true;
   }

@@ -1,5 +1,6 @@
-/* Bodies that lose what ties their nodes, to scissors or by tearing, and how the spheres there follow: one that hangs
- * on nodes that nothing ties any more stays with those that it hangs on more. */
+/* Cutting and tearing: bodies lose ties between their nodes, and their spheres follow. A sphere whose nodes come apart
+ * stays with the connected nodes that have the largest weight. */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +8,7 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-#define ROW_MAXIMUM 8 /* nodes that a sphere of such a body hangs on; one on more is left as it is */
+#define ROW_MAXIMUM 8 /* nodes that a sphere of such a body follows; a sphere with more stays as it is */
 
 typedef struct Preparation {
   size_t *edges;
@@ -15,11 +16,13 @@ typedef struct Preparation {
 } Preparation;
 
 static void prepare_model(SporeModel *model, void *user) {
+  assert(model->type->prepare_cut);
   Preparation *preparation = user;
   preparation->made = preparation->made && model->type->cut->prepare(model, preparation->edges);
 }
 
 static bool prepare_body(SporeWorld *world, SporeBody *body) {
+  assert(body->model && !body->collision.whole_weight);
   Preparation preparation = {&world->topology.cuts.capacity, true};
   spore_body_each_model(body, prepare_model, &preparation);
   if (!preparation.made) return false;
@@ -49,6 +52,7 @@ static void mend(SporeModel *model, void *user) {
 }
 
 void spore_world_reset_cutting(SporeWorld *world) {
+  assert(world->topology.cuts.count <= world->topology.cuts.capacity);
   world->topology.cuts.count = 0;
   world->topology.cut_run++;
   for (size_t b = 0; b < world->body_count; b++) {
@@ -61,40 +65,44 @@ void spore_world_reset_cutting(SporeWorld *world) {
   }
 }
 
-/* Numbers the nodes of a row by what still hangs together, from 1; 0: nothing ever tied it to another of them. */
-static void find_groups(const SporeModel *model, const uint32_t *block, size_t count, size_t group[ROW_MAXIMUM]) {
-  for (size_t i = 0; i < count; i++) group[i] = 0;
+/* Numbers the connected components of the nodes of a row, from 1. 0: the node never had a tie to another of them. */
+static void find_components(const SporeModel *model, const uint32_t *block, size_t count,
+                            size_t component[ROW_MAXIMUM]) {
+  assert(count <= ROW_MAXIMUM);
+  for (size_t i = 0; i < count; i++) component[i] = 0;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j < count; j++)
-      if (i != j && group[i] == 0 && model->type->cut->tie(model, block[i], block[j]) != SPORE_TIE_NONE)
-        group[i] = i + 1;
+      if (i != j && component[i] == 0 && model->type->cut->tie(model, block[i], block[j]) != SPORE_TIE_NONE)
+        component[i] = i + 1;
   for (size_t i = 0; i < count; i++)
     for (size_t j = 0; j < i; j++) {
-      if (group[i] == group[j] || model->type->cut->tie(model, block[i], block[j]) != SPORE_TIE_HOLDS) continue;
-      size_t from = group[i], to = group[j];
+      if (component[i] == component[j] || model->type->cut->tie(model, block[i], block[j]) != SPORE_TIE_HOLDS) continue;
+      size_t from = component[i], to = component[j];
       for (size_t k = 0; k < count; k++)
-        if (group[k] == from) group[k] = to;
+        if (component[k] == from) component[k] = to;
     }
 }
 
-/* Leaves the sphere to the nodes of one group; those of none stay with it. */
-static void part_row(const SporeModel *model, const SporeMapping *spheres, size_t point) {
+/* Leaves the sphere to the nodes of one component. Nodes of no component keep their weight. */
+static void keep_one_component(const SporeModel *model, const SporeMapping *spheres, size_t point) {
+  assert(spheres->kind == SPORE_MAPPING_LINEAR && point < spheres->point_count);
   uint32_t start = spheres->row_start[point];
-  size_t count = spheres->row_start[point + 1] - start, group[ROW_MAXIMUM], most = 0;
+  size_t count = spheres->row_start[point + 1] - start, component[ROW_MAXIMUM], most = 0;
   double *weight = spheres->weight + start, sum[ROW_MAXIMUM + 1] = {0}, tied = 0;
   if (count > ROW_MAXIMUM) return;
-  find_groups(model, spheres->block + start, count, group);
-  for (size_t i = 0; i < count; i++) sum[group[i]] += weight[i];
-  for (size_t i = 0; i < count; i++) tied += group[i] > 0 ? weight[i] : 0;
+  find_components(model, spheres->block + start, count, component);
+  for (size_t i = 0; i < count; i++) sum[component[i]] += weight[i];
+  for (size_t i = 0; i < count; i++) tied += component[i] > 0 ? weight[i] : 0;
   for (size_t i = 1; i <= count; i++)
     if (sum[i] / tied > sum[most] / tied || most == 0) most = i;
   if (count == 0 || fabs(sum[most] - tied) < 1e-12) return;
   for (size_t i = 0; i < count; i++)
-    if (group[i] > 0) weight[i] = group[i] == most ? weight[i] * tied / sum[most] : 0;
+    if (component[i] > 0) weight[i] = component[i] == most ? weight[i] * tied / sum[most] : 0;
 }
 
-/* What the body remembers of steps before is of one that was whole. */
+/* What the body remembers of earlier steps belongs to the uncut body, so it is dropped. */
 void spore_body_changed_model(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   SporeBody *body = &world->bodies[index];
   spore_world_wake(world, index);
   body->altered = true;
@@ -102,18 +110,20 @@ void spore_body_changed_model(SporeWorld *world, uint32_t index) {
 }
 
 void spore_body_was_cut(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   SporeBody *body = &world->bodies[index];
-  if (body->splitting.possible) { /* not yet: see node_splitting.c */
+  if (body->splitting.possible) { /* split later in the step: see node_splitting.c */
     body->splitting.wanted = true;
     spore_world_wake(world, index);
     return;
   }
   spore_body_changed_model(world, index);
   for (size_t i = 0; body->collision.whole_weight && i < body->collision.spheres.point_count; i++)
-    part_row(body->model, &body->collision.spheres, i);
+    keep_one_component(body->model, &body->collision.spheres, i);
 }
 
 static void report_tear(SporeWorld *world, SporeBody *body, size_t edge) {
+  assert(world->topology.cuts.count <= world->topology.cuts.capacity);
   if (body->reported.torn || edge == world->topology.cuts.count) return;
   const double *q = world->state.q + body->q_offset;
   const SporeCutEdge *cut = &world->topology.cuts.edges[edge];

@@ -1,9 +1,12 @@
-/* Tetrahedra that are divided by cuts. Scissors say where while a step begins; at its end, when the next state is
- * known, nodes are divided: their copies, held out of the way until then, take the state of those that they are of, the
- * matrix gets the pattern that the model has now, and spheres and links go with the tetrahedra that they hang on.
+/* Node splitting: tetrahedra come apart at cuts.
  *
- * All of that lies in room made before, so that a step allocates nothing. A factor is another matter: its fill differs.
- * A parted body does without, by conjugate gradients, until that is analysed between two steps. */
+ * Scissors mark the cuts when a step begins. Nodes are split at its end, when the next state is known. The copy of a
+ * node is a spare node, which was held until then, and takes the state of its original. The matrix gets the new pattern
+ * of the model. Spheres and links follow the tetrahedra that they are mapped to.
+ *
+ * All arrays have room from the start, so that a step allocates nothing. Only the factor needs new memory, since its
+ * fill changes. A split body is solved by conjugate gradients until its factor is made anew between two steps. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,7 +21,7 @@ static bool has_scissors(const SporeWorldDescription *description) {
   return false;
 }
 
-/* Blades pass through what changes its level: a finer or coarser one would not know of the cut. */
+/* A body with levels of detail is not split: its other levels would not have the cut. */
 static bool has_levels(const SporeBodyDescription *body) {
   for (size_t i = 0; i < SPORE_LEVEL_FINE; i++)
     if (body->levels.model[i]) return true;
@@ -42,9 +45,13 @@ bool spore_world_reserve_nodes(const SporeWorldDescription *description, SporeEr
 
 /* Setting up. */
 
-static size_t nodes_in_use(const SporeBody *body) { return body->model->node_count - body->model->spare_count; }
+static size_t nodes_in_use(const SporeBody *body) {
+  assert(body->model->spare_count <= body->model->node_count);
+  return body->model->node_count - body->model->spare_count;
+}
 
 static bool hold_spares(SporeWorld *world, SporeBody *body) {
+  assert(!body->changing.pinned);
   SporeChangingMatrix *changing = &body->changing;
   changing->pinned = SPORE_NEW_ARRAY(uint8_t, body->block_count);
   uint32_t *held = spore_reallocate(body->held.blocks, body->held.count, body->block_count, sizeof *held);
@@ -57,7 +64,7 @@ static bool hold_spares(SporeWorld *world, SporeBody *body) {
   return true;
 }
 
-/* The matrix again, with room. */
+/* Makes the matrix anew, with room for patterns to come. */
 static bool make_roomy(SporeBody *body) {
   SporeChangingMatrix *changing = &body->changing;
   spore_block_matrix_clear(&body->preconditioner.matrix);
@@ -67,7 +74,9 @@ static bool make_roomy(SporeBody *body) {
                                          changing->pattern.pair_count, &changing->room);
 }
 
-static bool add_hang(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
+static bool attach_mapping(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
+  assert(index < world->body_count);
+  assert(world->topology.attached_count < world->body_count + 2 * world->links.term_count);
   if (mapping->kind != SPORE_MAPPING_LINEAR) return true;
   const SporeModel *model = world->bodies[index].model;
   SporeAttachedMapping *attached = &world->topology.attached[world->topology.attached_count++];
@@ -77,11 +86,11 @@ static bool add_hang(SporeWorld *world, uint32_t index, SporeMapping *mapping) {
   return spore_mapping_find_places(mapping, corners, count, model->node_count, &attached->places);
 }
 
-static bool hang_links(SporeWorld *world, uint32_t index) {
+static bool attach_links(SporeWorld *world, uint32_t index) {
   for (size_t i = 0; i < world->links.term_count; i++) {
     const SporeSpringTerm *term = &world->links.springs[i];
-    if (term->a.body == index && !add_hang(world, index, &world->links.mappings[2 * i])) return false;
-    if (term->b.body == index && !add_hang(world, index, &world->links.mappings[2 * i + 1])) return false;
+    if (term->a.body == index && !attach_mapping(world, index, &world->links.mappings[2 * i])) return false;
+    if (term->b.body == index && !attach_mapping(world, index, &world->links.mappings[2 * i + 1])) return false;
   }
   return true;
 }
@@ -89,17 +98,18 @@ static bool hang_links(SporeWorld *world, uint32_t index) {
 static bool prepare(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
   body->splitting.possible = true;
-  return hold_spares(world, body) && make_roomy(body) && add_hang(world, index, &body->collision.spheres) &&
-         hang_links(world, index);
+  return hold_spares(world, body) && make_roomy(body) && attach_mapping(world, index, &body->collision.spheres) &&
+         attach_links(world, index);
 }
 
 static void copy_corners(SporeWorld *world, const SporeBody *body) {
   size_t count;
   const uint32_t *corners = body->model->type->cut->corners(body->model, &count);
+  assert(body->splitting.corner_start + count <= world->topology.cuts.corner_count);
   memcpy(world->topology.cuts.corners + 4 * body->splitting.corner_start, corners, 4 * count * sizeof *corners);
 }
 
-static bool can_be_parted(const SporeBody *body, size_t *count) {
+static bool can_be_split(const SporeBody *body, size_t *count) {
   return body->role == SPORE_PASSIVE && body->model->type->cut && body->model->type->cut->corners &&
          body->model->type->cut->corners(body->model, count);
 }
@@ -107,7 +117,7 @@ static bool can_be_parted(const SporeBody *body, size_t *count) {
 bool spore_world_create_splitting(SporeWorld *world) {
   size_t count, total = 0;
   for (size_t b = 0; b < world->body_count; b++) {
-    if (!can_be_parted(&world->bodies[b], &count)) continue;
+    if (!can_be_split(&world->bodies[b], &count)) continue;
     world->bodies[b].splitting.corner_start = total;
     total += count;
   }
@@ -117,7 +127,7 @@ bool spore_world_create_splitting(SporeWorld *world) {
   world->topology.attached = SPORE_NEW_ARRAY(SporeAttachedMapping, world->body_count + 2 * world->links.term_count);
   bool made = world->topology.cuts.corners && world->topology.attached;
   for (uint32_t b = 0; made && b < world->body_count; b++) {
-    if (!can_be_parted(&world->bodies[b], &count)) continue;
+    if (!can_be_split(&world->bodies[b], &count)) continue;
     made = prepare(world, b);
     if (made) copy_corners(world, &world->bodies[b]);
   }
@@ -135,10 +145,11 @@ void spore_world_clear_topology(SporeWorld *world) {
   spore_free(topology->lines.span_count);
 }
 
-/* Parting. */
+/* Splitting. */
 
-/* What hangs on the body goes with its tetrahedra, and its matrix has the pattern that it has now. */
+/* Mapped points follow their tetrahedra, and the matrix gets the present pattern. */
 static void follow(SporeWorld *world, uint32_t index) {
+  assert(world->bodies[index].splitting.possible);
   SporeBody *body = &world->bodies[index];
   SporeChangingMatrix *changing = &body->changing;
   size_t count;
@@ -154,19 +165,21 @@ static void follow(SporeWorld *world, uint32_t index) {
   world->topology.cuts.parted++;
 }
 
-/* Its numbers may be many more now. */
+/* Drops the factor: its fill may be much larger now. */
 static void drop_factor(SporeBody *body) {
   body->preconditioner.factor.block_count = body->preconditioner.factor.band.block_count = 0;
 }
 
-/* What holds a node holds its copies. */
-static void divide(SporeWorld *world, uint32_t index) {
+/* Splits nodes. A pin that holds a node holds its copies too. */
+static void split_body(SporeWorld *world, uint32_t index) {
+  assert(world->bodies[index].splitting.possible);
   SporeBody *body = &world->bodies[index];
   size_t before = nodes_in_use(body);
   const uint32_t *from;
   size_t made = body->model->type->cut->split(body->model, world->state.next_q + body->q_offset,
                                               world->state.next_v + body->v_offset, &from);
   if (made == 0) return;
+  assert(before + made <= body->model->node_count);
   for (size_t i = 0; i < made; i++) body->changing.pinned[before + i] = body->changing.pinned[from[i]];
   spore_body_list_held(body);
   follow(world, index);
@@ -183,7 +196,7 @@ void spore_world_split_nodes(SporeWorld *world) {
     SporeBody *body = &world->bodies[b];
     if (!body->splitting.wanted || body->frozen || body->sleep.asleep) continue;
     body->splitting.wanted = false;
-    divide(world, b);
+    split_body(world, b);
   }
 }
 

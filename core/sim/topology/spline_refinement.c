@@ -1,10 +1,12 @@
-/* Bodies whose nodes come and go while it runs: lines that get knots where they bend. At the end of a step, when the
- * state is known, the model says whether any are to; then the state becomes that of the nodes that there are then, the
- * matrix and a banded factor get their pattern, and spheres, links and curve joints go with the points of the line that
- * they hang on, whose parameters stay. All of it lies in room made before, so that a step allocates nothing.
+/* Spline refinement: lines get control points where they bend, and lose them where they are straight.
  *
- * Momentum of a free body is kept to rounding: what lumping the mass loses of it is given back as a rigid motion.
- * Kinetic energy does not grow. What links hold keeps its velocity as it is, since what held it takes part. */
+ * At the end of a step, when the next state is known, the model decides about its nodes. Where they change, the state
+ * is transferred to the new nodes, and the matrix and a banded factor get the new pattern. Spheres, links and curve
+ * joints stay at their parameters of the line. All arrays have room from the start, so that a step allocates nothing.
+ *
+ * Momentum of a free body is kept to rounding: the part that lumping the mass loses is given back as a rigid motion.
+ * Kinetic energy does not grow. A body that pins hold gets no such motion. */
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -16,8 +18,9 @@ static bool changes_nodes(const SporeBody *body) {
   return body->model && !body->levels && body->model->q_room > body->model->q_count;
 }
 
-/* The matrix again, with room; and which blocks pins hold, now and at time 0. */
+/* Makes the matrix anew, with room, and lists the blocks that pins hold now and at time 0. */
 static bool make_room(SporeWorld *world, SporeBody *body) {
+  assert(!body->changing.pinned && body->block_count <= body->model->block_room);
   const SporeModel *model = body->model;
   SporeChangingMatrix *changing = &body->changing;
   changing->pinned = SPORE_NEW_ARRAY(uint8_t, 2 * model->block_room);
@@ -35,8 +38,10 @@ static bool make_room(SporeWorld *world, SporeBody *body) {
 }
 
 static void show_knots(SporeWorld *world, uint32_t index) {
+  assert(world->bodies[index].refinement.possible);
   SporeBody *body = &world->bodies[index];
   SporeSplineKnots knots = body->model->type->line->path(body->model);
+  assert(body->refinement.break_start + knots.span_count < world->topology.lines.break_count);
   world->topology.lines.span_count[index] = (uint32_t)knots.span_count;
   memcpy(world->topology.lines.breaks + body->refinement.break_start, knots.breaks,
          (knots.span_count + 1) * sizeof *knots.breaks);
@@ -66,8 +71,10 @@ bool spore_world_create_refinement(SporeWorld *world) {
   return true;
 }
 
-/* Curve joints of links and stitches: the same place of the line, by the points that lead it now. */
+/* Curve joints of links and stitches keep their place on the line, by its new control points. */
 static void move_curve_joints(SporeWorld *world, uint32_t index, const double *q) {
+  assert(index < world->body_count);
+  assert(q);
   SporeSplineKnots knots = world->bodies[index].model->type->line->path(world->bodies[index].model);
   for (size_t i = 0; i < world->links.term_count + world->links.hold_count; i++) {
     SporeSpringTerm *term = &world->links.springs[i];
@@ -78,7 +85,7 @@ static void move_curve_joints(SporeWorld *world, uint32_t index, const double *q
   }
 }
 
-/* A needle holds its thread by the last point, however many points the thread has. */
+/* A needle may hold its thread by the last control point, whose index changes. */
 static void move_last_point(SporeWorld *world, uint32_t index, size_t last_before, size_t last) {
   size_t tools = world->links.term_count;
   for (size_t i = tools; i < tools + world->links.hold_count; i++) {
@@ -88,8 +95,9 @@ static void move_last_point(SporeWorld *world, uint32_t index, size_t last_befor
   }
 }
 
-/* Points that are linked to the body. */
+/* Spheres, and points of the body that links hold, follow the new control points. */
 static void move_ends(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
   const SporeModel *model = world->bodies[index].model;
   SporeSplineKnots knots = model->type->line->path(model);
   model->type->line->follow(model, knots, &world->bodies[index].collision.spheres);
@@ -112,9 +120,10 @@ static void lay_out_matrix(SporeBody *body) {
       had && !spore_block_cholesky_lay_out(&body->preconditioner.factor, &body->preconditioner.matrix);
 }
 
-/* After its model changed its nodes; q: where they are. */
+/* Updates the body after its model changed its nodes; q: the new configuration. */
 static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
   SporeBody *body = &world->bodies[index];
+  assert(body->model->q_count <= body->model->q_room && body->model->block_count <= body->model->block_room);
   size_t free_before = body->block_count - body->held.count;
   body->q_count = body->model->q_count;
   body->block_count = body->model->block_count;
@@ -134,6 +143,7 @@ static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
 
 static void change(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
+  assert(body->refinement.possible && body->model->type->change_nodes);
   SporeModel *model = body->model;
   double *q = world->state.next_q + body->q_offset, *v = world->state.next_v + body->v_offset;
   size_t points = body->refinement.state.points;
@@ -157,7 +167,7 @@ void spore_world_refine_splines(SporeWorld *world) {
   for (uint32_t b = 0; world->topology.line_count > 0 && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!body->refinement.possible || !spore_body_moves(body)) continue;
-    /* The step was found short enough for the points that there were at the start. */
+    /* An explicit step is only known to be stable for the points of time 0. */
     if (!spore_integrator(body->method.integrator)->implicit) continue;
     const double *q = world->state.next_q + body->q_offset;
     SporeSplineRefinement *line = &body->refinement;
@@ -187,7 +197,7 @@ void spore_world_reset_refinement(SporeWorld *world) {
   }
 }
 
-/* State, scratch and matrix of the blocks that are kept back at time 0. */
+/* Bytes of state, scratch and matrix of the blocks that are in reserve at time 0. */
 static size_t reserved_memory(const SporeWorld *world, const SporeBody *body) {
   size_t spare = body->model->block_room - body->refinement.state.made, pairs = body->model->pair_room;
   size_t a_block = 8 * 3 + 12 * 3 + 3 * 9 + world->solve.scratch_per_block; /* doubles: as q, as v, as mass */
@@ -195,6 +205,8 @@ static size_t reserved_memory(const SporeWorld *world, const SporeBody *body) {
 }
 
 bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineState *state) {
+  assert(body < world->body_count);
+  assert(state);
   const SporeSplineRefinement *line = &world->bodies[body].refinement;
   *state = line->state;
   if (!line->possible) return false;
@@ -205,12 +217,14 @@ bool spore_world_line_state(const SporeWorld *world, uint32_t body, SporeLineSta
 }
 
 SporeSplineKnots spore_snapshot_knots(const SporeWorld *world, const SporeSnapshot *snapshot, uint32_t body) {
+  assert(body < world->body_count);
   const SporeBody *line = &world->bodies[body];
   if (!line->refinement.possible) return (SporeSplineKnots){0};
   return (SporeSplineKnots){snapshot->lines.span_count[body], snapshot->lines.breaks + line->refinement.break_start};
 }
 
 bool spore_world_follow_knots(const SporeWorld *world, uint32_t body, SporeSplineKnots knots, SporeMapping *mapping) {
+  assert(body < world->body_count);
   const SporeModel *model = world->bodies[body].model;
   return knots.span_count == 0 || model->type->line->follow(model, knots, mapping);
 }
