@@ -1,14 +1,17 @@
+/* One body of the stage: what is drawn of it, built from its units and placed by its configuration. */
 #include "ui/render/stage_body.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/mesh/bvh.h"
 #include "core/scene/schema_fields.h"
 #include "ui/render/colour_scale.h"
 
 static const float sphere_colour[3] = {0.03f, 0.24f, 0.36f};
 #define TUBE_SECTORS 16
+#define FIT_SCALE 0.02 /* of the diagonal: the error that has the last colour of the scale */
 
 static const float wire_colour[3] = {0.16f, 0.42f, 0.55f};
 
@@ -81,21 +84,6 @@ static SporeObject *asset_of(const SporeStage *stage, const SporeObject *unit, c
 static const SporeTetrahedralMesh *tetrahedra_of(SporeStage *stage, const SporeObject *object) {
   SporeObject *asset = asset_of(stage, spore_object_child_of(object, "mechanical"), "geometry", "tetrahedra");
   return asset ? spore_document_tetrahedra(stage->document, asset, NULL) : NULL;
-}
-
-void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh) {
-  if (body->surface_handle) spore_renderer_remove(stage->renderer, body->surface_handle);
-  g_free(body->surface.positions);
-  spore_free(body->own_triangles);
-  body->surface.positions = g_memdup2(mesh->vertices, 3 * mesh->vertex_count * sizeof(double));
-  body->surface.count = mesh->vertex_count;
-  body->triangles = body->own_triangles = mesh->triangles;
-  body->triangle_count = mesh->triangle_count;
-  body->surface_handle = 0;
-  if (!mesh->vertex_count) return;
-  body->surface_handle = spore_renderer_add_surface(stage->renderer, mesh->vertices, mesh->vertex_count,
-                                                    mesh->triangles, mesh->triangle_count, &body->style);
-  spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
 }
 
 /* The tube around the curve that the body is made of: made anew around the moved axis, whatever the curve's twist. */
@@ -186,6 +174,35 @@ static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeOb
   build_tube(stage, body, object, simulation);
 }
 
+/* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|. */
+typedef struct SporeStageFit {
+  double high;    /* m: what has the last colour of the scale, a fiftieth of the mesh's diagonal */
+  float places[]; /* on the scale, 0..1, one a sphere */
+} SporeStageFit;
+
+/* NULL: no such mesh. Kept by the stage. */
+static const SporeStageFit *find_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set) {
+  if (set->weights) return NULL; /* it is their sum that fits, which one alone says nothing of */
+  SporeStageFit *fit = g_hash_table_lookup(stage->fit, set);
+  if (fit) return fit;
+  const char *name = spore_object_text(asset, "source");
+  SporeObject *source = name ? spore_document_find(stage->document, "mesh", name) : NULL;
+  const SporeTriangleMesh *mesh = source ? spore_document_mesh(stage->document, source, NULL) : NULL;
+  SporeMeshReport report;
+  SporeBvh *bvh = mesh && spore_triangle_mesh_report(mesh, &report, NULL) ? spore_bvh_create(mesh, NULL) : NULL;
+  if (!bvh) return NULL;
+  fit = g_malloc(sizeof *fit + set->count * sizeof *fit->places);
+  fit->high = FIT_SCALE * report.diagonal;
+  for (gsize i = 0; i < set->count; i++) {
+    const double *sphere = set->spheres + 4 * i;
+    double error = fabs(sphere[3] - spore_bvh_depth(bvh, spore_vec3_load(sphere)));
+    fit->places[i] = (float)MIN(error / fit->high, 1.0);
+  }
+  spore_bvh_free(bvh);
+  g_hash_table_insert(stage->fit, (gpointer)set, fit);
+  return fit;
+}
+
 /* `asset` that the set is from, NULL: the model's own. */
 static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
                          const SporeSphereSet *set, SporeObject *asset) {
@@ -198,7 +215,7 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   spore_spheres_radii(set, body->spheres + 3, 4);
   body->shown = set->count;
   body->solid = !body->surface_handle && !body->liquid;
-  const SporeStageFit *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
+  const SporeStageFit *fit = body->solid || !asset ? NULL : find_fit(stage, asset, set);
   body->fit_high = fit ? fit->high : 0;
   body->spheres_handle = spore_renderer_add_spheres(stage->renderer, body->spheres, set->count,
                                                     body->solid ? body->style.colour : sphere_colour,
@@ -237,7 +254,14 @@ static void prepare_divide(SporeStage *stage, SporeStageBody *body, const SporeO
   if (!cells) return;
   SporeObject *asset = asset_of(stage, spore_object_child_of(object, "visual"), "mesh", "mesh");
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(stage->document, asset, NULL) : NULL;
-  spore_stage_body_prepare_divide(body, cells, mesh ? mesh->vertices : NULL);
+  body->cells = cells;
+  body->rest = mesh ? mesh->vertices : NULL;
+  if (body->surface.count)
+    spore_mapping_find_places(&body->surface.mapping, cells->tetrahedra, cells->tetrahedron_count, cells->vertex_count,
+                              &body->surface_places);
+  if (body->centres.count)
+    spore_mapping_find_places(&body->centres.mapping, cells->tetrahedra, cells->tetrahedron_count, cells->vertex_count,
+                              &body->centre_places);
 }
 
 SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
@@ -270,7 +294,9 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
                            body->inside_handle};
   for (guint i = 0; i < G_N_ELEMENTS(handles); i++)
     if (handles[i]) spore_renderer_remove(stage->renderer, handles[i]);
-  spore_stage_body_clear_divide(body);
+  spore_free(body->surface_places);
+  spore_free(body->centre_places);
+  if (body->whole_surface.point_count) spore_mapping_clear(&body->whole_surface);
   clear_points(&body->surface);
   clear_points(&body->centres);
   clear_points(&body->nodes);
@@ -364,6 +390,17 @@ gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStag
   const SporeStageCandidate *instead = candidate_for(stage, body);
   if (!body->spheres_handle || (instead && (instead->sphere_count || instead->triangle_count))) return FALSE;
   return stage->options.spheres || (body->solid && stage->options.surfaces);
+}
+
+SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage) {
+  SporeSphereScale scale = {0};
+  for (guint i = 0; i < stage->bodies->len; i++) {
+    const SporeStageBody *body = stage->bodies->pdata[i];
+    if (!body->fit_high || !spore_stage_body_shows_spheres(stage, body)) continue;
+    scale.high = scale.share && scale.high != body->fit_high ? 0 : body->fit_high;
+    scale.share = FIT_SCALE;
+  }
+  return scale;
 }
 
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {

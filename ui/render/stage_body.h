@@ -91,23 +91,12 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body);
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
 gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStageBody *body);
 
-/* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|. */
-typedef struct SporeStageFit {
-  double high;    /* m: what has the last colour of the scale, a fiftieth of the mesh's diagonal */
-  float places[]; /* on the scale, 0..1, one a sphere */
-} SporeStageFit;
-/* NULL: no such mesh. Kept by the stage. */
-const SporeStageFit *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
-
 /* Draws the candidate, or the marks, where their body stands at the start, anew. */
 void spore_stage_place_candidate(SporeStage *stage);
 void spore_stage_place_marks(SporeStage *stage);
 
 /* Shows a surface made for this moment, where it is, instead of the last one; takes its triangles. */
 void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh);
-/* Tetrahedra that may be divided, and the visual mesh's vertices at rest, or NULL; both borrowed. */
-void spore_stage_body_prepare_divide(SporeStageBody *body, const SporeTetrahedralMesh *cells, const double *rest);
-void spore_stage_body_clear_divide(SporeStageBody *body);
 /* Lets what is drawn go with its tetrahedra, and draws the faces that were inside; positions are left to place. */
 void spore_stage_body_divide(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
 /* Takes away the triangles that cuts of the snapshot go through. */

@@ -1,3 +1,4 @@
+/* What a generator or a hand offers in place of what the scene has, and marks on a body. */
 #include <math.h>
 #include <string.h>
 

@@ -11,23 +11,6 @@
 
 static const float raw_flesh[3] = {0.36f, 0.045f, 0.035f};
 
-void spore_stage_body_prepare_divide(SporeStageBody *body, const SporeTetrahedralMesh *cells, const double *rest) {
-  body->cells = cells;
-  body->rest = rest;
-  if (body->surface.count)
-    spore_mapping_find_places(&body->surface.mapping, cells->tetrahedra, cells->tetrahedron_count, cells->vertex_count,
-                              &body->surface_places);
-  if (body->centres.count)
-    spore_mapping_find_places(&body->centres.mapping, cells->tetrahedra, cells->tetrahedron_count, cells->vertex_count,
-                              &body->centre_places);
-}
-
-void spore_stage_body_clear_divide(SporeStageBody *body) {
-  spore_free(body->surface_places);
-  spore_free(body->centre_places);
-  if (body->whole_surface.point_count) spore_mapping_clear(&body->whole_surface);
-}
-
 /* The surface as it is drawn: rows of WIDTH nodes a vertex. */
 typedef struct Draft {
   const SporeStageBody *body;
