@@ -1,3 +1,4 @@
+/* Generators: starting them, the ends of a middle line, applying results and showing them. */
 #include <glib/gi18n.h>
 
 #include "core/mesh/common.h"
@@ -148,19 +149,9 @@ static void act_preview_labels_dialog(GSimpleAction *action, GVariant *parameter
 
 /* Ends picked by hand. */
 
-static gboolean picks_ends(SporeWindow *self) {
-  return spore_generator_get_body(self->generator) &&
-         spore_generators[spore_generator_get_options(self->generator)->kind]->picks_ends;
-}
-
-static gboolean is_picking(SporeWindow *self) {
-  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "pick-ends");
-  return g_variant_get_boolean(state);
-}
-
 static void change_pick_ends(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
-  gboolean picking = g_variant_get_boolean(state) && picks_ends(self);
+  gboolean picking = g_variant_get_boolean(state) && spore_window_picks_ends(self);
   g_simple_action_set_state(action, g_variant_new_boolean(picking));
   self->picked = 0;
   spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), picking);
@@ -178,12 +169,12 @@ static void set_ends(SporeWindow *self, SporeVec3 first, SporeVec3 last) {
 }
 
 static void act_automatic_ends(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  if (picks_ends(data)) set_ends(data, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0));
+  if (spore_window_picks_ends(data)) set_ends(data, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0));
 }
 
 static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
   SporeObject *body = spore_generator_get_body(self->generator);
-  if (!is_picking(self) || !body) return;
+  if (!spore_window_is_picking(self) || !body) return;
   if (spore_object_id(body) != id) {
     g_autofree char *text = g_strdup_printf(_("That is another organ; click on “%s”"), spore_object_name(body));
     spore_window_complain(self, text);
@@ -199,12 +190,6 @@ static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
   }
   g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
   set_ends(self, self->first_end, in_body);
-}
-
-const char *spore_window_picking_hint(SporeWindow *self) {
-  if (!is_picking(self)) return NULL;
-  return self->picked ? _("Click on the organ where its middle line ends; Escape picks no more")
-                      : _("Click on the organ where its middle line begins; Escape picks no more");
 }
 
 /* Ending. */
@@ -254,7 +239,7 @@ static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *qualit
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   SporeObject *body = spore_generator_get_body(self->generator);
   SporeJob *job = spore_generator_get_job(self->generator);
-  if (is_picking(self)) return picking_candidate(self);
+  if (spore_window_is_picking(self)) return picking_candidate(self);
   if (!spore_generator_is_active(self->generator) || (!work && !job)) return NULL;
   SporeStageCandidate *candidate = g_new0(SporeStageCandidate, 1);
   candidate->body = body ? spore_object_id(body) : 0;
@@ -289,7 +274,8 @@ static void show_candidate(SporeWindow *self) {
 /* A job tells of its progress more often than it has something else to show, or than that can be drawn beside it. */
 static gboolean shows_look_already(SporeWindow *self) {
   SporeJob *job = spore_generator_get_job(self->generator);
-  gboolean same = job && job == self->look_job && !spore_generator_get_result(self->generator) && !is_picking(self);
+  gboolean same =
+      job && job == self->look_job && !spore_generator_get_result(self->generator) && !spore_window_is_picking(self);
   guint serial = job ? spore_job_get_look_serial(job) : 0;
   gint64 now = g_get_monotonic_time();
   double rest_ms = LOOK_REST * spore_viewport_get_draw_ms(SPORE_VIEWPORT(self->viewport));
@@ -301,7 +287,7 @@ static gboolean shows_look_already(SporeWindow *self) {
 }
 
 static void changed(SporeWindow *self) {
-  if (is_picking(self) && !picks_ends(self))
+  if (spore_window_is_picking(self) && !spore_window_picks_ends(self))
     g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
   if (!shows_look_already(self)) show_candidate(self);
   spore_window_show_job(self);
@@ -317,21 +303,6 @@ void spore_window_set_generator(SporeWindow *self) {
   g_signal_connect_object(self->generator, "changed", G_CALLBACK(changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->generator, "failed", G_CALLBACK(spore_window_complain), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->generator, "applied", G_CALLBACK(applied), self, G_CONNECT_SWAPPED);
-}
-
-void spore_window_update_generator(SporeWindow *self, gboolean bodies) {
-  gboolean idle = !self->job && !spore_generator_is_working(self->generator);
-  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {
-    g_autofree char *generate = g_strconcat("generate-", spore_generators[kind]->name, NULL);
-    g_autofree char *preview = g_strconcat("preview-", spore_generators[kind]->name, NULL);
-    if (kind != SPORE_GENERATE_LABELS) spore_window_set_enabled(self, generate, idle && bodies);
-    spore_window_set_enabled(self, preview, !self->job && (bodies || kind == SPORE_GENERATE_LABELS));
-  }
-  spore_window_set_enabled(self, "preview-labels-dialog", !self->job);
-  spore_window_set_enabled(self, "pick-ends", picks_ends(self));
-  spore_window_set_enabled(self, "automatic-ends", picks_ends(self));
-  spore_window_set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
-  spore_window_set_enabled(self, "cancel-job", self->job || spore_generator_is_active(self->generator));
 }
 
 void spore_window_add_generator_actions(SporeWindow *self) {

@@ -71,7 +71,7 @@ static void draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboo
 
 void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr) {
   const double *ball = chosen(self);
-  if (self->tool != SPORE_TOOL_EDIT) return;
+  if (self->tool != SPORE_VIEWPORT_TOOL_EDIT) return;
   for (gsize i = 0; edits_regions(self) && i < self->edit.count; i++)
     draw_handle(self, cr, middle_of(self, self->edit.points + 4 * i), i == self->edit.chosen);
   if (ball) draw_handle(self, cr, rim_of(self, ball), TRUE);
@@ -105,7 +105,7 @@ static void show(SporeViewport *self) {
 }
 
 void spore_viewport_edit_refresh(SporeViewport *self) {
-  if (self->tool != SPORE_TOOL_EDIT || !self->document || self->drag == DRAG_EDIT || self->edit_timer) return;
+  if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !self->document || self->drag == DRAG_EDIT || self->edit_timer) return;
   SporeObject *holder = self->regions ? spore_document_by_id(document_of(self), self->regions) : NULL;
   if (holder) spore_hand_edit_open_regions(&self->edit, document_of(self), holder);
   else spore_hand_edit_open(&self->edit, document_of(self), spore_editor_document_selected(self->document));
@@ -123,7 +123,9 @@ void spore_viewport_edit_region(SporeViewport *self, SporeObject *region) {
 
 gboolean spore_viewport_has_edited(SporeViewport *self) { return self->edit.count > 0; }
 
-gboolean spore_viewport_edits_regions(SporeViewport *self) { return self->tool == SPORE_TOOL_EDIT && self->regions; }
+gboolean spore_viewport_edits_regions(SporeViewport *self) {
+  return self->tool == SPORE_VIEWPORT_TOOL_EDIT && self->regions;
+}
 
 static void commit(SporeViewport *self, const char *label) {
   g_autoptr(GError) error = NULL;
@@ -304,7 +306,7 @@ static void go(SporeViewport *self, gboolean back) {
 }
 
 gboolean spore_viewport_edit_key(SporeViewport *self, guint key) {
-  if (self->tool != SPORE_TOOL_EDIT || !self->edit.count || self->drag != DRAG_NONE) return FALSE;
+  if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !self->edit.count || self->drag != DRAG_NONE) return FALSE;
   switch (key) {
   case GDK_KEY_Delete:
     delete_chosen(self);

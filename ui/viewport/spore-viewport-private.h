@@ -1,4 +1,4 @@
-/* Shared by the widget (spore-viewport.c) and its gestures (spore-viewport-gestures.c). */
+/* Inside the viewport: its state, and its files from the lowest up. Each calls only those before it. */
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 
@@ -13,7 +13,7 @@ struct _SporeViewport {
 
   SporeEditorDocument *document;
   SporePlayer *player;
-  SporeTool tool;
+  SporeViewportTool tool;
   gboolean picking;
   SporeStageOptions options;
 
@@ -51,20 +51,24 @@ struct _SporeViewport {
   SporeVec3 start, cursor;            /* pull: the point taken, where it is led */
 };
 
+/* spore-viewport-view.c: camera, candidate, welcome. */
 void spore_viewport_redraw(SporeViewport *self);
-void spore_viewport_picked(SporeViewport *self, guint32 body, SporeVec3 place);
+/* TRUE: there is a body, or a candidate that stands for itself. */
+gboolean spore_viewport_has_anything(SporeViewport *self);
+/* The welcome is shown while nothing else is. */
+void spore_viewport_show_welcome(SporeViewport *self);
+/* Goes where the scene's camera goes, as long as the view looks through it. */
+void spore_viewport_follow_camera(SporeViewport *self);
+/* Where nothing was to be seen before, the view goes to what is there now. */
+void spore_viewport_look_afresh(SporeViewport *self);
+/* The view no longer looks through a camera of the scene. Called before the user moves the view. */
+void spore_viewport_leave_scene_camera(SporeViewport *self);
+void spore_viewport_clear_legend(SporeViewport *self);
 
-/* Signal handlers of the drawing area, named in the template. */
-gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
-gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
-gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeViewport *self);
-gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeViewport *self);
-gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self);
-/* Ends a drag without taking it back. */
-void spore_viewport_end_drag(SporeViewport *self);
-
-/* Edit tool. Shows what the selection offers to edit; commits and closes it. */
+/* spore-viewport-edit.c: the Edit tool. */
+/* Shows what the selection offers to edit. */
 void spore_viewport_edit_refresh(SporeViewport *self);
+/* Commits what is edited, and closes it. */
 void spore_viewport_edit_end(SporeViewport *self);
 gboolean spore_viewport_edit_press(SporeViewport *self, double x, double y); /* FALSE: nothing to edit was there */
 void spore_viewport_edit_motion(SporeViewport *self);
@@ -75,9 +79,21 @@ void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr);          /* the
 /* Of a click on the surface of that body, where no handle is: the chosen region goes there. FALSE: none does. */
 gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place);
 
-/* What moves the view by hand comes after this: it looks through no camera of the scene any more. */
-void spore_viewport_leave_scene_camera(SporeViewport *self);
+/* spore-viewport-gestures.c: mouse and keys. */
 /* Active body that the pointer leads, and its position (m); FALSE: none, or no simulation. */
 gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *position);
+/* Signal handlers of the drawing area, named in the template. */
+gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
+gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
+gboolean spore_viewport_motion(GtkWidget *area, GdkEventMotion *event, SporeViewport *self);
+gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeViewport *self);
+gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeViewport *self);
+/* Ends a drag without taking it back. */
+void spore_viewport_end_drag(SporeViewport *self);
+
+/* spore-viewport-overlay.c: over the picture. */
+void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, int height);
+/* The figures of the simulation, in a corner. */
+void spore_viewport_overlay_update(SporeViewport *self);
 
 #endif

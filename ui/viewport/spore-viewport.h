@@ -23,12 +23,12 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_VIEWPORT spore_viewport_get_type()
 G_DECLARE_FINAL_TYPE(SporeViewport, spore_viewport, SPORE, VIEWPORT, GtkOverlay)
 
-typedef enum { SPORE_TOOL_SELECT, SPORE_TOOL_PROBE, SPORE_TOOL_EDIT } SporeTool;
+typedef enum { SPORE_VIEWPORT_TOOL_SELECT, SPORE_VIEWPORT_TOOL_PROBE, SPORE_VIEWPORT_TOOL_EDIT } SporeViewportTool;
 
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
 /* A scene is on its way: do not offer to begin with another. */
 void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
-void spore_viewport_set_tool(SporeViewport *self, SporeTool tool);
+void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool);
 /* The Edit tool, for the regions that the object holds, this one first. */
 void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
 gboolean spore_viewport_edits_regions(SporeViewport *self);
