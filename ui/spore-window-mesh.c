@@ -7,7 +7,7 @@
 #include "ui/dialogs/spore-mesh-dialog.h"
 #include "core/author/edits.h"
 #include "core/author/mesh_edits.h"
-#include "ui/jobs/mapping-work.h"
+#include "ui/jobs/works.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/spore-window-private.h"
 

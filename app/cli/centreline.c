@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "app/cli/scene.h"
-#include "app/cli/scene_body.h"
+#include "app/cli/generate.h"
 #include "core/author/generated_edits.h"
 #include "core/author/centreline_body.h"
 #include "core/generate/centreline/centreline.h"

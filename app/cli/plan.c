@@ -3,9 +3,7 @@
 #include <link.h>
 
 #include "app/cli/cli.h"
-#include "app/cli/plan_carried.h"
-#include "app/cli/plan_levels.h"
-#include "app/cli/plan_lines.h"
+#include "app/cli/plan_tables.h"
 #include "app/cli/scene.h"
 
 #define MEASURED_STEPS 200

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "app/cli/cli.h"
-#include "app/cli/level_changes.h"
 #include "app/cli/run_report.h"
 #include "app/cli/scene.h"
 #include "core/base/memory.h"

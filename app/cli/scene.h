@@ -1,4 +1,4 @@
-/* Opening a scene from the command line, with the options that change it on the way. */
+/* Opening a scene from the command line, with the options that change it, and running it. */
 #ifndef SPORE_APP_CLI_SCENE_H
 #define SPORE_APP_CLI_SCENE_H
 
@@ -56,5 +56,19 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeRun, spore_run_free)
 
 /* Width of a table's column of bodies' names. */
 int spore_cli_body_width(const SporeWorld *world);
+
+/* A change of level that the command line asks for. */
+typedef struct SporeLevelChange {
+  guint32 body;
+  SporeLevelGrade level;
+  double time_s;
+  gboolean posted;
+} SporeLevelChange;
+
+/* From BODY=LEVEL or BODY=LEVEL@SECONDS each; settings may be NULL. NULL with a GError: no such body, level or time.
+ * g_array_unref. */
+GArray *spore_level_changes_parse(const SporeWorld *world, char **settings, GError **error);
+/* Posts those that are due by now. */
+void spore_level_changes_post(GArray *changes, SporeWorld *world);
 
 #endif

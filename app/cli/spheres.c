@@ -2,7 +2,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "app/cli/scene_body.h"
+#include "app/cli/generate.h"
 #include "app/cli/spheres_series.h"
 #include "core/author/generated_edits.h"
 #include "core/io/mesh_import.h"

@@ -1,7 +1,7 @@
 /* spore surface: the surface that a net is made of, from any surface. */
 #include <glib/gi18n.h>
 
-#include "app/cli/scene_body.h"
+#include "app/cli/generate.h"
 #include "core/author/generated_edits.h"
 #include "core/generate/surface/surface.h"
 #include "core/io/mesh_import.h"

@@ -2,7 +2,6 @@
 #include <glib/gi18n.h>
 
 #include "app/cli/generate.h"
-#include "app/cli/scene_body.h"
 #include "app/cli/tetrahedra_labels.h"
 #include "core/author/generated_edits.h"
 #include "core/generate/tetrahedra/tetrahedra.h"

@@ -3,7 +3,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "ui/jobs/check-work.h"
+#include "ui/jobs/works.h"
 #include "ui/jobs/spore-job.h"
 
 /* After the last change, so that typing is not held up. */

@@ -6,6 +6,7 @@
 
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
+#include "ui/render/camera.h"
 
 /* Off-screen context of its own, on a machine with or without a display (EGL surfaceless, else a device). Current to
  * the thread that made it; make_current moves it. */
@@ -15,19 +16,6 @@ void spore_offscreen_free(SporeOffscreen *offscreen);
 gboolean spore_offscreen_make_current(SporeOffscreen *offscreen);
 const char *spore_offscreen_renderer(const SporeOffscreen *offscreen); /* GL_RENDERER */
 gboolean spore_offscreen_is_software(const SporeOffscreen *offscreen);
-
-typedef struct SporeCamera {
-  SporeVec3 target;          /* looked at, and orbited */
-  double distance;           /* m */
-  double azimuth, elevation; /* rad; 0, 0 looks along -z from +z, y up */
-  double roll;               /* rad about the line of sight; what is seen turns the other way: to the left */
-  double field_of_view;      /* vertical, rad */
-} SporeCamera;
-void spore_camera_frame(SporeCamera *camera, const double lower[3], const double upper[3], double aspect);
-void spore_camera_eye(const SporeCamera *camera, SporeVec3 *eye, SporeVec3 *right, SporeVec3 *up, SporeVec3 *forward);
-/* Ray (unit direction) through a pixel, origin top left. */
-void spore_camera_ray(const SporeCamera *camera, double x, double y, int width, int height, SporeVec3 *origin,
-                      SporeVec3 *direction);
 
 /* What is drawn: surfaces and sphere groups, by handle. Buffers are copied. */
 typedef struct SporeRenderer SporeRenderer;

@@ -3,7 +3,6 @@
 
 #include "core/author/region_edits.h"
 #include "ui/panels/report.h"
-#include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define RADIUS_A_NOTCH 1.05

@@ -2,7 +2,6 @@
  * tool. */
 #include "core/author/edits.h"
 #include "ui/panels/report.h"
-#include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define ZOOM_A_NOTCH 0.88

@@ -3,7 +3,6 @@
 
 #include "ui/document/labels.h"
 #include "ui/render/colour_scale.h"
-#include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define MOST_LEVELS 4 /* bodies in the corner */
