@@ -74,7 +74,7 @@ static void act_use_preset(GSimpleAction *action, GVariant *parameter, gpointer 
     spore_window_failed(self, error);
 }
 
-/* What is edited is where it is at the start. */
+/* Editing by hand works on the scene at its start. */
 static gboolean may_edit(SporeWindow *self) {
   SporeSession *session = spore_player_get_session(self->player);
   if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
@@ -90,7 +90,7 @@ static void act_add_region(GSimpleAction *action, GVariant *parameter, gpointer 
     spore_window_failed(self, error);
 }
 
-/* By its handles in the view. */
+/* The region is placed by its handles in the view. */
 static void act_place_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;

@@ -151,7 +151,7 @@ static void opened(SporeJob *job, gpointer data, const GError *error, gpointer o
   spore_viewport_set_waiting(SPORE_VIEWPORT(self->viewport), FALSE);
   if (spore_window_failed(self, error)) return;
   SporeDocument *document = g_steal_pointer(&work->document);
-  g_clear_object(&self->job); /* this one is through: replacing the document cancels what still runs */
+  g_clear_object(&self->job); /* this job is done: replacing the document cancels a running job */
   gtk_widget_hide(self->job_box);
   spore_window_set_document(self, document);
   if (work->recovered) {

@@ -9,8 +9,8 @@
 #include "ui/spore-window-private.h"
 
 #define USUAL_LABEL_CELLS 5000
-#define LOOK_REST 4     /* times as long as a picture takes, between pictures of work that goes on */
-#define MARK_PART 0.015 /* of the organ's diagonal: radius of what marks a picked end */
+#define LOOK_REST 4     /* time between pictures of running work, as a multiple of the time of a picture */
+#define MARK_PART 0.015 /* radius of the mark of a picked end, as a part of the organ's diagonal */
 
 static void show_candidate(SporeWindow *self);
 
@@ -18,7 +18,7 @@ static SporeDocument *document_of(SporeWindow *self) { return spore_editor_docum
 
 /* Starting. */
 
-/* What is asked for; carried over the question whether edits may be replaced. */
+/* What the user asked for, kept while a dialog asks whether edits may be replaced. */
 typedef struct {
   SporeWindow *window;
   SporeGenerateKind kind;
@@ -55,7 +55,7 @@ static void answered(GtkDialog *dialog, int response, Request *request) {
 
 static void free_request(gpointer data, GClosure *closure) { g_free(data); }
 
-/* What was edited by hand is not replaced without a word. */
+/* Assets that were edited by hand are replaced only after a question. */
 static void ask(const Request *request, SporeObject *asset) {
   GtkWidget *dialog = gtk_message_dialog_new(GTK_WINDOW(request->window),
                                              GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, GTK_MESSAGE_QUESTION,
@@ -70,7 +70,7 @@ static void ask(const Request *request, SporeObject *asset) {
   gtk_widget_show(dialog);
 }
 
-/* Those of the scene, as they were made last. */
+/* Previews the label map that the body's tetrahedra were made from, with the same options. */
 static void preview_label_map(SporeWindow *self, SporeObject *body, SporeObject *map, guint count) {
   g_autoptr(GError) error = NULL;
   g_autoptr(GBytes) content = spore_document_read_asset(document_of(self), spore_object_text(map, "file"), &error);
@@ -218,7 +218,7 @@ static void applied(SporeWindow *self) {
 
 /* Showing. */
 
-/* While ends are picked the organ is seen, with the first of them. */
+/* While ends are picked, the organ is shown with the first end. */
 static SporeStageCandidate *picking_candidate(SporeWindow *self) {
   SporeObject *body = spore_generator_get_body(self->generator);
   SporeObject *asset = spore_generate_source(document_of(self), body, SPORE_GENERATE_CURVE, NULL);
@@ -234,7 +234,7 @@ static SporeStageCandidate *picking_candidate(SporeWindow *self) {
   return candidate;
 }
 
-/* Of what the work has come to, or what it gave. */
+/* The candidate of the running work, or of its result. */
 static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *quality) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   SporeObject *body = spore_generator_get_body(self->generator);
@@ -256,7 +256,7 @@ static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *qualit
   return candidate;
 }
 
-/* Where nothing was to be seen before, the view goes to it. */
+/* Where nothing was shown before, the view moves to the candidate. */
 static void frame_first(SporeWindow *self, const SporeStageCandidate *candidate) {
   gboolean apart = candidate && !candidate->body && candidate->vertex_count;
   if (apart && !self->framed_apart) spore_viewport_frame(SPORE_VIEWPORT(self->viewport));
@@ -271,7 +271,7 @@ static void show_candidate(SporeWindow *self) {
   spore_quality_clear(&quality);
 }
 
-/* A job tells of its progress more often than it has something else to show, or than that can be drawn beside it. */
+/* A job reports progress more often than its look changes, and more often than the look can be drawn. */
 static gboolean shows_look_already(SporeWindow *self) {
   SporeJob *job = spore_generator_get_job(self->generator);
   gboolean same =

@@ -33,10 +33,10 @@ struct _SporeWindow {
   GMenu *mesh_operations; /* in the menu */
   guint picked;           /* ends of a middle line, so far */
   SporeVec3 first_end;    /* in the body's axes */
-  SporeJob *look_job;     /* whose look is shown, with its serial and when; borrowed, to be compared */
+  SporeJob *look_job;     /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
   guint look_serial;
   gint64 look_time;
-  gboolean framed_apart; /* what a generator offers of no body has been looked at */
+  gboolean framed_apart; /* the view has moved to a candidate that belongs to no body */
   gboolean fresh, sure;  /* sure: the user has answered about unsaved changes */
 };
 
@@ -45,25 +45,25 @@ void spore_window_complain(SporeWindow *self, const char *message);
 void spore_window_log(SporeWindow *self, const char *format, ...) G_GNUC_PRINTF(2, 3);
 /* Brings what lies in one of the bottom's tabs to the front. */
 void spore_window_show_tab(SporeWindow *self, GtkWidget *what);
-/* Says an error, but not that the user cancelled. TRUE: there was one. */
+/* Shows an error, unless the user cancelled. TRUE: there was an error. */
 gboolean spore_window_failed(SporeWindow *self, const GError *error);
-/* One job at a time; FALSE (and data freed): another is running, said to the user. */
+/* Starts a job; only one runs at a time. FALSE, with data freed: another job is running, and the user is told. */
 gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
                                 GDestroyNotify free_data, SporeJobDone done);
-/* Progress of what is being worked on, if anything. */
+/* Shows the progress of the running job, if any. */
 void spore_window_show_job(SporeWindow *self);
-/* The selected body, else the only one that shows a mesh; NULL: said to the user. */
+/* The selected body, else the only body that shows a mesh; NULL: none, and the user is told. */
 SporeObject *spore_window_body_to_work_on(SporeWindow *self);
 /* Whether ends can be picked for what the generator makes, and whether the user picks them now. */
 gboolean spore_window_picks_ends(SporeWindow *self);
 gboolean spore_window_is_picking(SporeWindow *self);
-void spore_window_show_hint(SporeWindow *self); /* what the tool of now does */
+void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
 /* Enables the actions that can be done now. */
 void spore_window_update_actions(SporeWindow *self);
 
 /* spore-window-generate.c: generators. */
 void spore_window_add_generator_actions(SporeWindow *self);
-/* A generator for the document of now, or none. */
+/* Makes the generator for the current document, if there is one. */
 void spore_window_set_generator(SporeWindow *self);
 /* Tetrahedra of the organs of a label map. */
 void spore_window_preview_labels(SporeWindow *self, const char *file);

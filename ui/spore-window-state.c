@@ -19,7 +19,7 @@ void spore_window_log(SporeWindow *self, const char *format, ...) {
   GtkTextIter end;
   gtk_text_buffer_get_end_iter(buffer, &end);
   gtk_text_buffer_insert(buffer, &end, line, -1);
-  /* By a mark: the line is not laid out yet. */
+  /* Scrolls to a mark, because the new line is not laid out yet. */
   gtk_text_buffer_place_cursor(buffer, &end);
   gtk_text_view_scroll_to_mark(GTK_TEXT_VIEW(self->log), gtk_text_buffer_get_insert(buffer), 0, FALSE, 0, 0);
 }

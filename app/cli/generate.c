@@ -12,7 +12,7 @@
 
 gboolean spore_cli_is_scene(const char *file) { return g_str_has_suffix(file, ".spore"); }
 
-/* The body of that name; the only one that shows a mesh where none is named. */
+/* The body of that name; without a name, the only body that shows a mesh. */
 static SporeObject *choose_body(SporeDocument *document, const char *file, const char *name, GError **error) {
   if (name) return spore_cli_find_body(document, file, name, error);
   SporeObject *bodies = spore_document_section(document, "bodies"), *only = NULL;

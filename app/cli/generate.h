@@ -9,7 +9,7 @@
 typedef struct SporeSceneBody {
   SporeDocument *document;
   SporeObject *body, *target;    /* target: asset that the body uses already, or NULL */
-  const SporeTriangleMesh *mesh; /* that it is made from; the document's */
+  const SporeTriangleMesh *mesh; /* source of the result; owned by the document */
   SporeObject *source;           /* asset of the mesh */
   char *source_hash;
   SporeGenerateRegion regions[SPORE_GENERATE_REGIONS]; /* the asset's, then those of the command line */
@@ -26,17 +26,17 @@ typedef struct SporeSceneBody {
 
 /* Whether the file is a scene, by its name. */
 gboolean spore_cli_is_scene(const char *file);
-/* fields: filled with what the body's asset asks for, or the usual, and over it what the command line says; its regions
- * come after the asset's. */
+/* Opens the scene and the body. fields: gets the values of the body's asset (without one, the initial values), then
+ * those of the command line. The regions of the command line come after those of the asset. */
 gboolean spore_cli_open_body(SporeCli *cli, const char *file, const char *name, const SporeCliOptions *options,
                              SporeSceneBody *scene, void *fields, GError **error);
-/* What the result came from, to be remembered by the asset. Borrows scene and fields. */
+/* The source of the result, which the asset remembers. Borrows scene and fields. */
 SporeGeneratedFrom spore_cli_generated_from(const SporeSceneBody *scene, const void *fields);
 /* Saves the scene where it was, and says so. */
 gboolean spore_cli_save_body(SporeCli *cli, SporeSceneBody *scene, const char *file, GError **error);
 void spore_cli_close_body(SporeSceneBody *scene);
 
-/* Members and lines about what was made. */
+/* Reports the result: members of the report, and lines for people. */
 typedef void SporeCliReport(SporeCli *cli, const SporeGenerateWork *work);
 /* Generates from the mesh that the body (NULL: the only one) shows, gives the result to the body, and saves the scene.
  */

@@ -101,7 +101,8 @@ static void report_quantity(SporeCli *cli, const SporeTissueQuantity *quantity) 
                 range, _(quantity->source));
 }
 
-/* What nobody was found to have measured is said, so that a model's own value is not taken for a tissue's. */
+/* Quantities without a known measurement are listed, so that nobody takes a model's own value for a value of the
+ * tissue. */
 static void report_unknown(SporeCli *cli, const SporeTissue *tissue) {
   spore_cli_open_array(cli, "unknown");
   for (const char *const *name = spore_tissue_wanted; *name; name++) {

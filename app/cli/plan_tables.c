@@ -9,7 +9,7 @@
 
 /* Points that follow a body. */
 
-/* A figure of the table; what does not apply is a dash. */
+/* A figure of the table; a dash where the figure does not apply. */
 static const char *figure(double value, char room[16]) {
   g_snprintf(room, 16, isfinite(value) ? "%.1e" : "-", value);
   return room;

@@ -136,7 +136,7 @@ static gboolean refuse_change(const char *setting, GError **error) {
                            setting);
 }
 
-/* BODY = LEVEL @ SECONDS, of which the last may be missing. */
+/* BODY=LEVEL@SECONDS; @SECONDS may be missing. */
 static gboolean parse_change(const SporeWorld *world, const char *setting, SporeLevelChange *change, GError **error) {
   g_auto(GStrv) sides = g_strsplit(setting, "=", 2);
   if (g_strv_length(sides) != 2) return refuse_change(setting, error);

@@ -1,4 +1,4 @@
-/* spore surface: the surface that a net is made of, from any surface. */
+/* spore surface: a surface of few, well-shaped triangles for a net, or a hollow organ, from any surface. */
 #include <glib/gi18n.h>
 
 #include "app/cli/generate.h"
@@ -144,7 +144,7 @@ static gboolean make_wall(SporeCli *cli, const char *file, const SporeTriangleMe
 
 /* Both. */
 
-/* With a wall, the surface is thinned only where that is asked for. made: gets what was made, unless it is NULL. */
+/* With a wall, the surface is simplified only where that is asked for. made: gets the result, unless it is NULL. */
 static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *surface,
                      const SporeSimplifyOptions *options, const WallOptions *wall, SporeTriangleMesh *made,
                      GError **error) {
@@ -167,7 +167,7 @@ static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *s
   return done;
 }
 
-/* Of what a body of a scene shows, and for it. */
+/* Works from the mesh that a body of a scene shows, and gives the result to that body. */
 static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *asked,
                         SporeSceneBody *scene, GError **error) {
   SporeMeshFields fields;
@@ -196,7 +196,7 @@ static int generate_in(SporeCli *cli, const char *file, const char *body, const 
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* A scene says unit and axes, and takes the result itself. */
+/* A scene states the unit and the axes of its meshes, and keeps the result; the options for these are for files. */
 static int check_scene(gboolean scene, const char *body, gboolean as, gboolean others) {
   if (!scene && (body || as))
     return spore_cli_usage(
@@ -208,7 +208,7 @@ static int check_scene(gboolean scene, const char *body, gboolean as, gboolean o
   return SPORE_EXIT_DONE;
 }
 
-/* files: to write; what the command line says of the wall is put beside them. */
+/* files: to write. The options of the wall come from the command line. */
 static int generate(SporeCli *cli, const char *file, const SporeCliOptions *asked, const char *unit, const char *frame,
                     const WallOptions *files) {
   SporeMeshFields fields;
@@ -227,7 +227,7 @@ static int generate(SporeCli *cli, const char *file, const SporeCliOptions *aske
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* SPORE_EXIT_DONE where the options can be meant. */
+/* SPORE_EXIT_DONE where the options fit each other. */
 static int check_options(const SporeCliOptions *options, const WallOptions *wall, gboolean scene) {
   gboolean walled = spore_cli_options_number(options, "wall") > 0;
   if (!scene && !walled && spore_cli_options_way(options) < 0)

@@ -1,4 +1,4 @@
-/* Why a library could not do it, carried over the border between C++ and C. */
+/* Why a library failed, passed from C++ to C. */
 #ifndef SPORE_HELPERS_FAILURE_H
 #define SPORE_HELPERS_FAILURE_H
 

@@ -18,7 +18,7 @@ static bool fail_memory(SporeHelperFailure *failure) {
   return false;
 }
 
-/* Grows the result as the stream goes, so that a lie about its size costs nothing. */
+/* Grows the result as the stream is read, so that a wrong size in the header costs no memory. */
 static bool inflate_all(z_stream *stream, size_t most, uint8_t **result, size_t *filled, SporeHelperFailure *failure) {
   size_t room = 0;
   for (int state = Z_OK; state != Z_STREAM_END;) {
@@ -126,7 +126,7 @@ static bool make_answer(const SporeVolumeHead *head, const uint8_t *data, size_t
   return false;
 }
 
-/* Of a file that is not, or no longer, compressed as a whole. */
+/* Decodes a content that is not compressed as a whole. */
 static bool decode_plain(const uint8_t *bytes, size_t size, void **result, size_t *result_size,
                          SporeHelperFailure *failure) {
   SporeVolumeHead head;

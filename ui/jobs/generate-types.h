@@ -8,10 +8,10 @@
 /* A quality of a result, by colours and as a histogram. */
 typedef struct SporeGenerateQuality {
   const char *label, *unit; /* label: N_ */
-  gboolean names;           /* the values number things: they are no measure of how good it is */
+  gboolean names;           /* the values are numbers of things, such as organs, and no measure of quality */
   /* Fills count, values and, where they differ, weights. */
   void (*measure)(const SporeGenerateWork *work, SporeQuality *quality);
-  /* Shows them: places are the values on the scale of colours (spore_quality_place), taken. */
+  /* Fills the candidate. places: the values on the scale of colours (spore_quality_place); takes them. */
   void (*show)(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate);
 } SporeGenerateQuality;
 
@@ -22,7 +22,7 @@ typedef struct SporeGenerateType {
   /* Error against number: for these numbers, ended by 0; NULL: no plot. */
   const size_t *counts;
   const char *error_label; /* N_ */
-  double worth;            /* %, that twice the number must lower the error by */
+  double worth;            /* % by which twice the number must lower the error */
 
   const SporeGenerateQuality *qualities; /* at least one */
   gsize quality_count;

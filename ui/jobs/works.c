@@ -24,7 +24,8 @@ void spore_open_work_free(gpointer data) {
   g_free(work);
 }
 
-/* Decoded here, so that the GTK thread finds them in the document. What cannot be read is said by the checks. */
+/* Decodes assets here, so that the GTK thread finds them in the document. The checks report assets that cannot be read.
+ * */
 static void decode_asset(SporeDocument *document, SporeObject *asset) {
   const char *element = spore_object_type(asset)->element;
   if (g_str_equal(element, "mesh")) spore_document_mesh(document, asset, NULL);

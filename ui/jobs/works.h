@@ -1,4 +1,4 @@
-/* Long works of the editor, as data that a SporeJob takes along: what goes in, what comes out. No GTK. */
+/* Long works of the editor, as data for a SporeJob: input and output. No GTK. */
 #ifndef SPORE_UI_JOBS_WORKS_H
 #define SPORE_UI_JOBS_WORKS_H
 

@@ -1,3 +1,4 @@
+/* The box of one generator in the inspector: the number, Generate, and the quality of the result. */
 #include "ui/panels/spore-generator-box.h"
 
 #include <glib/gi18n.h>

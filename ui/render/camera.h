@@ -10,7 +10,7 @@ typedef struct SporeCamera {
   SporeVec3 target;          /* looked at, and orbited */
   double distance;           /* m */
   double azimuth, elevation; /* rad; 0, 0 looks along -z from +z, y up */
-  double roll;               /* rad about the line of sight; what is seen turns the other way: to the left */
+  double roll;               /* rad about the line of sight; the picture turns the other way, to the left */
   double field_of_view;      /* vertical, rad */
 } SporeCamera;
 /* Moves the camera so that the box fits into a picture of that aspect; keeps the direction. */
@@ -21,7 +21,7 @@ void spore_camera_ray(const SporeCamera *camera, double x, double y, int width, 
                       SporeVec3 *direction);
 void spore_camera_orbit(SporeCamera *camera, double dx, double dy);
 void spore_camera_pan(SporeCamera *camera, double dx, double dy, int height);
-/* factor < 1 comes nearer; what lies under the pixel (on the target's plane) stays there. */
+/* factor < 1 comes nearer. The point under the pixel, in the plane of the target, stays under the pixel. */
 void spore_camera_zoom(SporeCamera *camera, double factor, double x, double y, int width, int height);
 /* Point under the pixel in the plane through `through` that faces the camera. */
 SporeVec3 spore_camera_unproject(const SporeCamera *camera, SporeVec3 through, double x, double y, int width,

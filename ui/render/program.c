@@ -1,3 +1,4 @@
+/* Shader programs: each is compiled in its variants when it is first needed. */
 #include <gio/gio.h>
 #include <glib/gi18n.h>
 
@@ -24,7 +25,7 @@ static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
     [SPORE_PROGRAM_COMPOSITE] = {"screen.vert", "composite.frag"},
 };
 
-/* A narrow film lobe sparkles unless several samples a pixel are taken: the fast variant widens it. */
+/* A narrow specular lobe of the film sparkles with one sample a pixel, so the fast variant widens the lobe. */
 static const char *const preamble[SPORE_VARIANT_COUNT] = {
     [SPORE_VARIANT_FAST] = "#version 330 core\n#define QUALITY 0\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.03\n",
     [SPORE_VARIANT_FULL] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.018\n",

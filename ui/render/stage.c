@@ -1,4 +1,4 @@
-/* The stage: what is drawn of a document, built from it and moved by snapshots of what runs. */
+/* The stage: what is drawn of a document, built from its objects and moved by snapshots of the simulation. */
 #include <string.h>
 
 #include "ui/render/stage_body.h"
@@ -46,8 +46,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   spore_stage_place_marks(stage);
 }
 
-/* Each contact as a line from its point along its force; the length grows with the force but never fills the picture.
- */
+/* Each contact is a line from its point along its force. The length grows with the force, up to a limit. */
 static void show_contacts(SporeStage *stage, const SporeSnapshot *snapshot) {
   double lower[3], upper[3];
   spore_stage_bounds(stage, lower, upper);
@@ -72,7 +71,7 @@ static void show_cuts(SporeStage *stage, const SporeSnapshot *snapshot) {
   for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_cut(stage, stage->bodies->pdata[i], &snapshot->cuts);
 }
 
-/* The body as it is drawn, at the level that the snapshot has of it. */
+/* The drawn body, made anew where the snapshot has it at another level. */
 static SporeStageBody *body_of_level(SporeStage *stage, guint index, const SporeSnapshot *snapshot) {
   SporeStageBody *body = stage->bodies->pdata[index];
   if (!snapshot->level || body->world_body == SPORE_NO_BODY) return body;

@@ -15,8 +15,8 @@ static const float sphere_colour[3] = {0.03f, 0.24f, 0.36f};
 
 static const float wire_colour[3] = {0.16f, 0.42f, 0.55f};
 
-/* The configuration at time 0. Taken from the model, which never changes, and not from the world, which another thread
- * may be stepping. */
+/* The configuration at time 0. It comes from the model, which never changes. The world may be stepping on another
+ * thread. */
 static void init_configuration(SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation,
                                const SporeLevelGrade *level) {
   SporePose pose = spore_body_pose(object);
@@ -86,7 +86,8 @@ static const SporeTetrahedralMesh *tetrahedra_of(SporeStage *stage, const SporeO
   return asset ? spore_document_tetrahedra(stage->document, asset, NULL) : NULL;
 }
 
-/* The tube around the curve that the body is made of: made anew around the moved axis, whatever the curve's twist. */
+/* The tube around the curve of the body. It is made anew around the moved axis, because the mapping does not know the
+ * twist. */
 static void place_tube(SporeStage *stage, SporeStageBody *body) {
   SporeTriangleMesh tube;
   spore_mapping_positions(&body->axis.mapping, body->q, body->axis.positions);
@@ -117,7 +118,7 @@ static void build_tube(SporeStage *stage, SporeStageBody *body, const SporeObjec
   g_free(points);
 }
 
-/* With body->triangles. */
+/* Adds the surface with the triangles of body->triangles. */
 static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation, double *vertices,
                         gsize vertex_count) {
   SporeStagePoints *surface = &body->surface;
@@ -148,8 +149,8 @@ static gboolean is_liquid(const SporeStageBody *body, const SporeObject *object,
          spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE)->type->particles;
 }
 
-/* The visual unit's mesh; without one the mechanical unit's, the boundary of its tetrahedra, or a tube around its
- * curve. */
+/* The mesh of the visual unit. Without one: the mesh of the mechanical unit, the boundary of its tetrahedra, or a tube
+ * around its curve. */
 static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
                           const SporeSimulation *simulation) {
   const SporeObject *visual = spore_object_child_of(object, "visual");
@@ -174,15 +175,15 @@ static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeOb
   build_tube(stage, body, object, simulation);
 }
 
-/* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|. */
+/* The error of each sphere of a set in the mesh it was made from: |radius - depth of its centre|. */
 typedef struct SporeStageFit {
-  double high;    /* m: what has the last colour of the scale, a fiftieth of the mesh's diagonal */
-  float places[]; /* on the scale, 0..1, one a sphere */
+  double high;    /* m: the error that has the last colour of the scale */
+  float places[]; /* place of each sphere's error on the scale, 0..1 */
 } SporeStageFit;
 
-/* NULL: no such mesh. Kept by the stage. */
+/* NULL: no such mesh. The stage keeps the result. */
 static const SporeStageFit *find_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set) {
-  if (set->weights) return NULL; /* it is their sum that fits, which one alone says nothing of */
+  if (set->weights) return NULL; /* weighted spheres fit together; one of them has no error of its own */
   SporeStageFit *fit = g_hash_table_lookup(stage->fit, set);
   if (fit) return fit;
   const char *name = spore_object_text(asset, "source");
@@ -203,7 +204,7 @@ static const SporeStageFit *find_fit(SporeStage *stage, SporeObject *asset, cons
   return fit;
 }
 
-/* `asset` that the set is from, NULL: the model's own. */
+/* asset: of the set; NULL: the model's own spheres. */
 static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
                          const SporeSphereSet *set, SporeObject *asset) {
   double *centres = g_new(double, 3 * set->count);
@@ -311,7 +312,7 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
   g_free(body);
 }
 
-/* Of particles, those that are in the world; each of a body's has the same radius. */
+/* Moves the centres; of particles, keeps those that are in the world. All particles of a body have the same radius. */
 static void place_centres(SporeStageBody *body) {
   spore_mapping_positions(&body->centres.mapping, body->q, body->centres.positions);
   if (!body->particles) return;
@@ -330,7 +331,7 @@ static void place_spheres(SporeStage *stage, SporeStageBody *body) {
   spore_renderer_move_spheres(stage->renderer, body->spheres_handle, body->spheres, body->shown);
 }
 
-/* Neighbours in number do not look alike, and each keeps its look. */
+/* Neighbouring puffs look different, and each puff keeps its look. */
 #define GOLDEN_TURN 0.6180339887498949
 
 static void place_smoke(SporeStage *stage, SporeStageBody *body) {
@@ -346,7 +347,8 @@ static void place_smoke(SporeStage *stage, SporeStageBody *body) {
   spore_renderer_move_puffs(stage->renderer, body->puffs_handle, body->puffs, count);
 }
 
-/* Neighbours in a liquid at rest stand where their attraction is strongest, 2^(1/6) of the width of their spheres. */
+/* In a liquid at rest, neighbours are where attraction and repulsion balance: 2^(1/6) of the width of their spheres
+ * apart. */
 #define LIQUID_SPACING 1.12
 
 static void place_liquid(SporeStage *stage, SporeStageBody *body) {
@@ -381,7 +383,7 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
   if (body->wire_handle && stage->options.tetrahedra) place_wire(stage, body);
 }
 
-/* What is shown in place of what the body has; NULL: nothing. */
+/* The candidate that is shown in place of what the body has; NULL: none. */
 static const SporeStageCandidate *candidate_for(const SporeStage *stage, const SporeStageBody *body) {
   return stage->candidate && stage->candidate->body == body->object ? stage->candidate : NULL;
 }

@@ -1,4 +1,4 @@
-/* What a generator or a hand offers in place of what the scene has, and marks on a body. */
+/* The candidate of a generator or of the Edit tool, and marks on a body: what the stage shows beside the scene. */
 #include <math.h>
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include "core/base/memory.h"
 #include "ui/render/stage_body.h"
 
-#define NODES_MAXIMUM 64 /* that a triangle hangs on; it hangs on three of a net's own mesh */
+#define NODES_MAXIMUM 64 /* most nodes that move a triangle; the mesh of a net has three */
 
 void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh) {
   if (body->surface_handle) spore_renderer_remove(stage->renderer, body->surface_handle);
@@ -21,7 +21,7 @@ void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, cons
   spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
 }
 
-/* Triangles that hang on nodes of both sides of a cut are left out. */
+/* Cuts: triangles that follow nodes of both sides of a cut are left out. */
 
 static guint64 key_of(guint32 a, guint32 b) { return (guint64)MIN(a, b) << 32 | MAX(a, b); }
 

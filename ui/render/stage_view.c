@@ -38,7 +38,7 @@ static const SporeObject *find_camera(const SporeStage *stage, const char *name)
   return spore_object_child_of(spore_document_section(stage->document, "tools"), "camera");
 }
 
-/* Where a point of the scene at the start has come with a body that moves as a whole; as it is with any other. */
+/* Where a rigid body has moved a point that belonged to it at the start. The point stays with any other body. */
 static SporeVec3 carried(const SporeStage *stage, const SporeObject *body, SporeVec3 point) {
   SporeBodyFields fields;
   for (guint i = 0; body && i < stage->bodies->len; i++) {
@@ -55,7 +55,7 @@ static SporeVec3 carried(const SporeStage *stage, const SporeObject *body, Spore
 
 gboolean spore_stage_has_camera(const SporeStage *stage) { return find_camera(stage, NULL) != NULL; }
 
-/* A camera of the scene was placed for a picture as wide as this; a narrower one shows as much to the sides. */
+/* Cameras of scenes are placed for a picture of this aspect. A narrower picture shows as much to the sides. */
 #define AUTHORED_ASPECT (16.0 / 9)
 
 static SporeCamera look_from(SporeVec3 position, SporeVec3 target, double field_of_view) {
@@ -69,7 +69,7 @@ static SporeCamera look_from(SporeVec3 position, SporeVec3 target, double field_
                        .field_of_view = field_of_view};
 }
 
-/* It is level at the start, and turns with its body. */
+/* The camera is level at the start, and turns with its body. */
 static SporeCamera look_with(const SporeStage *stage, const SporeObject *object) {
   SporeCameraFields fields;
   SporeVec3 eye, right, up, forward;

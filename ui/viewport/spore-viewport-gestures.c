@@ -1,5 +1,4 @@
-/* Gestures in the viewport: they move the camera, lead the probe, pull tissue, select, and hand the rest to the Edit
- * tool. */
+/* Gestures in the viewport: they move the camera and the probe, pull tissue, select, and call the Edit tool. */
 #include "core/author/edits.h"
 #include "ui/panels/report.h"
 #include "ui/viewport/spore-viewport-private.h"
@@ -52,7 +51,7 @@ gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *pos
   return TRUE;
 }
 
-/* Goes on from where the body's device, the mouse or a track, has brought it. */
+/* The hand starts at the pose that the body has from its device, the mouse or a track. */
 static gboolean take_hand(SporeViewport *self) {
   SporeVec3 position;
   if (self->drag == DRAG_PULL || !spore_viewport_probe(self, &self->body, &position)) return FALSE;
@@ -91,7 +90,7 @@ static void move_probe(SporeViewport *self) {
   lead_probe_to(self, spore_vec3_add(under_cursor(self, hand_position(self)), self->offset));
 }
 
-/* About the tip, as a ball under the cursor would roll. */
+/* Turns the probe about its tip, as a ball under the cursor would roll. */
 static void turn_probe(SporeViewport *self, double dx, double dy) {
   SporeVec3 eye, right, up, forward;
   spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
@@ -114,7 +113,7 @@ static void deepen_probe(SporeViewport *self, double notches) {
   self->offset = spore_vec3_sub(hand_position(self), under_cursor(self, hand_position(self)));
 }
 
-/* Closes the jaws, presses the pedal. */
+/* Closes or opens the jaws, and presses or releases the pedal. */
 static void squeeze_probe(SporeViewport *self, gboolean squeezed) {
   if (!take_hand(self)) return;
   self->hand.grip_rad = squeezed ? 0 : G_PI;
@@ -215,7 +214,7 @@ gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, Spo
 
 gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
   if (event->button == GDK_BUTTON_SECONDARY) {
-    /* With Shift they stay as they are, until the button is pressed and let go again. */
+    /* With Shift, jaws and pedal stay as they are until the button is pressed and released again. */
     if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && !(event->state & GDK_SHIFT_MASK)) squeeze_probe(self, FALSE);
     return GDK_EVENT_STOP;
   }

@@ -83,7 +83,7 @@ static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height,
   }
 }
 
-/* Of the candidate's colours, else of those of the spheres that the bodies have. */
+/* Draws the legend of the candidate's colours, else of the colours of the bodies' spheres. */
 static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height) {
   SporeSphereScale scale = self->stage ? spore_stage_sphere_scale(self->stage) : (SporeSphereScale){0};
   if (self->legend) {
@@ -103,7 +103,7 @@ void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, in
 
 /* Figures in the corner. */
 
-/* What scissors and needles have done. */
+/* Counts of cuts, punctures and stitches. */
 static void append_tools(GString *text, const SporeSnapshot *snapshot) {
   const SporeToolCounts *tools = &snapshot->tools;
   if (tools->cut > 0) {
@@ -116,7 +116,7 @@ static void append_tools(GString *text, const SporeSnapshot *snapshot) {
   }
 }
 
-/* The level of each body that has several, a line each. */
+/* A line for each body that has several levels. */
 static void append_levels(GString *text, const SporeWorld *world, const SporeSnapshot *snapshot) {
   guint32 count = snapshot->level ? (guint32)spore_world_body_count(world) : 0;
   for (guint32 body = 0, shown = 0; body < count && shown < MOST_LEVELS; body++) {

@@ -18,9 +18,9 @@ struct _SporeViewport {
   SporeStageOptions options;
 
   SporeHandEdit edit;    /* of the Edit tool */
-  guint32 regions;       /* id of what holds the regions that it edits; 0: it edits spheres or a curve */
-  gboolean edit_resizes; /* the drag has the handle on the rim, else the middle */
-  double edit_before[4]; /* the chosen one when the drag began */
+  guint32 regions;       /* id of the object whose regions are edited; 0: spheres or a curve are edited */
+  gboolean edit_resizes; /* the drag moves the handle on the rim, else the one in the middle */
+  double edit_before[4]; /* the chosen sphere or point when the drag began */
   guint edit_timer;      /* wheel notches that are not committed yet */
   SporeStageCandidate *candidate;
   SporeStageMarks marks;
@@ -32,23 +32,23 @@ struct _SporeViewport {
   SporeStage *stage;
   char *renderer_name;
   cairo_surface_t *pixels;
-  gboolean stale; /* pixels are not what would be drawn now */
+  gboolean stale; /* the pixels are out of date */
   guint rebuild, tick;
   gint64 hud_clock;
   guint64 shown_step;
   double draw_ms;
 
   SporeCamera camera;
-  gboolean through; /* it looks through the scene's camera, and goes where that goes */
+  gboolean through; /* the view looks through the scene's camera and follows it */
   gboolean framed, waiting;
 
   SporeDrag drag;
   double last_x, last_y;
   SporeCamera camera_before;
   guint32 body;                       /* of the world: held by the probe or pull drag */
-  SporeDeviceState hand, hand_before; /* what the mouse tells the probe; when the drag began */
+  SporeDeviceState hand, hand_before; /* state of the hand that the mouse moves; the same when the drag began */
   SporeVec3 offset;                   /* from the cursor's point to the probe */
-  SporeVec3 start, cursor;            /* pull: the point taken, where it is led */
+  SporeVec3 start, cursor;            /* pull: the point that was taken, and where the mouse has moved it */
 };
 
 /* spore-viewport-view.c: camera, candidate, welcome. */
@@ -76,7 +76,7 @@ void spore_viewport_edit_release(SporeViewport *self, gboolean keep);
 gboolean spore_viewport_edit_scroll(SporeViewport *self, double notches); /* FALSE: nothing is chosen */
 gboolean spore_viewport_edit_key(SporeViewport *self, guint key);         /* FALSE: not its key */
 void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr);          /* the handles */
-/* Of a click on the surface of that body, where no handle is: the chosen region goes there. FALSE: none does. */
+/* Moves the chosen region to a click on the surface of that body. FALSE: no region moves. */
 gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place);
 
 /* spore-viewport-gestures.c: mouse and keys. */

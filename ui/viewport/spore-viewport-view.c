@@ -28,7 +28,7 @@ void spore_viewport_follow_camera(SporeViewport *self) {
   if (self->through) spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
 }
 
-/* As the author's camera looks, where the scene has one. */
+/* Looks through the scene's camera, where there is one. */
 static void look_through_camera(SporeViewport *self) {
   if (!self->stage || !spore_viewport_has_anything(self)) return;
   spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);

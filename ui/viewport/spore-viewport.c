@@ -19,7 +19,7 @@ static guint signals[SIGNAL_COUNT];
 
 /* Drawing. */
 
-/* Where GL is missing the label says why, and the rest of the editor works. */
+/* Where OpenGL is missing, a label says why. The rest of the editor works. */
 static gboolean ensure_renderer(SporeViewport *self) {
   if (self->renderer) return TRUE;
   if (self->renderer_name) return FALSE;
@@ -121,7 +121,7 @@ static gboolean draw_area(GtkWidget *area, cairo_t *cr, SporeViewport *self) {
   return FALSE;
 }
 
-/* What is shown is chosen beside the tools, or below them where there is no room. */
+/* The choice of what is shown stands beside the tools, or below them where there is no room. */
 static gboolean place_overlays(gpointer data) {
   g_autoptr(SporeViewport) self = data;
   int tools, overlays, height, margin = gtk_widget_get_margin_start(self->tools);
@@ -129,7 +129,7 @@ static gboolean place_overlays(gpointer data) {
   gtk_widget_get_preferred_width(self->overlays, NULL, &overlays);
   gtk_widget_get_preferred_height(self->tools, NULL, &height);
   gboolean room = tools + overlays + margin <= gtk_widget_get_allocated_width(self->area);
-  gtk_widget_set_margin_top(self->overlays, room ? margin : height - margin / 2); /* its margins are in it */
+  gtk_widget_set_margin_top(self->overlays, room ? margin : height - margin / 2); /* the height includes the margins */
   spore_box_fit(GTK_BOX(self->beginnings), gtk_widget_get_allocated_width(self->area) - WELCOME_PADDING);
   return G_SOURCE_REMOVE;
 }
@@ -164,7 +164,7 @@ static void player_changed(SporeViewport *self) {
   spore_viewport_overlay_update(self);
 }
 
-/* The world that a drag holds is gone. */
+/* The world has been replaced, and with it the body that a drag holds. */
 static void player_replaced(SporeViewport *self) {
   self->drag = DRAG_NONE;
   queue_rebuild(self);
@@ -179,7 +179,7 @@ static void selection_changed(SporeViewport *self) {
 
 static void document_changed(SporeViewport *self, int kind, guint id, guint property) {
   SporeObject *object = spore_document_by_id(spore_editor_document_get(self->document), id);
-  /* Regions only show where something is: the bodies look as before. */
+  /* Regions do not change how bodies look. */
   if (object && spore_region_is(object)) spore_viewport_edit_refresh(self);
   else queue_rebuild(self);
 }
