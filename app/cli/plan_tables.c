@@ -47,7 +47,7 @@ static void report_unit(SporeCli *cli, const SporeObject *body, int width, const
 
 void spore_plan_report_carried(SporeCli *cli, const SporeRun *run) {
   const SporeObject *bodies = spore_document_section(run->document, "bodies");
-  gboolean said = FALSE;
+  gboolean titled = FALSE;
   int width = spore_cli_body_width(run->simulation->world);
   spore_cli_open_array(cli, "mappings");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
@@ -56,11 +56,11 @@ void spore_plan_report_carried(SporeCli *cli, const SporeRun *run) {
       SporeCarried carried;
       if (!spore_carried_measure(run->simulation, run->document, body, (SporeCarriedUnit)unit, &carried, NULL))
         continue;
-      if (!said)
-        spore_cli_say(cli, "%-*s %-9s %7s %7s %12s %9s %9s %9s %9s %9s\n", width, _("body"), _("carries"), _("points"),
+      if (!titled)
+        spore_cli_say(cli, "%-*s %-9s %7s %7s %12s %9s %9s %9s %9s %9s\n", width, _("body"), _("unit"), _("points"),
                       _("off, %"), _("farthest, m"), _("leverage"), _("rest, m"), _("rigid, m"), _("affine, m"),
                       _("bend, m"));
-      said = TRUE;
+      titled = TRUE;
       report_unit(cli, body, width, spore_carried_units[unit], &carried);
     }
   }

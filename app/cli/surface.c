@@ -114,10 +114,11 @@ static void report_wall(SporeCli *cli, const SporeTriangleMesh *inner, const Wal
                 report->thickness_mean, report->thickness_min, report->thickness_max, report->wall_volume,
                 report->lumen_volume, report->pieces, inner->vertex_count, report->inner_min, report->inner_max,
                 report->seconds);
-  spore_cli_say(cli,
-                _("farthest off the thickness asked for: %.1f %%, at (%.4g %.4g %.4g) m; a --detail above %d would "
-                  "have it nearer, in more nodes\n"),
-                100 * report->error, at.x, at.y, at.z, options->detail > 0 ? (int)options->detail : SPORE_WALL_DETAIL);
+  spore_cli_say(
+      cli,
+      _("farthest off the thickness asked for: %.1f %%, at (%.4g %.4g %.4g) m; a --wall-detail above %d would "
+        "have it nearer, in more nodes\n"),
+      100 * report->error, at.x, at.y, at.z, options->detail > 0 ? (int)options->detail : SPORE_WALL_DETAIL);
 }
 
 /* Reports the wall, and writes the files. made: gets the wall, unless it is NULL; the caller's to clear. */

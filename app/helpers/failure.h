@@ -7,7 +7,7 @@
 typedef struct SporeHelperFailure {
   SporeErrorCode code;
   const char *message; /* marked for translation */
-  char detail[256];    /* what the library said; may be empty */
+  char detail[256];    /* message of the library; may be empty */
 } SporeHelperFailure;
 
 #endif

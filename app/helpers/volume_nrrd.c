@@ -140,13 +140,13 @@ static bool next_line(const uint8_t *bytes, size_t size, size_t *at, char line[L
 
 static bool read_line(char *line, Fields *fields, SporeVolumeHead *head, SporeHelperFailure *failure) {
   if (line[0] == '#' || strstr(line, ":=")) return true; /* comments, and private fields of programs */
-  char said[LINE], *colon = strstr(line, ": ");
-  memcpy(said, line, sizeof said);
-  if (!colon) return fail_field(failure, said);
+  char whole_line[LINE], *colon = strstr(line, ": ");
+  memcpy(whole_line, line, sizeof whole_line);
+  if (!colon) return fail_field(failure, whole_line);
   *colon = '\0';
   char *value = colon + 2 + strspn(colon + 2, " \t");
   for (size_t n = strlen(value); n && (value[n - 1] == ' ' || value[n - 1] == '\t'); n--) value[n - 1] = '\0';
-  return take_field(line, value, fields, head) || fail_field(failure, said);
+  return take_field(line, value, fields, head) || fail_field(failure, whole_line);
 }
 
 static void make_axes(const Fields *fields, double axes[12]) {

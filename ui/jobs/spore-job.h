@@ -34,7 +34,7 @@ double spore_job_get_fraction(SporeJob *self);
 guint spore_job_get_look_serial(SporeJob *self);
 /* The look of the work so far: *count x 4 numbers (x y z r); NULL: none. g_free. */
 double *spore_job_get_look(SporeJob *self, gsize *count);
-char *spore_job_get_stage(SporeJob *self); /* g_free; "" when not said */
+char *spore_job_get_stage(SporeJob *self); /* g_free; "" when not stated */
 
 G_END_DECLS
 #endif

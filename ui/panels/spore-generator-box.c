@@ -8,7 +8,7 @@
 struct _SporeGeneratorBox {
   GtkBox parent;
   GtkWidget *label, *count, *button, *result, *remarks, *tools, *freeze;
-  guint known;          /* count that the document said last */
+  guint known;          /* last count of the document */
   char *action, *asset; /* asset: path of what is there, or NULL */
   gboolean filling;
 };

@@ -49,7 +49,7 @@ static gboolean refused(const char *name, const char *log, GError **error) {
       log);
 }
 
-static GLuint compile(GLenum stage, const char *name, const char *define, SporeVariant variant, GError **error) {
+static GLuint compile_shader(GLenum stage, const char *name, const char *define, SporeVariant variant, GError **error) {
   const char *parts[] = {"frame.glsl", "colour.glsl", "visibility.glsl", "tissue.glsl", name};
   GBytes *texts[G_N_ELEMENTS(parts)];
   g_autofree char *scale = spore_colour_scale_shader();
@@ -79,8 +79,8 @@ static GLuint compile(GLenum stage, const char *name, const char *define, SporeV
 }
 
 static GLuint link_program(const ProgramSource *source, SporeVariant variant, GError **error) {
-  GLuint vertex = compile(GL_VERTEX_SHADER, source->vertex, source->define, variant, error);
-  GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, source->fragment, source->define, variant, error) : 0;
+  GLuint vertex = compile_shader(GL_VERTEX_SHADER, source->vertex, source->define, variant, error);
+  GLuint fragment = vertex ? compile_shader(GL_FRAGMENT_SHADER, source->fragment, source->define, variant, error) : 0;
   GLuint id = 0;
   if (fragment) {
     GLint good;

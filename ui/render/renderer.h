@@ -52,7 +52,7 @@ void spore_renderer_move_puffs(SporeRenderer *renderer, guint group, const Spore
 /* Line segments, count x 2 points x 3; overlays are drawn dimmed where hidden. */
 guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3],
                                float width);
-/* How much of them is seen through what lies before them, 0..1; a fifth unless told. */
+/* Sets the opacity of the hidden parts of lines, 0..1; at first a fifth. */
 void spore_renderer_see_lines_through(SporeRenderer *renderer, guint group, double share);
 void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const double *points, gsize count);
 void spore_renderer_remove(SporeRenderer *renderer, guint handle);

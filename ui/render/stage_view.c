@@ -39,7 +39,7 @@ static const SporeObject *find_camera(const SporeStage *stage, const char *name)
 }
 
 /* Where a rigid body has moved a point that belonged to it at the start. The point stays with any other body. */
-static SporeVec3 carried(const SporeStage *stage, const SporeObject *body, SporeVec3 point) {
+static SporeVec3 moved_with(const SporeStage *stage, const SporeObject *body, SporeVec3 point) {
   SporeBodyFields fields;
   for (guint i = 0; body && i < stage->bodies->len; i++) {
     const SporeStageBody *shown = stage->bodies->pdata[i];
@@ -56,7 +56,7 @@ static SporeVec3 carried(const SporeStage *stage, const SporeObject *body, Spore
 gboolean spore_stage_has_camera(const SporeStage *stage) { return find_camera(stage, NULL) != NULL; }
 
 /* Cameras of scenes are placed for a picture of this aspect. A narrower picture shows as much to the sides. */
-#define AUTHORED_ASPECT (16.0 / 9)
+#define SCENE_ASPECT (16.0 / 9)
 
 static SporeCamera look_from(SporeVec3 position, SporeVec3 target, double field_of_view) {
   SporeVec3 back = spore_vec3_sub(position, target);
@@ -79,9 +79,9 @@ static SporeCamera look_with(const SporeStage *stage, const SporeObject *object)
   SporeCamera camera = look_from(position, target, fields.field_of_view);
   if (!body) return camera;
   spore_camera_eye(&camera, &eye, &right, &up, &forward);
-  SporeVec3 now = carried(stage, body, target);
-  SporeVec3 upward = spore_vec3_sub(carried(stage, body, spore_vec3_add(target, up)), now);
-  camera = look_from(carried(stage, body, position), now, fields.field_of_view);
+  SporeVec3 now = moved_with(stage, body, target);
+  SporeVec3 upward = spore_vec3_sub(moved_with(stage, body, spore_vec3_add(target, up)), now);
+  camera = look_from(moved_with(stage, body, position), now, fields.field_of_view);
   spore_camera_eye(&camera, &eye, &right, &up, &forward);
   camera.roll = atan2(spore_vec3_dot(upward, right), spore_vec3_dot(upward, up));
   return camera;
@@ -102,8 +102,7 @@ gboolean spore_stage_camera(const SporeStage *stage, const char *name, double as
     return TRUE;
   }
   *camera = look_with(stage, object);
-  if (aspect < AUTHORED_ASPECT)
-    camera->field_of_view = 2 * atan(tan(camera->field_of_view / 2) * AUTHORED_ASPECT / aspect);
+  if (aspect < SCENE_ASPECT) camera->field_of_view = 2 * atan(tan(camera->field_of_view / 2) * SCENE_ASPECT / aspect);
   return TRUE;
 }
 

@@ -29,7 +29,7 @@ typedef struct {
   guint count;
   Sample samples[SAMPLES_A_STEP];
   /* In the last step. */
-  gboolean led, spoke; /* by the pointer; by any device */
+  gboolean led, driven; /* by the pointer; by any device */
 
   SporeDeviceState input; /* last state; guarded by the session's mutex */
 } Recorder;
@@ -63,12 +63,12 @@ static bool recorder_exchange(SporeDevice *device, double time_s, const SporeDev
                               SporeDeviceState *state) {
   Recorder *recorder = (Recorder *)device;
   SporeDevice *script = recorder->script;
-  bool said = recorder->pointer->type->exchange(recorder->pointer, time_s, command, state);
-  recorder->led = said;
-  if (!said && script) said = script->type->exchange(script, time_s, command, state);
-  recorder->spoke = said;
+  bool driven = recorder->pointer->type->exchange(recorder->pointer, time_s, command, state);
+  recorder->led = driven;
+  if (!driven && script) driven = script->type->exchange(script, time_s, command, state);
+  recorder->driven = driven;
   SporeDeviceState kept = {0};
-  if (said) {
+  if (driven) {
     kept = *state;
   } else {
     const double *q = spore_world_q(recorder->world, recorder->body);
@@ -76,7 +76,7 @@ static bool recorder_exchange(SporeDevice *device, double time_s, const SporeDev
     memcpy(kept.orientation, q + 3, sizeof kept.orientation);
   }
   if (recorder->count < SAMPLES_A_STEP) recorder->samples[recorder->count++] = (Sample){time_s, kept};
-  return said;
+  return driven;
 }
 
 /* The recorders are the session's and end with it. */
@@ -134,7 +134,7 @@ static void drain_recorders(SporeSession *session) {
     SporeTrackChannel *channel = spore_track_channel(&session->recording, name);
     if (!channel) channel = spore_track_add_channel(&session->recording, name);
     for (guint s = 0; channel && s < recorder->count; s++) keep_sample(channel, &recorder->samples[s]);
-    if (recorder->spoke) recorder->input = recorder->samples[recorder->count - 1].state;
+    if (recorder->driven) recorder->input = recorder->samples[recorder->count - 1].state;
     recorder->count = 0;
   }
 }
