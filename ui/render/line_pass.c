@@ -1,4 +1,4 @@
-/* Lines: groups of segments as broad as is asked for, and the grid of the floor that is made of them. */
+/* Lines: groups of segments of a given width, and the floor grid, which is made of such groups. */
 #include <math.h>
 #include <string.h>
 

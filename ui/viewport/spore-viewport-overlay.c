@@ -1,4 +1,4 @@
-/* What is written and drawn over the picture: forces, the legend of its colours, and figures of the simulation. */
+/* What is drawn and written over the picture: forces, the legend of colours, and figures of the simulation. */
 #include <glib/gi18n.h>
 
 #include "ui/document/labels.h"

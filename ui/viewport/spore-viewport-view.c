@@ -1,4 +1,4 @@
-/* What the viewport looks at: its camera, and what is shown besides the scene, a candidate or the welcome. */
+/* What the viewport looks at: the camera, the candidate, and the welcome of an empty scene. */
 #include "ui/viewport/spore-viewport-private.h"
 
 void spore_viewport_redraw(SporeViewport *self) {

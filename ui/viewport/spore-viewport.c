@@ -1,4 +1,4 @@
-/* The widget: it draws the stage, follows document and player, and hands gestures on. */
+/* The widget: it draws the stage, follows the document and the player, and passes gestures on. */
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
