@@ -193,8 +193,7 @@ static void add_mapping(SporeInspector *self, const char *path) {
   g_set_weak_pointer(&self->mapping_facts, add_fact(box));
   GtkWidget *measure = gtk_button_new_with_label(_("Measure mapping"));
   gtk_widget_set_halign(measure, GTK_ALIGN_START);
-  gtk_widget_set_tooltip_text(measure,
-                              _("Compile the scene and measure how far vertices and spheres lie off"));
+  gtk_widget_set_tooltip_text(measure, _("Compile the scene and measure how far vertices and spheres lie off"));
   gtk_actionable_set_action_name(GTK_ACTIONABLE(measure), "win.measure-mapping");
   gtk_container_add(GTK_CONTAINER(box), measure);
 }
