@@ -1,3 +1,4 @@
+/* Translations: the catalogue that is installed, or the one of the build tree where the program is not installed. */
 #include "app/catalogue.h"
 
 #include <glib.h>
@@ -8,7 +9,7 @@
 
 static const char *translate(const char *text) { return dgettext(GETTEXT_PACKAGE, text); }
 
-/* A program run from the build tree finds its catalogues there, without being installed. */
+/* A program that runs from the build tree finds its catalogues in the build tree. */
 static char *catalogue_folder(void) {
   g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
   if (program) {

@@ -17,7 +17,7 @@ static int handle_options(GApplication *application, GVariantDict *given, gpoint
   return EXIT_SUCCESS;
 }
 
-/* Beside the sources when run from the build tree, else where they were installed. */
+/* Beside the sources when the program runs from the build tree, else where scenes are installed. */
 static const char *scenes_folder(void) {
   return g_file_test(SPORE_SOURCE_SCENES, G_FILE_TEST_IS_DIR) ? SPORE_SOURCE_SCENES : SPORE_INSTALLED_SCENES;
 }

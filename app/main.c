@@ -33,7 +33,7 @@ static const Command commands[] = {
     {"schema", spore_command_schema, N_("Print the RELAX NG schema of scenes")},
 };
 
-/* The command of a generator that has none above; NULL: there is none. */
+/* The command of a generator that has no command of its own; NULL: there is none. */
 static const SporeGeneratorType *generator_of(const char *command) {
   for (gsize i = 0; i < G_N_ELEMENTS(commands); i++)
     if (g_str_equal(commands[i].name, command)) return NULL;
@@ -52,7 +52,7 @@ static void print_help(void) {
                      "3 a fault of ours."));
 }
 
-/* command NULL: that of the generator. */
+/* command NULL: the command of the generator. */
 static int run_command(const Command *command, const SporeGeneratorType *generator, int argc, char **argv) {
   g_autofree char *name = g_strdup_printf("spore %s", argv[0]);
   g_set_prgname(name);

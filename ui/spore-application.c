@@ -1,3 +1,4 @@
+/* The program: its schema, its keys, and its windows. */
 #include "ui/spore-application.h"
 
 #include <glib/gi18n.h>
@@ -57,8 +58,12 @@ static void quit(GSimpleAction *action, GVariant *parameter, gpointer data) {
   for (GList *item = windows; item; item = item->next) gtk_window_close(GTK_WINDOW(item->data));
 }
 
+static SporeWindow *open_window(SporeApplication *self) {
+  return spore_window_new(GTK_APPLICATION(self), self->schema, self->scenes);
+}
+
 static void new_window(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  gtk_window_present(GTK_WINDOW(spore_window_new(SPORE_APPLICATION(data))));
+  gtk_window_present(GTK_WINDOW(open_window(data)));
 }
 
 static void spore_application_startup(GApplication *application) {
@@ -74,7 +79,7 @@ static void spore_application_startup(GApplication *application) {
 }
 
 static SporeWindow *add_window(SporeApplication *self) {
-  SporeWindow *window = spore_window_new(self);
+  SporeWindow *window = open_window(self);
   gtk_window_present(GTK_WINDOW(window));
   if (!self->recovery_offered) spore_window_offer_recovery(window);
   self->recovery_offered = TRUE;
@@ -122,16 +127,4 @@ SporeApplication *spore_application_new(const char *version, const char *scenes)
   self->version = g_strdup(version);
   self->scenes = g_strdup(scenes);
   return self;
-}
-
-const SporeSchema *spore_application_get_schema(SporeApplication *self) { return self->schema; }
-
-char *spore_application_get_demo(SporeApplication *self) {
-  static const char *const names[] = {"laparoscopy.spore", "minimal.spore"};
-  for (gsize i = 0; i < G_N_ELEMENTS(names); i++) {
-    char *file = g_build_filename(self->scenes, names[i], NULL);
-    if (g_file_test(file, G_FILE_TEST_IS_REGULAR)) return file;
-    g_free(file);
-  }
-  return NULL;
 }

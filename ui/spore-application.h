@@ -4,8 +4,6 @@
 
 #include <gtk/gtk.h>
 
-#include "core/scene/schema.h"
-
 G_BEGIN_DECLS
 
 #define SPORE_TYPE_APPLICATION spore_application_get_type()
@@ -13,9 +11,6 @@ G_DECLARE_FINAL_TYPE(SporeApplication, spore_application, SPORE, APPLICATION, Gt
 
 /* scenes: folder of the scenes that ship. */
 SporeApplication *spore_application_new(const char *version, const char *scenes);
-const SporeSchema *spore_application_get_schema(SporeApplication *self);
-/* File of the demo scene. g_free; NULL: not installed. */
-char *spore_application_get_demo(SporeApplication *self);
 
 G_END_DECLS
 #endif

@@ -1,3 +1,4 @@
+/* What is done to the scene, the simulation and the view by actions of the window. */
 #include <glib/gi18n.h>
 
 #include "core/author/edits.h"
@@ -5,23 +6,6 @@
 #include "ui/spore-window-private.h"
 
 static SporeDocument *document_of(SporeWindow *self) { return spore_editor_document_get(self->document); }
-
-SporeObject *spore_window_body_to_work_on(SporeWindow *self) {
-  SporeObject *selected = spore_editor_document_selected_body(self->document);
-  if (selected) return selected;
-  SporeObject *bodies = spore_document_section(document_of(self), "bodies"), *only = NULL;
-  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
-    SporeObject *body = spore_object_child(bodies, i);
-    if (!spore_edit_visual_mesh(document_of(self), body, NULL)) continue;
-    if (only) {
-      only = NULL;
-      break;
-    }
-    only = body;
-  }
-  if (!only) spore_window_complain(self, _("Select the organ first, in the outliner or in the viewport"));
-  return only;
-}
 
 /* History and objects. */
 
@@ -90,7 +74,7 @@ static void act_use_preset(GSimpleAction *action, GVariant *parameter, gpointer 
     spore_window_failed(self, error);
 }
 
-/* What is edited is where it is at the start. */
+/* Editing by hand works on the scene at its start. */
 static gboolean may_edit(SporeWindow *self) {
   SporeSession *session = spore_player_get_session(self->player);
   if (!session || spore_session_snapshot(session)->time_s == 0) return TRUE;
@@ -106,7 +90,7 @@ static void act_add_region(GSimpleAction *action, GVariant *parameter, gpointer 
     spore_window_failed(self, error);
 }
 
-/* By its handles in the view. */
+/* The region is placed by its handles in the view. */
 static void act_place_region(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   g_autoptr(GError) error = NULL;
@@ -185,9 +169,9 @@ static void change_tool(GSimpleAction *action, GVariant *state, gpointer data) {
   const char *name = g_variant_get_string(state, NULL);
   gboolean edit = g_str_equal(name, "edit");
   if (edit && !may_edit(self)) return;
-  spore_viewport_set_tool(SPORE_VIEWPORT(self->viewport), edit                         ? SPORE_TOOL_EDIT
-                                                          : g_str_equal(name, "probe") ? SPORE_TOOL_PROBE
-                                                                                       : SPORE_TOOL_SELECT);
+  spore_viewport_set_tool(SPORE_VIEWPORT(self->viewport), edit                         ? SPORE_VIEWPORT_TOOL_EDIT
+                                                          : g_str_equal(name, "probe") ? SPORE_VIEWPORT_TOOL_PROBE
+                                                                                       : SPORE_VIEWPORT_TOOL_SELECT);
   g_simple_action_set_state(action, state);
   spore_window_show_hint(self);
 }

@@ -1,3 +1,4 @@
+/* The window's document: replacing it and following it, opening and saving, and what is asked before it is lost. */
 #include <glib/gi18n.h>
 
 #include "core/base/memory.h"
@@ -6,8 +7,77 @@
 #include "ui/jobs/works.h"
 #include "ui/spore-window-private.h"
 
-static SporeApplication *application_of(SporeWindow *self) {
-  return SPORE_APPLICATION(gtk_window_get_application(GTK_WINDOW(self)));
+/* The document of the window. */
+
+static void update_title(SporeWindow *self) {
+  g_autofree char *name = spore_editor_document_get_title(self->document);
+  g_autofree char *title = g_strconcat(spore_editor_document_is_modified(self->document) ? "• " : "", name, NULL);
+  const char *file = spore_editor_document_get_save_file(self->document);
+  g_autofree char *folder = file ? g_path_get_dirname(file) : NULL;
+  gtk_header_bar_set_title(GTK_HEADER_BAR(self->header), title);
+  gtk_header_bar_set_subtitle(GTK_HEADER_BAR(self->header), folder);
+  gtk_window_set_title(GTK_WINDOW(self), title);
+}
+
+static void update(SporeWindow *self) {
+  update_title(self);
+  spore_window_update_actions(self);
+  spore_window_show_hint(self);
+}
+
+static void history_changed(SporeWindow *self) {
+  self->fresh = FALSE;
+  update(self);
+}
+
+static void player_changed(SporeWindow *self) {
+  gboolean playing = spore_player_is_playing(self->player);
+  gtk_image_set_from_icon_name(GTK_IMAGE(self->play_image),
+                               playing ? "media-playback-pause-symbolic" : "media-playback-start-symbolic",
+                               GTK_ICON_SIZE_BUTTON);
+  gtk_widget_set_tooltip_text(self->play_button, playing ? _("Pause (F5)") : _("Play (F5)"));
+  atk_object_set_name(gtk_widget_get_accessible(self->play_button), playing ? _("Pause") : _("Play"));
+  update(self);
+}
+
+/* Another world counts its messages from 0. */
+static void player_replaced(SporeWindow *self) {
+  self->monitored_step = self->monitor_seen = 0;
+  spore_problems_clear_run(SPORE_PROBLEMS(self->problems));
+}
+
+static void player_failed(SporeWindow *self, const char *message) { spore_window_complain(self, message); }
+
+void spore_window_release_document(SporeWindow *self) {
+  if (self->job) spore_job_cancel(self->job);
+  if (self->document) g_signal_handlers_disconnect_by_data(self->document, self);
+  if (self->player) g_signal_handlers_disconnect_by_data(self->player, self);
+  g_clear_object(&self->player);
+  g_clear_object(&self->document);
+  spore_window_set_generator(self);
+}
+
+void spore_window_set_document(SporeWindow *self, SporeDocument *document) {
+  spore_window_release_document(self);
+  self->document = spore_editor_document_new(document);
+  self->player = spore_player_new(self->document);
+  self->monitored_step = self->monitor_seen = 0;
+  g_autoptr(GVariant) speed = g_action_group_get_action_state(G_ACTION_GROUP(self), "speed");
+  spore_player_set_speed(self->player, g_ascii_strtod(g_variant_get_string(speed, NULL), NULL));
+  g_signal_connect_object(self->document, "history-changed", G_CALLBACK(history_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->document, "changed", G_CALLBACK(history_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->document, "selection-changed", G_CALLBACK(spore_window_update_actions), self,
+                          G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->player, "state-changed", G_CALLBACK(player_changed), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->player, "replaced", G_CALLBACK(player_replaced), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->player, "failed", G_CALLBACK(player_failed), self, G_CONNECT_SWAPPED);
+  spore_viewport_set_document(SPORE_VIEWPORT(self->viewport), self->document, self->player);
+  spore_window_set_generator(self);
+  spore_outliner_set_document(SPORE_OUTLINER(self->outliner), self->document);
+  spore_inspector_set_document(SPORE_INSPECTOR(self->inspector), self->document);
+  spore_problems_set_document(SPORE_PROBLEMS(self->problems), self->document);
+  gtk_widget_hide(self->message_bar);
+  player_changed(self);
 }
 
 /* Choosing files. g_free; NULL: the user went back. */
@@ -53,7 +123,7 @@ static gboolean save_as(SporeWindow *self) {
   return file && save_to(self, file);
 }
 
-gboolean spore_window_save(SporeWindow *self) {
+static gboolean save(SporeWindow *self) {
   return spore_editor_document_get_save_file(self->document) ? save_to(self, NULL) : save_as(self);
 }
 
@@ -69,7 +139,7 @@ gboolean spore_window_may_leave(SporeWindow *self) {
   gtk_dialog_set_default_response(GTK_DIALOG(dialog), GTK_RESPONSE_ACCEPT);
   int response = gtk_dialog_run(GTK_DIALOG(dialog));
   gtk_widget_destroy(dialog);
-  if (response == GTK_RESPONSE_ACCEPT) return spore_window_save(self);
+  if (response == GTK_RESPONSE_ACCEPT) return save(self);
   return response == GTK_RESPONSE_REJECT;
 }
 
@@ -81,7 +151,7 @@ static void opened(SporeJob *job, gpointer data, const GError *error, gpointer o
   spore_viewport_set_waiting(SPORE_VIEWPORT(self->viewport), FALSE);
   if (spore_window_failed(self, error)) return;
   SporeDocument *document = g_steal_pointer(&work->document);
-  g_clear_object(&self->job); /* this one is through: replacing the document cancels what still runs */
+  g_clear_object(&self->job); /* this job is done: replacing the document cancels a running job */
   gtk_widget_hide(self->job_box);
   spore_window_set_document(self, document);
   if (work->recovered) {
@@ -104,12 +174,12 @@ static void start_open(SporeWindow *self, SporeOpenWork *work) {
 
 void spore_window_open(SporeWindow *self, const char *file) {
   if (!spore_window_may_leave(self)) return;
-  start_open(self, spore_open_work_new(spore_application_get_schema(application_of(self)), file));
+  start_open(self, spore_open_work_new(self->schema, file));
 }
 
 void spore_window_recover(SporeWindow *self) {
   if (!self->leftover || !spore_window_may_leave(self)) return;
-  SporeOpenWork *work = spore_open_work_new(spore_application_get_schema(application_of(self)), self->leftover->scene);
+  SporeOpenWork *work = spore_open_work_new(self->schema, self->leftover->scene);
   work->original = g_strdup(self->leftover->original);
   work->recovered = TRUE;
   start_open(self, work);
@@ -120,7 +190,7 @@ void spore_window_recover(SporeWindow *self) {
 static void act_new(GSimpleAction *action, GVariant *parameter, gpointer data) {
   SporeWindow *self = data;
   if (self->document && !spore_window_may_leave(self)) return;
-  SporeDocument *document = spore_document_new(spore_application_get_schema(application_of(self)));
+  SporeDocument *document = spore_document_new(self->schema);
   spore_document_set_readers(document, &spore_editor_readers);
   spore_window_set_document(self, document);
 }
@@ -135,13 +205,24 @@ static void act_open_dialog(GSimpleAction *action, GVariant *parameter, gpointer
   if (file) spore_window_open(data, file);
 }
 
+/* File of the demo scene. g_free; NULL: not installed. */
+static char *find_demo(SporeWindow *self) {
+  static const char *const names[] = {"laparoscopy.spore", "minimal.spore"};
+  for (gsize i = 0; i < G_N_ELEMENTS(names); i++) {
+    char *file = g_build_filename(self->scenes, names[i], NULL);
+    if (g_file_test(file, G_FILE_TEST_IS_REGULAR)) return file;
+    g_free(file);
+  }
+  return NULL;
+}
+
 static void act_open_demo(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  g_autofree char *file = spore_application_get_demo(application_of(data));
+  g_autofree char *file = find_demo(data);
   if (file) spore_window_open(data, file);
   else spore_window_complain(data, _("The demo scene is not installed"));
 }
 
-static void act_save(GSimpleAction *action, GVariant *parameter, gpointer data) { spore_window_save(data); }
+static void act_save(GSimpleAction *action, GVariant *parameter, gpointer data) { save(data); }
 
 static void act_save_as(GSimpleAction *action, GVariant *parameter, gpointer data) {
   save_to(data, g_variant_get_string(parameter, NULL));

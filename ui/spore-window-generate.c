@@ -1,3 +1,4 @@
+/* Generators: starting them, the ends of a middle line, applying results and showing them. */
 #include <glib/gi18n.h>
 
 #include "core/mesh/common.h"
@@ -8,8 +9,8 @@
 #include "ui/spore-window-private.h"
 
 #define USUAL_LABEL_CELLS 5000
-#define LOOK_REST 4     /* times as long as a picture takes, between pictures of work that goes on */
-#define MARK_PART 0.015 /* of the organ's diagonal: radius of what marks a picked end */
+#define LOOK_REST 4     /* time between pictures of running work, as a multiple of the time of a picture */
+#define MARK_PART 0.015 /* radius of the mark of a picked end, as a part of the organ's diagonal */
 
 static void show_candidate(SporeWindow *self);
 
@@ -17,7 +18,7 @@ static SporeDocument *document_of(SporeWindow *self) { return spore_editor_docum
 
 /* Starting. */
 
-/* What is asked for; carried over the question whether edits may be replaced. */
+/* What the user asked for, kept while a dialog asks whether edits may be replaced. */
 typedef struct {
   SporeWindow *window;
   SporeGenerateKind kind;
@@ -54,7 +55,7 @@ static void answered(GtkDialog *dialog, int response, Request *request) {
 
 static void free_request(gpointer data, GClosure *closure) { g_free(data); }
 
-/* What was edited by hand is not replaced without a word. */
+/* Assets that were edited by hand are replaced only after a question. */
 static void ask(const Request *request, SporeObject *asset) {
   GtkWidget *dialog = gtk_message_dialog_new(GTK_WINDOW(request->window),
                                              GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, GTK_MESSAGE_QUESTION,
@@ -69,7 +70,7 @@ static void ask(const Request *request, SporeObject *asset) {
   gtk_widget_show(dialog);
 }
 
-/* Those of the scene, as they were made last. */
+/* Previews the label map that the body's tetrahedra were made from, with the same options. */
 static void preview_label_map(SporeWindow *self, SporeObject *body, SporeObject *map, guint count) {
   g_autoptr(GError) error = NULL;
   g_autoptr(GBytes) content = spore_document_read_asset(document_of(self), spore_object_text(map, "file"), &error);
@@ -148,19 +149,9 @@ static void act_preview_labels_dialog(GSimpleAction *action, GVariant *parameter
 
 /* Ends picked by hand. */
 
-static gboolean picks_ends(SporeWindow *self) {
-  return spore_generator_get_body(self->generator) &&
-         spore_generators[spore_generator_get_options(self->generator)->kind]->picks_ends;
-}
-
-static gboolean is_picking(SporeWindow *self) {
-  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "pick-ends");
-  return g_variant_get_boolean(state);
-}
-
 static void change_pick_ends(GSimpleAction *action, GVariant *state, gpointer data) {
   SporeWindow *self = data;
-  gboolean picking = g_variant_get_boolean(state) && picks_ends(self);
+  gboolean picking = g_variant_get_boolean(state) && spore_window_picks_ends(self);
   g_simple_action_set_state(action, g_variant_new_boolean(picking));
   self->picked = 0;
   spore_viewport_set_picking(SPORE_VIEWPORT(self->viewport), picking);
@@ -178,12 +169,12 @@ static void set_ends(SporeWindow *self, SporeVec3 first, SporeVec3 last) {
 }
 
 static void act_automatic_ends(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  if (picks_ends(data)) set_ends(data, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0));
+  if (spore_window_picks_ends(data)) set_ends(data, spore_vec3(0, 0, 0), spore_vec3(0, 0, 0));
 }
 
 static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
   SporeObject *body = spore_generator_get_body(self->generator);
-  if (!is_picking(self) || !body) return;
+  if (!spore_window_is_picking(self) || !body) return;
   if (spore_object_id(body) != id) {
     g_autofree char *text = g_strdup_printf(_("That is another organ; click on “%s”"), spore_object_name(body));
     spore_window_complain(self, text);
@@ -199,12 +190,6 @@ static void picked(SporeWindow *self, guint id, const SporeVec3 *place) {
   }
   g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
   set_ends(self, self->first_end, in_body);
-}
-
-const char *spore_window_picking_hint(SporeWindow *self) {
-  if (!is_picking(self)) return NULL;
-  return self->picked ? _("Click on the organ where its middle line ends; Escape picks no more")
-                      : _("Click on the organ where its middle line begins; Escape picks no more");
 }
 
 /* Ending. */
@@ -233,7 +218,7 @@ static void applied(SporeWindow *self) {
 
 /* Showing. */
 
-/* While ends are picked the organ is seen, with the first of them. */
+/* While ends are picked, the organ is shown with the first end. */
 static SporeStageCandidate *picking_candidate(SporeWindow *self) {
   SporeObject *body = spore_generator_get_body(self->generator);
   SporeObject *asset = spore_generate_source(document_of(self), body, SPORE_GENERATE_CURVE, NULL);
@@ -249,12 +234,12 @@ static SporeStageCandidate *picking_candidate(SporeWindow *self) {
   return candidate;
 }
 
-/* Of what the work has come to, or what it gave. */
+/* The candidate of the running work, or of its result. */
 static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *quality) {
   const SporeGenerateWork *work = spore_generator_get_result(self->generator);
   SporeObject *body = spore_generator_get_body(self->generator);
   SporeJob *job = spore_generator_get_job(self->generator);
-  if (is_picking(self)) return picking_candidate(self);
+  if (spore_window_is_picking(self)) return picking_candidate(self);
   if (!spore_generator_is_active(self->generator) || (!work && !job)) return NULL;
   SporeStageCandidate *candidate = g_new0(SporeStageCandidate, 1);
   candidate->body = body ? spore_object_id(body) : 0;
@@ -271,7 +256,7 @@ static SporeStageCandidate *candidate_of(SporeWindow *self, SporeQuality *qualit
   return candidate;
 }
 
-/* Where nothing was to be seen before, the view goes to it. */
+/* Where nothing was shown before, the view moves to the candidate. */
 static void frame_first(SporeWindow *self, const SporeStageCandidate *candidate) {
   gboolean apart = candidate && !candidate->body && candidate->vertex_count;
   if (apart && !self->framed_apart) spore_viewport_frame(SPORE_VIEWPORT(self->viewport));
@@ -286,10 +271,11 @@ static void show_candidate(SporeWindow *self) {
   spore_quality_clear(&quality);
 }
 
-/* A job tells of its progress more often than it has something else to show, or than that can be drawn beside it. */
+/* A job reports progress more often than its look changes, and more often than the look can be drawn. */
 static gboolean shows_look_already(SporeWindow *self) {
   SporeJob *job = spore_generator_get_job(self->generator);
-  gboolean same = job && job == self->look_job && !spore_generator_get_result(self->generator) && !is_picking(self);
+  gboolean same =
+      job && job == self->look_job && !spore_generator_get_result(self->generator) && !spore_window_is_picking(self);
   guint serial = job ? spore_job_get_look_serial(job) : 0;
   gint64 now = g_get_monotonic_time();
   double rest_ms = LOOK_REST * spore_viewport_get_draw_ms(SPORE_VIEWPORT(self->viewport));
@@ -301,7 +287,7 @@ static gboolean shows_look_already(SporeWindow *self) {
 }
 
 static void changed(SporeWindow *self) {
-  if (is_picking(self) && !picks_ends(self))
+  if (spore_window_is_picking(self) && !spore_window_picks_ends(self))
     g_action_group_change_action_state(G_ACTION_GROUP(self), "pick-ends", g_variant_new_boolean(FALSE));
   if (!shows_look_already(self)) show_candidate(self);
   spore_window_show_job(self);
@@ -317,21 +303,6 @@ void spore_window_set_generator(SporeWindow *self) {
   g_signal_connect_object(self->generator, "changed", G_CALLBACK(changed), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->generator, "failed", G_CALLBACK(spore_window_complain), self, G_CONNECT_SWAPPED);
   g_signal_connect_object(self->generator, "applied", G_CALLBACK(applied), self, G_CONNECT_SWAPPED);
-}
-
-void spore_window_update_generator(SporeWindow *self, gboolean bodies) {
-  gboolean idle = !self->job && !spore_generator_is_working(self->generator);
-  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {
-    g_autofree char *generate = g_strconcat("generate-", spore_generators[kind]->name, NULL);
-    g_autofree char *preview = g_strconcat("preview-", spore_generators[kind]->name, NULL);
-    if (kind != SPORE_GENERATE_LABELS) spore_window_set_enabled(self, generate, idle && bodies);
-    spore_window_set_enabled(self, preview, !self->job && (bodies || kind == SPORE_GENERATE_LABELS));
-  }
-  spore_window_set_enabled(self, "preview-labels-dialog", !self->job);
-  spore_window_set_enabled(self, "pick-ends", picks_ends(self));
-  spore_window_set_enabled(self, "automatic-ends", picks_ends(self));
-  spore_window_set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
-  spore_window_set_enabled(self, "cancel-job", self->job || spore_generator_is_active(self->generator));
 }
 
 void spore_window_add_generator_actions(SporeWindow *self) {

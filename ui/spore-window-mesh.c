@@ -7,7 +7,7 @@
 #include "ui/dialogs/spore-mesh-dialog.h"
 #include "core/author/edits.h"
 #include "core/author/mesh_edits.h"
-#include "ui/jobs/mapping-work.h"
+#include "ui/jobs/works.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/spore-window-private.h"
 
@@ -83,7 +83,7 @@ static void act_import_dialog_with(GSimpleAction *action, GVariant *parameter, g
 
 /* Operations. */
 
-/* The mesh asset that is selected, else the one that the body to work on shows; NULL: said to the user. */
+/* The selected mesh asset, else the mesh of the body to work on; NULL: none, and the user is told. */
 static SporeObject *asset_to_work_on(SporeWindow *self) {
   SporeDocument *document = spore_editor_document_get(self->document);
   SporeObject *selected = spore_editor_document_selected(self->document);
@@ -128,7 +128,7 @@ static void start_change(SporeWindow *self, SporeObject *asset, int kind, double
                            changed);
 }
 
-/* Of the operation with that name; -1, said to the user: none has it. */
+/* The operation with that name; -1: none, and the user is told. */
 static int find_operation(SporeWindow *self, const char *name) {
   for (int kind = 0; kind < SPORE_MESH_OPERATIONS; kind++)
     if (g_str_equal(spore_mesh_operations[kind].name, name)) return kind;
@@ -145,7 +145,7 @@ static void act_change_mesh(GSimpleAction *action, GVariant *parameter, gpointer
   if (asset) start_change(data, asset, kind, argument);
 }
 
-/* What a dialog asks for. */
+/* What a dialog was opened for. */
 typedef struct {
   SporeWindow *window; /* which outlives its dialogs */
   guint32 asset;

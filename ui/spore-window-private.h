@@ -1,5 +1,5 @@
-/* Shared by the parts of the window: frame (spore-window.c), files (spore-window-files.c) and what is done to the scene
- * (spore-window-actions.c). */
+/* Inside the window: its state, and its files from the lowest up. Each calls only those before it; spore-window.c puts
+ * them together. */
 #ifndef SPORE_UI_SPORE_WINDOW_PRIVATE_H
 #define SPORE_UI_SPORE_WINDOW_PRIVATE_H
 
@@ -20,6 +20,8 @@ struct _SporeWindow {
   GtkWidget *outliner, *viewport, *inspector, *problems, *generator_panel, *bottom, *tabs, *log, *hint, *job_box,
       *job_label, *job_bar, *renderer;
 
+  const SporeSchema *schema; /* borrowed from the application */
+  char *scenes;              /* folder of the scenes that ship */
   SporeEditorDocument *document;
   SporePlayer *player;
   SporeGenerator *generator;
@@ -31,56 +33,58 @@ struct _SporeWindow {
   GMenu *mesh_operations; /* in the menu */
   guint picked;           /* ends of a middle line, so far */
   SporeVec3 first_end;    /* in the body's axes */
-  SporeJob *look_job;     /* whose look is shown, with its serial and when; borrowed, to be compared */
+  SporeJob *look_job;     /* the job whose look is shown, with serial and time of the look; borrowed, only compared */
   guint look_serial;
   gint64 look_time;
-  gboolean framed_apart; /* what a generator offers of no body has been looked at */
+  gboolean framed_apart; /* the view has moved to a candidate that belongs to no body */
   gboolean fresh, sure;  /* sure: the user has answered about unsaved changes */
 };
 
-/* Frame. */
-void spore_window_set_document(SporeWindow *self, SporeDocument *document);
+/* spore-window-state.c: messages, the job that runs, enabled actions. */
 void spore_window_complain(SporeWindow *self, const char *message);
 void spore_window_log(SporeWindow *self, const char *format, ...) G_GNUC_PRINTF(2, 3);
 /* Brings what lies in one of the bottom's tabs to the front. */
 void spore_window_show_tab(SporeWindow *self, GtkWidget *what);
-/* One job at a time; FALSE (and data freed): another is running, said to the user. */
+/* Shows an error, unless the user cancelled. TRUE: there was an error. */
+gboolean spore_window_failed(SporeWindow *self, const GError *error);
+/* Starts a job; only one runs at a time. FALSE, with data freed: another job is running, and the user is told. */
 gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
                                 GDestroyNotify free_data, SporeJobDone done);
-/* Progress of what is being worked on, if anything. */
+/* Shows the progress of the running job, if any. */
 void spore_window_show_job(SporeWindow *self);
-/* Says an error, but not that the user cancelled. TRUE: there was one. */
-gboolean spore_window_failed(SporeWindow *self, const GError *error);
+/* The selected body, else the only body that shows a mesh; NULL: none, and the user is told. */
+SporeObject *spore_window_body_to_work_on(SporeWindow *self);
+/* Whether ends can be picked for what the generator makes, and whether the user picks them now. */
+gboolean spore_window_picks_ends(SporeWindow *self);
+gboolean spore_window_is_picking(SporeWindow *self);
+void spore_window_show_hint(SporeWindow *self); /* what the current tool does */
+/* Enables the actions that can be done now. */
 void spore_window_update_actions(SporeWindow *self);
-void spore_window_show_hint(SporeWindow *self); /* what the tool of now does */
-void spore_window_set_enabled(SporeWindow *self, const char *action, gboolean enabled);
 
-/* Generators. */
+/* spore-window-generate.c: generators. */
 void spore_window_add_generator_actions(SporeWindow *self);
-/* A generator for the document of now, or none. */
+/* Makes the generator for the current document, if there is one. */
 void spore_window_set_generator(SporeWindow *self);
 /* Tetrahedra of the organs of a label map. */
 void spore_window_preview_labels(SporeWindow *self, const char *file);
-/* What to click on, while ends are picked; else NULL. */
-const char *spore_window_picking_hint(SporeWindow *self);
-void spore_window_update_generator(SporeWindow *self, gboolean bodies);
 
-/* Files. */
+/* spore-window-files.c: the document and its files. */
 void spore_window_add_file_actions(SporeWindow *self);
+/* Takes the document. */
+void spore_window_set_document(SporeWindow *self, SporeDocument *document);
+/* Lets go of the document and of what follows it. */
+void spore_window_release_document(SporeWindow *self);
 /* Asks about unsaved changes; TRUE: go on. */
 gboolean spore_window_may_leave(SporeWindow *self);
-/* Saves, asking for a name where there is none; FALSE: not saved. */
-gboolean spore_window_save(SporeWindow *self);
+/* Opens what a dead owner left. */
 void spore_window_recover(SporeWindow *self);
 
-/* Meshes. */
+/* spore-window-mesh.c: importing meshes, and operations on them. */
 void spore_window_add_mesh_actions(SporeWindow *self);
 /* files: NULL-terminated, or NULL: none yet. */
 void spore_window_show_import_dialog(SporeWindow *self, const char *const *files);
 
-/* Scene. */
+/* spore-window-actions.c: scene, simulation and view. */
 void spore_window_add_scene_actions(SporeWindow *self);
-/* The selected body, else the only one that shows a mesh; NULL: said to the user. */
-SporeObject *spore_window_body_to_work_on(SporeWindow *self);
 
 #endif

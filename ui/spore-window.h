@@ -25,17 +25,20 @@
 #ifndef SPORE_UI_SPORE_WINDOW_H
 #define SPORE_UI_SPORE_WINDOW_H
 
-#include "ui/spore-application.h"
+#include <gtk/gtk.h>
+
+#include "core/scene/schema.h"
 
 G_BEGIN_DECLS
 
 #define SPORE_TYPE_WINDOW spore_window_get_type()
 G_DECLARE_FINAL_TYPE(SporeWindow, spore_window, SPORE, WINDOW, GtkApplicationWindow)
 
-SporeWindow *spore_window_new(SporeApplication *application);
+/* schema: borrowed. scenes: folder of the scenes that ship, where the demo is. */
+SporeWindow *spore_window_new(GtkApplication *application, const SporeSchema *schema, const char *scenes);
 /* Reads the scene without holding up the window. */
 void spore_window_open(SporeWindow *self, const char *file);
-/* TRUE: nothing was ever made or opened here. */
+/* TRUE: nothing was made or opened in this window. */
 gboolean spore_window_is_fresh(SporeWindow *self);
 /* Offers what a dead owner left, if any. */
 void spore_window_offer_recovery(SporeWindow *self);

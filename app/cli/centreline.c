@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "app/cli/scene.h"
-#include "app/cli/scene_body.h"
+#include "app/cli/generate.h"
 #include "core/author/generated_edits.h"
 #include "core/author/centreline_body.h"
 #include "core/generate/centreline/centreline.h"
@@ -159,7 +159,7 @@ static int generate(SporeCli *cli, const char *file, const SporeCliOptions *aske
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* Of what a body of a scene shows, and for it. */
+/* Works from the mesh that a body of a scene shows, and gives the result to that body. */
 static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *asked,
                         const Output *output, SporeSceneBody *scene, GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
@@ -195,7 +195,7 @@ static int generate_in(SporeCli *cli, const char *file, const char *body, const 
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* A scene says unit and axes, and takes the line itself. */
+/* A scene states the unit and the axes of its meshes, and keeps the line; the options for these are for files. */
 static int check_scene(gboolean scene, const char *body, gboolean others) {
   if (!scene && body)
     return spore_cli_usage(_("spore centreline: --body is for scenes; expected a file F.spore with it; leave it out"));
@@ -206,7 +206,7 @@ static int check_scene(gboolean scene, const char *body, gboolean others) {
   return SPORE_EXIT_DONE;
 }
 
-/* What the command line may ask for; prints its own message. scene: of a scene that is there. */
+/* Checks what the command line asks for, and prints its own message. scene: the file is a scene. */
 static int check(const SporeCliOptions *options, const Output *output, gboolean scene) {
   if (spore_cli_options_has(options, "first_place") != spore_cli_options_has(options, "last_place"))
     return spore_cli_usage(

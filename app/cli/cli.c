@@ -1,3 +1,4 @@
+/* What the commands of spore share: options, the report and its lines, exit statuses, and interruption. */
 #include "app/cli/cli.h"
 
 #include <errno.h>
@@ -20,7 +21,7 @@ static void on_signal(int number) { interrupted = number; }
 
 gboolean spore_cli_interrupted(void) { return interrupted != 0; }
 
-/* The handler only sets a flag: work ends at its next look, and no file is left half-written. */
+/* The handler only sets a flag. Work that sees the flag ends, and no file is left half-written. */
 static void catch_signals(void) {
   struct sigaction action = {.sa_handler = on_signal};
   sigaction(SIGINT, &action, NULL);
@@ -51,7 +52,7 @@ int spore_cli_parse_with(SporeCli *cli, const SporeCommandInfo *info, const GOpt
   g_option_group_set_translation_domain(group, GETTEXT_PACKAGE);
   g_option_group_add_entries(group, entries);
   g_option_group_add_entries(group, shared);
-  g_option_context_set_main_group(context, group); /* which takes it over */
+  g_option_context_set_main_group(context, group); /* takes ownership */
   g_autoptr(GError) error = NULL;
   if (!g_option_context_parse(context, argc, argv, &error))
     return spore_cli_usage(_("spore %s: %s; see `spore %s --help`"), info->name, error->message, info->name);
@@ -192,7 +193,7 @@ GBytes *spore_cli_read_file(const char *file, const char *expected, GError **err
   return bytes ? g_bytes_new_take(bytes, size) : NULL;
 }
 
-/* Before the work, so that a wrong unit is not found in its result. */
+/* Said before the work starts, so that a wrong unit is noticed at once. */
 static void say_size(const SporeCli *cli, const char *file, const SporeTriangleMesh *mesh, int unit) {
   double diagonal_m = spore_mesh_diagonal(mesh->vertices, mesh->vertex_count, 3);
   g_autofree char *length = spore_length_text(diagonal_m), *doubt = spore_length_doubt(diagonal_m, unit);

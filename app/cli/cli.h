@@ -7,7 +7,7 @@
 #include "core/base/progress.h"
 #include "core/scene/document.h"
 
-/* Exit statuses of the contract; an interrupt ends as a shell expects it. */
+/* Exit statuses. After an interrupt the status is the one that a shell expects. */
 enum {
   SPORE_EXIT_DONE = 0,
   SPORE_EXIT_NOT_HELD = 1,
@@ -22,17 +22,17 @@ typedef struct SporeCli {
   JsonBuilder *report;  /* an open object; printed by spore_cli_finish when json */
 } SporeCli;
 
-/* A member of the object that --json prints, and all below it. */
+/* A member of the object that --json prints, with the members below it. */
 typedef struct SporeReportMember {
   const char *name; /* members of members joined by dots */
-  const char *doc;  /* translatable; names those below it */
+  const char *doc;  /* translatable; names the members below */
 } SporeReportMember;
 
 typedef struct SporeCommandInfo {
   const char *name;
   const char *arguments;           /* "SCENE" */
   const char *summary;             /* translatable */
-  int minimum, maximum;            /* count of plain arguments */
+  int minimum, maximum;            /* number of plain arguments */
   const SporeReportMember *report; /* ends with one without a name; printed by --help */
 } SporeCommandInfo;
 
@@ -45,11 +45,11 @@ int spore_cli_parse_with(SporeCli *cli, const SporeCommandInfo *info, const GOpt
 
 /* Prints a message for people on stdout, unless --json or --quiet. */
 void spore_cli_say(const SporeCli *cli, const char *format, ...) G_GNUC_PRINTF(2, 3);
-/* Prints the error on stderr, frees it and returns the exit status it asks for. */
+/* Prints the error on stderr, frees it, and returns the exit status for that kind of error. */
 int spore_cli_fail(GError *error);
 /* A usage error: status 2. */
 int spore_cli_usage(const char *format, ...) G_GNUC_PRINTF(1, 2);
-/* Closes the report's object and prints it when --json; returns status. */
+/* Closes the report's object, prints the report with --json, and returns status. */
 int spore_cli_finish(SporeCli *cli, int status);
 
 /* Members of the report. Numbers that JSON cannot hold become null. */
@@ -68,15 +68,15 @@ const SporeProgress *spore_cli_progress(const SporeCli *cli);
 
 /* Content of a regular file. expected: what it should be, translated ("a mesh"), for messages. */
 GBytes *spore_cli_read_file(const char *file, const char *expected, GError **error);
-/* Reads a mesh file from anywhere; --unit and --frame by name (frame NULL: what the file says, else Y_UP). */
+/* Reads a mesh file. --unit and --frame are names; frame NULL: the axes that the file states, else Y_UP. */
 gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, const char *frame,
                              SporeTriangleMesh *mesh, GBytes **content, int *unit_index, int *frame_index,
                              GError **error);
-/* TRUE unless writing output would destroy input: the same file, be it by another name. */
+/* TRUE unless output and input are the same file, even under different names: writing would destroy the input. */
 gboolean spore_cli_keeps(const char *output, const char *input, GError **error);
-/* The same, and there is a folder for the output: to be asked before what takes long. */
+/* As before, and the folder of the output exists. Checked before work that takes long. */
 gboolean spore_cli_has_room(const char *output, const char *input, GError **error);
-/* Makes the folder that the file is to lie in, where there is none. */
+/* Makes the folder of the file, if it does not exist. */
 gboolean spore_cli_make_folder_of(const char *file, GError **error);
 /* Index of text in a NULL-terminated list; -1 with a GError that lists it. */
 int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error);

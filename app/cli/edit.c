@@ -1,4 +1,4 @@
-/* spore edit: what an author changes in a scene, from the command line. */
+/* spore edit: changes a scene from the command line. */
 #include <glib/gi18n.h>
 
 #include "app/cli/scene.h"
@@ -6,7 +6,7 @@
 #include "core/io/scene_xml.h"
 #include "core/scene/check.h"
 
-/* What the command line says. */
+/* The options of the command line. */
 typedef struct Request {
   char **set, **hold, *output;
   gboolean probe;

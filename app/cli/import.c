@@ -43,7 +43,7 @@ static void report_changes(SporeCli *cli, const SporeImportBody *body) {
   spore_cli_close_array(cli);
 }
 
-/* name: that the body has in the scene. */
+/* name: of the body in the scene. */
 static void report_mesh(SporeCli *cli, const SporeImportBody *body, const char *name, int unit) {
   const SporeMeshReport *figures = &body->as_read.report;
   g_autofree char *size = spore_length_text(figures->diagonal);
@@ -51,7 +51,7 @@ static void report_mesh(SporeCli *cli, const SporeImportBody *body, const char *
   spore_cli_text(cli, "body", name);
   spore_cli_text(cli, "file", body->source ? body->source->file : NULL);
   if (body->source) unit = body->source->unit;
-  spore_cli_text(cli, "unit", unit < 0 ? NULL : spore_length_units[unit]); /* null: of several files, each its own */
+  spore_cli_text(cli, "unit", unit < 0 ? NULL : spore_length_units[unit]); /* null: several files, each with its own */
   spore_cli_text(cli, "frame", body->source ? spore_mesh_frames[body->source->frame] : NULL);
   spore_cli_number(cli, "diagonal_m", figures->diagonal);
   report_figures(cli, "as_read", &body->as_read);
@@ -93,7 +93,7 @@ static void report(SporeCli *cli, SporeDocument *document, const SporeImport *im
   report_diagnostics(cli, document, import);
 }
 
-/* What the bodies are added to. */
+/* The scene that the bodies are added to. */
 static SporeDocument *open_scene(SporeCli *cli, const char *output, gboolean add, GError **error) {
   if (add) return spore_scene_load(cli->schema, output, error);
   if (g_file_test(output, G_FILE_TEST_EXISTS)) spore_cli_say(cli, _("--add would have kept what is there:\n"));
@@ -117,7 +117,7 @@ static int import(SporeCli *cli, char **meshes, const SporeImportOptions *option
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* What the options say, before it is understood. */
+/* The options as they are given, before they are read. */
 typedef struct Request {
   char *unit, *frame, *output;
   gboolean merge, add;
@@ -127,7 +127,7 @@ typedef struct Request {
 static gboolean read_operation(const char *name, const char *text, gpointer data, GError **error) {
   Request *request = data;
   int kind = 0;
-  while (strcmp(spore_mesh_operations[kind].name, name + 2) != 0) kind++; /* behind the dashes */
+  while (strcmp(spore_mesh_operations[kind].name, name + 2) != 0) kind++; /* without the leading dashes */
   const SporeMeshOperation *operation = &spore_mesh_operations[kind];
   double value = operation->usual;
   char *end = NULL;

@@ -1,4 +1,4 @@
-/* spore models: every parameter with unit, range, default and meaning. */
+/* spore models and spore schema: every parameter with unit, range, default and meaning, and the format as RELAX NG. */
 #include <glib/gi18n.h>
 #include <math.h>
 
@@ -101,7 +101,8 @@ static void report_quantity(SporeCli *cli, const SporeTissueQuantity *quantity) 
                 range, _(quantity->source));
 }
 
-/* What nobody was found to have measured is said, so that a model's own value is not taken for a tissue's. */
+/* Quantities without a known measurement are listed, so that nobody takes a model's own value for a value of the
+ * tissue. */
 static void report_unknown(SporeCli *cli, const SporeTissue *tissue) {
   spore_cli_open_array(cli, "unknown");
   for (const char *const *name = spore_tissue_wanted; *name; name++) {
@@ -165,5 +166,17 @@ int spore_command_models(SporeCli *cli, int argc, char **argv) {
   for (gsize i = 0; registry[i]; i++)
     if (argc < 2 || g_str_equal(argv[1], registry[i]->name)) report_model(cli, registry[i]);
   spore_cli_close_array(cli);
+  return spore_cli_finish(cli, SPORE_EXIT_DONE);
+}
+
+int spore_command_schema(SporeCli *cli, int argc, char **argv) {
+  static const SporeReportMember members[] = {{"relax_ng", N_("the schema")}, {NULL, NULL}};
+  static const SporeCommandInfo info = {"schema", "", N_("Prints the RELAX NG schema of scenes."), 0, 0, members};
+  const GOptionEntry entries[] = {G_OPTION_ENTRY_NULL};
+  int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
+  if (status != SPORE_EXIT_DONE) return status;
+  g_autofree char *schema = spore_schema_relax_ng(cli->schema);
+  spore_cli_text(cli, "relax_ng", schema);
+  spore_cli_say(cli, "%s", schema);
   return spore_cli_finish(cli, SPORE_EXIT_DONE);
 }

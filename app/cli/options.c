@@ -1,4 +1,4 @@
-/* Options that the table of a generator states, read from the command line and described in its help. */
+/* Options of a generator: read from the command line and described in its help by the generator's table. */
 #include "app/cli/options.h"
 
 #include <glib/gi18n.h>
@@ -9,7 +9,7 @@
 
 #define HELP_VALUE 64
 
-/* Spellings that the scene file has not; they are refused, with the word of the scene file. */
+/* Spellings that scene files do not use. They are refused with the word of the scene file. */
 static const struct {
   const char *command, *old, *new;
 } renamed[] = {
@@ -18,7 +18,7 @@ static const struct {
     {"centreline", "--ends", "--first-place X,Y,Z --last-place X,Y,Z"},
 };
 
-/* What a run of the parser needs besides the options. */
+/* What the parser needs besides the options. */
 typedef struct Parsing {
   SporeCliOptions *options;
   const char *letters;
@@ -57,7 +57,7 @@ static gboolean refuse(const char *option, SporeError *fault, GError **error) {
   return FALSE;
 }
 
-/* Places stand with commas on the command line and with blanks in a file. */
+/* A place is written with commas on the command line, and with blanks in a file. */
 static gboolean read_value(const SporeParameter *parameter, const char *option, const char *text, SporeValue *value,
                            GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
@@ -86,7 +86,7 @@ static gboolean take_purpose(const char *option, const char *text, gpointer data
   return TRUE;
 }
 
-/* X,Y,Z,RADIUS,VALUE; the last is what the region's own table ends with. */
+/* X,Y,Z,RADIUS,VALUE. The value is the last parameter of the region's table. */
 static gboolean take_region(const char *option, const char *text, gpointer data, GError **error) {
   Parsing *parsing = data;
   const SporeElement *element = region_of(parsing->options->type);
@@ -120,7 +120,7 @@ static const char *keep(Parsing *parsing, char *text) {
   return text;
 }
 
-/* What stands for the value: its choices, or what it is a number of. */
+/* What help shows for the value: its choices, or the unit of its number. */
 static const char *value_name(Parsing *parsing, const SporeParameter *parameter) {
   if (parameter->type == SPORE_BOOLEAN) return NULL;
   if (parameter->type == SPORE_CHOICE) return keep(parsing, g_strjoinv("|", (char **)parameter->choices));
@@ -129,7 +129,7 @@ static const char *value_name(Parsing *parsing, const SporeParameter *parameter)
   return *parameter->unit ? keep(parsing, g_ascii_strup(parameter->unit, -1)) : "X";
 }
 
-/* The table's own words; the default where there is one that is no other way's. */
+/* The words of the table, and the default, unless the default belongs to another way. */
 static const char *description(Parsing *parsing, const SporeParameter *parameter) {
   SporeValue initial = {0};
   char text[HELP_VALUE];
@@ -208,7 +208,7 @@ static int refuse_renamed(const char *command, int argc, char **argv) {
   return SPORE_EXIT_DONE;
 }
 
-/* Given, and not 0, which is not to ask for it. */
+/* Given with a value other than 0; 0 asks for nothing. */
 static gboolean is_asked(const SporeCliOptions *options, size_t i) {
   return options->given[i] && options->values[i].number[0] != 0;
 }
@@ -291,7 +291,7 @@ char *spore_cli_options_ways(const SporeCliOptions *options) {
 void spore_cli_options_fill(const SporeCliOptions *options, void *fields) {
   int way = spore_cli_options_way(options);
   if (way >= 0) {
-    for (size_t i = 0; i < options->table.count; i++) { /* the rest of the way is asked for no more, too */
+    for (size_t i = 0; i < options->table.count; i++) { /* the other options of that way are dropped too */
       const SporeParameter *parameter = &options->table.parameters[i];
       const SporeValue nothing = {.type = parameter->type};
       if (spore_generator_way(options->type, parameter->name) == way && !(parameter->minimum > 0))

@@ -3,9 +3,7 @@
 #include <link.h>
 
 #include "app/cli/cli.h"
-#include "app/cli/plan_carried.h"
-#include "app/cli/plan_levels.h"
-#include "app/cli/plan_lines.h"
+#include "app/cli/plan_tables.h"
 #include "app/cli/scene.h"
 
 #define MEASURED_STEPS 200
@@ -66,15 +64,15 @@ static void report_method(SporeCli *cli, const char *body, int width, const Spor
 
 static void report_bodies(SporeCli *cli, const SporeWorld *world) {
   SporeMethod method;
-  gboolean said = FALSE;
+  gboolean titled = FALSE;
   int width = spore_cli_body_width(world);
   spore_cli_open_array(cli, "bodies");
   for (guint body = 0; body < spore_world_body_count(world); body++) {
     if (!spore_world_body_method(world, body, &method)) continue;
-    if (!said)
-      spore_cli_say(cli, "%-*s %-30s %-30s %-30s %s\n", width, _("body"), _("integrator (said by)"), _("substeps"),
+    if (!titled)
+      spore_cli_say(cli, "%-*s %-30s %-30s %-30s %s\n", width, _("body"), _("integrator (source)"), _("substeps"),
                     _("nonlinear"), _("linear"));
-    said = TRUE;
+    titled = TRUE;
     report_method(cli, spore_world_body_name(world, body), width, &method);
   }
   spore_cli_close_array(cli);

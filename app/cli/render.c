@@ -4,7 +4,6 @@
 #include <stdio.h>
 
 #include "app/cli/cli.h"
-#include "app/cli/level_changes.h"
 #include "app/cli/scene.h"
 #include "ui/render/stage.h"
 

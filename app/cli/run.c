@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "app/cli/cli.h"
-#include "app/cli/level_changes.h"
 #include "app/cli/run_report.h"
 #include "app/cli/scene.h"
 #include "core/base/memory.h"
@@ -11,7 +10,7 @@
 
 #define USUAL_STEPS 1000
 #define NOT_GIVEN G_MININT64
-#define ENERGY_LOOKS 1000 /* a run: few enough to cost nothing */
+#define ENERGY_LOOKS 1000 /* a run; few enough to cost nothing */
 
 typedef struct RunOptions {
   double time_s, dt_s;
@@ -23,7 +22,7 @@ typedef struct RunOptions {
   SporeSceneOptions scene;
 } RunOptions;
 
-/* Appends what each device was taken to say in the step just done. */
+/* Appends the device states that the last step used. */
 static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
   for (gsize i = 0; i < recording->channel_count; i++) {
     SporeTrackChannel *channel = &recording->channels[i];
@@ -35,7 +34,7 @@ static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
   return TRUE;
 }
 
-/* recording: NULL, or a track with a channel for each active body; pace: NULL, or what keeps the steps in time. */
+/* recording: NULL, or a track with a channel for each active body. pace: NULL, or the clock that paces the steps. */
 static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, GArray *levels,
                                     SporePace *pace, SporeTrack *recording) {
   SporeRunStatistics statistics;

@@ -1,3 +1,4 @@
+/* What spore run reports: times of stages, solver, tools, contacts, energy and messages of a run. */
 #include "app/cli/run_report.h"
 
 #include <glib/gi18n.h>
@@ -39,7 +40,7 @@ static void report_solver(SporeCli *cli, const SporeRunStatistics *result) {
 
 typedef bool (*BodyTest)(const SporeWorld *world, uint32_t body);
 
-/* Names of the bodies that it holds for; how many. */
+/* Reports the names of the bodies for which the test holds; returns their number. */
 static guint report_bodies(SporeCli *cli, const char *member, const SporeWorld *world, BodyTest holds) {
   guint count = 0;
   spore_cli_open_array(cli, member);
@@ -63,7 +64,7 @@ static void report_messages(SporeCli *cli, const SporeMonitor *monitor) {
   spore_cli_close_array(cli);
 }
 
-/* Whether what the monitor checks held. */
+/* Whether the checks of the monitor held. */
 static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
   const SporeMonitor *monitor = spore_world_monitor(world);
   const struct {
@@ -151,7 +152,7 @@ static void report_level(SporeCli *cli, const char *body, const SporeLevelState 
                 (unsigned long long)state->refused);
 }
 
-/* Where bodies have them. */
+/* Only where bodies have levels. */
 static void report_levels(SporeCli *cli, const SporeWorld *world) {
   SporeLevelState state;
   gboolean any = FALSE;
@@ -164,7 +165,7 @@ static void report_levels(SporeCli *cli, const SporeWorld *world) {
   if (any) spore_cli_close_array(cli);
 }
 
-/* Where control points come and go. */
+/* Only where control points come and go. */
 static void report_lines(SporeCli *cli, const SporeWorld *world) {
   SporeLineState line;
   gboolean any = FALSE;
@@ -189,7 +190,7 @@ static void report_lines(SporeCli *cli, const SporeWorld *world) {
   if (any) spore_cli_close_array(cli);
 }
 
-/* Whether it kept pace. */
+/* Whether the run kept pace with the clock. */
 static gboolean report_pace(SporeCli *cli, const SporeWorld *world, const SporePace *pace) {
   if (!pace) return TRUE;
   SporePaceSummary summary = spore_pace_summary(pace, spore_world_time_s(world));

@@ -1,4 +1,4 @@
-/* What `spore run` says of a run. */
+/* What `spore run` reports of a run. */
 #ifndef SPORE_APP_RUN_REPORT_H
 #define SPORE_APP_RUN_REPORT_H
 
@@ -6,7 +6,7 @@
 #include "core/measure/pace.h"
 #include "core/measure/run_statistics.h"
 
-/* Prints it, for people or as members of the report. pace: NULL without --realtime. Returns the exit status. */
+/* Prints the figures for people, or adds them to the report. pace: NULL without --realtime. Returns the exit status. */
 int spore_run_report(SporeCli *cli, const char *scene, const SporeWorld *world, const SporeRunStatistics *result,
                      const SporePace *pace);
 

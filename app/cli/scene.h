@@ -1,4 +1,4 @@
-/* Opening a scene from the command line, with the options that change it on the way. */
+/* Opening a scene from the command line, with the options that change it, and running it. */
 #ifndef SPORE_APP_CLI_SCENE_H
 #define SPORE_APP_CLI_SCENE_H
 
@@ -26,22 +26,23 @@ typedef struct SporeSceneOptions {
 
 void spore_scene_options_clear(SporeSceneOptions *options);
 
-/* PATH/PROPERTY=VALUE; a unit of a body that is not there yet is made. */
+/* Sets PATH/PROPERTY=VALUE; makes the unit of a body where it does not exist yet. */
 gboolean spore_cli_set(SporeDocument *document, const char *setting, GError **error);
-/* One thing to mend: a member of the open array of the report, and a line for people. */
+/* Reports one problem: an element of the open array of the report, and a line for people. */
 void spore_cli_diagnostic(SporeCli *cli, const char *place, const char *message, const char *remedy);
-/* What there is to mend in a scene, into the open array of the report and for people. */
+/* Reports all problems of a scene: elements of the open array of the report, and lines for people. */
 void spore_cli_diagnostics(SporeCli *cli, SporeDocument *document);
 
-/* An empty scene to be written to that file; says so where one is there, whose place it takes. */
+/* An empty scene that will be written to that file. Tells people where it replaces an existing file. */
 SporeDocument *spore_cli_new_scene(SporeCli *cli, const char *file);
-/* NULL with an error that lists the scene's bodies. place: what named it, for the message. */
+/* Finds a body by name. NULL with an error that lists the scene's bodies. place: where the name was given, for the
+ * message. */
 SporeObject *spore_cli_find_body(SporeDocument *document, const char *place, const char *name, GError **error);
 
 /* Loads a scene and applies --set, --dt and --integrator. */
 SporeDocument *spore_cli_load(SporeCli *cli, const char *file, const SporeSceneOptions *options, GError **error);
 
-/* A scene ready to run; what it holds lives as long as it. */
+/* A scene that is ready to run. Everything in it lives as long as the run. */
 typedef struct SporeRun {
   SporeDocument *document;
   SporePool *pool;
@@ -54,7 +55,21 @@ SporeRun *spore_run_open(SporeCli *cli, const char *file, const SporeSceneOption
 void spore_run_free(SporeRun *run);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeRun, spore_run_free)
 
-/* Width of a table's column of bodies' names. */
+/* Width of the column of body names in a table. */
 int spore_cli_body_width(const SporeWorld *world);
+
+/* A change of level that the command line asks for. */
+typedef struct SporeLevelChange {
+  guint32 body;
+  SporeLevelGrade level;
+  double time_s;
+  gboolean posted;
+} SporeLevelChange;
+
+/* Reads settings of the form BODY=LEVEL or BODY=LEVEL@SECONDS; settings may be NULL. NULL with a GError: no such body,
+ * level or time. Free with g_array_unref. */
+GArray *spore_level_changes_parse(const SporeWorld *world, char **settings, GError **error);
+/* Posts the changes that are due. */
+void spore_level_changes_post(GArray *changes, SporeWorld *world);
 
 #endif

@@ -2,15 +2,15 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "app/cli/scene_body.h"
+#include "app/cli/generate.h"
 #include "app/cli/spheres_series.h"
 #include "core/author/generated_edits.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 
-#define THIN 0.6 /* coverage below which a set needs a word */
+#define THIN 0.6 /* a lower coverage gets a warning */
 
-/* What the command line says. */
+/* The options of the command line. */
 typedef struct Request {
   SporeCliOptions options;
   char *unit, *frame, *output, *counts, *svg, *csv, *body;
@@ -48,7 +48,7 @@ static void say_sheet(SporeCli *cli, const SporeSphereSet *set, const SporeSpher
       set->count, 100 * report->coverage, 100 * report->distance_mean, 100 * report->distance_max, report->seconds);
 }
 
-/* What is read from the file, and what of it is the source. */
+/* The content of the file, and the part of it that the spheres are made from. */
 typedef struct Read {
   SporeTriangleMesh surface;
   SporeTetrahedralMesh tetrahedra;
@@ -94,7 +94,7 @@ static gboolean make_set(SporeCli *cli, const char *file, const SporeSpheresSour
   return spore_error_propagate(&fault, error);
 }
 
-/* Regions in which no sphere lies, not even in part: they are off the organ. */
+/* Reports regions that no sphere touches: these regions lie off the organ. */
 static void report_regions(SporeCli *cli, const SporeSpheresOptions *options, const SporeSphereSet *set) {
   spore_cli_open_array(cli, "regions_missed");
   for (gsize i = 0; i < options->region_count; i++) {
@@ -205,7 +205,7 @@ static gboolean generate_any(SporeCli *cli, const char *file, const Request *req
   return done;
 }
 
-/* Options that a scene's asset has no place for. */
+/* Options that the asset of a scene cannot store. */
 static int check_scene(const Request *request) {
   if (request->unit || request->frame || request->output || request->counts || request->asymmetric ||
       request->thickness >= 0)
@@ -216,7 +216,7 @@ static int check_scene(const Request *request) {
   return SPORE_EXIT_DONE;
 }
 
-/* SPORE_EXIT_DONE to go on. */
+/* SPORE_EXIT_DONE: go on. */
 static int check_request(const Request *request, gboolean scene) {
   if (!scene && request->body)
     return spore_cli_usage(_("spore spheres: --body is for scenes; expected a file F.spore with it; leave it out"));

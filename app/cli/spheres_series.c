@@ -1,3 +1,4 @@
+/* spore spheres --counts: the error against the number of spheres, and where more spheres stop paying. */
 #include "app/cli/spheres_series.h"
 
 #include <glib/gi18n.h>

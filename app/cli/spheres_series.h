@@ -8,7 +8,7 @@
 /* "16,32,64" as an array of size_t, ascending; NULL with a GError. */
 GArray *spore_cli_counts(const char *text, GError **error);
 
-/* Measures the series, tells it, and writes the plot and the table where they are asked for (NULL: not). */
+/* Measures the series, reports it, and writes the plot and the table (NULL: not asked for). */
 gboolean spore_cli_spheres_series(SporeCli *cli, const char *file, const SporeSpheresSource *source,
                                   const SporeSpheresOptions *options, const GArray *counts, double worth,
                                   const char *svg, const char *csv, GError **error);

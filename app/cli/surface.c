@@ -1,18 +1,33 @@
-/* spore surface: the surface that a net is made of, from any surface. */
+/* spore surface: a surface of few, well-shaped triangles for a net, or a hollow organ, from any surface. */
 #include <glib/gi18n.h>
 
-#include "app/cli/scene_body.h"
-#include "app/cli/surface_wall.h"
+#include "app/cli/generate.h"
 #include "core/author/generated_edits.h"
 #include "core/generate/surface/surface.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 #include "core/scene/schema_fields.h"
 
-SporeSurfaceFormatter spore_surface_formatter(const char *file) {
+typedef struct WallOptions {
+  double thickness;         /* m */
+  gint64 detail;            /* see spore_wall_inner; 0: SPORE_WALL_DETAIL */
+  const char *wall, *inner; /* files to write, NULL: none; with a suffix that formatter_of knows */
+} WallOptions;
+
+typedef char *(*Formatter)(const SporeTriangleMesh *mesh, gsize *size);
+/* NULL: the file's name ends in nothing known. */
+static Formatter formatter_of(const char *file) {
   if (g_str_has_suffix(file, ".off")) return spore_off_format;
   return g_str_has_suffix(file, ".obj") ? spore_obj_format : NULL;
 }
+
+static gboolean write_mesh(const char *file, const SporeTriangleMesh *mesh, GError **error) {
+  gsize size = 0;
+  g_autofree char *text = formatter_of(file)(mesh, &size);
+  return spore_write_file(file, text, size, error);
+}
+
+/* The surface. */
 
 static void report_flag(SporeCli *cli, const char *member, gboolean value) {
   json_builder_set_member_name(cli->report, member);
@@ -66,9 +81,73 @@ static void report(SporeCli *cli, const SporeTriangleMesh *mesh, const SporeSurf
                          "it should hang together otherwise\n"));
 }
 
-/* With a wall, the surface is thinned only where that is asked for. made: gets what was made, unless it is NULL. */
+/* The wall. */
+
+static void report_wall(SporeCli *cli, const SporeTriangleMesh *inner, const WallOptions *options,
+                        const SporeWallReport *report) {
+  SporeVec3 at = report->error_at;
+  spore_cli_open(cli, "wall");
+  spore_cli_open(cli, "thickness_m");
+  spore_cli_number(cli, "min", report->thickness_min);
+  spore_cli_number(cli, "mean", report->thickness_mean);
+  spore_cli_number(cli, "max", report->thickness_max);
+  spore_cli_close(cli);
+  spore_cli_open(cli, "inner_m");
+  spore_cli_number(cli, "min", report->inner_min);
+  spore_cli_number(cli, "max", report->inner_max);
+  spore_cli_close(cli);
+  spore_cli_number(cli, "error", report->error);
+  spore_cli_open_array(cli, "error_at_m");
+  for (int e = 0; e < 3; e++) spore_cli_number(cli, NULL, ((const double[3]){at.x, at.y, at.z})[e]);
+  spore_cli_close_array(cli);
+  spore_cli_number(cli, "volume_m3", report->wall_volume);
+  spore_cli_number(cli, "lumen_m3", report->lumen_volume);
+  spore_cli_count(cli, "pieces", (gint64)report->pieces);
+  spore_cli_count(cli, "nodes", (gint64)inner->vertex_count);
+  spore_cli_count(cli, "triangles", (gint64)inner->triangle_count);
+  spore_cli_number(cli, "step_m", report->step);
+  spore_cli_number(cli, "seconds", report->seconds);
+  spore_cli_close(cli);
+  spore_cli_say(cli,
+                _("wall: %.4g m thick (%.4g to %.4g from the outside), %.4g m^3; lumen: %.4g m^3 in %zu pieces, %zu "
+                  "nodes, %.4g to %.4g m from the outer surface; %.2f s\n"),
+                report->thickness_mean, report->thickness_min, report->thickness_max, report->wall_volume,
+                report->lumen_volume, report->pieces, inner->vertex_count, report->inner_min, report->inner_max,
+                report->seconds);
+  spore_cli_say(
+      cli,
+      _("farthest off the thickness asked for: %.1f %%, at (%.4g %.4g %.4g) m; a --wall-detail above %d would "
+        "have it nearer, in more nodes\n"),
+      100 * report->error, at.x, at.y, at.z, options->detail > 0 ? (int)options->detail : SPORE_WALL_DETAIL);
+}
+
+/* Reports the wall, and writes the files. made: gets the wall, unless it is NULL; the caller's to clear. */
+static gboolean make_wall(SporeCli *cli, const char *file, const SporeTriangleMesh *outer, const WallOptions *options,
+                          SporeTriangleMesh *made, GError **error) {
+  SporeError fault = SPORE_ERROR_INIT;
+  SporeTriangleMesh inner = {0}, wall = {0};
+  SporeWallReport figures;
+  gboolean done = spore_wall_inner(outer, options->thickness, (double)options->detail, &inner, &figures,
+                                   spore_cli_progress(cli), &fault) &&
+                  spore_wall_solid(outer, &inner, &wall, &fault);
+  if (!done) {
+    spore_error_at(&fault, file);
+    spore_error_propagate(&fault, error);
+  }
+  done = done && (!options->wall || write_mesh(options->wall, &wall, error)) &&
+         (!options->inner || write_mesh(options->inner, &inner, error));
+  if (done) report_wall(cli, &inner, options, &figures);
+  spore_triangle_mesh_clear(&inner);
+  if (done && made) *made = wall;
+  else spore_triangle_mesh_clear(&wall);
+  return done;
+}
+
+/* Both. */
+
+/* With a wall, the surface is simplified only where that is asked for. made: gets the result, unless it is NULL. */
 static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *surface,
-                     const SporeSimplifyOptions *options, const SporeWallOptions *wall, SporeTriangleMesh *made,
+                     const SporeSimplifyOptions *options, const WallOptions *wall, SporeTriangleMesh *made,
                      GError **error) {
   SporeError fault = SPORE_ERROR_INIT;
   SporeTriangleMesh mesh = {0};
@@ -79,11 +158,9 @@ static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *s
     return spore_error_propagate(&fault, error);
   }
   if (wall->thickness > 0) {
-    done = spore_surface_make_wall(cli, file, thin ? &mesh : surface, wall, made, error);
+    done = make_wall(cli, file, thin ? &mesh : surface, wall, made, error);
   } else if (wall->wall) {
-    gsize size = 0;
-    g_autofree char *text = spore_surface_formatter(wall->wall)(&mesh, &size);
-    done = spore_write_file(wall->wall, text, size, error);
+    done = write_mesh(wall->wall, &mesh, error);
   }
   if (done && thin) report(cli, &mesh, &figures);
   if (done && made && wall->thickness == 0) *made = mesh;
@@ -91,7 +168,7 @@ static gboolean make(SporeCli *cli, const char *file, const SporeTriangleMesh *s
   return done;
 }
 
-/* Of what a body of a scene shows, and for it. */
+/* Works from the mesh that a body of a scene shows, and gives the result to that body. */
 static gboolean make_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *asked,
                         SporeSceneBody *scene, GError **error) {
   SporeMeshFields fields;
@@ -100,7 +177,7 @@ static gboolean make_in(SporeCli *cli, const char *file, const char *body, const
   if (!spore_cli_open_body(cli, file, body, asked, scene, &fields, error)) return FALSE;
   if (use < 0) use = fields.wall > 0 ? SPORE_SURFACE_SHOWN : SPORE_SURFACE_MODEL;
   const SporeSimplifyOptions options = spore_edit_surface_options(&fields);
-  const SporeWallOptions wall = {.thickness = fields.wall, .detail = fields.wall_detail};
+  const WallOptions wall = {.thickness = fields.wall, .detail = fields.wall_detail};
   if (!options.vertices && !(options.size > 0) && !(wall.thickness > 0))
     return spore_error_raise(error, SPORE_ERROR_INPUT, file,
                              _("neither number of nodes nor size is known; expected --nodes, --size or --wall; give "
@@ -120,7 +197,7 @@ static int generate_in(SporeCli *cli, const char *file, const char *body, const 
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* A scene says unit and axes, and takes the result itself. */
+/* A scene states the unit and the axes of its meshes, and keeps the result; the options for these are for files. */
 static int check_scene(gboolean scene, const char *body, gboolean as, gboolean others) {
   if (!scene && (body || as))
     return spore_cli_usage(
@@ -132,15 +209,15 @@ static int check_scene(gboolean scene, const char *body, gboolean as, gboolean o
   return SPORE_EXIT_DONE;
 }
 
-/* files: to write; what the command line says of the wall is put beside them. */
+/* files: to write. The options of the wall come from the command line. */
 static int generate(SporeCli *cli, const char *file, const SporeCliOptions *asked, const char *unit, const char *frame,
-                    const SporeWallOptions *files) {
+                    const WallOptions *files) {
   SporeMeshFields fields;
   spore_parameters_set_initial(&asked->table, &fields);
   if (spore_cli_options_way(asked) < 0) fields.nodes = 0; /* a wall alone: the surface stays as it is */
   spore_cli_options_fill(asked, &fields);
   const SporeSimplifyOptions options = spore_edit_surface_options(&fields);
-  const SporeWallOptions whole = {fields.wall, fields.wall_detail, files->wall, files->inner}, *wall = &whole;
+  const WallOptions whole = {fields.wall, fields.wall_detail, files->wall, files->inner}, *wall = &whole;
   GError *error = NULL;
   SporeTriangleMesh surface = {0};
   gboolean done = (!wall->wall || spore_cli_has_room(wall->wall, file, &error)) &&
@@ -151,8 +228,8 @@ static int generate(SporeCli *cli, const char *file, const SporeCliOptions *aske
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* SPORE_EXIT_DONE where the options can be meant. */
-static int check_options(const SporeCliOptions *options, const SporeWallOptions *wall, gboolean scene) {
+/* SPORE_EXIT_DONE where the options fit each other. */
+static int check_options(const SporeCliOptions *options, const WallOptions *wall, gboolean scene) {
   gboolean walled = spore_cli_options_number(options, "wall") > 0;
   if (!scene && !walled && spore_cli_options_way(options) < 0)
     return spore_cli_usage(_("spore surface: nothing is asked for; expected either --nodes 1 to %u or --size in metres "
@@ -166,7 +243,7 @@ static int check_options(const SporeCliOptions *options, const SporeWallOptions 
         _("--inner %s: there is no inner surface; expected a --wall to have one; give its thickness"), wall->inner);
   const char *const files[] = {wall->wall, wall->inner};
   for (gsize i = 0; i < G_N_ELEMENTS(files); i++)
-    if (files[i] && !spore_surface_formatter(files[i]))
+    if (files[i] && !formatter_of(files[i]))
       return spore_cli_usage(_("-o %s: the format is not known; expected a name ending in .off or .obj"), files[i]);
   return SPORE_EXIT_DONE;
 }
@@ -220,7 +297,7 @@ int spore_command_surface(SporeCli *cli, int argc, char **argv) {
   int status =
       spore_cli_options_parse(&options, cli, &spore_generator_surface,
                               "n=nodes s=size k=keep_angle w=wall d=wall_detail", &info, entries, &argc, &argv);
-  const SporeWallOptions files = {.wall = output, .inner = inner};
+  const WallOptions files = {.wall = output, .inner = inner};
   gboolean scene = status == SPORE_EXIT_DONE && spore_cli_is_scene(argv[1]);
   if (status == SPORE_EXIT_DONE)
     status = check_scene(scene, body, options.purpose >= 0, unit || frame || inner || output);

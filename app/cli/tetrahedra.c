@@ -2,7 +2,6 @@
 #include <glib/gi18n.h>
 
 #include "app/cli/generate.h"
-#include "app/cli/scene_body.h"
 #include "app/cli/tetrahedra_labels.h"
 #include "core/author/generated_edits.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
@@ -17,7 +16,7 @@ static Formatter formatter_of(const char *file) {
   return g_str_has_suffix(file, ".mesh") ? spore_medit_format : NULL;
 }
 
-/* A figure of the result, that of the given surface and the change between them. */
+/* A figure of the result, the same figure of the given surface, and the change from one to the other. */
 static void report_change(SporeCli *cli, const char *name, double result, double given, double change) {
   spore_cli_open(cli, name);
   spore_cli_number(cli, "given", given);
@@ -26,7 +25,7 @@ static void report_change(SporeCli *cli, const char *name, double result, double
   spore_cli_close(cli);
 }
 
-/* Each method that was tried before, and why it did not do. */
+/* Each method that was tried before, and why it failed. */
 static void report_refused(SporeCli *cli, const SporeTetrahedraReport *report) {
   spore_cli_open_array(cli, "refused");
   for (int i = 0; i < SPORE_TETRAHEDRA_METHODS; i++) {
@@ -104,14 +103,14 @@ static void report_work(SporeCli *cli, const SporeGenerateWork *work) {
   report(cli, &work->tetrahedra, &options, &work->tetrahedra_report);
 }
 
-/* Of what a body of a scene shows, and for it. */
+/* Works from the mesh that a body of a scene shows, and gives the result to that body. */
 static int generate_in(SporeCli *cli, const char *file, const char *body, const SporeCliOptions *options) {
   GError *error = NULL;
   return spore_cli_generate(cli, options, file, body, report_work, &error) ? spore_cli_finish(cli, SPORE_EXIT_DONE)
                                                                            : spore_cli_fail(error);
 }
 
-/* Of a label map, which says its own unit and axes. */
+/* Meshes a label map. Its file states the unit and the axes. */
 static int generate_labels(SporeCli *cli, const char *file, GBytes *content, const SporeCliOptions *options,
                            const char *labels, const char *output) {
   SporeTetrahedraFields fields;
@@ -141,7 +140,7 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
   return done ? spore_cli_finish(cli, SPORE_EXIT_DONE) : spore_cli_fail(error);
 }
 
-/* Of a surface or a label map, whichever the file is. */
+/* Meshes a surface or a label map, whichever the file holds. */
 static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *options, const char *unit,
                         const char *frame, const char *labels, const char *output) {
   GError *error = NULL;
@@ -168,7 +167,7 @@ static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *
   return generate(cli, file, options, unit, frame, output);
 }
 
-/* What the options must be; prints its own message. scene: the asset says what is not given. */
+/* Checks the options and prints its own message. scene: the asset holds the values that are not given. */
 static int check(const SporeCliOptions *options, const char *output, gboolean scene) {
   if (!scene && spore_cli_options_way(options) < 0)
     return spore_cli_usage(
@@ -211,7 +210,7 @@ static const SporeReportMember members[] = {
     {"scene", N_("that was given: as written, and the name of the body that has the tetrahedra: body")},
     {NULL, NULL}};
 
-/* A scene says unit and axes, and takes the result itself. */
+/* A scene states the unit and the axes of its meshes, and keeps the result; the options for these are for files. */
 static int check_scene(gboolean scene, const char *body, gboolean others) {
   if (!scene && body)
     return spore_cli_usage(_("spore tetrahedra: --body is for scenes; expected a file F.spore with it; leave it out"));

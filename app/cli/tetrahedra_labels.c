@@ -1,3 +1,4 @@
+/* spore tetrahedra of a label map: tetrahedra of all its organs, in a scene or in files. */
 #include "app/cli/tetrahedra_labels.h"
 
 #include <glib/gi18n.h>

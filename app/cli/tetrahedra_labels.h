@@ -6,16 +6,16 @@
 #include "core/author/generated_edits.h"
 #include "core/generate/labels/labels.h"
 
-/* Meshes the label map that `content` of `file` is; labels: "1,2,5" or NULL. The report's members are those of spore
- * tetrahedra and `labels`. */
+/* Meshes the label map in `content`, read from `file`. labels: "1,2,5", or NULL for all. The members of the report are
+ * those of spore tetrahedra, and `labels`. */
 gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *content, const char *labels,
                                     const SporeTetrahedraFields *fields, SporeTetrahedralMesh *mesh,
                                     SporeLabelTetrahedraReport *report, GError **error);
-/* names: of spore_label_map_names. */
+/* Reports the organs. names: of spore_label_map_names. */
 void spore_cli_report_labels(SporeCli *cli, const SporeTetrahedralMesh *mesh, const SporeLabelTetrahedraReport *report,
                              GHashTable *names);
-/* A new scene: a soft body of each organ, joined by seams where they share faces; it keeps the map. organs: file,
- * content, fields, mesh and use of it. The report gets the members `scene` and `seams`. */
+/* Saves a new scene: a soft body for each organ, with seams where organs share faces, and the label map. organs: file,
+ * content, fields, mesh, and purpose. The report gets the members `scene` and `seams`. */
 gboolean spore_cli_save_labels(SporeCli *cli, const char *output, const SporeLabelBodies *organs,
                                const SporeLabelTetrahedraReport *report, GHashTable *names, GError **error);
 

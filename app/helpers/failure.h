@@ -1,4 +1,4 @@
-/* Why a library could not do it, carried over the border between C++ and C. */
+/* Why a library failed, passed from C++ to C. */
 #ifndef SPORE_HELPERS_FAILURE_H
 #define SPORE_HELPERS_FAILURE_H
 
@@ -7,7 +7,7 @@
 typedef struct SporeHelperFailure {
   SporeErrorCode code;
   const char *message; /* marked for translation */
-  char detail[256];    /* what the library said; may be empty */
+  char detail[256];    /* message of the library; may be empty */
 } SporeHelperFailure;
 
 #endif

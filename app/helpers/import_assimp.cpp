@@ -1,3 +1,4 @@
+/* Reads a mesh file with assimp behind an interface in C: one importer, one block of memory, and no other file. */
 #include "app/helpers/import_assimp.h"
 
 #include <cstdio>
@@ -33,7 +34,7 @@ struct Refusal {
   std::string detail;
 };
 
-/* The only file there is, is the content; whatever else an importer asks for does not exist. */
+/* The content is the only file. Any other file that an importer asks for does not exist. */
 class OneFile : public Assimp::IOSystem {
 public:
   OneFile(std::string name, const void *content, size_t size)
@@ -55,7 +56,7 @@ private:
   const size_t size_;
 };
 
-/* Importers drop faces with a wrong index and only write it to the log; a mesh with holes is not what was asked for. */
+/* Importers drop faces with a wrong index, and only log them. Such a mesh would have holes, so it is refused. */
 class Listener : public Assimp::LogStream {
 public:
   void write(const char *text) override {
@@ -87,7 +88,7 @@ struct Mesh {
   uint64_t passed_over = 0;
 };
 
-/* What came since the last part is one: the meshes of a node differ in material alone. */
+/* The meshes of a node differ only in material. Together they are one part. */
 void end_part(const aiNode &node, Mesh &mesh) {
   SporeImportPart part = {};
   part.triangle_count = mesh.triangles.size() / 3 - mesh.in_parts;
@@ -138,12 +139,12 @@ void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, 
   for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], transform, mesh);
 }
 
-/* The importer counts the numbers of an OBJ's line by their first sign or digit: what begins with its point would be
- * none. */
+/* The importer counts the numbers of an OBJ line by their first sign or digit. It misses a number that begins with its
+ * decimal point. */
 std::string with_leading_zeros(const char *content, size_t size) {
   std::string text;
   text.reserve(size + size / 16);
-  bool vertex = false, number = false; /* in a line with coordinates; nothing of a number yet but its sign */
+  bool vertex = false, number = false; /* in a line with coordinates; a number with only its sign so far */
   for (size_t i = 0; i < size; i++) {
     const char c = content[i];
     const bool begins = i == 0 || content[i - 1] == '\n' || content[i - 1] == '\r';
@@ -167,7 +168,7 @@ Mesh import(const char *extension, const void *content, size_t size) {
   Assimp::Importer importer;
   keep_one_importer(importer, extension);
   OneFile *files = new OneFile(name, content, size);
-  importer.SetIOHandler(files); /* which takes it over */
+  importer.SetIOHandler(files); /* takes ownership */
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, 0);
   const aiScene *scene = importer.ReadFile(name, aiProcess_Triangulate);
   const std::string said = scene ? "" : importer.GetErrorString();

@@ -1,4 +1,4 @@
-/* assimp behind C: one importer, one block of memory, and no file. */
+/* An interface in C to assimp: one importer, one block of memory, and no file. */
 #ifndef SPORE_HELPERS_IMPORT_ASSIMP_H
 #define SPORE_HELPERS_IMPORT_ASSIMP_H
 
@@ -11,9 +11,9 @@
 extern "C" {
 #endif
 
-/* Decodes `content` by the importer of that extension ("stl", "obj", "ply", "gltf", "glb"): node transforms applied,
- * meshes joined, each node with a mesh a part, polygons cut into triangles. *answer: SporeImportAnswer with its arrays,
- * malloc'ed. */
+/* Decodes `content` by the importer of that extension ("stl", "obj", "ply", "gltf", "glb"). Node transforms are
+ * applied, meshes are joined, each node with a mesh is a part, and polygons are cut into triangles. *answer:
+ * SporeImportAnswer with its arrays, malloc'ed. */
 bool spore_import_assimp(const char *extension, const void *content, size_t size, void **answer, size_t *answer_size,
                          SporeHelperFailure *failure);
 

@@ -1,3 +1,4 @@
+/* Checks and repairs surfaces with CGAL: holes, debris, self-intersections and orientation. */
 #include "app/helpers/surface_cgal.hpp"
 
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -18,7 +19,7 @@ using spore::Surface;
 
 namespace {
 
-/* Of all the volume that the parts bound; smaller parts are debris. */
+/* As a share of the volume of all parts; smaller parts are debris. */
 constexpr double least_part = 1e-6;
 
 void require_sound(const Surface &surface) {
@@ -60,7 +61,7 @@ void fill_holes(Surface &surface) {
   }
 }
 
-/* Parts that are still open, and debris, go. */
+/* Removes parts that are still open, and debris. */
 void keep_volumes(Surface &surface) {
   auto part_of = surface.add_property_map<Surface::Face_index, std::size_t>("f:part", 0).first;
   const std::size_t count = PMP::connected_components(surface, part_of);

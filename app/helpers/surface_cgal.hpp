@@ -1,4 +1,4 @@
-/* What the CGAL shims share: the kernel, the border between flat arrays and surface meshes, and exceptions. */
+/* What the CGAL files share: the kernel, conversion between flat arrays and surface meshes, and exceptions. */
 #ifndef SPORE_HELPERS_SURFACE_CGAL_HPP
 #define SPORE_HELPERS_SURFACE_CGAL_HPP
 
@@ -75,7 +75,7 @@ inline bool fail(SporeHelperFailure *failure, SporeErrorCode code, const char *m
   return false;
 }
 
-/* Runs `work` with random numbers that are always the same; no exception gets past. */
+/* Runs `work` with a fixed seed for random numbers, and turns exceptions into failures. */
 template <class Work> bool guarded(SporeHelperFailure *failure, Work work) {
   try {
     CGAL::get_default_random() = CGAL::Random(1);

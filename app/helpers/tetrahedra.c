@@ -11,7 +11,7 @@
 #define N_(text) text
 #define MOST 20000000u /* vertices, triangles */
 
-/* The next `count` elements of the request, malloc'ed; NULL: there are not so many, or no memory. */
+/* The next `count` elements of the request, malloc'ed; NULL: the request has fewer, or there is no memory. */
 static void *take(const char **at, size_t *left, uint64_t count, size_t size) {
   if (count > *left / size) return NULL;
   void *content = malloc(count ? count * size : 1);

@@ -1,3 +1,4 @@
+/* Fills a closed surface with tetrahedra by the Delaunay refinement of CGAL. */
 #include "app/helpers/surface_cgal.hpp"
 
 #include <algorithm>
@@ -25,9 +26,9 @@ using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 constexpr double sliver_angle = 12;    /* degrees, asked of the optimisers */
 constexpr int samples = 20000;         /* of the surface, from which refinement starts */
-constexpr double cover_distance = 1.5; /* sizes, between those that it starts from */
+constexpr double cover_distance = 1.5; /* of the local size: distance between the points that refinement starts from */
 
-/* The size at a point, times a factor: all criteria follow one field, so that meshes of two scales look alike. */
+/* The size at a point, times a factor. All criteria follow one field, so that meshes at different scales look alike. */
 struct Field {
   using FT = Kernel::FT;
   using Point_3 = Point;
@@ -47,7 +48,7 @@ Criteria criteria_of(const SporeSizing &sizing) {
                   with::cell_radius_edge_ratio = 2, with::cell_size = size);
 }
 
-/* Points spread over the surface by its area, in random order. */
+/* Points spread over the surface in proportion to area, in random order. */
 std::vector<Point> samples_of(const spore::Surface &surface) {
   std::vector<double> area_before;
   std::vector<spore::Surface::Face_index> faces;
@@ -72,8 +73,8 @@ std::vector<Point> samples_of(const spore::Surface &surface) {
   return points;
 }
 
-/* Points of the surface no nearer to each other than a distance that follows the sizing: refinement starts from all
- * over it, and so misses no thin part. */
+/* Points of the surface, at least a distance apart that follows the sizing. Refinement starts from all over the
+ * surface, so it misses no thin part. */
 void insert_cover(const spore::Surface &surface, const Domain &domain, const Field &size, Complex &mesh) {
   std::vector<std::pair<Point, Domain::Index>> hit;
   domain.construct_initial_points_object()(std::back_inserter(hit), 1);

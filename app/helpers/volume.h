@@ -24,8 +24,8 @@ typedef enum SporeVoxelType {
 } SporeVoxelType;
 extern const size_t spore_voxel_bytes[SPORE_VOXEL_TYPES];
 
-/* A file's content: gzip undone, header and labels read. *result: SporeVolumeAnswer and the labels, malloc'ed. False
- * with what is wrong. */
+/* Decodes a file's content: undoes gzip, reads header and labels. *result: SporeVolumeAnswer and the labels, malloc'ed.
+ * False with a failure. */
 bool spore_volume_decode(const uint8_t *bytes, size_t size, void **result, size_t *result_size,
                          SporeHelperFailure *failure);
 
@@ -33,24 +33,24 @@ bool spore_volume_decode(const uint8_t *bytes, size_t size, void **result, size_
 typedef struct SporeVolumeHead {
   SporeVolumeAnswer answer; /* size, axes */
   SporeVoxelType type;
-  bool swapped;        /* bytes of a value the other way round than this machine's */
+  bool swapped;        /* the bytes of a value are in the other order than this machine's */
   double slope, shift; /* value = slope x what is stored + shift */
   bool compressed;     /* the data are a gzip stream */
-  size_t data;         /* where they begin in the file */
+  size_t data;         /* offset of the data in the file */
 } SporeVolumeHead;
 
-/* Both: the header of a content that begins as the format does. False with what is wrong. */
+/* Read the header of a content that begins as the format requires. False with a failure. */
 bool spore_nifti_head(const uint8_t *bytes, size_t size, SporeVolumeHead *head, SporeHelperFailure *failure);
 bool spore_nrrd_head(const uint8_t *bytes, size_t size, SporeVolumeHead *head, SporeHelperFailure *failure);
 
-/* Undoes gzip: all of it, at most `most` bytes. *result malloc'ed. */
+/* Decompresses a whole gzip stream, at most `most` bytes. *result malloc'ed. */
 bool spore_inflate(const uint8_t *bytes, size_t size, size_t most, uint8_t **result, size_t *result_size,
                    SporeHelperFailure *failure);
 
-/* Counts within bounds and not empty, axes finite and spanning a space. */
+/* Checks that counts are above 0 and within bounds, and that axes are finite and span a space. */
 bool spore_volume_head_check(const SporeVolumeHead *head, SporeHelperFailure *failure);
 
-/* Returns false. detail: printed, may be "". */
+/* Fills the failure and returns false. detail: a format, may be "". */
 bool spore_volume_fail(SporeHelperFailure *failure, const char *message, const char *detail, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -1,8 +1,7 @@
+/* Decodes a label map: undoes gzip, reads the header of its format, and turns its voxels into labels. */
 #include "app/helpers/volume.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
@@ -12,18 +11,6 @@
 #define LARGEST_LABEL 65535
 #define MOST_BYTES ((size_t)SPORE_VOLUME_VOXELS * 8)
 
-const size_t spore_voxel_bytes[SPORE_VOXEL_TYPES] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-
-bool spore_volume_fail(SporeHelperFailure *failure, const char *message, const char *detail, ...) {
-  va_list arguments;
-  va_start(arguments, detail);
-  failure->code = SPORE_ERROR_INPUT;
-  failure->message = message;
-  vsnprintf(failure->detail, sizeof failure->detail, detail, arguments);
-  va_end(arguments);
-  return false;
-}
-
 static bool fail_memory(SporeHelperFailure *failure) {
   failure->code = SPORE_ERROR_MEMORY;
   failure->message = N_("the volume needs more memory than it may have; expected a smaller one; crop it first");
@@ -31,7 +18,7 @@ static bool fail_memory(SporeHelperFailure *failure) {
   return false;
 }
 
-/* Grows the result as the stream goes, so that a lie about its size costs nothing. */
+/* Grows the result as the stream is read, so that a wrong size in the header costs no memory. */
 static bool inflate_all(z_stream *stream, size_t most, uint8_t **result, size_t *filled, SporeHelperFailure *failure) {
   size_t room = 0;
   for (int state = Z_OK; state != Z_STREAM_END;) {
@@ -73,33 +60,6 @@ bool spore_inflate(const uint8_t *bytes, size_t size, size_t most, uint8_t **res
   free(*result);
   *result = NULL;
   return false;
-}
-
-bool spore_volume_head_check(const SporeVolumeHead *head, SporeHelperFailure *failure) {
-  const uint64_t *size = head->answer.size;
-  const double *a = head->answer.axes;
-  uint64_t voxels = 1;
-  for (int i = 0; i < 3; i++) {
-    if (size[i] == 0 || size[i] > SPORE_VOLUME_VOXELS / voxels)
-      return spore_volume_fail(failure,
-                               N_("the volume is empty or too large; expected at most 268 million voxels; crop "
-                                  "it or halve its resolution"),
-                               "%llu x %llu x %llu", (unsigned long long)size[0], (unsigned long long)size[1],
-                               (unsigned long long)size[2]);
-    voxels *= size[i];
-  }
-  double volume =
-      a[0] * (a[5] * a[10] - a[6] * a[9]) - a[1] * (a[4] * a[10] - a[6] * a[8]) + a[2] * (a[4] * a[9] - a[5] * a[8]);
-  double product = 1;
-  for (int k = 0; k < 3; k++) product *= sqrt(a[k] * a[k] + a[4 + k] * a[4 + k] + a[8 + k] * a[8 + k]);
-  bool finite = true;
-  for (int i = 0; i < 12; i++) finite = finite && isfinite(a[i]) && fabs(a[i]) < 1e6;
-  if (!finite || !(fabs(volume) > 1e-6 * product) || !(product > 1e-30))
-    return spore_volume_fail(failure,
-                             N_("its voxels have no size or no direction; expected three axes that span a "
-                                "space; save it again with its geometry"),
-                             "%g %g %g, %g %g %g, %g %g %g", a[0], a[1], a[2], a[4], a[5], a[6], a[8], a[9], a[10]);
-  return true;
 }
 
 static double voxel(const SporeVolumeHead *head, const uint8_t *at) {
@@ -166,7 +126,7 @@ static bool make_answer(const SporeVolumeHead *head, const uint8_t *data, size_t
   return false;
 }
 
-/* Of a file that is not, or no longer, compressed as a whole. */
+/* Decodes a content that is not compressed as a whole. */
 static bool decode_plain(const uint8_t *bytes, size_t size, void **result, size_t *result_size,
                          SporeHelperFailure *failure) {
   SporeVolumeHead head;

@@ -19,7 +19,8 @@ static void take(const Header *header, size_t offset, void *value, size_t size) 
   for (size_t i = 0; i < size; i++) to[header->swapped ? size - 1 - i : i] = header->bytes[offset + i];
 }
 
-/* Members by their offsets in either header: 16 bits and 64 (32 for codes), 32-bit reals and 64-bit ones. */
+/* Members by their offsets in both headers. NIfTI-1 has 16-bit integers and 32-bit reals; NIfTI-2 has 64-bit integers
+ * (32-bit for codes) and 64-bit reals. */
 static int64_t take_count(const Header *header, size_t first, size_t second) {
   int16_t narrow;
   int64_t wide;
@@ -34,7 +35,7 @@ static int take_code(const Header *header, size_t first, size_t second) {
   else take(header, first, &narrow, sizeof narrow);
   return header->second ? wide : narrow;
 }
-/* The i-th of an array. */
+/* The i-th number of an array. */
 static double take_real(const Header *header, size_t first, size_t second, size_t i) {
   float narrow;
   double wide;
@@ -66,7 +67,7 @@ static bool take_type(const Header *header, SporeVoxelType *type, SporeHelperFai
                            "datatype %d", code);
 }
 
-/* More than three dimensions are taken where the others are one thick. */
+/* More than three dimensions are accepted where the others have a length of 1. */
 static bool take_size(const Header *header, uint64_t size[3], SporeHelperFailure *failure) {
   int64_t dimensions = take_count(header, 40, 16);
   for (int i = 0; i < 7; i++) {
@@ -82,7 +83,7 @@ static bool take_size(const Header *header, uint64_t size[3], SporeHelperFailure
   return true;
 }
 
-/* Method 2: a turn as a quaternion, voxel sizes and a shift. */
+/* Method 2 of the standard: a rotation as a quaternion, voxel sizes, and a translation. */
 static void axes_of_quaternion(const Header *header, double axes[12]) {
   double b = take_real(header, 256, 352, 0), c = take_real(header, 256, 352, 1), d = take_real(header, 256, 352, 2);
   double rest = 1 - (b * b + c * c + d * d);
@@ -110,7 +111,7 @@ static void take_axes(const Header *header, double axes[12]) {
   else if (take_code(header, 252, 344) > 0) axes_of_quaternion(header, axes);
   else
     for (size_t i = 0; i < 3; i++) axes[5 * i] = voxel_size(header, i);         /* voxel sizes alone */
-  static const double units[8] = {1e-3, 1, 1e-3, 1e-6, 1e-3, 1e-3, 1e-3, 1e-3}; /* not said: mm */
+  static const double units[8] = {1e-3, 1, 1e-3, 1e-6, 1e-3, 1e-3, 1e-3, 1e-3}; /* not stated: mm */
   for (int i = 0; i < 12; i++) axes[i] *= units[take_units(header) & 7];
 }
 

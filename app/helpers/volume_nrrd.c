@@ -52,7 +52,7 @@ static bool take_type(const char *text, SporeVoxelType *type) {
   return false;
 }
 
-/* Only the three axes' order matters: each said by its first letter. */
+/* The space states where the three axes point; each axis by its first letter. */
 static bool take_space(const char *text, int signs[3]) {
   static const struct {
     const char *names[3];
@@ -68,7 +68,7 @@ static bool take_space(const char *text, int signs[3]) {
   return false;
 }
 
-/* `count` numbers, with brackets and commas passed over. */
+/* Reads `count` numbers; skips brackets and commas. */
 static bool take_numbers(const char *text, double *numbers, int count) {
   for (int i = 0; i < count; i++) {
     text += strspn(text, " \t(),");
@@ -120,7 +120,7 @@ static bool take_field(const char *name, const char *value, Fields *fields, Spor
     head->compressed = strcasecmp(value, "gzip") == 0 || strcasecmp(value, "gz") == 0;
     return head->compressed || strcasecmp(value, "raw") == 0;
   }
-  /* Data elsewhere, or not at once behind the header. */
+  /* Fields for data in another file, or not directly behind the header, are refused. */
   return !(strcasecmp(name, "data file") == 0 || strcasecmp(name, "datafile") == 0 ||
            strcasecmp(name, "line skip") == 0 || strcasecmp(name, "byte skip") == 0 ||
            strcasecmp(name, "block size") == 0);
@@ -139,14 +139,14 @@ static bool next_line(const uint8_t *bytes, size_t size, size_t *at, char line[L
 }
 
 static bool read_line(char *line, Fields *fields, SporeVolumeHead *head, SporeHelperFailure *failure) {
-  if (line[0] == '#' || strstr(line, ":=")) return true; /* comments, and what programs keep for themselves */
-  char said[LINE], *colon = strstr(line, ": ");
-  memcpy(said, line, sizeof said);
-  if (!colon) return fail_field(failure, said);
+  if (line[0] == '#' || strstr(line, ":=")) return true; /* comments, and private fields of programs */
+  char whole_line[LINE], *colon = strstr(line, ": ");
+  memcpy(whole_line, line, sizeof whole_line);
+  if (!colon) return fail_field(failure, whole_line);
   *colon = '\0';
   char *value = colon + 2 + strspn(colon + 2, " \t");
   for (size_t n = strlen(value); n && (value[n - 1] == ' ' || value[n - 1] == '\t'); n--) value[n - 1] = '\0';
-  return take_field(line, value, fields, head) || fail_field(failure, said);
+  return take_field(line, value, fields, head) || fail_field(failure, whole_line);
 }
 
 static void make_axes(const Fields *fields, double axes[12]) {

@@ -1,10 +1,11 @@
+/* Wraps a surface with CGAL: a closed surface around it, at a given distance. */
 #include "app/helpers/surface_cgal.hpp"
 
 #include <CGAL/alpha_wrap_3.h>
 
 namespace {
 
-/* Ends a wrap that gets larger than it may: its time grows with its points. */
+/* Ends a wrap that exceeds its limit of points: the time of a wrap grows with them. */
 struct Limit : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
   std::size_t *points_left;
   explicit Limit(std::size_t *room) : points_left(room) {}

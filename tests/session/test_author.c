@@ -20,7 +20,6 @@
 #include "core/author/mesh_edits.h"
 #include "core/author/region_edits.h"
 #include "ui/document/recovery.h"
-#include "ui/jobs/mapping-work.h"
 #include "ui/jobs/mesh-works.h"
 #include "ui/jobs/spore-job.h"
 #include "ui/jobs/works.h"

@@ -1,3 +1,4 @@
+/* The dialog that imports meshes: files, unit, axes, bodies and repairs, and what comes of them. */
 #include "ui/dialogs/spore-import-dialog.h"
 
 #include <glib/gi18n.h>
@@ -8,7 +9,7 @@
 #include "ui/jobs/spore-job.h"
 #include "ui/panels/report.h"
 
-#define SETTLE_MS 250 /* after a choice, before it is worked out */
+#define SETTLE_MS 250 /* delay after a choice, before the files are read again */
 #define CHOICE_LEAST_CHARS 12
 #define CHOICE_CHARS 34
 #define ARGUMENT_CHARS 18
@@ -67,7 +68,7 @@ static void add_row(SporeImportDialog *self, const SporeImportBody *body) {
                                     COLUMN_VOLUME, volume, COLUMN_MOVED, far, -1);
 }
 
-/* The largest body of a file, or of all where it is of several; NULL: none. */
+/* The largest body of a file, or of all files; NULL: none. */
 static const SporeImportBody *largest(const SporeImport *import, const SporeImportFile *file) {
   const SporeImportBody *found = NULL;
   for (guint i = 0; i < import->bodies->len; i++) {
@@ -79,7 +80,7 @@ static const SporeImportBody *largest(const SporeImport *import, const SporeImpo
   return found;
 }
 
-/* A file whose largest body is no size for an organ; NULL: there is none. g_free. */
+/* A file whose largest body has no plausible size for an organ; NULL: none. g_free. */
 static char *doubt_of(const SporeImport *import) {
   for (guint i = 0; i < import->files->len; i++) {
     const SporeImportFile *file = g_ptr_array_index(import->files, i);
@@ -92,7 +93,7 @@ static char *doubt_of(const SporeImport *import) {
   return NULL;
 }
 
-/* What the author should look at twice: the unit, then what the files say. */
+/* Warnings for the user: about the unit, then from the files. */
 static void show_warnings(SporeImportDialog *self) {
   g_autofree char *doubt = doubt_of(self->import);
   GString *text = g_string_new(doubt);
@@ -150,7 +151,7 @@ static void drop_work(SporeImportDialog *self) {
 static void read_through(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeImportDialog *self = owner;
   SporeImportWork *work = data;
-  if (self->job != job) return; /* another choice was made since, or the dialog is gone */
+  if (self->job != job) return; /* the user has made another choice, or the dialog is closed */
   g_clear_object(&self->job);
   gtk_spinner_stop(GTK_SPINNER(self->spinner));
   if (error) {

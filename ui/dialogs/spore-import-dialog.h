@@ -1,5 +1,5 @@
-/* Asks for mesh files, their unit and axes, what bodies to make of them and how to mend them; shows what comes of it
- * before anything is done. */
+/* Asks for mesh files, their unit and axes, which bodies to make, and how to repair them. Shows the result before it is
+ * imported. */
 #ifndef SPORE_UI_DIALOGS_SPORE_IMPORT_DIALOG_H
 #define SPORE_UI_DIALOGS_SPORE_IMPORT_DIALOG_H
 
@@ -14,13 +14,13 @@ G_DECLARE_FINAL_TYPE(SporeImportDialog, spore_import_dialog, SPORE, IMPORT_DIALO
 
 #define SPORE_RESPONSE_TOGETHER 1
 
-/* files may be NULL. Responds GTK_RESPONSE_ACCEPT when what was read is to be imported, SPORE_RESPONSE_TOGETHER when
- * the organs of its label map are to be meshed together instead. */
+/* files may be NULL. Responds GTK_RESPONSE_ACCEPT when the bodies are to be imported, and SPORE_RESPONSE_TOGETHER when
+ * the organs of the label map are to be meshed together instead. */
 GtkWidget *spore_import_dialog_new(GtkWindow *parent, const char *const *files);
-/* What was read last; the caller's to free. NULL: nothing. */
+/* The last import that was read; the caller frees it. NULL: none. */
 SporeImport *spore_import_dialog_take(SporeImportDialog *self);
 
-/* The one file, where it was read and is a label map; NULL: it is not. Borrowed. */
+/* The file, where it is a single label map that was read; else NULL. Borrowed. */
 const char *spore_import_dialog_get_label_map(SporeImportDialog *self);
 
 G_END_DECLS

@@ -1,3 +1,4 @@
+/* The dialog that asks for the argument of an operation on a mesh. */
 #include "ui/dialogs/spore-mesh-dialog.h"
 
 #include <glib/gi18n.h>
@@ -42,7 +43,7 @@ GtkWidget *spore_mesh_dialog_new(GtkWindow *parent, const SporeMeshOperation *op
     gtk_label_set_xalign(GTK_LABEL(i ? state : about), 0);
   }
   gtk_container_add(GTK_CONTAINER(box), about);
-  /* As many as there are already would leave it as it is. */
+  /* The current number of triangles would change nothing. */
   if (operation == &spore_mesh_operations[SPORE_MESH_DECIMATE] && operation->usual >= (double)figures->triangles)
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(spin), floor(0.5 * (double)figures->triangles));
   if (spin) {

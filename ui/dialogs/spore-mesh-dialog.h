@@ -14,7 +14,7 @@ char *spore_figures_text(const SporeMeshFigures *figures);
 /* A dialog that responds GTK_RESPONSE_ACCEPT when the operation is to be applied to the mesh of that name. */
 GtkWidget *spore_mesh_dialog_new(GtkWindow *parent, const SporeMeshOperation *operation, const char *name,
                                  const SporeMeshFigures *figures);
-/* Chosen; 0 where the operation takes none. */
+/* The chosen argument; 0 where the operation takes none. */
 double spore_mesh_dialog_get_argument(GtkWidget *dialog);
 
 #endif

@@ -1,3 +1,4 @@
+/* Reads the assets of documents, and keeps the meshes that a job has decoded for the GTK thread. */
 #include "ui/document/asset-readers.h"
 
 #include "core/io/scene_xml.h"

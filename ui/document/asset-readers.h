@@ -1,5 +1,5 @@
-/* Asset readers of the editor's documents: a mesh that a job has decoded already is not decoded again on the GTK
- * thread, which would have to wait for the import helper. */
+/* Asset readers of the editor's documents. A mesh that a job has decoded is not decoded again on the GTK thread, which
+ * would wait for the import helper. */
 #ifndef SPORE_UI_DOCUMENT_ASSET_READERS_H
 #define SPORE_UI_DOCUMENT_ASSET_READERS_H
 

@@ -1,3 +1,4 @@
+/* Marks on a body: rings around its regions, and a cross at the worst place of its mapping. */
 #include "ui/document/body-marks.h"
 
 #include "core/author/generated_edits.h"

@@ -1,3 +1,4 @@
+/* Editing by hand: spheres, points of a curve and regions, changed one at a time. */
 #include "ui/document/hand-edit.h"
 
 #include <glib/gi18n.h>

@@ -8,7 +8,7 @@
 typedef enum SporeHandEditKind { SPORE_HAND_SPHERES, SPORE_HAND_CURVE, SPORE_HAND_REGIONS } SporeHandEditKind;
 
 typedef struct SporeHandEdit {
-  guint32 asset, body;    /* ids; 0: there is nothing to edit. asset: of regions what holds them */
+  guint32 asset, body;    /* ids; 0: nothing to edit. asset: for regions, the object that holds them */
   SporeHandEditKind kind; /* points of a curve are in its order */
   gsize count;
   double *points; /* count x 4: x y z r, in the body's axes; what is shown, committed or not */
@@ -18,25 +18,25 @@ typedef struct SporeHandEdit {
   gsize chosen; /* G_MAXSIZE: none */
 } SporeHandEdit;
 
-/* Takes what the selected object (an asset, or a body or part of one) offers: its spheres, else its curve, be it only
- * the line in the middle of what the body shows. Goes on with
- * what is chosen where it is the same. FALSE: it offers nothing. */
+/* Opens the spheres of the selected object (an asset, a body, or part of a body), else its curve, also where the curve
+ * is only the middle line of what the body shows. The choice is kept where the object stays the same. FALSE: nothing to
+ * edit. */
 gboolean spore_hand_edit_open(SporeHandEdit *edit, SporeDocument *document, SporeObject *selected);
-/* Takes the regions that the object holds; the same otherwise. */
+/* Opens the regions of the object, in the same way. */
 gboolean spore_hand_edit_open_regions(SporeHandEdit *edit, SporeDocument *document, SporeObject *holder);
 void spore_hand_edit_close(SporeHandEdit *edit);
-/* Nearest that the ray meets, in the body's axes; G_MAXSIZE: none. */
+/* The nearest sphere or point that the ray meets, in the body's axes; G_MAXSIZE: none. */
 gsize spore_hand_edit_pick(const SporeHandEdit *edit, SporeVec3 origin, SporeVec3 direction);
-/* A copy of radius r (0: of the chosen one, else of the mean) at the place, which is then chosen. Of a curve it comes
- * after the chosen point. Not for regions, which are objects: they are added and removed by their own edits. */
+/* Adds a sphere or point of radius r (0: the radius of the chosen one, else the mean) at the place, and chooses it. In
+ * a curve it comes after the chosen point. Regions are objects, and are added and removed by their own edits. */
 void spore_hand_edit_add(SporeHandEdit *edit, SporeVec3 place, double r);
-/* FALSE: a curve has no fewer than two points, a set no fewer than one. */
+/* Removes the chosen one. FALSE: a curve keeps at least two points, a set at least one sphere. */
 gboolean spore_hand_edit_remove(SporeHandEdit *edit);
-/* Of regions: what is shown of the chosen one becomes its own at once. A gesture that does so again and again holds a
- * group of the document open, so that it is one undo step. */
+/* Writes the chosen region to the document at once. A gesture that does this repeatedly keeps a group of the document
+ * open, so that the gesture is one undo step. */
 gboolean spore_hand_edit_write_region(SporeHandEdit *edit, SporeDocument *document, GError **error);
-/* What is shown becomes the asset's, as one undo step called `label` (translated), and is remarked as edited. FALSE: it
- * is not sound, and what is shown is taken back. */
+/* Writes the edited values to the asset, as one undo step called `label` (translated), and marks the asset as edited.
+ * FALSE: the values are not valid, and the edit is undone. */
 gboolean spore_hand_edit_commit(SporeHandEdit *edit, SporeDocument *document, const char *label, GError **error);
 
 #endif

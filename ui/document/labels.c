@@ -1,8 +1,9 @@
+/* Labels that people read, made from names in parameter tables. */
 #include "ui/document/labels.h"
 
 #include <string.h>
 
-/* Words that people write their own way. */
+/* Words with a spelling of their own. */
 static const char *own_way(const char *name) {
   static const char *const words[][2] = {{"rk4", "RK4"}, {"bdf2", "BDF2"}, {"tr_bdf2", "TR-BDF2"}};
   for (gsize i = 0; i < G_N_ELEMENTS(words); i++)

@@ -1,3 +1,4 @@
+/* Measures how well the mappings of a body follow it, and says the result in words. */
 #include "ui/document/mapping-report.h"
 
 #include <glib/gi18n.h>

@@ -1,4 +1,4 @@
-/* How well what a body carries along, what is drawn of it and its spheres, follows what moves it; in words. No GTK. */
+/* How well the mappings of a body follow it, for what is drawn and for its spheres; in words. No GTK. */
 #ifndef SPORE_UI_DOCUMENT_MAPPING_REPORT_H
 #define SPORE_UI_DOCUMENT_MAPPING_REPORT_H
 
@@ -13,17 +13,17 @@ typedef struct SporeMappingReport {
   char *trouble; /* why nothing could be; NULL: it was */
 } SporeMappingReport;
 
-/* Compiles the scene, which takes as long as it takes: what is found goes into a report that says already of what it
- * is. Any thread that owns the document. FALSE: cancelled. */
+/* Compiles the scene, which may take long, and fills the report of the body that the report names. On any thread that
+ * owns the document. FALSE: cancelled. */
 gboolean spore_mapping_report_measure(SporeMappingReport *report, SporeDocument *document, SporeObject *body,
                                       const SporeProgress *progress, GError **error);
 void spore_mapping_report_clear(SporeMappingReport *report);
-/* Of this body, as the document is now. */
+/* Whether the report is of this body, as the document is now. */
 gboolean spore_mapping_report_holds(const SporeMappingReport *report, const SporeDocument *document,
                                     const SporeObject *body);
 /* Translated, a line each. g_free. */
 char *spore_mapping_report_text(const SporeMappingReport *report);
-/* The vertex or sphere that lies farthest off; FALSE: none does. size: of what moves the body, m. */
+/* The vertex or sphere that is farthest off; FALSE: none. size: of the geometry that moves the body, m. */
 gboolean spore_mapping_report_worst(const SporeMappingReport *report, SporeVec3 *place, double *size);
 
 #endif

@@ -1,3 +1,4 @@
+/* Keeps unsaved work in a folder for each window, and finds the work of a program that ended unexpectedly. */
 #include "ui/document/recovery.h"
 
 #include <errno.h>
@@ -83,7 +84,7 @@ void spore_recovery_adopt(SporeRecovery *recovery, const char *folder) {
   recovery->folder = g_strdup(folder);
 }
 
-/* Content is named by hash or imported once, so that an equal size is taken for equal content. */
+/* Files are named by hash or imported once, so files of equal size have equal content. */
 static gboolean keep_file(SporeRecovery *recovery, SporeDocument *document, const char *file, GError **error) {
   g_autoptr(GBytes) content = spore_document_read_asset(document, file, NULL);
   if (!content) return TRUE; /* missing in the scene too; the checks say so */

@@ -1,5 +1,5 @@
-/* Unsaved work, kept beside the user's files: a folder for each window under $XDG_STATE_HOME/spore/recovery, locked by
- * its owner as long as that lives. No GTK. */
+/* Unsaved work: a folder for each window under $XDG_STATE_HOME/spore/recovery. The owner locks the folder as long as it
+ * runs. No GTK. */
 #ifndef SPORE_UI_DOCUMENT_RECOVERY_H
 #define SPORE_UI_DOCUMENT_RECOVERY_H
 
@@ -9,14 +9,14 @@ typedef struct SporeRecovery SporeRecovery;
 SporeRecovery *spore_recovery_new(void);
 /* Forgets what was kept. */
 void spore_recovery_free(SporeRecovery *recovery);
-/* Keeps the document as it is now, with its assets; forgets what was kept when nothing is unsaved. Cheap when nothing
- * has changed since. */
+/* Keeps a copy of the document with its assets. Forgets the copy when nothing is unsaved. Cheap when nothing has
+ * changed. */
 gboolean spore_recovery_keep(SporeRecovery *recovery, SporeEditorDocument *document, GError **error);
 void spore_recovery_forget(SporeRecovery *recovery);
-/* Goes on in the folder of a leftover whose scene was opened. */
+/* Continues in the folder of a leftover whose scene was opened. */
 void spore_recovery_adopt(SporeRecovery *recovery, const char *folder);
 
-/* What a dead owner left. */
+/* Work that was left by a program which has ended. */
 typedef struct SporeLeftover {
   char *folder, *scene;
   char *original; /* file it was made from, NULL: it was never saved */

@@ -1,3 +1,4 @@
+/* The document as a GObject: history, selection, changes and saving. */
 #include "ui/document/spore-editor-document.h"
 
 #include <glib/gi18n.h>

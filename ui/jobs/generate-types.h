@@ -1,5 +1,4 @@
-/* How results of generators are shown: one table, by what a result is. No
- * GTK. */
+/* How the results of generators are measured, coloured and drawn. No GTK. */
 #ifndef SPORE_UI_JOBS_GENERATE_TYPES_H
 #define SPORE_UI_JOBS_GENERATE_TYPES_H
 
@@ -9,10 +8,10 @@
 /* A quality of a result, by colours and as a histogram. */
 typedef struct SporeGenerateQuality {
   const char *label, *unit; /* label: N_ */
-  gboolean names;           /* the values number things: they are no measure of how good it is */
+  gboolean names;           /* the values are numbers of things, such as organs, and no measure of quality */
   /* Fills count, values and, where they differ, weights. */
   void (*measure)(const SporeGenerateWork *work, SporeQuality *quality);
-  /* Shows them: places are the values on the scale of colours (spore_quality_place), taken. */
+  /* Fills the candidate. places: the values on the scale of colours (spore_quality_place); takes them. */
   void (*show)(const SporeGenerateWork *work, float *places, SporeStageCandidate *candidate);
 } SporeGenerateQuality;
 
@@ -23,27 +22,13 @@ typedef struct SporeGenerateType {
   /* Error against number: for these numbers, ended by 0; NULL: no plot. */
   const size_t *counts;
   const char *error_label; /* N_ */
-  double worth;            /* %, that twice the number must lower the error by */
+  double worth;            /* % by which twice the number must lower the error */
 
   const SporeGenerateQuality *qualities; /* at least one */
   gsize quality_count;
-
 } SporeGenerateType;
 
-extern const SporeGenerateType spore_generate_spheres, spore_generate_tetrahedra, spore_generate_curve,
-    spore_generate_surface, spore_generate_labels;
+/* The type that shows results of this generator. */
 const SporeGenerateType *spore_generate_type(SporeGenerateKind kind);
-
-/* values x scale, without sign, every stride-th; g_free. */
-double *spore_generate_scaled(const double *values, gsize count, gsize stride, double scale);
-/* Copies a surface into a candidate, with a place on the scale a vertex (taken) or none. */
-void spore_generate_show_surface(const SporeTriangleMesh *mesh, float *places, SporeStageCandidate *candidate);
-/* Triangles of three corners each (count x 3 x 3, m) with one place on the scale each; takes both. */
-void spore_generate_show_triangles(double *corners, gsize count, float *places, SporeStageCandidate *candidate);
-/* Least angle between faces of each tetrahedron, degrees. */
-void spore_generate_measure_angles(const SporeGenerateWork *work, SporeQuality *quality);
-/* The outside of cells, each face in the colour of its cell, as the candidate's view wants them. */
-void spore_generate_show_cells(const SporeTetrahedralMesh *mesh, float *places, SporeStageCandidate *candidate);
-void spore_generate_show_spheres(const SporeSphereSet *set, float *places, SporeStageCandidate *candidate);
 
 #endif

@@ -1,3 +1,4 @@
+/* Works on meshes for a job: importing files, and changing a mesh of the scene. */
 #include "ui/jobs/mesh-works.h"
 
 #include "core/io/mesh_import.h"
@@ -57,8 +58,8 @@ void spore_mesh_work_free(gpointer data) {
   g_free(work);
 }
 
-/* What is stored is looked at as the scene will read it, which leaves out triangles without area; and is kept for that.
- */
+/* The stored mesh is read back as the scene will read it, without triangles that have no area, and kept for the
+ * readers. */
 static gboolean store(SporeMeshWork *work, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
   SporeTriangleMesh read = {0};

@@ -1,3 +1,4 @@
+/* The quality of a generated result: values, their colours, and their histogram. */
 #include "ui/jobs/quality.h"
 
 #include <glib/gi18n.h>
@@ -5,7 +6,7 @@
 
 #include "ui/jobs/generate-types.h"
 
-/* Beyond the scale lies this share of the values, so that a few far ones do not make all others look alike. */
+/* This share of the values lies beyond the scale, so that a few large values do not make all others look alike. */
 #define BEYOND 0.02
 
 gsize spore_quality_count(SporeGenerateKind kind) { return spore_generate_type(kind)->quality_count; }
@@ -14,7 +15,7 @@ const char *spore_quality_label(SporeGenerateKind kind, gsize which) {
   return _(spore_generate_type(kind)->qualities[which].label);
 }
 
-/* The next that has few digits, and its half too. */
+/* The next larger number with few digits, whose half has few digits too. */
 static double round_up(double value) {
   static const double steps[] = {1, 1.2, 1.6, 2, 3, 4, 5, 6, 8};
   double power = pow(10, floor(log10(value)));

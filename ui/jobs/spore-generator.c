@@ -1,3 +1,4 @@
+/* A generator at work: it runs again as options change, and the document changes only when its result is applied. */
 #include "ui/jobs/spore-generator.h"
 
 #include <glib/gi18n.h>
@@ -50,7 +51,7 @@ static void fail(SporeGenerator *self, const GError *error) {
 
 static void start(SporeGenerator *self);
 
-/* A job that was dropped comes here too, and is nobody's any more. */
+/* A job that was dropped ends here too. Its result is ignored. */
 static void done(SporeJob *job, gpointer data, const GError *error, gpointer owner) {
   SporeGenerator *self = owner;
   g_autoptr(GError) refused = NULL;
@@ -166,7 +167,7 @@ const SporeGenerateWork *spore_generator_get_result(SporeGenerator *self) { retu
 
 SporeJob *spore_generator_get_job(SporeGenerator *self) { return self->job; }
 
-/* The body may have gone, or show another mesh: then it is generated from that one. */
+/* The body may be gone, or show another mesh, which is then the source. */
 static void document_changed(SporeGenerator *self) {
   if (!self->active || !self->body) return;
   SporeObject *body = spore_generator_get_body(self);

@@ -1,5 +1,5 @@
-/* A generator at work before its result is applied: it runs, is run again when its options change, and the document is
- * not touched until Apply. One at a time.
+/* A generator at work before its result is applied. It runs again when its options change, and the document does not
+ * change until Apply. One runs at a time.
  *
  * Signals
  *   changed ()           anything below may have; on the GTK thread, at most ten times a second while it works
@@ -18,16 +18,16 @@ G_BEGIN_DECLS
 G_DECLARE_FINAL_TYPE(SporeGenerator, spore_generator, SPORE, GENERATOR, GObject)
 
 SporeGenerator *spore_generator_new(SporeEditorDocument *document);
-/* Begins, or goes on with other options: what ran before is dropped, and several calls in a row make one run. FALSE:
- * the body shows no mesh, or what is there is frozen. body NULL: the options name a file. */
+/* Begins a preview, or goes on with other options: the last run is dropped, and several calls in a row make one run.
+ * FALSE: the body shows no mesh, or its asset is frozen. body NULL: the options name a file. */
 gboolean spore_generator_preview(SporeGenerator *self, SporeObject *body, const SporeGenerateOptions *options,
                                  GError **error);
-/* Once there is a result it is applied. */
+/* Applies the result as soon as there is one. */
 void spore_generator_apply_when_done(SporeGenerator *self);
-/* The result becomes the body's, as one undo step, and the preview ends. FALSE: there is none yet, or it does not fit
- * any more; the preview goes on. */
+/* Gives the result to the body, as one undo step, and ends the preview. FALSE: there is no result yet, or it does not
+ * fit the document any more; the preview goes on. */
 gboolean spore_generator_apply(SporeGenerator *self, GError **error);
-/* At once; the document stays as it was. */
+/* Ends the preview at once; the document stays as it was. */
 void spore_generator_cancel(SporeGenerator *self);
 
 SporeDocument *spore_generator_get_document(SporeGenerator *self);

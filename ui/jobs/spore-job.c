@@ -1,3 +1,4 @@
+/* Long work on a thread of its own, with progress and cancelling. */
 #include "ui/jobs/spore-job.h"
 
 #include "core/scene/error.h"
@@ -88,7 +89,7 @@ static void ended(GObject *source, GAsyncResult *result, gpointer user_data) {
   SporeJob *self = SPORE_JOB(source);
   g_autoptr(GError) error = NULL;
   g_task_propagate_boolean(G_TASK(result), &error);
-  /* Where it was cancelled nobody wants the result any more. */
+  /* After a cancel, the result is not used. */
   if (!g_cancellable_is_cancelled(self->cancellable)) finish(self, g_task_get_task_data(G_TASK(result)), error);
 }
 
@@ -121,7 +122,7 @@ SporeJob *spore_job_start(const char *title, SporeJobWork work, gpointer work_da
   return self;
 }
 
-/* Whoever waits for it need not wait until the worker notices. */
+/* Whoever waits for the job need not wait until the worker notices the cancel. */
 void spore_job_cancel(SporeJob *self) {
   if (!self->running || g_cancellable_is_cancelled(self->cancellable)) return;
   g_cancellable_cancel(self->cancellable);

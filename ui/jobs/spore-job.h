@@ -30,11 +30,11 @@ void spore_job_cancel(SporeJob *self);
 gboolean spore_job_is_running(SporeJob *self);
 const char *spore_job_get_title(SporeJob *self);
 double spore_job_get_fraction(SporeJob *self);
-/* Another number whenever the work has come to something else to be seen. */
+/* A number that changes whenever the look of the work changes. */
 guint spore_job_get_look_serial(SporeJob *self);
-/* What the work has come to so far, *count x 4 numbers (x y z r), where it shows any; NULL. g_free. */
+/* The look of the work so far: *count x 4 numbers (x y z r); NULL: none. g_free. */
 double *spore_job_get_look(SporeJob *self, gsize *count);
-char *spore_job_get_stage(SporeJob *self); /* g_free; "" when not said */
+char *spore_job_get_stage(SporeJob *self); /* g_free; "" when not stated */
 
 G_END_DECLS
 #endif

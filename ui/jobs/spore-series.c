@@ -1,3 +1,4 @@
+/* A series: the results for several numbers of a generator, measured one after the other. */
 #include "ui/jobs/spore-series.h"
 
 #include <glib/gi18n.h>

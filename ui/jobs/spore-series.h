@@ -1,5 +1,5 @@
-/* Results of several numbers (SporeGenerateType.counts), measured one after the other on a worker: where more of them
- * stop paying.
+/* The error for several numbers (SporeGenerateType.counts), measured one after the other on a worker, and the number
+ * from which more do not pay.
  *
  * Signals
  *   changed ()   another point was measured, or it ended; on the GTK thread                                          */
@@ -22,11 +22,11 @@ gboolean spore_series_start(SporeSeries *self, SporeDocument *document, SporeObj
                             const SporeGenerateOptions *options, GError **error);
 void spore_series_stop(SporeSeries *self);  /* what was measured stays */
 void spore_series_clear(SporeSeries *self); /* and goes */
-/* Whether what was measured, if anything was, still is of this body as it is now, by these options but for how many. */
+/* Whether the measured points are still valid for this body and these options, whatever the number in them. */
 gboolean spore_series_is_of(SporeSeries *self, SporeDocument *document, SporeObject *body,
                             const SporeGenerateOptions *options);
 gboolean spore_series_is_running(SporeSeries *self);
-/* Points measured so far; errors in %, of what the kind says. */
+/* Points measured so far; errors in %. */
 gsize spore_series_get_points(SporeSeries *self, size_t counts[SPORE_SERIES_POINTS],
                               double errors[SPORE_SERIES_POINTS]);
 /* The number from which on more do not pay; 0: not known, or all pay. */

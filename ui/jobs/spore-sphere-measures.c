@@ -1,3 +1,4 @@
+/* Measures sets of spheres on a worker, each once, and keeps the figures. */
 #include "ui/jobs/spore-sphere-measures.h"
 
 #include <glib/gi18n.h>

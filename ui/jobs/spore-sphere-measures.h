@@ -1,4 +1,5 @@
-/* How good sets of spheres are: each measured once, apart, and kept by the content of mesh and spheres. No GTK.
+/* The quality of sets of spheres. Each set is measured once on a worker, and kept by the content of mesh and spheres.
+ * No GTK.
  *
  * Signals
  *   measured ()   another one is known */
@@ -15,8 +16,8 @@ G_BEGIN_DECLS
 G_DECLARE_FINAL_TYPE(SporeSphereMeasures, spore_sphere_measures, SPORE, SPHERE_MEASURES, GObject)
 
 SporeSphereMeasures *spore_sphere_measures_new(void);
-/* Of the body's spheres against the mesh that it shows; borrowed until the next call; all zero: there is nothing to
- * measure them against, or it cannot be done. NULL: not known yet; it is measured, one set at a time. */
+/* The figures of the body's spheres against the mesh that it shows; borrowed until the next call. All zero: there is no
+ * such mesh, or the set cannot be measured. NULL: not known yet; sets are measured one at a time. */
 const SporeSpheresReport *spore_sphere_measures_get(SporeSphereMeasures *self, SporeDocument *document,
                                                     SporeObject *body, SporeObject *asset);
 

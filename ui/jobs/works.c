@@ -1,4 +1,4 @@
-/* Works of the editor that no generator does: a scene is opened, a sphere set is measured. */
+/* Works of the editor that no generator does: a scene is opened or checked, a sphere set or a mapping measured. */
 #include "ui/jobs/works.h"
 
 #include <glib/gi18n.h>
@@ -24,7 +24,8 @@ void spore_open_work_free(gpointer data) {
   g_free(work);
 }
 
-/* Decoded here, so that the GTK thread finds them in the document. What cannot be read is said by the checks. */
+/* Decodes assets here, so that the GTK thread finds them in the document. The checks report assets that cannot be read.
+ * */
 static void decode_asset(SporeDocument *document, SporeObject *asset) {
   const char *element = spore_object_type(asset)->element;
   if (g_str_equal(element, "mesh")) spore_document_mesh(document, asset, NULL);
@@ -54,4 +55,49 @@ gboolean spore_measure_work_run(gpointer data, const SporeProgress *progress, GE
   SporeError failure = SPORE_ERROR_INIT;
   return spore_spheres_measure(&work->mesh, &work->spheres, &work->spheres_report, &failure) ||
          spore_error_propagate(&failure, error);
+}
+
+/* Check. */
+
+SporeCheckWork *spore_check_work_new(const SporeDocument *document) {
+  SporeCheckWork *work = g_new0(SporeCheckWork, 1);
+  work->document = spore_document_copy(document);
+  work->revision = spore_document_revision(document);
+  return work;
+}
+
+gboolean spore_check_work_run(gpointer data, const SporeProgress *progress, GError **error) {
+  SporeCheckWork *work = data;
+  work->found = spore_document_check(work->document);
+  return TRUE;
+}
+
+void spore_check_work_free(gpointer data) {
+  SporeCheckWork *work = data;
+  g_clear_pointer(&work->found, g_ptr_array_unref);
+  spore_document_free(work->document);
+  g_free(work);
+}
+
+/* Mapping. */
+
+SporeMappingWork *spore_mapping_work_new(const SporeDocument *document, const SporeObject *body) {
+  SporeMappingWork *work = g_new0(SporeMappingWork, 1);
+  work->document = spore_document_copy(document);
+  work->report.body = spore_object_id(body);
+  work->report.revision = spore_document_revision(document);
+  return work;
+}
+
+gboolean spore_mapping_work_run(gpointer data, const SporeProgress *progress, GError **error) {
+  SporeMappingWork *work = data;
+  SporeObject *body = spore_document_by_id(work->document, work->report.body);
+  return spore_mapping_report_measure(&work->report, work->document, body, progress, error);
+}
+
+void spore_mapping_work_free(gpointer data) {
+  SporeMappingWork *work = data;
+  spore_mapping_report_clear(&work->report);
+  spore_document_free(work->document);
+  g_free(work);
 }

@@ -1,3 +1,4 @@
+/* What the inspector says in words of a mesh and of generated assets. */
 #include "ui/panels/asset-facts.h"
 
 #include <glib/gi18n.h>
@@ -14,7 +15,7 @@ char *spore_mesh_facts(const SporeTriangleMesh *mesh) {
                          1e3 * (report.upper[2] - report.lower[2]), report.closed ? _("closed") : _("not closed"));
 }
 
-/* Of what there is; NULL with an error: it cannot be read. */
+/* The figures of the asset in words; NULL with an error: the asset cannot be read. */
 
 static char *count_spheres(SporeDocument *document, SporeObject *asset, GError **error) {
   const SporeSphereSet *set = spore_document_spheres(document, asset, error);

@@ -1,4 +1,4 @@
-/* What the inspector says of a mesh and of what generators made, in words. */
+/* What the inspector says in words of a mesh and of generated assets. */
 #ifndef SPORE_UI_PANELS_ASSET_FACTS_H
 #define SPORE_UI_PANELS_ASSET_FACTS_H
 
@@ -6,12 +6,11 @@
 
 /* NULL: there is no memory to look. g_free. */
 char *spore_mesh_facts(const SporeTriangleMesh *mesh);
-/* Of the asset that a body has of a kind; asset NULL: what it has instead. A line each; g_free. */
+/* Facts of the asset of a kind that a body has, a line each; asset NULL: what the body has instead. g_free. */
 char *spore_asset_facts(SporeDocument *document, const SporeObject *body, SporeObject *asset, SporeGenerateKind kind);
-/* How good spheres are; all zero: that could not be measured, and nothing is said. NULL: it is being measured. g_free.
- */
+/* The quality of spheres in words. All zero: not measured, and the text is empty. NULL: being measured. g_free. */
 char *spore_spheres_facts(const SporeSpheresReport *report);
-/* What became of the asset since it was generated: stale, edited, frozen; a line each, or "". g_free. */
+/* The state of the asset since it was generated: stale, edited, frozen; a line each, or "". g_free. */
 char *spore_asset_remarks(SporeDocument *document, SporeObject *asset);
 
 #endif

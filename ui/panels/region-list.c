@@ -1,3 +1,4 @@
+/* The list of the regions of a body or asset: add, edit, delete. */
 #include "ui/panels/region-list.h"
 
 #include <glib/gi18n.h>

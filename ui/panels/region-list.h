@@ -8,8 +8,8 @@
 #include "core/author/region_edits.h"
 #include "ui/document/spore-editor-document.h"
 
-/* Fills the box. holder: path of what the regions are children of, there or not, of that type. rows: gets each
- * SporePropertyRow, borrowed. empty: said where there is none yet, translated. */
+/* Fills the box. holder: path of the regions' parent, which may not exist yet, of that type. rows: gets each
+ * SporePropertyRow, borrowed. empty: text where there are no regions, translated. */
 void spore_fill_region_list(GtkBox *box, SporeEditorDocument *document, const char *holder, const SporeObjectType *type,
                             const char *empty, GPtrArray *rows);
 

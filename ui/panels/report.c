@@ -1,3 +1,4 @@
+/* Small services that panels share: actions, errors, figures in words, and layout. */
 #include "ui/panels/report.h"
 
 #include <glib/gi18n.h>
@@ -34,7 +35,7 @@ void spore_combo_shrinks(GtkWidget *combo, int least_chars, int most_chars) {
                NULL);
 }
 
-/* Stopped here and still not handled, so that it goes on to the parent. */
+/* The event stops here without being handled, so that the parent gets it. */
 static gboolean pass_on(GtkWidget *widget, GdkEventScroll *event, gpointer data) {
   g_signal_stop_emission_by_name(widget, "scroll-event");
   return GDK_EVENT_PROPAGATE;

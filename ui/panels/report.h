@@ -10,13 +10,13 @@
 void spore_activate(GtkWidget *widget, const char *name, GVariant *parameter);
 /* Shows the message in the window's bar. */
 void spore_report(GtkWidget *widget, const GError *error);
-/* Children beside each other where their least widths fit into `width`, else one below the other. */
+/* Puts children side by side where their minimum widths fit into `width`, else one below the other. */
 void spore_box_fit(GtkBox *box, int width);
 /* A combo box of texts that shows less of a long one where there is no room for it. */
 void spore_combo_shrinks(GtkWidget *combo, int least_chars, int most_chars);
 /* The wheel over this widget scrolls what holds it and never changes its value. */
 void spore_ignore_wheel(GtkWidget *widget);
-/* A number of which 0 is none asked for shows a dash then: its hint says what happens. */
+/* For a number where 0 means "not asked for": shows a dash at 0. Its hint says what happens then. */
 void spore_spin_shows_none(GtkWidget *spin);
 /* "Contact stiffness" of "contact_stiffness", translated. g_free. */
 char *spore_label_of(const char *name);

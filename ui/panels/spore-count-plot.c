@@ -1,14 +1,15 @@
+/* The plot of the error against the number of elements, both logarithmic. */
 #include "ui/panels/spore-count-plot.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
 
-#define EXACT_PERCENT 1e-6 /* rounding: as many as what it is made from has, it has no error */
+#define EXACT_PERCENT 1e-6 /* smaller errors are rounding: the result has as many elements as its source */
 #define MOST_POINTS 16
 #define LEFT 54
 #define RIGHT 12
 #define TOP 22
-#define BOTTOM 36 /* numbers, and what they are of */
+#define BOTTOM 36 /* numbers, and the name of what they count */
 #define LINE 15
 #define NEAR_PIXELS 14
 
@@ -62,7 +63,7 @@ static void draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double
   g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
   pango_layout_get_pixel_size(layout, &width, NULL);
   gtk_render_layout(gtk_widget_get_style_context(widget), cr, fmax(0, x - align * width), y, layout);
-  cairo_new_path(cr); /* the text leaves a point there, that a line would begin at */
+  cairo_new_path(cr); /* the text leaves a current point, from which a line would begin */
 }
 
 static double text_width(GtkWidget *widget, const char *text) {
@@ -72,7 +73,7 @@ static double text_width(GtkWidget *widget, const char *text) {
   return width;
 }
 
-/* In as many lines as the widget's width asks for. */
+/* Wraps the text to the width of the widget. */
 static void draw_invitation(GtkWidget *widget, cairo_t *cr, const char *text) {
   g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(widget, text);
   pango_layout_set_width(layout, (gtk_widget_get_allocated_width(widget) - 2 * RIGHT) * PANGO_SCALE);
@@ -143,7 +144,7 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr) {
   if (self->current) draw_line_at(cr, &f, self->current, FALSE);
   if (self->enough) {
     draw_line_at(cr, &f, self->enough, TRUE);
-    double x = x_of(&f, self->enough) - 5; /* the error falls: there is room below, before the mark, or nowhere */
+    double x = x_of(&f, self->enough) - 5; /* the error falls, so there is room below, before the mark, or nowhere */
     if (text_width(widget, _("more stop paying")) < x - f.left - 5)
       draw_text(widget, cr, x, f.top + f.height - 20, 1, _("more stop paying"));
   }
@@ -204,7 +205,7 @@ void spore_count_plot_set_points(SporeCountPlot *self, const size_t *counts, con
                                  size_t enough) {
   self->count = 0;
   for (gsize i = 0; i < count && self->count < MOST_POINTS; i++) {
-    if (!(errors[i] > EXACT_PERCENT)) continue; /* its logarithm would leave no room for the others */
+    if (!(errors[i] > EXACT_PERCENT)) continue; /* its logarithm would leave no room for the other points */
     self->counts[self->count] = counts[i];
     self->errors[self->count++] = errors[i];
   }

@@ -1,5 +1,6 @@
-/* Error against number, both logarithmic: measured points, the number of now, and where more stop paying. A click takes
- * the number under it; with the keyboard Left and Right go along the points and Enter takes one.
+/* Error against number, both logarithmic: measured points, the current number, and the number from which more do not
+ * pay. A click chooses the number under it. With the keyboard, Left and Right move along the points and Enter chooses
+ * one.
  *
  * Signals
  *   count-chosen (u count)                                                                                           */
@@ -16,7 +17,7 @@ G_DECLARE_FINAL_TYPE(SporeCountPlot, spore_count_plot, SPORE, COUNT_PLOT, GtkDra
 /* errors in %; ascending counts; copied. enough: 0 for none. */
 void spore_count_plot_set_points(SporeCountPlot *self, const size_t *counts, const double *errors, gsize count,
                                  size_t enough);
-/* The numbers it reaches from and to, what the error is called, and what they are numbers of (kept, not copied). */
+/* The range of numbers, the name of the error, and the name of what is counted (kept, not copied). */
 void spore_count_plot_set_axes(SporeCountPlot *self, size_t least, size_t most, const char *label,
                                const char *count_label);
 void spore_count_plot_set_current(SporeCountPlot *self, size_t count);

@@ -1,3 +1,4 @@
+/* The box of one generator in the inspector: the number, Generate, and the quality of the result. */
 #include "ui/panels/spore-generator-box.h"
 
 #include <glib/gi18n.h>
@@ -7,7 +8,7 @@
 struct _SporeGeneratorBox {
   GtkBox parent;
   GtkWidget *label, *count, *button, *result, *remarks, *tools, *freeze;
-  guint known;          /* count that the document said last */
+  guint known;          /* last count of the document */
   char *action, *asset; /* asset: path of what is there, or NULL */
   gboolean filling;
 };

@@ -1,3 +1,4 @@
+/* The panel of a generator at work: options, quality, Apply and Cancel. */
 #include "ui/panels/spore-generator-panel.h"
 
 #include <glib/gi18n.h>
@@ -13,7 +14,7 @@
 
 #define QUALITY_LEAST_CHARS 8
 #define QUALITY_CHARS 24
-#define APART 0.75 /* of their size, so that the eye gets in between */
+#define APART 0.75 /* gap between cells, as a part of their size */
 
 struct _SporeGeneratorPanel {
   GtkBox parent;
@@ -52,7 +53,7 @@ static void show_options(SporeGeneratorPanel *self, const SporeGenerateOptions *
   spore_generator_rows_set_options(SPORE_GENERATOR_ROWS(self->rows), &table, options);
   gtk_widget_set_visible(self->numbers, type->counts != NULL);
   gtk_widget_set_visible(self->ends, spore_generators[options->kind]->picks_ends);
-  /* Those of a label map are known once it was read. */
+  /* The organs of a label map are known once the map was read. */
   gtk_widget_set_visible(self->organs, options->labels && spore_generator_get_result(self->generator));
   if (gtk_widget_get_visible(self->organs)) spore_label_list_set_options(SPORE_LABEL_LIST(self->labels), options);
   if (!type->counts) return;
@@ -116,7 +117,7 @@ static void quality_chosen(GtkComboBox *combo, SporeGeneratorPanel *self) {
   g_signal_emit(self, signals[SHOWN_QUALITY_CHANGED], 0);
 }
 
-/* Of whom it generates: the body, or the file. */
+/* The source of the generator: the body, or the file. */
 static char *title_of(SporeGeneratorPanel *self, SporeObject *body, const SporeGenerateOptions *options) {
   g_autofree char *base = options->labels ? g_path_get_basename(spore_label_source_file(options->labels)) : NULL;
   return g_strdup_printf(_(spore_generators[options->kind]->title), base ? base : spore_object_name(body));
@@ -129,7 +130,7 @@ static void refresh(SporeGeneratorPanel *self) {
   gtk_widget_set_visible(self->empty, !active);
   gtk_widget_set_visible(self->content, active);
   if (!spore_series_is_of(self->series, spore_generator_get_document(self->generator), body, options))
-    spore_series_clear(self->series); /* of another body, or made in another way, they say nothing */
+    spore_series_clear(self->series); /* points of another body or other options do not apply */
   if (!active) return;
   g_autofree char *title = title_of(self, body, options);
   gtk_label_set_text(GTK_LABEL(self->title), title);
@@ -137,7 +138,7 @@ static void refresh(SporeGeneratorPanel *self) {
   gtk_widget_set_visible(self->inside, spore_generate_type(options->kind)->cells);
   self->filling = TRUE;
   fill_qualities(self, options->kind);
-  show_result(self); /* before the options: of the tabs that stay, the histogram's comes to the front */
+  show_result(self); /* hidden before the options, so that the tab of the histogram comes to the front */
   show_options(self, options);
   self->filling = FALSE;
 }
@@ -149,7 +150,7 @@ static gboolean fit_columns(gpointer data) {
 }
 
 static void content_sized(GtkWidget *widget, GdkRectangle *allocation, SporeGeneratorPanel *self) {
-  g_idle_add(fit_columns, g_object_ref(self)); /* not while sizes are given out */
+  g_idle_add(fit_columns, g_object_ref(self)); /* not during size allocation */
 }
 
 static void view_changed(GtkWidget *widget, SporeGeneratorPanel *self) {

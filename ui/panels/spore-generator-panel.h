@@ -1,4 +1,4 @@
-/* A generator at work: its options, how good its result is, Apply and Cancel.
+/* The panel of a generator at work: options, quality of the result, Apply and Cancel.
  *
  * Signals
  *   shown-quality-changed ()   the user chose another quality to look at                                            */
@@ -18,7 +18,7 @@ G_DECLARE_FINAL_TYPE(SporeGeneratorPanel, spore_generator_panel, SPORE, GENERATO
 void spore_generator_panel_set_generator(SporeGeneratorPanel *self, SporeGenerator *generator);
 /* Which of the qualities of the result's kind (quality.h). */
 gsize spore_generator_panel_get_quality(SporeGeneratorPanel *self);
-/* How the cells of this mesh are to be seen: whole, cut open, drawn apart. */
+/* How the cells of this mesh are shown: whole, cut open, or drawn apart. */
 SporeCellView spore_generator_panel_get_view(SporeGeneratorPanel *self, const SporeTetrahedralMesh *mesh);
 
 G_END_DECLS

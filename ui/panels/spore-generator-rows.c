@@ -1,3 +1,4 @@
+/* The rows of a generator's options, made from its table. */
 #include "ui/panels/spore-generator-rows.h"
 
 #include <glib/gi18n.h>
@@ -10,7 +11,7 @@
 #define CHOICE_LEAST_CHARS 5
 #define CHOICE_CHARS 20
 #define DIGITS 2          /* after the point */
-#define ROUNDED 0.5001e-2 /* what is less than that apart looks the same, and is no change */
+#define ROUNDED 0.5001e-2 /* a smaller difference looks the same, and is no change */
 
 typedef struct {
   const SporeParameter *parameter;
@@ -115,7 +116,7 @@ static void build(SporeGeneratorRows *self, const SporeParameterTable *table, Sp
 
 /* Values. */
 
-/* Of what structure the parameter is a field. */
+/* The structure that the parameter is a field of. */
 static void *place_of(SporeGeneratorRows *self, const Row *row, SporeGenerateOptions *options) {
   gboolean purpose = row->parameter == spore_generators[(SporeGenerateKind)self->kind]->purpose;
   return purpose ? (void *)&options->purpose : (void *)&options->fields;

@@ -1,4 +1,4 @@
-/* What a generator is asked for: a row for each option of the asset that it makes, from the asset's table.
+/* The options of a generator: a row for each option in the table of the asset that it makes.
  *
  * Signals
  *   changed ()   the user set one of them                                                                            */
@@ -17,9 +17,9 @@ G_DECLARE_FINAL_TYPE(SporeGeneratorRows, spore_generator_rows, SPORE, GENERATOR_
 /* table: of the options' fields (spore_generator_table); its parameters are kept. */
 void spore_generator_rows_set_options(SporeGeneratorRows *self, const SporeParameterTable *table,
                                       const SporeGenerateOptions *options);
-/* Writes what the rows say; places are left as they are. */
+/* Writes the values of the rows; places are not changed. */
 void spore_generator_rows_get_options(SporeGeneratorRows *self, SporeGenerateOptions *options);
-/* As if the user had set it. */
+/* Sets the value as if the user had. */
 void spore_generator_rows_set_count(SporeGeneratorRows *self, guint count);
 
 G_END_DECLS

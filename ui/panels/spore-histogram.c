@@ -1,3 +1,4 @@
+/* The histogram of a quality: bars in the colours of the scale. */
 #include "ui/panels/spore-histogram.h"
 
 #include <glib/gi18n.h>
@@ -13,13 +14,13 @@ struct _SporeHistogram {
   GtkDrawingArea parent;
   double share[BINS], largest, mean; /* share: of the weight; the last bin has what lies beyond the scale too */
   double high;
-  char *title, *marks[3]; /* title NULL: nothing to show; marks: at the ends of the scale and in its middle */
+  char *title, *marks[3]; /* title NULL: nothing to show; marks: at the ends and in the middle of the scale */
 };
 
 G_DEFINE_FINAL_TYPE(SporeHistogram, spore_histogram, GTK_TYPE_DRAWING_AREA)
 
-/* align: 0 begins at x, 0.5 about it, 1 ends there. Where it would go into what lies at `free_until` it is left out.
- * Returns where it begins. */
+/* align: 0: the text begins at x; 0.5: it is centred at x; 1: it ends at x. A text that would reach beyond `free_until`
+ * is left out. Returns where the text begins. */
 static double draw_text(GtkWidget *widget, cairo_t *cr, double x, double y, double align, const char *text,
                         double free_until) {
   int width;

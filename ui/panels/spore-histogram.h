@@ -1,4 +1,5 @@
-/* How the values of a quality are spread: bars in the scale's colours, which so is their legend too. */
+/* The distribution of the values of a quality. The bars have the colours of the scale, so the histogram is also the
+ * legend. */
 #ifndef SPORE_UI_PANELS_SPORE_HISTOGRAM_H
 #define SPORE_UI_PANELS_SPORE_HISTOGRAM_H
 

@@ -1,3 +1,4 @@
+/* The inspector: every parameter of the selected object, made from its table. */
 #include "ui/panels/spore-inspector.h"
 
 #include <glib/gi18n.h>
@@ -17,7 +18,7 @@
 #include "ui/panels/spore-property-row.h"
 #include "ui/panels/spore-section-list.h"
 
-#define MOST_COUNT 1e6 /* that is asked for beside a number: a larger one is an option of the panel */
+#define MOST_COUNT 1e6 /* largest number of the box; a larger number is an option of the panel */
 
 struct _SporeInspector {
   GtkBox parent;
@@ -27,7 +28,7 @@ struct _SporeInspector {
   GtkWidget *mesh_facts, *generators[SPORE_GENERATORS_MOST], *model, *preset, *mapping_facts;
   SporeSphereMeasures *measures;
   SporeMappingReport mapping;
-  char *mesh_hash, *mesh_text; /* of the mesh that was looked at last: its content, and what is said of it */
+  char *mesh_hash, *mesh_text; /* of the last mesh: its content, and its figures in words */
 };
 
 G_DEFINE_FINAL_TYPE(SporeInspector, spore_inspector, GTK_TYPE_BOX)
@@ -41,7 +42,7 @@ static SporeSectionList *sections_of(SporeInspector *self) { return SPORE_SECTIO
 
 /* Rows. */
 
-/* One row a parameter of the table. */
+/* One row for each parameter of the table. */
 static void add_rows(SporeInspector *self, GtkBox *box, const char *path, const SporeObjectType *type) {
   for (gsize i = 0; i < type->table->count; i++) {
     GtkWidget *row = spore_property_row_new(self->document, path, type, (guint)i);
@@ -55,7 +56,7 @@ static void add_object(SporeInspector *self, GtkBox *box, SporeObject *object) {
   add_rows(self, box, path, spore_object_type(object));
 }
 
-/* A unit of the body, there or not: the first change of a row makes it. */
+/* A unit of the body, which may not exist yet: the first change of a row makes the unit. */
 static void add_unit(SporeInspector *self, GtkBox *box, SporeObject *body, const char *element) {
   const SporeObjectType *type = spore_object_type_child(spore_object_type(body), element);
   g_autofree char *parent = spore_object_path(body);
@@ -76,7 +77,7 @@ static GtkWidget *add_fact(GtkBox *box) {
 
 /* Facts. */
 
-/* A mesh is looked at once: it may be large. */
+/* A mesh may be large, so its figures are kept. */
 static void show_mesh_facts(SporeInspector *self, SporeObject *body) {
   g_autoptr(GError) error = NULL;
   SporeObject *asset = spore_edit_visual_mesh(document_of(self), body, NULL);
@@ -92,7 +93,7 @@ static void show_mesh_facts(SporeInspector *self, SporeObject *body) {
   gtk_label_set_text(GTK_LABEL(self->mesh_facts), self->mesh_text ? self->mesh_text : none);
 }
 
-/* What is there of a kind. */
+/* Facts of what the body has of a kind. */
 static char *facts_of(SporeInspector *self, SporeObject *body, SporeObject *asset, SporeGenerateKind kind) {
   g_autofree char *text = spore_asset_facts(document_of(self), body, asset, kind);
   if (!asset) return g_steal_pointer(&text);
@@ -163,7 +164,7 @@ void spore_inspector_set_mapping(SporeInspector *self, SporeMappingReport *repor
 
 /* What is selected. */
 
-/* Parts of other tissue, for models that know of such, and for those that do not but have been given some. */
+/* Regions of other tissue: for models that use them, and for models that do not but have some. */
 static void add_regions(SporeInspector *self, SporeObject *body, SporeObject *model) {
   const SporeModelType *type = spore_object_type(model)->model;
   const SporeObject *regions = spore_object_child_of(body, "regions");
@@ -178,7 +179,7 @@ static void add_regions(SporeInspector *self, SporeObject *body, SporeObject *mo
                          spore_section_rows(box));
 }
 
-/* Of what a generator made: where it shall be finer. */
+/* Regions where a generated asset shall be finer. */
 static void add_generator_regions(SporeInspector *self, GtkBox *box, SporeObject *asset, const char *empty) {
   const char *source = asset ? spore_object_text(asset, "source") : NULL;
   if (!asset || (!source && !spore_object_child_count(asset))) return;
@@ -192,8 +193,7 @@ static void add_mapping(SporeInspector *self, const char *path) {
   g_set_weak_pointer(&self->mapping_facts, add_fact(box));
   GtkWidget *measure = gtk_button_new_with_label(_("Measure mapping"));
   gtk_widget_set_halign(measure, GTK_ALIGN_START);
-  gtk_widget_set_tooltip_text(measure,
-                              _("Compile the scene and measure how far vertices and spheres are carried wrong"));
+  gtk_widget_set_tooltip_text(measure, _("Compile the scene and measure how far vertices and spheres lie off"));
   gtk_actionable_set_action_name(GTK_ACTIONABLE(measure), "win.measure-mapping");
   gtk_container_add(GTK_CONTAINER(box), measure);
 }
@@ -216,7 +216,7 @@ static void add_generator(SporeInspector *self, GtkBox *box, SporeGenerateKind k
   gtk_container_add(GTK_CONTAINER(box), self->generators[kind]);
 }
 
-/* Those that are offered with this unit of a body. */
+/* The generators that are offered with this unit of a body. */
 static void add_generators(SporeInspector *self, GtkBox *box, SporeObject *body, const char *unit) {
   for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++)
     if (g_strcmp0(spore_generators[kind]->unit, unit) == 0) add_generator(self, box, kind, body);

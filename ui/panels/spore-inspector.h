@@ -1,4 +1,4 @@
-/* What is selected, with every parameter from its table.
+/* The selected object, with every parameter of its table.
  *
  * Signals
  *   marks-changed ()   what the view is to point out may differ                                                     */
@@ -17,9 +17,10 @@ G_BEGIN_DECLS
 G_DECLARE_FINAL_TYPE(SporeInspector, spore_inspector, SPORE, INSPECTOR, GtkBox)
 
 void spore_inspector_set_document(SporeInspector *self, SporeEditorDocument *document);
-/* Shows how good a body's mapping is; takes what the report holds. */
+/* Shows the quality of a body's mapping; takes the content of the report. */
 void spore_inspector_set_mapping(SporeInspector *self, SporeMappingReport *report);
-/* Of the selected body: its regions, and the worst place of its mapping where that was measured. The caller's. */
+/* Marks of the selected body: its regions, and the worst place of its mapping where it was measured. The caller frees
+ * them. */
 SporeStageMarks spore_inspector_get_marks(SporeInspector *self);
 
 G_END_DECLS

@@ -1,10 +1,11 @@
+/* The list of the organs of a label map, with a choice of those that are wanted. */
 #include "ui/panels/spore-label-list.h"
 
 #include <glib/gi18n.h>
 
 struct _SporeLabelList {
   GtkBox parent;
-  SporeLabelSource *source; /* that the checks are of; NULL: none yet */
+  SporeLabelSource *source; /* label map of the checks; NULL: none yet */
   GPtrArray *checks;
   gboolean filling;
 };

@@ -1,4 +1,4 @@
-/* The organs of a label map with their volumes; which of them are wanted.
+/* The organs of a label map with their volumes, and which of them are wanted.
  *
  * Signals
  *   changed ()   the user took one in or left it out                                                                 */
@@ -14,7 +14,7 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_LABEL_LIST spore_label_list_get_type()
 G_DECLARE_FINAL_TYPE(SporeLabelList, spore_label_list, SPORE, LABEL_LIST, GtkBox)
 
-/* Of a label map that was read. */
+/* Shows a label map that was read. */
 void spore_label_list_set_options(SporeLabelList *self, const SporeGenerateOptions *options);
 void spore_label_list_get_options(SporeLabelList *self, SporeGenerateOptions *options);
 

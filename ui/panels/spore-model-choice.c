@@ -1,3 +1,4 @@
+/* The choice of the model that moves a body, and of its preset. */
 #include "ui/panels/spore-model-choice.h"
 
 #include <glib/gi18n.h>
@@ -7,14 +8,14 @@
 struct _SporeModelChoice {
   GtkBox parent;
   GtkWidget *combo;
-  const char *action;         /* of the window, takes what is chosen */
-  const SporePreset *presets; /* NULL: it is of models */
+  const char *action;         /* of the window, takes the choice */
+  const SporePreset *presets; /* NULL: the choice is of models */
   gboolean filling;
 };
 
 G_DEFINE_FINAL_TYPE(SporeModelChoice, spore_model_choice, GTK_TYPE_BOX)
 
-/* No model is a choice; own values are none. */
+/* "No model" can be chosen; "own values" cannot. */
 static void chosen(GtkComboBox *combo, SporeModelChoice *self) {
   const char *id = gtk_combo_box_get_active_id(combo);
   if (id && !self->filling && (*id || !self->presets))

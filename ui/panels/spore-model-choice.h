@@ -11,9 +11,9 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_MODEL_CHOICE spore_model_choice_get_type()
 G_DECLARE_FINAL_TYPE(SporeModelChoice, spore_model_choice, SPORE, MODEL_CHOICE, GtkBox)
 
-/* Of all models that there are. */
+/* A choice of all models. */
 GtkWidget *spore_model_choice_new(const SporeSchema *schema);
-/* Of the presets of a type of model; NULL: it has none. */
+/* A choice of the presets of a type of model; NULL: it has none. */
 GtkWidget *spore_model_choice_new_of_presets(const SporeModelType *type);
 /* model: of the body, or NULL. */
 void spore_model_choice_set_model(SporeModelChoice *self, SporeObject *model);

@@ -1,3 +1,4 @@
+/* The outliner: organs, instruments, links and assets of the scene as a tree. */
 #include "ui/panels/spore-outliner.h"
 
 #include <glib/gi18n.h>
@@ -132,7 +133,7 @@ static void queue_rebuild(SporeOutliner *self) {
   if (!self->rebuild && self->document) self->rebuild = g_idle_add_full(G_PRIORITY_HIGH_IDLE, rebuild, self, NULL);
 }
 
-/* Only names, roles and what there is are shown here. */
+/* Only names, roles and the objects that exist are shown here. */
 static void document_changed(SporeOutliner *self, int kind, guint id, guint property) {
   SporeObject *object =
       kind == SPORE_DOCUMENT_SET ? spore_document_by_id(spore_editor_document_get(self->document), id) : NULL;
@@ -149,7 +150,7 @@ static gboolean matches(GtkTreeModel *model, GtkTreeIter *iter, const char *want
   return folded && strstr(folded, wanted);
 }
 
-/* Groups stay, so that one sees where a match belongs. */
+/* Groups stay, so that the user sees where a match belongs. */
 static gboolean row_visible(GtkTreeModel *model, GtkTreeIter *iter, gpointer data) {
   SporeOutliner *self = data;
   const char *text = gtk_entry_get_text(GTK_ENTRY(self->filter));

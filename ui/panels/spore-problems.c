@@ -1,9 +1,10 @@
+/* The list of problems: what checks find in the scene, and what a run had to mend. */
 #include "ui/panels/spore-problems.h"
 
 #include <glib/gi18n.h>
 #include <string.h>
 
-#include "ui/jobs/check-work.h"
+#include "ui/jobs/works.h"
 #include "ui/jobs/spore-job.h"
 
 /* After the last change, so that typing is not held up. */
@@ -30,7 +31,7 @@ static const char *icon_of(SporeSeverity severity) {
   return icons[severity];
 }
 
-/* All of it, for what the columns have no room for; tooltips of rows are read as markup. */
+/* The whole text, for which the columns have no room. Tooltips of rows are markup. */
 static char *hint_of(const SporeDiagnostic *diagnostic) {
   const char *remedy = diagnostic->remedy ? diagnostic->remedy : "";
   return g_markup_printf_escaped("%s%s%s", diagnostic->message, *remedy ? "\n" : "", remedy);
@@ -64,7 +65,7 @@ static void checked_through(SporeJob *job, gpointer data, const GError *error, g
   show(self);
 }
 
-/* One at a time: what changes meanwhile is seen when it is through. */
+/* One check at a time: changes during a check are checked when it is done. */
 static gboolean check(gpointer data) {
   SporeProblems *self = data;
   self->timer = 0;

@@ -1,3 +1,4 @@
+/* The row of one parameter: label, editor, unit, effect of a change, and back to the default. */
 #include "ui/panels/spore-property-row.h"
 
 #include <glib/gi18n.h>
@@ -18,7 +19,7 @@ struct _SporePropertyRow {
   char *path;
   const SporeObjectType *type;
   guint property;
-  char *shown; /* text that the editor was given last */
+  char *shown; /* last text that was given to the editor */
   gboolean refreshing;
 };
 
@@ -185,7 +186,7 @@ static void fill_references(SporePropertyRow *self, GtkComboBoxText *combo, cons
       found |= g_str_equal(name, current);
     }
   }
-  if (!found) gtk_combo_box_text_append(combo, current, current); /* refers to nothing; the problems say so */
+  if (!found) gtk_combo_box_text_append(combo, current, current); /* refers to nothing; the list of problems says so */
 }
 
 static void show_combo(SporePropertyRow *self, const char *text) {

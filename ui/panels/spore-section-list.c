@@ -1,3 +1,4 @@
+/* Sections under titles that the user can close; sections that did not change are kept. */
 #include "ui/panels/spore-section-list.h"
 
 #include "ui/panels/spore-property-row.h"
@@ -67,7 +68,7 @@ GtkBox *spore_section_list_add(SporeSectionList *self, const char *title, const 
   return GTK_BOX(box);
 }
 
-/* Those that it has not come to again show something that is not wanted any more. */
+/* Sections that were not asked for again are removed. */
 void spore_section_list_end(SporeSectionList *self) {
   g_autoptr(GList) sections = gtk_container_get_children(GTK_CONTAINER(self));
   for (GList *old = g_list_nth(sections, (guint)self->placed); old; old = old->next) gtk_widget_destroy(old->data);

@@ -1,5 +1,5 @@
-/* Sections under titles that the user can close, each of rows and what else it is filled with. Those that show the same
- * as before are kept when the list is made anew: making widgets takes long. */
+/* Sections under titles that the user can close. Each is filled with rows and other widgets. When the list is made
+ * anew, sections that show the same as before are kept, because making widgets takes long. */
 #ifndef SPORE_UI_PANELS_SPORE_SECTION_LIST_H
 #define SPORE_UI_PANELS_SPORE_SECTION_LIST_H
 
@@ -12,10 +12,10 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_SECTION_LIST spore_section_list_get_type()
 G_DECLARE_FINAL_TYPE(SporeSectionList, spore_section_list, SPORE, SECTION_LIST, GtkBox)
 
-/* The sections that there are to be follow, from the first to the last; then it ends. */
+/* Begins a new list. The sections follow, from the first to the last, until end. */
 void spore_section_list_begin(SporeSectionList *self);
-/* The box to fill; NULL: it stays as it is, since it shows the same. path: of what it shows. holder: of the regions
- * that it lists, may be NULL. */
+/* The box to fill; NULL: the section shows the same and stays. path: of the object that the section shows. holder: of
+ * the regions that it lists, may be NULL. */
 GtkBox *spore_section_list_add(SporeSectionList *self, const char *title, const char *path, const SporeObject *holder);
 void spore_section_list_end(SporeSectionList *self);
 

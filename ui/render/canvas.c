@@ -1,3 +1,4 @@
+/* The canvas: tells the shaders of a frame, and draws everything in the order of the passes. */
 #include "ui/render/passes.h"
 
 void spore_canvas_set_frame(SporeCanvas *canvas, const SporeFrame *frame) {
@@ -17,8 +18,7 @@ static gboolean background(SporeCanvas *canvas, SporeVariant variant, GError **e
   return TRUE;
 }
 
-/* In the order that writes each pixel least often: solids, then the background behind them, then smoke, then overlays.
- */
+/* This order writes each pixel least often: solids, the background behind them, smoke, then overlays. */
 gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
                            GError **error) {
   GPtrArray *drawables = canvas->drawables;

@@ -1,3 +1,4 @@
+/* The scale of colours, for widgets and as shader code. */
 #include "ui/render/colour_scale.h"
 
 #include <glib.h>

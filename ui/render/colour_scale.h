@@ -1,9 +1,9 @@
-/* The one scale of colours by which a quality is shown: on spheres, on surfaces, in legends and histograms. Dark violet
- * to yellow with even steps of lightness, so that it reads without seeing hues ("viridis" of matplotlib, CC0). */
+/* The scale of colours that shows a quality on spheres, on surfaces, in legends and in histograms. It goes from dark
+ * violet to yellow in even steps of lightness, so that it reads without hues ("viridis" of matplotlib, CC0). */
 #ifndef SPORE_UI_RENDER_COLOUR_SCALE_H
 #define SPORE_UI_RENDER_COLOUR_SCALE_H
 
-/* value 0..1, kept within; sRGB 0..1. */
+/* value 0..1, clamped; sRGB 0..1. */
 void spore_colour_scale(double value, double srgb[3]);
 /* One channel from sRGB to linear light. */
 double spore_linear_light(double srgb);

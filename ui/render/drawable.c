@@ -1,3 +1,4 @@
+/* What all drawables share: origin, bounds, and freeing. */
 #include <math.h>
 
 #include "ui/render/passes.h"

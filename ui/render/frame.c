@@ -1,3 +1,4 @@
+/* The uniform block of a frame: projection, light, range of depth, and the view of the lamp. */
 #include "ui/render/frame.h"
 
 #include <math.h>
@@ -69,7 +70,7 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray
   SporeFrameBlock *block = &frame->block;
   projection(block->projection, slope, (double)width / height, frame->near, frame->far);
   rotation(block->rotation, right, up, forward);
-  /* The lamp sits up and to the left of the lens, so that shapes keep a shadow side. */
+  /* The lamp is above and to the left of the lens, so that shapes have a side in shadow. */
   block->light[0] = (float)(-0.30 * distance), block->light[1] = (float)(0.42 * distance);
   block->light[2] = (float)(0.02 * distance), block->light[3] = (float)distance;
   block->viewport[0] = (float)width, block->viewport[1] = (float)height;
@@ -77,7 +78,8 @@ void spore_frame_prepare(SporeFrame *frame, const SporeCamera *camera, GPtrArray
   block->up[0] = (float)right.y, block->up[1] = (float)up.y, block->up[2] = (float)-forward.y;
 }
 
-/* Radius about the target that holds every visible drawable, but at most what a camera at that distance looks at. */
+/* Radius about the target that holds every visible drawable, but at most the radius that a camera at that distance
+ * sees. */
 static double lit_radius(const SporeCamera *camera, GPtrArray *drawables) {
   double radius = 0;
   for (guint i = 0; i < drawables->len; i++) {

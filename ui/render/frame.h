@@ -1,4 +1,4 @@
-/* What the shaders are told of a frame: projection, light, range of depth. */
+/* What the shaders get of a frame: projection, light, range of depth. */
 #ifndef SPORE_UI_RENDER_FRAME_H
 #define SPORE_UI_RENDER_FRAME_H
 

@@ -1,3 +1,4 @@
+/* An OpenGL context without a window, by EGL. */
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <glib/gi18n.h>
@@ -40,10 +41,10 @@ static EGLDisplay device_display(void) {
   return EGL_NO_DISPLAY;
 }
 
-/* The display is the process's, and others may use it (a second context, the toolkit): it is never terminated.
- * Neither an X server nor a compositor is asked: Mesa's surfaceless platform, else the first device that opens. */
+/* The display belongs to the process, and others may use it (a second context, the toolkit), so it is never terminated.
+ * No X server or compositor is needed: Mesa's surfaceless platform is used, else the first device that opens. */
 static EGLDisplay open_display(GError **error) {
-  /* epoxy ends the process when it is asked for a function that nobody provides. */
+  /* epoxy ends the process when a function is called that no driver provides. */
   if (!epoxy_has_egl()) {
     no_opengl(error, _("there is no EGL library"));
     return EGL_NO_DISPLAY;

@@ -38,7 +38,7 @@ typedef struct SporePrograms {
   SporeProgram programs[SPORE_PROGRAM_COUNT][SPORE_VARIANT_COUNT];
 } SporePrograms;
 
-/* Makes the program when it is not there yet. NULL with a GError holding the compiler's words. */
+/* Compiles the program when it is first needed. NULL with a GError that holds the compiler's messages. */
 const SporeProgram *spore_programs_get(SporePrograms *programs, SporeProgramKind kind, SporeVariant variant,
                                        GError **error);
 void spore_programs_clear(SporePrograms *programs);
@@ -57,8 +57,8 @@ typedef struct SporeFrame {
   double near, far; /* m */
 } SporeFrame;
 
-/* What is drawn. Buffers hold positions relative to `origin`, so that single precision suffices far from the world's.
- */
+/* What is drawn. Buffers hold positions relative to `origin`, so that single precision suffices far from the origin of
+ * the world. */
 typedef enum SporeDrawableKind {
   SPORE_DRAW_SURFACE,
   SPORE_DRAW_SPHERES,
@@ -78,7 +78,7 @@ typedef struct SporeSurface {
   guint32 *triangles; /* triangle_count x 3 */
   double *normals;    /* vertex_count x 3 */
   SporeSurfaceStyle style;
-  gboolean closed; /* back faces are never seen */
+  gboolean closed; /* so that back faces are never seen */
   float cell;      /* m: size of the pattern of the tissue */
   float axis[3];   /* longest axis at rest */
 } SporeSurface;
@@ -105,10 +105,10 @@ typedef struct SporeLineGroup {
   gsize count;
   float colour[3], width;
   float fade;   /* m; 0: lines do not fade */
-  float hidden; /* how much of them is seen through what lies before them, 0..1 */
+  float hidden; /* opacity of the hidden parts, 0..1 */
 } SporeLineGroup;
 
-/* Context current in all that follows. */
+/* The context must be current for all functions below. */
 SporeSurface *spore_surface_new(const double *vertices, gsize vertex_count, const guint32 *triangles,
                                 gsize triangle_count, const SporeSurfaceStyle *style, const float *values);
 void spore_surface_move(SporeSurface *surface, const double *vertices);
@@ -121,9 +121,10 @@ SporeLineGroup *spore_line_group_new(const double *points, gsize count, const fl
 void spore_line_group_move(SporeLineGroup *group, const double *points, gsize count);
 void spore_drawable_free(SporeDrawable *drawable);
 
-/* Offset of the drawable's origin from the eye, as the shaders want it. */
+/* Sets the uniform of the drawable's offset: its origin relative to the eye. */
 void spore_drawable_set_offset(const SporeDrawable *drawable, const SporeFrame *frame, GLint location);
-/* Empties origin and bounds, then takes in points of `stride` doubles, each grown by its 4th number when radius. */
+/* Sets the bounds from points of `stride` doubles, each grown by its fourth number with radius; and the origin to the
+ * middle with set_origin. */
 void spore_drawable_set_bounds(SporeDrawable *drawable, const double *points, gsize count, gsize stride,
                                gboolean radius, gboolean set_origin);
 
@@ -133,7 +134,7 @@ gboolean spore_surface_pass(GPtrArray *drawables, const SporeFrame *frame, Spore
 /* overlays FALSE: solid spheres; TRUE: overlays, dimmed where hidden. */
 gboolean spore_sphere_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                            gboolean overlays, GError **error);
-/* Over what is solid, and nothing is hidden by them. Sorted within a group. */
+/* Puffs are drawn over solids and hide nothing. They are sorted within a group. */
 gboolean spore_puff_pass(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs, SporeVariant variant,
                          GError **error);
 /* hidden: lines are drawn dimmed where something stands before them. */
@@ -149,14 +150,15 @@ typedef struct SporeTarget {
   int width, height, samples;
   GLuint framebuffer, colour, depth; /* textures when samples is 0, else renderbuffers */
 } SporeTarget;
-/* Makes it anew only when size or samples changed. colour_format or depth_format 0: has none. */
+/* Makes the buffers again only when the size or the samples changed. colour_format or depth_format 0: no such buffer.
+ * */
 gboolean spore_target_prepare(SporeTarget *target, int width, int height, int samples, GLenum colour_format,
                               GLenum depth_format, GError **error);
-/* Draws into it from now on, all of it. */
+/* Makes the target the one that is drawn into, over its whole area. */
 void spore_target_bind(const SporeTarget *target);
 void spore_target_clear(SporeTarget *target);
 
-/* What a picture is drawn from. */
+/* Everything that a picture is drawn from. */
 typedef struct SporeCanvas {
   GPtrArray *drawables; /* SporeDrawable * by handle - 1, NULL where removed */
   GPtrArray *grid;      /* SporeLineGroup * */
@@ -164,9 +166,9 @@ typedef struct SporeCanvas {
   GLuint block, screen_array; /* uniform buffer; vertex array without attributes */
 } SporeCanvas;
 
-/* Tells the shaders of the frame. */
+/* Gives the frame to the shaders. */
 void spore_canvas_set_frame(SporeCanvas *canvas, const SporeFrame *frame);
-/* Everything that has a colour, into the bound framebuffer, whose depth is cleared. */
+/* Draws everything that has a colour into the bound framebuffer, whose depth is cleared. */
 gboolean spore_canvas_draw(SporeCanvas *canvas, const SporeFrame *frame, SporeVariant variant, gboolean grid,
                            GError **error);
 

@@ -1,3 +1,4 @@
+/* A picture in full quality: shadow, occlusion, several samples a pixel, glare, and film. */
 #include "ui/render/frame.h"
 #include "ui/render/passes.h"
 
@@ -36,7 +37,7 @@ static gboolean prepare(SporePicture *picture, const SporeTarget *screen, int sc
          spore_target_prepare(&picture->glare, glow_width, glow_height, 0, GL_RGBA16F, 0, error);
 }
 
-/* Depth alone of what is solid. */
+/* Draws the depth of solids alone. */
 static gboolean draw_depth(SporeCanvas *canvas, const SporeFrame *frame, const SporeTarget *target,
                            SporeVariant variant, GError **error) {
   spore_target_bind(target);
@@ -48,7 +49,7 @@ static gboolean draw_depth(SporeCanvas *canvas, const SporeFrame *frame, const S
   return drawn;
 }
 
-/* Runs a program over the whole of the target. */
+/* Runs a program over the whole target. */
 static gboolean filter(SporeCanvas *canvas, SporeProgramKind kind, const SporeTarget *target, float x, float y,
                        GError **error) {
   const SporeProgram *program = spore_programs_get(&canvas->programs, kind, SPORE_VARIANT_FULL, error);

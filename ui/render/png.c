@@ -1,3 +1,4 @@
+/* Writes a picture as a PNG file. */
 #include <errno.h>
 #include <fcntl.h>
 #include <glib/gi18n.h>
@@ -16,7 +17,7 @@ static gboolean file_failed(GError **error, const char *file) {
                            g_strerror(code));
 }
 
-/* libpng's own handlers print; ours only leave, and errno says why. */
+/* libpng's own handlers print messages. Ours only return, and errno holds the cause. */
 static void G_GNUC_NORETURN png_failed(png_structp png, png_const_charp message) { png_longjmp(png, 1); }
 
 static void png_warned(png_structp png, png_const_charp message) {}

@@ -1,3 +1,4 @@
+/* Shader programs: each is compiled in its variants when it is first needed. */
 #include <gio/gio.h>
 #include <glib/gi18n.h>
 
@@ -24,7 +25,7 @@ static const ProgramSource sources[SPORE_PROGRAM_COUNT] = {
     [SPORE_PROGRAM_COMPOSITE] = {"screen.vert", "composite.frag"},
 };
 
-/* A narrow film lobe sparkles unless several samples a pixel are taken: the fast variant widens it. */
+/* A narrow specular lobe of the film sparkles with one sample a pixel, so the fast variant widens the lobe. */
 static const char *const preamble[SPORE_VARIANT_COUNT] = {
     [SPORE_VARIANT_FAST] = "#version 330 core\n#define QUALITY 0\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.03\n",
     [SPORE_VARIANT_FULL] = "#version 330 core\n#define QUALITY 1\n#define DEPTH_ONLY 0\n#define FILM_ALPHA 0.018\n",
@@ -48,7 +49,7 @@ static gboolean refused(const char *name, const char *log, GError **error) {
       log);
 }
 
-static GLuint compile(GLenum stage, const char *name, const char *define, SporeVariant variant, GError **error) {
+static GLuint compile_shader(GLenum stage, const char *name, const char *define, SporeVariant variant, GError **error) {
   const char *parts[] = {"frame.glsl", "colour.glsl", "visibility.glsl", "tissue.glsl", name};
   GBytes *texts[G_N_ELEMENTS(parts)];
   g_autofree char *scale = spore_colour_scale_shader();
@@ -78,8 +79,8 @@ static GLuint compile(GLenum stage, const char *name, const char *define, SporeV
 }
 
 static GLuint link_program(const ProgramSource *source, SporeVariant variant, GError **error) {
-  GLuint vertex = compile(GL_VERTEX_SHADER, source->vertex, source->define, variant, error);
-  GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, source->fragment, source->define, variant, error) : 0;
+  GLuint vertex = compile_shader(GL_VERTEX_SHADER, source->vertex, source->define, variant, error);
+  GLuint fragment = vertex ? compile_shader(GL_FRAGMENT_SHADER, source->fragment, source->define, variant, error) : 0;
   GLuint id = 0;
   if (fragment) {
     GLint good;

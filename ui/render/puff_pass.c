@@ -1,8 +1,9 @@
+/* Puffs of smoke: soft, translucent, and drawn from the farthest to the nearest. */
 #include <string.h>
 
 #include "ui/render/passes.h"
 
-/* A puff as the shaders get it. */
+/* A puff as it is given to the shaders. */
 typedef struct PlacedPuff {
   float place[4], kind[2]; /* relative to the drawable's origin, radius; opacity, seed */
   float distance;          /* from the eye, squared, m^2 */
@@ -41,7 +42,7 @@ static gint farthest_first(gconstpointer a, gconstpointer b) {
   return (x < y) - (x > y);
 }
 
-/* What is nearer is blended over what is farther. */
+/* Sorts the farthest first: nearer puffs are blended over farther ones. */
 static void upload(const SporePuffGroup *group, const SporeFrame *frame) {
   PlacedPuff *placed = g_new(PlacedPuff, group->count);
   for (gsize p = 0; p < group->count; p++) {

@@ -1,3 +1,4 @@
+/* The renderer: drawables by handle, and drawing them into a picture that is read back. */
 #include <glib/gi18n.h>
 #include <math.h>
 

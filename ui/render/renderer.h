@@ -6,28 +6,16 @@
 
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
+#include "ui/render/camera.h"
 
-/* Off-screen context of its own, on a machine with or without a display (EGL surfaceless, else a device). Current to
- * the thread that made it; make_current moves it. */
+/* An OpenGL context without a window, on a machine with or without a display (EGL surfaceless, else a device). It is
+ * current in the thread that made it; make_current makes it current in the calling thread. */
 typedef struct SporeOffscreen SporeOffscreen;
 SporeOffscreen *spore_offscreen_new(GError **error);
 void spore_offscreen_free(SporeOffscreen *offscreen);
 gboolean spore_offscreen_make_current(SporeOffscreen *offscreen);
 const char *spore_offscreen_renderer(const SporeOffscreen *offscreen); /* GL_RENDERER */
 gboolean spore_offscreen_is_software(const SporeOffscreen *offscreen);
-
-typedef struct SporeCamera {
-  SporeVec3 target;          /* looked at, and orbited */
-  double distance;           /* m */
-  double azimuth, elevation; /* rad; 0, 0 looks along -z from +z, y up */
-  double roll;               /* rad about the line of sight; what is seen turns the other way: to the left */
-  double field_of_view;      /* vertical, rad */
-} SporeCamera;
-void spore_camera_frame(SporeCamera *camera, const double lower[3], const double upper[3], double aspect);
-void spore_camera_eye(const SporeCamera *camera, SporeVec3 *eye, SporeVec3 *right, SporeVec3 *up, SporeVec3 *forward);
-/* Ray (unit direction) through a pixel, origin top left. */
-void spore_camera_ray(const SporeCamera *camera, double x, double y, int width, int height, SporeVec3 *origin,
-                      SporeVec3 *direction);
 
 /* What is drawn: surfaces and sphere groups, by handle. Buffers are copied. */
 typedef struct SporeRenderer SporeRenderer;
@@ -43,7 +31,7 @@ SporeRenderer *spore_renderer_new(SporeOffscreen *offscreen, GError **error);
 void spore_renderer_free(SporeRenderer *renderer);
 guint spore_renderer_add_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
                                  const guint32 *triangles, gsize triangle_count, const SporeSurfaceStyle *style);
-/* Coloured by the scale (colour_scale.h): one value a vertex, 0..1; below 0: grey. Neither tissue nor selected. */
+/* A surface coloured by the scale (colour_scale.h). values: one a vertex, 0..1; below 0: grey. */
 guint spore_renderer_add_valued_surface(SporeRenderer *renderer, const double *vertices, gsize vertex_count,
                                         const guint32 *triangles, gsize triangle_count, const float *values);
 void spore_renderer_move_surface(SporeRenderer *renderer, guint surface, const double *vertices); /* normals follow */
@@ -51,20 +39,20 @@ void spore_renderer_style_surface(SporeRenderer *renderer, guint surface, const 
 /* Spheres as impostors that write depth. values: one a sphere in 0..1 for the colour map, or NULL for `colour`. */
 guint spore_renderer_add_spheres(SporeRenderer *renderer, const double *spheres, gsize count, const float colour[3],
                                  const float *values, gboolean overlay);
-/* count: as many as were added or, of spheres without values, fewer. */
+/* count: as many as were added; for spheres without values, also fewer. */
 void spore_renderer_move_spheres(SporeRenderer *renderer, guint group, const double *spheres, gsize count);
 /* Puffs of smoke, each soft and translucent; none at first. */
 typedef struct SporePuff {
   double centre[3], radius; /* m, world */
   double opacity;           /* 0..1, of its middle */
-  double seed;              /* of its pattern: any small number that it keeps */
+  double seed;              /* of its pattern: a small number that stays the same */
 } SporePuff;
 guint spore_renderer_add_puffs(SporeRenderer *renderer, const float colour[3]);
 void spore_renderer_move_puffs(SporeRenderer *renderer, guint group, const SporePuff *puffs, gsize count);
 /* Line segments, count x 2 points x 3; overlays are drawn dimmed where hidden. */
 guint spore_renderer_add_lines(SporeRenderer *renderer, const double *points, gsize count, const float colour[3],
                                float width);
-/* How much of them is seen through what lies before them, 0..1; a fifth unless told. */
+/* Sets the opacity of the hidden parts of lines, 0..1; at first a fifth. */
 void spore_renderer_see_lines_through(SporeRenderer *renderer, guint group, double share);
 void spore_renderer_move_lines(SporeRenderer *renderer, guint group, const double *points, gsize count);
 void spore_renderer_remove(SporeRenderer *renderer, guint handle);

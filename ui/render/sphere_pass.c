@@ -1,3 +1,4 @@
+/* Spheres, drawn as impostors that write depth. */
 #include <string.h>
 
 #include "ui/render/passes.h"
@@ -67,8 +68,8 @@ static void draw_groups(GPtrArray *drawables, const SporeFrame *frame, const Spo
   }
 }
 
-/* Squares stand at the far side of their spheres, so that every hidden fragment passes the test, and the driver may
- * test before it shades. What passes and is not hidden is drawn over by the next pass. */
+/* The squares stand at the far side of their spheres. So every hidden fragment passes the depth test, and the driver
+ * may test before it shades. The next pass draws over fragments that are not hidden. */
 static gboolean draw_hidden(GPtrArray *drawables, const SporeFrame *frame, SporePrograms *programs,
                             SporeVariant variant, GError **error) {
   const SporeProgram *program = spore_programs_get(programs, SPORE_PROGRAM_HIDDEN_SPHERE, variant, error);

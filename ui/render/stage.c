@@ -1,12 +1,7 @@
-#include <glib/gi18n.h>
-#include <math.h>
+/* The stage: what is drawn of a document, built from its objects and moved by snapshots of the simulation. */
 #include <string.h>
 
-#include "core/mesh/bvh.h"
-#include "core/scene/schema_fields.h"
 #include "ui/render/stage_body.h"
-
-#define FIT_SCALE 0.02 /* of the diagonal: the error that has the last colour of the scale */
 
 SporeStage *spore_stage_new(SporeRenderer *renderer, SporeDocument *document) {
   SporeStage *stage = g_new0(SporeStage, 1);
@@ -51,8 +46,7 @@ void spore_stage_rebuild(SporeStage *stage, const SporeSimulation *simulation) {
   spore_stage_place_marks(stage);
 }
 
-/* Each contact as a line from its point along its force; the length grows with the force but never fills the picture.
- */
+/* Each contact is a line from its point along its force. The length grows with the force, up to a limit. */
 static void show_contacts(SporeStage *stage, const SporeSnapshot *snapshot) {
   double lower[3], upper[3];
   spore_stage_bounds(stage, lower, upper);
@@ -77,7 +71,7 @@ static void show_cuts(SporeStage *stage, const SporeSnapshot *snapshot) {
   for (guint i = 0; i < stage->bodies->len; i++) spore_stage_body_cut(stage, stage->bodies->pdata[i], &snapshot->cuts);
 }
 
-/* The body as it is drawn, at the level that the snapshot has of it. */
+/* The drawn body, made anew where the snapshot has it at another level. */
 static SporeStageBody *body_of_level(SporeStage *stage, guint index, const SporeSnapshot *snapshot) {
   SporeStageBody *body = stage->bodies->pdata[index];
   if (!snapshot->level || body->world_body == SPORE_NO_BODY) return body;
@@ -125,134 +119,4 @@ void spore_stage_set_selection(SporeStage *stage, guint32 object_id) {
     body->style.selected = selected;
     if (body->surface_handle) spore_renderer_style_surface(stage->renderer, body->surface_handle, &body->style);
   }
-}
-
-static void take_in(double lower[3], double upper[3], const double *p, double radius) {
-  for (int i = 0; i < 3; i++) {
-    lower[i] = MIN(lower[i], p[i] - radius);
-    upper[i] = MAX(upper[i], p[i] + radius);
-  }
-}
-
-void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3]) {
-  for (int i = 0; i < 3; i++) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
-  for (guint b = 0; b < stage->bodies->len; b++) {
-    const SporeStageBody *body = stage->bodies->pdata[b];
-    for (gsize i = 0; i < body->surface.count; i++) take_in(lower, upper, body->surface.positions + 3 * i, 0);
-    for (gsize i = 0; body->solid && i < body->shown; i++)
-      take_in(lower, upper, body->spheres + 4 * i, body->spheres[4 * i + 3]);
-  }
-  const SporeStageCandidate *candidate = stage->candidate;
-  for (gsize i = 0; candidate && !candidate->body && i < candidate->vertex_count; i++)
-    take_in(lower, upper, candidate->vertices + 3 * i, 0);
-  if (!(lower[0] <= upper[0])) /* an empty scene: a place the size of a hand */
-    for (int i = 0; i < 3; i++) lower[i] = -0.05, upper[i] = 0.05;
-}
-
-/* The first camera, or the one of that name. */
-static const SporeObject *find_camera(const SporeStage *stage, const char *name) {
-  if (name) return spore_document_find(stage->document, "camera", name);
-  return spore_object_child_of(spore_document_section(stage->document, "tools"), "camera");
-}
-
-/* Where a point of the scene at the start has come with a body that moves as a whole; as it is with any other. */
-static SporeVec3 carried(const SporeStage *stage, const SporeObject *body, SporeVec3 point) {
-  SporeBodyFields fields;
-  for (guint i = 0; body && i < stage->bodies->len; i++) {
-    const SporeStageBody *shown = stage->bodies->pdata[i];
-    if (shown->object != spore_object_id(body) || !shown->moves || shown->q_count != 7) continue;
-    spore_object_fields(body, &fields);
-    SporeQuat start = spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation));
-    SporeVec3 arm = spore_vec3_sub(point, spore_vec3_load(fields.position));
-    SporePose now = {spore_vec3_load(shown->q), spore_quat_load(shown->q + 3)};
-    return spore_pose_apply(now, spore_quat_rotate(spore_quat_conjugate(start), arm));
-  }
-  return point;
-}
-
-gboolean spore_stage_has_camera(const SporeStage *stage) { return find_camera(stage, NULL) != NULL; }
-
-/* A camera of the scene was placed for a picture as wide as this; a narrower one shows as much to the sides. */
-#define AUTHORED_ASPECT (16.0 / 9)
-
-static SporeCamera look_from(SporeVec3 position, SporeVec3 target, double field_of_view) {
-  SporeVec3 back = spore_vec3_sub(position, target);
-  double distance = spore_vec3_length(back);
-  if (!(distance > 0)) back = spore_vec3(0, 0, 1), distance = 1e-3;
-  return (SporeCamera){.target = target,
-                       .distance = distance,
-                       .azimuth = atan2(back.x, back.z),
-                       .elevation = asin(CLAMP(back.y / spore_vec3_length(back), -1, 1)),
-                       .field_of_view = field_of_view};
-}
-
-/* It is level at the start, and turns with its body. */
-static SporeCamera look_with(const SporeStage *stage, const SporeObject *object) {
-  SporeCameraFields fields;
-  SporeVec3 eye, right, up, forward;
-  spore_object_fields(object, &fields);
-  SporeVec3 position = spore_vec3_load(fields.position), target = spore_vec3_load(fields.target);
-  const SporeObject *body = spore_object_reference(object, "body");
-  SporeCamera camera = look_from(position, target, fields.field_of_view);
-  if (!body) return camera;
-  spore_camera_eye(&camera, &eye, &right, &up, &forward);
-  SporeVec3 now = carried(stage, body, target);
-  SporeVec3 upward = spore_vec3_sub(carried(stage, body, spore_vec3_add(target, up)), now);
-  camera = look_from(carried(stage, body, position), now, fields.field_of_view);
-  spore_camera_eye(&camera, &eye, &right, &up, &forward);
-  camera.roll = atan2(spore_vec3_dot(upward, right), spore_vec3_dot(upward, up));
-  return camera;
-}
-
-gboolean spore_stage_camera(const SporeStage *stage, const char *name, double aspect, SporeCamera *camera,
-                            GError **error) {
-  const SporeObject *object = find_camera(stage, name);
-  if (!object && name)
-    return spore_error_raise(error, SPORE_ERROR_INPUT, name,
-                             _("the scene has no camera of this name; a camera among its tools was expected; leave the "
-                               "name out to see everything"));
-  if (!object) {
-    double lower[3], upper[3];
-    spore_stage_bounds(stage, lower, upper);
-    *camera = (SporeCamera){.azimuth = 0.5, .elevation = 0.35};
-    spore_camera_frame(camera, lower, upper, aspect);
-    return TRUE;
-  }
-  *camera = look_with(stage, object);
-  if (aspect < AUTHORED_ASPECT)
-    camera->field_of_view = 2 * atan(tan(camera->field_of_view / 2) * AUTHORED_ASPECT / aspect);
-  return TRUE;
-}
-
-const SporeStageFit *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set) {
-  if (set->weights) return NULL; /* it is their sum that fits, which one alone says nothing of */
-  SporeStageFit *fit = g_hash_table_lookup(stage->fit, set);
-  if (fit) return fit;
-  const char *name = spore_object_text(asset, "source");
-  SporeObject *source = name ? spore_document_find(stage->document, "mesh", name) : NULL;
-  const SporeTriangleMesh *mesh = source ? spore_document_mesh(stage->document, source, NULL) : NULL;
-  SporeMeshReport report;
-  SporeBvh *bvh = mesh && spore_triangle_mesh_report(mesh, &report, NULL) ? spore_bvh_create(mesh, NULL) : NULL;
-  if (!bvh) return NULL;
-  fit = g_malloc(sizeof *fit + set->count * sizeof *fit->places);
-  fit->high = FIT_SCALE * report.diagonal;
-  for (gsize i = 0; i < set->count; i++) {
-    const double *sphere = set->spheres + 4 * i;
-    double error = fabs(sphere[3] - spore_bvh_depth(bvh, spore_vec3_load(sphere)));
-    fit->places[i] = (float)MIN(error / fit->high, 1.0);
-  }
-  spore_bvh_free(bvh);
-  g_hash_table_insert(stage->fit, (gpointer)set, fit);
-  return fit;
-}
-
-SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage) {
-  SporeSphereScale scale = {0};
-  for (guint i = 0; i < stage->bodies->len; i++) {
-    const SporeStageBody *body = stage->bodies->pdata[i];
-    if (!body->fit_high || !spore_stage_body_shows_spheres(stage, body)) continue;
-    scale.high = scale.share && scale.high != body->fit_high ? 0 : body->fit_high;
-    scale.share = FIT_SCALE;
-  }
-  return scale;
 }

@@ -1,19 +1,22 @@
+/* One body of the stage: what is drawn of it, built from its units and placed by its configuration. */
 #include "ui/render/stage_body.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
+#include "core/mesh/bvh.h"
 #include "core/scene/schema_fields.h"
 #include "ui/render/colour_scale.h"
 
 static const float sphere_colour[3] = {0.03f, 0.24f, 0.36f};
 #define TUBE_SECTORS 16
+#define FIT_SCALE 0.02 /* of the diagonal: the error that has the last colour of the scale */
 
 static const float wire_colour[3] = {0.16f, 0.42f, 0.55f};
 
-/* The configuration at time 0. Taken from the model, which never changes, and not from the world, which another thread
- * may be stepping. */
+/* The configuration at time 0. It comes from the model, which never changes. The world may be stepping on another
+ * thread. */
 static void init_configuration(SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation,
                                const SporeLevelGrade *level) {
   SporePose pose = spore_body_pose(object);
@@ -83,22 +86,8 @@ static const SporeTetrahedralMesh *tetrahedra_of(SporeStage *stage, const SporeO
   return asset ? spore_document_tetrahedra(stage->document, asset, NULL) : NULL;
 }
 
-void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh) {
-  if (body->surface_handle) spore_renderer_remove(stage->renderer, body->surface_handle);
-  g_free(body->surface.positions);
-  spore_free(body->own_triangles);
-  body->surface.positions = g_memdup2(mesh->vertices, 3 * mesh->vertex_count * sizeof(double));
-  body->surface.count = mesh->vertex_count;
-  body->triangles = body->own_triangles = mesh->triangles;
-  body->triangle_count = mesh->triangle_count;
-  body->surface_handle = 0;
-  if (!mesh->vertex_count) return;
-  body->surface_handle = spore_renderer_add_surface(stage->renderer, mesh->vertices, mesh->vertex_count,
-                                                    mesh->triangles, mesh->triangle_count, &body->style);
-  spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
-}
-
-/* The tube around the curve that the body is made of: made anew around the moved axis, whatever the curve's twist. */
+/* The tube around the curve of the body. It is made anew around the moved axis, because the mapping does not know the
+ * twist. */
 static void place_tube(SporeStage *stage, SporeStageBody *body) {
   SporeTriangleMesh tube;
   spore_mapping_positions(&body->axis.mapping, body->q, body->axis.positions);
@@ -129,7 +118,7 @@ static void build_tube(SporeStage *stage, SporeStageBody *body, const SporeObjec
   g_free(points);
 }
 
-/* With body->triangles. */
+/* Adds the surface with the triangles of body->triangles. */
 static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation, double *vertices,
                         gsize vertex_count) {
   SporeStagePoints *surface = &body->surface;
@@ -160,8 +149,8 @@ static gboolean is_liquid(const SporeStageBody *body, const SporeObject *object,
          spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE)->type->particles;
 }
 
-/* The visual unit's mesh; without one the mechanical unit's, the boundary of its tetrahedra, or a tube around its
- * curve. */
+/* The mesh of the visual unit. Without one: the mesh of the mechanical unit, the boundary of its tetrahedra, or a tube
+ * around its curve. */
 static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeObject *object,
                           const SporeSimulation *simulation) {
   const SporeObject *visual = spore_object_child_of(object, "visual");
@@ -186,7 +175,36 @@ static void build_surface(SporeStage *stage, SporeStageBody *body, const SporeOb
   build_tube(stage, body, object, simulation);
 }
 
-/* `asset` that the set is from, NULL: the model's own. */
+/* The error of each sphere of a set in the mesh it was made from: |radius - depth of its centre|. */
+typedef struct SporeStageFit {
+  double high;    /* m: the error that has the last colour of the scale */
+  float places[]; /* place of each sphere's error on the scale, 0..1 */
+} SporeStageFit;
+
+/* NULL: no such mesh. The stage keeps the result. */
+static const SporeStageFit *find_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set) {
+  if (set->weights) return NULL; /* weighted spheres fit together; one of them has no error of its own */
+  SporeStageFit *fit = g_hash_table_lookup(stage->fit, set);
+  if (fit) return fit;
+  const char *name = spore_object_text(asset, "source");
+  SporeObject *source = name ? spore_document_find(stage->document, "mesh", name) : NULL;
+  const SporeTriangleMesh *mesh = source ? spore_document_mesh(stage->document, source, NULL) : NULL;
+  SporeMeshReport report;
+  SporeBvh *bvh = mesh && spore_triangle_mesh_report(mesh, &report, NULL) ? spore_bvh_create(mesh, NULL) : NULL;
+  if (!bvh) return NULL;
+  fit = g_malloc(sizeof *fit + set->count * sizeof *fit->places);
+  fit->high = FIT_SCALE * report.diagonal;
+  for (gsize i = 0; i < set->count; i++) {
+    const double *sphere = set->spheres + 4 * i;
+    double error = fabs(sphere[3] - spore_bvh_depth(bvh, spore_vec3_load(sphere)));
+    fit->places[i] = (float)MIN(error / fit->high, 1.0);
+  }
+  spore_bvh_free(bvh);
+  g_hash_table_insert(stage->fit, (gpointer)set, fit);
+  return fit;
+}
+
+/* asset: of the set; NULL: the model's own spheres. */
 static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation,
                          const SporeSphereSet *set, SporeObject *asset) {
   double *centres = g_new(double, 3 * set->count);
@@ -198,7 +216,7 @@ static void show_spheres(SporeStage *stage, SporeStageBody *body, const SporeSim
   spore_spheres_radii(set, body->spheres + 3, 4);
   body->shown = set->count;
   body->solid = !body->surface_handle && !body->liquid;
-  const SporeStageFit *fit = body->solid || !asset ? NULL : spore_stage_fit(stage, asset, set);
+  const SporeStageFit *fit = body->solid || !asset ? NULL : find_fit(stage, asset, set);
   body->fit_high = fit ? fit->high : 0;
   body->spheres_handle = spore_renderer_add_spheres(stage->renderer, body->spheres, set->count,
                                                     body->solid ? body->style.colour : sphere_colour,
@@ -237,7 +255,14 @@ static void prepare_divide(SporeStage *stage, SporeStageBody *body, const SporeO
   if (!cells) return;
   SporeObject *asset = asset_of(stage, spore_object_child_of(object, "visual"), "mesh", "mesh");
   const SporeTriangleMesh *mesh = asset ? spore_document_mesh(stage->document, asset, NULL) : NULL;
-  spore_stage_body_prepare_divide(body, cells, mesh ? mesh->vertices : NULL);
+  body->cells = cells;
+  body->rest = mesh ? mesh->vertices : NULL;
+  if (body->surface.count)
+    spore_mapping_find_places(&body->surface.mapping, cells->tetrahedra, cells->tetrahedron_count, cells->vertex_count,
+                              &body->surface_places);
+  if (body->centres.count)
+    spore_mapping_find_places(&body->centres.mapping, cells->tetrahedra, cells->tetrahedron_count, cells->vertex_count,
+                              &body->centre_places);
 }
 
 SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
@@ -270,7 +295,9 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
                            body->inside_handle};
   for (guint i = 0; i < G_N_ELEMENTS(handles); i++)
     if (handles[i]) spore_renderer_remove(stage->renderer, handles[i]);
-  spore_stage_body_clear_divide(body);
+  spore_free(body->surface_places);
+  spore_free(body->centre_places);
+  if (body->whole_surface.point_count) spore_mapping_clear(&body->whole_surface);
   clear_points(&body->surface);
   clear_points(&body->centres);
   clear_points(&body->nodes);
@@ -285,7 +312,7 @@ void spore_stage_body_free(SporeStage *stage, SporeStageBody *body) {
   g_free(body);
 }
 
-/* Of particles, those that are in the world; each of a body's has the same radius. */
+/* Moves the centres; of particles, keeps those that are in the world. All particles of a body have the same radius. */
 static void place_centres(SporeStageBody *body) {
   spore_mapping_positions(&body->centres.mapping, body->q, body->centres.positions);
   if (!body->particles) return;
@@ -304,7 +331,7 @@ static void place_spheres(SporeStage *stage, SporeStageBody *body) {
   spore_renderer_move_spheres(stage->renderer, body->spheres_handle, body->spheres, body->shown);
 }
 
-/* Neighbours in number do not look alike, and each keeps its look. */
+/* Neighbouring puffs look different, and each puff keeps its look. */
 #define GOLDEN_TURN 0.6180339887498949
 
 static void place_smoke(SporeStage *stage, SporeStageBody *body) {
@@ -320,7 +347,8 @@ static void place_smoke(SporeStage *stage, SporeStageBody *body) {
   spore_renderer_move_puffs(stage->renderer, body->puffs_handle, body->puffs, count);
 }
 
-/* Neighbours in a liquid at rest stand where their attraction is strongest, 2^(1/6) of the width of their spheres. */
+/* In a liquid at rest, neighbours are where attraction and repulsion balance: 2^(1/6) of the width of their spheres
+ * apart. */
 #define LIQUID_SPACING 1.12
 
 static void place_liquid(SporeStage *stage, SporeStageBody *body) {
@@ -355,7 +383,7 @@ void spore_stage_body_place(SporeStage *stage, SporeStageBody *body) {
   if (body->wire_handle && stage->options.tetrahedra) place_wire(stage, body);
 }
 
-/* What is shown in place of what the body has; NULL: nothing. */
+/* The candidate that is shown in place of what the body has; NULL: none. */
 static const SporeStageCandidate *candidate_for(const SporeStage *stage, const SporeStageBody *body) {
   return stage->candidate && stage->candidate->body == body->object ? stage->candidate : NULL;
 }
@@ -364,6 +392,17 @@ gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStag
   const SporeStageCandidate *instead = candidate_for(stage, body);
   if (!body->spheres_handle || (instead && (instead->sphere_count || instead->triangle_count))) return FALSE;
   return stage->options.spheres || (body->solid && stage->options.surfaces);
+}
+
+SporeSphereScale spore_stage_sphere_scale(const SporeStage *stage) {
+  SporeSphereScale scale = {0};
+  for (guint i = 0; i < stage->bodies->len; i++) {
+    const SporeStageBody *body = stage->bodies->pdata[i];
+    if (!body->fit_high || !spore_stage_body_shows_spheres(stage, body)) continue;
+    scale.high = scale.share && scale.high != body->fit_high ? 0 : body->fit_high;
+    scale.share = FIT_SCALE;
+  }
+  return scale;
 }
 
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body) {

@@ -15,7 +15,7 @@ typedef struct SporeStageBody {
   guint32 object;     /* id */
   guint32 world_body; /* SPORE_NO_BODY: not simulated */
   gboolean moves;
-  SporeLevelGrade level; /* that q and all mappings are of */
+  SporeLevelGrade level; /* of q and of all mappings */
   gsize q_offset, q_count;
   double *q; /* configuration that is shown */
 
@@ -23,16 +23,16 @@ typedef struct SporeStageBody {
   gsize triangle_count;
   const guint32 *triangles; /* triangle_count x 3; borrowed from the document, or own_triangles */
   uint32_t *own_triangles;
-  const guint32 *whole_triangles; /* before anything cut them; NULL: nothing did */
+  const guint32 *whole_triangles; /* before the first cut; NULL: there was no cut */
   gsize whole_count;
   SporeSurfaceStyle style;
   /* Of tetrahedra that may be divided: see stage_divide.c. */
-  const SporeTetrahedralMesh *cells; /* borrowed from the document; NULL: they cannot be */
-  guint64 lines;                     /* number of the knots that its mappings are of, see SporeLines */
+  const SporeTetrahedralMesh *cells; /* borrowed from the document; NULL: they cannot be divided */
+  guint64 lines;                     /* number of the knots that the mappings belong to, see SporeLines */
   gsize corner_start;                /* in the cuts of snapshots */
-  guint64 divided;                   /* their `parted` that is shown */
+  guint64 divided;                   /* the count of divisions that is shown */
   const double *rest;                /* of the visual mesh, borrowed; NULL: the surface is the tetrahedra's own */
-  SporeMapping whole_surface;        /* before anything was divided */
+  SporeMapping whole_surface;        /* before the first division */
   uint32_t *surface_places, *centre_places;
   guint inside_handle;  /* of the faces that were inside */
   guint surface_handle; /* handles: 0 is none */
@@ -44,12 +44,12 @@ typedef struct SporeStageBody {
   gboolean particles; /* a model's own spheres, one at each of its particles */
   gboolean liquid;    /* the surface is the skin around the centres, made anew as they move */
   double *spheres;    /* centres.count x 4, world */
-  gsize shown;        /* of the centres and spheres, those that are in the world come first */
-  gboolean solid;     /* the spheres are all there is to see of the body */
-  double fit_high;    /* m: error at the end of the colours of the spheres; 0: they do not show one */
+  gsize shown;        /* number of centres and spheres in the world; they come first */
+  gboolean solid;     /* the spheres are drawn as the body itself */
+  double fit_high;    /* m: end of the scale of the spheres' errors; 0: the spheres show no error */
   guint spheres_handle;
 
-  const SporeModel *smoke; /* shown by its puffs alone; NULL: is none */
+  const SporeModel *smoke; /* shown by its puffs alone; NULL: the body is no smoke */
   SporePuff *puffs;        /* smoke->node_count */
   guint puffs_handle;
 
@@ -69,7 +69,7 @@ struct SporeStage {
   GPtrArray *bodies; /* SporeStageBody * */
   GHashTable *fit;   /* const SporeSphereSet * -> SporeStageFit * */
   guint contact_handle;
-  gsize cut_count; /* of the snapshot that is shown, and its cut_run */
+  gsize cut_count; /* of the snapshot that is shown, with its cut_run */
   guint64 cut_run;
   GArray *contacts;                     /* double: segments of the contacts shown */
   const SporeStageCandidate *candidate; /* NULL: none */
@@ -78,39 +78,29 @@ struct SporeStage {
   guint marks_handle;
 };
 
-/* Builds what is drawn of a body object, at time 0; nothing of it where its assets cannot be read. level: NULL for the
- * one of time 0. */
+/* Builds what is drawn of a body, at time 0. Assets that cannot be read are left out. level: NULL for the level at time
+ * 0. */
 SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
                                      const SporeLevelGrade *level);
-/* What hangs on a line whose knots came or went, by those of the snapshot. */
+/* Updates the mappings of a line whose knots were inserted or removed, by the knots of the snapshot. */
 void spore_stage_body_follow_knots(SporeStageBody *body, const SporeSimulation *simulation,
                                    const SporeSnapshot *snapshot);
 void spore_stage_body_free(SporeStage *stage, SporeStageBody *body);
-/* Moves what the options show to configuration body->q. */
+/* Moves everything that the options show to the configuration body->q. */
 void spore_stage_body_place(SporeStage *stage, SporeStageBody *body);
 void spore_stage_body_show(SporeStage *stage, SporeStageBody *body);
 gboolean spore_stage_body_shows_spheres(const SporeStage *stage, const SporeStageBody *body);
 
-/* How badly each sphere of a set fits the mesh it was made from: |radius - depth of its centre|. */
-typedef struct SporeStageFit {
-  double high;    /* m: what has the last colour of the scale, a fiftieth of the mesh's diagonal */
-  float places[]; /* on the scale, 0..1, one a sphere */
-} SporeStageFit;
-/* NULL: no such mesh. Kept by the stage. */
-const SporeStageFit *spore_stage_fit(SporeStage *stage, SporeObject *asset, const SporeSphereSet *set);
-
-/* Draws the candidate, or the marks, where their body stands at the start, anew. */
+/* Draws the candidate or the marks again, where their body is at the start. */
 void spore_stage_place_candidate(SporeStage *stage);
 void spore_stage_place_marks(SporeStage *stage);
 
-/* Shows a surface made for this moment, where it is, instead of the last one; takes its triangles. */
+/* Shows a new surface in place of the last one; takes its triangles. */
 void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh);
-/* Tetrahedra that may be divided, and the visual mesh's vertices at rest, or NULL; both borrowed. */
-void spore_stage_body_prepare_divide(SporeStageBody *body, const SporeTetrahedralMesh *cells, const double *rest);
-void spore_stage_body_clear_divide(SporeStageBody *body);
-/* Lets what is drawn go with its tetrahedra, and draws the faces that were inside; positions are left to place. */
+/* Makes what is drawn follow the divided tetrahedra, and draws the faces that were inside. Positions are set by place.
+ * */
 void spore_stage_body_divide(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
-/* Takes away the triangles that cuts of the snapshot go through. */
+/* Removes the triangles that the cuts of the snapshot go through. */
 void spore_stage_body_cut(SporeStage *stage, SporeStageBody *body, const SporeCuts *cuts);
 
 #endif

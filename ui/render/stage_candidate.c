@@ -1,3 +1,4 @@
+/* The candidate of a generator or of the Edit tool, and marks on a body: what the stage shows beside the scene. */
 #include <math.h>
 #include <string.h>
 

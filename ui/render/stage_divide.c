@@ -1,34 +1,17 @@
-/* What is drawn of tetrahedra that scissors divided. A vertex of the surface goes with the tetrahedron that it hangs
- * on; a triangle whose corners hang on both sides goes whole with one of its tetrahedra, so that the surface parts
- * along the cut; and faces that were inside are drawn in the colour of raw flesh. */
+/* What is drawn of tetrahedra after node splitting. A vertex of the surface follows the tetrahedron that holds it. A
+ * triangle with corners on both sides of a cut follows one of its tetrahedra as a whole, so that the surface opens
+ * along the cut. Faces that were inside are drawn in the colour of raw flesh. */
 #include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "ui/render/stage_body.h"
 
-#define WIDTH 4 /* nodes that a vertex hangs on */
+#define WIDTH 4 /* nodes that move a vertex */
 
 static const float raw_flesh[3] = {0.36f, 0.045f, 0.035f};
 
-void spore_stage_body_prepare_divide(SporeStageBody *body, const SporeTetrahedralMesh *cells, const double *rest) {
-  body->cells = cells;
-  body->rest = rest;
-  if (body->surface.count)
-    spore_mapping_find_places(&body->surface.mapping, cells->tetrahedra, cells->tetrahedron_count, cells->vertex_count,
-                              &body->surface_places);
-  if (body->centres.count)
-    spore_mapping_find_places(&body->centres.mapping, cells->tetrahedra, cells->tetrahedron_count, cells->vertex_count,
-                              &body->centre_places);
-}
-
-void spore_stage_body_clear_divide(SporeStageBody *body) {
-  spore_free(body->surface_places);
-  spore_free(body->centre_places);
-  if (body->whole_surface.point_count) spore_mapping_clear(&body->whole_surface);
-}
-
-/* The surface as it is drawn: rows of WIDTH nodes a vertex. */
+/* The surface as it will be drawn: a row of WIDTH nodes for each vertex. */
 typedef struct Draft {
   const SporeStageBody *body;
   const uint32_t *corners;
@@ -49,7 +32,7 @@ static void add_whole_row(Draft *draft, gsize vertex) {
   draft->count++;
 }
 
-/* By the shares of the tetrahedron's volume across from its corners. */
+/* Adds a row with the barycentric coordinates of the vertex in the tetrahedron. */
 static void add_row(Draft *draft, gsize vertex, uint32_t tetrahedron) {
   const SporeTetrahedralMesh *cells = draft->body->cells;
   SporeVec3 corner[4], p = spore_vec3_load(draft->body->rest + 3 * vertex);
@@ -67,13 +50,13 @@ static void add_row(Draft *draft, gsize vertex, uint32_t tetrahedron) {
   draft->count++;
 }
 
-/* The tetrahedron that a vertex hangs on; UINT32_MAX: none. */
+/* The tetrahedron that moves a vertex; UINT32_MAX: none. */
 static uint32_t home_of(const SporeStageBody *body, uint32_t vertex) {
   uint32_t place = body->surface_places[body->whole_surface.row_start[vertex]];
   return place == UINT32_MAX ? place : place / 4;
 }
 
-/* Whether its corners hang on different copies of one node. */
+/* Whether the corners of the triangle follow different copies of one node. */
 static gboolean is_straddling(const Draft *draft, const uint32_t *triangle) {
   const SporeStageBody *body = draft->body;
   const SporeMapping *whole = &body->whole_surface;
@@ -104,7 +87,7 @@ static void draft_triangles(Draft *draft) {
   }
 }
 
-/* Shows it instead of the surface before. */
+/* Shows the draft in place of the last surface. */
 static void show_draft(SporeStage *stage, SporeStageBody *body, Draft *draft) {
   SporeTriangleMesh mesh = {.vertex_count = draft->count, .triangle_count = body->whole_count};
   SporeMapping mapping;
@@ -167,7 +150,7 @@ static GHashTable *outer_faces(const SporeTetrahedralMesh *cells, const uint32_t
   return outer;
 }
 
-/* Nodes of now, those of the whole mesh. */
+/* For each node after splitting, the node of the whole mesh. */
 static uint32_t *find_whole(const SporeStageBody *body, const uint32_t *corners) {
   uint32_t *whole_of = g_new0(uint32_t, body->q_count / 3 + body->cells->vertex_count);
   for (gsize i = 0; i < body->cells->vertex_count; i++) whole_of[i] = (uint32_t)i;
@@ -175,7 +158,7 @@ static uint32_t *find_whole(const SporeStageBody *body, const uint32_t *corners)
   return whole_of;
 }
 
-/* Puts the outer faces of now first; their number. */
+/* Puts the outer faces of the whole mesh first, and returns their number. */
 static gsize sort_faces(const SporeStageBody *body, const uint32_t *corners, uint32_t *faces, gsize count) {
   uint32_t *whole_of = find_whole(body, corners);
   GHashTable *outer = outer_faces(body->cells, whole_of);
@@ -206,7 +189,7 @@ static void show_inside(SporeStage *stage, SporeStageBody *body, const uint32_t 
   spore_renderer_set_visible(stage->renderer, body->inside_handle, stage->options.surfaces);
 }
 
-/* A surface that is the tetrahedra's own. */
+/* Shows the outer faces where the surface is the boundary of the tetrahedra. */
 static void show_outside(SporeStage *stage, SporeStageBody *body, const uint32_t *faces, gsize count) {
   SporeTriangleMesh mesh = {.vertex_count = body->q_count / 3, .triangle_count = count, .vertices = body->q};
   if (!body->surface_handle || body->surface.mapping.kind != SPORE_MAPPING_IDENTITY || body->rest) return;
@@ -231,7 +214,7 @@ static void divide_faces(SporeStage *stage, SporeStageBody *body, const uint32_t
   spore_free(faces);
 }
 
-/* Edges between the nodes of now. */
+/* Updates the wire to the edges after splitting. */
 static void divide_wire(SporeStageBody *body, const uint32_t *corners) {
   uint32_t *edges = NULL;
   gsize count = 0;

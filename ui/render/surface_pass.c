@@ -1,10 +1,11 @@
+/* Surfaces: buffers, normals, the pattern of tissue, and their pass. */
 #include <math.h>
 #include <string.h>
 
 #include "core/math/mat3.h"
 #include "ui/render/passes.h"
 
-/* Value noise on a lattice, 0..1: the slow mottling, made once a vertex rather than once a pixel. */
+/* Value noise on a lattice, 0..1, for the coarse pattern. It is computed once a vertex instead of once a pixel. */
 static double lattice(int x, int y, int z) {
   guint32 h = (guint32)x * 0x8da6b343u ^ (guint32)y * 0xd8163841u ^ (guint32)z * 0xcb1ab31fu;
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
@@ -54,7 +55,8 @@ static void longest_axis(const SporeSurface *surface, const double *vertices, fl
   axis[0] = (float)longest.x, axis[1] = (float)longest.y, axis[2] = (float)longest.z;
 }
 
-/* Patterns grow slowly with the organ: 8 mm cells on 12 cm of uterus, 4.6 mm on 4 cm of ovary. */
+/* The size of the pattern grows slowly with the organ: cells of 8 mm on a uterus of 12 cm, 4.6 mm on an ovary of 4 cm.
+ * */
 static float pattern_cell(const SporeDrawable *base) {
   double d2 = 0;
   for (int i = 0; i < 3; i++) d2 += (base->upper[i] - base->lower[i]) * (base->upper[i] - base->lower[i]);
@@ -143,7 +145,8 @@ void spore_surface_move(SporeSurface *surface, const double *vertices) {
                               surface->normals);
   GLsizeiptr size = (GLsizeiptr)(surface->vertex_count * 6 * sizeof(float));
   glBindBuffer(GL_ARRAY_BUFFER, surface->moving);
-  glBufferData(GL_ARRAY_BUFFER, size, NULL, GL_STREAM_DRAW); /* orphans what the last frame still reads */
+  glBufferData(GL_ARRAY_BUFFER, size, NULL,
+               GL_STREAM_DRAW); /* gives a new buffer while the last frame still reads the old one */
   float *out =
       size ? glMapBufferRange(GL_ARRAY_BUFFER, 0, size, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT) : NULL;
   if (!out) return;

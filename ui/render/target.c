@@ -1,3 +1,4 @@
+/* A framebuffer with colour and depth, as textures or as renderbuffers. */
 #include <glib/gi18n.h>
 
 #include "ui/render/passes.h"

@@ -1,3 +1,4 @@
+/* A simulation on a thread of its own, paced to real time or as fast as it goes. */
 #include "ui/sim/session.h"
 
 #include <string.h>
@@ -5,7 +6,8 @@
 #include "core/haptic/pointer.h"
 #include "core/measure/pace.h"
 
-/* A step asks a device once, or a few times when the monitor takes it again; drained after each step. */
+/* A step reads a device once, or a few times when the monitor repeats the step. The queue is emptied after each step.
+ * */
 #define SAMPLES_A_STEP 64
 /* The clock is read at least this often while waiting for the next step. */
 #define FACTOR_WINDOW_US (G_USEC_PER_SEC)
@@ -15,9 +17,9 @@ typedef struct {
   SporeDeviceState state;
 } Sample;
 
-/* Stands between the world and a body's devices and keeps what they said. The pointer goes before the track that the
- * scene gives the body: what the mouse took it keeps until a reset. While nobody says anything, the recording holds
- * where the body stood, so that it begins at time 0. */
+/* Stands between the world and the devices of a body, and records their states. The pointer has priority over the track
+ * that the scene gives the body: a body that the mouse took stays with the mouse until a reset. While no device has a
+ * state, the recording holds the body's pose, so that the recording begins at time 0. */
 typedef struct {
   SporeDevice device;
   SporeDevice *pointer;
@@ -26,13 +28,13 @@ typedef struct {
   guint32 body;
   guint count;
   Sample samples[SAMPLES_A_STEP];
-  /* Of the last step. */
-  gboolean led, spoke; /* by the pointer; by anybody */
+  /* In the last step. */
+  gboolean led, driven; /* by the pointer; by any device */
 
-  SporeDeviceState input; /* last thing said; guarded by the session's mutex */
+  SporeDeviceState input; /* last state; guarded by the session's mutex */
 } Recorder;
 
-/* What a hand that nobody moves yet says of the jaws; wider than any. */
+/* Opening of the jaws for a hand that nobody has moved yet; wider than any jaws. */
 #define OPEN_HAND ((SporeDeviceState){.orientation = {1}, .grip_rad = G_PI})
 
 struct SporeSession {
@@ -42,7 +44,7 @@ struct SporeSession {
   guint recorder_count;
   GThread *thread;
 
-  /* Guarded by the mutex, which nobody holds during a step. */
+  /* Guarded by the mutex, which no thread holds during a step. */
   GMutex mutex;
   GCond wake, stood;
   gboolean quit, playing, reset, standing;
@@ -61,12 +63,12 @@ static bool recorder_exchange(SporeDevice *device, double time_s, const SporeDev
                               SporeDeviceState *state) {
   Recorder *recorder = (Recorder *)device;
   SporeDevice *script = recorder->script;
-  bool said = recorder->pointer->type->exchange(recorder->pointer, time_s, command, state);
-  recorder->led = said;
-  if (!said && script) said = script->type->exchange(script, time_s, command, state);
-  recorder->spoke = said;
+  bool driven = recorder->pointer->type->exchange(recorder->pointer, time_s, command, state);
+  recorder->led = driven;
+  if (!driven && script) driven = script->type->exchange(script, time_s, command, state);
+  recorder->driven = driven;
   SporeDeviceState kept = {0};
-  if (said) {
+  if (driven) {
     kept = *state;
   } else {
     const double *q = spore_world_q(recorder->world, recorder->body);
@@ -74,7 +76,7 @@ static bool recorder_exchange(SporeDevice *device, double time_s, const SporeDev
     memcpy(kept.orientation, q + 3, sizeof kept.orientation);
   }
   if (recorder->count < SAMPLES_A_STEP) recorder->samples[recorder->count++] = (Sample){time_s, kept};
-  return said;
+  return driven;
 }
 
 /* The recorders are the session's and end with it. */
@@ -114,7 +116,7 @@ static gboolean same_pose(const SporeDeviceState *a, const SporeDeviceState *b) 
          a->buttons == b->buttons;
 }
 
-/* Of a pose that is held, the first and the last sample are enough. */
+/* While a pose does not change, its first and last sample are enough. */
 static void keep_sample(SporeTrackChannel *channel, const Sample *sample) {
   size_t n = channel->count;
   if (n > 0 && sample->time_s <= channel->time_s[n - 1]) return;
@@ -132,7 +134,7 @@ static void drain_recorders(SporeSession *session) {
     SporeTrackChannel *channel = spore_track_channel(&session->recording, name);
     if (!channel) channel = spore_track_add_channel(&session->recording, name);
     for (guint s = 0; channel && s < recorder->count; s++) keep_sample(channel, &recorder->samples[s]);
-    if (recorder->spoke) recorder->input = recorder->samples[recorder->count - 1].state;
+    if (recorder->driven) recorder->input = recorder->samples[recorder->count - 1].state;
     recorder->count = 0;
   }
 }
@@ -153,7 +155,7 @@ static gint64 time_left_us(const SporeSession *session) {
 
 static void update_factor(SporeSession *session) {
   gint64 now = g_get_monotonic_time(), passed = now - session->factor_clock;
-  /* The first figure comes early, so that nobody waits a second to read it. */
+  /* The first figure is computed early, so that the user does not wait a second for it. */
   if (passed < (session->factor > 0 ? FACTOR_WINDOW_US : FACTOR_WINDOW_US / 5)) return;
   double time_s = spore_world_time_s(session->simulation->world);
   session->factor = (time_s - session->factor_time) * G_USEC_PER_SEC / (double)passed;
@@ -318,7 +320,7 @@ void spore_session_carry_over(SporeSession *to, const SporeSession *from) {
 void spore_session_set_speed(SporeSession *session, double speed) {
   g_mutex_lock(&session->mutex);
   session->speed = speed;
-  /* The thread may be pacing itself right now; it only reads these with the mutex held. */
+  /* The thread may be waiting for its next step now. It reads these values only with the mutex held. */
   spore_pace_set_speed(&session->pace, spore_session_snapshot(session)->time_s, speed);
   g_cond_signal(&session->wake);
   g_mutex_unlock(&session->mutex);
@@ -381,7 +383,7 @@ SporeTrack *spore_session_recording(SporeSession *session) {
   for (guint i = 0; i < session->recorder_count; i++) {
     const Recorder *recorder = &session->recorders[i];
     const char *name = spore_world_body_name(world, recorder->body);
-    /* What the mouse did not take stays as its author wrote it. */
+    /* Tracks of bodies that the mouse did not take stay as the scene has them. */
     const SporeTrack *from = recorder->script && !recorder->led ? session->simulation->track : &session->recording;
     const SporeTrackChannel *channel = spore_track_channel(from, name);
     if (channel) copy_channel(copy, channel);

@@ -12,26 +12,27 @@ void spore_session_free(SporeSession *session); /* stops the thread and waits */
 const SporeSimulation *spore_session_simulation(const SporeSession *session);
 
 void spore_session_play(SporeSession *session);
-void spore_session_pause(SporeSession *session); /* returns when the thread stands still */
+void spore_session_pause(SporeSession *session); /* returns when the thread has stopped */
 gboolean spore_session_is_playing(const SporeSession *session);
 void spore_session_step(SporeSession *session, guint steps); /* while paused; returns when done */
 void spore_session_reset(SporeSession *session);             /* time 0, paused or playing as before */
-/* State of the bodies that both have, by name, into a session that stands still. */
+/* Copies the state of bodies that both sessions have, by name, into a session that is not running. */
 void spore_session_carry_over(SporeSession *to, const SporeSession *from);
 void spore_session_set_speed(SporeSession *session, double speed); /* 1: real time; 0: as fast as it goes */
 
-/* Newest state; valid until the next call; one reader (the GTK thread). */
+/* Newest state. Valid until the next call. One reader: the GTK thread. */
 const SporeSnapshot *spore_session_snapshot(SporeSession *session);
 gboolean spore_session_post(SporeSession *session, const SporeCommand *command);
-/* Where the mouse holds the active body `body`; from then on it leads that body, not its track, until a reset. */
+/* Where the mouse holds the active body `body`. From then on the mouse moves that body, and not its track, until a
+ * reset. */
 void spore_session_set_pointer(SporeSession *session, guint32 body, const SporeDeviceState *state);
-/* What a device last said for the active body `body`; as long as none did, an open hand. */
+/* The last state of a device of the active body `body`; before the first state, an open hand. */
 SporeDeviceState spore_session_input(SporeSession *session, guint32 body);
 /* Simulated seconds per second of clock over the last second. */
 double spore_session_real_time_factor(const SporeSession *session);
-/* Steps taken since it plays, and how many of them ended after they were due; 0 of 0 where nothing is due. */
+/* Steps since playing began, and how many of them ended too late; 0 of 0 where steps are not paced. */
 void spore_session_late_steps(const SporeSession *session, guint64 *late, guint64 *steps);
-/* A copy of what the devices said so far. spore_track_clear and g_free. */
+/* A copy of all device states so far. Free with spore_track_clear and g_free. */
 SporeTrack *spore_session_recording(SporeSession *session);
 
 #endif

@@ -1,3 +1,4 @@
+/* The player: runs a compiled copy of the document, and keeps it in step with edits. */
 #include "ui/sim/spore-player.h"
 
 struct _SporePlayer {
@@ -6,7 +7,7 @@ struct _SporePlayer {
   SporeSession *session;
   double speed;
   guint rebuild;       /* idle source */
-  gboolean from_start; /* the rebuild must not carry the state over */
+  gboolean from_start; /* the rebuild starts at time 0 and copies no state */
 };
 
 G_DEFINE_FINAL_TYPE(SporePlayer, spore_player, G_TYPE_OBJECT)
@@ -44,7 +45,7 @@ static gboolean ensure_session(SporePlayer *self) {
   return session != NULL;
 }
 
-/* The scene changed in a way that the running world cannot take. */
+/* The scene changed in a way that needs another world. */
 static gboolean rebuild(gpointer data) {
   SporePlayer *self = data;
   self->rebuild = 0;

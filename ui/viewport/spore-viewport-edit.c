@@ -3,14 +3,13 @@
 
 #include "core/author/region_edits.h"
 #include "ui/panels/report.h"
-#include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define RADIUS_A_NOTCH 1.05
 #define NOTCHES_REST_MS 400 /* wheel notches that come faster are one step */
-#define STEP_PART 0.1       /* of the radius, that an arrow key moves by */
+#define STEP_PART 0.1       /* part of the radius that an arrow key moves by */
 #define HANDLE_PIXELS 6.0   /* radius as drawn */
-#define REACH_PIXELS 11.0   /* of it, that a click meets it in */
+#define REACH_PIXELS 11.0   /* distance from a handle within which a click meets it */
 #define LEAST_M 1e-5        /* radius */
 
 static SporeDocument *document_of(SporeViewport *self) { return spore_editor_document_get(self->document); }
@@ -38,7 +37,8 @@ static int height_of(SporeViewport *self) { return gtk_widget_get_allocated_heig
 
 static gboolean edits_regions(const SporeViewport *self) { return self->edit.kind == SPORE_HAND_REGIONS; }
 
-/* Handles: of regions, which nothing solid shows, one in the middle of each; of what is chosen one on its rim. */
+/* Handles. Each region has a handle in the middle, because nothing solid shows it. The chosen one has a handle on its
+ * rim. */
 
 static SporeVec3 middle_of(SporeViewport *self, const double *ball) {
   return spore_pose_apply(pose_of(self), spore_vec3_load(ball));
@@ -71,7 +71,7 @@ static void draw_handle(SporeViewport *self, cairo_t *cr, SporeVec3 handle, gboo
 
 void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr) {
   const double *ball = chosen(self);
-  if (self->tool != SPORE_TOOL_EDIT) return;
+  if (self->tool != SPORE_VIEWPORT_TOOL_EDIT) return;
   for (gsize i = 0; edits_regions(self) && i < self->edit.count; i++)
     draw_handle(self, cr, middle_of(self, self->edit.points + 4 * i), i == self->edit.chosen);
   if (ball) draw_handle(self, cr, rim_of(self, ball), TRUE);
@@ -105,7 +105,7 @@ static void show(SporeViewport *self) {
 }
 
 void spore_viewport_edit_refresh(SporeViewport *self) {
-  if (self->tool != SPORE_TOOL_EDIT || !self->document || self->drag == DRAG_EDIT || self->edit_timer) return;
+  if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !self->document || self->drag == DRAG_EDIT || self->edit_timer) return;
   SporeObject *holder = self->regions ? spore_document_by_id(document_of(self), self->regions) : NULL;
   if (holder) spore_hand_edit_open_regions(&self->edit, document_of(self), holder);
   else spore_hand_edit_open(&self->edit, document_of(self), spore_editor_document_selected(self->document));
@@ -123,7 +123,9 @@ void spore_viewport_edit_region(SporeViewport *self, SporeObject *region) {
 
 gboolean spore_viewport_has_edited(SporeViewport *self) { return self->edit.count > 0; }
 
-gboolean spore_viewport_edits_regions(SporeViewport *self) { return self->tool == SPORE_TOOL_EDIT && self->regions; }
+gboolean spore_viewport_edits_regions(SporeViewport *self) {
+  return self->tool == SPORE_VIEWPORT_TOOL_EDIT && self->regions;
+}
 
 static void commit(SporeViewport *self, const char *label) {
   g_autoptr(GError) error = NULL;
@@ -173,7 +175,7 @@ static SporeVec3 under_cursor(SporeViewport *self, SporeVec3 through) {
   return spore_camera_unproject(&self->camera, through, self->last_x, self->last_y, width_of(self), height_of(self));
 }
 
-/* Regions follow the drag in the scene, so that their numbers do. */
+/* Regions change in the scene during the drag, so that their numbers in the inspector change too. */
 static void write_region(SporeViewport *self) {
   g_autoptr(GError) error = NULL;
   if (edits_regions(self) && !spore_hand_edit_write_region(&self->edit, document_of(self), &error) && error)
@@ -189,7 +191,7 @@ static void begin_drag(SporeViewport *self) {
   if (edits_regions(self)) spore_document_begin(document_of(self), _("Place region"));
 }
 
-/* Where there is one under the cursor, a drag begins. FALSE: select another body instead. */
+/* Begins a drag where a handle, sphere or point is under the cursor. FALSE: select another body instead. */
 gboolean spore_viewport_edit_press(SporeViewport *self, double x, double y) {
   if (!self->edit.count) return FALSE;
   if (self->edit_timer) commit(self, _("Resize by hand"));
@@ -250,13 +252,13 @@ gboolean spore_viewport_edit_scroll(SporeViewport *self, double notches) {
   return TRUE;
 }
 
-/* Beside the chosen one, to its right on the screen. */
+/* Adds a sphere, point or region beside the chosen one, to its right on the screen. */
 static void add(SporeViewport *self) {
   if (edits_regions(self)) {
     SporeObject *holder = spore_document_by_id(document_of(self), self->edit.asset);
     g_autofree char *path = spore_object_path(holder);
     spore_activate(GTK_WIDGET(self), "add-region", g_variant_new_string(path));
-    self->edit.chosen = self->edit.count - 1; /* the document has told of it */
+    self->edit.chosen = self->edit.count - 1; /* the edit was reopened when the document changed */
     show(self);
     return;
   }
@@ -304,7 +306,7 @@ static void go(SporeViewport *self, gboolean back) {
 }
 
 gboolean spore_viewport_edit_key(SporeViewport *self, guint key) {
-  if (self->tool != SPORE_TOOL_EDIT || !self->edit.count || self->drag != DRAG_NONE) return FALSE;
+  if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !self->edit.count || self->drag != DRAG_NONE) return FALSE;
   switch (key) {
   case GDK_KEY_Delete:
     delete_chosen(self);

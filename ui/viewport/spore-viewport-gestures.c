@@ -1,6 +1,6 @@
+/* Gestures in the viewport: they move the camera and the probe, pull tissue, select, and call the Edit tool. */
 #include "core/author/edits.h"
 #include "ui/panels/report.h"
-#include "ui/viewport/camera-moves.h"
 #include "ui/viewport/spore-viewport-private.h"
 
 #define ZOOM_A_NOTCH 0.88
@@ -51,7 +51,7 @@ gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *pos
   return TRUE;
 }
 
-/* Goes on from where the body's device, the mouse or a track, has brought it. */
+/* The hand starts at the pose that the body has from its device, the mouse or a track. */
 static gboolean take_hand(SporeViewport *self) {
   SporeVec3 position;
   if (self->drag == DRAG_PULL || !spore_viewport_probe(self, &self->body, &position)) return FALSE;
@@ -90,7 +90,7 @@ static void move_probe(SporeViewport *self) {
   lead_probe_to(self, spore_vec3_add(under_cursor(self, hand_position(self)), self->offset));
 }
 
-/* About the tip, as a ball under the cursor would roll. */
+/* Turns the probe about its tip, as a ball under the cursor would roll. */
 static void turn_probe(SporeViewport *self, double dx, double dy) {
   SporeVec3 eye, right, up, forward;
   spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
@@ -113,7 +113,7 @@ static void deepen_probe(SporeViewport *self, double notches) {
   self->offset = spore_vec3_sub(hand_position(self), under_cursor(self, hand_position(self)));
 }
 
-/* Closes the jaws, presses the pedal. */
+/* Closes or opens the jaws, and presses or releases the pedal. */
 static void squeeze_probe(SporeViewport *self, gboolean squeezed) {
   if (!take_hand(self)) return;
   self->hand.grip_rad = squeezed ? 0 : G_PI;
@@ -186,12 +186,12 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
   SporeVec3 point;
   if (self->picking) {
     guint32 body = pick(self, event->x, event->y, &point);
-    if (body) spore_viewport_picked(self, body, point);
+    if (body) g_signal_emit_by_name(self, "picked", body, &point);
     return;
   }
   if (event->state & GDK_CONTROL_MASK && begin_pull(self, event->x, event->y)) return;
-  if (self->tool == SPORE_TOOL_PROBE && begin_probe(self)) return;
-  if (self->tool == SPORE_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
+  if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && begin_probe(self)) return;
+  if (self->tool == SPORE_VIEWPORT_TOOL_EDIT && spore_viewport_edit_press(self, event->x, event->y)) return;
   guint32 body = pick(self, event->x, event->y, &point);
   if (body && spore_viewport_edit_place(self, body, point)) return;
   if (body || !spore_viewport_edits_regions(self)) spore_editor_document_select(self->document, body);
@@ -200,7 +200,7 @@ static void press_left(SporeViewport *self, const GdkEventButton *event) {
 gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
   gtk_widget_grab_focus(area);
   if (event->type != GDK_BUTTON_PRESS || !self->document) return GDK_EVENT_STOP;
-  if (event->button == GDK_BUTTON_SECONDARY && self->tool == SPORE_TOOL_PROBE) {
+  if (event->button == GDK_BUTTON_SECONDARY && self->tool == SPORE_VIEWPORT_TOOL_PROBE) {
     squeeze_probe(self, TRUE);
     return GDK_EVENT_STOP;
   }
@@ -214,8 +214,8 @@ gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, Spo
 
 gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self) {
   if (event->button == GDK_BUTTON_SECONDARY) {
-    /* With Shift they stay as they are, until the button is pressed and let go again. */
-    if (self->tool == SPORE_TOOL_PROBE && !(event->state & GDK_SHIFT_MASK)) squeeze_probe(self, FALSE);
+    /* With Shift, jaws and pedal stay as they are until the button is pressed and released again. */
+    if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && !(event->state & GDK_SHIFT_MASK)) squeeze_probe(self, FALSE);
     return GDK_EVENT_STOP;
   }
   spore_viewport_end_drag(self);
@@ -259,8 +259,8 @@ static double notches_of(const GdkEventScroll *event) {
 
 gboolean spore_viewport_scroll(GtkWidget *area, GdkEventScroll *event, SporeViewport *self) {
   double notches = notches_of(event);
-  if (self->tool == SPORE_TOOL_PROBE && session_of(self)) deepen_probe(self, notches);
-  else if (self->tool != SPORE_TOOL_EDIT || !spore_viewport_edit_scroll(self, notches)) {
+  if (self->tool == SPORE_VIEWPORT_TOOL_PROBE && session_of(self)) deepen_probe(self, notches);
+  else if (self->tool != SPORE_VIEWPORT_TOOL_EDIT || !spore_viewport_edit_scroll(self, notches)) {
     spore_viewport_leave_scene_camera(self);
     spore_camera_zoom(&self->camera, pow(ZOOM_A_NOTCH, -notches), event->x, event->y, width_of(self), height_of(self));
   }

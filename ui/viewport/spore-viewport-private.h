@@ -1,4 +1,4 @@
-/* Shared by the widget (spore-viewport.c) and its gestures (spore-viewport-gestures.c). */
+/* Inside the viewport: its state, and its files from the lowest up. Each calls only those before it. */
 #ifndef SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 #define SPORE_UI_VIEWPORT_SPORE_VIEWPORT_PRIVATE_H
 
@@ -13,14 +13,14 @@ struct _SporeViewport {
 
   SporeEditorDocument *document;
   SporePlayer *player;
-  SporeTool tool;
+  SporeViewportTool tool;
   gboolean picking;
   SporeStageOptions options;
 
   SporeHandEdit edit;    /* of the Edit tool */
-  guint32 regions;       /* id of what holds the regions that it edits; 0: it edits spheres or a curve */
-  gboolean edit_resizes; /* the drag has the handle on the rim, else the middle */
-  double edit_before[4]; /* the chosen one when the drag began */
+  guint32 regions;       /* id of the object whose regions are edited; 0: spheres or a curve are edited */
+  gboolean edit_resizes; /* the drag moves the handle on the rim, else the one in the middle */
+  double edit_before[4]; /* the chosen sphere or point when the drag began */
   guint edit_timer;      /* wheel notches that are not committed yet */
   SporeStageCandidate *candidate;
   SporeStageMarks marks;
@@ -32,28 +32,56 @@ struct _SporeViewport {
   SporeStage *stage;
   char *renderer_name;
   cairo_surface_t *pixels;
-  gboolean stale; /* pixels are not what would be drawn now */
+  gboolean stale; /* the pixels are out of date */
   guint rebuild, tick;
   gint64 hud_clock;
   guint64 shown_step;
   double draw_ms;
 
   SporeCamera camera;
-  gboolean through; /* it looks through the scene's camera, and goes where that goes */
+  gboolean through; /* the view looks through the scene's camera and follows it */
   gboolean framed, waiting;
 
   SporeDrag drag;
   double last_x, last_y;
   SporeCamera camera_before;
   guint32 body;                       /* of the world: held by the probe or pull drag */
-  SporeDeviceState hand, hand_before; /* what the mouse tells the probe; when the drag began */
+  SporeDeviceState hand, hand_before; /* state of the hand that the mouse moves; the same when the drag began */
   SporeVec3 offset;                   /* from the cursor's point to the probe */
-  SporeVec3 start, cursor;            /* pull: the point taken, where it is led */
+  SporeVec3 start, cursor;            /* pull: the point that was taken, and where the mouse has moved it */
 };
 
+/* spore-viewport-view.c: camera, candidate, welcome. */
 void spore_viewport_redraw(SporeViewport *self);
-void spore_viewport_picked(SporeViewport *self, guint32 body, SporeVec3 place);
+/* TRUE: there is a body, or a candidate that stands for itself. */
+gboolean spore_viewport_has_anything(SporeViewport *self);
+/* The welcome is shown while nothing else is. */
+void spore_viewport_show_welcome(SporeViewport *self);
+/* Goes where the scene's camera goes, as long as the view looks through it. */
+void spore_viewport_follow_camera(SporeViewport *self);
+/* Where nothing was to be seen before, the view goes to what is there now. */
+void spore_viewport_look_afresh(SporeViewport *self);
+/* The view no longer looks through a camera of the scene. Called before the user moves the view. */
+void spore_viewport_leave_scene_camera(SporeViewport *self);
+void spore_viewport_clear_legend(SporeViewport *self);
 
+/* spore-viewport-edit.c: the Edit tool. */
+/* Shows what the selection offers to edit. */
+void spore_viewport_edit_refresh(SporeViewport *self);
+/* Commits what is edited, and closes it. */
+void spore_viewport_edit_end(SporeViewport *self);
+gboolean spore_viewport_edit_press(SporeViewport *self, double x, double y); /* FALSE: nothing to edit was there */
+void spore_viewport_edit_motion(SporeViewport *self);
+void spore_viewport_edit_release(SporeViewport *self, gboolean keep);
+gboolean spore_viewport_edit_scroll(SporeViewport *self, double notches); /* FALSE: nothing is chosen */
+gboolean spore_viewport_edit_key(SporeViewport *self, guint key);         /* FALSE: not its key */
+void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr);          /* the handles */
+/* Moves the chosen region to a click on the surface of that body. FALSE: no region moves. */
+gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place);
+
+/* spore-viewport-gestures.c: mouse and keys. */
+/* Active body that the pointer leads, and its position (m); FALSE: none, or no simulation. */
+gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *position);
 /* Signal handlers of the drawing area, named in the template. */
 gboolean spore_viewport_button_press(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
 gboolean spore_viewport_button_release(GtkWidget *area, GdkEventButton *event, SporeViewport *self);
@@ -63,21 +91,9 @@ gboolean spore_viewport_key_press(GtkWidget *area, GdkEventKey *event, SporeView
 /* Ends a drag without taking it back. */
 void spore_viewport_end_drag(SporeViewport *self);
 
-/* Edit tool. Shows what the selection offers to edit; commits and closes it. */
-void spore_viewport_edit_refresh(SporeViewport *self);
-void spore_viewport_edit_end(SporeViewport *self);
-gboolean spore_viewport_edit_press(SporeViewport *self, double x, double y); /* FALSE: nothing to edit was there */
-void spore_viewport_edit_motion(SporeViewport *self);
-void spore_viewport_edit_release(SporeViewport *self, gboolean keep);
-gboolean spore_viewport_edit_scroll(SporeViewport *self, double notches); /* FALSE: nothing is chosen */
-gboolean spore_viewport_edit_key(SporeViewport *self, guint key);         /* FALSE: not its key */
-void spore_viewport_edit_draw(SporeViewport *self, cairo_t *cr);          /* the handles */
-/* Of a click on the surface of that body, where no handle is: the chosen region goes there. FALSE: none does. */
-gboolean spore_viewport_edit_place(SporeViewport *self, guint32 body, SporeVec3 place);
-
-/* What moves the view by hand comes after this: it looks through no camera of the scene any more. */
-void spore_viewport_leave_scene_camera(SporeViewport *self);
-/* Active body that the pointer leads, and its position (m); FALSE: none, or no simulation. */
-gboolean spore_viewport_probe(SporeViewport *self, guint32 *body, SporeVec3 *position);
+/* spore-viewport-overlay.c: over the picture. */
+void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, int height);
+/* The figures of the simulation, in a corner. */
+void spore_viewport_overlay_update(SporeViewport *self);
 
 #endif

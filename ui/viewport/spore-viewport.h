@@ -23,29 +23,30 @@ G_BEGIN_DECLS
 #define SPORE_TYPE_VIEWPORT spore_viewport_get_type()
 G_DECLARE_FINAL_TYPE(SporeViewport, spore_viewport, SPORE, VIEWPORT, GtkOverlay)
 
-typedef enum { SPORE_TOOL_SELECT, SPORE_TOOL_PROBE, SPORE_TOOL_EDIT } SporeTool;
+typedef enum { SPORE_VIEWPORT_TOOL_SELECT, SPORE_VIEWPORT_TOOL_PROBE, SPORE_VIEWPORT_TOOL_EDIT } SporeViewportTool;
 
 void spore_viewport_set_document(SporeViewport *self, SporeEditorDocument *document, SporePlayer *player);
-/* A scene is on its way: do not offer to begin with another. */
+/* A scene is being opened: the welcome is hidden. */
 void spore_viewport_set_waiting(SporeViewport *self, gboolean waiting);
-void spore_viewport_set_tool(SporeViewport *self, SporeTool tool);
-/* The Edit tool, for the regions that the object holds, this one first. */
+void spore_viewport_set_tool(SporeViewport *self, SporeViewportTool tool);
+/* Uses the Edit tool on all regions of the object that holds this one, which is chosen first. */
 void spore_viewport_edit_region(SporeViewport *self, SporeObject *region);
 gboolean spore_viewport_edits_regions(SporeViewport *self);
 /* Whether the Edit tool has something to edit. */
 gboolean spore_viewport_has_edited(SporeViewport *self);
-/* The next click of the left button on a body does not select it: it is told by "picked". */
+/* While picking, a click of the left button on a body emits "picked" instead of selecting the body. */
 void spore_viewport_set_picking(SporeViewport *self, gboolean picking);
 void spore_viewport_set_options(SporeViewport *self, const SporeStageOptions *options);
-/* What a generator offers, over what the scene has, and the legend of its colours (read at once; without values: none).
- * Takes the candidate; NULL: nothing is offered. */
+/* Shows a candidate over the scene, with the legend of its colours (read during the call; without values: no legend).
+ * Takes the candidate; NULL: none. */
 void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend);
-/* What is pointed out on a body; takes the segments. */
+/* Shows marks on a body; takes the segments. */
 void spore_viewport_set_marks(SporeViewport *self, SporeStageMarks marks);
 void spore_viewport_frame(SporeViewport *self);
-/* When what was just changed is there to be seen. */
+/* Frames the scene at the next rebuild, when the last change is visible. */
 void spore_viewport_frame_soon(SporeViewport *self);
-/* "front", "right", "top", or "camera": through the first one of the scene, and with it; without any, all of it. */
+/* "front", "right", "top", or "camera": through the first camera of the scene, following it; without a camera, the
+ * whole scene. */
 void spore_viewport_view(SporeViewport *self, const char *view);
 /* How long the last picture took, ms. */
 double spore_viewport_get_draw_ms(SporeViewport *self);

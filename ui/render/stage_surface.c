@@ -1,10 +1,27 @@
-/* What is drawn of a body that was cut: triangles that hang on nodes of both sides of a cut are left out. */
+/* The surface that is drawn of a body: a new one in place of the last, and the one that is left after cuts. */
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "ui/render/stage_body.h"
 
-#define NODES_MAXIMUM 64 /* that a triangle hangs on; it hangs on three of a net's own mesh */
+#define NODES_MAXIMUM 64 /* most nodes that move a triangle; the mesh of a net has three */
+
+void spore_stage_body_show_surface(SporeStage *stage, SporeStageBody *body, const SporeTriangleMesh *mesh) {
+  if (body->surface_handle) spore_renderer_remove(stage->renderer, body->surface_handle);
+  g_free(body->surface.positions);
+  spore_free(body->own_triangles);
+  body->surface.positions = g_memdup2(mesh->vertices, 3 * mesh->vertex_count * sizeof(double));
+  body->surface.count = mesh->vertex_count;
+  body->triangles = body->own_triangles = mesh->triangles;
+  body->triangle_count = mesh->triangle_count;
+  body->surface_handle = 0;
+  if (!mesh->vertex_count) return;
+  body->surface_handle = spore_renderer_add_surface(stage->renderer, mesh->vertices, mesh->vertex_count,
+                                                    mesh->triangles, mesh->triangle_count, &body->style);
+  spore_renderer_set_visible(stage->renderer, body->surface_handle, stage->options.surfaces);
+}
+
+/* Cuts: triangles that follow nodes of both sides of a cut are left out. */
 
 static guint64 key_of(guint32 a, guint32 b) { return (guint64)MIN(a, b) << 32 | MAX(a, b); }
 

@@ -1,0 +1,174 @@
+/* Tables of spore plan about bodies: how well points follow what moves them, and what levels and control points cost.
+ */
+#include "app/cli/plan_tables.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+
+#include "core/scene/carried.h"
+
+/* Points that follow a body. */
+
+/* A figure of the table; a dash where the figure does not apply. */
+static const char *figure(double value, char room[16]) {
+  g_snprintf(room, 16, isfinite(value) ? "%.1e" : "-", value);
+  return room;
+}
+
+static void say_unit(const SporeCli *cli, const char *body, int width, const char *unit, const SporeCarried *carried) {
+  char rest[16], rigid[16], affine[16], bend[16];
+  spore_cli_say(cli, "%-*s %-9s %7zu %7.1f %12.3g %9.3g %9s %9s %9s %9s\n", width, body, unit, carried->count,
+                100 * (double)carried->off / (double)carried->count, carried->farthest, carried->error.leverage,
+                figure(carried->error.rest, rest), figure(carried->error.rigid, rigid),
+                figure(carried->error.affine, affine), figure(carried->error.bend, bend));
+}
+
+static void report_unit(SporeCli *cli, const SporeObject *body, int width, const char *unit,
+                        const SporeCarried *carried) {
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", spore_object_name(body));
+  spore_cli_text(cli, "unit", unit);
+  spore_cli_count(cli, "points", (gint64)carried->count);
+  spore_cli_number(cli, "off_share", (double)carried->off / (double)carried->count);
+  spore_cli_number(cli, "farthest_m", carried->farthest);
+  spore_cli_number(cli, "leverage", carried->error.leverage);
+  spore_cli_number(cli, "rest_error_m", carried->error.rest);
+  spore_cli_number(cli, "rigid_error_m", carried->error.rigid);
+  spore_cli_number(cli, "affine_error_m", carried->error.affine);
+  spore_cli_number(cli, "bend_error_m", carried->error.bend);
+  if (carried->framed) {
+    spore_cli_number(cli, "crowd", carried->error.crowd);
+    spore_cli_number(cli, "crowd_share", carried->error.crowd_share);
+    spore_cli_number(cli, "torn_share", carried->error.torn);
+  }
+  spore_cli_close(cli);
+  say_unit(cli, spore_object_name(body), width, unit, carried);
+}
+
+void spore_plan_report_carried(SporeCli *cli, const SporeRun *run) {
+  const SporeObject *bodies = spore_document_section(run->document, "bodies");
+  gboolean titled = FALSE;
+  int width = spore_cli_body_width(run->simulation->world);
+  spore_cli_open_array(cli, "mappings");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    for (int unit = 0; unit < SPORE_CARRIED_COUNT; unit++) {
+      SporeCarried carried;
+      if (!spore_carried_measure(run->simulation, run->document, body, (SporeCarriedUnit)unit, &carried, NULL))
+        continue;
+      if (!titled)
+        spore_cli_say(cli, "%-*s %-9s %7s %7s %12s %9s %9s %9s %9s %9s\n", width, _("body"), _("unit"), _("points"),
+                      _("off, %"), _("farthest, m"), _("leverage"), _("rest, m"), _("rigid, m"), _("affine, m"),
+                      _("bend, m"));
+      titled = TRUE;
+      report_unit(cli, body, width, spore_carried_units[unit], &carried);
+    }
+  }
+  spore_cli_close_array(cli);
+}
+
+/* Levels. */
+
+/* Median time of a step with the body at the level from time 0 on, us. */
+static gboolean measure(SporeRun *run, guint32 body, SporeLevelGrade level, int steps, double *median_us,
+                        GError **error) {
+  SporeSimulation *copy =
+      spore_simulation_new(run->document, run->pool, run->input.channel_count ? &run->input : NULL, error);
+  if (!copy) return FALSE;
+  spore_world_set_level(copy->world, body, level);
+  for (int i = 0; i < steps && !spore_cli_interrupted(); i++) spore_world_step(copy->world);
+  *median_us = spore_profile_summary(spore_world_profile(copy->world)).median_us;
+  spore_simulation_free(copy);
+  return TRUE;
+}
+
+static void report_level(SporeCli *cli, const SporeWorld *world, guint32 body, SporeLevelGrade level, gboolean active,
+                         double median_us) {
+  const SporeModel *model = spore_world_level_model(world, body, level);
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "level", spore_level_names[level]);
+  json_builder_set_member_name(cli->report, "active");
+  json_builder_add_boolean_value(cli->report, active);
+  spore_cli_count(cli, "dof", (gint64)(3 * model->block_count));
+  spore_cli_count(cli, "spheres", (gint64)spore_world_body_sphere_count(world, body));
+  if (median_us >= 0) spore_cli_number(cli, "measured_us", median_us);
+  spore_cli_close(cli);
+  g_autofree char *time = median_us >= 0 ? g_strdup_printf("%.2f us", median_us) : g_strdup("-");
+  spore_cli_say(cli, "%-*s %c %-7s %7zu %7zu %12s\n", spore_cli_body_width(world), spore_world_body_name(world, body),
+                active ? '*' : ' ', spore_level_names[level], 3 * model->block_count,
+                spore_world_body_sphere_count(world, body), time);
+}
+
+static gboolean report_body(SporeCli *cli, SporeRun *run, guint32 body, int steps, GError **error) {
+  const SporeWorld *world = run->simulation->world;
+  SporeLevelState state;
+  gboolean done = TRUE;
+  spore_world_level_state(world, body, &state);
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", spore_world_body_name(world, body));
+  spore_cli_count(cli, "memory_bytes", (gint64)spore_world_level_memory(world, body));
+  spore_cli_open_array(cli, "levels");
+  for (int k = 0; done && k < SPORE_LEVEL_COUNT; k++) {
+    double median_us = -1;
+    if (!spore_world_level_model(world, body, (SporeLevelGrade)k)) continue;
+    done = steps == 0 || measure(run, body, (SporeLevelGrade)k, steps, &median_us, error);
+    if (done) report_level(cli, world, body, (SporeLevelGrade)k, (int)state.level == k, median_us);
+  }
+  spore_cli_close_array(cli);
+  spore_cli_close(cli);
+  return done;
+}
+
+gboolean spore_plan_report_levels(SporeCli *cli, SporeRun *run, int steps, GError **error) {
+  const SporeWorld *world = run->simulation->world;
+  SporeLevelState state;
+  gboolean any = FALSE, done = TRUE;
+  for (guint32 body = 0; done && body < spore_world_body_count(world); body++) {
+    if (!spore_world_level_state(world, body, &state)) continue;
+    if (!any) {
+      spore_cli_open_array(cli, "levels");
+      spore_cli_say(cli, "%-*s   %-7s %7s %7s %12s  %s\n", spore_cli_body_width(world), _("body"), _("level"), _("dof"),
+                    _("spheres"), _("a step"), _("(* active; the step is of the whole scene)"));
+    }
+    any = TRUE;
+    done = report_body(cli, run, body, steps, error);
+  }
+  if (any) spore_cli_close_array(cli);
+  return done;
+}
+
+/* Control points that come and go. */
+
+static void report_line(SporeCli *cli, const SporeWorld *world, guint32 body, const SporeLineState *line,
+                        gboolean measured) {
+  const SporeModel *model = spore_world_body_model(world, body);
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", spore_world_body_name(world, body));
+  spore_cli_count(cli, "made", (gint64)line->made);
+  spore_cli_count(cli, "reserve", (gint64)line->reserve);
+  spore_cli_count(cli, "dof_most", (gint64)(3 * model->block_room));
+  spore_cli_count(cli, "memory_bytes", (gint64)line->memory_bytes);
+  spore_cli_say(cli, _("%s: %zu control points, up to %zu as it bends: %zu degrees of freedom then; %.0f kB are kept"),
+                spore_world_body_name(world, body), line->made, line->reserve, 3 * model->block_room,
+                1e-3 * (double)line->memory_bytes);
+  if (measured) {
+    spore_cli_number(cli, "look_us", line->look_us);
+    spore_cli_number(cli, "change_us", line->change_us);
+    spore_cli_say(cli, _("; %.2f us a step to look at its bends, %.1f us when some come or go"), line->look_us,
+                  line->change_us);
+  }
+  spore_cli_say(cli, "\n");
+  spore_cli_close(cli);
+}
+
+void spore_plan_report_lines(SporeCli *cli, const SporeWorld *world, gboolean measured) {
+  SporeLineState line;
+  gboolean any = FALSE;
+  for (guint32 body = 0; body < spore_world_body_count(world); body++) {
+    if (!spore_world_line_state(world, body, &line)) continue;
+    if (!any) spore_cli_open_array(cli, "lines");
+    any = TRUE;
+    report_line(cli, world, body, &line, measured);
+  }
+  if (any) spore_cli_close_array(cli);
+}

@@ -1,0 +1,15 @@
+/* Tables of spore plan about bodies. Each is a member of the report, and lines for people. */
+#ifndef SPORE_APP_CLI_PLAN_TABLES_H
+#define SPORE_APP_CLI_PLAN_TABLES_H
+
+#include "app/cli/scene.h"
+
+/* How far what is drawn of a body, and its spheres, lies off where the body moves it. */
+void spore_plan_report_carried(SporeCli *cli, const SporeRun *run);
+/* Reports the levels of every body that has levels. steps: number of steps that measure each level, in a copy of the
+ * scene where nothing else changes; 0: nothing is measured. FALSE with a GError where a copy cannot be made. */
+gboolean spore_plan_report_levels(SporeCli *cli, SporeRun *run, int steps, GError **error);
+/* Reports every line that has a reserve of control points. measured: with the time that the world has spent on them. */
+void spore_plan_report_lines(SporeCli *cli, const SporeWorld *world, gboolean measured);
+
+#endif

@@ -1,0 +1,175 @@
+/* The stage as an eye sees it: its bounds, the cameras of the scene, and the body under a ray. */
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/scene/schema_fields.h"
+#include "ui/render/stage_body.h"
+
+/* Bounds. */
+
+static void take_in(double lower[3], double upper[3], const double *p, double radius) {
+  for (int i = 0; i < 3; i++) {
+    lower[i] = MIN(lower[i], p[i] - radius);
+    upper[i] = MAX(upper[i], p[i] + radius);
+  }
+}
+
+void spore_stage_bounds(const SporeStage *stage, double lower[3], double upper[3]) {
+  for (int i = 0; i < 3; i++) lower[i] = HUGE_VAL, upper[i] = -HUGE_VAL;
+  for (guint b = 0; b < stage->bodies->len; b++) {
+    const SporeStageBody *body = stage->bodies->pdata[b];
+    for (gsize i = 0; i < body->surface.count; i++) take_in(lower, upper, body->surface.positions + 3 * i, 0);
+    for (gsize i = 0; body->solid && i < body->shown; i++)
+      take_in(lower, upper, body->spheres + 4 * i, body->spheres[4 * i + 3]);
+  }
+  const SporeStageCandidate *candidate = stage->candidate;
+  for (gsize i = 0; candidate && !candidate->body && i < candidate->vertex_count; i++)
+    take_in(lower, upper, candidate->vertices + 3 * i, 0);
+  if (!(lower[0] <= upper[0])) /* an empty scene: a place the size of a hand */
+    for (int i = 0; i < 3; i++) lower[i] = -0.05, upper[i] = 0.05;
+}
+
+/* Cameras. */
+
+/* The first camera, or the one of that name. */
+static const SporeObject *find_camera(const SporeStage *stage, const char *name) {
+  if (name) return spore_document_find(stage->document, "camera", name);
+  return spore_object_child_of(spore_document_section(stage->document, "tools"), "camera");
+}
+
+/* Where a rigid body has moved a point that belonged to it at the start. The point stays with any other body. */
+static SporeVec3 moved_with(const SporeStage *stage, const SporeObject *body, SporeVec3 point) {
+  SporeBodyFields fields;
+  for (guint i = 0; body && i < stage->bodies->len; i++) {
+    const SporeStageBody *shown = stage->bodies->pdata[i];
+    if (shown->object != spore_object_id(body) || !shown->moves || shown->q_count != 7) continue;
+    spore_object_fields(body, &fields);
+    SporeQuat start = spore_quat_from_rotation_vector(spore_vec3_load(fields.rotation));
+    SporeVec3 arm = spore_vec3_sub(point, spore_vec3_load(fields.position));
+    SporePose now = {spore_vec3_load(shown->q), spore_quat_load(shown->q + 3)};
+    return spore_pose_apply(now, spore_quat_rotate(spore_quat_conjugate(start), arm));
+  }
+  return point;
+}
+
+gboolean spore_stage_has_camera(const SporeStage *stage) { return find_camera(stage, NULL) != NULL; }
+
+/* Cameras of scenes are placed for a picture of this aspect. A narrower picture shows as much to the sides. */
+#define SCENE_ASPECT (16.0 / 9)
+
+static SporeCamera look_from(SporeVec3 position, SporeVec3 target, double field_of_view) {
+  SporeVec3 back = spore_vec3_sub(position, target);
+  double distance = spore_vec3_length(back);
+  if (!(distance > 0)) back = spore_vec3(0, 0, 1), distance = 1e-3;
+  return (SporeCamera){.target = target,
+                       .distance = distance,
+                       .azimuth = atan2(back.x, back.z),
+                       .elevation = asin(CLAMP(back.y / spore_vec3_length(back), -1, 1)),
+                       .field_of_view = field_of_view};
+}
+
+/* The camera is level at the start, and turns with its body. */
+static SporeCamera look_with(const SporeStage *stage, const SporeObject *object) {
+  SporeCameraFields fields;
+  SporeVec3 eye, right, up, forward;
+  spore_object_fields(object, &fields);
+  SporeVec3 position = spore_vec3_load(fields.position), target = spore_vec3_load(fields.target);
+  const SporeObject *body = spore_object_reference(object, "body");
+  SporeCamera camera = look_from(position, target, fields.field_of_view);
+  if (!body) return camera;
+  spore_camera_eye(&camera, &eye, &right, &up, &forward);
+  SporeVec3 now = moved_with(stage, body, target);
+  SporeVec3 upward = spore_vec3_sub(moved_with(stage, body, spore_vec3_add(target, up)), now);
+  camera = look_from(moved_with(stage, body, position), now, fields.field_of_view);
+  spore_camera_eye(&camera, &eye, &right, &up, &forward);
+  camera.roll = atan2(spore_vec3_dot(upward, right), spore_vec3_dot(upward, up));
+  return camera;
+}
+
+gboolean spore_stage_camera(const SporeStage *stage, const char *name, double aspect, SporeCamera *camera,
+                            GError **error) {
+  const SporeObject *object = find_camera(stage, name);
+  if (!object && name)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, name,
+                             _("the scene has no camera of this name; a camera among its tools was expected; leave the "
+                               "name out to see everything"));
+  if (!object) {
+    double lower[3], upper[3];
+    spore_stage_bounds(stage, lower, upper);
+    *camera = (SporeCamera){.azimuth = 0.5, .elevation = 0.35};
+    spore_camera_frame(camera, lower, upper, aspect);
+    return TRUE;
+  }
+  *camera = look_with(stage, object);
+  if (aspect < SCENE_ASPECT) camera->field_of_view = 2 * atan(tan(camera->field_of_view / 2) * SCENE_ASPECT / aspect);
+  return TRUE;
+}
+
+/* Picking. */
+
+/* Does the ray meet the box of the points before `nearest`? Slab test. */
+static gboolean meets_box(const double *points, gsize count, const double origin[3], const double direction[3],
+                          double nearest) {
+  double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (gsize p = 0; p < 3 * count; p++) {
+    lower[p % 3] = MIN(lower[p % 3], points[p]);
+    upper[p % 3] = MAX(upper[p % 3], points[p]);
+  }
+  double enter = 0, leave = nearest;
+  for (int i = 0; i < 3; i++) {
+    if (direction[i] == 0) {
+      if (origin[i] < lower[i] || origin[i] > upper[i]) return FALSE;
+      continue;
+    }
+    double a = (lower[i] - origin[i]) / direction[i], b = (upper[i] - origin[i]) / direction[i];
+    enter = MAX(enter, MIN(a, b));
+    leave = MIN(leave, MAX(a, b));
+  }
+  return enter <= leave;
+}
+
+/* Distance along the ray to a triangle, or HUGE_VAL (Moeller and Trumbore 1997). */
+static double meet_triangle(SporeVec3 origin, SporeVec3 direction, const double *points, const guint32 *corners) {
+  SporeVec3 a = spore_vec3_load(points + 3 * (gsize)corners[0]);
+  SporeVec3 ab = spore_vec3_sub(spore_vec3_load(points + 3 * (gsize)corners[1]), a);
+  SporeVec3 ac = spore_vec3_sub(spore_vec3_load(points + 3 * (gsize)corners[2]), a);
+  SporeVec3 p = spore_vec3_cross(direction, ac), s = spore_vec3_sub(origin, a), q = spore_vec3_cross(s, ab);
+  double determinant = spore_vec3_dot(ab, p);
+  if (determinant == 0) return HUGE_VAL;
+  double u = spore_vec3_dot(s, p) / determinant, v = spore_vec3_dot(direction, q) / determinant;
+  double t = spore_vec3_dot(ac, q) / determinant;
+  return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : HUGE_VAL;
+}
+
+static double meet_sphere(SporeVec3 origin, SporeVec3 direction, const double *sphere) {
+  SporeVec3 to = spore_vec3_sub(spore_vec3_load(sphere), origin);
+  double along = spore_vec3_dot(to, direction);
+  double inside = sphere[3] * sphere[3] - (spore_vec3_dot(to, to) - along * along);
+  double t = inside >= 0 ? along - sqrt(inside) : -1;
+  return t >= 0 ? t : HUGE_VAL;
+}
+
+static double meet_body(const SporeStageBody *body, SporeVec3 origin, SporeVec3 direction, double nearest) {
+  double o[3], d[3];
+  spore_vec3_store(o, origin);
+  spore_vec3_store(d, direction);
+  if (body->surface_handle && meets_box(body->surface.positions, body->surface.count, o, d, nearest))
+    for (gsize i = 0; i < body->triangle_count; i++)
+      nearest = MIN(nearest, meet_triangle(origin, direction, body->surface.positions, body->triangles + 3 * i));
+  for (gsize i = 0; body->solid && i < body->shown; i++)
+    nearest = MIN(nearest, meet_sphere(origin, direction, body->spheres + 4 * i));
+  return nearest;
+}
+
+guint32 spore_stage_pick(const SporeStage *stage, SporeVec3 origin, SporeVec3 direction, SporeVec3 *point) {
+  double nearest = HUGE_VAL;
+  guint32 picked = 0;
+  for (guint i = 0; i < stage->bodies->len; i++) {
+    const SporeStageBody *body = stage->bodies->pdata[i];
+    double t = meet_body(body, origin, direction, nearest);
+    if (t < nearest) nearest = t, picked = body->object;
+  }
+  if (picked) *point = spore_vec3_add_scaled(origin, nearest, direction);
+  return picked;
+}

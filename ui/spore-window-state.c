@@ -1,0 +1,197 @@
+/* What every part of the window stands on: messages, the job that runs, which actions are enabled, and the hint. */
+#include <glib/gi18n.h>
+
+#include "core/author/edits.h"
+#include "core/scene/generated.h"
+#include "ui/spore-window-private.h"
+
+/* Telling. */
+
+void spore_window_log(SporeWindow *self, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_autoptr(GDateTime) now = g_date_time_new_now_local();
+  g_autofree char *clock = g_date_time_format(now, "%H:%M:%S");
+  g_autofree char *line = g_strdup_printf("%s  %s\n", clock, text);
+  GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(self->log));
+  GtkTextIter end;
+  gtk_text_buffer_get_end_iter(buffer, &end);
+  gtk_text_buffer_insert(buffer, &end, line, -1);
+  /* Scrolls to a mark, because the new line is not laid out yet. */
+  gtk_text_buffer_place_cursor(buffer, &end);
+  gtk_text_view_scroll_to_mark(GTK_TEXT_VIEW(self->log), gtk_text_buffer_get_insert(buffer), 0, FALSE, 0, 0);
+}
+
+void spore_window_show_tab(SporeWindow *self, GtkWidget *what) {
+  g_action_group_change_action_state(G_ACTION_GROUP(self), "show-problems", g_variant_new_boolean(TRUE));
+  while (gtk_widget_get_parent(what) != self->tabs) what = gtk_widget_get_parent(what);
+  gtk_stack_set_visible_child(GTK_STACK(self->tabs), what);
+}
+
+void spore_window_complain(SporeWindow *self, const char *message) {
+  gtk_label_set_text(GTK_LABEL(self->message), message);
+  gtk_widget_show(self->message_bar);
+  spore_window_log(self, "%s", message);
+}
+
+gboolean spore_window_failed(SporeWindow *self, const GError *error) {
+  if (error && !g_error_matches(error, SPORE_ERROR, SPORE_ERROR_CANCELLED)) spore_window_complain(self, error->message);
+  return error != NULL;
+}
+
+/* Jobs. */
+
+void spore_window_show_job(SporeWindow *self) {
+  SporeJob *job = self->job || !self->generator ? self->job : spore_generator_get_job(self->generator);
+  gtk_widget_set_visible(self->job_box, job != NULL);
+  if (!job) return;
+  g_autofree char *stage = spore_job_get_stage(job);
+  g_autofree char *text =
+      *stage ? g_strdup_printf("%s: %s", spore_job_get_title(job), stage) : g_strdup(spore_job_get_title(job));
+  gtk_label_set_text(GTK_LABEL(self->job_label), text);
+  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(self->job_bar), spore_job_get_fraction(job));
+}
+
+static void job_finished(SporeJob *job, SporeWindow *self) {
+  if (self->job != job) return;
+  g_clear_object(&self->job);
+  spore_window_show_job(self);
+  spore_window_update_actions(self);
+}
+
+gboolean spore_window_start_job(SporeWindow *self, const char *title, SporeJobWork work, gpointer data,
+                                GDestroyNotify free_data, SporeJobDone done) {
+  if (self->job || spore_generator_is_working(self->generator)) {
+    spore_window_complain(self, _("Something else is still being worked on; wait for it or cancel it"));
+    free_data(data);
+    return FALSE;
+  }
+  spore_recovery_keep(self->recovery, self->document, NULL);
+  self->job = spore_job_start(title, work, data, free_data, done, G_OBJECT(self));
+  g_signal_connect_object(self->job, "progressed", G_CALLBACK(spore_window_show_job), self, G_CONNECT_SWAPPED);
+  g_signal_connect_object(self->job, "finished", G_CALLBACK(job_finished), self, 0);
+  spore_window_show_job(self);
+  spore_window_update_actions(self);
+  return TRUE;
+}
+
+/* What is worked on. */
+
+SporeObject *spore_window_body_to_work_on(SporeWindow *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *selected = spore_editor_document_selected_body(self->document);
+  if (selected) return selected;
+  SporeObject *bodies = spore_document_section(document, "bodies"), *only = NULL;
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    if (!spore_edit_visual_mesh(document, body, NULL)) continue;
+    if (only) {
+      only = NULL;
+      break;
+    }
+    only = body;
+  }
+  if (!only) spore_window_complain(self, _("Select the organ first, in the outliner or in the viewport"));
+  return only;
+}
+
+gboolean spore_window_picks_ends(SporeWindow *self) {
+  return spore_generator_get_body(self->generator) &&
+         spore_generators[spore_generator_get_options(self->generator)->kind]->picks_ends;
+}
+
+gboolean spore_window_is_picking(SporeWindow *self) {
+  g_autoptr(GVariant) state = g_action_group_get_action_state(G_ACTION_GROUP(self), "pick-ends");
+  return g_variant_get_boolean(state);
+}
+
+/* The hint. */
+
+/* What to click on, while ends are picked; else NULL. */
+static const char *picking_hint(SporeWindow *self) {
+  if (!spore_window_is_picking(self)) return NULL;
+  return self->picked ? _("Click on the organ where its middle line ends; Escape picks no more")
+                      : _("Click on the organ where its middle line begins; Escape picks no more");
+}
+
+static const char *hint_for(SporeWindow *self) {
+  if (picking_hint(self)) return picking_hint(self);
+  SporeDocument *document = spore_editor_document_get(self->document);
+  if (spore_object_child_count(spore_document_section(document, "bodies")) == 0)
+    return _("Import a mesh to begin, or open the demo");
+  g_autoptr(GVariant) tool = g_action_group_get_action_state(G_ACTION_GROUP(self), "tool");
+  if (spore_viewport_edits_regions(SPORE_VIEWPORT(self->viewport)))
+    return _("Click puts the region there; its middle and its rim have a handle to drag; N and P choose, Insert adds");
+  gboolean edits = g_str_equal(g_variant_get_string(tool, NULL), "edit");
+  if (edits && !spore_viewport_has_edited(SPORE_VIEWPORT(self->viewport)))
+    return _("Nothing to edit by hand here: select an organ that has spheres or a middle line");
+  if (edits)
+    return _("Drag moves a sphere or point, the wheel resizes it; N and P choose, Insert adds, Delete deletes");
+  if (spore_player_is_playing(self->player))
+    return _("Choose Probe: drag leads an instrument, the right button closes it; Ctrl+drag pulls tissue; F5 pauses");
+  if (!spore_player_get_session(self->player))
+    return _("Click selects, middle button turns, wheel zooms, F frames; F5 plays");
+  return _("Paused: F5 goes on, F6 makes one step, Shift+F5 goes back to the start");
+}
+
+void spore_window_show_hint(SporeWindow *self) {
+  const char *hint = hint_for(self);
+  gtk_label_set_text(GTK_LABEL(self->hint), hint);
+  gtk_widget_set_tooltip_text(self->hint, hint); /* a narrow window has no room for all of it */
+}
+
+/* Actions. */
+
+static void set_enabled(SporeWindow *self, const char *action, gboolean enabled) {
+  g_simple_action_set_enabled(G_SIMPLE_ACTION(g_action_map_lookup_action(G_ACTION_MAP(self), action)), enabled);
+}
+
+static void update_generator(SporeWindow *self, gboolean bodies) {
+  gboolean idle = !self->job && !spore_generator_is_working(self->generator);
+  for (SporeGenerateKind kind = 0; spore_generators[kind]; kind++) {
+    g_autofree char *generate = g_strconcat("generate-", spore_generators[kind]->name, NULL);
+    g_autofree char *preview = g_strconcat("preview-", spore_generators[kind]->name, NULL);
+    if (kind != SPORE_GENERATE_LABELS) set_enabled(self, generate, idle && bodies);
+    set_enabled(self, preview, !self->job && (bodies || kind == SPORE_GENERATE_LABELS));
+  }
+  set_enabled(self, "preview-labels-dialog", !self->job);
+  set_enabled(self, "pick-ends", spore_window_picks_ends(self));
+  set_enabled(self, "automatic-ends", spore_window_picks_ends(self));
+  set_enabled(self, "apply-generated", spore_generator_get_result(self->generator) != NULL);
+  set_enabled(self, "cancel-job", self->job || spore_generator_is_active(self->generator));
+}
+
+void spore_window_update_actions(SporeWindow *self) {
+  SporeDocument *document = spore_editor_document_get(self->document);
+  SporeObject *selected = spore_editor_document_selected(self->document);
+  gboolean named = selected && spore_object_name(selected),
+           idle = !self->job && !spore_generator_is_working(self->generator);
+  gboolean session = spore_player_get_session(self->player) != NULL;
+  gboolean playing = spore_player_is_playing(self->player);
+  gboolean bodies = spore_object_child_count(spore_document_section(document, "bodies")) > 0;
+  set_enabled(self, "undo", spore_document_can_undo(document));
+  set_enabled(self, "redo", spore_document_can_redo(document));
+  set_enabled(self, "save",
+              spore_editor_document_is_modified(self->document) ||
+                  !spore_editor_document_get_save_file(self->document));
+  set_enabled(self, "delete", named);
+  set_enabled(self, "rename", named);
+  set_enabled(self, "rename-dialog", named);
+  update_generator(self, bodies);
+  set_enabled(self, "add-pin", bodies);
+  set_enabled(self, "import", idle);
+  set_enabled(self, "import-dialog", idle);
+  set_enabled(self, "import-dialog-with", idle);
+  set_enabled(self, "change-mesh", idle && bodies);
+  set_enabled(self, "change-mesh-dialog", idle && bodies);
+  set_enabled(self, "measure-mapping", idle && bodies);
+  set_enabled(self, "play", bodies && !playing);
+  set_enabled(self, "pause", playing);
+  set_enabled(self, "play-pause", bodies);
+  set_enabled(self, "step", bodies && !playing);
+  set_enabled(self, "reset", session);
+  set_enabled(self, "save-recording", session);
+  set_enabled(self, "save-recording-dialog", session);
+}

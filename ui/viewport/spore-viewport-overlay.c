@@ -1,0 +1,167 @@
+/* What is drawn and written over the picture: forces, the legend of colours, and figures of the simulation. */
+#include <glib/gi18n.h>
+
+#include "ui/document/labels.h"
+#include "ui/render/colour_scale.h"
+#include "ui/viewport/spore-viewport-private.h"
+
+#define MOST_LEVELS 4 /* bodies in the corner */
+#define LEGEND_WIDTH 200
+#define LEGEND_MARGIN 22
+#define LEGEND_HEIGHT 48
+#define ARROW_PIXELS_A_NEWTON 40.0
+#define ARROW_LONGEST_PIXELS 160.0
+
+static gboolean probe_force(SporeViewport *self, SporeVec3 *tip, SporeVec3 *force) {
+  guint32 body;
+  if (!spore_viewport_probe(self, &body, tip)) return FALSE;
+  *force = spore_vec3_load(spore_session_snapshot(spore_player_get_session(self->player))->reaction + 6 * body);
+  return TRUE;
+}
+
+static void draw_arrow(cairo_t *cr, double x, double y, double dx, double dy) {
+  double length = hypot(dx, dy);
+  if (length < 3) return;
+  double ux = dx / length, uy = dy / length;
+  cairo_move_to(cr, x, y);
+  cairo_line_to(cr, x + dx, y + dy);
+  cairo_stroke(cr);
+  cairo_move_to(cr, x + dx + 7 * ux, y + dy + 7 * uy);
+  cairo_line_to(cr, x + dx - 5 * uy, y + dy + 5 * ux);
+  cairo_line_to(cr, x + dx + 5 * uy, y + dy - 5 * ux);
+  cairo_fill(cr);
+}
+
+/* Reaction force at the probe's tip, along its direction on the screen. */
+static void draw_force(SporeViewport *self, cairo_t *cr, int width, int height) {
+  SporeVec3 tip, force, eye, right, up, forward;
+  double x, y;
+  if (!probe_force(self, &tip, &force) || !spore_camera_project(&self->camera, tip, width, height, &x, &y)) return;
+  spore_camera_eye(&self->camera, &eye, &right, &up, &forward);
+  double newtons = spore_vec3_length(force);
+  double scale = ARROW_PIXELS_A_NEWTON * fmin(1, ARROW_LONGEST_PIXELS / fmax(newtons * ARROW_PIXELS_A_NEWTON, 1e-9));
+  cairo_set_source_rgb(cr, 1, 0.78, 0.25);
+  cairo_set_line_width(cr, 3);
+  draw_arrow(cr, x, y, spore_vec3_dot(force, right) * scale, -spore_vec3_dot(force, up) * scale);
+}
+
+static void draw_pull(SporeViewport *self, cairo_t *cr, int width, int height) {
+  double x0, y0, x1, y1;
+  if (self->drag != DRAG_PULL || !spore_camera_project(&self->camera, self->start, width, height, &x0, &y0) ||
+      !spore_camera_project(&self->camera, self->cursor, width, height, &x1, &y1))
+    return;
+  cairo_set_source_rgb(cr, 0.45, 0.8, 1);
+  cairo_set_line_width(cr, 2);
+  draw_arrow(cr, x0, y0, x1 - x0, y1 - y0);
+}
+
+/* A bar of the scale's colours with its ends, at the lower right. */
+static void draw_legend(SporeViewport *self, cairo_t *cr, int width, int height, const char *label, const char *high) {
+  const double bar = LEGEND_WIDTH, left = width - bar - LEGEND_MARGIN, top = height - LEGEND_HEIGHT;
+  if (width < bar + 2 * LEGEND_MARGIN) return;
+  cairo_set_source_rgba(cr, 0.04, 0.05, 0.055, 0.62);
+  cairo_rectangle(cr, left - 10, top - 26, bar + 20, LEGEND_HEIGHT + 14);
+  cairo_fill(cr);
+  for (int i = 0; i < bar; i++) {
+    double colour[3];
+    spore_colour_scale(i / bar, colour);
+    cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+    cairo_rectangle(cr, left + i, top, 1, 10);
+    cairo_fill(cr);
+  }
+  const struct {
+    const char *text;
+    double y, align;
+  } lines[] = {{label, top - 21, 0}, {"0", top + 13, 0}, {high, top + 13, 1}};
+  cairo_set_source_rgb(cr, 0.91, 0.92, 0.93);
+  for (gsize i = 0; i < G_N_ELEMENTS(lines); i++) {
+    int wide;
+    g_autoptr(PangoLayout) layout = gtk_widget_create_pango_layout(self->area, lines[i].text);
+    pango_layout_get_pixel_size(layout, &wide, NULL);
+    cairo_move_to(cr, left + lines[i].align * (bar - wide), lines[i].y);
+    pango_cairo_show_layout(cr, layout);
+  }
+}
+
+/* Draws the legend of the candidate's colours, else of the colours of the bodies' spheres. */
+static void draw_legends(SporeViewport *self, cairo_t *cr, int width, int height) {
+  SporeSphereScale scale = self->stage ? spore_stage_sphere_scale(self->stage) : (SporeSphereScale){0};
+  if (self->legend) {
+    draw_legend(self, cr, width, height, self->legend, self->legend_high);
+  } else if (scale.share > 0) {
+    g_autofree char *high = scale.high > 0 ? g_strdup_printf("%.3g mm", 1e3 * scale.high)
+                                           : g_strdup_printf(_("%g %% of the diagonal"), 100 * scale.share);
+    draw_legend(self, cr, width, height, _("Depth error"), high);
+  }
+}
+
+void spore_viewport_overlay_draw(SporeViewport *self, cairo_t *cr, int width, int height) {
+  draw_force(self, cr, width, height);
+  draw_pull(self, cr, width, height);
+  draw_legends(self, cr, width, height);
+}
+
+/* Figures in the corner. */
+
+/* Counts of cuts, punctures and stitches. */
+static void append_tools(GString *text, const SporeSnapshot *snapshot) {
+  const SporeToolCounts *tools = &snapshot->tools;
+  if (tools->cut > 0) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Cut %zu"), tools->cut);
+  }
+  if (tools->pierced > 0) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Pierced %zu, stitches %zu"), tools->pierced, tools->stitches);
+  }
+}
+
+/* A line for each body that has several levels. */
+static void append_levels(GString *text, const SporeWorld *world, const SporeSnapshot *snapshot) {
+  guint32 count = snapshot->level ? (guint32)spore_world_body_count(world) : 0;
+  for (guint32 body = 0, shown = 0; body < count && shown < MOST_LEVELS; body++) {
+    SporeLevelState state;
+    if (!spore_world_level_state(world, body, &state)) continue;
+    g_autofree char *level = spore_label_of_name(spore_level_names[snapshot->level[body]]);
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("%s: %s"), spore_world_body_name(world, body), _(level));
+    shown++;
+  }
+}
+
+void spore_viewport_overlay_update(SporeViewport *self) {
+  SporeSession *session = self->player ? spore_player_get_session(self->player) : NULL;
+  gtk_widget_set_visible(self->hud, session != NULL);
+  if (!session) return;
+  const SporeSnapshot *snapshot = spore_session_snapshot(session);
+  GString *text = g_string_new(NULL);
+  g_string_append_printf(text, _("Time %.3f s"), snapshot->time_s);
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Step %.2f ms"), snapshot->step_us / 1000);
+  double factor = spore_session_real_time_factor(session);
+  if (factor > 0) {
+    g_string_append(text, "  ·  ");
+    g_string_append_printf(text, _("%.2f × real time"), factor);
+  }
+  guint64 late, steps;
+  spore_session_late_steps(session, &late, &steps);
+  if (late > 0) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Late steps %.1f %%"), 100 * (double)late / (double)steps);
+  }
+  g_string_append_c(text, '\n');
+  g_string_append_printf(text, _("Contacts %zu"), snapshot->contact_count);
+  if (snapshot->counts.sleeping > 0) {
+    g_string_append(text, "  ·  ");
+    g_string_append_printf(text, _("Asleep %zu"), snapshot->counts.sleeping);
+  }
+  append_tools(text, snapshot);
+  append_levels(text, spore_session_simulation(session)->world, snapshot);
+  SporeVec3 tip, force;
+  if (probe_force(self, &tip, &force)) {
+    g_string_append_c(text, '\n');
+    g_string_append_printf(text, _("Probe force %.3f N"), spore_vec3_length(force));
+  }
+  gtk_label_set_text(GTK_LABEL(self->hud), text->str);
+  g_string_free(text, TRUE);
+}

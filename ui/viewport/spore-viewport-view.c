@@ -1,0 +1,93 @@
+/* What the viewport looks at: the camera, the candidate, and the welcome of an empty scene. */
+#include "ui/viewport/spore-viewport-private.h"
+
+void spore_viewport_redraw(SporeViewport *self) {
+  self->stale = TRUE;
+  gtk_widget_queue_draw(self->area);
+}
+
+gboolean spore_viewport_has_anything(SporeViewport *self) {
+  if (self->candidate && !self->candidate->body) return TRUE;
+  return self->document &&
+         spore_object_child_count(spore_document_section(spore_editor_document_get(self->document), "bodies")) > 0;
+}
+
+void spore_viewport_show_welcome(SporeViewport *self) {
+  gtk_widget_set_visible(self->welcome, !self->waiting && !spore_viewport_has_anything(self) &&
+                                            !gtk_widget_get_visible(self->failure));
+}
+
+/* The camera. */
+
+static double aspect_of(SporeViewport *self) {
+  return (double)gtk_widget_get_allocated_width(self->area) / MAX(gtk_widget_get_allocated_height(self->area), 1);
+}
+
+void spore_viewport_follow_camera(SporeViewport *self) {
+  self->through = self->through && self->stage && spore_stage_has_camera(self->stage);
+  if (self->through) spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
+}
+
+/* Looks through the scene's camera, where there is one. */
+static void look_through_camera(SporeViewport *self) {
+  if (!self->stage || !spore_viewport_has_anything(self)) return;
+  spore_stage_camera(self->stage, NULL, aspect_of(self), &self->camera, NULL);
+  self->framed = TRUE;
+  self->through = spore_stage_has_camera(self->stage);
+}
+
+void spore_viewport_look_afresh(SporeViewport *self) {
+  if (!spore_viewport_has_anything(self)) self->framed = FALSE;
+  else if (!self->framed) look_through_camera(self);
+}
+
+void spore_viewport_leave_scene_camera(SporeViewport *self) {
+  self->through = FALSE;
+  self->camera.roll = 0;
+}
+
+void spore_viewport_frame(SporeViewport *self) {
+  if (!self->stage || !spore_viewport_has_anything(self)) return;
+  double lower[3], upper[3];
+  spore_stage_bounds(self->stage, lower, upper);
+  if (!(lower[0] <= upper[0])) return;
+  spore_viewport_leave_scene_camera(self);
+  spore_camera_frame(&self->camera, lower, upper, aspect_of(self));
+  self->framed = TRUE;
+  spore_viewport_redraw(self);
+}
+
+void spore_viewport_view(SporeViewport *self, const char *view) {
+  if (g_str_equal(view, "camera")) {
+    look_through_camera(self);
+    spore_viewport_redraw(self);
+    return;
+  }
+  gboolean right = g_str_equal(view, "right"), top = g_str_equal(view, "top");
+  spore_viewport_leave_scene_camera(self);
+  self->camera.azimuth = right ? G_PI_2 : 0;
+  self->camera.elevation = top ? G_PI_2 * 0.99 : 0;
+  spore_viewport_redraw(self);
+}
+
+/* The candidate. */
+
+void spore_viewport_clear_legend(SporeViewport *self) {
+  g_clear_pointer(&self->legend, g_free);
+  g_clear_pointer(&self->legend_high, g_free);
+}
+
+void spore_viewport_set_candidate(SporeViewport *self, SporeStageCandidate *candidate, const SporeQuality *legend) {
+  if (!candidate && !self->candidate) return;
+  if (self->stage) spore_stage_set_candidate(self->stage, candidate);
+  spore_stage_candidate_free(self->candidate);
+  self->candidate = candidate;
+  if (!spore_viewport_has_anything(self)) self->framed = FALSE;
+  spore_viewport_show_welcome(self);
+  spore_viewport_clear_legend(self);
+  if (candidate && legend->count && !legend->names) {
+    self->legend = g_strdup(legend->label);
+    self->legend_high = spore_quality_figure(legend, legend->high);
+  }
+  spore_viewport_redraw(self);
+}
