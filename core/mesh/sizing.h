@@ -1,6 +1,6 @@
 /* How long the edges of a mesh shall be, from place to place: values at the nodes of a regular grid. libc alone. */
-#ifndef SPORE_GENERATE_COMMON_SIZING_H
-#define SPORE_GENERATE_COMMON_SIZING_H
+#ifndef SPORE_MESH_SIZING_H
+#define SPORE_MESH_SIZING_H
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* What SPORE and its tetrahedra helper say to each other. Native byte order; lengths in diagonals of the surface. */
-#ifndef SPORE_GENERATE_TETRAHEDRA_WIRE_H
-#define SPORE_GENERATE_TETRAHEDRA_WIRE_H
+#ifndef SPORE_IO_TETRAHEDRA_WIRE_H
+#define SPORE_IO_TETRAHEDRA_WIRE_H
 
 #include <stdint.h>
 
