@@ -1,3 +1,5 @@
+/* Several files written together: each to a temporary file first, then all renamed, and all taken back where one fails.
+ */
 #include "core/io/file_batch.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Decoding of label maps in the volume helper, and what is asked of a decoded map. */
 #include "core/io/label_map.h"
 
 #include <glib/gi18n.h>

@@ -1,3 +1,4 @@
+/* Recognises the format of a mesh file by its content, and refuses files that were cut short. */
 #include "core/io/mesh_format.h"
 
 #include <glib/gi18n.h>

@@ -1,3 +1,5 @@
+/* Import of mesh files: decoded in the import helper (OFF here), then checked, welded, turned outward and brought to
+ * metres. */
 #include "core/io/mesh_import.h"
 
 #include <glib/gi18n.h>

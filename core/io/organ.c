@@ -1,3 +1,4 @@
+/* Inserts an imported mesh into a document, as an asset and a body that shows the asset. */
 #include "core/io/organ.h"
 
 #include <string.h>

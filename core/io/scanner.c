@@ -1,3 +1,4 @@
+/* Words and numbers of a text file, read one after the other, with their line and column for messages. */
 #include "core/io/scanner.h"
 
 #include <glib/gi18n.h>

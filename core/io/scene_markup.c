@@ -1,3 +1,4 @@
+/* Finds the tags and comments in the text of a scene, with the line and column of each. */
 #include "core/io/scene_markup.h"
 
 #include <glib/gi18n.h>

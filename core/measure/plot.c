@@ -1,3 +1,4 @@
+/* Draws panels of lines through measured points as an SVG document. */
 #include "core/measure/plot.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Opens files by relative names, and refuses every name that leads out of the folder. */
 #include "core/scene/beneath.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Checks of assets: whether each can be read, is used, has a likely size and is up to date. */
 #include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>

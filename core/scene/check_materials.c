@@ -1,3 +1,4 @@
+/* Checks of materials: parameters that lie far from the values of the material that the author named. */
 #include <glib/gi18n.h>
 
 #include "core/scene/check_private.h"

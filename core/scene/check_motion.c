@@ -1,3 +1,4 @@
+/* Checks of the start: overlaps of bodies, bodies that would fall, and what the compiled simulation reports. */
 #include <glib/gi18n.h>
 #include <math.h>
 #include <stdlib.h>

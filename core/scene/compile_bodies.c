@@ -1,3 +1,4 @@
+/* Describes the bodies of a document to a world: geometry, model, regions, levels of detail and collision spheres. */
 #include "core/scene/compile_private.h"
 
 #include <glib/gi18n.h>

@@ -1,3 +1,4 @@
+/* Merges the recorded tracks of a scene, and opens the devices that play them to the bodies. */
 #include "core/scene/compile_private.h"
 
 #include <glib/gi18n.h>

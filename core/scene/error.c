@@ -1,3 +1,4 @@
+/* Makes GErrors of the kernel's errors, and exit statuses of GErrors. */
 #include "core/scene/error.h"
 
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* Tells whether generated data still agree with their source and their options. */
 #include "core/scene/generated.h"
 
 #include <glib/gi18n.h>

@@ -1,3 +1,4 @@
+/* Parameter tables of bodies and of their units: mechanical, regions, collision, visual and fidelity. */
 #include "core/scene/schema_tables.h"
 #include "core/body/tissue.h"
 

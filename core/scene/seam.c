@@ -1,3 +1,4 @@
+/* Finds the nodes at which a seam joins two bodies. */
 #include "core/scene/seam.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Builds worlds for the tests of stability: models, bodies, spheres, pins and links. */
 #include "tests/stability/rig.h"
 
 #include <math.h>
