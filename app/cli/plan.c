@@ -3,7 +3,7 @@
 #include <link.h>
 
 #include "app/cli/cli.h"
-#include "app/cli/plan_carried.h"
+#include "app/cli/plan_mapping.h"
 #include "app/cli/plan_levels.h"
 #include "app/cli/plan_lines.h"
 #include "app/cli/scene.h"
@@ -157,7 +157,7 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   for (int i = 0; measure && i < MEASURED_STEPS && !spore_cli_interrupted(); i++)
     spore_world_step(run->simulation->world);
   report(cli, run->simulation->world, measure);
-  spore_plan_report_carried(cli, run);
+  spore_plan_report_mapping(cli, run);
   spore_plan_report_lines(cli, run->simulation->world, measure);
   if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);
   return spore_cli_finish(cli, spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : SPORE_EXIT_DONE);

@@ -6,7 +6,7 @@
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/mesh/attach.h"
-#include "core/scene/carried.h"
+#include "core/scene/mapping_quality.h"
 #include "core/scene/compile.h"
 
 const char *const spore_centreline_body_names[] = {"thread", "tube", "intestine", NULL};
@@ -63,7 +63,7 @@ bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *
   double torn = 1;
   bool known = divide(curve, &fine) && spore_curve_attach(&fine, mesh, place, &torn);
   spore_curve_clear(&fine);
-  return known && torn <= SPORE_CARRIED_TORN;
+  return known && torn <= SPORE_MAPPING_QUALITY_TORN;
 }
 
 static gboolean set_number(SporeDocument *document, SporeObject *object, const char *property, double value,

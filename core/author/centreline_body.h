@@ -22,8 +22,8 @@ typedef struct SporeCentrelineBodyOptions {
 /* Control points for a line: one each two radii, and as many as bends need. */
 size_t spore_centreline_control_points(const SporeCurve *curve);
 
-/* Whether a body along the line carries the surface: no more of its edges than SPORE_CARRIED_TORN lead from one loop to
- * another. */
+/* Whether a body along the line can carry the surface: at most the share SPORE_MAPPING_QUALITY_TORN of its edges leads
+ * from one loop of the line to another. */
 bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *mesh);
 
 /* Makes a body that is there one along the curve asset `line`: its model, collision unit and holds take the place of

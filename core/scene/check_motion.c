@@ -230,7 +230,7 @@ void spore_check_motion(SporeCheck *check) {
   SporeSimulation *simulation = check->faults == 0 ? check_compiled(check) : NULL;
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     place_body(&start, spore_object_child(bodies, i), simulation);
-  if (simulation) spore_check_carried(check, simulation);
+  if (simulation) spore_check_mapping(check, simulation);
   if (simulation) check_piles(check, simulation);
   if (simulation) check_doubts(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);

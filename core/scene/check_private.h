@@ -37,7 +37,7 @@ void spore_check_solver(SporeCheck *check); /* choices that nothing makes use of
 /* Links whose points lie far from what they tie. */
 void spore_check_link_points(SporeCheck *check, const SporeSimulation *simulation);
 /* Vertices and spheres that lie off what carries them. */
-void spore_check_carried(SporeCheck *check, const SporeSimulation *simulation);
+void spore_check_mapping(SporeCheck *check, const SporeSimulation *simulation);
 void spore_check_motion(SporeCheck *check); /* overlaps and loose bodies; compiles the scene */
 
 #endif
