@@ -14,7 +14,7 @@ static gboolean is_solid(SporeCompiler *compiler, const SporeObject *mechanical,
          spore_compiler_refuse(compiler, mechanical, "\"%s\": %s", spore_object_name(asset), fault.message);
 }
 
-/* The kind of asset that each kind of geometry asks for, and how messages tell of it. */
+/* The kind of asset that each kind of geometry needs, and the words for it in messages. */
 typedef struct GeometryWords {
   const char *element, *missing, *wrong;
 } GeometryWords;
@@ -43,8 +43,8 @@ static gboolean refuse_geometry(SporeCompiler *compiler, const SporeObject *mech
 }
 #pragma GCC diagnostic pop
 
-/* What the model is to be built from, as `mechanical`, or a level of it, says. Fails with a message when the asset is
- * missing or of the wrong kind. */
+/* Finds the geometry of a model, named by the mechanical unit or by one of its levels of detail. FALSE with a message
+ * when the asset is missing or of the wrong kind. */
 static gboolean find_geometry(SporeCompiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
                               SporeGeometry *geometry) {
   SporeObject *asset;
@@ -75,7 +75,7 @@ static SporeObject *model_object(const SporeObject *body) {
 
 /* Regions. */
 
-/* By how much the region's tissue differs from what the model has of a parameter. */
+/* Multiplies *scale by the ratio of the tissue's value to the model's own value of a parameter. */
 static gboolean scale_by_tissue(SporeCompiler *compiler, const SporeObject *region, const SporeObject *model,
                                 const SporeTissue *tissue, const char *name, double *scale) {
   const SporeTissueQuantity *quantity = spore_tissue_find(tissue, name);
@@ -102,7 +102,7 @@ static gboolean describe_region(SporeCompiler *compiler, const SporeObject *obje
                      scale_by_tissue(compiler, object, model, tissue, "density", &region->density));
 }
 
-/* *regions: what `model` is to be given; free its regions. */
+/* Describes the regions of a body for `model`. The caller frees regions->regions. */
 static gboolean find_regions(SporeCompiler *compiler, const SporeObject *body, const SporeObject *model,
                              SporeRegions *regions) {
   const SporeObject *unit = spore_object_child_of(body, "regions");
@@ -120,7 +120,7 @@ static gboolean find_regions(SporeCompiler *compiler, const SporeObject *body, c
   return TRUE;
 }
 
-/* A region that the finest model has nothing in is a mistake. */
+/* Refuses a region in which the finest model has no node: that is a mistake of the author. */
 static gboolean check_regions(SporeCompiler *compiler, const SporeObject *body, const SporeRegions *regions) {
   for (guint i = 0; i < regions->count; i++) {
     const SporeObject *region = spore_object_child(spore_object_child_of(body, "regions"), i);
@@ -165,7 +165,7 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
   return spore_compiler_refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
 }
 
-/* One level: the body's model with what differs. */
+/* Makes one level of detail: the body's model with the settings that differ. */
 static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, SporeObject *level, SporeModel **made) {
   const SporeModelType *type = spore_object_type(model)->model;
   SporeRegions regions = {0};
@@ -186,7 +186,7 @@ static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, Sp
          spore_compiler_refuse(compiler, level, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
 }
 
-/* Points of the body that are seen. */
+/* Finds the drawn vertices of the body. */
 static gboolean find_surface(SporeCompiler *compiler, const SporeObject *body, SporeLevelsDescription *levels) {
   const SporeObject *visual = spore_object_child_of(body, "visual");
   SporeObject *asset = NULL;

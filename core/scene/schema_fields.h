@@ -104,7 +104,7 @@ typedef struct SporeTrackFields {
   const char *name, *file;
 } SporeTrackFields;
 
-/* One element of the scene's own, before it is joined with the models. */
+/* One element of the scene's own, as the tables declare it. */
 struct SporeElement {
   const char *element, *label, *doc;
   const SporeParameter *parameters;
