@@ -1,6 +1,6 @@
 /* Pacing: keeps simulated time in step with the clock by absolute deadlines, and measures how well that works.
  *
- *  A step is due to begin when the clock reaches the simulated time of its beginning. It is due to have ended when the
+ * A step is due to begin when the clock reaches the simulated time of its beginning. It is due to have ended when the
  * clock reaches the simulated time of its end. */
 #ifndef SPORE_MEASURE_PACE_H
 #define SPORE_MEASURE_PACE_H

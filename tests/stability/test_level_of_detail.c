@@ -1,4 +1,4 @@
-/* Levels of a body: what a change keeps, how far it moves anything, and what it refuses. */
+/* Level of detail: what a change of level preserves, how far it moves a body, and which changes are refused. */
 #include <math.h>
 #include <string.h>
 
@@ -333,16 +333,16 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(specimens); i++) {
     const Specimen *specimen = &specimens[i];
-    g_autofree char *moving = g_strdup_printf("/resolution/moving/%s", specimen->name);
-    g_autofree char *round = g_strdup_printf("/resolution/round-trip/%s", specimen->name);
-    g_autofree char *rest = g_strdup_printf("/resolution/rest/%s", specimen->name);
+    g_autofree char *moving = g_strdup_printf("/level_of_detail/moving/%s", specimen->name);
+    g_autofree char *round = g_strdup_printf("/level_of_detail/round-trip/%s", specimen->name);
+    g_autofree char *rest = g_strdup_printf("/level_of_detail/rest/%s", specimen->name);
     g_test_add_data_func(moving, specimen, test_moving);
     g_test_add_data_func(round, specimen, test_round_trip);
     g_test_add_data_func(rest, specimen, test_rest);
   }
-  g_test_add_func("/resolution/held", test_held);
-  g_test_add_func("/resolution/deterministic", test_deterministic);
-  g_test_add_func("/resolution/refused", test_refused);
-  g_test_add_func("/resolution/no-level", test_no_level);
+  g_test_add_func("/level_of_detail/held", test_held);
+  g_test_add_func("/level_of_detail/deterministic", test_deterministic);
+  g_test_add_func("/level_of_detail/refused", test_refused);
+  g_test_add_func("/level_of_detail/no-level", test_no_level);
   return g_test_run();
 }
