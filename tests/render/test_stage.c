@@ -21,7 +21,8 @@ typedef struct Setting {
 
 static Setting setting_open(const char *scene) {
   GError *error = NULL;
-  Setting setting = {.bench = bench_open(), .schema = spore_schema_new(spore_model_registry, spore_generator_elements())};
+  Setting setting = {.bench = bench_open(),
+                     .schema = spore_schema_new(spore_model_registry, spore_generator_elements())};
   setting.document = spore_scene_load(setting.schema, scene, &error);
   g_assert_no_error(error);
   setting.stage = spore_stage_new(setting.bench.renderer, setting.document);
