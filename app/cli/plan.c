@@ -155,7 +155,7 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   for (int i = 0; measure && i < MEASURED_STEPS && !spore_cli_interrupted(); i++)
     spore_world_step(run->simulation->world);
   report(cli, run->simulation->world, measure);
-  spore_plan_report_carried(cli, run);
+  spore_plan_report_mapping(cli, run);
   spore_plan_report_lines(cli, run->simulation->world, measure);
   if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);
   return spore_cli_finish(cli, spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : SPORE_EXIT_DONE);

@@ -5,7 +5,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-#include "core/scene/carried.h"
+#include "core/scene/mapping_quality.h"
 
 /* Points that follow a body. */
 
@@ -15,53 +15,54 @@ static const char *figure(double value, char room[16]) {
   return room;
 }
 
-static void say_unit(const SporeCli *cli, const char *body, int width, const char *unit, const SporeCarried *carried) {
+static void say_unit(const SporeCli *cli, const char *body, int width, const char *unit,
+                     const SporeMappingQuality *quality) {
   char rest[16], rigid[16], affine[16], bend[16];
-  spore_cli_say(cli, "%-*s %-9s %7zu %7.1f %12.3g %9.3g %9s %9s %9s %9s\n", width, body, unit, carried->count,
-                100 * (double)carried->off / (double)carried->count, carried->farthest, carried->error.leverage,
-                figure(carried->error.rest, rest), figure(carried->error.rigid, rigid),
-                figure(carried->error.affine, affine), figure(carried->error.bend, bend));
+  spore_cli_say(cli, "%-*s %-9s %7zu %7.1f %12.3g %9.3g %9s %9s %9s %9s\n", width, body, unit, quality->count,
+                100 * (double)quality->off / (double)quality->count, quality->farthest, quality->error.leverage,
+                figure(quality->error.rest, rest), figure(quality->error.rigid, rigid),
+                figure(quality->error.affine, affine), figure(quality->error.bend, bend));
 }
 
 static void report_unit(SporeCli *cli, const SporeObject *body, int width, const char *unit,
-                        const SporeCarried *carried) {
+                        const SporeMappingQuality *quality) {
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "name", spore_object_name(body));
   spore_cli_text(cli, "unit", unit);
-  spore_cli_count(cli, "points", (gint64)carried->count);
-  spore_cli_number(cli, "off_share", (double)carried->off / (double)carried->count);
-  spore_cli_number(cli, "farthest_m", carried->farthest);
-  spore_cli_number(cli, "leverage", carried->error.leverage);
-  spore_cli_number(cli, "rest_error_m", carried->error.rest);
-  spore_cli_number(cli, "rigid_error_m", carried->error.rigid);
-  spore_cli_number(cli, "affine_error_m", carried->error.affine);
-  spore_cli_number(cli, "bend_error_m", carried->error.bend);
-  if (carried->framed) {
-    spore_cli_number(cli, "crowd", carried->error.crowd);
-    spore_cli_number(cli, "crowd_share", carried->error.crowd_share);
-    spore_cli_number(cli, "torn_share", carried->error.torn);
+  spore_cli_count(cli, "points", (gint64)quality->count);
+  spore_cli_number(cli, "off_share", (double)quality->off / (double)quality->count);
+  spore_cli_number(cli, "farthest_m", quality->farthest);
+  spore_cli_number(cli, "leverage", quality->error.leverage);
+  spore_cli_number(cli, "rest_error_m", quality->error.rest);
+  spore_cli_number(cli, "rigid_error_m", quality->error.rigid);
+  spore_cli_number(cli, "affine_error_m", quality->error.affine);
+  spore_cli_number(cli, "bend_error_m", quality->error.bend);
+  if (quality->framed) {
+    spore_cli_number(cli, "crowd", quality->error.crowd);
+    spore_cli_number(cli, "crowd_share", quality->error.crowd_share);
+    spore_cli_number(cli, "torn_share", quality->error.torn);
   }
   spore_cli_close(cli);
-  say_unit(cli, spore_object_name(body), width, unit, carried);
+  say_unit(cli, spore_object_name(body), width, unit, quality);
 }
 
-void spore_plan_report_carried(SporeCli *cli, const SporeRun *run) {
+void spore_plan_report_mapping(SporeCli *cli, const SporeRun *run) {
   const SporeObject *bodies = spore_document_section(run->document, "bodies");
   gboolean titled = FALSE;
   int width = spore_cli_body_width(run->simulation->world);
   spore_cli_open_array(cli, "mappings");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
     SporeObject *body = spore_object_child(bodies, i);
-    for (int unit = 0; unit < SPORE_CARRIED_COUNT; unit++) {
-      SporeCarried carried;
-      if (!spore_carried_measure(run->simulation, run->document, body, (SporeCarriedUnit)unit, &carried, NULL))
+    for (int unit = 0; unit < SPORE_MAPPED_UNITS; unit++) {
+      SporeMappingQuality quality;
+      if (!spore_mapping_quality_measure(run->simulation, run->document, body, (SporeMappedUnit)unit, &quality, NULL))
         continue;
       if (!titled)
         spore_cli_say(cli, "%-*s %-9s %7s %7s %12s %9s %9s %9s %9s %9s\n", width, _("body"), _("unit"), _("points"),
                       _("off, %"), _("farthest, m"), _("leverage"), _("rest, m"), _("rigid, m"), _("affine, m"),
                       _("bend, m"));
       titled = TRUE;
-      report_unit(cli, body, width, spore_carried_units[unit], &carried);
+      report_unit(cli, body, width, spore_mapped_unit_names[unit], &quality);
     }
   }
   spore_cli_close_array(cli);
@@ -70,23 +71,23 @@ void spore_plan_report_carried(SporeCli *cli, const SporeRun *run) {
 /* Levels. */
 
 /* Median time of a step with the body at the level from time 0 on, us. */
-static gboolean measure(SporeRun *run, guint32 body, SporeLevelGrade level, int steps, double *median_us,
+static gboolean measure(SporeRun *run, guint32 body, SporeLodGrade level, int steps, double *median_us,
                         GError **error) {
   SporeSimulation *copy =
       spore_simulation_new(run->document, run->pool, run->input.channel_count ? &run->input : NULL, error);
   if (!copy) return FALSE;
-  spore_world_set_level(copy->world, body, level);
+  spore_world_set_lod(copy->world, body, level);
   for (int i = 0; i < steps && !spore_cli_interrupted(); i++) spore_world_step(copy->world);
   *median_us = spore_profile_summary(spore_world_profile(copy->world)).median_us;
   spore_simulation_free(copy);
   return TRUE;
 }
 
-static void report_level(SporeCli *cli, const SporeWorld *world, guint32 body, SporeLevelGrade level, gboolean active,
+static void report_level(SporeCli *cli, const SporeWorld *world, guint32 body, SporeLodGrade level, gboolean active,
                          double median_us) {
-  const SporeModel *model = spore_world_level_model(world, body, level);
+  const SporeModel *model = spore_world_lod_model(world, body, level);
   spore_cli_open(cli, NULL);
-  spore_cli_text(cli, "level", spore_level_names[level]);
+  spore_cli_text(cli, "level", spore_lod_names[level]);
   json_builder_set_member_name(cli->report, "active");
   json_builder_add_boolean_value(cli->report, active);
   spore_cli_count(cli, "dof", (gint64)(3 * model->block_count));
@@ -95,24 +96,24 @@ static void report_level(SporeCli *cli, const SporeWorld *world, guint32 body, S
   spore_cli_close(cli);
   g_autofree char *time = median_us >= 0 ? g_strdup_printf("%.2f us", median_us) : g_strdup("-");
   spore_cli_say(cli, "%-*s %c %-7s %7zu %7zu %12s\n", spore_cli_body_width(world), spore_world_body_name(world, body),
-                active ? '*' : ' ', spore_level_names[level], 3 * model->block_count,
+                active ? '*' : ' ', spore_lod_names[level], 3 * model->block_count,
                 spore_world_body_sphere_count(world, body), time);
 }
 
 static gboolean report_body(SporeCli *cli, SporeRun *run, guint32 body, int steps, GError **error) {
   const SporeWorld *world = run->simulation->world;
-  SporeLevelState state;
+  SporeLodState state;
   gboolean done = TRUE;
-  spore_world_level_state(world, body, &state);
+  spore_world_lod_state(world, body, &state);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "name", spore_world_body_name(world, body));
-  spore_cli_count(cli, "memory_bytes", (gint64)spore_world_level_memory(world, body));
+  spore_cli_count(cli, "memory_bytes", (gint64)spore_world_lod_memory(world, body));
   spore_cli_open_array(cli, "levels");
-  for (int k = 0; done && k < SPORE_LEVEL_COUNT; k++) {
+  for (int k = 0; done && k < SPORE_LOD_COUNT; k++) {
     double median_us = -1;
-    if (!spore_world_level_model(world, body, (SporeLevelGrade)k)) continue;
-    done = steps == 0 || measure(run, body, (SporeLevelGrade)k, steps, &median_us, error);
-    if (done) report_level(cli, world, body, (SporeLevelGrade)k, (int)state.level == k, median_us);
+    if (!spore_world_lod_model(world, body, (SporeLodGrade)k)) continue;
+    done = steps == 0 || measure(run, body, (SporeLodGrade)k, steps, &median_us, error);
+    if (done) report_level(cli, world, body, (SporeLodGrade)k, (int)state.level == k, median_us);
   }
   spore_cli_close_array(cli);
   spore_cli_close(cli);
@@ -121,10 +122,10 @@ static gboolean report_body(SporeCli *cli, SporeRun *run, guint32 body, int step
 
 gboolean spore_plan_report_levels(SporeCli *cli, SporeRun *run, int steps, GError **error) {
   const SporeWorld *world = run->simulation->world;
-  SporeLevelState state;
+  SporeLodState state;
   gboolean any = FALSE, done = TRUE;
   for (guint32 body = 0; done && body < spore_world_body_count(world); body++) {
-    if (!spore_world_level_state(world, body, &state)) continue;
+    if (!spore_world_lod_state(world, body, &state)) continue;
     if (!any) {
       spore_cli_open_array(cli, "levels");
       spore_cli_say(cli, "%-*s   %-7s %7s %7s %12s  %s\n", spore_cli_body_width(world), _("body"), _("level"), _("dof"),

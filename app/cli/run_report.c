@@ -137,10 +137,10 @@ static void report_tools(SporeCli *cli, const SporeWorld *world) {
   spore_cli_close_array(cli);
 }
 
-static void report_level(SporeCli *cli, const char *body, const SporeLevelState *state) {
+static void report_level(SporeCli *cli, const char *body, const SporeLodState *state) {
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "name", body);
-  spore_cli_text(cli, "level", spore_level_names[state->level]);
+  spore_cli_text(cli, "level", spore_lod_names[state->level]);
   spore_cli_count(cli, "changes", (gint64)state->changes);
   spore_cli_count(cli, "refused", (gint64)state->refused);
   spore_cli_number(cli, "error_m", state->error);
@@ -148,16 +148,16 @@ static void report_level(SporeCli *cli, const char *body, const SporeLevelState 
   spore_cli_number(cli, "momentum_Ns", state->momentum);
   spore_cli_close(cli);
   spore_cli_say(cli, _("%s: level %s, %llu changes moved it by at most %.3g m, %llu refused\n"), body,
-                spore_level_names[state->level], (unsigned long long)state->changes, state->error,
+                spore_lod_names[state->level], (unsigned long long)state->changes, state->error,
                 (unsigned long long)state->refused);
 }
 
 /* Only where bodies have levels. */
 static void report_levels(SporeCli *cli, const SporeWorld *world) {
-  SporeLevelState state;
+  SporeLodState state;
   gboolean any = FALSE;
   for (guint body = 0; body < spore_world_body_count(world); body++) {
-    if (!spore_world_level_state(world, body, &state)) continue;
+    if (!spore_world_lod_state(world, body, &state)) continue;
     if (!any) spore_cli_open_array(cli, "levels");
     any = TRUE;
     report_level(cli, spore_world_body_name(world, body), &state);

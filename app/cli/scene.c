@@ -148,10 +148,10 @@ static gboolean parse_change(const SporeWorld *world, const char *setting, Spore
   if (change->body == SPORE_NO_BODY)
     return spore_error_raise(error, SPORE_ERROR_INPUT, "--level",
                              _("the scene has no body '%s'; expected the name of one that has levels"), sides[0]);
-  for (int k = 0; k < SPORE_LEVEL_COUNT; k++) {
-    if (strcmp(spore_level_names[k], words[0]) != 0) continue;
-    change->level = (SporeLevelGrade)k;
-    if (spore_world_level_model(world, change->body, change->level)) return TRUE;
+  for (int k = 0; k < SPORE_LOD_COUNT; k++) {
+    if (strcmp(spore_lod_names[k], words[0]) != 0) continue;
+    change->level = (SporeLodGrade)k;
+    if (spore_world_lod_model(world, change->body, change->level)) return TRUE;
   }
   return spore_error_raise(error, SPORE_ERROR_INPUT, "--level",
                            _("the body '%s' has no level '%s'; expected fine, or one of the levels in its fidelity"),
@@ -175,7 +175,7 @@ void spore_level_changes_post(GArray *changes, SporeWorld *world) {
   for (guint i = 0; i < changes->len; i++) {
     SporeLevelChange *change = &g_array_index(changes, SporeLevelChange, i);
     if (change->posted || change->time_s > spore_world_time_s(world)) continue;
-    const SporeCommand command = {.kind = SPORE_COMMAND_LEVEL, .body = change->body, .level = change->level};
+    const SporeCommand command = {.kind = SPORE_COMMAND_LOD, .body = change->body, .level = change->level};
     change->posted = spore_world_post(world, &command);
   }
 }

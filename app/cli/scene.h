@@ -61,7 +61,7 @@ int spore_cli_body_width(const SporeWorld *world);
 /* A change of level that the command line asks for. */
 typedef struct SporeLevelChange {
   guint32 body;
-  SporeLevelGrade level;
+  SporeLodGrade level;
   double time_s;
   gboolean posted;
 } SporeLevelChange;

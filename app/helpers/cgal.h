@@ -7,8 +7,8 @@
 #include <stdint.h>
 
 #include "app/helpers/failure.h"
-#include "core/generate/common/sizing.h"
-#include "core/generate/tetrahedra/wire.h"
+#include "core/mesh/sizing.h"
+#include "core/io/tetrahedra_wire.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "app/helpers/cgal.h"
-#include "core/generate/tetrahedra/wire.h"
+#include "core/io/tetrahedra_wire.h"
 #include "core/io/helper.h"
 
 #define N_(text) text

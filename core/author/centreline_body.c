@@ -6,20 +6,21 @@
 #include "core/io/mesh_import.h"
 #include "core/io/organ.h"
 #include "core/mesh/attach.h"
-#include "core/scene/carried.h"
+#include "core/scene/mapping_quality.h"
 #include "core/scene/compile.h"
 
 const char *const spore_centreline_body_names[] = {"thread", "tube", "intestine", NULL};
 
 #define LEAST_POINTS 8
 #define MOST_POINTS 400
-#define SPAN 2.0          /* mean radii from one control point to the next, about */
-#define WALL 0.25         /* of the mean radius */
-#define BOWEL_WALL 0.002  /* m; what the intestine has by default, where it is thick enough for that */
-#define TUBE_YOUNG 3e5    /* Pa: bowel along its axis (Terry et al. 2014), as the intestine */
-#define STEP 0.25         /* mean radii from one place to the next that vertices may go with */
-#define PIN 4.0           /* radii of an end: holds it from turning too */
-#define ROOT_PIN 0.5      /* mean radii: the root's place is reckoned from the line, not from the spline */
+#define SPAN 2.0         /* approximate distance between control points, in mean radii */
+#define WALL 0.25        /* of the mean radius */
+#define BOWEL_WALL 0.002 /* m; the intestine's default wall, where its radius allows that wall */
+#define TUBE_YOUNG 3e5   /* Pa: bowel along its axis (Terry et al. 2014), as the intestine */
+#define STEP 0.25        /* distance, in mean radii, of the places along the line that vertices may belong to */
+#define PIN 4.0          /* in radii of the end: a pin of this size also keeps the end from turning */
+#define ROOT_PIN                                                                                                       \
+  0.5 /* in mean radii: the root's place is computed from the line, and the spline differs a little from the line */
 #define WALL_DENSITY 1060 /* kg/m^3, both the intestine's by default */
 #define CONTENT_DENSITY 300
 
@@ -38,7 +39,7 @@ size_t spore_centreline_control_points(const SporeCurve *curve) {
   return (size_t)fmin(fmax(wanted, LEAST_POINTS), MOST_POINTS);
 }
 
-/* Points as dense as places are to be told apart. */
+/* Divides the curve so finely that places along it can be distinguished. */
 static bool divide(const SporeCurve *curve, SporeCurve *fine) {
   double step = STEP * mean_radius(curve);
   size_t count = 1, made = 0;
@@ -63,7 +64,7 @@ bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *
   double torn = 1;
   bool known = divide(curve, &fine) && spore_curve_attach(&fine, mesh, place, &torn);
   spore_curve_clear(&fine);
-  return known && torn <= SPORE_CARRIED_TORN;
+  return known && torn <= SPORE_MAPPING_QUALITY_TORN;
 }
 
 static gboolean set_number(SporeDocument *document, SporeObject *object, const char *property, double value,
@@ -161,7 +162,7 @@ static gboolean hold(SporeDocument *document, SporeObject *body, const SporeCurv
          insert_pin(document, body, "end", point(curve, last), PIN * curve->points[4 * last + 3], error);
 }
 
-/* Units and holds that an earlier call, or another model, gave the body. */
+/* Removes units and holds that the body has from an earlier call or from another model. */
 static gboolean empty(SporeDocument *document, SporeObject *body, GError **error) {
   static const char *const units[] = {"mechanical", "collision"};
   gboolean done = TRUE;

@@ -1,4 +1,4 @@
-/* A body along a middle line: what an author makes of a tubular organ in one step. */
+/* Makes a body along a middle line of a tubular organ, in one step. */
 #ifndef SPORE_AUTHOR_CENTRELINE_BODY_H
 #define SPORE_AUTHOR_CENTRELINE_BODY_H
 
@@ -12,31 +12,31 @@ typedef enum SporeCentrelineBody {
 } SporeCentrelineBody;
 extern const char *const spore_centreline_body_names[]; /* "thread", ...; ends with NULL */
 
-#define SPORE_CENTRELINE_APART 1.0 /* radii from loop to loop, over their sum, from which on loops are apart */
+#define SPORE_CENTRELINE_APART                                                                                         \
+  1.0 /* distance of two loops over the sum of their radii: from this value on the loops are apart */
 typedef struct SporeCentrelineBodyOptions {
   SporeCentrelineBody body;
-  size_t control_points; /* 0: from the line's length, thickness and bends */
+  size_t control_points; /* 0: chosen by the line's length, thickness and bends */
   bool loops_apart;      /* no two loops touch at rest: the body may touch itself */
 } SporeCentrelineBodyOptions;
 
 /* Control points for a line: one each two radii, and as many as bends need. */
 size_t spore_centreline_control_points(const SporeCurve *curve);
 
-/* Whether a body along the line carries the surface: no more of its edges than SPORE_CARRIED_TORN lead from one loop to
- * another. */
+/* Whether a body along the line can carry the surface: at most the share SPORE_MAPPING_QUALITY_TORN of its edges leads
+ * from one loop of the line to another. */
 bool spore_centreline_carries(const SporeCurve *curve, const SporeTriangleMesh *mesh);
 
-/* Makes a body that is there one along the curve asset `line`: its model, collision unit and holds take the place of
- * those it had. mesh as below. FALSE with a GError: what was changed by then stays. */
+/* Turns an existing body into a body along the curve asset `line`: its model, collision unit and holds are replaced.
+ * `mesh` is as below. FALSE with a GError: changes made before the failure stay. */
 gboolean spore_centreline_body_fill(SporeDocument *document, SporeObject *body, SporeObject *line,
                                     const SporeCurve *curve, const SporeCentrelineBodyOptions *options,
                                     SporeObject *mesh, GError **error);
 
-/* Inserts a curve asset (its file waits as a blob), a body of that kind with collision spheres along the line (the
- * model's own) and what holds it. mesh: object of a mesh asset that the body shows, or NULL: its own
- * skin. Returns the body; NULL with a GError: what was inserted by then stays, so call it inside a group where that
- * matters.
- */
+/* Inserts a curve asset (its file waits as a blob), a body of that kind with the model's own collision spheres along
+ * the line, and the links that hold the body. mesh: object of a mesh asset that the body shows, or NULL: the body shows
+ * its own skin. Returns the body. NULL with a GError: objects inserted before the failure stay, so call it inside a
+ * group where that matters. */
 SporeObject *spore_centreline_body_insert(SporeDocument *document, const char *name, const SporeCurve *curve,
                                           const SporeCentrelineBodyOptions *options, SporeObject *mesh, GError **error);
 

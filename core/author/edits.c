@@ -75,7 +75,7 @@ SporeObject *spore_edit_body_model(SporeObject *body) {
 
 /* Models. */
 
-/* The geometry that a model asks for, where the body has it; NULL: leave what is there. */
+/* The geometry that a model needs, where the body has one; NULL: leave the geometry as it is. */
 static const char *geometry_for(SporeDocument *document, SporeObject *body, SporeGeometryKind kind) {
   if (kind == SPORE_GEOMETRY_SURFACE || kind == SPORE_GEOMETRY_SOLID) {
     if (spore_edit_used_asset(document, body, "mechanical", "geometry", "mesh")) return NULL;
@@ -85,7 +85,7 @@ static const char *geometry_for(SporeDocument *document, SporeObject *body, Spor
   if (kind == SPORE_GEOMETRY_NONE) return NULL;
   const char *element = kind == SPORE_GEOMETRY_CURVE ? "curve" : "tetrahedra";
   if (spore_edit_used_asset(document, body, "mechanical", "geometry", element)) return NULL;
-  /* One made earlier of the mesh that the body shows, then set aside for another model. */
+  /* A geometry that was generated earlier from the drawn mesh, and left unused when the body got another model. */
   SporeObject *mesh = spore_edit_used_asset(document, body, "visual", "mesh", "mesh");
   SporeObject *assets = spore_document_section(document, "assets");
   for (guint i = 0; mesh && i < spore_object_child_count(assets); i++) {
@@ -97,7 +97,8 @@ static const char *geometry_for(SporeDocument *document, SporeObject *body, Spor
   return NULL;
 }
 
-/* A model makes an unmovable body passive, and it is unmovable again without one; what a device moves stays active. */
+/* Sets the role: a model makes an unmovable body passive, and without a model the body is unmovable again. A body that
+ * a device moves stays active. */
 static gboolean set_role(SporeDocument *document, SporeObject *body, SporeRole role, GError **error) {
   if ((SporeRole)spore_object_number(body, "role") == SPORE_ACTIVE) return TRUE;
   return role == SPORE_PASSIVE ? unset(document, body, "role", error)
@@ -169,7 +170,7 @@ static void grow(double lower[3], double upper[3], SporeVec3 p, double r) {
   }
 }
 
-/* Highest point of what the bodies show. */
+/* The highest point of all drawn meshes. */
 static gboolean find_top(SporeDocument *document, SporeVec3 *top) {
   SporeObject *bodies = spore_document_section(document, "bodies");
   gboolean found = FALSE;
@@ -186,7 +187,7 @@ static gboolean find_top(SporeDocument *document, SporeVec3 *top) {
   return found;
 }
 
-/* Tip at the origin, shaft going up. */
+/* Spheres of a probe: its tip at the origin, its shaft upward. */
 static GBytes *probe_spheres(void) {
   GString *text = g_string_new("# x y z r, m: tip, then the shaft\n");
   char y[G_ASCII_DTOSTR_BUF_SIZE], r[G_ASCII_DTOSTR_BUF_SIZE];
@@ -237,7 +238,7 @@ SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error) {
 
 /* Pin. */
 
-/* The vertex farthest behind and below (where organs hang on the body wall), and how large the mesh is. */
+/* The vertex that lies farthest behind and below (organs hang on the body wall there), and the size of the mesh. */
 static SporeVec3 hold_point(const SporeTriangleMesh *mesh, SporePose pose, double *extent) {
   double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   SporeVec3 best = {0, 0, 0};

@@ -1,4 +1,4 @@
-/* What an author does in one gesture, each one undo step made of document commands. No GTK. */
+/* Edits that an author makes in one gesture. Each is one undo step of document commands. No GTK. */
 #ifndef SPORE_AUTHOR_EDITS_H
 #define SPORE_AUTHOR_EDITS_H
 
@@ -10,13 +10,14 @@ SporeObject *spore_edit_visual_mesh(SporeDocument *document, SporeObject *body, 
  * "spheres"). */
 SporeObject *spore_edit_used_asset(SporeDocument *document, SporeObject *body, const char *unit, const char *property,
                                    const char *elements);
-/* The child of that element, made where there is none. Inside a group. */
+/* The child of that element. A missing child is made. Call it inside a group. */
 SporeObject *spore_edit_child_or_new(SporeDocument *document, SporeObject *parent, const char *element, GError **error);
 
-/* Gives the body a mechanical model of that element and so makes it passive, on the geometry it asks for where the body
- * has it; "" takes the mechanical unit away. */
+/* Gives the body a mechanical model of that element, on the geometry that the model needs where the body has one. The
+ * body becomes passive. "" removes the mechanical unit. */
 gboolean spore_edit_set_model(SporeDocument *document, SporeObject *body, const char *model, GError **error);
-/* A body that no model moves yet gets the usual one for the geometry: the first that takes it. Inside a group. */
+/* Gives a body without a model the usual model for the geometry: the first model that accepts it. Call it inside a
+ * group. */
 gboolean spore_edit_give_usual_model(SporeDocument *document, SporeObject *body, SporeGeometryKind kind,
                                      GError **error);
 /* Sets the parameters of the body's model to those of one of its presets. */
@@ -24,22 +25,21 @@ gboolean spore_edit_use_preset(SporeDocument *document, SporeObject *body, const
 /* Element of the body's model, or NULL. */
 SporeObject *spore_edit_body_model(SporeObject *body);
 
-/* A probe moved by the mouse, just above the highest point of what the scene shows. Returns its body. */
+/* Adds a probe that the mouse moves, just above the highest point of the scene. Returns its body. */
 SporeObject *spore_edit_add_probe(SporeDocument *document, GError **error);
 /* First active body, or NULL. */
 SporeObject *spore_edit_find_probe(SporeDocument *document);
 
-/* Holds the organ where it lies lowest and farthest behind, so that it does not fall. Returns the pin. */
+/* Pins the organ at its lowest and rearmost point, so that it does not fall. Returns the pin. */
 SporeObject *spore_edit_add_pin(SporeDocument *document, SporeObject *body, GError **error);
 
-/* The object of a path whose last part may be a unit that its body does not have yet: that is made. NULL with an error.
- */
+/* The object of a path. Where the last part is a unit that the body lacks, the unit is made. NULL with an error. */
 SporeObject *spore_edit_object_or_unit(SporeDocument *document, const char *path, GError **error);
-/* Ends the group of an edit, or takes back what it did. Returns done. */
+/* Ends the group of an edit (done), or undoes the edits of the group (not done). Returns done. */
 gboolean spore_edit_finish(SporeDocument *document, gboolean done);
 
-/* Sets by path ("bodies/liver/collision"), property name and text as in a file; text NULL: back to the default.
- * A unit of a body that is not there yet ("bodies/liver/collision") is made. */
+/* Sets a property by path ("bodies/liver/collision"), name and text as in a file; text NULL: back to the default. A
+ * missing unit of a body is made. */
 gboolean spore_edit_set_property(SporeDocument *document, const char *path, const char *property, const char *text,
                                  GError **error);
 

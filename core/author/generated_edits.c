@@ -1,4 +1,4 @@
-/* What a generator made becomes an asset of a body, which remembers how it was made. */
+/* Puts the result of a generator into the document: it becomes an asset of a body and remembers how it was made. */
 #include "core/author/generated_edits.h"
 
 #include <glib/gi18n.h>
@@ -24,7 +24,7 @@ static SporeObject *generated(SporeObject *asset) {
   return source && *source ? asset : NULL;
 }
 
-/* An asset of that element that was made of the mesh that the body shows. */
+/* An asset of that element that was generated from the mesh that the body shows. */
 static SporeObject *made_of_shown(SporeDocument *document, SporeObject *body, const char *element) {
   SporeObject *mesh = spore_edit_visual_mesh(document, body, NULL);
   SporeObject *assets = spore_document_section(document, "assets");
@@ -66,7 +66,7 @@ static gboolean remember_options(SporeDocument *document, SporeObject *asset, co
   return done;
 }
 
-/* The last of a region's own parameters is what shall be there. */
+/* Adds a region to the asset. The last of a region's own parameters is its setting (density, size). */
 static gboolean add_region(SporeDocument *document, SporeObject *asset, const SporeGenerateRegion *given,
                            GError **error) {
   const char *element = spore_region_element(spore_object_type(asset));
@@ -105,14 +105,15 @@ gboolean spore_edit_remember_source(SporeDocument *document, SporeObject *asset,
          unset(document, asset, "edited", error);
 }
 
-/* What it is made of; takes the text. */
+/* The content of an asset's file; owns the text. */
 typedef struct {
   const char *element, *suffix, *extension;
   char *text;
   gsize size;
 } Content;
 
-/* The asset the body uses, where it came from the same generator; else a new one. NULL: refused. */
+/* Stores the content in the asset that the body uses, where the same generator made it, else in a new asset. NULL:
+ * refused. */
 static SporeObject *keep(SporeDocument *document, SporeObject *body, SporeObject *used, const SporeGeneratedFrom *from,
                          const Content *content, GError **error) {
   g_autoptr(GBytes) bytes = g_bytes_new_take(content->text, content->size);
@@ -131,7 +132,7 @@ static SporeObject *keep(SporeDocument *document, SporeObject *body, SporeObject
              : NULL;
 }
 
-/* A unit of the body names the asset. */
+/* Lets a unit of the body refer to the asset. */
 static gboolean use(SporeDocument *document, SporeObject *body, const char *unit, const char *property,
                     const SporeObject *asset, GError **error) {
   SporeObject *part = spore_edit_child_or_new(document, body, unit, error);

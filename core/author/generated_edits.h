@@ -1,4 +1,4 @@
-/* What generators made, taken into the scene: each one undo step. No GTK. */
+/* Puts results of generators into the scene, each as one undo step. No GTK. */
 #ifndef SPORE_AUTHOR_GENERATED_EDITS_H
 #define SPORE_AUTHOR_GENERATED_EDITS_H
 
@@ -10,33 +10,35 @@
 /* Where generated data come from. */
 typedef struct SporeGeneratedFrom {
   const char *source, *source_hash;   /* name of the mesh asset, and its hash then */
-  const void *fields;                 /* of the asset's table: those that say how to generate are remembered */
-  const SporeGenerateRegion *regions; /* region_count, which become the asset's besides those that it has */
+  const void *fields;                 /* fields of the asset's table: the options among them are stored */
+  const SporeGenerateRegion *regions; /* region_count regions, which are added to the asset's own */
   gsize region_count;
 } SporeGeneratedFrom;
 
 /* Sphere, tetrahedra or curve asset in use by the body, or NULL. */
 SporeObject *spore_edit_body_spheres(SporeDocument *document, SporeObject *body);
 SporeObject *spore_edit_body_tetrahedra(SporeDocument *document, SporeObject *body);
-/* The curve that the body is made of, else one that was made of the mesh it shows. */
+/* The curve that the body is made of, else a curve that was generated from the mesh it shows. */
 SporeObject *spore_edit_body_curve(SporeDocument *document, SporeObject *body);
-/* A generated mesh that the body is made of or shows, else one that was made of the mesh it shows. */
+/* A generated mesh that the body is made of or shows, else a mesh that was generated from the mesh it shows. */
 SporeObject *spore_edit_body_surface(SporeDocument *document, SporeObject *body);
 
-/* What was generated becomes an asset of the body (its earlier generated one is replaced). With tetrahedra, a body that
- * has no model yet gets the usual one for them; with a surface, too. */
+/* The result becomes an asset of the body and replaces its earlier generated asset. With tetrahedra or a surface, a
+ * body without a model gets the usual model for them. */
 gboolean spore_edit_use_spheres(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
                                 const SporeSphereSet *set, GError **error);
 gboolean spore_edit_use_tetrahedra(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
                                    const SporeTetrahedralMesh *mesh, GError **error);
-/* options NULL: the asset alone; else the body becomes a thread, tube or intestine along it, with what holds it. */
+/* options NULL: only the asset is made. Else the body becomes a thread, tube or intestine along the curve, with the
+ * links that hold it. */
 gboolean spore_edit_use_curve(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
                               const SporeCurve *curve, const SporeCentrelineBodyOptions *options, GError **error);
 typedef enum SporeSurfaceUse { SPORE_SURFACE_MODEL, SPORE_SURFACE_SHOWN, SPORE_SURFACE_ASSET } SporeSurfaceUse;
 gboolean spore_edit_use_surface(SporeDocument *document, SporeObject *body, const SporeGeneratedFrom *from,
                                 const SporeTriangleMesh *mesh, SporeSurfaceUse use, GError **error);
 
-/* The asset remembers what it was made from, and how; its file is set before. FALSE with an error: it is frozen. */
+/* Stores in the asset its source and its options. Its file must be set before. FALSE with an error: the asset is
+ * frozen. */
 gboolean spore_edit_remember_source(SporeDocument *document, SporeObject *asset, const SporeGeneratedFrom *from,
                                     GError **error);
 
@@ -48,8 +50,9 @@ typedef enum SporeLabelUse {
   SPORE_LABELS_ASSET
 } SporeLabelUse;
 typedef struct SporeLabelBodies {
-  const char *file; /* they came from: names what is of all */
-  GBytes *content;  /* of that file, which the scene keeps, to tell when it changes; NULL: it does not */
+  const char *file; /* label map file that they came from: its name is given to what all organs share */
+  GBytes *content;  /* content of that file. The scene keeps the file, to notice when it changes; NULL: the scene does
+                       not keep it */
   const SporeTetrahedraFields *fields; /* how they were made; NULL: not known */
   const SporeTetrahedralMesh *mesh;
   const guint32 *labels; /* count, each of which some cell has */
@@ -57,11 +60,11 @@ typedef struct SporeLabelBodies {
   gsize count;
   SporeLabelUse use;
 } SporeLabelBodies;
-/* New assets, and bodies with their usual model, which show the tetrahedra's own surface; where the scene has the same
- * label map, tetrahedra of the same name that came from it become the new ones, and their bodies stay. */
+/* Makes new assets, and bodies with their usual model that show the tetrahedra's own surface. Where the scene has the
+ * same label map already, new tetrahedra replace earlier ones of the same name from that map, and their bodies stay. */
 gboolean spore_edit_use_labels(SporeDocument *document, const SporeLabelBodies *organs, GError **error);
 
-/* The label map that the tetrahedra of a body came from which shows no mesh; NULL: it is not so. */
+/* The label map from which the tetrahedra of a body without a drawn mesh were generated; NULL: there is none. */
 SporeObject *spore_edit_body_label_map(SporeDocument *document, SporeObject *body);
 
 #endif

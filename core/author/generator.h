@@ -1,4 +1,4 @@
-/* Generators: each is a kind of asset, the table of its options, and what tells how they are meant. */
+/* Generators: each has the asset that it makes, the table of its options, and the functions that run it. */
 #ifndef SPORE_AUTHOR_GENERATOR_H
 #define SPORE_AUTHOR_GENERATOR_H
 
@@ -9,7 +9,7 @@
 #include "core/scene/document.h"
 #include "core/scene/schema_fields.h"
 
-/* What the options of the generators that ship are filled into: the attributes of the asset. */
+/* The structures of the options of the generators that ship: attributes of the assets. */
 typedef struct SporeMeshFields {
   const char *name, *file;
   int unit, frame; /* as core/io/mesh_import.h counts them */
@@ -45,7 +45,7 @@ typedef struct SporeCurveFields {
   double first_place[3], last_place[3]; /* m; the same: the organ's own ends */
 } SporeCurveFields;
 
-/* What becomes of a result, as a choice: names ended by NULL, and what they mean (N_). */
+/* The use of a result, as a choice: names ended by NULL, and their meaning (N_). */
 #define SPORE_GENERATOR_PURPOSE(names, meaning)                                                                        \
   {                                                                                                                    \
     .name = "make", .type = SPORE_CHOICE, .unit = "", .minimum = -HUGE_VAL, .maximum = HUGE_VAL, .choices = (names),   \
@@ -60,22 +60,22 @@ typedef struct SporeGeneratorType {
   const SporeElement *elements; /* the asset and its regions, ended by no name; NULL: those of another generator */
   const char *const *only;      /* names of the options that it takes; NULL: all of the asset's */
   const char *count;            /* the option that says how many; NULL: none */
-  /* Ways to say how fine the result shall be, of which one is taken: options apart by blanks, ways by " | ". Where one
-   * is chosen, the options of the others are 0, which is "not asked for"; NULL: there is one way. */
+  /* Ways to say how fine the result shall be, of which one is chosen: options separated by blanks, ways by " | ". The
+   * options of the other ways are then 0, which is "not asked for". NULL: there is one way. */
   const char *ways;
-  const SporeParameter *purpose; /* a choice, what becomes of the result (a field of int at 0); NULL: always the same */
+  const SporeParameter *purpose; /* a choice, the use of the result (a field of int at 0); NULL: always the same use */
   SporeObject *(*target)(SporeDocument *document, SporeObject *body); /* asset that the body uses, or NULL */
 
-  const char *shows; /* what the result is, for who draws it: "spheres", "tetrahedra", "labels", "curve", "surface" */
+  const char *shows;           /* what the result is, for drawing */
   const char *title, *working; /* "Spheres of %s", "Generating spheres"; N_ */
   const char *count_label;     /* N_ */
   const char *unit;    /* of a body, where the editor offers the generator: "collision", "mechanical"; NULL: nowhere */
   const char *offer;   /* "Number of spheres", beside the number there; N_ */
   gboolean picks_ends; /* the options have a first and a last place, that can be picked by hand */
   gboolean (*run)(SporeGenerateWork *work, const SporeProgress *progress, GError **error);
-  /* The result becomes the body's, as one undo step. FALSE: nothing of it is left. */
+  /* Puts the result into the document, as one undo step. FALSE: nothing was changed. */
   gboolean (*apply)(const SporeGenerateWork *work, SporeDocument *document, SporeObject *body, GError **error);
-  char *(*facts)(const SporeGenerateWork *work); /* a line each, for people; g_free */
+  char *(*facts)(const SporeGenerateWork *work); /* text for people, one fact a line; g_free */
   /* The error (%) of a result of that number; NULL: it is not measured. */
   gboolean (*error_of)(const SporeGenerateWork *work, size_t count, double *error_percent,
                        const SporeProgress *progress, GError **error);
@@ -89,16 +89,16 @@ extern const SporeGeneratorType *const spore_generators[]; /* all of them, ended
 /* The elements that the generators bring, for spore_schema_new. */
 const SporeElement *const *spore_generator_elements(void);
 
-/* What describes the fields of its asset. */
+/* The table of the fields of its asset. */
 SporeParameterTable spore_generator_table(const SporeGeneratorType *type);
 /* Whether the generator takes this option of its asset. */
 gboolean spore_generator_takes(const SporeGeneratorType *type, const SporeParameter *parameter);
 /* The way that an option belongs to, from 0; -1: to none. */
 int spore_generator_way(const SporeGeneratorType *type, const char *option);
-/* Of the asset's fields: options of other ways than this one become 0, where they may be. */
+/* Sets the options of all other ways to 0 in the asset's fields, where 0 is allowed. */
 void spore_generator_choose_way(const SporeGeneratorType *type, int way, void *fields);
 
-/* What the generators take; they borrow the regions. */
+/* Converts fields to the options of the generators, which borrow the regions. */
 SporeSpheresOptions spore_edit_spheres_options(const SporeSpheresFields *fields, const SporeGenerateRegion *regions,
                                                gsize count);
 SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields *fields,
@@ -106,13 +106,15 @@ SporeTetrahedraOptions spore_edit_tetrahedra_options(const SporeTetrahedraFields
 SporeCentrelineOptions spore_edit_centreline_options(const SporeCurveFields *fields);
 SporeSimplifyOptions spore_edit_surface_options(const SporeMeshFields *fields);
 
-/* The mesh asset that what the body uses (target, NULL: nothing yet) is made from: what the body shows; where that is
- * what was generated, or nothing, what the generated asset came from. NULL with an error: there is none. */
+/* The mesh asset that the generated asset `target` (NULL: nothing yet) is made from. It is the mesh that the body
+ * shows. Where the body shows nothing or the generated mesh itself, it is the source that the generated asset
+ * remembers. NULL with an error: there is none. */
 SporeObject *spore_edit_generator_source(SporeDocument *document, SporeObject *body, SporeObject *target,
                                          GError **error);
 /* Element of the regions that this kind of object holds: "region" of `regions`; NULL: it holds none. */
 const char *spore_region_element(const SporeObjectType *holder);
-/* Of an asset, or of none (NULL); regions: room for SPORE_GENERATE_REGIONS. FALSE with an error: there are more. */
+/* Collects the regions of an asset (NULL: of none). regions has room for SPORE_GENERATE_REGIONS. FALSE with an error:
+ * the asset has more. */
 gboolean spore_edit_generator_regions(const SporeObject *asset, SporeGenerateRegion *regions, gsize *count,
                                       GError **error);
 

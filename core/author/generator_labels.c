@@ -27,7 +27,7 @@ static const SporeElement map_elements[] = {
     {NULL},
 };
 
-/* Of a file, not of what a body shows. */
+/* Label maps come from a file, not from the mesh that a body shows. */
 static SporeObject *no_target(SporeDocument *document, SporeObject *body) { return NULL; }
 
 static const char *const label_uses[] = {"linked_bodies", "bodies", "one_body", "asset", NULL}; /* as SporeLabelUse */
@@ -82,7 +82,7 @@ static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, Sp
   for (guint i = 0; i < work->label_report.labels->len; i++) {
     const SporeLabelFigures *figures = figures_of(work, i);
     guint32 label = figures->label;
-    if (!figures->cells) continue; /* finer than the cells */
+    if (!figures->cells) continue; /* the label is finer than the cells: no cell has it */
     g_ptr_array_add(names, name_of(work, figures->label));
     g_array_append_val(labels, label);
   }

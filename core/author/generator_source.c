@@ -1,4 +1,4 @@
-/* What a result starts from, for all generators: the mesh, the regions of the asset, and what the asset remembers. */
+/* The source of a result, for all generators: the mesh, the regions of the asset, and what the asset remembers. */
 #include "core/author/generator_work.h"
 
 #include <glib/gi18n.h>
@@ -24,7 +24,7 @@ const char *spore_region_element(const SporeObjectType *holder) {
   return NULL;
 }
 
-/* The last of a region's own parameters is what shall be there. */
+/* Reads a region. The last of its own parameters is its setting (density, size). */
 static void read_region(const SporeObject *object, SporeGenerateRegion *region) {
   const SporeParameterTable *table = spore_object_type(object)->table;
   const SporeValue *centre = spore_object_value(object, (guint)spore_parameter_find(table, "centre"));

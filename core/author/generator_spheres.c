@@ -10,7 +10,7 @@
 
 static const char *const methods[] = {"balanced", "tetrahedra", "bounding", "weighted", NULL};
 
-/* What generated spheres are to reach; 0: it is not asked for. */
+/* A target of generated spheres; 0: not asked for. */
 #define SPHERES_TARGET(target, most, words)                                                                            \
   {                                                                                                                    \
     .name = #target, .type = SPORE_REAL, .unit = "", 0, most, .initial = {0}, FIELD(SporeSpheresFields, target),       \

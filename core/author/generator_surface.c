@@ -119,7 +119,7 @@ static bool make_wall(SporeGenerateWork *work, const SporeProgress *progress, Sp
   return done;
 }
 
-/* How far each vertex of the given mesh is from what was made of it. */
+/* Measures the distance of each vertex of the given mesh from the result. */
 static bool measure(SporeGenerateWork *work, SporeError *failure) {
   SporeBvh *bvh = spore_bvh_create(&work->surface, failure);
   if (!bvh) return false;

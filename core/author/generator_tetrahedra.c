@@ -158,13 +158,13 @@ static gboolean apply(const SporeGenerateWork *work, SporeDocument *document, Sp
   return spore_edit_use_tetrahedra(document, body, &from, &work->tetrahedra, error);
 }
 
-/* What the mesh needed, and what of it that changed. */
+/* The method that the mesh needed, and how that method changed the mesh. */
 static const char *method_text(SporeTetrahedraMethod method) {
   static const char *const texts[] = {N_("the mesh"), N_("the mesh repaired"), N_("a wrap of it"), N_("a lattice")};
   return _(texts[method]);
 }
 
-/* As the command line says them, a line each. */
+/* Appends the remarks of the command line, one a line. */
 static void append_remarks(GString *text, const SporeGenerateWork *work) {
   SporeTetrahedraOptions options = options_of(work);
   g_autofree char *remarks = spore_tetrahedra_remarks(&work->tetrahedra, &options, &work->tetrahedra_report);

@@ -1,4 +1,4 @@
-/* A run of a generator: made of a body or a label map, run, held against the document, and applied. */
+/* A run of a generator: prepared from a body or a label map, run, compared with the document, and applied. */
 #include "core/author/generator_work.h"
 
 #include <glib/gi18n.h>

@@ -1,4 +1,5 @@
-/* A run of a generator as data: what goes in, what comes out, where it started from. Any thread; no GTK. */
+/* A run of a generator as data: input, result, and the state of the document at its start. May be used on any thread;
+ * no GTK. */
 #ifndef SPORE_AUTHOR_GENERATOR_WORK_H
 #define SPORE_AUTHOR_GENERATOR_WORK_H
 
@@ -16,7 +17,7 @@ typedef enum SporeGenerateKind {
   SPORE_GENERATE_LABELS /* of a file instead of a body */
 } SporeGenerateKind;
 
-/* Copied as it is: of the fields those that say how to generate count, and none of those is a text. */
+/* A plain value that may be copied: only the options among the fields count, and no option is a text. */
 typedef struct SporeGenerateOptions {
   SporeGenerateKind kind;
   union {
@@ -39,14 +40,15 @@ SporeObject *spore_generate_target(SporeDocument *document, SporeObject *body, S
 SporeObject *spore_generate_source(SporeDocument *document, SporeObject *body, SporeGenerateKind kind, GError **error);
 /* The usual options of that kind. */
 void spore_generate_set_initial(SporeGenerateOptions *options);
-/* Those of the asset, else the usual ones. */
+/* The options of the asset, else the usual options. */
 SporeGenerateOptions spore_generate_options_of(SporeDocument *document, SporeObject *body, SporeGenerateKind kind);
-/* How many to make; nothing where the kind does not ask. */
+/* The number to make; 0 where this kind of generator has no number. */
 size_t spore_generate_get_count(const SporeGenerateOptions *options);
-/* By number from now on, where it is another number. */
+/* Sets the number, and chooses the way "by number", where the number differs from the present one. */
 void spore_generate_set_count(SporeGenerateOptions *options, size_t count);
 
-/* What generators share: where they started from, to be compared when they are through. Counted references. */
+/* What all generators share: the state they started from, for comparison when they have finished. References are
+ * counted. */
 struct SporeGenerateWork {
   SporeGenerateOptions options;
   guint32 body; /* object id */
@@ -68,25 +70,25 @@ struct SporeGenerateWork {
   SporeWallReport wall_report;             /* out; zero without a wall */
   double *surface_distance;                /* out: a vertex of the given mesh, to the outer surface made, m */
 };
-/* Copies the mesh that it is made from, and the regions of the asset; or holds the label map (body NULL). NULL with an
+/* Copies the source mesh and the regions of the asset, or keeps a reference to the label map (body NULL). NULL with an
  * error: there is no mesh, or there are too many regions. */
 SporeGenerateWork *spore_generate_work_new(SporeDocument *document, SporeObject *body,
                                            const SporeGenerateOptions *options, GError **error);
 gboolean spore_generate_work_run(gpointer work, const SporeProgress *progress, GError **error);
 SporeGenerateWork *spore_generate_work_ref(SporeGenerateWork *work);
 void spore_generate_work_unref(gpointer work);
-/* Whether the document still is what the work began with. */
+/* Whether source and regions in the document are still those that the work began with. */
 gboolean spore_generate_work_holds(const SporeGenerateWork *work, SporeDocument *document);
-/* The body, where it still has the mesh and the regions that the work began with; NULL: the document moved on. */
+/* The body, where it still has the mesh and the regions that the work began with; NULL: they have changed. */
 SporeObject *spore_generate_work_body(const SporeGenerateWork *work, SporeDocument *document);
-/* The result becomes the body's, as one undo step; the options are remembered. */
+/* Puts the result into the document, as one undo step, and stores the options. */
 gboolean spore_generate_work_apply(const SporeGenerateWork *work, SporeDocument *document, GError **error);
 
-/* What the result came from, for the asset to remember. Borrows the work. */
+/* Source and options of the result, which the asset remembers. Borrows from the work. */
 SporeGeneratedFrom spore_generate_work_from(const SporeGenerateWork *work);
-/* By number alone, as the error is measured against the number: no other way counts. */
+/* The options with the number as the only way, since the error is measured against the number. */
 SporeGenerateOptions spore_generate_by_number(const SporeGenerateOptions *options);
-/* Whether both ask for the same but for how many. */
+/* Whether both options are the same but for the number. */
 gboolean spore_generate_differ_by_number(const SporeGenerateOptions *a, const SporeGenerateOptions *b);
 
 #endif

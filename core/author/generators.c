@@ -1,4 +1,4 @@
-/* The generators there are. */
+/* The registry of generators. */
 #include "core/author/generator.h"
 
 const SporeGeneratorType *const spore_generators[] = {

@@ -1,4 +1,4 @@
-/* Tetrahedra of a label map become bodies, joined by seams where organs share faces. */
+/* Makes bodies of the tetrahedra of a label map, joined by seams where organs share faces. */
 #include <glib/gi18n.h>
 
 #include "core/io/mesh_import.h"
@@ -8,7 +8,7 @@
 
 #define FACE_NODES 3
 
-/* The map in the scene, kept there where it is not yet. NULL with an error. */
+/* The label map's asset in the scene; a missing asset is made. NULL with an error. */
 static SporeObject *keep_map(SporeDocument *document, const char *name, const SporeLabelBodies *organs,
                              GError **error) {
   gsize size;
@@ -30,7 +30,7 @@ static SporeObject *keep_map(SporeDocument *document, const char *name, const Sp
   return asset && spore_document_set_text(document, asset, "file", file, error) ? asset : NULL;
 }
 
-/* What was made of that map earlier under that name. */
+/* The asset that was made earlier from that map under that name. */
 static SporeObject *made_earlier(SporeDocument *document, const char *name, const SporeGeneratedFrom *from) {
   SporeObject *asset = from ? spore_document_find(document, "tetrahedra", name) : NULL;
   return asset && g_strcmp0(spore_object_text(asset, "source"), from->source) == 0 ? asset : NULL;
@@ -60,8 +60,8 @@ static SporeObject *add_asset(SporeDocument *document, const char *name, const S
   return !from || spore_edit_remember_source(document, asset, from, error) ? asset : NULL;
 }
 
-/* An asset of these tetrahedra, and where it is wanted a body made of them: *made, where that is not NULL. from NULL:
- * nothing is kept of where they came from. */
+/* Makes an asset of these tetrahedra and, where `made` is not NULL, a body in *made. from NULL: the source is not
+ * stored. */
 static gboolean add(SporeDocument *document, const char *name, const SporeTetrahedralMesh *mesh,
                     const SporeGeneratedFrom *from, gboolean body_too, SporeObject **made, GError **error) {
   SporeObject *asset = add_asset(document, name, mesh, from, error);
@@ -76,10 +76,11 @@ static gboolean add(SporeDocument *document, const char *name, const SporeTetrah
          spore_edit_give_usual_model(document, body, SPORE_GEOMETRY_TETRAHEDRA, error);
 }
 
-/* The cells of one organ, with the nodes that they have. Arrays of g_new. */
+/* The cells of one organ and their nodes. Arrays from g_new. */
 static SporeTetrahedralMesh extract(const SporeTetrahedralMesh *mesh, guint32 label) {
   SporeTetrahedralMesh part = {0};
-  g_autofree guint32 *place = g_new(guint32, mesh->vertex_count); /* of each node, 0 none, else one more */
+  g_autofree guint32 *place =
+      g_new(guint32, mesh->vertex_count); /* new index of each node plus one; 0: the organ lacks the node */
   memset(place, 0, mesh->vertex_count * sizeof *place);
   part.vertices = g_new(double, 3 * mesh->vertex_count);
   part.tetrahedra = g_new(guint32, 4 * mesh->tetrahedron_count);

@@ -1,4 +1,4 @@
-/* A label map as a source of tetrahedra: read once, and shared by those who need it. */
+/* A label map as a source of tetrahedra: read once and shared. */
 #include "core/author/label_source.h"
 
 #include <glib/gi18n.h>

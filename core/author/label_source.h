@@ -1,5 +1,5 @@
-/* A label map that tetrahedra are generated from: read once, by whoever needs it first. Counted references, any thread.
- * No GTK. */
+/* A label map from which tetrahedra are generated. The first user reads it, the others share it. References are
+ * counted; any thread may use it. No GTK. */
 #ifndef SPORE_AUTHOR_LABEL_SOURCE_H
 #define SPORE_AUTHOR_LABEL_SOURCE_H
 
@@ -10,21 +10,22 @@
 typedef struct SporeLabelSource SporeLabelSource;
 
 SporeLabelSource *spore_label_source_new(const char *file);
-/* Of content that is there already. */
+/* A source of content that is in memory already. */
 SporeLabelSource *spore_label_source_new_of(const char *file, GBytes *content);
-/* Of one that was read: what the file held, where that is no more than a scene keeps; NULL. Borrowed. */
+/* Content of a source that was read, where a scene may keep that much; else NULL. Borrowed. */
 GBytes *spore_label_source_content(const SporeLabelSource *source);
 SporeLabelSource *spore_label_source_ref(SporeLabelSource *source);
 void spore_label_source_unref(SporeLabelSource *source);
 const char *spore_label_source_file(const SporeLabelSource *source);
-/* Reads it where that was not done yet. NULL with an error: it is no label map, or has no labels or too many. */
+/* Reads the map where that was not done yet. NULL with an error: the file is no label map, or has no labels or too
+ * many. */
 const SporeLabelMap *spore_label_source_read(SporeLabelSource *source, const SporeProgress *progress, GError **error);
 
 /* Of one that was read: labels ascending. */
 gsize spore_label_source_count(const SporeLabelSource *source);
 guint16 spore_label_source_label(const SporeLabelSource *source, gsize i);
 double spore_label_source_volume(const SporeLabelSource *source, gsize i); /* m^3, of its voxels */
-/* As the file calls it, else "label 3"; translated. g_free. */
+/* The name in the file, else "label 3", translated. g_free. */
 char *spore_label_source_name(const SporeLabelSource *source, gsize i);
 
 #endif

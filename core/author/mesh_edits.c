@@ -1,4 +1,4 @@
-/* Meshes of a scene are imported and changed, each as one undo step. */
+/* Imports and changes meshes of a scene, each as one undo step. */
 #include "core/author/mesh_edits.h"
 
 #include <glib/gi18n.h>

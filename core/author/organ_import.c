@@ -1,4 +1,4 @@
-/* From mesh files and label maps to bodies: read, divided or joined, mended, and put into the scene. */
+/* Imports mesh files and label maps as bodies: reads, divides or joins, repairs, and inserts them into the scene. */
 #include "core/author/organ_import.h"
 
 #include <errno.h>
@@ -13,7 +13,7 @@
 #include "core/io/organ.h"
 #include "core/mesh/edit.h"
 
-#define LABEL_ROUNDS 100 /* of smoothing: fewer leave the voxels' terraces */
+#define LABEL_ROUNDS 100 /* rounds of smoothing: fewer rounds leave the terraces of the voxels */
 #define MOST_BYTES ((goffset)1 << 30)
 
 typedef struct Intake {
@@ -41,7 +41,7 @@ void spore_import_free(SporeImport *import) {
   g_free(import);
 }
 
-/* Regular files alone: a pipe or a device would never end. */
+/* Only regular files are read: a pipe or a device might never end. */
 GBytes *spore_import_read_content(const char *file, GError **error) {
   struct stat info;
   char *bytes = NULL;
@@ -105,7 +105,7 @@ static gboolean add_pieces(Intake *intake, const char *name, const SporeImportFi
   return done;
 }
 
-/* A body for each label. Staircases of voxels are smoothed away; the volume stays. */
+/* Adds a body for each label. The staircase of voxels is smoothed away, and the volume stays. */
 static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
   SporeProgress progress = spore_progress_of_share(&intake->step);
   SporeError failure = SPORE_ERROR_INIT;
@@ -136,13 +136,13 @@ static gboolean add_labels(Intake *intake, SporeImportFile *file, const void *by
   return done;
 }
 
-/* Whether the format has metres, whatever is in the file. */
+/* Whether the format itself prescribes metres. */
 static gboolean says_metres(const char *path, const char *bytes, gsize size) {
   g_autofree char *small = g_ascii_strdown(path, -1);
   return (size >= 4 && memcmp(bytes, "glTF", 4) == 0) || g_str_has_suffix(small, ".gltf");
 }
 
-/* Unit in which all parts together are as large as an organ, or an instrument, is. */
+/* The unit in which all parts together have the size of an organ or an instrument. */
 static int guess_unit(const GPtrArray *parts) {
   double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, diagonal = 0;
   for (guint p = 0; p < parts->len; p++) {
@@ -156,7 +156,7 @@ static int guess_unit(const GPtrArray *parts) {
   return MAX(spore_length_unit_guess(diagonal), 0);
 }
 
-/* The parts of a mesh file, in metres; where the unit is not given, they are read to see how large they are. */
+/* The parts of a mesh file, in metres. Where no unit is given, the parts are read first to find their size. */
 static GPtrArray *read_parts(Intake *intake, SporeImportFile *file, const void *bytes, gsize size, GError **error) {
   SporeProgress progress = spore_progress_of_share(&intake->step);
   gboolean named = intake->options->division == SPORE_IMPORT_PARTS;
@@ -208,7 +208,7 @@ static gboolean add_file(Intake *intake, const char *path, GError **error) {
   return done;
 }
 
-/* All bodies into the first. */
+/* Joins all bodies into the first. */
 static gboolean merge(SporeImport *import, GError **error) {
   SporeError failure = SPORE_ERROR_INIT;
   if (import->bodies->len < 2) return TRUE;

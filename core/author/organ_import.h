@@ -1,4 +1,5 @@
-/* From mesh files to the bodies of a scene: read, divided or joined, mended; what `spore import` and the editor do. */
+/* Imports mesh files as bodies of a scene: reads, divides or joins, and repairs them. For `spore import` and the
+ * editor. */
 #ifndef SPORE_AUTHOR_ORGAN_IMPORT_H
 #define SPORE_AUTHOR_ORGAN_IMPORT_H
 
@@ -9,7 +10,7 @@
 
 typedef enum SporeImportDivision {
   SPORE_IMPORT_FILES,  /* a body for each file */
-  SPORE_IMPORT_MERGED, /* one of all */
+  SPORE_IMPORT_MERGED, /* one body of all files */
   SPORE_IMPORT_PARTS,  /* one for each part that a file names; for each connected piece where it names none */
   SPORE_IMPORT_PIECES  /* one for each connected piece */
 } SporeImportDivision;
@@ -31,16 +32,16 @@ typedef struct SporeImportFile {
   int unit, frame; /* taken */
   int frame_said;  /* by the file itself, or -1 */
   guint parts;     /* that the file names */
-  bool joined;     /* the parts, without being asked to */
+  bool joined;     /* the parts were joined without a request for it */
   bool label_map;  /* each label became a body */
-  bool overruled;  /* a label map, whose header says unit and axes: others were given */
+  bool overruled;  /* a label map: the given unit or axes were ignored, because its header says them */
 } SporeImportFile;
 
-/* A body to be. */
+/* A body that will be inserted. */
 typedef struct SporeImportBody {
   char *name;
   const SporeImportFile *source; /* NULL: several */
-  bool changed;                  /* its mesh is no longer that of a file as it is */
+  bool changed;                  /* its mesh differs from the mesh in the file */
   SporeTriangleMesh mesh;        /* m, SPORE's axes */
   SporeMeshFigures as_read;      /* after division or joining */
   GArray *changes;               /* SporeMeshChange, in the order done */
@@ -53,8 +54,8 @@ typedef struct SporeImport {
 
 #define SPORE_IMPORT_BODIES_MAXIMUM 500u
 
-/* files: NULL-terminated paths of regular files: meshes, or label maps, of which each label becomes a body (its
- * surface, smoothed at the same volume). NULL with an error; cancelled by progress. Any thread. */
+/* Reads files. files: NULL-terminated paths of regular files, meshes or label maps. Each label of a map becomes a body
+ * (its surface, smoothed at the same volume). NULL with an error; cancelled by progress. Any thread. */
 SporeImport *spore_import_read(char *const *files, const SporeImportOptions *options, const SporeProgress *progress,
                                GError **error);
 /* Content of a regular file of at most 1 GiB; NULL with an error. */
@@ -62,13 +63,13 @@ GBytes *spore_import_read_content(const char *file, GError **error);
 void spore_import_free(SporeImport *import);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SporeImport, spore_import_free)
 
-/* A mesh asset and a body that shows it for each: a file's own content, unit and frame where nothing was changed, else
- * OFF in metres and SPORE's axes, named by its content. One undo step is the caller's to make (a group): on FALSE what
- * was inserted stays. *bodies (may be NULL): the objects, GPtrArray. */
+/* Inserts a mesh asset and a body that shows it for each body of the import. An unchanged mesh keeps the file's own
+ * content, unit and frame; a changed mesh becomes OFF in metres and SPORE's axes, named by its content. The caller
+ * opens the group that makes one undo step: on FALSE objects inserted before the failure stay. *bodies (may be NULL):
+ * the objects, GPtrArray. */
 gboolean spore_import_insert(SporeDocument *document, const SporeImport *import, GPtrArray **bodies, GError **error);
 
-/* What an author should know about a file beyond what the checks of the scene say: NULL, or "what; remedy", translated.
- * g_free. */
+/* A remark about a file that the checks of the scene do not make: NULL, or "what; remedy", translated. g_free. */
 char *spore_import_remark(const SporeImportFile *file);
 
 #endif

@@ -12,7 +12,7 @@
 #define PART 0.125 /* of the diagonal: radius of a new region */
 #define LEAST_M 1e-4
 #define RING_SEGMENTS 48
-#define NOTHING_M 1e-7 /* what is smaller is rounding */
+#define NOTHING_M 1e-7 /* smaller differences are rounding */
 
 static gboolean set_numbers(SporeDocument *document, SporeObject *object, const char *property, const double *numbers,
                             gsize count, GError **error) {
@@ -56,7 +56,8 @@ static double *middles_of(const SporeTetrahedralMesh *cells) {
   return middles;
 }
 
-/* Where the organ has something, near its middle: of a bent one that is not in the middle of its box. Its frame. */
+/* A point of the organ near its middle, in its frame. The middle of the box of a bent organ may lie outside of the
+ * organ. */
 static gboolean find_middle(SporeDocument *document, SporeObject *body, SporeObject *holder, SporeVec3 *middle,
                             double *radius, GError **error) {
   gboolean of_spheres = g_str_equal(spore_object_type(holder)->element, "spheres");
@@ -80,14 +81,16 @@ static gboolean find_middle(SporeDocument *document, SporeObject *body, SporeObj
   return TRUE;
 }
 
-/* A region of finer cells starts with half the edges that they have; others have no size. */
+/* Sets the size of a new region of finer cells to half the present edge length. Other regions have no size. */
 static gboolean set_size(SporeDocument *document, SporeObject *region, GError **error) {
   if (spore_parameter_find(spore_object_type(region)->table, "size") < 0) return TRUE;
   const SporeTetrahedralMesh *cells = spore_document_tetrahedra(document, spore_object_parent(region), NULL);
   if (!cells || !cells->tetrahedron_count) return TRUE;
   SporeTetrahedraQuality quality;
   spore_tetrahedral_mesh_quality(cells, &quality);
-  double half = 0.5 * cbrt(6 * sqrt(2) * quality.volume / (double)cells->tetrahedron_count); /* regular ones */
+  double half =
+      0.5 * cbrt(6 * sqrt(2) * quality.volume /
+                 (double)cells->tetrahedron_count); /* edge length of regular tetrahedra of that mean volume, halved */
   return !(half > 0) || set_numbers(document, region, "size", &half, 1, error);
 }
 

@@ -82,14 +82,14 @@ static void help(SporePool *pool) {
   }
 }
 
-/* There may be something to do: a job newer than the one seen, or the end. */
+/* Whether there may be something to do: a job newer than the last one seen, or the end. */
 static bool is_called(SporePool *pool, uint32_t seen) {
   uint64_t ticket = atomic_load(&pool->ticket);
   return atomic_load(&pool->stop) || ((uint32_t)(ticket >> 32) != seen && (uint32_t)ticket != CLOSED);
 }
 
-/* Sleeps until woken, unless a job came in between. Each registration as a sleeper is taken back either here or by
- * the caller, who then posts once. */
+/* Sleeps until it is woken, unless a job arrived in between. Each registration as a sleeper is taken back either here
+ * or by the caller, which then posts once. */
 static void sleep_until_called(SporePool *pool, uint32_t seen) {
   atomic_fetch_add(&pool->sleepers, 1);
   if (is_called(pool, seen)) {

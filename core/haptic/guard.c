@@ -31,13 +31,13 @@ static bool shorten(double *vector, double longest) {
   return true;
 }
 
-/* Part of the way to the target that the limits allow; 1: all of it. */
+/* The part of the way to the target that the limits allow; 1: the whole way. */
 static double allowed_part(const SporeGuard *guard, const SporeGuardLimits *limits, double dt_s) {
   const double *from = guard->taken.position, *to = guard->target.position;
   double way = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
   double turn = spore_vec3_length(spore_motion_turn(guard->taken.orientation, guard->target.orientation));
   double part = 1;
-  /* What was shortened to the limit once must pass as it is when it is played back. */
+  /* A motion that was shortened to the limit must pass unchanged when it is played back. */
   if (way > limits->speed * dt_s * (1 + ROUNDING)) part = fmin(part, limits->speed * dt_s / way);
   if (turn > limits->spin * dt_s * (1 + ROUNDING)) part = fmin(part, limits->spin * dt_s / turn);
   return part;

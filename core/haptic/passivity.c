@@ -6,15 +6,15 @@
 
 #include "core/math/vec3.h"
 
-/* What the force held since the last tick gave the hand is taken from the tank. */
+/* Takes from the tank the energy that the force held since the last tick gave to the hand. */
 static void settle(SporePassivity *passivity, const SporePassivityLimits *limits, SporeVec3 position) {
   SporeVec3 way = spore_vec3_sub(position, spore_vec3_load(passivity->position));
   double given = spore_vec3_dot(spore_vec3_load(passivity->force), way);
   passivity->stored = fmin(passivity->stored - given, limits->tank);
 }
 
-/* Largest part of the force that takes no more than `stored` in dt: s F.v dt + s^2 F^2 dt^2 / 2m, the way of the device
- * alone, which gives way more than one in a hand. */
+/* Largest part s of the force that takes no more than `stored` in dt: s F.v dt + s^2 F^2 dt^2 / 2m. The second term is
+ * the motion of the device alone, which moves more easily than a device in a hand. */
 static double allowed_part(double stored, double speed_part, double square_part) {
   if (speed_part + square_part <= stored) return 1;
   double discriminant = speed_part * speed_part + 4 * square_part * stored;

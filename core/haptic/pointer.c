@@ -18,12 +18,14 @@ typedef struct SporePointer {
   SporeTriple target_buffer;
   SporeDeviceState targets[3];
 
-  /* The simulation's own. The moment before the last is kept because a step may be taken again from there. */
+  /* Used by the simulation only. The moment before the last one is kept, because a step may be taken again from there.
+   */
   bool has_target, has_moment;
   Moment last, before;
 } SporePointer;
 
-/* Simulation time went back further than one step, or begins: there is no way to glide along. */
+/* Simulation time begins, or went back by more than one step: the device jumps, since there is no path to glide along.
+ */
 static void jump(SporePointer *pointer, double time_s) {
   const SporeDeviceState *target = &pointer->targets[pointer->target_buffer.reading];
   pointer->last = (Moment){time_s, spore_motion_between(target, target, 1)};

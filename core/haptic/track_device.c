@@ -10,7 +10,7 @@ typedef struct TrackDevice {
   size_t cursor; /* last sample at or before the time asked for */
 } TrackDevice;
 
-/* Moves the cursor: forward step by step, since time mostly goes on by little; backward by halving. */
+/* Moves the cursor: forward step by step, since time usually advances by little; backward by bisection. */
 static void seek(TrackDevice *player, double time_s) {
   const double *times = player->channel->time_s;
   size_t last = player->channel->count - 1;

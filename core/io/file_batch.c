@@ -1,3 +1,5 @@
+/* Several files written together: each to a temporary file first, then all renamed, and all taken back where one fails.
+ */
 #include "core/io/file_batch.h"
 
 #include <errno.h>
@@ -13,7 +15,7 @@
 typedef struct Entry {
   int folder; /* open, of the file's own folder */
   char *temporary, *name, *place;
-  gboolean renamed, exchanged; /* exchanged: the old file has the temporary name now */
+  gboolean renamed, exchanged; /* exchanged: the old file now has the temporary name */
 } Entry;
 
 typedef struct MadeFolder {
@@ -57,7 +59,7 @@ void spore_file_batch_free(SporeFileBatch *batch) {
   for (guint i = batch->entries->len; i > 0; i--) {
     Entry *entry = g_ptr_array_index(batch->entries, i - 1);
     if (!batch->committed) take_back(entry);
-    unlinkat(entry->folder, entry->temporary, 0); /* gone already where it was renamed */
+    unlinkat(entry->folder, entry->temporary, 0); /* a renamed file is gone already */
     close(entry->folder);
     g_free(entry->temporary), g_free(entry->name), g_free(entry->place);
     g_free(entry);
@@ -73,7 +75,7 @@ void spore_file_batch_free(SporeFileBatch *batch) {
   g_free(batch);
 }
 
-/* Opens a folder below another, making it where it is missing. -1 with errno. */
+/* Opens a folder below another folder, and makes it where it is missing. -1 with errno. */
 static int open_folder(SporeFileBatch *batch, int directory, const char *path) {
   int folder = spore_open_beneath(directory, path, O_RDONLY | O_DIRECTORY, 0);
   if (folder >= 0 || errno != ENOENT || strcmp(path, ".") == 0) return folder;
@@ -107,7 +109,7 @@ static int write_temporary(const Entry *entry, const void *content, gsize size) 
   struct stat old;
   gboolean replaces = fstatat(entry->folder, entry->name, &old, AT_SYMLINK_NOFOLLOW) == 0;
   if (replaces && S_ISDIR(old.st_mode)) return EISDIR;
-  if (replaces && !S_ISREG(old.st_mode) && !S_ISLNK(old.st_mode)) return EEXIST; /* a device is not to be replaced */
+  if (replaces && !S_ISREG(old.st_mode) && !S_ISLNK(old.st_mode)) return EEXIST; /* a device must not be replaced */
   if (replaces && S_ISREG(old.st_mode) && faccessat(entry->folder, entry->name, W_OK, AT_EACCESS) != 0) return errno;
   int descriptor = openat(entry->folder, entry->temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0) return errno;

@@ -1,5 +1,5 @@
-/* Several files written together: all of them, or none. Each goes to a temporary file beside its target and is synced
- * before the first one is renamed; a rename that fails takes back those before it. */
+/* Writes several files together: all of them, or none. Each is written to a temporary file beside its target and synced
+ * before the first one is renamed. A rename that fails takes back the earlier ones. */
 #ifndef SPORE_IO_FILE_BATCH_H
 #define SPORE_IO_FILE_BATCH_H
 
@@ -13,8 +13,8 @@ SporeFileBatch *spore_file_batch_new(void);
 /* Takes back what was not committed. */
 void spore_file_batch_free(SporeFileBatch *batch);
 
-/* A file `name` (a relative path, its folders made where they are missing, never left) below the open folder
- * `directory`; keeps the permissions of the file that is there. `place` begins the message of a failure. */
+/* Adds a file `name` below the open folder `directory`. The name is a relative path; missing folders are made, and no
+ * name leads out of `directory`. An existing file's permissions are kept. `place` begins the message of a failure. */
 gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *place, const char *name,
                               const void *content, gsize size, GError **error);
 /* Renames, in the order added. On failure everything is as before. */

@@ -1,5 +1,5 @@
-/* The parent's side of helpers. Nothing that a child says is believed: every frame is checked before room is made for
- * it. */
+/* The parent's side of helper processes. Nothing that a child sends is trusted: every frame is checked before memory is
+ * taken for it. */
 #include "core/io/helper.h"
 
 #include <errno.h>
@@ -17,9 +17,9 @@
 #include "core/base/profile.h"
 #include "core/io/helper_wire.h"
 
-#define POLL_MS 20         /* how soon a wish to cancel is noticed */
-#define DEATH_S 1.0        /* a child that closed its output is given this long to end */
-#define COMPLAINT_KEPT 500 /* bytes of what it prints, for the log */
+#define POLL_MS 20         /* time until cancelling is noticed */
+#define DEATH_S 1.0        /* time for a child to end after it closed its output */
+#define COMPLAINT_KEPT 500 /* bytes of the child's printed text that are kept for the log */
 
 typedef struct {
   const char *program, *place;
@@ -76,7 +76,8 @@ static gboolean fail(HelperRun *run, SporeErrorCode code, const char *format, ..
   return FALSE;
 }
 
-/* The child has its own group, so that Ctrl-C reaches us alone and we end it in order. */
+/* The child has a process group of its own, so that Ctrl-C reaches the parent alone, and the parent ends the child in
+ * order. */
 static int spawn(HelperRun *run, const char *path, int request, int answer, int complaint) {
   char memory[32], seconds[32];
   g_snprintf(memory, sizeof memory, "%" G_GUINT64_FORMAT, run->limits->memory);
@@ -122,7 +123,7 @@ static gboolean start(HelperRun *run, const char *path) {
               path, g_strerror(status));
 }
 
-/* Sends as much of the request as the child takes now. */
+/* Sends as much of the request as the child accepts now. */
 static void send_request(HelperRun *run) {
   gsize head_left = sizeof run->request_head - MIN(run->request_sent, sizeof run->request_head);
   gsize body_sent = run->request_sent - (sizeof run->request_head - head_left);
@@ -131,12 +132,12 @@ static void send_request(HelperRun *run) {
   ssize_t sent = left ? send(run->request_file, from, left, MSG_NOSIGNAL | MSG_DONTWAIT) : 0;
   if (sent < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (sent > 0) run->request_sent += (gsize)sent;
-  /* A child that stops listening says why on its own output, or dies. */
+  /* A child that stops reading reports the reason on its own output, or dies. */
   if (sent < 0 || run->request_sent == sizeof run->request_head + run->request_head.size)
     close_file(&run->request_file);
 }
 
-/* Text from the child: valid, on one line. g_free. */
+/* The child's text as one line of valid UTF-8. g_free. */
 static char *clean_text(const char *text, gsize size) {
   char *clean = g_utf8_make_valid(text, (gssize)size);
   for (char *c = clean; *c; c++)
@@ -195,7 +196,7 @@ static void take_frame(HelperRun *run) {
   run->head_filled = run->body_filled = 0;
 }
 
-/* The head of a frame is there: is it sensible, and is there room for the body? */
+/* Checks the head of a frame that has arrived, and takes memory for the body. */
 static gboolean open_frame(HelperRun *run) {
   guint64 most = run->head.type == SPORE_FRAME_ANSWER ? run->limits->output : SPORE_FRAME_TEXT;
   if (run->head.magic != SPORE_FRAME_MAGIC || run->head.type <= SPORE_FRAME_REQUEST ||
@@ -212,7 +213,7 @@ static gboolean open_frame(HelperRun *run) {
   return TRUE;
 }
 
-/* Reads what is there now. */
+/* Reads the bytes that have arrived. */
 static void receive(HelperRun *run) {
   gboolean in_head = run->head_filled < sizeof run->head;
   char *to = in_head ? (char *)&run->head + run->head_filled : run->body + run->body_filled;
@@ -241,7 +242,7 @@ static void receive_complaint(HelperRun *run) {
   run->complaint_filled += kept;
 }
 
-/* Waits a little for anything to do, and does it. */
+/* Waits a short time until the child can be written to or read from, and does so. */
 static void converse(HelperRun *run) {
   struct pollfd files[] = {{.fd = run->answer_file, .events = POLLIN},
                            {.fd = run->complaint_file, .events = POLLIN},
@@ -254,7 +255,7 @@ static void converse(HelperRun *run) {
 
 static double seconds_since(guint64 start_ns) { return 1e-9 * (double)(spore_clock_ns() - start_ns); }
 
-/* Until there is an answer or an error, or the child has closed its output. */
+/* Exchanges data until there is an answer or an error, or the child has closed its output. */
 static void attend(HelperRun *run, const SporeProgress *progress) {
   guint64 started = spore_clock_ns(), reported = 0;
   while (!run->answer && !run->failed && run->answer_file >= 0) {
@@ -270,7 +271,7 @@ static void attend(HelperRun *run, const SporeProgress *progress) {
   }
 }
 
-/* Ends the child; what it died of by itself is in *status. */
+/* Ends the child. *status is the status of a child that ended by itself. */
 static gboolean reap(HelperRun *run, int *status) {
   guint64 started = spore_clock_ns();
   if (run->answer || run->failed) kill(run->process, SIGKILL);

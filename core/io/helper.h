@@ -1,5 +1,5 @@
-/* Helper processes: work on strangers' data, or with libraries that may crash, happens in a child that can do nothing
- * but compute. Messages are frames on its standard input and output; its death is a message to the user. */
+/* Helper processes. Work on untrusted data, or with libraries that may crash, happens in a child process that can only
+ * compute. Messages are frames on its standard input and output. The death of a child becomes a message to the user. */
 #ifndef SPORE_IO_HELPER_H
 #define SPORE_IO_HELPER_H
 
@@ -9,25 +9,26 @@
 #include "core/scene/error.h"
 
 typedef struct SporeHelperLimits {
-  double time_s;  /* wall clock, and as much of processor time; then it is killed */
+  double time_s;  /* limit of wall clock time and of processor time; the child is killed then */
   guint64 memory; /* bytes of address space */
   guint64 output; /* bytes of answer at most */
 } SporeHelperLimits;
 
-/* Runs helper `program` ("spore-import", "spore-tetrahedra"; found in SPORE_HELPERS, beside the running program, or in
- * the installed libexec folder), sends `request`, reports its progress, and returns its answer. NULL with a GError: not
- * in this build, died (with signal), timed out, answered too much, said an error, or was cancelled (killed at once). */
+/* Runs the helper `program` ("spore-import", "spore-tetrahedra"), found in SPORE_HELPERS, beside the running program,
+ * or in the installed libexec folder. Sends `request`, reports the helper's progress, and returns its answer. NULL with
+ * a GError: the helper is not in this build, died (with its signal), took too long, answered too much, reported an
+ * error, or was cancelled (killed at once). */
 GBytes *spore_helper_run(const char *program, const char *place, GBytes *request, const SporeHelperLimits *limits,
                          const SporeProgress *progress, GError **error);
 
-/* Child's side (libc alone). A helper's main calls spore_helper_start first, then reads the request, sends any number
- * of progress messages and one answer or one error, and ends by _exit: nothing is left to tidy up. */
+/* Child's side (libc alone). A helper's main calls spore_helper_start first and reads the request. It then sends any
+ * number of progress messages and one answer or one error, and ends by _exit: nothing has to be freed. */
 
-/* Reads the limits from the arguments, keeps standard output for frames alone, and enters the sandbox. What the kernel
- * lacks is told to the parent. Ends the program when it was started by hand. */
+/* Reads the limits from the arguments, reserves standard output for frames, and enters the sandbox. Reports to the
+ * parent what the kernel lacks. Ends the program when somebody started it by hand. */
 void spore_helper_start(int argc, char **argv);
 gboolean spore_helper_read_request(void **content, gsize *size); /* free() */
-/* stage and message: marked by N_(), the parent translates them; detail: what a library said, or NULL. */
+/* stage and message: marked by N_(); the parent translates them. detail: the message of a library, or NULL. */
 void spore_helper_send_progress(double fraction, const char *stage);
 void spore_helper_send_error(SporeErrorCode code, const char *message, const char *detail);
 void spore_helper_send_answer(const void *content, gsize size);

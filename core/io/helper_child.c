@@ -1,4 +1,4 @@
-/* The child's side of helpers: libc alone. */
+/* The child's side of helper processes; needs libc alone. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 #define ANSWER_FILE 3
 
-/* The parent is gone, or what it says is nonsense: there is nobody to tell. */
+/* Exit status where the parent is gone or sent nonsense: nobody can receive a message. */
 #define STATUS_NO_PARENT 4
 
 static void write_all(const void *content, size_t size) {
@@ -55,7 +55,7 @@ void spore_helper_start(int argc, char **argv) {
     _exit(2);
   }
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  /* Libraries print; only frames may reach the parent. */
+  /* Libraries may print, but only frames may reach the parent. */
   if (dup2(STDOUT_FILENO, ANSWER_FILE) < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) _exit(STATUS_NO_PARENT);
   const char *missing = NULL;
   if (!spore_sandbox_enter(memory, processor_s, &missing))

@@ -9,10 +9,10 @@ typedef struct SporeImportRequest {
   uint64_t format; /* SporeMeshFormat, never OFF */
 } SporeImportRequest;
 
-/* A sub-mesh: so many of the triangles, behind those of the parts before it. */
+/* A sub-mesh: its number of triangles. The triangles of the parts follow each other. */
 typedef struct SporeImportPart {
   uint64_t triangle_count; /* > 0 */
-  char name[64];           /* of its node, cut; empty: it has none */
+  char name[64];           /* name of its node, cut to fit; empty: it has none */
 } SporeImportPart;
 
 /* part_count SporeImportPart, vertex_count x 3 doubles and triangle_count x 3 uint32_t follow. */

@@ -1,4 +1,4 @@
-/* Label maps whose voxels lie in a file beside their header become one file, as the readers take them. */
+/* Joins a label map's header with the separate file of its voxels, since the readers take one file. */
 #include <errno.h>
 #include <fcntl.h>
 #include <glib/gi18n.h>
@@ -15,7 +15,7 @@
 #define NIFTI_START 108 /* of its vox_offset, a float */
 #define NIFTI_DATA 352
 
-/* The header and the file's bytes behind it; NULL: not a regular file that can be had whole. */
+/* The header followed by the bytes of the file; NULL: it is no regular file, or cannot be read whole. */
 static GBytes *join(const void *header, gsize size, int file) {
   struct stat info;
   gsize have = 0;
@@ -32,7 +32,7 @@ static GBytes *join(const void *header, gsize size, int file) {
   return NULL;
 }
 
-/* Behind the header, the voxels of that file in its own folder. */
+/* Joins the header with the voxels of the file `name`, which lies in the same folder. */
 static GBytes *join_beside(const char *file, const char *name, const void *header, gsize size, GError **error) {
   if (!*name || strpbrk(name, "/\\") || g_str_equal(name, "..") || g_str_has_prefix(name, "LIST")) {
     spore_error_raise(error, SPORE_ERROR_INPUT, file,
@@ -42,7 +42,7 @@ static GBytes *join_beside(const char *file, const char *name, const void *heade
     return NULL;
   }
   g_autofree char *folder = g_path_get_dirname(file), *path = g_build_filename(folder, name, NULL);
-  /* No link out of the folder is followed, and no pipe waited for. */
+  /* Follows no link out of the folder, and waits for no pipe. */
   int voxels = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
   int reason = errno;
   GBytes *whole = voxels >= 0 ? join(header, size, voxels) : NULL;
@@ -61,7 +61,7 @@ static GBytes *join_beside(const char *file, const char *name, const void *heade
   return whole;
 }
 
-/* Value of a line "data file: NAME"; NULL: it is another. */
+/* The value of a line "data file: NAME"; NULL: it is another line. */
 static const char *data_file_of(const char *line) {
   static const char *const keys[] = {"data file:", "datafile:"};
   for (gsize i = 0; i < G_N_ELEMENTS(keys); i++)
@@ -69,7 +69,7 @@ static const char *data_file_of(const char *line) {
   return NULL;
 }
 
-/* The header without the line that names the voxels' file, then those. */
+/* Joins the header, without the line that names the file of the voxels, with these voxels. */
 static GBytes *join_nrrd(const char *file, const char *bytes, gsize size, GError **error) {
   g_autofree char *text = g_strndup(bytes, MIN(size, MOST_HEADER)), *name = NULL;
   g_autoptr(GString) header = g_string_new(NULL);
@@ -84,7 +84,7 @@ static GBytes *join_nrrd(const char *file, const char *bytes, gsize size, GError
   return join_beside(file, name, header->str, header->len, error);
 }
 
-/* A .hdr with its .img: as a .nii. The offset is one in the .img, then. */
+/* Joins a .hdr with its .img to a .nii. The header's offset then counts from the start of the .img. */
 static GBytes *join_nifti(const char *file, const char *bytes, GError **error) {
   g_autofree char *base = g_path_get_basename(file), *name = NULL;
   char header[NIFTI_DATA] = {0};

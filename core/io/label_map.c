@@ -1,3 +1,4 @@
+/* Decoding of label maps in the volume helper, and what is asked of a decoded map. */
 #include "core/io/label_map.h"
 
 #include <glib/gi18n.h>
@@ -16,10 +17,10 @@ gboolean spore_label_map_is(const char *file, const void *content, gsize size) {
   if (size >= 5 && memcmp(bytes, "NRRD0", 5) == 0) return TRUE;
   if (size >= 8 && memcmp(bytes + 4, "n+2", 4) == 0) return TRUE;
   if (size >= 348 && (memcmp(bytes + 344, "n+1", 4) == 0 || memcmp(bytes + 344, "ni1", 4) == 0)) return TRUE;
-  if (size >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b) return TRUE; /* no mesh is read from gzip */
+  if (size >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b) return TRUE; /* no mesh format that SPORE reads is gzip */
   g_autofree char *name = g_ascii_strdown(file, -1);
   return g_str_has_suffix(name, ".nii") || g_str_has_suffix(name, ".nrrd") || g_str_has_suffix(name, ".nii.gz") ||
-         g_str_has_suffix(name, ".hdr"); /* Analyze, and NIfTI-2 in two files: what reads them says what to do */
+         g_str_has_suffix(name, ".hdr"); /* Analyze, and NIfTI-2 in two files: their reader tells the user what to do */
 }
 
 void spore_label_map_clear(SporeLabelMap *map) {
@@ -33,7 +34,7 @@ double spore_label_map_voxel_volume(const SporeLabelMap *map) {
                              spore_vec3_cross(spore_vec3(a[1], a[5], a[9]), spore_vec3(a[2], a[6], a[10]))));
 }
 
-/* RAS is x right, y front, z up; SPORE's y is up and z toward the user, who stands in front. */
+/* Turns RAS (x right, y front, z up) to SPORE's axes: y is up, and z points to the user, who stands in front. */
 static void turn_axes(const double ras[12], double axes[12]) {
   for (int k = 0; k < 4; k++) {
     axes[k] = ras[k];
@@ -42,7 +43,7 @@ static void turn_axes(const double ras[12], double axes[12]) {
   }
 }
 
-/* The helper is not believed: its counts must agree with what it sent, to the byte, and its axes span a space. */
+/* The helper is not trusted: its counts must agree to the byte with what it sent, and its axes must span a space. */
 static gboolean read_answer(const char *place, GBytes *answer, SporeLabelMap *map, GError **error) {
   gsize size;
   const char *bytes = g_bytes_get_data(answer, &size);

@@ -1,4 +1,4 @@
-/* Label maps: volumes in which each voxel says which organ it is of. */
+/* Label maps: volumes in which each voxel holds the number of the organ it belongs to. */
 #ifndef SPORE_IO_LABEL_MAP_H
 #define SPORE_IO_LABEL_MAP_H
 
@@ -9,7 +9,7 @@
 #include "core/math/vec3.h"
 #include "core/scene/error.h"
 
-#define SPORE_LABEL_MAP_KEPT ((gsize)64 << 20) /* bytes: a larger file is not kept in a scene */
+#define SPORE_LABEL_MAP_KEPT ((gsize)64 << 20) /* bytes: a larger label map is not stored in a scene */
 
 typedef struct SporeLabelMap {
   size_t size[3];
@@ -17,25 +17,27 @@ typedef struct SporeLabelMap {
   double axes[12];  /* 3 x 4: from indices (i, j, k, 1) of a voxel's middle to SPORE's axes, m */
 } SporeLabelMap;
 
-/* Whether the content or, for gzip, the name is that of a volume (NIfTI, NRRD). */
+/* Whether the content (for gzip: the name) is that of a volume, NIfTI or NRRD. */
 gboolean spore_label_map_is(const char *file, const void *content, gsize size);
-/* The content with the voxels of a header that names another file for them: NRRD's "data file", the .img of a NIfTI-1
- * .hdr; one regular file in the same folder. Others as they are. g_bytes_unref; NULL with an error. */
+/* The content, joined with the voxels where the header names another file for them: NRRD's "data file", the .img of a
+ * NIfTI-1 .hdr. That must be one regular file in the same folder. Other content is returned as it is. g_bytes_unref;
+ * NULL with an error. */
 GBytes *spore_label_map_whole(const char *file, GBytes *content, GError **error);
-/* NIfTI-1 and -2 in one file, plain or gzip, and NRRD with attached raw or gzip data, decoded in a helper process.
- * Place and size of voxels come from the header (sform, else qform, else voxel sizes; NRRD's space), in mm where it
- * says no unit. Refused with a message: what is cut short, cannot be, is too large, or holds no labels from 0 to 65535.
- */
+/* Decodes NIfTI-1 and -2 in one file, plain or gzip, and NRRD with attached raw or gzip data, in a helper process.
+ * Place and size of voxels come from the header (sform, else qform, else voxel sizes; NRRD's space), in mm where the
+ * header has no unit. Refuses with a message a file that is cut short, is impossible, is too large, or holds values
+ * other than labels from 0 to 65535. */
 gboolean spore_label_map_decode(const char *place, const void *content, gsize size, SporeLabelMap *map,
                                 const SporeProgress *progress, GError **error);
 void spore_label_map_clear(SporeLabelMap *map);
 
-/* The labels above 0 that there are, ascending: GArray of guint16, and of how many voxels each: GArray of guint64. */
+/* The labels above 0 that occur, ascending (GArray of guint16), and the number of voxels of each (GArray of guint64).
+ */
 void spore_label_map_list(const SporeLabelMap *map, GArray **labels, GArray **voxels);
-/* Names of labels that a file tells of (NRRD as 3D Slicer writes it): label -> char *; empty where it tells of none.
+/* Names of labels in a file (NRRD as 3D Slicer writes it): label -> char *; empty where the file has none.
  * g_hash_table_unref. */
 GHashTable *spore_label_map_names(const void *content, gsize size);
-/* One of them, or one made of the number. g_free. */
+/* The name of a label, or a name made of its number. g_free. */
 char *spore_label_map_name(GHashTable *names, guint16 label);
 double spore_label_map_voxel_volume(const SporeLabelMap *map); /* m^3 */
 

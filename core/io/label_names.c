@@ -1,5 +1,5 @@
-/* Names of labels that an NRRD's header tells of, as 3D Slicer writes its segmentations: "Segment0_Name:=liver" and
- * "Segment0_LabelValue:=3" (https://slicer.readthedocs.io, Segmentations: file format). */
+/* Reads names of labels from the header of an NRRD file, as 3D Slicer writes its segmentations: "Segment0_Name:=liver"
+ * and "Segment0_LabelValue:=3" (https://slicer.readthedocs.io, Segmentations: file format). */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -20,7 +20,7 @@ static gboolean read_line(const char *line, guint *segment, const char **key, co
   return TRUE;
 }
 
-/* Without control characters, which a terminal would obey. */
+/* The name without control characters, which a terminal would obey. */
 static char *printable(const char *name) {
   char *text = g_strdup(name);
   for (char *c = text; *c; c++)

@@ -1,3 +1,4 @@
+/* Recognises the format of a mesh file by its content, and refuses files that were cut short. */
 #include "core/io/mesh_format.h"
 
 #include <glib/gi18n.h>
@@ -45,7 +46,7 @@ static guint64 stl_size(const Content *content) {
 static gboolean is_stl(const Content *content) {
   if (content->size > STL_HEADER && stl_size(content) == content->size) return TRUE;
   if (is_text(content)) return begins(content, "solid") && has_within(content, 1 << 16, "facet");
-  /* Some programs write more behind the facets; nothing but the name can tell such a file from other bytes. */
+  /* Some programs write more bytes behind the facets. Only the name can tell such a file from other content. */
   return named(content, ".stl") && content->size > STL_HEADER && stl_size(content) > STL_HEADER &&
          stl_size(content) < content->size;
 }
@@ -102,7 +103,7 @@ static gboolean check_glb(const Content *content, GError **error) {
   return TRUE;
 }
 
-/* A text that was cut still reads as fewer facets. */
+/* A text that was cut short would still be read, with fewer facets. */
 static gboolean check_stl(const Content *content, GError **error) {
   gsize tail = MIN(content->size, 1024);
   if (!is_text(content) || (content->size > STL_HEADER && stl_size(content) == content->size) ||

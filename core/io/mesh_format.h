@@ -1,4 +1,4 @@
-/* Which mesh format a file's content is. */
+/* Recognises the mesh format of a file's content. */
 #ifndef SPORE_IO_MESH_FORMAT_H
 #define SPORE_IO_MESH_FORMAT_H
 
@@ -18,11 +18,11 @@ typedef enum SporeMeshFormat {
 
 extern const char *const spore_mesh_format_names[SPORE_MESH_FORMAT_COUNT]; /* "STL", ... */
 
-/* Looks at the content; `file` only helps to say what is wrong with content that is nothing known or cut short. */
+/* Looks at the content. `file` only helps to say what is wrong with unknown content or content that was cut short. */
 gboolean spore_mesh_format_find(const char *place, const char *file, const void *content, gsize size,
                                 SporeMeshFormat *format, GError **error);
 
-/* Bytes of the mesh itself: less than size for a binary STL with something behind its facets. */
+/* Bytes of the mesh itself: less than `size` for a binary STL with other bytes behind its facets. */
 gsize spore_mesh_format_extent(SporeMeshFormat format, const void *content, gsize size);
 
 #endif

@@ -1,3 +1,5 @@
+/* Import of mesh files: decoded in the import helper (OFF here), then checked, welded, turned outward and brought to
+ * metres. */
 #include "core/io/mesh_import.h"
 
 #include <glib/gi18n.h>
@@ -32,7 +34,7 @@ static void apply_unit_and_frame(SporeTriangleMesh *mesh, int unit, int frame) {
   }
 }
 
-/* As in the file: its triangles, and which of its parts each is of. */
+/* The mesh as in the file: its triangles, and the part that each belongs to. */
 typedef struct Raw {
   SporeTriangleMesh mesh;
   guint32 *part;    /* triangle_count; NULL: one part without a name */
@@ -51,7 +53,7 @@ static gboolean fail_answer(const char *place, GError **error) {
       _("the import helper gave a wrong answer; expected a mesh; give another format, and report this"));
 }
 
-/* The parts' triangles must add up to those that were sent. */
+/* The triangles of the parts must add up to the triangles that were sent. */
 static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw *raw) {
   gsize triangle = 0;
   raw->part = g_try_new(guint32, head->triangle_count);
@@ -67,7 +69,7 @@ static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw
   return raw->part && triangle == head->triangle_count;
 }
 
-/* The helper is not believed: its counts must agree with what it sent, to the byte. */
+/* The helper is not trusted: its counts must agree to the byte with what it sent. */
 static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError **error) {
   gsize size;
   const char *bytes = g_bytes_get_data(answer, &size);
@@ -120,8 +122,8 @@ static gboolean decode_in_helper(const char *place, SporeMeshFormat format, cons
   return done;
 }
 
-/* A surface without border, each edge of which two triangles share, has an outside: triangles that look inward are
- * turned. Others are left as they are: nothing says where their outside is. */
+/* Turns triangles that look inward. Only a surface without border, in which two triangles share each edge, has an
+ * outside. Other surfaces are left as they are. */
 static bool turn_outward(SporeTriangleMesh *mesh, SporeError *error) {
   SporeMeshReport report;
   if (!spore_triangle_mesh_report(mesh, &report, error)) return false;
@@ -142,7 +144,7 @@ gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **er
   return spore_error_propagate(&failure, error);
 }
 
-/* In metres and SPORE's axes. */
+/* Decodes a mesh, in metres and in SPORE's axes. */
 static gboolean decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                        Raw *raw, const SporeProgress *progress, GError **error) {
   g_assert(unit >= 0 && spore_length_units[unit] && frame >= 0 && frame < 3);
@@ -173,14 +175,14 @@ void spore_mesh_part_free(SporeMeshPart *part) {
   g_free(part);
 }
 
-/* The part of that number, or with a NULL `pieces` all; NULL with an error. */
+/* The part of that number; `pieces` NULL: the whole mesh. NULL with an error. */
 static SporeMeshPart *take_part(const char *place, Raw *raw, const guint32 *pieces, guint32 number, GError **error) {
   SporeMeshPart *part = g_new0(SporeMeshPart, 1);
   SporeError failure = SPORE_ERROR_INIT;
   const char *name = raw->names && number < raw->names->len ? g_ptr_array_index(raw->names, number) : "";
   part->name = g_strdup(pieces ? name : "");
   g_autofree char *where = *part->name ? g_strdup_printf("%s: %s", place, part->name) : g_strdup(place);
-  gboolean done = spore_triangle_mesh_validate(&raw->mesh, &failure); /* before its indices are followed */
+  gboolean done = spore_triangle_mesh_validate(&raw->mesh, &failure); /* validated before its indices are used */
   if (done && pieces) done = spore_triangle_mesh_extract(&raw->mesh, pieces, number, &part->mesh, &failure);
   else if (done) part->mesh = raw->mesh, raw->mesh = (SporeTriangleMesh){0};
   if (!done) {

@@ -1,4 +1,4 @@
-/* Meshes from strangers' files. */
+/* Import of meshes from untrusted files, and text formats of spheres, curves and tetrahedra. */
 #ifndef SPORE_IO_MESH_IMPORT_H
 #define SPORE_IO_MESH_IMPORT_H
 
@@ -15,15 +15,15 @@
  */
 extern const char *const spore_mesh_frames[]; /* Y_UP RAS LPS */
 
-/* Decodes STL, OBJ, PLY, OFF, glTF (embedded) or GLB; by content, the extension of `file` only breaks ties. OFF is read
- * here; the rest by assimp in a helper process that may open no file, reach no network and outlive no time limit.
- * All sub-meshes are joined, their node transforms applied; then validated, welded (1e-6), turned outward, unit
- * and frame applied.
- * place (usually the path) begins every message. Cancelled by progress. */
+/* Decodes STL, OBJ, PLY, OFF, glTF (embedded) or GLB. The content decides on the format; the extension of `file` only
+ * decides where the content does not. OFF is read here. assimp reads the other formats in a helper process that can
+ * open no file, reach no network and exceed no time limit. All sub-meshes are joined with their node transforms
+ * applied. The mesh is then validated, welded (1e-6), turned outward, and unit and frame are applied. place (usually
+ * the path) begins every message. `progress` can cancel. */
 gboolean spore_mesh_decode(const char *place, const char *file, const void *content, gsize size, int unit, int frame,
                            SporeTriangleMesh *mesh, const SporeProgress *progress, GError **error);
 
-/* A sub-mesh of a file: what hangs on one node of glTF or one object of OBJ. */
+/* A sub-mesh of a file: the meshes of one node of glTF or of one object of OBJ. */
 typedef struct SporeMeshPart {
   char *name; /* "": it has none */
   SporeTriangleMesh mesh;
@@ -31,19 +31,20 @@ typedef struct SporeMeshPart {
 void spore_mesh_part_free(SporeMeshPart *part);
 #define SPORE_MESH_PARTS_MAXIMUM 500u
 
-/* The same, with the parts that the file names `apart` or joined as above into one. *count: those it has, 1 where its
- * format has none. GPtrArray of SporeMeshPart *, one at least; NULL with an error. */
+/* As spore_mesh_decode; `apart` keeps the parts that the file names separate, else they are joined into one. *count:
+ * number of parts in the file, 1 where its format has none. GPtrArray of SporeMeshPart *, at least one; NULL with an
+ * error. */
 GPtrArray *spore_mesh_decode_parts(const char *file, const void *content, gsize size, int unit, int frame,
                                    gboolean apart, guint *count, const SporeProgress *progress, GError **error);
 
-/* Validates, welds (1e-6) and turns outward, as each decoded mesh is; for one that was put together since. */
+/* Validates, welds (1e-6) and turns outward a mesh that was put together after decoding, as each decoded mesh is. */
 gboolean spore_mesh_tidy(const char *place, SporeTriangleMesh *mesh, GError **error);
 
-/* Frame said by the file itself (Slicer writes SPACE=LPS or RAS into headers and comments): index, or -1. */
+/* The frame that the file itself names (3D Slicer writes SPACE=LPS or RAS into headers and comments): index, or -1. */
 int spore_mesh_frame_hint(const void *content, gsize size);
 
-/* Sphere sets and curves: "x y z r" a line, metres, # comments. Tetrahedra: Medit .mesh (ASCII). In memory, messages
- * with line. */
+/* Text formats, in memory; messages name the line. Sphere sets and curves: "x y z r" a line, metres, # comments.
+ * Tetrahedra: Medit .mesh (ASCII). */
 gboolean spore_spheres_parse(const char *place, const char *text, gsize size, SporeSphereSet *set, GError **error);
 char *spore_spheres_format(const SporeSphereSet *set, gsize *size); /* g_free */
 gboolean spore_curve_parse(const char *place, const char *text, gsize size, SporeCurve *curve, GError **error);

@@ -1,5 +1,5 @@
-/* OFF: the one mesh format that SPORE reads and writes by itself (Princeton's description, with the prefixes of
- * Geomview; colours, normals and texture coordinates are passed over). */
+/* Reads and writes OFF, the one mesh format without a helper process (Princeton's description, with the prefixes of
+ * Geomview; colours, normals and texture coordinates are skipped). */
 #include "core/io/off.h"
 
 #include <glib/gi18n.h>
@@ -32,7 +32,7 @@ static gboolean read_vertices(SporeScanner *scanner, gsize count, GArray *vertic
   return TRUE;
 }
 
-/* One face of any number of corners, as a fan; a face of fewer than three is passed over. */
+/* Reads a face with any number of corners as a fan of triangles. A face with fewer than three corners is skipped. */
 static gboolean read_face(SporeScanner *scanner, gsize vertex_count, GArray *triangles, GError **error) {
   guint64 corners, index;
   guint32 corner[3];

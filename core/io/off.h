@@ -1,4 +1,4 @@
-/* OFF, read and written by SPORE itself. */
+/* The OFF mesh format. */
 #ifndef SPORE_IO_OFF_H
 #define SPORE_IO_OFF_H
 
@@ -7,9 +7,10 @@
 #include "core/mesh/mesh.h"
 #include "core/scene/error.h"
 
-/* The text begins as OFF does. */
+/* Whether the text begins like OFF. */
 gboolean spore_off_is(const char *text, gsize size);
-/* As in the file: neither validated beyond its indices, nor welded. *mesh is empty before; on FALSE it stays so. */
+/* Reads the mesh as it is in the file: only indices are checked, and nothing is welded. *mesh must be empty; it stays
+ * empty on FALSE. */
 gboolean spore_off_parse(const char *place, const char *text, gsize size, SporeTriangleMesh *mesh, GError **error);
 
 #endif

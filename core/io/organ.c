@@ -1,3 +1,4 @@
+/* Inserts an imported mesh into a document, as an asset and a body that shows the asset. */
 #include "core/io/organ.h"
 
 #include <string.h>
@@ -8,7 +9,7 @@
 char *spore_organ_name(const char *text) {
   g_autofree char *plain = g_utf8_validate(text, -1, NULL) ? g_str_to_ascii(text, "C") : g_strdup(text);
   GString *name = g_string_new(NULL);
-  gboolean says = FALSE; /* any letter or digit */
+  gboolean says = FALSE; /* whether there is any letter or digit */
   for (const char *c = plain; *c; c++) {
     says = says || g_ascii_isalnum(*c);
     g_string_append_c(name, g_ascii_isalnum(*c) || *c == '_' || *c == '-' || *c == '.' ? *c : '_');
@@ -47,7 +48,7 @@ static gboolean file_taken(SporeDocument *document, const char *file, GBytes *co
   return !held || !g_bytes_equal(held, content);
 }
 
-/* The file's own name where it is free, with its content's hash where another file bears it. */
+/* The file's own name where no other asset has it, else the name with a hash of the content. */
 static char *asset_file(SporeDocument *document, const char *file, GBytes *content) {
   g_autofree char *base = g_path_get_basename(file);
   g_autofree char *stem = stem_of(file);

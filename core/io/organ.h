@@ -1,21 +1,22 @@
-/* An imported mesh in a document: what `spore import` and the editor both do. */
+/* Inserts an imported mesh into a document, for `spore import` and for the editor. */
 #ifndef SPORE_IO_ORGAN_H
 #define SPORE_IO_ORGAN_H
 
 #include "core/scene/document.h"
 
-/* A mesh asset named `name` (NULL: after `file`), its content a waiting blob, and a body that shows it, unmovable until
- * it is given a mechanical model. unit and frame index spore_length_units and spore_mesh_frames. Returns the body; NULL
- * with a GError: what was inserted by then stays, so call it inside a group where that matters. */
+/* Inserts a mesh asset named `name` (NULL: after `file`), its content as a waiting blob, and a body that shows the
+ * mesh. The body is unmovable until it gets a mechanical model. unit and frame index spore_length_units and
+ * spore_mesh_frames. Returns the body. NULL with a GError: objects inserted before the failure stay, so call it inside
+ * a group where that matters. */
 SporeObject *spore_organ_insert(SporeDocument *document, const char *name, const char *file, GBytes *content, int unit,
                                 int frame, GError **error);
 
-/* A name of the form that the file format allows, from any text: letters with marks lose them, where there are none of
- * the Latin script it is "organ". g_free. */
+/* Makes a valid object name of any text. Letters with marks lose their marks; without any Latin letter the name is
+ * "organ". g_free. */
 char *spore_organ_name(const char *text);
 
-/* Name of a file with this content, told apart from others of that name by a hash: "NAME-1a2b3c4d.EXTENSION". g_free.
- */
+/* Name of a file with this content, distinguished from other files of that name by a hash: "NAME-1a2b3c4d.EXTENSION".
+ * g_free. */
 char *spore_content_file_name(const char *name, const char *extension, gconstpointer content, gsize size);
 
 #endif

@@ -1,4 +1,5 @@
-/* PLY (Turk 1994): a text header that names elements and their properties, then the elements as text or as bytes. */
+/* Checks PLY files (Turk 1994): a text header that names elements and their properties, then the elements as text or as
+ * bytes. */
 #include "core/io/ply_check.h"
 
 #include <glib/gi18n.h>
@@ -41,7 +42,7 @@ typedef struct {
 typedef struct {
   SporeScanner scanner;
   PlyForm form;
-  const char *body, *end; /* what is left of a binary body */
+  const char *body, *end; /* the unread rest of a binary body */
   guint64 vertex_count;
   gsize element_count;
   PlyElement elements[MOST_ELEMENTS];
@@ -126,7 +127,7 @@ static gboolean read_header(Ply *ply) {
   return fail_short(ply);
 }
 
-/* One number of the body. Reals are passed over: what they are is checked after the import. */
+/* Reads one number of the body. Real numbers are skipped: their values are checked after the import. */
 static gboolean read_number(Ply *ply, const PlyType *type, gint64 *value) {
   if (ply->form == PLY_TEXT) {
     if (!spore_scanner_next(&ply->scanner)) return fail_short(ply);

@@ -1,4 +1,4 @@
-/* Does a PLY file hold what its header promises? */
+/* Checks that a PLY file holds the elements that its header announces. */
 #ifndef SPORE_IO_PLY_CHECK_H
 #define SPORE_IO_PLY_CHECK_H
 
@@ -6,8 +6,8 @@
 
 #include "core/scene/error.h"
 
-/* Walks over every element: assimp reads a file that was cut short as one with fewer faces, or dies of it. Refuses
- * that, and faces that name a vertex that is not there. */
+/* Walks over every element. assimp reads a file that was cut short as one with fewer faces, or crashes. This check
+ * refuses such a file, and faces that name a missing vertex. */
 gboolean spore_ply_check(const char *place, const char *content, gsize size, GError **error);
 
 #endif

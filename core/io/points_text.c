@@ -1,12 +1,12 @@
-/* .spheres and .curve: "x y z r" a line, metres, # comments; spheres with weights "x y z r w",
- * before the first of which a comment "# level H" may stand: readers that know nothing of levels pass over it. */
+/* Reads and writes .spheres and .curve: "x y z r" a line, metres, # comments. Spheres with weights have lines "x y z r
+ * w", and a comment "# level H" may stand before the first line: readers without weights skip it. */
 #include <glib/gi18n.h>
 #include <string.h>
 
 #include "core/io/mesh_import.h"
 #include "core/io/scanner.h"
 
-/* What messages say of a kind of rows. */
+/* The words for a kind of rows in messages. */
 typedef struct RowWords {
   const char *numbers[4];
   const char *weight; /* NULL: has none */
@@ -35,7 +35,7 @@ typedef struct Rows {
   double level;  /* m */
 } Rows;
 
-/* Passes over a comment that stands alone on its line; FALSE where something else begins. */
+/* Skips a comment that stands alone on its line; FALSE where the next text is no such comment. */
 static gboolean pass_comment(SporeScanner *scanner) {
   if (scanner->at == scanner->end || *scanner->at != '#') return FALSE;
   const char *newline = memchr(scanner->at, '\n', (gsize)(scanner->end - scanner->at));
@@ -45,7 +45,7 @@ static gboolean pass_comment(SporeScanner *scanner) {
   return TRUE;
 }
 
-/* Is the comment that begins here "# level H"? `number` has read H then. */
+/* Whether the comment that begins here is "# level H". `number` has then read H. */
 static gboolean is_level(const SporeScanner *scanner, SporeScanner *number, double *level) {
   *number = *scanner;
   if (number->at == number->end || *number->at != '#') return FALSE;
@@ -57,7 +57,7 @@ static gboolean is_level(const SporeScanner *scanner, SporeScanner *number, doub
          !spore_scanner_more_on_line(number);
 }
 
-/* The level, where one stands among the comments that a set begins with. */
+/* Reads the level, where one of the comments at the start of a set holds it. */
 static gboolean read_level(SporeScanner *scanner, Rows *rows, GError **error) {
   SporeScanner number;
   double level;
@@ -71,7 +71,7 @@ static gboolean read_level(SporeScanner *scanner, Rows *rows, GError **error) {
   return TRUE;
 }
 
-/* The weight, where there is one: all rows have it, or none has. */
+/* Reads the weight of a row. Either all rows have a weight or none. */
 static gboolean read_weight(SporeScanner *scanner, const RowWords *words, Rows *rows, double *weight, GError **error) {
   gboolean more = spore_scanner_more_on_line(scanner);
   if (!rows->columns) rows->columns = more && words->weight ? 5 : 4;
@@ -119,7 +119,7 @@ static gboolean read_row(SporeScanner *scanner, const RowWords *words, Rows *row
   return TRUE;
 }
 
-/* All rows; numbers is NULL with a message. */
+/* Reads all rows; on failure `numbers` is NULL and the error is set. */
 static Rows read_rows(SporeScanner *scanner, const RowWords *words, GError **error) {
   Rows rows = {.numbers = g_array_new(FALSE, FALSE, sizeof(double))};
   gboolean done = !words->weight || read_level(scanner, &rows, error);

@@ -1,4 +1,4 @@
-/* How a document reads its assets. */
+/* The readers of assets that a document uses. */
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 

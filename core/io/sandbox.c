@@ -1,4 +1,5 @@
-/* What a helper gives up before it looks at a stranger's bytes: libc alone. */
+/* The sandbox that a helper enters before it reads untrusted bytes: it gives up files, processes and network. Needs
+ * libc alone. */
 #include <errno.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
@@ -12,7 +13,7 @@
 
 #include "core/io/helper.h"
 
-#define FIRST_UNUSED_FILE 4 /* 0 request, 1 and 2 what libraries print, 3 frames */
+#define FIRST_UNUSED_FILE 4 /* 0: request, 1 and 2: printed text of libraries, 3: frames */
 
 #if defined(__x86_64__)
 #define ARCHITECTURE AUDIT_ARCH_X86_64
@@ -20,12 +21,13 @@
 #define ARCHITECTURE AUDIT_ARCH_AARCH64
 #endif
 
-/* As in linux/landlock.h, whose structure grows: an older header must not keep us from asking a newer kernel. */
+/* As in linux/landlock.h. That structure grows from version to version; with a definition of our own, an older header
+ * does not keep us from using a newer kernel. */
 struct landlock_rules {
   uint64_t files, network, scoped;
 };
 
-/* A ruleset that handles every right there is and grants none. */
+/* A Landlock ruleset that handles every right of this kernel and grants none. */
 static bool forbid_files(void) {
   long version = syscall(SYS_landlock_create_ruleset, NULL, 0, 1 /* LANDLOCK_CREATE_RULESET_VERSION */);
   if (version < 1) return false;
@@ -42,7 +44,7 @@ static bool forbid_files(void) {
 }
 
 #ifdef ARCHITECTURE
-/* Calls that computing needs: memory, the open pipes, time, signals to oneself, the end. Nothing that opens, connects,
+/* System calls that computing needs: memory, the open pipes, time, signals to itself, ending. No call opens, connects,
  * forks, executes or looks at other processes. */
 static const uint16_t allowed_calls[] = {
     SYS_read,
@@ -79,7 +81,8 @@ static const uint16_t allowed_calls[] = {
 };
 #define CALLS (sizeof allowed_calls / sizeof *allowed_calls)
 
-/* Anything else fails with EPERM rather than kill: libraries try optional things and cope. */
+/* Every other call fails with EPERM and does not kill the process: libraries try optional calls and handle the failure.
+ */
 static bool forbid_calls(void) {
   struct sock_filter filter[CALLS + 6], *next = filter;
   *next++ = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, arch));
@@ -105,7 +108,7 @@ gboolean spore_sandbox_enter(guint64 memory, guint64 processor_s, const char **m
   close_range(FIRST_UNUSED_FILE, ~0u, 0);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
-#ifndef __SANITIZE_ADDRESS__ /* which maps terabytes for its own bookkeeping */
+#ifndef __SANITIZE_ADDRESS__ /* the sanitizer maps terabytes for its own bookkeeping */
   limit(RLIMIT_AS, memory);
 #endif
   limit(RLIMIT_CPU, processor_s);

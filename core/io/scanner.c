@@ -1,3 +1,4 @@
+/* Words and numbers of a text file, read one after the other, with their line and column for messages. */
 #include "core/io/scanner.h"
 
 #include <glib/gi18n.h>
@@ -77,7 +78,7 @@ gboolean spore_scanner_fail(const SporeScanner *scanner, GError **error, const c
   return FALSE;
 }
 
-/* The last word, fit to be shown: short, and UTF-8 whatever the file holds. */
+/* The last word as messages show it: short, and valid UTF-8 whatever the file holds. */
 static char *shown_word(const SporeScanner *scanner) {
   char *shown = g_utf8_make_valid(scanner->word, (gssize)MIN(scanner->length, 40));
   for (char *c = shown; *c; c++)

@@ -1,4 +1,4 @@
-/* Words and numbers of a text that someone else wrote, with the place of each for messages. */
+/* Reads words and numbers of an untrusted text, with the place of each for messages. */
 #ifndef SPORE_IO_SCANNER_H
 #define SPORE_IO_SCANNER_H
 
@@ -16,21 +16,21 @@ typedef struct SporeScanner {
 } SporeScanner;
 
 void spore_scanner_init(SporeScanner *scanner, const char *place, const char *text, gsize size);
-/* Next word; white space and # comments are passed over. FALSE at the end. */
+/* Reads the next word; skips white space and # comments. FALSE at the end. */
 gboolean spore_scanner_next(SporeScanner *scanner);
-/* Is there another word on the line of the last one? */
+/* Whether there is another word on the line of the last word. */
 gboolean spore_scanner_more_on_line(SporeScanner *scanner);
 /* The last word equals `text`, upper or lower case. */
 gboolean spore_scanner_is(const SporeScanner *scanner, const char *text);
-/* Passes over the rest of the line of the last word. */
+/* Skips the rest of the line of the last word. */
 void spore_scanner_skip_line(SporeScanner *scanner);
 
-/* The next word as a number; `what` says in messages which one was expected ("the x of a vertex", translated). */
+/* Reads the next word as a number. `what` names the expected number in messages ("the x of a vertex", translated). */
 gboolean spore_scanner_real(SporeScanner *scanner, const char *what, double *value, GError **error);
 gboolean spore_scanner_integer(SporeScanner *scanner, const char *what, guint64 minimum, guint64 maximum,
                                guint64 *value, GError **error);
-/* A number of items that each take `bytes` at least: what the rest of the text cannot hold is refused, and so are more
- * than SPORE_MESH_MAXIMUM. */
+/* Reads a number of items that each take at least `bytes` bytes. Refuses more items than the rest of the text can hold,
+ * and more than SPORE_MESH_MAXIMUM. */
 gboolean spore_scanner_count(SporeScanner *scanner, const char *what, gsize bytes, gsize *count, GError **error);
 /* Writes rows of `width` numbers, each row on a line that ends in `ending`; every number reads back to the same bits.
  */

@@ -1,4 +1,5 @@
-/* Writing: a canonical form of two spaces a level, in which a file that has it already stays as it is. */
+/* Writes a scene in a canonical form, indented by two spaces a level. A file that has this form already stays as it is.
+ */
 #include "core/io/scene_format.h"
 
 #include <string.h>
@@ -16,7 +17,7 @@ static void append_lines(Writer *writer, const char *text) {
   for (const char *c = text; *c; c++) writer->line += *c == '\n';
 }
 
-/* Ends the line, leaves at most one empty, and indents. */
+/* Ends the line, keeps at most one empty line, and indents. */
 static void new_line(Writer *writer, guint lines, guint depth) {
   if (writer->text->len > 0)
     for (guint i = 0; i < CLAMP(lines, 1, 2); i++) append_lines(writer, "\n");
@@ -100,7 +101,7 @@ static void write_start(Writer *writer, const SporeObject *object, guint depth) 
     write_property(writer, object, g_array_index(object->order, guint, i), depth);
 }
 
-/* A section that holds nothing is only written where the author wrote it. */
+/* Whether an object is written. An empty section is written only where the author wrote it. */
 static gboolean is_written(const SporeObject *object) {
   gboolean section = object->parent && !object->parent->parent;
   return !section || object->written || object->order->len > 0 || object->children->len > 0;

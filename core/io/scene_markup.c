@@ -1,3 +1,4 @@
+/* Finds the tags and comments in the text of a scene, with the line and column of each. */
 #include "core/io/scene_markup.h"
 
 #include <glib/gi18n.h>
@@ -5,7 +6,7 @@
 
 #include "core/scene/error.h"
 
-/* A place that walks through the text. */
+/* A place in the text, with its line and column. */
 typedef struct Cursor {
   const char *file, *text;
   gsize size, at;
@@ -44,14 +45,14 @@ static gboolean looking_at(const Cursor *cursor, const char *word) {
 
 static gboolean is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/* Byte behind `word` at or after `from`; 0: it does not come. */
+/* The byte behind the next `word` at or after `from`; 0: there is none. */
 static gsize behind(const Cursor *cursor, gsize from, const char *word) {
   gsize length = strlen(word);
   const char *found = memmem(cursor->text + from, cursor->size - from, word, length);
   return found ? (gsize)(found - cursor->text) + length : 0;
 }
 
-/* Byte behind the tag that begins here, quoted '>' skipped; 0: it does not end. */
+/* The byte behind the tag that begins here; a quoted '>' does not end it. 0: the tag does not end. */
 static gsize tag_end(const Cursor *cursor, guint *attributes) {
   char quote = 0;
   *attributes = 0;
@@ -70,7 +71,7 @@ static gsize tag_end(const Cursor *cursor, guint *attributes) {
   return 0;
 }
 
-/* Skips the blanks up to the next '<'. FALSE: something else stands there. */
+/* Skips blanks up to the next '<'. FALSE: there is other text. */
 static gboolean skip_blanks(Cursor *cursor, gboolean inside, guint *lines, GError **error) {
   gsize to = cursor->at;
   while (to < cursor->size && is_blank(cursor->text[to])) to++;

@@ -1,6 +1,6 @@
-/* Where things stand in the text of a scene. libxml2 says what a file means, but its positions run ahead of what it
- * reports; so the tags and comments are found in the text first, each with its exact line and column, and the parser's
- * events then take them up one after the other. */
+/* Places of tags and comments in the text of a scene. libxml2 tells what a file means, but its positions run ahead of
+ * its events. So the tags and comments are found in the text first, each with its exact line and column. The events of
+ * the parser are then matched with them one after the other. */
 #ifndef SPORE_IO_SCENE_MARKUP_H
 #define SPORE_IO_SCENE_MARKUP_H
 
@@ -19,10 +19,9 @@ typedef struct SporeMarkupLimits {
   guint elements, depth, attributes; /* at most in a file, around each other, and in a tag */
 } SporeMarkupLimits;
 
-/* All markup of a text that is valid UTF-8. Refuses, with place, what no scene holds: text outside tags, document
- * types, CDATA sections, processing instructions, and more than the limits. Where the text is not well-formed it ends
- * early, and leaves the complaint to the parser. `declaration`: the text begins with <?xml ...?>. NULL with a GError.
- */
+/* All markup of a text that is valid UTF-8. Refuses, with place, what no scene holds: text outside of tags, document
+ * types, CDATA sections, processing instructions, and more than the limits. Where the text is not well-formed, the list
+ * ends early and the parser reports the fault. `declaration`: the text begins with <?xml ...?>. NULL with a GError. */
 GArray *spore_markup_scan(const char *file, const char *text, gsize size, const SporeMarkupLimits *limits,
                           gboolean *declaration, GError **error);
 

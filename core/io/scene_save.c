@@ -1,4 +1,4 @@
-/* Saving: blobs and assets first, the scene last, all of them or none. */
+/* Saves a scene: blobs and assets first, the scene last, all of them or none. */
 #include <errno.h>
 #include <fcntl.h>
 #include <glib/gi18n.h>
@@ -11,7 +11,7 @@
 #include "core/io/scene_format.h"
 #include "core/io/scene_xml.h"
 
-/* Where a file goes: symbolic links to it are followed, so that they stay links. g_free. */
+/* The real target of a file name. Symbolic links are followed, so that they stay links. g_free. */
 static char *real_target(const char *file) {
   char *real = realpath(file, NULL);
   char *target = g_strdup(real ? real : file);
@@ -45,7 +45,7 @@ static gboolean add_file(SporeFileBatch *batch, const char *file, const void *co
   return done;
 }
 
-/* A device or pipe (/dev/stdout): nothing there to be replaced or taken back. */
+/* Whether the file is a device or a pipe (/dev/stdout), which can neither be replaced nor taken back. */
 static gboolean is_stream(const char *file) {
   struct stat status;
   return stat(file, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
@@ -95,7 +95,7 @@ static gboolean same_folder(const SporeDocument *document, const char *scene) {
 
 typedef enum Found { FOUND_NOTHING, FOUND_SAME, FOUND_OTHER } Found;
 
-/* What stands at the target already. */
+/* Compares a file with the one that is already at the target. */
 static Found compare_target(const SporeDocument *document, const char *scene, const char *file, GBytes *content) {
   g_autofree char *folder = g_path_get_dirname(scene);
   g_autofree char *target = g_build_filename(folder, file, NULL);
@@ -113,7 +113,7 @@ static gboolean save_asset(SporeDocument *document, SporeFileBatch *batch, int d
   if (stays && !g_hash_table_contains(document->blobs, file)) return TRUE;
   g_autoptr(GError) missing = NULL;
   g_autoptr(GBytes) content = spore_document_read_asset(document, file, &missing);
-  if (!content) return TRUE; /* as broken in the new place as in the old one; `check` says it */
+  if (!content) return TRUE; /* unreadable in the old place too; `spore check` reports it */
   Found found = compare_target(document, scene, file, content);
   if (found == FOUND_SAME) return TRUE;
   g_autofree char *folder = g_path_get_dirname(scene);
@@ -143,7 +143,7 @@ static gboolean save_assets(SporeDocument *document, SporeFileBatch *batch, cons
 
 /* The scene. */
 
-/* A required property without a value would make a file that cannot be read again. */
+/* Refuses a required property without a value: the file could not be read again. */
 static gboolean check_required(const SporeObject *object, GError **error) {
   const SporeParameterTable *table = object->type->table;
   for (size_t i = 0; i < table->count; i++) {
@@ -160,7 +160,7 @@ static gboolean check_required(const SporeObject *object, GError **error) {
   return TRUE;
 }
 
-/* What holds after the files are there. */
+/* Updates the document after the files are written. */
 static void settle(SporeDocument *document, const char *file, GHashTable *files, const GArray *places) {
   GHashTableIter iterator;
   gpointer asset;

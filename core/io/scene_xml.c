@@ -1,5 +1,6 @@
-/* Reading. The whole text is in memory: its markup is found first (scene_markup.h), then libxml2's push parser is fed
- * with it and says what it means. Each event takes up the next piece of markup, and so knows its exact place. */
+/* Reads scene files. The whole text is in memory. Its markup is found first (scene_markup.h), then libxml2's push
+ * parser gets the text and tells what it means. Each event is matched with the next piece of markup, and so has an
+ * exact place. */
 #include "core/io/scene_xml.h"
 
 #include <errno.h>
@@ -14,7 +15,7 @@
 #include "core/scene/document_private.h"
 
 #define LARGEST_SCENE (64u << 20) /* bytes */
-#define FEED (64u << 10)          /* bytes at a time: what the parser holds stays small */
+#define FEED (64u << 10)          /* bytes at a time: the parser's own buffer stays small */
 static const SporeMarkupLimits limits = {.elements = 200000, .depth = 16, .attributes = 64};
 
 /* An element that is open. */
@@ -33,12 +34,12 @@ typedef struct Reader {
   guint next;         /* markup that the next event takes up */
   GArray *frames;     /* of Frame */
   GArray *comments;   /* of SporeComment: read, and not yet given to an object */
-  SporeObject *ended; /* the element whose end came last, when nothing but comments came since */
+  SporeObject *ended; /* the element that ended last, where only comments followed it */
   GHashTable *names;  /* "section/name" -> SporeObject * */
   GError *error;
 } Reader;
 
-/* Faults. Only the first counts. */
+/* Faults. Only the first fault is reported. */
 
 static void fail(Reader *reader, int line, int column, const char *format, ...) G_GNUC_PRINTF(4, 5);
 static void fail(Reader *reader, int line, int column, const char *format, ...) {
@@ -67,7 +68,7 @@ static void on_error(void *data, XmlError error) {
        _("this is not well-formed XML: %s; expected tags that match and quoted values; correct it"), message);
 }
 
-/* NULL: the parser and the scan disagree, which only happens in what is not well-formed. */
+/* The markup of an event. NULL: parser and scan disagree, which happens only in text that is not well-formed. */
 static const SporeMarkup *take(Reader *reader, SporeMarkupKind kind) {
   if (reader->error) return NULL;
   if (reader->next < reader->markups->len) {
@@ -88,7 +89,7 @@ static gboolean is_empty_tag(const Reader *reader, const SporeMarkup *markup) {
 
 /* Comments. */
 
-/* Those on the line of the element before stay with it; the others go to *rest. */
+/* Gives comments on the line of the element before to that element, and the other comments to *rest. */
 static void give_comments(Reader *reader, GArray **rest) {
   gboolean same_line = reader->ended != NULL;
   for (guint i = 0; i < reader->comments->len; i++) {
@@ -111,7 +112,8 @@ static void on_comment(void *data, const xmlChar *text) {
 
 /* Attributes. */
 
-/* libxml2 leaves one reference in the values that it reports, whatever stood in the file: "&#38;" for an ampersand. */
+/* The text of an attribute. libxml2 leaves one reference in the values that it reports, however the file spells it:
+ * "&#38;" for an ampersand. */
 static char *attribute_text(const xmlChar *begin, const xmlChar *end) {
   g_autofree char *text = g_strndup((const char *)begin, (gsize)(end - begin));
   g_auto(GStrv) parts = g_strsplit(text, "&#38;", -1);
@@ -178,7 +180,7 @@ static void check_required(Reader *reader, const SporeObject *object) {
   }
 }
 
-/* Says of a newer file that it is newer, rather than what is new in it. */
+/* Checks the version first, so that a newer file is reported as newer, and not for its new elements. */
 static void check_version_first(Reader *reader, const SporeMarkup *markup, int count, const xmlChar **attributes) {
   SporeMarkupAttribute at = {0};
   for (int i = 0; i < count && spore_markup_next_attribute(reader->text, markup, &at); i++) {
@@ -229,7 +231,7 @@ static const SporeObjectType *refuse_element(Reader *reader, const SporeMarkup *
   return NULL;
 }
 
-/* At most one, and in the fixed order, where the parent wants that. */
+/* Checks that a child occurs at most once and in the fixed order, where the parent requires that. */
 static gboolean check_order(Reader *reader, Frame *frame, const SporeMarkup *markup, const SporeObjectType *type) {
   const SporeObjectType *parent = frame->object->type;
   guint rank;
@@ -295,7 +297,7 @@ static void on_end(void *data, const xmlChar *name, const xmlChar *prefix, const
   g_array_set_size(reader->frames, reader->frames->len - 1);
 }
 
-/* The scan has refused it already; this holds even if it had not. */
+/* Refuses a document type a second time: the scan has refused it already. */
 static void on_document_type(void *data, const xmlChar *name, const xmlChar *external, const xmlChar *system) {
   Reader *reader = ((xmlParserCtxtPtr)data)->_private;
   fail(reader, 1, 1, "%s", _("a document type is not allowed; expected elements alone; remove <!DOCTYPE>"));
@@ -337,7 +339,7 @@ static void parse(Reader *reader, gsize size) {
   xmlFreeParserCtxt(reader->parser);
 }
 
-/* Size, encoding and the markup, before anything is made of it. */
+/* Checks size and encoding, and finds the markup, before anything is created. */
 static GArray *prepare(const char *file, const char *text, gsize size, gboolean *declaration, GError **error) {
   const char *end;
   if (size == 0) {

@@ -1,4 +1,4 @@
-/* .spore files. */
+/* Reads and writes scene files (.spore). */
 #ifndef SPORE_IO_SCENE_XML_H
 #define SPORE_IO_SCENE_XML_H
 
@@ -9,18 +9,19 @@ extern const SporeAssetReaders spore_io_readers;
 
 /* Loads a scene. NULL with a GError "FILE:LINE:COLUMN: ..." at the first fault. The document has spore_io_readers. */
 SporeDocument *spore_scene_load(const SporeSchema *schema, const char *file, GError **error);
-/* The same from memory; `file` names it in messages and gives the folder (may be NULL). */
+/* As spore_scene_load, from memory. `file` (may be NULL) is the name in messages and gives the folder. */
 SporeDocument *spore_scene_parse(const SporeSchema *schema, const char *file, const char *text, gsize size,
                                  GError **error);
-/* Text of the scene: only what the author set, comments and order kept. g_free. */
+/* Text of the scene: only properties that the author set, with the author's comments and order. g_free. */
 char *spore_scene_format(const SporeDocument *document, gsize *size);
-/* Saves scene and waiting blobs, each by temporary file, fsync and rename; blobs first, the scene last. Saving into
- * another folder copies the assets that objects name. On failure the files on disk and the document are as before. */
+/* Saves the scene and waiting blobs, each by temporary file, fsync and rename; blobs first, the scene last. Saving into
+ * another folder copies the assets that objects name. After a failure the files on disk and the document are as before.
+ */
 gboolean spore_scene_save(SporeDocument *document, const char *file, GError **error);
 
 /* Writes a file whole or not at all: temporary file beside it, fsync, rename, fsync of the folder. */
 gboolean spore_write_file(const char *file, const void *content, gsize size, GError **error);
-/* Is there a folder for the file? To be asked before what takes long to be written. */
+/* Whether there is a folder for the file: to be checked before long work whose result is written there. */
 gboolean spore_file_has_folder(const char *file, GError **error);
 
 #endif

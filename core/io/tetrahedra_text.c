@@ -1,11 +1,11 @@
-/* Tetrahedral meshes as text: Medit (.mesh) read and written, Gmsh 2.2 (.msh) and VTK (.vtu) written. */
+/* Tetrahedral meshes as text: reads and writes Medit (.mesh), writes Gmsh 2.2 (.msh) and VTK (.vtu). */
 #include <glib/gi18n.h>
 #include <string.h>
 
 #include "core/io/mesh_import.h"
 #include "core/io/scanner.h"
 
-/* What a Medit file gave so far; corners from 0. */
+/* The content of a Medit file, as far as it is read; corners count from 0. */
 typedef struct {
   gboolean has_vertices, has_tetrahedra;
   GArray *vertices, *tetrahedra; /* double, guint32 */
@@ -67,7 +67,7 @@ static gboolean read_medit(SporeScanner *scanner, MeditContent *content, GError 
     else if (spore_scanner_is(scanner, "Hexahedra") || spore_scanner_is(scanner, "Prisms"))
       read = spore_scanner_fail(
           scanner, error, _("the mesh holds cells other than tetrahedra; expected tetrahedra alone; split them first"));
-    if (!read) return FALSE; /* every other section (triangles, edges, corners ...) is passed over, word by word */
+    if (!read) return FALSE; /* every other section (triangles, edges, corners ...) is skipped word by word */
   }
   if (!content->tetrahedra->len)
     return spore_scanner_fail(scanner, error,
@@ -85,7 +85,8 @@ static gsize number_used(const MeditContent *content, guint32 *number) {
   return used;
 }
 
-/* Files disagree about the order of corners: it is made positive here, since a simulation needs one. */
+/* Files disagree about the order of corners. Each tetrahedron is turned to a positive volume here, since a simulation
+ * needs it. */
 static void turn_positive(const double *vertices, guint32 *corner) {
   SporeVec3 a = spore_vec3_load(vertices + 3 * (gsize)corner[0]), b = spore_vec3_load(vertices + 3 * (gsize)corner[1]),
             c = spore_vec3_load(vertices + 3 * (gsize)corner[2]), d = spore_vec3_load(vertices + 3 * (gsize)corner[3]);

@@ -1,3 +1,4 @@
+/* Keeps steps in pace with the clock, and counts how late they begin and end. */
 #include "core/measure/pace.h"
 
 #include <time.h>

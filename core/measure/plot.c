@@ -1,3 +1,4 @@
+/* Draws panels of lines through measured points as an SVG document. */
 #include "core/measure/plot.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@
 #define LINE_OF_TEXT 18.
 #define TICKS_MOST 24
 
-/* Okabe and Ito's colours, told apart by those who see few (2008). */
+/* Colours of Okabe and Ito (2008), which people with colour blindness can distinguish. */
 static const char *const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 #define COLOURS (sizeof colours / sizeof colours[0])
 
@@ -218,7 +219,7 @@ static void draw_mark(Text *text, const Axis *x, const Axis *y, const SporePlotP
   double at = place(x, panel->mark_x);
   bool right = at < (x->from + x->to) / 2;
   add_line(text, at, y->from, at, y->to, " stroke=\"#444444\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"");
-  /* Twice: white and thick beneath, so that it is legible over lines. */
+  /* Drawn twice, first white and thick, so that the label is legible over lines. */
   const char *ways[2][2] = {{" stroke=\"white\" stroke-width=\"5\" text-anchor=\"start\"", " text-anchor=\"start\""},
                             {" stroke=\"white\" stroke-width=\"5\" text-anchor=\"end\"", " text-anchor=\"end\""}};
   for (int k = 0; k < 2; k++) add_text(text, at + (right ? 6 : -6), y->to + 14, ways[!right][k], panel->mark_label);
@@ -234,7 +235,7 @@ static bool draw_panel(Text *text, const SporePlotPanel *panel, double left) {
   return true;
 }
 
-/* Characters, near enough to know how far a label reaches. */
+/* Approximate width of a label, by its number of characters. */
 static double width_of(const char *text) {
   double count = 0;
   for (; *text; text++) count += (*text & 0xc0) != 0x80;

@@ -7,10 +7,11 @@
 
 #include "core/base/error.h"
 
-/* Points in the order in which they are joined. What is not finite, or not above 0 on a logarithmic axis, is left out.
+/* A line through points, in this order. Points that are not finite, or not above 0 on a logarithmic axis, are left out.
  */
 typedef struct SporePlotLine {
-  const char *label; /* translated; the same line of each panel has the same colour, and the legend stands once */
+  const char
+      *label; /* translated; lines of the same index in the panels have the same colour, and there is one legend */
   size_t count;
   const double *x, *y;
   bool scattered; /* points alone, not joined */
@@ -25,8 +26,8 @@ typedef struct SporePlotPanel {
   double mark_x;
 } SporePlotPanel;
 
-/* An SVG document in UTF-8, to be freed with spore_free; numbers as in the C locale. note: below the panels, in
- * lines, may be NULL. The legend is that of the first panel. NULL: no memory, or no panel has a point to show. */
+/* An SVG document in UTF-8, to be freed with spore_free; numbers are in the C locale. note: lines of text below the
+ * panels, may be NULL. The legend is that of the first panel. NULL: no memory, or no panel has a point to show. */
 char *spore_plot_svg(const char *title, const char *note, const SporePlotPanel *panels, size_t panel_count,
                      SporeError *error);
 

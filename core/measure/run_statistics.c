@@ -1,3 +1,4 @@
+/* Sums up energy, contacts and solver work over the steps of a run. */
 #include "core/measure/run_statistics.h"
 
 #include <math.h>

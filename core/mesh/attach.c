@@ -1,4 +1,4 @@
-/* Which point of a curve each vertex of a surface belongs to. */
+/* Attaches each vertex of a surface to a point of a curve. */
 #include "core/mesh/attach.h"
 
 #include <assert.h>
@@ -7,12 +7,12 @@
 #include "core/base/memory.h"
 #include "core/mesh/half_edges.h"
 
-#define FAR 4 /* distances from the curve, along it, that neighbours are not apart */
+#define FAR 4 /* neighbours belong to places no farther apart, in distances from the curve */
 
 typedef struct Attachment {
   const SporeCurve *curve;
   const SporeTriangleMesh *mesh;
-  double *length; /* of the curve up to each of its points */
+  double *length; /* length of the curve up to each of its points */
   uint32_t *place;
   size_t edge_count;
   uint32_t *edges;                    /* 2 each */
@@ -72,7 +72,7 @@ static void find_neighbours(Attachment *a) {
   for (size_t i = 0; i < 2 * a->edge_count; i++) a->neighbour[a->first[a->edges[i] + 1]++] = a->edges[i ^ 1];
 }
 
-/* Of each piece of the surface, keeps the largest part that no edge tears. */
+/* Keeps of each piece of the surface the largest part without a torn edge. */
 static void keep_largest(Attachment *a) {
   size_t count = a->mesh->vertex_count;
   uint32_t *largest = a->queue;

@@ -1,4 +1,4 @@
-/* Which place of a curve each vertex of the surface around it goes with. */
+/* Attaches each vertex of a surface to a place of the curve inside of it. */
 #ifndef SPORE_MESH_ATTACH_H
 #define SPORE_MESH_ATTACH_H
 

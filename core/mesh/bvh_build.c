@@ -7,8 +7,8 @@
 #include "core/mesh/common.h"
 
 #define BINS 16
-#define HALVING_DEPTH 48 /* from here on split in the middle of the list, which bounds the depth */
-#define FAR_FACTOR 2.2   /* radii of the node from which on it is seen as its moments */
+#define HALVING_DEPTH 48 /* deeper nodes are split in the middle of the list, which bounds the depth */
+#define FAR_FACTOR 2.2   /* from a distance of so many radii a node is replaced by its moments */
 
 typedef struct Box {
   double lower[3], upper[3];
@@ -67,7 +67,8 @@ static int best_bin(const Builder *b, size_t first, size_t count, int axis, doub
   return best;
 }
 
-/* Parts the triangles first .. first + count - 1; returns how many are on the left, 0 < n < count. */
+/* Divides the triangles first .. first + count - 1 into two groups; returns the size n of the left group, 0 < n <
+ * count. */
 static size_t part(const Builder *b, size_t first, size_t count, int depth) {
   assert(count > 1 && depth >= 0);
   uint32_t *list = b->bvh->triangles + first;
@@ -173,7 +174,7 @@ static double far_squared(const SporeBvhNode *node, SporeVec3 centre) {
   return FAR_FACTOR * FAR_FACTOR * radius_squared;
 }
 
-/* From the leaves up: children lie behind their parent. */
+/* Computes the moments from the leaves up: children lie behind their parent in the array. */
 static bool build_moments(SporeBvh *bvh) {
   double *area = SPORE_NEW_ARRAY(double, bvh->node_count);
   if (!area) return false;

@@ -81,7 +81,7 @@ double spore_bvh_distance(const SporeBvh *bvh, SporeVec3 p, SporeVec3 *nearest, 
   return spore_bvh_distance_below(bvh, p, HUGE_VAL, nearest, triangle);
 }
 
-/* Nearest and farthest parameter of the ray in the box; false: it passes by. */
+/* Nearest and farthest parameter of the ray inside the box; false: the ray misses the box. */
 static bool ray_box(const SporeBvhNode *node, const double p[3], const double d[3], double limit, double *enter) {
   double low = 0, high = limit;
   for (int k = 0; k < 3; k++) {

@@ -14,7 +14,7 @@ typedef struct SporeBvhNode {
   uint32_t count; /* leaf: triangles; else 0 */
 } SporeBvhNode;
 
-/* What a far point sees of a node's triangles. */
+/* The moments of a node's triangles, which replace the triangles for a far point. */
 typedef struct SporeBvhMoment {
   SporeVec3 centre;   /* area-weighted */
   double far_squared; /* beyond this squared distance from the centre the expansion holds */
@@ -30,7 +30,7 @@ struct SporeBvh {
   size_t node_count, triangle_count;
 };
 
-/* spore_bvh_distance where that is less than `below` (m), which it returns elsewhere. */
+/* As spore_bvh_distance, but no more than `below` (m): a search for farther points is cut off. */
 double spore_bvh_distance_below(const SporeBvh *bvh, SporeVec3 p, double below, SporeVec3 *nearest, uint32_t *triangle);
 
 #endif

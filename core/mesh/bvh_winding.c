@@ -5,7 +5,8 @@
 
 #define ROUND (1 + 1e-9)
 
-/* A sum of angles kept as the product of unit-like complex numbers and full turns: one atan2 a query. */
+/* A sum of angles, kept as a product of complex numbers of about unit length and a number of full turns. A query then
+ * needs only one atan2. */
 typedef struct Angle {
   double real, imaginary;
   int turns;
@@ -13,7 +14,7 @@ typedef struct Angle {
 
 static void angle_add(Angle *angle, double real, double imaginary) {
   double size = fabs(real) + fabs(imaginary);
-  if (!(size > 0)) return; /* on an edge or a corner: no angle to speak of */
+  if (!(size > 0)) return; /* p lies on an edge or a corner: the angle is not defined */
   real /= size;
   imaginary /= size;
   double r = angle->real * real - angle->imaginary * imaginary, i = angle->real * imaginary + angle->imaginary * real;
@@ -78,7 +79,7 @@ SporeBvhKnown spore_bvh_depth_beside(const SporeBvh *bvh, SporeVec3 p, const Spo
   SporeBvhKnown here = {.place = p};
   double below = known->depth != 0 ? ROUND * spore_vec3_distance(p, known->nearest) : HUGE_VAL;
   here.depth = spore_bvh_distance_below(bvh, p, below, &here.nearest, NULL);
-  if (here.depth >= below) here.depth = spore_bvh_distance(bvh, p, &here.nearest, NULL); /* both are of no size */
+  if (here.depth >= below) here.depth = spore_bvh_distance(bvh, p, &here.nearest, NULL); /* both are 0 */
   bool same = spore_vec3_distance(p, known->place) < fabs(known->depth);
   if (same ? known->depth < 0 : spore_bvh_winding(bvh, p) <= 0.5) here.depth = -here.depth;
   return here;

@@ -1,4 +1,4 @@
-/* The faces of cells that are seen when a tetrahedral mesh is cut open or drawn apart. */
+/* Finds the visible faces of a tetrahedral mesh that is cut open or whose cells are drawn apart. */
 #include "core/mesh/cell_faces.h"
 
 #include <assert.h>
@@ -31,7 +31,8 @@ static void add_face(const SporeTetrahedralMesh *mesh, const SporeCellView *view
   faces->cells[faces->triangle_count++] = (uint32_t)cell;
 }
 
-/* neighbours: NULL where all faces are wanted. Counts them where there is no room yet. */
+/* Goes through the visible faces. neighbours: NULL where all faces are wanted. Only counts the faces where no arrays
+ * are allocated yet. */
 static size_t go_through(const SporeTetrahedralMesh *mesh, const SporeCellView *view, const uint32_t *neighbours,
                          SporeCellFaces *faces) {
   size_t count = 0;

@@ -1,4 +1,4 @@
-/* Repair of triangles without area, and of double vertices. */
+/* Repairs triangles without area and duplicate vertices. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -26,8 +26,8 @@ static uint32_t corner(const SporeTriangleMesh *mesh, uint32_t half, uint32_t ah
   return mesh->triangles[half - half % 3 + (half % 3 + ahead) % 3];
 }
 
-/* Gives the two halves of the triangle across `half` to both: p q r with the corner c on p-q becomes p c r and c q r.
- * Not where c-r is an edge already: it would have more than two triangles. */
+/* Splits the triangle across `half` and gives one half to each side: p q r with the corner c on p-q becomes p c r and c
+ * q r. Not done where c-r is an edge already: that edge would get more than two triangles. */
 static bool split_across(SporeTriangleMesh *mesh, const SporeHalfEdges *halves, uint32_t flat_half, uint32_t half) {
   uint32_t p = corner(mesh, half, 0), q = corner(mesh, half, 1), r = corner(mesh, half, 2);
   uint32_t c = corner(mesh, flat_half, 2);
@@ -39,7 +39,7 @@ static bool split_across(SporeTriangleMesh *mesh, const SporeHalfEdges *halves, 
   return true;
 }
 
-/* Deals with each flat triangle whose neighbours were not touched in this round; true when there was one. */
+/* Repairs each flat triangle whose neighbours were not changed in this round; true when there was one. */
 static bool free_corners(SporeTriangleMesh *mesh, const SporeHalfEdges *halves, bool *touched) {
   bool changed = false;
   for (size_t i = 0, end; i < halves->count; i = end) {
@@ -47,7 +47,7 @@ static bool free_corners(SporeTriangleMesh *mesh, const SporeHalfEdges *halves, 
     for (size_t j = i; j < end && end - i <= 2; j++) {
       uint32_t half = halves->half[j], triangle = half / 3;
       if (touched[triangle] || flat_side(mesh, triangle) != (int)(half % 3)) continue;
-      if (end - i == 1) { /* the weld after this drops it */
+      if (end - i == 1) { /* the weld that follows drops the triangle */
         for (int k = 1; k < 3; k++) mesh->triangles[3 * (size_t)triangle + (size_t)k] = mesh->triangles[3 * triangle];
         touched[triangle] = changed = true;
         continue;

@@ -1,4 +1,4 @@
-/* Pairs of triangles of one surface that go through each other. */
+/* Finds pairs of triangles of one surface that intersect. */
 #include "core/mesh/crossings.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "core/mesh/common.h"
 #include "core/mesh/sort.h"
 
-/* Boxes of triangles, in the order of their lower ends along the longest side of the mesh. */
+/* Boxes of triangles, sorted by their lower ends along the longest side of the mesh. */
 typedef struct Sweep {
   const SporeTriangleMesh *mesh;
   size_t axis;
@@ -46,7 +46,7 @@ static bool prepare(Sweep *sweep) {
   for (uint32_t t = 0; t < count; t++) {
     set_box(sweep, t);
     double from = sweep->box[6 * (size_t)t + sweep->axis] - lower[sweep->axis];
-    memcpy(&sweep->key[t], &from, sizeof from); /* doubles from 0 on are in the order of their bits */
+    memcpy(&sweep->key[t], &from, sizeof from); /* doubles that are not negative have the order of their bits */
     sweep->order[t] = t;
   }
   return spore_sort_keys(sweep->key, sweep->order, count);
@@ -58,7 +58,7 @@ static bool boxes_meet(const double *a, const double *b) {
   return true;
 }
 
-/* An edge of `one`, which shares no corner with `other`, goes through that. */
+/* Whether an edge of `one` that shares no corner with `other` intersects `other`. */
 static bool goes_through(const Sweep *sweep, uint32_t one, uint32_t other) {
   const uint32_t *n = sweep->mesh->triangles + 3 * (size_t)one, *m = sweep->mesh->triangles + 3 * (size_t)other;
   bool shared[3];

@@ -49,7 +49,8 @@ double spore_curve_length(const SporeCurve *curve) {
   return length;
 }
 
-/* Direction in which the curve passes point i; through a point where it turns back, the way it came. */
+/* The direction of the curve at point i. Where the curve turns back, it is the direction of the part before the point.
+ */
 static SporeVec3 tangent(const SporeCurve *curve, size_t i) {
   assert(i < curve->count && curve->count > 1);
   size_t before = i > 0 ? i - 1 : 0, after = i + 1 < curve->count ? i + 1 : i;

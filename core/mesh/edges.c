@@ -4,7 +4,7 @@
 #include "core/mesh/common.h"
 #include "core/mesh/sort.h"
 
-/* Unique edges of elements whose corners are joined as `pairs` says. */
+/* Unique edges of elements; `pairs` lists the pairs of corners that an edge joins. */
 static bool unique_edges(const uint32_t *elements, size_t count, size_t corners, const uint8_t (*pairs)[2],
                          size_t pair_count, uint32_t **edges, size_t *edge_count) {
   assert(corners == 3 || corners == 4);

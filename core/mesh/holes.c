@@ -8,16 +8,18 @@
 #include "core/mesh/edit.h"
 #include "core/mesh/half_edges.h"
 
-#define EXACT_EDGES 300 /* the cube of it is the work */
-/* Of the squared sides, added to the area: of fillings alike in area the one with the rounder triangles. */
+#define EXACT_EDGES 300 /* the work grows with the cube of this number */
+/* Weight of the squared sides, added to the area: of two fillings of about the same area, the one with rounder
+ * triangles is chosen. */
 #define ROUNDNESS 1e-3
 
 typedef struct Filling {
   SporeTriangleMesh *mesh;
   SporeHalfEdges halves;
-  uint32_t *twin;   /* across an edge of two triangles that turn alike; NONE, or OPEN where there is one triangle */
-  bool *seen;       /* by half-edge: in a loop already */
-  uint32_t *loop;   /* corners of the present one, as its filling turns */
+  uint32_t *twin;   /* half-edge across an edge of two triangles of the same orientation; else NONE, or OPEN where there
+                       is one triangle */
+  bool *seen;       /* of each half-edge: whether it is in a loop already */
+  uint32_t *loop;   /* corners of the present loop, in the order of its filling */
   double *cost;     /* EXACT_EDGES squared */
   uint16_t *middle; /* EXACT_EDGES squared */
   uint32_t *added;  /* corners of new triangles */
@@ -43,7 +45,7 @@ static void find_twins(Filling *f) {
   }
 }
 
-/* The open half-edge that leaves where `half` ends, around that corner; NONE: other triangles are in the way. */
+/* The open half-edge that starts where `half` ends, found around that corner. NONE: other triangles are in the way. */
 static uint32_t next_open(const Filling *f, uint32_t half) {
   uint32_t at = next_side(half);
   for (size_t turns = 0; turns < f->halves.count; turns++) {
@@ -54,8 +56,8 @@ static uint32_t next_open(const Filling *f, uint32_t half) {
   return NONE;
 }
 
-/* Walks the loop of open half-edges through `first`; returns its corners in f->loop, the filling's way round. 0: it
- * does not close. */
+/* Walks the loop of open half-edges through `first`. The corners are left in f->loop, in the order of the filling.
+ * Returns their number; 0: the loop does not close. */
 static size_t walk(Filling *f, uint32_t first) {
   size_t count = 0;
   uint32_t at = first;
@@ -73,7 +75,7 @@ static size_t walk(Filling *f, uint32_t first) {
   return count;
 }
 
-/* A diagonal of the loop that may be an edge of the filling. */
+/* Whether a diagonal of the loop may be an edge of the filling. */
 static bool may_cut(const Filling *f, uint32_t a, uint32_t b) {
   return a != b && !spore_half_edges_have(&f->halves, a, b);
 }
@@ -92,7 +94,7 @@ static void add_triangle(Filling *f, uint32_t a, uint32_t b, uint32_t c) {
   to[0] = a, to[1] = b, to[2] = c;
 }
 
-/* Cuts one corner off the loop of `count`; false: none may be. */
+/* Cuts one corner off the loop of `count` corners; false: no corner can be cut off. */
 static bool cut_corner(Filling *f, size_t count) {
   size_t best = count;
   double least = HUGE_VAL;
@@ -110,7 +112,7 @@ static bool cut_corner(Filling *f, size_t count) {
   return true;
 }
 
-/* Fills the sub-loop from corner i to corner k, whose cost is known. */
+/* Adds the triangles of the sub-loop from corner i to corner k. Its cost is computed already. */
 static void add_exact(Filling *f, size_t n, size_t i, size_t k) {
   while (k - i >= 2) {
     size_t j = f->middle[i * n + k];

@@ -10,9 +10,9 @@
 #include "core/mesh/isosurface_parts.h"
 #include "core/mesh/sort.h"
 
-#define BLOCK 4 /* cubes, each way, that are left out together */
+#define BLOCK 4 /* cubes along each axis of a block that is left out as a whole */
 #define MOST_POINTS 1000000000.
-#define WIDE 1.7321f                      /* steps: where the field is farther from 0, no surface goes through a cube */
+#define WIDE 1.7321f /* in steps: where the field is farther from 0, the surface cannot pass through the cube */
 #define LATTICE_POINT (UINT64_C(1) << 63) /* key of a point of the lattice, beside those of edges */
 #define VERTICES_A_REPORT 1024
 #define ROOTS 6 /* tries, on an edge */
@@ -80,14 +80,14 @@ static uint32_t point_of(const Lattice *lattice, SporeIsosurfaceCells *cells, si
   return entry ? *entry : UINT32_MAX;
 }
 
-/* Along each path of three edges from corner 0 to corner 7, one tetrahedron (Freudenthal's). */
+/* Adds the six tetrahedra of a cube (Freudenthal): one for each path of three edges from corner 0 to corner 7. */
 static bool add_cube(const Lattice *lattice, SporeIsosurfaceCells *cells, size_t cube) {
   static const unsigned paths[6][2] = {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}};
   size_t at[8];
   uint32_t point[8];
   for (size_t c = 0; c < 8; c++) {
     at[c] = cube + (c >> 2) * lattice->size[1] * lattice->size[2] + (c >> 1 & 1) * lattice->size[2] + (c & 1);
-    if (!(lattice->value[at[c]] < HUGE_VALF)) return true; /* the surface does not come near */
+    if (!(lattice->value[at[c]] < HUGE_VALF)) return true; /* the surface is not near */
     if (fabsf(lattice->value[at[c]]) > WIDE) return true;
   }
   for (size_t c = 0; c < 8; c++) {
@@ -127,7 +127,8 @@ static bool push(Corners *corners, uint64_t edge) {
   return true;
 }
 
-/* Outward: which way round is told by the middles of the edges, whatever the values are. */
+/* Adds a triangle, oriented outward. The midpoints of its edges decide on the orientation, independent of the values.
+ */
 static bool add_triangle(const SporeIsosurfaceCells *cells, Corners *corners, uint32_t edges[3][2]) {
   SporeVec3 middle[3], out = {0, 0, 0};
   uint64_t at[3];
@@ -152,7 +153,8 @@ static bool cut_cells(const SporeIsosurfaceCells *cells, Corners *corners, Spore
   return true;
 }
 
-/* Where the field vanishes on an edge: by false position, between its ends whatever the field is. */
+/* The point of an edge at which the field vanishes, by false position. It lies between the ends of the edge for any
+ * field. */
 static SporeVec3 vertex_at(const SporeIsosurfaceCells *cells, uint64_t edge) {
   SporeIsosurfacePoint in = cells->points[edge >> 32], out = cells->points[(uint32_t)edge];
   if (in.value > 0) {
@@ -172,7 +174,7 @@ static SporeVec3 vertex_at(const SporeIsosurfaceCells *cells, uint64_t edge) {
   return x;
 }
 
-/* One vertex for each edge that is crossed. */
+/* Makes the mesh, with one vertex for each edge that the surface crosses. */
 static bool make_mesh(const SporeIsosurfaceCells *cells, const Corners *corners, SporeTriangleMesh *mesh,
                       const SporeProgress *progress, SporeError *error) {
   size_t count = corners->count, vertices = 0;

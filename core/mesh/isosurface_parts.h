@@ -43,16 +43,16 @@ static inline uint64_t spore_isosurface_edge(uint32_t a, uint32_t b) {
   return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
 }
 
-/* What a key stands for, UINT32_MAX where it is new: then fill it in. NULL: no memory. */
+/* The value of a key; UINT32_MAX where the key is new, and the caller then fills it in. NULL: no memory. */
 uint32_t *spore_isosurface_entry(SporeIsosurfaceCells *cells, uint64_t key);
-/* The point's number, from then on; UINT32_MAX: no memory. */
+/* Adds a point and returns its number; UINT32_MAX: no memory. */
 uint32_t spore_isosurface_add_point(SporeIsosurfaceCells *cells, SporeVec3 place, double value);
-/* Left out where no corner is so near the surface that it could go through. False: no memory. */
+/* Adds a cell. A cell is left out where no corner is near enough for the surface to pass through. False: no memory. */
 bool spore_isosurface_add_cell(SporeIsosurfaceCells *cells, const SporeIsosurfaceCell *cell);
 /* Triangles of the surface in a cell, 0 to 2: each corner is the edge of two points that it lies on, inside first. */
 size_t spore_isosurface_cut(const SporeIsosurfaceCells *cells, const SporeIsosurfaceCell *cell,
                             uint32_t triangles[2][3][2]);
-/* Where the field, taken as linear, vanishes between two points. */
+/* The point between two points at which the field vanishes, if it is taken as linear. */
 SporeVec3 spore_isosurface_between(const SporeIsosurfaceCells *cells, const uint32_t edge[2]);
 /* Bisects until the surface is within the tolerance (m). False: no memory, or cancelled. */
 bool spore_isosurface_refine(SporeIsosurfaceCells *cells, double tolerance, const SporeProgress *progress,

@@ -1,4 +1,4 @@
-/* Turning the triangles of a surface so that they look outwards. */
+/* Orients the triangles of a surface outward. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -9,10 +9,10 @@
 /* One set of triangles joined by edges. */
 typedef struct Component {
   double lower[3], upper[3];
-  double volume;  /* signed, after its triangles were turned alike */
+  double volume;  /* signed, after its triangles have got one orientation */
   uint32_t first; /* one of its triangles */
   bool closed;    /* each edge has two triangles */
-  bool trusted;   /* closed, and its triangles turned alike as they came */
+  bool trusted;   /* closed, and its triangles had one orientation in the input */
   bool flip;
 } Component;
 
@@ -47,7 +47,7 @@ static void flip_triangle(Orientation *o, uint32_t triangle) {
   if (twin[2] != UINT32_MAX) o->twin[twin[2]] = 3 * triangle + 2;
 }
 
-/* Turns the triangles that are reached from `seed` like it. */
+/* Gives all triangles that are connected with `seed` the orientation of `seed`. */
 static void spread(Orientation *o, uint32_t seed) {
   assert(o->component[seed] == UINT32_MAX);
   uint32_t number = (uint32_t)o->component_count++;
@@ -115,7 +115,8 @@ static double winding_of(const Orientation *o, uint32_t number, SporeVec3 p) {
   return sum / (4 * M_PI);
 }
 
-/* A shell inside another one, turned the other way by whoever made it, is the wall of a cavity. */
+/* Whether a shell is the wall of a cavity: it lies inside another shell, and its author gave it the opposite
+ * orientation. */
 static bool is_cavity(const Orientation *o, const Component *inner) {
   const Component *parent = NULL;
   if (!inner->trusted) return false;

@@ -1,6 +1,7 @@
-/* The surface is where the distance to the weighted mean of the particles around a place, less a particle's radius,
- * vanishes (Zhu and Bridson 2005: flat where particles lie flat). It is sampled on a lattice, near particles only, and
- * meshed by surface nets (Gibson 1998): a vertex in each cell that it crosses, a square across each edge. */
+/* Surface around particles. It lies where the distance to the weighted mean of the surrounding particles, minus a
+ * particle's radius, vanishes (Zhu and Bridson 2005: flat where particles lie flat). The distance is sampled on a
+ * lattice, near particles only, and meshed by surface nets (Gibson 1998): a vertex in each cell that the surface
+ * crosses, a square across each crossed edge. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -14,7 +15,9 @@
 #define STEP 0.5
 #define RADIUS 0.55
 #define REACH 1.5
-#define NEAR 0.95 /* outside where no particle is so near: the mean of two that stand apart is no particle */
+#define NEAR                                                                                                           \
+  0.95 /* a place without a particle within this distance is outside: the mean of two distant particles is no particle \
+        */
 
 #define KEY_BITS 21
 #define KEY_HALF (1 << (KEY_BITS - 1))
@@ -90,7 +93,7 @@ static void add_particle(Lattice *lattice, const double *centre, double reach) {
       }
 }
 
-/* Particles that the lattice cannot count to are left out. */
+/* Whether the lattice has coordinates for the particle. Other particles are left out. */
 static bool within(const double *centre, double step) {
   for (int i = 0; i < 3; i++)
     if (!(fabs(centre[i] / step) < KEY_HALF - 16)) return false;
@@ -121,7 +124,7 @@ static bool crossed(const Lattice *lattice, const Sample *sample, double value[8
   return inside > 0 && inside < 8;
 }
 
-/* Mean of where the cell's edges are crossed. */
+/* Vertex of a cell: the mean of the points at which the surface crosses the cell's edges. */
 static void cell_vertex(const Lattice *lattice, const Sample *sample, const double value[8], double *vertex) {
   double sum[3] = {0};
   int crossings = 0;
@@ -176,7 +179,7 @@ static void make_mesh(Lattice *lattice, SporeTriangleMesh *mesh) {
   }
 }
 
-/* So many lattice points may be new with each particle, at most. */
+/* Largest number of new lattice points by one particle. */
 #define MOST_NEW 343
 
 static bool lattice_init(Lattice *lattice, const double *centres, size_t count, double spacing) {

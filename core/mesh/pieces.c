@@ -23,7 +23,7 @@ bool spore_triangle_mesh_pieces(const SporeTriangleMesh *mesh, uint32_t **pieces
   if (done) {
     for (size_t t = 0; t < n; t++) parent[t] = (uint32_t)t;
     join_across_edges(&halves, parent);
-    /* The least member stands for its set, so that it has its number before the others ask for it. */
+    /* The least member represents its set, so that it has its number before other members need it. */
     for (size_t t = 0; t < n; t++) {
       uint32_t first = spore_set_find(parent, (uint32_t)t);
       number[t] = first == t ? (uint32_t)(*count)++ : number[first];

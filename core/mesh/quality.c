@@ -4,7 +4,7 @@
 #include "core/mesh/common.h"
 
 #define DEGREES (180 / M_PI)
-#define RATIO_DEGREES 150 /* over the radius ratio: one of 15 is as bad as an angle of 10 degrees */
+#define RATIO_DEGREES 150 /* divided by the radius ratio: a ratio of 15 counts as much as an angle of 10 degrees */
 
 /* Outward face normals with the length of twice the area. */
 static void face_normals(const SporeVec3 p[4], SporeVec3 normal[4]) {
@@ -14,8 +14,8 @@ static void face_normals(const SporeVec3 p[4], SporeVec3 normal[4]) {
                                  spore_vec3_sub(p[faces[f][2]], p[faces[f][0]]));
 }
 
-/* Least angle between two faces, seen from inside (rad); a face without area: 0. The six are compared by their sines
- * and cosines, and one alone is worked out. */
+/* Least dihedral angle (rad); a face without area: 0. The six angles are compared by their sines and cosines, and only
+ * the least angle is computed. */
 static double least_dihedral(const SporeVec3 normal[4]) {
   double least_sine = 0, least_cosine = -1;
   for (int i = 0; i < 4; i++)

@@ -1,4 +1,4 @@
-/* A surface that is edited: its lists of corners, features, and changes. */
+/* A surface while it is edited: its lists of corners, its features, and changes to it. */
 #include "core/mesh/shell.h"
 
 #include <assert.h>
@@ -10,8 +10,8 @@
 #include "core/mesh/half_edges.h"
 
 #define NONE SPORE_SHELL_NONE
-#define LEAST_TURN 0.3 /* cosine by which a triangle may turn when one of its corners moves */
-#define SLIVER 0.1     /* quality of a triangle whose own normal says nothing */
+#define LEAST_TURN 0.3 /* least cosine of the angle by which a triangle may turn when one of its corners moves */
+#define SLIVER 0.1     /* quality below which a triangle's normal is not reliable */
 
 void spore_shell_clear(SporeShell *shell) {
   spore_free(shell->x);
@@ -158,7 +158,7 @@ bool spore_shell_find_features(SporeShell *shell, double angle, SporeShellFeatur
   return made;
 }
 
-/* Looking around. */
+/* Queries. */
 
 SporeVec3 spore_shell_normal(const SporeShell *shell, uint32_t triangle) {
   const uint32_t *n = shell->corner + 3 * (size_t)triangle;
@@ -230,9 +230,9 @@ uint32_t spore_shell_mark(SporeShell *shell, uint32_t vertex) {
   return mark;
 }
 
-/* Changing. */
+/* Changes. */
 
-/* What a triangle that goes knows of its other sides, its neighbours there are told: they become one edge. */
+/* Passes the feature mark of a triangle that is removed on to its neighbours, whose two edges become one edge. */
 static void pass_feature_on(SporeShell *shell, uint32_t a, uint32_t b, uint32_t c) {
   bool feature = spore_shell_is_feature(shell, b, c) || spore_shell_is_feature(shell, a, c);
   for (uint32_t h = shell->head[c]; feature && h != NONE; h = shell->next[h]) {

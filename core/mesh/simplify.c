@@ -1,4 +1,4 @@
-/* Collapsing edges of a surface, the cheapest first. */
+/* Simplifies a surface by collapsing edges, the cheapest first. */
 #include "core/mesh/simplify.h"
 
 #include <assert.h>
@@ -11,13 +11,13 @@
 #include "core/mesh/common.h"
 #include "core/mesh/simplify_parts.h"
 
-#define ATTRACTION 1e-4     /* share of the squared distance from the edge's middle in what places a point */
-#define LENGTH 1e-4         /* share of an edge's squared length in its cost: else plain parts give slivers */
-#define LINE_WEIGHT 10      /* of a plane along a feature edge, to those of triangles */
-#define LEAST_QUALITY 0.002 /* of a triangle that a collapse makes, unless it was worse before */
+#define ATTRACTION 1e-4 /* weight of the squared distance from the edge's midpoint when a point is placed */
+#define LENGTH 1e-4     /* weight of an edge's squared length in its cost; without it, flat parts would get slivers */
+#define LINE_WEIGHT 10  /* weight of a plane along a feature edge, relative to the planes of triangles */
+#define LEAST_QUALITY 0.002 /* least quality of a triangle after a collapse, unless its quality was lower before */
 #define GOOD_QUALITY 0.4    /* below it, a collapse costs more */
-#define SMALL 0.05          /* of the length wanted of edges: what of features is smaller is none of them */
-#define LIKELY 0.2          /* of the vertices, that a limit leaves */
+#define SMALL 0.05          /* of the wanted edge length: smaller features are ignored */
+#define LIKELY 0.2          /* estimated share of the vertices that remain under a limit */
 #define STEPS_A_REPORT 1024 /* collapses */
 
 typedef struct Candidate {
@@ -34,8 +34,8 @@ typedef struct Collapser {
   size_t count, capacity;
   double edge; /* length wanted */
   SporeShellNeighbours near;
-  SporeShellLimit limit; /* its limit NULL: none */
-  bool crossing;         /* what goes through something is let be */
+  SporeShellLimit limit; /* its limit NULL: there is no limit */
+  bool crossing;         /* intersections are allowed */
 } Collapser;
 
 /* Quadrics. */
@@ -94,7 +94,8 @@ static void add_star(const SporeShell *shell, uint32_t vertex, uint32_t except, 
   }
 }
 
-/* Moves the least of all places to the plane in which the volume below is as before (Lindstrom and Turk 1998). */
+/* Moves the optimal place to the plane in which the volume below the surface does not change (Lindstrom and Turk 1998).
+ */
 static void keep_volume(const SporeShell *shell, uint32_t a, uint32_t b, const SporeMat3 *inverse, SporeVec3 *x) {
   SporeVec3 normal = {0, 0, 0};
   double volume = 0;
@@ -105,7 +106,7 @@ static void keep_volume(const SporeShell *shell, uint32_t a, uint32_t b, const S
   if (stiff > 0) *x = spore_vec3_add_scaled(*x, (volume - spore_vec3_dot(normal, *x)) / stiff, along);
 }
 
-/* Where the two go, as one; false: they must stay apart. */
+/* The place of the collapsed vertex; false: the edge must not be collapsed. */
 static bool place(const Collapser *work, uint32_t a, uint32_t b, const SporeQuadric *both, SporeVec3 *x) {
   const SporeShell *shell = work->shell;
   SporeVec3 from = spore_shell_at(shell, a), to = spore_shell_at(shell, b);
@@ -113,7 +114,7 @@ static bool place(const Collapser *work, uint32_t a, uint32_t b, const SporeQuad
   bool small = spore_vec3_distance(from, to) < SMALL * work->edge;
   if (shell->kind[b] != SPORE_SHELL_SMOOTH && !lined && !small) return false;
   if (shell->kind[a] > shell->kind[b] ||
-      (shell->kind[b] != SPORE_SHELL_SMOOTH && !lined)) { /* what may move less stays */
+      (shell->kind[b] != SPORE_SHELL_SMOOTH && !lined)) { /* the vertex that may move less stays */
     *x = from;
     return true;
   }
@@ -162,7 +163,7 @@ static Candidate pop(Collapser *work) {
   return first;
 }
 
-/* The vertex that may move less is a: it stays in the lists. */
+/* Adds the edge to the heap. The vertex that may move less is a; it stays in the lists. */
 static bool consider(Collapser *work, uint32_t a, uint32_t b) {
   const SporeShell *shell = work->shell;
   if (shell->kind[a] < shell->kind[b] || (shell->kind[a] == shell->kind[b] && a > b)) {
@@ -190,7 +191,8 @@ static bool consider_around(Collapser *work, uint32_t a, bool all) {
   return true;
 }
 
-/* Whether the triangles at a vertex do not go all round it: then its first and last neighbour come once, not twice. */
+/* Whether the triangles at a vertex do not close around it. Then its first and last neighbours occur once, not twice.
+ */
 static bool is_open(const SporeShell *shell, uint32_t vertex) {
   uint32_t unpaired = 0;
   for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c])
@@ -198,8 +200,8 @@ static bool is_open(const SporeShell *shell, uint32_t vertex) {
   return unpaired != 0;
 }
 
-/* Whether a collapse leaves a surface that hangs together as before: the neighbours that both have are the corners of
- * the triangles at their edge, and none of those loses what it hangs on. */
+/* Whether a collapse keeps the topology: the common neighbours of both vertices are exactly the corners of the
+ * triangles at their edge, and none of them loses its connection. */
 static bool keeps_shape(SporeShell *shell, uint32_t a, uint32_t b) {
   uint32_t corners[2], near_a = spore_shell_mark(shell, a), common = 0;
   size_t count = spore_shell_between(shell, a, b, corners);
@@ -221,7 +223,8 @@ static bool keeps_shape(SporeShell *shell, uint32_t a, uint32_t b) {
   return true;
 }
 
-/* What would make narrow triangles is put off until all else costs as much. False: no memory. */
+/* Collapses an edge. A collapse that would make narrow triangles is postponed until all other collapses cost as much.
+ * False: no memory. */
 static bool collapse(Collapser *work, const Candidate *candidate) {
   assert(candidate->a != candidate->b);
   SporeShell *shell = work->shell;
@@ -274,12 +277,12 @@ bool spore_shell_collapse_to(SporeShell *shell, size_t vertices, const SporeSurf
               spore_mesh_no_memory(error);
   double likely = limit ? LIKELY * (double)shell->live : (double)vertices;
   if (done) work.edge = sqrt(make_quadrics(&work) / (sqrt(3) / 2 * likely));
-  /* Cells between the triangles there are and those there will be. */
+  /* The size of the grid's cells lies between the present and the final size of the triangles. */
   double cell = work.edge * pow(likely / (double)(shell->live + 1), 0.25);
   if (done && shell->live > vertices) {
     done = spore_shell_neighbours_create(&work.near, shell, cell) || spore_mesh_no_memory(error);
     done = done && collapse_to(&work, vertices, progress, error);
-    work.crossing = true; /* so many vertices are wanted all the same */
+    work.crossing = true; /* the number of vertices is reached even at the price of intersections */
     done = done && (limit || shell->live <= vertices || collapse_to(&work, vertices, progress, error));
     spore_shell_neighbours_clear(&work.near);
   }

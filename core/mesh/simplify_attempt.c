@@ -1,5 +1,5 @@
-/* Simplifying a surface as a whole: with its creases, or without them where so few vertices then come nearer to the
- * surface; and thinning a closed surface as far as a limit allows. */
+/* Simplifies a surface with its creases, or without creases where so few vertices then come nearer to the surface; and
+ * thins a closed surface as far as a limit allows. */
 #include <math.h>
 #include <string.h>
 
@@ -10,11 +10,12 @@
 #include "core/mesh/simplify.h"
 #include "core/mesh/simplify_parts.h"
 
-#define DEAR 1.2 /* how much farther off the surface creases may lead than doing without */
+#define DEAR 1.2 /* largest ratio of the error with creases to the error without */
 
 static size_t wanted(const SporeTriangleMesh *mesh, const SporeSimplifyOptions *options) {
   if (options->vertices > 0) return options->vertices < 4 ? 4 : options->vertices;
-  double area = 0, one = sqrt(3) / 2 * options->size * options->size; /* of a vertex among equilateral triangles */
+  double area = 0,
+         one = sqrt(3) / 2 * options->size * options->size; /* area of a vertex in a mesh of equilateral triangles */
   for (size_t t = 0; t < mesh->triangle_count; t++) {
     const uint32_t *n = mesh->triangles + 3 * t;
     area += spore_vec3_length(spore_mesh_area_vector(spore_mesh_vertex(mesh->vertices, n[0]),
@@ -29,7 +30,7 @@ static size_t wanted(const SporeTriangleMesh *mesh, const SporeSimplifyOptions *
 typedef struct Attempt {
   SporeTriangleMesh mesh;
   SporeShellFeatures features;
-  double farthest; /* m: vertex of the original from it */
+  double farthest; /* m: largest distance of a vertex of the original from the result */
   size_t crossings;
   bool reached;
 } Attempt;
@@ -71,7 +72,7 @@ static bool attempt(const Work *work, double angle, Attempt *made, SporeError *e
          measure(work->original, made, error);
 }
 
-/* Whether creases cost too many of the vertices. */
+/* Whether keeping the creases uses up too many vertices. */
 static bool is_worse(const Attempt *with, const Attempt *without) {
   if (with->crossings != without->crossings) return with->crossings > without->crossings;
   return with->reached != without->reached ? without->reached : with->farthest > DEAR * without->farthest;

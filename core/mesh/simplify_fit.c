@@ -1,5 +1,5 @@
-/* Moves points so that the largest distance between a simplified surface and its original gets smaller: each is drawn
- * by what is farthest off around it, the more the farther. */
+/* Moves points so that the largest distance between a simplified surface and its original decreases. Each point is
+ * attracted by the farthest places around it, the more the farther they are. */
 #include <math.h>
 #include <string.h>
 
@@ -9,12 +9,12 @@
 #include "core/mesh/simplify_parts.h"
 
 #define ROUNDS 24
-#define IDLE 8             /* rounds without gain, after which it ends */
-#define NEAR 0.3           /* of the largest distance: what is nearer draws nothing */
-#define POWER 4            /* of the distance, that it draws by */
-#define STIFF 0.05         /* of what draws, against moves along the surface */
-#define PART 0.6           /* of its way, that a point goes in a round */
-#define LEAST_QUALITY 0.3  /* of a triangle that becomes worse */
+#define IDLE 8             /* the fit ends after so many rounds without gain */
+#define NEAR 0.3           /* of the largest distance: nearer places do not attract */
+#define POWER 4            /* power of the distance in the attraction */
+#define STIFF 0.05         /* of the attraction: stiffness against moves along the surface */
+#define PART 0.6           /* share of its way that a point moves in a round */
+#define LEAST_QUALITY 0.3  /* least quality of a triangle that gets worse */
 #define PARTS 4            /* of a side, between points that are looked at */
 #define POINTS 15          /* of a triangle, then */
 #define MOST_SAMPLES 50000 /* of each surface */
@@ -25,7 +25,7 @@ typedef struct Draw {
   double weight;
 } Draw;
 
-/* A place of the surface, and from there to where the other surface is nearest. */
+/* A place of the surface, and the vector from there to the nearest point of the other surface. */
 typedef struct Gap {
   uint32_t corner[3];
   double share[3]; /* of the corners, in the place */

@@ -1,4 +1,4 @@
-/* Turning edges and moving points so that angles get wider. */
+/* Flips edges and moves points so that the narrowest angles get wider. */
 #include <math.h>
 #include <string.h>
 
@@ -8,10 +8,10 @@
 #include "core/mesh/simplify_parts.h"
 
 #define ROUNDS 8
-#define PART 0.5     /* of the way to the middle of its neighbours that a point goes at once */
-#define FAR 2        /* how far off the surface turning and moving may lead, of what points are off as it is */
-#define BETTER 1.001 /* by which an edge that is turned must widen the least angle */
-#define GOOD 0.5     /* quality that moving a point may not go below, unless it was */
+#define PART 0.5     /* share of the way to the centre of its neighbours that a point moves at once */
+#define FAR 2        /* largest distance from the surface after a change, relative to the typical distance before */
+#define BETTER 1.001 /* a flipped edge must widen the least angle by this factor */
+#define GOOD 0.5     /* least quality after a point has moved, unless the quality was lower before */
 
 static double least_angle(SporeVec3 a, SporeVec3 b, SporeVec3 c) {
   SporeVec3 p[3] = {a, b, c};
@@ -35,7 +35,7 @@ void spore_triangle_mesh_angles(const SporeTriangleMesh *mesh, double *least, do
   }
 }
 
-/* Turning edges. */
+/* Flipping edges. */
 
 /* Whether the triangles (a, b, c), (b, a, d) lie so flat that (c, d, b), (d, c, a) are as good a surface. */
 static bool is_flat(SporeVec3 a, SporeVec3 b, SporeVec3 c, SporeVec3 d, double far) {
@@ -85,7 +85,7 @@ static bool flip_edges(SporeShell *shell, SporeShellNeighbours *near, double far
 
 /* Moving points. */
 
-/* Towards the middle of the triangles around, by their areas. */
+/* The centre of the triangles around a vertex, weighted by their areas. */
 static SporeVec3 centre_around(const SporeShell *shell, uint32_t vertex, SporeVec3 *normal) {
   SporeVec3 sum = {0, 0, 0}, at = spore_shell_at(shell, vertex);
   double weight = 0;
@@ -101,8 +101,8 @@ static SporeVec3 centre_around(const SporeShell *shell, uint32_t vertex, SporeVe
   return weight > 0 ? spore_vec3_scale(1 / weight, sum) : at;
 }
 
-/* Along the surface towards the middle of what is around, then across it to where its planes have it. False: no
- * memory. */
+/* Moves a point along the surface towards the centre of its triangles, then across the surface to the optimum of its
+ * planes. False: no memory. */
 static bool move_point(SporeShell *shell, SporeShellNeighbours *near, const SporeQuadric *quadric, uint32_t vertex,
                        double far) {
   SporeVec3 normal, at = spore_shell_at(shell, vertex), to = centre_around(shell, vertex, &normal);

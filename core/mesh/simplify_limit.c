@@ -4,7 +4,7 @@
 #include "core/mesh/common.h"
 #include "core/mesh/simplify_parts.h"
 
-#define MOST_PARTS 12 /* that a triangle's side is cut into */
+#define MOST_PARTS 12 /* largest number of parts of a triangle's side */
 
 static SporeVec3 in_metres(const SporeShell *shell, SporeVec3 x) {
   return spore_vec3_add_scaled(spore_vec3_load(shell->middle), shell->diagonal, x);
@@ -28,17 +28,17 @@ static double off_at(const SporeSurfaceLimit *limit, const SporeBvhKnown corner[
   }
   double square = mean * mean - 2 * spread, below = square > 0 ? (mean + sqrt(square)) / 2 : 0;
   bool near = above <= limit->depth + limit->most && below >= limit->depth - limit->most;
-  if (near && least > mean - below) return 0; /* not the lesser root, nor on the other side */
+  if (near && least > mean - below) return 0; /* neither the smaller root nor the other side of the surface applies */
   return fabs(limit->depth - spore_bvh_depth_beside(limit->bvh, place, beside).depth);
 }
 
-/* How far a triangle is off, on its inside and on its first side; above `enough`, that may be said too soon. */
+/* How far a triangle is off, in its inside and on its first side. Above `enough` the search may end early. */
 static double off_triangle(const SporeSurfaceLimit *limit, const SporeBvhKnown corner[3], double enough) {
   double far = 0, longest = 0;
   for (int k = 0; k < 3; k++) longest = fmax(longest, spore_vec3_distance(corner[k].place, corner[(k + 1) % 3].place));
   int parts = (int)fmin(fmax(ceil(longest / limit->spacing), 2), MOST_PARTS);
-  /* Middles of the parts first: they are farthest off, most often; then corners of parts, but those of the last side
-   * that a triangle beside it looks at. */
+  /* Centres of the parts come first: they are most often the farthest. Then come corners of the parts, without those of
+   * the last side, which a neighbouring triangle looks at. */
   for (int pass = 0; pass < 2; pass++)
     for (int i = pass; i < parts; i++)
       for (int j = 0; i + j < parts && far <= enough; j++) {
@@ -60,7 +60,8 @@ static double off_vertex(const SporeShellLimit *work, const SporeBvhKnown *known
   return fabs(work->limit->depth - known->depth);
 }
 
-/* How far the triangles around a vertex are off with it elsewhere; those that have `except` too are left out. */
+/* How far the triangles around a vertex are off when the vertex is moved; triangles that also have the vertex `except`
+ * are left out. */
 static double off_ring(const SporeShellLimit *work, const SporeShell *shell, uint32_t vertex,
                        const SporeBvhKnown *elsewhere, uint32_t except, double enough) {
   double far = off_vertex(work, elsewhere);
@@ -80,7 +81,7 @@ static double off_collapsed(const SporeShellLimit *work, const SporeShell *shell
   return far > enough ? far : fmax(far, off_ring(work, shell, b, there, a, enough));
 }
 
-/* How far the triangles around a vertex are off as it is. */
+/* How far the triangles around a vertex are off at its present place. */
 static double off_now(const SporeShellLimit *work, const SporeShell *shell, uint32_t vertex) {
   const SporeBvhKnown *here = look(work, shell, vertex, &work->last);
   double far = off_vertex(work, here);

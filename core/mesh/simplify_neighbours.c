@@ -1,4 +1,4 @@
-/* Triangles by the cells of a grid, so that a change that makes triangles cross is found. */
+/* Sorts triangles into the cells of a grid, to find changes after which triangles would intersect. */
 #include <math.h>
 #include <string.h>
 
@@ -88,7 +88,7 @@ bool spore_shell_neighbours_add(SporeShellNeighbours *near, const SporeShell *sh
 
 static bool has(const uint32_t n[3], uint32_t vertex) { return n[0] == vertex || n[1] == vertex || n[2] == vertex; }
 
-/* An edge of one, both of whose ends the other lacks, goes through the other. */
+/* Whether an edge of one triangle intersects another triangle that has neither end of the edge. */
 static bool edge_through(const uint32_t n[3], const SporeVec3 p[3], const uint32_t m[3], const SporeVec3 q[3]) {
   for (size_t k = 0; k < 3; k++) {
     size_t next = (k + 1) % 3;
@@ -97,7 +97,7 @@ static bool edge_through(const uint32_t n[3], const SporeVec3 p[3], const uint32
   return false;
 }
 
-/* One triangle against all that have neither a nor b. */
+/* Whether a triangle intersects any triangle that has neither a nor b. */
 static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, const uint32_t n[3], const SporeVec3 p[3],
                          uint32_t a, uint32_t b) {
   Box box = box_of(p);
@@ -107,7 +107,7 @@ static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, co
   for (size_t x = from[0]; x <= to[0]; x++)
     for (size_t y = from[1]; y <= to[1]; y++)
       for (size_t z = from[2]; z <= to[2]; z++) {
-        near->asked++; /* in each cell: what comes twice in one, or is gone, is taken out of it */
+        near->asked++; /* in each cell, entries that occur twice or are removed triangles are taken out */
         uint32_t *link = &near->head[(x * near->side + y) * near->side + z];
         while (*link != NONE) {
           uint32_t other = near->entries[2 * (size_t)*link], *next = &near->entries[2 * (size_t)*link + 1];
@@ -129,7 +129,8 @@ static bool goes_through(SporeShellNeighbours *near, const SporeShell *shell, co
   return false;
 }
 
-/* The triangles around a vertex, with it at x; those that have `except` too are left out. */
+/* Whether the triangles around a vertex intersect others when the vertex is at x; triangles that also have `except` are
+ * left out. */
 static bool ring_goes_through(SporeShellNeighbours *near, const SporeShell *shell, uint32_t vertex, SporeVec3 x,
                               uint32_t except) {
   for (uint32_t c = shell->head[vertex]; c != SPORE_SHELL_NONE; c = shell->next[c]) {

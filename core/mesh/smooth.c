@@ -1,4 +1,4 @@
-/* Smoothing of a surface that keeps the volume of each piece. */
+/* Smooths a surface and keeps the volume of each closed piece. */
 #include <math.h>
 #include <string.h>
 
@@ -12,17 +12,17 @@
 #define VOLUME_ROUNDS 12
 #define VOLUME_TOLERANCE 1e-10 /* of the volume */
 #define LOST 0.01              /* of the volume: a piece further off was too thin for so many rounds */
-#define SPIKY 1.2              /* of the area: so was one that has more */
+#define SPIKY 1.2              /* of the area: a piece with more area was too thin as well */
 
-/* Who is pulled by whom: pairs of vertices on an edge. A vertex on an open edge is pulled along open edges alone, so
- * that a rim stays a rim and does not shrink into the surface. */
+/* The pairs of vertices that attract each other: those on an edge. A vertex on an open edge is attracted along open
+ * edges only, so that a rim does not shrink into the surface. */
 typedef struct Smoothing {
   SporeTriangleMesh *mesh;
   uint32_t *edges; /* edge_count x 2 */
   bool *open_edge; /* edge_count */
   size_t edge_count;
   bool *open;       /* vertex_count: on an open edge */
-  uint32_t *degree; /* vertex_count: neighbours that pull */
+  uint32_t *degree; /* vertex_count: number of neighbours that attract the vertex */
   double *pull;     /* vertex_count x 3 */
   double *normals;  /* vertex_count x 3 */
   double *before;   /* vertex_count x 3: to go back to when cancelled */
@@ -68,8 +68,8 @@ static void diffuse(Smoothing *s, double factor) {
                             spore_vec3_scale(factor / (double)s->degree[i], spore_vec3_load(s->pull + 3 * i)));
 }
 
-/* Volume of a piece, about its first corner, so that one far from the origin loses no digits; and how it grows, m^2,
- * with a step of all its vertices along their normals. */
+/* Volume of a piece, computed about its first corner so that a distant piece loses no digits; and the derivative of the
+ * volume, m^2, when all its vertices move along their normals. */
 typedef struct Piece {
   SporeVec3 origin;
   double wanted, volume, growth, area, area_before;
@@ -124,7 +124,7 @@ static bool restore_volumes(Smoothing *s, const uint32_t *pieces, Piece *piece, 
   return done;
 }
 
-/* A closed piece that smoothing has made collapse, so that it has not its volume or more area than before, goes back.
+/* Takes back the smoothing of a closed piece that has collapsed: its volume is not restored, or its area has increased.
  */
 static void take_back_lost(Smoothing *s, const uint32_t *pieces, Piece *piece, size_t count) {
   measure_anew(s, pieces, piece, count);

@@ -7,8 +7,8 @@
 #include "core/base/text.h"
 #include "core/mesh/common.h"
 
-/* A hash grid of the vertices kept so far: chains through `next`, cells twice the tolerance wide, so that all that is
- * near a point lies in the eight cells about it. */
+/* A hash grid of the vertices kept so far, with chains through `next`. Cells are twice the tolerance wide, so that all
+ * vertices near a point lie in the eight cells around it. */
 typedef struct Weld {
   const double *vertices;
   const double *lower;
@@ -96,7 +96,7 @@ static bool insert_triangle(const uint32_t *triangles, uint32_t *slots, size_t m
   return true;
 }
 
-/* Writes the triangles that stay to the front of `triangles`; returns how many. */
+/* Moves the triangles that are kept to the front of `triangles`; returns their number. */
 static size_t keep_triangles(const SporeTriangleMesh *mesh, const uint32_t *target, uint32_t *triangles,
                              uint32_t *slots, size_t mask) {
   size_t kept = 0;

@@ -1,3 +1,4 @@
+/* Opens files by relative names, and refuses every name that leads out of the folder. */
 #include "core/scene/beneath.h"
 
 #include <errno.h>
@@ -14,7 +15,8 @@ int spore_open_beneath(int directory, const char *path, int flags, mode_t mode) 
                          .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
   long descriptor;
   do descriptor = syscall(SYS_openat2, directory, path, &how, sizeof how);
-  while (descriptor < 0 && (errno == EAGAIN || errno == EINTR)); /* EAGAIN: a rename went on at the same time */
+  while (descriptor < 0 &&
+         (errno == EAGAIN || errno == EINTR)); /* EAGAIN: another process renamed a folder of the path meanwhile */
   if (descriptor < 0 && errno == ENOSYS) return spore_open_beneath_walking(directory, path, flags, mode);
   return (int)descriptor;
 }

@@ -1,4 +1,4 @@
-/* The checks of a scene: of references and bodies here, the others by subject. */
+/* Checks of a scene: references, bodies and tools here, the other subjects in files of their own. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "core/scene/document_private.h"
 #include "core/scene/schema_fields.h"
 
-/* References, everywhere: what they name, and who names it. */
+/* Checks that a reference names something, and notes who refers to what. */
 static void check_reference(SporeCheck *check, SporeObject *object, const SporeParameter *parameter) {
   const char *name = spore_object_text(object, parameter->name);
   SporeObject *target = spore_object_reference(object, parameter->name);
@@ -95,7 +95,7 @@ static void check_jaw(SporeCheck *check, SporeObject *tool, const char *property
 static void check_tool(SporeCheck *check, SporeObject *tool) {
   const char *name = spore_object_name(tool), *element = spore_object_type(tool)->element;
   if (!has_device(tool)) return;
-  gboolean probe = strcmp(element, "probe") == 0; /* others cannot do without a body */
+  gboolean probe = strcmp(element, "probe") == 0; /* every other tool needs a body */
   if (!spore_object_text(tool, "body"))
     spore_check_say(check, probe ? SPORE_WARNING : SPORE_FAULT, tool, _("name an active body"),
                     _("the tool \"%s\" has no body"), name);
@@ -135,7 +135,7 @@ static gboolean some_body(const SporeCheck *check, CanBeChanged can) {
   return FALSE;
 }
 
-/* Tetrahedra that scissors pass through. */
+/* Notes tetrahedra that scissors pass through, because their model cannot be cut. */
 static void check_uncut(SporeCheck *check, SporeObject *scissors) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
@@ -150,7 +150,7 @@ static void check_uncut(SporeCheck *check, SporeObject *scissors) {
   }
 }
 
-/* Scissors where nothing can be changed by them. */
+/* Notes scissors in a scene in which nothing can be cut. */
 static void check_scissors(SporeCheck *check, SporeObject *scissors) {
   check_uncut(check, scissors);
   if (some_body(check, can_be_cut)) return;
@@ -159,7 +159,7 @@ static void check_scissors(SporeCheck *check, SporeObject *scissors) {
                   _("\"%s\" has nothing to work on: no body has a model that can be cut"), spore_object_name(scissors));
 }
 
-/* The same of bipolar forceps. */
+/* Notes bipolar forceps in a scene in which nothing can be heated. */
 static void check_bipolar(SporeCheck *check, SporeObject *bipolar) {
   if (some_body(check, can_be_coagulated)) return;
   spore_check_say(check, SPORE_NOTE, bipolar,
@@ -168,7 +168,7 @@ static void check_bipolar(SporeCheck *check, SporeObject *bipolar) {
                   spore_object_name(bipolar));
 }
 
-/* A needle with nothing to pierce or to draw, or whose spheres would stop it. */
+/* Notes a needle that has nothing to pierce or no thread to draw; warns where its own spheres would stop it. */
 static void check_needle(SporeCheck *check, SporeObject *needle) {
   const char *name = spore_object_name(needle);
   const SporeObject *body = spore_object_reference(needle, "body");
@@ -186,7 +186,7 @@ static void check_needle(SporeCheck *check, SporeObject *needle) {
                     spore_object_name(body), name);
 }
 
-/* Suction without a fluid. */
+/* Warns of suction in a scene without a fluid. */
 static void check_suction(SporeCheck *check, SporeObject *suction) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
@@ -227,7 +227,7 @@ GPtrArray *spore_document_check(SporeDocument *document) {
   spore_check_materials(&check);
   spore_check_solver(&check);
   spore_check_motion(&check);
-  g_ptr_array_sort(check.found, worst_first); /* a merge sort: those alike stay in order */
+  g_ptr_array_sort(check.found, worst_first); /* a stable sort: equal entries keep their order */
   g_hash_table_unref(check.users);
   return check.found;
 }

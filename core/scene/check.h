@@ -1,4 +1,4 @@
-/* What is wrong with a scene, said before it hurts. */
+/* Checks of a scene: finds mistakes before the scene runs. */
 #ifndef SPORE_SCENE_CHECK_H
 #define SPORE_SCENE_CHECK_H
 
@@ -7,13 +7,14 @@
 typedef enum SporeSeverity { SPORE_NOTE, SPORE_WARNING, SPORE_FAULT } SporeSeverity;
 typedef struct SporeDiagnostic {
   SporeSeverity severity;
-  guint32 object;                 /* id, 0: the whole scene */
+  guint32 object;                 /* object's id; 0: the whole scene */
   char *place, *message, *remedy; /* place: FILE:LINE:COLUMN or object path; texts translated */
 } SporeDiagnostic;
 void spore_diagnostic_free(SporeDiagnostic *diagnostic);
-/* GPtrArray of SporeDiagnostic *, worst first; never NULL. Format is checked by reading; this checks references,
- * assets, units (an organ 150 m long), mesh quality, initial overlap, loose passive bodies, unused assets, stale
- * generated data, the step against the stiffness, and what a model says that it computes badly. */
+/* GPtrArray of SporeDiagnostic *, worst first; never NULL. The reader has checked the format already. This function
+ * checks references, assets, units (an organ 150 m long), mesh quality, initial overlap, loose passive bodies, unused
+ * assets, stale generated data, the time step against the stiffness, and what a model reports that it computes badly.
+ */
 GPtrArray *spore_document_check(SporeDocument *document);
 
 #endif

@@ -1,3 +1,4 @@
+/* Checks of assets: whether each can be read, is used, has a likely size and is up to date. */
 #include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
@@ -7,7 +8,7 @@
 #include "core/scene/check_private.h"
 #include "core/scene/generated.h"
 
-#define METRES 0 /* of spore_length_units: generated assets */
+#define METRES 0 /* index into spore_length_units: generated assets are in metres */
 #define SLIVER_DEG 5.0
 
 /* unit: of the asset's file. */
@@ -30,7 +31,8 @@ static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error
     spore_check_say(check, SPORE_NOTE, asset, _("nothing, or export it again, facing outward"),
                     _("\"%s\" faces inward in its file, wholly or in part: its triangles are turned outward"),
                     spore_object_name(asset));
-  if (!report.closed && spore_check_is_used(check, asset, "mechanical|spheres|tetrahedra")) /* more than drawn */
+  if (!report.closed &&
+      spore_check_is_used(check, asset, "mechanical|spheres|tetrahedra")) /* used for more than drawing */
     spore_check_say(
         check, SPORE_NOTE, asset, _("tetrahedra can still be generated: the surface is repaired or wrapped then"),
         _("\"%s\" is not a closed surface: %zu open, %zu non-manifold and %zu misoriented edges"),
@@ -38,8 +40,8 @@ static gboolean check_mesh(SporeCheck *check, SporeObject *asset, GError **error
   return TRUE;
 }
 
-/* What the surface holds together, or may: a piece by itself is held by nothing but its own pins, and what is drawn
- * tears where it goes. */
+/* Notes tetrahedra in several pieces. Only its own pins hold a piece that is separate, and a drawn mesh tears where the
+ * piece moves away. */
 static gboolean check_pieces(SporeCheck *check, SporeObject *asset, const SporeTetrahedralMesh *mesh, GError **error) {
   uint32_t *pieces;
   size_t count;
@@ -83,7 +85,7 @@ static gboolean check_curve(SporeCheck *check, SporeObject *asset, GError **erro
   return curve != NULL;
 }
 
-/* Nothing that runs reads it: it has to be there. */
+/* A simulation does not read the label map: it is enough that the file is there. */
 static gboolean check_label_map(SporeCheck *check, SporeObject *asset, GError **error) {
   g_autoptr(GBytes) content = spore_document_read_asset(check->document, spore_object_text(asset, "file"), error);
   return content != NULL;

@@ -1,8 +1,9 @@
+/* Checks of materials: parameters that lie far from the values of the material that the author named. */
 #include <glib/gi18n.h>
 
 #include "core/scene/check_private.h"
 
-/* Whether the model has anything that the tissue tells. */
+/* Whether the model has a parameter for which the tissue has a value. */
 static gboolean takes_something(const SporeObject *model, const SporeTissue *tissue) {
   const SporeParameterTable *table = spore_object_type(model)->table;
   for (size_t i = 0; i < table->count; i++)

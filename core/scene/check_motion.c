@@ -1,3 +1,4 @@
+/* Checks of the start: overlaps of bodies, bodies that would fall, and what the compiled simulation reports. */
 #include <glib/gi18n.h>
 #include <math.h>
 #include <stdlib.h>
@@ -7,7 +8,7 @@
 #include "core/scene/compile.h"
 #include "core/scene/schema_fields.h"
 
-#define NOTED_OVERLAP 0.1 /* of the smaller radius: less is how things touch */
+#define NOTED_OVERLAP 0.1 /* of the smaller radius: touching bodies overlap by less */
 #define WARNED_OVERLAP 0.5
 
 /* A sphere where it stands at the start. */
@@ -17,7 +18,7 @@ typedef struct Ball {
   guint body;
 } Ball;
 
-/* The deepest overlap of a body with one before it. */
+/* The deepest overlap of a body with an earlier body. */
 typedef struct Overlap {
   guint other;
   double depth, share; /* m; of the smaller radius */
@@ -39,7 +40,7 @@ static gboolean may_touch(const Start *start, guint a, guint b) {
   return a != b && (group == 0 || group != g_array_index(start->groups, gint64, b));
 }
 
-/* Those of its model, which only the world knows. */
+/* Adds the collision spheres of a body's model. Only the world knows their places. */
 static void place_own_spheres(Start *start, SporeObject *body, guint index, const SporeSimulation *simulation) {
   const SporeSpheres *spheres = spore_world_spheres(simulation->world);
   guint32 owner = spore_simulation_body_of(simulation, body);
@@ -50,7 +51,7 @@ static void place_own_spheres(Start *start, SporeObject *body, guint index, cons
   }
 }
 
-/* `simulation`: NULL where the scene cannot be put together. */
+/* simulation: NULL where the scene cannot be compiled. */
 static void place_body(Start *start, SporeObject *body, const SporeSimulation *simulation) {
   guint index = start->bodies->len;
   g_ptr_array_add(start->bodies, body);
@@ -91,7 +92,7 @@ static void meet(const Start *start, const Ball *a, const Ball *b, Overlap *over
   *overlap = (Overlap){MIN(a->body, b->body), depth, depth / fmin(a->radius, b->radius)};
 }
 
-/* Sweeps along x: only balls whose intervals there overlap are looked at. */
+/* Sweeps along x: only pairs of balls whose intervals on the x axis overlap are compared. */
 static void find_overlaps(const Start *start, Overlap *overlaps) {
   for (guint i = 0; i < start->balls->len; i++) {
     const Ball *a = &g_array_index(start->balls, Ball, i);
@@ -119,7 +120,7 @@ static void check_overlaps(const Start *start) {
 
 /* Loose bodies. */
 
-/* Whether a ball of another body that does not fall lies in the way of this one's fall along unit vector `down`. */
+/* Whether the ball `under`, of an unmovable body, stops the fall of the other ball along the unit vector `down`. */
 static gboolean catches(const Start *start, const Ball *falling, const Ball *under, SporeVec3 down) {
   if (!may_touch(start, under->body, falling->body) || role_of(start, under->body) != SPORE_UNMOVABLE) return FALSE;
   SporeVec3 apart = spore_vec3_sub(under->centre, falling->centre);
@@ -137,7 +138,7 @@ static gboolean has_support(const Start *start, guint body, SporeVec3 down) {
   return FALSE;
 }
 
-/* The air holds it up. */
+/* Air holds smoke up. */
 static gboolean is_smoke(const SporeObject *body) {
   const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
   if (!mechanical || spore_object_child_count(mechanical) == 0) return FALSE;
@@ -163,7 +164,8 @@ static void check_loose(const Start *start) {
   }
 }
 
-/* What is nearer than its margin to begin with may never be seen to come nearer, and is looked at in each step. */
+/* Warns of a contact margin greater than the body's smallest sphere. Neighbouring spheres are then within the margin
+ * from the start: such a pair is tested in each step, and may never be seen approaching. */
 static void check_margin(const Start *start, guint body) {
   const SporeObject *collision = spore_object_child_of(start->bodies->pdata[body], "collision");
   double margin = collision ? spore_object_number(collision, "margin") : 0, least = HUGE_VAL;
@@ -179,7 +181,7 @@ static void check_margin(const Start *start, guint body) {
       spore_object_name(start->bodies->pdata[body]), margin, least);
 }
 
-/* Steps that leave too little of the stiffness of contacts for what may lie in a pile. */
+/* Warns of a time step that leaves contacts too soft to bear a pile of bodies. */
 static void check_piles(SporeCheck *check, const SporeSimulation *simulation) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
@@ -195,7 +197,7 @@ static void check_piles(SporeCheck *check, const SporeSimulation *simulation) {
   }
 }
 
-/* What a model says of itself. */
+/* Reports what each model says that it computes badly. */
 static void check_doubts(SporeCheck *check, const SporeSimulation *simulation) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {
@@ -211,7 +213,7 @@ static void check_doubts(SporeCheck *check, const SporeSimulation *simulation) {
   }
 }
 
-/* What only shows when the scene is put together: models that refuse their geometry, pins that hold nothing, a time
+/* Checks what shows only when the scene is compiled: models that refuse their geometry, pins that hold nothing, a time
  * step too large for the stiffness. */
 static SporeSimulation *check_compiled(SporeCheck *check) {
   g_autoptr(GError) error = NULL;
@@ -230,7 +232,7 @@ void spore_check_motion(SporeCheck *check) {
   SporeSimulation *simulation = check->faults == 0 ? check_compiled(check) : NULL;
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
     place_body(&start, spore_object_child(bodies, i), simulation);
-  if (simulation) spore_check_carried(check, simulation);
+  if (simulation) spore_check_mapping(check, simulation);
   if (simulation) check_piles(check, simulation);
   if (simulation) check_doubts(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);

@@ -1,4 +1,4 @@
-/* The checks of a scene, by subject. */
+/* What the files of the checks share: messages, walks over objects, and one entry a subject. */
 #ifndef SPORE_SCENE_CHECK_PRIVATE_H
 #define SPORE_SCENE_CHECK_PRIVATE_H
 
@@ -12,32 +12,34 @@
 typedef struct SporeCheck {
   SporeDocument *document;
   GPtrArray *found;  /* of SporeDiagnostic * */
-  GHashTable *users; /* object -> GPtrArray of the objects that refer to it */
+  GHashTable *users; /* object -> GPtrArray of the objects that refer to that object */
   guint faults;
 } SporeCheck;
 
-/* message_format is printed with what follows; the remedy is taken as it is. */
+/* Adds a diagnostic about an object (NULL: the whole scene). message_format is a printf format for the arguments that
+ * follow; the remedy is used as it is. */
 void spore_check_say(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const char *remedy,
                      const char *message_format, ...) G_GNUC_PRINTF(5, 6);
-/* A message of another room, "PLACE: what is wrong; what was expected; what to do", at the object. */
+/* Adds the message of another room, "PLACE: what is wrong; what was expected; what to do", as a diagnostic about the
+ * object. */
 void spore_check_say_error(SporeCheck *check, SporeSeverity severity, const SporeObject *object, const GError *error);
 
-/* Calls visit for each object of a section whose element it is; NULL: each. */
+/* Calls `visit` for each object of a section that has this element name; NULL: for each object. */
 typedef void (*SporeCheckVisit)(SporeCheck *check, SporeObject *object);
 void spore_check_each(SporeCheck *check, const char *section, const char *element, SporeCheckVisit visit);
 
-/* Whether an object of one of the elements (joined by |; NULL: any) refers to this one. */
+/* Whether an object of one of these elements (joined by |; NULL: any) refers to the asset. */
 gboolean spore_check_is_used(const SporeCheck *check, const SporeObject *object, const char *elements);
 
-void spore_check_links(SporeCheck *check);  /* that tie nothing, and bodies that are tied too often */
-void spore_check_assets(SporeCheck *check); /* readable, used, of a likely size, fresh */
+void spore_check_links(SporeCheck *check);  /* links that tie nothing, and bodies that are tied too often */
+void spore_check_assets(SporeCheck *check); /* assets: readable, used, of a likely size, up to date */
 /* Values far from those of the material that the author named. */
 void spore_check_materials(SporeCheck *check);
-void spore_check_solver(SporeCheck *check); /* choices that nothing makes use of */
+void spore_check_solver(SporeCheck *check); /* methods and contact choices without effect */
 /* Links whose points lie far from what they tie. */
 void spore_check_link_points(SporeCheck *check, const SporeSimulation *simulation);
-/* Vertices and spheres that lie off what carries them. */
-void spore_check_carried(SporeCheck *check, const SporeSimulation *simulation);
-void spore_check_motion(SporeCheck *check); /* overlaps and loose bodies; compiles the scene */
+/* Drawn vertices and collision spheres that lie off the geometry that moves them. */
+void spore_check_mapping(SporeCheck *check, const SporeSimulation *simulation);
+void spore_check_motion(SporeCheck *check); /* overlaps and loose bodies; compiles the scene for it */
 
 #endif

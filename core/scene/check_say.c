@@ -1,4 +1,4 @@
-/* Diagnostics, as the checks add them, and objects as the checks walk over them. */
+/* Adds diagnostics, and walks over the objects of a scene, for all checks. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -33,7 +33,8 @@ void spore_check_say(SporeCheck *check, SporeSeverity severity, const SporeObjec
   va_end(arguments);
 }
 
-/* The object of a place: "FILE:LINE:COLUMN: " or "PATH: " at the start of a message, or NULL. */
+/* The object that a message is about, found by the place at the message's start ("FILE:LINE:COLUMN: " or "PATH: "), or
+ * NULL. */
 static const SporeObject *object_at(const SporeObject *object, const char *message) {
   g_autofree char *where = spore_object_where(object);
   size_t length = strlen(where);

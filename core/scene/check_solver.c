@@ -1,4 +1,4 @@
-/* Choices of method and contact that nothing makes use of. */
+/* Checks of the solver: choices of method and of contact that have no effect in this scene. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ static gboolean is_passive(const SporeObject *body) {
   return model_of(body) && (SporeRole)spore_object_number(body, "role") == SPORE_PASSIVE;
 }
 
-/* Models without a Jacobian, which explicit steps move. */
+/* Whether the body's model consists of particles: it has no Jacobian, and explicit steps move it. */
 static gboolean has_particles(const SporeObject *body) {
   return spore_object_type(model_of(body))->model->rates != NULL;
 }
@@ -29,7 +29,8 @@ static SporeIntegratorKind scene_integrator(const SporeCheck *check) {
   return (SporeIntegratorKind)spore_object_number(spore_document_section(check->document, "solver"), "integrator");
 }
 
-/* As the world chooses: see core/sim/create.c. SPORE_INTEGRATOR_DEFAULT: physics does not move it. */
+/* The integrator that the world will choose (core/sim/create.c). SPORE_INTEGRATOR_DEFAULT: physics does not move the
+ * body. */
 static SporeIntegratorKind integrator_of(const SporeCheck *check, const SporeObject *body) {
   if (!is_passive(body) || own_integrator(body) != SPORE_INTEGRATOR_DEFAULT)
     return is_passive(body) ? own_integrator(body) : SPORE_INTEGRATOR_DEFAULT;
@@ -37,7 +38,7 @@ static SporeIntegratorKind integrator_of(const SporeCheck *check, const SporeObj
   return has_particles(body) && spore_integrator(kind)->implicit ? SPORE_INTEGRATOR_VERLET : kind;
 }
 
-/* What the methods of all bodies use. */
+/* Which choices the integrators of all bodies make use of. */
 typedef struct Uses {
   guint moved;
   gboolean adaptive, implicit;
@@ -69,7 +70,8 @@ static void check_solver(SporeCheck *check, const SporeObject *solver) {
                     "%s", _("every body is integrated explicitly: how equations are solved matters to recovery alone"));
 }
 
-/* Nothing balances it in the open: each step takes it as far as the load does from rest. m/s. */
+/* Speed (m/s) at which a body without contact sinks under the static integrator: no force balances its weight, so each
+ * step moves it as far as the weight would from rest. */
 static double static_sinking_speed(const SporeCheck *check) {
   SporeEnvironmentFields environment;
   SporeSolverFields solver;
@@ -95,7 +97,7 @@ static void check_static(SporeCheck *check, const SporeObject *body) {
                     spore_object_name(body), static_sinking_speed(check));
 }
 
-/* Methods that particles cannot make use of. */
+/* Notes methods that particles cannot use. */
 static void check_particles(SporeCheck *check, const SporeObject *body) {
   if (!is_passive(body) || !has_particles(body)) return;
   const SporeObject *mechanical = spore_object_child_of(body, "mechanical");
@@ -113,7 +115,7 @@ static void check_particles(SporeCheck *check, const SporeObject *body) {
                     spore_integrator_names[scene], spore_object_name(body));
 }
 
-/* Whether a body other than `body` is of that group. */
+/* Whether another body is in that collision group. */
 static gboolean has_companion(const SporeCheck *check, const SporeObject *body, int64_t group) {
   const SporeObject *bodies = spore_document_section(check->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++) {

@@ -1,5 +1,5 @@
-/* A document is made into a simulation: its bodies, links, tools and effects described to a world, and its devices
- * opened. */
+/* Compiles a document into a simulation: describes its bodies, links, tools and effects to a world, and opens its
+ * devices. */
 #include "core/scene/compile_private.h"
 
 #include <string.h>
@@ -28,14 +28,13 @@ static gboolean describe(SporeCompiler *compiler) {
 static void destroy_models(const SporeCompiler *compiler) {
   for (guint i = 0; i < compiler->bodies->len; i++) {
     const SporeBodyDescription *body = &g_array_index(compiler->bodies, SporeBodyDescription, i);
-    SporeModel *const models[] = {body->model, body->levels.model[SPORE_LEVEL_COARSE],
-                                  body->levels.model[SPORE_LEVEL_MEDIUM]};
+    SporeModel *const models[] = {body->model, body->lod.model[SPORE_LOD_COARSE], body->lod.model[SPORE_LOD_MEDIUM]};
     for (gsize k = 0; k < G_N_ELEMENTS(models); k++)
       if (models[k]) models[k]->type->destroy(models[k]);
   }
 }
 
-/* The kernel says paths; the author wants the line of the file. */
+/* Replaces the object path in a kernel's message by the line of the file, which the author can look up. */
 static gboolean say_in_scene(SporeCompiler *compiler, const SporeError *fault) {
   SporeObject *object = *fault->place ? spore_document_by_path(compiler->document, fault->place) : NULL;
   if (!object) return spore_error_propagate(fault, compiler->error);
@@ -106,7 +105,7 @@ SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, 
 void spore_simulation_free(SporeSimulation *simulation) {
   if (!simulation) return;
   if (simulation->world) spore_world_free(simulation->world);
-  g_ptr_array_unref(simulation->devices); /* after the world that borrows them, before the track that they borrow */
+  g_ptr_array_unref(simulation->devices); /* the world borrows the devices, and the devices borrow the track */
   if (simulation->track) spore_track_clear(simulation->track);
   g_free(simulation->track);
   g_free(simulation->body_object);

@@ -1,4 +1,4 @@
-/* Document to world. */
+/* Compiles a document into a world that runs. */
 #ifndef SPORE_SCENE_COMPILE_H
 #define SPORE_SCENE_COMPILE_H
 
@@ -6,7 +6,7 @@
 #include "core/scene/document.h"
 #include "core/sim/world.h"
 
-/* A running copy of a document: nothing that happens in it leaks into the scene. */
+/* A running copy of a document. The simulation never changes the document. */
 typedef struct SporeSimulation {
   SporeWorld *world;
   SporeTrack *track;    /* merged input: tracks named by the scene's devices; NULL: none */
@@ -14,20 +14,22 @@ typedef struct SporeSimulation {
   guint32 *body_object; /* world body index -> object id */
 } SporeSimulation;
 
-/* Compiles; pool borrowed. `input`: replaces the scene's own tracks by body name; borrowed for the simulation's life;
- * NULL: the scene's. NULL with a GError (place "FILE:LINE:COLUMN" or object path) when the scene cannot run. */
+/* Compiles the document. The pool is borrowed. `input` replaces the scene's own tracks by body name, and is borrowed
+ * for the simulation's life; NULL: the scene's tracks are used. Returns NULL with a GError (place "FILE:LINE:COLUMN" or
+ * object path) when the scene cannot run. */
 SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, const SporeTrack *input,
                                       GError **error);
 void spore_simulation_free(SporeSimulation *simulation);
-/* Whether the body collides with its model's own spheres: it has a collision unit, and that names none. */
+/* Whether the body collides with its model's own spheres: its collision unit names no sphere set. */
 gboolean spore_body_has_own_spheres(const SporeObject *body);
 /* Where the author puts a body at the start. */
 SporePose spore_body_pose(const SporeObject *body);
-/* World body of an object (itself or an ancestor is a body), or SPORE_NO_BODY. */
+/* Index in the world of the body that the object is or belongs to, or SPORE_NO_BODY. */
 guint32 spore_simulation_body_of(const SporeSimulation *simulation, SporeObject *object);
-/* Carries state over from an older world by body name where the degrees of freedom agree. */
+/* Copies state from an older world to bodies of the same name whose degrees of freedom agree. */
 void spore_simulation_carry_over(SporeSimulation *to, const SporeSimulation *from);
-/* A changed property of the document as a command of the running world. FALSE: it cannot take it, compile again. */
+/* Sends a changed property of the document to the running world as a command. FALSE: the world cannot take the change;
+ * compile again. */
 gboolean spore_simulation_apply(SporeSimulation *simulation, SporeDocument *document, SporeObject *object,
                                 guint property);
 

@@ -1,3 +1,4 @@
+/* Describes the bodies of a document to a world: geometry, model, regions, levels of detail and collision spheres. */
 #include "core/scene/compile_private.h"
 
 #include <glib/gi18n.h>
@@ -13,7 +14,7 @@ static gboolean is_solid(SporeCompiler *compiler, const SporeObject *mechanical,
          spore_compiler_refuse(compiler, mechanical, "\"%s\": %s", spore_object_name(asset), fault.message);
 }
 
-/* The kind of asset that each kind of geometry asks for, and how messages tell of it. */
+/* The kind of asset that each kind of geometry needs, and the words for it in messages. */
 typedef struct GeometryWords {
   const char *element, *missing, *wrong;
 } GeometryWords;
@@ -42,8 +43,8 @@ static gboolean refuse_geometry(SporeCompiler *compiler, const SporeObject *mech
 }
 #pragma GCC diagnostic pop
 
-/* What the model is to be built from, as `mechanical`, or a level of it, says. Fails with a message when the asset is
- * missing or of the wrong kind. */
+/* Finds the geometry of a model, named by the mechanical unit or by one of its levels of detail. FALSE with a message
+ * when the asset is missing or of the wrong kind. */
 static gboolean find_geometry(SporeCompiler *compiler, const SporeObject *mechanical, const SporeModelType *type,
                               SporeGeometry *geometry) {
   SporeObject *asset;
@@ -74,7 +75,7 @@ static SporeObject *model_object(const SporeObject *body) {
 
 /* Regions. */
 
-/* By how much the region's tissue differs from what the model has of a parameter. */
+/* Multiplies *scale by the ratio of the tissue's value to the model's own value of a parameter. */
 static gboolean scale_by_tissue(SporeCompiler *compiler, const SporeObject *region, const SporeObject *model,
                                 const SporeTissue *tissue, const char *name, double *scale) {
   const SporeTissueQuantity *quantity = spore_tissue_find(tissue, name);
@@ -101,7 +102,7 @@ static gboolean describe_region(SporeCompiler *compiler, const SporeObject *obje
                      scale_by_tissue(compiler, object, model, tissue, "density", &region->density));
 }
 
-/* *regions: what `model` is to be given; free its regions. */
+/* Describes the regions of a body for `model`. The caller frees regions->regions. */
 static gboolean find_regions(SporeCompiler *compiler, const SporeObject *body, const SporeObject *model,
                              SporeRegions *regions) {
   const SporeObject *unit = spore_object_child_of(body, "regions");
@@ -119,7 +120,7 @@ static gboolean find_regions(SporeCompiler *compiler, const SporeObject *body, c
   return TRUE;
 }
 
-/* A region that the finest model has nothing in is a mistake. */
+/* Refuses a region in which the finest model has no node: that is a mistake of the author. */
 static gboolean check_regions(SporeCompiler *compiler, const SporeObject *body, const SporeRegions *regions) {
   for (guint i = 0; i < regions->count; i++) {
     const SporeObject *region = spore_object_child(spore_object_child_of(body, "regions"), i);
@@ -164,12 +165,12 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
   return spore_compiler_refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
 }
 
-/* One level: the body's model with what differs. */
+/* Makes one level of detail: the body's model with the settings that differ. */
 static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, SporeObject *level, SporeModel **made) {
   const SporeModelType *type = spore_object_type(model)->model;
   SporeRegions regions = {0};
   SporeGeometry geometry = {.regions = &regions};
-  SporeLevelFields level_fields;
+  SporeLodFields level_fields;
   SporeError fault = SPORE_ERROR_INIT;
   spore_object_fields(level, &level_fields);
   const SporeObject *from = level_fields.geometry ? level : spore_object_parent(model);
@@ -185,8 +186,8 @@ static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, Sp
          spore_compiler_refuse(compiler, level, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
 }
 
-/* Points of the body that are seen. */
-static gboolean find_surface(SporeCompiler *compiler, const SporeObject *body, SporeLevelsDescription *levels) {
+/* Finds the drawn vertices of the body. */
+static gboolean find_surface(SporeCompiler *compiler, const SporeObject *body, SporeLodDescription *levels) {
   const SporeObject *visual = spore_object_child_of(body, "visual");
   SporeObject *asset = NULL;
   if (!visual) return TRUE;
@@ -198,25 +199,25 @@ static gboolean find_surface(SporeCompiler *compiler, const SporeObject *body, S
 
 static gboolean add_levels(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {
   const SporeObject *fidelity = spore_object_child_of(body, "fidelity"), *model = model_object(body);
-  SporeLevelsDescription *levels = &description->levels;
+  SporeLodDescription *levels = &description->lod;
   SporeFidelityFields fields;
   if (!fidelity) return TRUE;
   spore_object_fields(fidelity, &fields);
-  levels->first = (SporeLevelGrade)fields.level;
+  levels->first = (SporeLodGrade)fields.level;
   levels->tolerance = fields.level_tolerance;
-  for (int k = 0; k < SPORE_LEVEL_FINE; k++) {
-    SporeObject *level = spore_object_child_of(fidelity, spore_level_names[k]);
+  for (int k = 0; k < SPORE_LOD_FINE; k++) {
+    SporeObject *level = spore_object_child_of(fidelity, spore_lod_names[k]);
     if (level && !model)
       return spore_compiler_refuse(compiler, level,
                                    _("the body does not move by physics, so that it has no levels; take them out"));
     if (level && !make_level(compiler, model, level, &levels->model[k])) return FALSE;
   }
-  if (levels->first != SPORE_LEVEL_FINE && !levels->model[levels->first])
+  if (levels->first != SPORE_LOD_FINE && !levels->model[levels->first])
     return spore_compiler_refuse(compiler, fidelity,
                                  _("level=\"%s\", and there is no such level; expected <%s> in it; add it, or take "
                                    "level fine"),
-                                 spore_level_names[levels->first], spore_level_names[levels->first]);
-  gboolean any = levels->model[SPORE_LEVEL_COARSE] || levels->model[SPORE_LEVEL_MEDIUM];
+                                 spore_lod_names[levels->first], spore_lod_names[levels->first]);
+  gboolean any = levels->model[SPORE_LOD_COARSE] || levels->model[SPORE_LOD_MEDIUM];
   return !any || find_surface(compiler, body, levels);
 }
 

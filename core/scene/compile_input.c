@@ -1,3 +1,4 @@
+/* Merges the recorded tracks of a scene, and opens the devices that play them to the bodies. */
 #include "core/scene/compile_private.h"
 
 #include <glib/gi18n.h>
@@ -12,7 +13,7 @@ static gboolean copy_channel(SporeCompiler *compiler, SporeTrack *track, const S
                                       _("not enough memory for the recorded input; close something or shorten it"));
 }
 
-/* The channel that drives `body`: the one of its name, or the only one there is. */
+/* The channel that drives `body`: the channel of that name, or else the only channel of the track. */
 static const SporeTrackChannel *channel_for(const SporeTrack *track, const char *body) {
   const SporeTrackChannel *channel = spore_track_channel(track, body);
   return !channel && track->channel_count == 1 ? &track->channels[0] : channel;
@@ -52,7 +53,7 @@ static gboolean add_input(SporeCompiler *compiler, SporeTrack *merged, const Spo
   if (!spore_compiler_resolve(compiler, probe, "body", &body) ||
       !spore_compiler_resolve(compiler, probe, "device", &device))
     return FALSE;
-  if (!body) return TRUE; /* `check` says it */
+  if (!body) return TRUE; /* `spore check` reports it */
   const char *name = spore_object_name(body);
   if ((int)spore_object_number(body, "role") != SPORE_ACTIVE)
     return spore_compiler_refuse(

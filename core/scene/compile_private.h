@@ -1,11 +1,11 @@
-/* Document to world, between its files. */
+/* What the files that compile a document share. */
 #ifndef SPORE_SCENE_COMPILE_PRIVATE_H
 #define SPORE_SCENE_COMPILE_PRIVATE_H
 
 #include "core/scene/compile.h"
 #include "core/scene/schema_fields.h"
 
-/* What is being put together. Functions below that return FALSE have set *error. */
+/* A compilation under way. Functions below that return FALSE have set *error. */
 typedef struct SporeCompiler {
   SporeDocument *document;
   GPtrArray *objects; /* body objects, by index in the world */
@@ -14,29 +14,31 @@ typedef struct SporeCompiler {
   GArray *tools;      /* of SporeToolDescription */
   GArray *emitters;   /* of SporeEmitterDescription */
   GPtrArray *spheres; /* of SporeSphereSet: models' own */
-  GPtrArray *fields;  /* of tools, whose descriptions borrow them */
+  GPtrArray *fields;  /* parameters of tools; the tools' descriptions borrow them */
   GError **error;
 } SporeCompiler;
 
-/* Says what is wrong with the object, with its place in the file. FALSE. */
+/* Sets the error to a message about the object, with its place in the file. Returns FALSE. */
 gboolean spore_compiler_refuse(SporeCompiler *compiler, const SporeObject *object, const char *format, ...)
     G_GNUC_PRINTF(3, 4);
-/* The object that a reference names. FALSE: it names nothing that is there; *target NULL: it is not set. */
+/* The object that a reference names; *target is NULL where the reference is not set. FALSE with an error: no object has
+ * that name. */
 gboolean spore_compiler_resolve(SporeCompiler *compiler, const SporeObject *object, const char *property,
                                 SporeObject **target);
-/* Index of the body that a reference names, or SPORE_NO_BODY where it is not set. */
+/* Index of the body that a reference names, or SPORE_NO_BODY where the reference is not set. */
 gboolean spore_compiler_body_index(SporeCompiler *compiler, const SporeObject *object, const char *property,
                                    guint32 *index);
 
-/* Each describes one object of the scene to the world that is to be made; bodies first. */
+/* Each function adds the description of one object of the scene. Bodies must be added first. */
 gboolean spore_compiler_add_body(SporeCompiler *compiler, SporeObject *body);
 gboolean spore_compiler_add_link(SporeCompiler *compiler, const SporeObject *object);
 gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *object);
 gboolean spore_compiler_add_emitter(SporeCompiler *compiler, const SporeObject *object);
 
-/* What moves the active bodies: `input` (NULL: none), and the scene's own tracks for those that it leaves. */
+/* Merges the recorded input of all active bodies: `input` (NULL: none) first, the scene's own tracks for the other
+ * bodies. */
 gboolean spore_compiler_merge_input(SporeCompiler *compiler, SporeTrack *merged, const SporeTrack *input);
-/* Devices that play the merged track, simulation->track, to the bodies of its world. */
+/* Opens a device for each channel of the merged track, simulation->track, and attaches it to its body. */
 gboolean spore_compiler_open_devices(SporeCompiler *compiler, SporeSimulation *simulation);
 
 #endif

@@ -1,4 +1,4 @@
-/* What references of a scene name, and how it is said where they name nothing. */
+/* Resolves references of a scene to objects and bodies, and reports references that name nothing. */
 #include "core/scene/compile_private.h"
 
 #include <glib/gi18n.h>

@@ -1,4 +1,4 @@
-/* Tools and effects of a document, described to the world that is to be made. */
+/* Describes tools and effects of a document to the world. */
 #include <string.h>
 
 #include "core/scene/compile_private.h"
@@ -18,7 +18,7 @@ static gboolean find_bodies(SporeCompiler *compiler, const SporeObject *object, 
 
 gboolean spore_compiler_add_tool(SporeCompiler *compiler, const SporeObject *object) {
   SporeToolDescription tool = {.type = spore_tool_type_find(spore_object_type(object)->element)};
-  if (!tool.type) return TRUE; /* a probe does no more than move its body, a camera is for viewers */
+  if (!tool.type) return TRUE; /* a probe only moves its body, and a camera concerns viewers alone */
   gpointer fields = g_malloc0(tool.type->parameters.size);
   g_ptr_array_add(compiler->fields, fields);
   spore_object_fields(object, fields);

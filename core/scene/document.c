@@ -1,4 +1,4 @@
-/* Life of a document and of its objects: made, loaded, freed. */
+/* Makes, loads and frees a document and its objects. */
 #include "core/scene/document_private.h"
 
 /* Objects. */

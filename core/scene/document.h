@@ -1,5 +1,6 @@
-/* The document: what the author edits. A tree of objects with properties from the tables. Every change is a command,
- * so undo, modified state and "what changed" come from one place. One thread (the GTK thread, or main) owns it. */
+/* The document: what the author edits. It is a tree of objects with properties from the tables. Every change is a
+ * command, so that undo, the modified state and "what changed" come from one place. One thread owns a document (the GTK
+ * thread, or main). */
 #ifndef SPORE_SCENE_DOCUMENT_H
 #define SPORE_SCENE_DOCUMENT_H
 
@@ -12,12 +13,13 @@
 
 typedef struct SporeDocument SporeDocument;
 
-/* An object belongs to its document; read it through these functions. Its id is never used again, even after undo. */
+/* An object belongs to its document, and is read through the functions below. Its id is never used again, even after
+ * undo. */
 typedef struct SporeObject SporeObject;
 
 SporeDocument *spore_document_new(const SporeSchema *schema); /* schema borrowed; holds the root and its sections */
-/* The scene as it is now, for another thread: with the same ids, without history and comments. What is decoded already,
- * and what waits in no file yet, is shared. */
+/* A copy of the scene as it is now, for another thread: it has the same ids, but no history and no comments. It shares
+ * decoded assets and content that waits in no file yet. */
 SporeDocument *spore_document_copy(const SporeDocument *document);
 void spore_document_free(SporeDocument *document);
 const SporeSchema *spore_document_schema(const SporeDocument *document);
@@ -41,16 +43,16 @@ SporeObject *spore_object_child_of(const SporeObject *object, const char *elemen
 char *spore_object_path(const SporeObject *object);                                 /* g_free */
 int spore_object_line(const SporeObject *object); /* in the file read; 0: not from a file */
 int spore_object_column(const SporeObject *object);
-/* Value now in force: what the author set, else the default. Valid until the next change. */
+/* The value in force: set by the author, or else the default. Valid until the next change. */
 const SporeValue *spore_object_value(const SporeObject *object, guint property);
 gboolean spore_object_is_set(const SporeObject *object, guint property);
 double spore_object_number(const SporeObject *object, const char *property);    /* by name, which must exist */
 const char *spore_object_text(const SporeObject *object, const char *property); /* NULL when neither set nor default */
-/* The tissue whose values the properties of a model take that are not set; NULL: none. */
+/* The tissue that gives a model's unset properties their values; NULL: none. */
 const SporeTissue *spore_object_tissue(const SporeObject *model);
 /* The object that a reference names; NULL: not set, or nothing has that name. */
 SporeObject *spore_object_reference(const SporeObject *object, const char *property);
-/* "FILE:LINE:COLUMN" where the object came from a file, else its path: the place of a message. g_free. */
+/* The place for messages: "FILE:LINE:COLUMN" where the object came from a file, else its path. g_free. */
 char *spore_object_where(const SporeObject *object);
 /* Fills a structure of the type's table with the values in force; texts are borrowed until the next change. */
 void spore_object_fields(const SporeObject *object, void *fields);
@@ -61,7 +63,7 @@ gboolean spore_document_set(SporeDocument *document, SporeObject *object, guint 
                             GError **error);
 gboolean spore_document_set_text(SporeDocument *document, SporeObject *object, const char *property, const char *text,
                                  GError **error); /* parses as in a file */
-/* Back to the default: no longer written to the file. */
+/* Sets a property back to its default. It is no longer written to the file. */
 gboolean spore_document_unset(SporeDocument *document, SporeObject *object, guint property, GError **error);
 /* New child of that element at `index` (G_MAXUINT: last, or where the fixed order wants it). A nameable one gets `name`
  * made unique ("liver", "liver-2"); NULL: from the element. */
@@ -70,7 +72,7 @@ SporeObject *spore_document_insert(SporeDocument *document, SporeObject *parent,
 gboolean spore_document_remove(SporeDocument *document, SporeObject *object, GError **error);
 gboolean spore_document_move(SporeDocument *document, SporeObject *object, SporeObject *parent, guint index,
                              GError **error);
-/* Renames and follows every reference to it, as one step. */
+/* Renames an object and every reference to it, as one undo step. */
 gboolean spore_document_rename(SporeDocument *document, SporeObject *object, const char *name, GError **error);
 
 /* Groups: everything between begin and end is one undo step named `label` (translated). Inside, several sets of the
@@ -86,7 +88,7 @@ const char *spore_document_redo_label(const SporeDocument *document);
 void spore_document_undo(SporeDocument *document);
 void spore_document_redo(SporeDocument *document);
 gboolean spore_document_is_modified(const SporeDocument *document); /* against the last save or load */
-/* Counts up with every change, undo and redo; for "did the document move on?" */
+/* Increases with every change, undo and redo: tells whether the document has changed since. */
 guint64 spore_document_revision(const SporeDocument *document);
 
 /* Listening. Called after each change, undo and redo included. */
@@ -102,22 +104,24 @@ typedef void (*SporeDocumentListener)(SporeDocument *document, SporeChangeKind k
 guint spore_document_listen(SporeDocument *document, SporeDocumentListener listener, gpointer data);
 void spore_document_unlisten(SporeDocument *document, guint id);
 
-/* Files. A document has a folder once it was loaded or saved; assets are relative to it, and nothing outside can be
- * named. Content that no file holds yet (imported meshes, generated spheres) waits in the document as a blob under the
- * file name that it will have; saving writes those that some object names. */
+/* Files. A document has a folder once it was loaded or saved. Assets are relative to the folder, and nothing outside of
+ * it can be named. Content that no file holds yet (imported meshes, generated spheres) waits in the document as a blob,
+ * under the name of its future file. Saving writes the blobs that some object names. */
 const char *spore_document_file(const SporeDocument *document); /* NULL: never saved */
 void spore_document_put_blob(SporeDocument *document, const char *file, GBytes *content);
-/* Content of a file named by an asset: the blob, else the file in the folder (regular, inside, at most 1 GiB). */
+/* Content of a file that an asset names: the blob, or else the file in the folder (regular, inside the folder, at most
+ * 1 GiB). */
 GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GError **error);
 
-/* Assets decoded, cached by content, shared and immutable; NULL with a GError whose place is the asset. `asset` is an
- * object of element mesh, spheres, tetrahedra or curve. Mesh vertices come in metres and SPORE's axes. Valid until the
- * document is freed. Installed by core/io (spore_io_install_readers), so that the document needs no importer. */
+/* Decoded assets, cached by content, shared and immutable. NULL with a GError whose place is the asset. `asset` is an
+ * object of element mesh, spheres, tetrahedra or curve. Mesh vertices are in metres and in SPORE's axes. A result is
+ * valid until the document is freed. core/io provides the readers (spore_io_install_readers), so that the document
+ * needs no importer. */
 const SporeTriangleMesh *spore_document_mesh(SporeDocument *document, SporeObject *asset, GError **error);
 const SporeSphereSet *spore_document_spheres(SporeDocument *document, SporeObject *asset, GError **error);
 const SporeTetrahedralMesh *spore_document_tetrahedra(SporeDocument *document, SporeObject *asset, GError **error);
 const SporeCurve *spore_document_curve(SporeDocument *document, SporeObject *asset, GError **error);
-/* Hash of an asset's decoded content as 16 hex digits: what source_hash holds. g_free. NULL: unreadable. */
+/* Hash of an asset's decoded content, 16 hex digits: what source_hash holds. g_free. NULL: the asset cannot be read. */
 char *spore_document_asset_hash(SporeDocument *document, SporeObject *asset);
 
 typedef struct SporeAssetReaders {

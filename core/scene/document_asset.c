@@ -1,4 +1,4 @@
-/* Content of assets: found, read without leaving the folder, decoded once per content. */
+/* Content of assets: found, read without leaving the folder, and decoded once for each content. */
 #include <errno.h>
 #include <fcntl.h>
 #include <glib/gi18n.h>
@@ -12,7 +12,7 @@
 
 #define LARGEST_ASSET (G_GUINT64_CONSTANT(1) << 30) /* bytes */
 
-/* Counted references: copies of a document share them. */
+/* A decoded asset. References are counted, because copies of a document share it. */
 typedef struct Decoded {
   SporeTriangleMesh mesh;
   SporeSphereSet spheres;
@@ -21,11 +21,11 @@ typedef struct Decoded {
   char hash[17];
 } Decoded;
 
-/* Where an asset's content was when it was last decoded: the same place has the same content. */
+/* Where an asset's content was when it was last decoded. An unchanged place has unchanged content. */
 typedef struct Located {
   char *place;
   const Decoded *decoded;
-  GError *fault; /* instead of decoded: content that cannot be read is not tried again and again */
+  GError *fault; /* set instead of `decoded`: content that cannot be decoded is not tried again */
 } Located;
 
 static void clear_decoded(gpointer data) {
@@ -121,7 +121,7 @@ int spore_document_open_asset(const SporeDocument *document, const char *place, 
   return -1;
 }
 
-/* What is there, up to the limit even if the file grows meanwhile. */
+/* Reads the file up to the size limit, even if the file grows meanwhile. */
 static GBytes *read_all(int descriptor, const char *place, const char *file, GError **error) {
   struct stat status;
   if (fstat(descriptor, &status) != 0) return say_why(errno, place, file, error), NULL;
@@ -157,7 +157,7 @@ GBytes *spore_document_read_asset(SporeDocument *document, const char *file, GEr
 
 /* Moving. */
 
-/* What cannot be read is as broken in the new place as in the old one. */
+/* Keeps a file's content as a blob. A file that cannot be read is left out: it was unreadable in the old place too. */
 static void keep_asset(SporeDocument *document, const char *file, GHashTable *moved) {
   if (!file || g_hash_table_contains(moved, file) || g_hash_table_contains(document->blobs, file)) return;
   g_autoptr(GBytes) content = read_asset(document, NULL, file, NULL);
@@ -220,7 +220,7 @@ void spore_document_share_assets(SporeDocument *to, const SporeDocument *from) {
 
 /* Decoding. */
 
-/* Says the same as before as long as the content is the same. g_free. */
+/* A text that is the same as long as the content is the same. g_free. */
 static char *locate(const SporeDocument *document, const char *place, const char *file, const char *options,
                     GError **error) {
   const SporeBlob *blob = g_hash_table_lookup(document->blobs, file);
@@ -234,7 +234,7 @@ static char *locate(const SporeDocument *document, const char *place, const char
                          (intmax_t)status.st_size, (intmax_t)status.st_mtim.tv_sec, status.st_mtim.tv_nsec, options);
 }
 
-/* content: of what is not decoded here; else NULL. */
+/* content: the bytes of an asset that is not decoded here; else NULL. */
 static void write_hash(Decoded *decoded, GBytes *content) {
   guint64 hash = SPORE_HASH_INIT;
   gsize size = 0;
@@ -255,7 +255,7 @@ static void write_hash(Decoded *decoded, GBytes *content) {
   g_snprintf(decoded->hash, sizeof decoded->hash, "%016" G_GINT64_MODIFIER "x", hash);
 }
 
-/* Where a message about the content says that it stands. g_free. */
+/* The path of a file as messages show it. g_free. */
 static char *path_of(const SporeDocument *document, const char *file) {
   if (!document->file) return g_strdup(file);
   g_autofree char *folder = g_path_get_dirname(document->file);
@@ -267,7 +267,8 @@ static Decoded *decode(SporeDocument *document, const SporeObject *asset, GBytes
   const char *element = asset->type->element, *file = spore_object_text(asset, "file");
   g_autofree char *place = path_of(document, file);
   Decoded *decoded = g_atomic_rc_box_new0(Decoded);
-  gboolean done, label_map = strcmp(element, "label_map") == 0; /* of which it is known whether it changed */
+  gboolean done,
+      label_map = strcmp(element, "label_map") == 0; /* a label map is not decoded: its bytes alone are hashed */
   if (label_map) done = TRUE;
   else if (strcmp(element, "mesh") == 0 && readers->mesh)
     done = readers->mesh(place, file, content, (int)spore_object_number(asset, "unit"),

@@ -1,3 +1,4 @@
+/* Copies a document for another thread; the objects keep their ids. */
 #include "core/scene/document_private.h"
 
 /* An object of the copy, and the id that it shall have. */

@@ -1,4 +1,4 @@
-/* The commands: each checks what is asked, then makes edits. */
+/* The commands of a document: each checks its arguments, then makes edits. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -21,8 +21,8 @@ static SporeObject *sibling_of_name(const SporeObject *parent, const SporeObject
   return NULL;
 }
 
-/* A command is a step of its own, or part of the group that is open: not a group in it, so that its edits merge with
- * those before. */
+/* A command is an undo step of its own, or part of the open group. It opens no nested group, so that its edits merge
+ * with earlier edits of the group. */
 static gboolean open_step(SporeDocument *document, const char *label) {
   if (document->marks->len > 0) return FALSE;
   spore_document_begin(document, label);
@@ -35,7 +35,8 @@ static void close_step(SporeDocument *document, gboolean opened) {
 
 /* Properties. */
 
-/* Where a property that was not set goes in the author's order: behind those that the table has before it. */
+/* The position of a newly set property in the author's order: behind the set properties that precede it in the table.
+ */
 static guint natural_position(const SporeObject *object, guint property) {
   guint position = 0;
   for (guint i = 0; i < object->order->len; i++)
@@ -80,7 +81,7 @@ static gboolean set_value(SporeObject *object, guint property, const SporeValue 
   return TRUE;
 }
 
-/* What XML cannot hold: broken UTF-8 and the two characters that are none. */
+/* Whether XML can hold the text: valid UTF-8, without the two codes that are no characters, U+FFFE and U+FFFF. */
 static gboolean is_xml_text(const char *text) {
   return g_utf8_validate(text, -1, NULL) && !strstr(text, "\xEF\xBF\xBE") && !strstr(text, "\xEF\xBF\xBF");
 }

@@ -15,7 +15,7 @@ static void free_step(SporeUndoStep *step) {
   g_free(step);
 }
 
-/* Edits that have been taken back and can never be redone: what they had made goes with them. */
+/* Frees the objects that these edits created: the edits are undone and can never be redone. */
 static void forget_created(SporeDocument *document, const GArray *edits, guint from) {
   for (guint i = from; i < edits->len; i++) {
     const SporeEdit *edit = &g_array_index(edits, SporeEdit, i);
@@ -93,8 +93,8 @@ static void apply(SporeEdit *edit) {
   else swap_place(edit);
 }
 
-/* A value that replaces another of the same group leaves no trace of its own. Only values: setting and unsetting
- * change the order of the properties. */
+/* Whether the edit merges with an earlier edit of the same property in the same group. Only replaced values merge:
+ * setting and unsetting change the order of the properties. */
 static gboolean merges(const SporeDocument *document, const SporeEdit *edit) {
   const SporeSlot *slot = &edit->object->slots[edit->property];
   if (edit->kind != SPORE_EDIT_SET || !edit->slot.set || !slot->set) return FALSE;

@@ -1,5 +1,5 @@
-/* Inside of a document: for core/scene's own files, and for core/io/scene_xml, which reads and writes what the
- * public face hides (comments, blank lines, the author's spelling of a value). */
+/* The inside of a document: for the files of core/scene, and for core/io/scene_xml, which reads and writes what the
+ * public header hides (comments, blank lines, the author's spelling of a value). */
 #ifndef SPORE_SCENE_DOCUMENT_PRIVATE_H
 #define SPORE_SCENE_DOCUMENT_PRIVATE_H
 
@@ -39,11 +39,11 @@ struct SporeObject {
 
 typedef enum SporeEditKind { SPORE_EDIT_SET, SPORE_EDIT_PLACE } SporeEditKind;
 
-/* The other side of a change: applying an edit swaps it with what is in force. */
+/* The other side of a change: applying an edit swaps the content of the edit with the state in force. */
 typedef struct SporeEdit {
   SporeEditKind kind;
   SporeObject *object;
-  gboolean created;    /* place: the object was made for this edit, and goes with it */
+  gboolean created;    /* place: the object was made for this edit, and is freed with the edit */
   guint property;      /* set */
   SporeSlot slot;      /* set */
   SporeObject *parent; /* place; NULL: nowhere */
@@ -71,7 +71,7 @@ typedef struct SporeListenerEntry {
 struct SporeDocument {
   const SporeSchema *schema;
   SporeObject *root;
-  GHashTable *objects; /* id -> SporeObject *, detached ones too; owns them */
+  GHashTable *objects; /* id -> SporeObject *, with detached objects; owns the objects */
   guint32 last_id;
   GHashTable *names;    /* name -> GPtrArray of the objects that have it; NULL: to be made anew */
   gboolean declaration; /* the file begins with <?xml ...?> */
@@ -93,7 +93,7 @@ struct SporeDocument {
   GHashTable *decoded; /* hash of content and options -> decoded asset */
 };
 
-/* Loading: no history, no checks; the reader has made them. */
+/* Loading: without history and without checks. The reader has checked already. */
 SporeObject *spore_document_load_object(SporeDocument *document, SporeObject *parent, const SporeObjectType *type,
                                         int line, int column);
 /* Takes over value and source. */
@@ -102,9 +102,9 @@ void spore_document_set_file(SporeDocument *document, const char *file);
 void spore_document_mark_saved(SporeDocument *document);
 void spore_comments_add(GArray **comments, const char *text, guint lines_before);
 
-/* Notifies the listeners and counts the revision up. */
+/* Notifies the listeners and increases the revision. */
 void spore_document_notify(SporeDocument *document, SporeChangeKind kind, SporeObject *object, guint property);
-/* Applies an edit inside the open group and remembers it. Takes over the edit's slot. */
+/* Applies an edit inside the open group and keeps the edit for undo. Takes ownership of the edit's slot. */
 void spore_document_edit(SporeDocument *document, SporeEdit *edit);
 void spore_history_free(SporeDocument *document);
 void spore_object_free(SporeObject *object);
@@ -121,10 +121,11 @@ gboolean spore_element_in_list(const char *elements, const char *element);
 /* Opens a regular file inside the document's folder for reading. -1 with a GError. */
 int spore_document_open_asset(const SporeDocument *document, const char *place, const char *file, GError **error);
 void spore_assets_init(SporeDocument *document);
-/* Before the document moves to another folder: of the files that its history still names, those not in `moved` (set of
- * names, which lie there too) wait as blobs from now on, so that undo and redo never name what is not there. */
+/* To be called before the document moves to another folder. Files that the history still names, and that are not in
+ * `moved` (a set of the names that lie in the new folder too), become blobs, so that undo and redo never name a missing
+ * file. */
 void spore_document_keep_assets(SporeDocument *document, GHashTable *moved);
-/* Readers, blobs and what is decoded already of a document whose assets have the same ids. */
+/* Shares readers, blobs and decoded assets of a document whose assets have the same ids. */
 void spore_document_share_assets(SporeDocument *to, const SporeDocument *from);
 void spore_assets_free(SporeDocument *document);
 

@@ -29,7 +29,7 @@ gboolean spore_element_in_list(const char *elements, const char *element) {
   return FALSE;
 }
 
-/* Objects by name, made when it is first asked for after a change. */
+/* The index of objects by name, made at the first request after a change. */
 static GHashTable *index_names(const SporeDocument *document) {
   GHashTable *names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, (GDestroyNotify)g_ptr_array_unref);
   for (guint s = 0; s < document->root->children->len; s++) {
@@ -130,13 +130,13 @@ const SporeTissue *spore_object_tissue(const SporeObject *model) {
   return material > 0 ? &spore_tissues[material - 1] : NULL;
 }
 
-/* What the material of a body says of a property of its model; NULL: nothing. */
+/* The value that the material of a body gives to a property of its model; NULL: none. */
 static const SporeValue *material_value(const SporeObject *object, guint property) {
   const SporeTissue *tissue = spore_object_tissue(object);
   return tissue ? spore_tissue_value(tissue, &object->type->table->parameters[property]) : NULL;
 }
 
-/* What `defaults`, or the material, says of a property that the object does not set; NULL: nothing. */
+/* The value that `defaults` or the material gives to a property that the object does not set; NULL: none. */
 static const SporeValue *inherited_value(const SporeObject *object, guint property) {
   if (object->type->model) return material_value(object, property);
   if (!object->type->defaults) return NULL;

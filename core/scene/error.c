@@ -1,10 +1,11 @@
+/* Makes GErrors of the kernel's errors, and exit statuses of GErrors. */
 #include "core/scene/error.h"
 
 #include <stdarg.h>
 
 G_DEFINE_QUARK(spore - error - quark, spore_error)
 
-/* A message may quote what a file holds: it stays one line of text all the same. Takes over the message. */
+/* Makes a message one line of valid text, since it may quote any bytes of a file. Takes ownership of the message. */
 static char *one_line(char *message) {
   char *valid = g_utf8_make_valid(message, -1);
   g_free(message);
@@ -29,7 +30,8 @@ gboolean spore_error_raise(GError **error, SporeErrorCode code, const char *plac
 }
 
 int spore_error_exit_status(const GError *error) {
-  if (error->domain != SPORE_ERROR) return 2; /* a library's: files and options, for the user to mend */
+  if (error->domain != SPORE_ERROR)
+    return 2; /* an error of a library: about files or options, which the user can mend */
   switch ((SporeErrorCode)error->code) {
   case SPORE_ERROR_NUMERICAL:
   case SPORE_ERROR_CANCELLED:

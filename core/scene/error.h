@@ -1,4 +1,4 @@
-/* From the kernel's errors to GLib's. */
+/* Converts the kernel's errors to GErrors. */
 #ifndef SPORE_SCENE_ERROR_H
 #define SPORE_SCENE_ERROR_H
 

@@ -1,3 +1,4 @@
+/* Tells whether generated data still agree with their source and their options. */
 #include "core/scene/generated.h"
 
 #include <glib/gi18n.h>
@@ -5,7 +6,7 @@
 
 #include "core/base/hash.h"
 
-/* Of an asset that is generated, everything else says how. */
+/* All parameters of a generated asset but these are options of its generator. */
 gboolean spore_generated_is_option(const SporeParameter *parameter) {
   static const char *const others[] = {"name",        "file",         "unit",   "frame",  "source",
                                        "source_hash", "options_hash", "frozen", "edited", NULL};

@@ -1,3 +1,4 @@
+/* Units of length, and a guess which of them a mesh file uses. */
 #include "core/scene/length_unit.h"
 
 #include <glib/gi18n.h>

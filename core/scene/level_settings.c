@@ -1,3 +1,4 @@
+/* Reads the settings in which one level of detail differs from its body. */
 #include "core/scene/level_settings.h"
 
 #include <glib/gi18n.h>

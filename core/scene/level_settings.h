@@ -1,4 +1,4 @@
-/* What differs at a level of a body, as the scene says it. */
+/* The settings of a level of detail: the parameters in which its model differs from the body's. */
 #ifndef SPORE_SCENE_LEVEL_SETTINGS_H
 #define SPORE_SCENE_LEVEL_SETTINGS_H
 
@@ -6,9 +6,9 @@
 
 #include "core/base/parameter.h"
 
-/* Stores "name=value" settings, apart by blanks, in the fields of the table. NULL: there are none. Refuses names that
- * are not in the table, values out of range, and parameters that change while it runs: those are of the body, whatever
- * its level. */
+/* Stores "name=value" settings, separated by blanks, in the fields of the table; NULL: there are none. Refuses names
+ * that are not in the table, values out of range, and parameters that may change while the scene runs: those belong to
+ * the body at every level. */
 gboolean spore_level_settings_apply(const SporeParameterTable *table, const char *settings, void *fields,
                                     SporeError *error);
 

@@ -10,8 +10,8 @@
 #define SPORE_FORMAT_MAJOR 1
 #define SPORE_FORMAT_MINOR 0
 
-/* Whether a file of that version ("1.0") can be read: any minor of this major, since a newer minor only adds, and what
- * it added is refused by name where it is used. */
+/* Whether a file of that version ("1.0") can be read. Every minor version of this major version can: a newer minor
+ * version only adds elements, and an unknown element is refused by name where it is used. */
 bool spore_format_version_check(const char *version, SporeError *error);
 
 /* Tree of elements (sections of the root in this order; units of a body in this order):
@@ -54,7 +54,7 @@ struct SporeObjectType {
   gboolean ordered;                 /* children in fixed order, each element at most once */
   gboolean single_child;            /* at most one child in all (mechanical: one model) */
   const SporeModelType *model;      /* for a child of mechanical, else NULL */
-  const char *defaults;             /* child of `defaults` from which unset properties take their value, or NULL */
+  const char *defaults;             /* child of `defaults` that gives unset properties their value, or NULL */
   const SporeValue *initial;        /* table->count defaults, as spore_parameter_initial gives them */
 };
 

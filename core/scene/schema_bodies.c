@@ -1,3 +1,4 @@
+/* Parameter tables of bodies and of their units: mechanical, regions, collision, visual and fidelity. */
 #include "core/scene/schema_tables.h"
 #include "core/body/tissue.h"
 
@@ -186,8 +187,8 @@ static const SporeParameter fidelity_parameters[] = {
      .type = SPORE_CHOICE,
      .unit = "",
      ANY,
-     .initial = {SPORE_LEVEL_FINE},
-     .choices = spore_level_names,
+     .initial = {SPORE_LOD_FINE},
+     .choices = spore_lod_names,
      FIELD(SporeFidelityFields, level),
      .change = SPORE_CHANGE_LIVE,
      .doc = N_("How finely the body is made: fine as its mechanical unit says, coarse and medium as the levels beside "
@@ -208,13 +209,13 @@ static const SporeParameter level_parameters[] = {
      .type = SPORE_REFERENCE,
      .unit = "",
      .references = "mesh|tetrahedra|curve",
-     FIELD(SporeLevelFields, geometry),
+     FIELD(SporeLodFields, geometry),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Mesh, tetrahedra or curve that the level is made from, in the same place; without one, the body's.")},
     {.name = "settings",
      .type = SPORE_TEXT,
      .unit = "",
-     FIELD(SporeLevelFields, settings),
+     FIELD(SporeLodFields, settings),
      .change = SPORE_CHANGE_REBUILD,
      .doc = N_("Parameters of the model that differ at this level, apart by blanks: control_points=12.")},
 };
@@ -237,8 +238,8 @@ const SporeElement spore_body_elements[] = {
     {"fidelity", N_("Fidelity"), N_("How faithfully the body is simulated."),
      TABLE(fidelity_parameters, SporeFidelityFields), .ordered = TRUE, .children = CHILDREN("coarse", "medium")},
     {"coarse", N_("Coarse level"), N_("The body made with the fewest degrees of freedom."),
-     TABLE(level_parameters, SporeLevelFields)},
+     TABLE(level_parameters, SporeLodFields)},
     {"medium", N_("Medium level"), N_("The body made with fewer degrees of freedom."),
-     TABLE(level_parameters, SporeLevelFields)},
+     TABLE(level_parameters, SporeLodFields)},
     {NULL},
 };

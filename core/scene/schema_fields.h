@@ -54,14 +54,14 @@ typedef struct SporeVisualFields {
 
 typedef struct SporeFidelityFields {
   int mode;               /* SporeFidelity */
-  int level;              /* SporeLevelGrade */
+  int level;              /* SporeLodGrade */
   double level_tolerance; /* m */
 } SporeFidelityFields;
 
-typedef struct SporeLevelFields {
+typedef struct SporeLodFields {
   const char *geometry; /* NULL: the body's */
   const char *settings; /* NULL: none */
-} SporeLevelFields;
+} SporeLodFields;
 
 typedef struct SporeSeamFields {
   const char *name, *body_a, *body_b;
@@ -91,7 +91,7 @@ typedef struct SporeTrackFields {
   const char *name, *file;
 } SporeTrackFields;
 
-/* One element of the scene's own, before it is joined with the models. */
+/* One element of the scene's own, as the tables declare it. */
 struct SporeElement {
   const char *element, *label, *doc;
   const SporeParameter *parameters;

@@ -1,10 +1,10 @@
-/* RELAX NG of the format, from the same tables that the reader goes by. */
+/* Writes the RELAX NG schema of the format, from the same tables that the reader uses. */
 #include <math.h>
 
 #include "core/base/number.h"
 #include "core/scene/schema.h"
 
-/* As spore_number_read has it, blanks around it. */
+/* A number as spore_number_read accepts it, with blanks around it. */
 #define NUMBER "\\s*[+\\-]?([0-9]+(\\.[0-9]*)?|\\.[0-9]+)([eE][+\\-]?[0-9]+)?\\s*"
 #define INTEGER "\\s*[+\\-]?[0-9]+\\s*"
 #define NAME "\\s*[A-Za-z_][A-Za-z0-9_.\\-]*\\s*"
@@ -24,7 +24,7 @@ static void append_bound(GString *text, const char *facet, double bound) {
   g_string_append_printf(text, "<param name=\"%s\">%s</param>", facet, number);
 }
 
-/* Bounds are always said: without them a number too large for a double would pass as infinite. */
+/* Bounds are always written. Without bounds, a number too large for a double would pass as infinite. */
 static void append_number(GString *text, const SporeParameter *parameter) {
   gboolean integer = parameter->type == SPORE_INTEGER;
   double largest = integer ? 9007199254740992.0 : G_MAXDOUBLE;

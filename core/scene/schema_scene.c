@@ -1,3 +1,4 @@
+/* Parameter tables of the scene's root and of its sections: metadata, units, environment, solver and defaults. */
 #include "core/scene/length_unit.h"
 #include "core/scene/schema_tables.h"
 

@@ -1,4 +1,4 @@
-/* What the tables of the scene's elements are written with: one table a subject, joined by schema.c. */
+/* Macros for the tables of the scene's elements. Each subject has one table; schema.c joins the tables. */
 #ifndef SPORE_SCENE_SCHEMA_TABLES_H
 #define SPORE_SCENE_SCHEMA_TABLES_H
 
@@ -16,8 +16,8 @@
 #define CHILDREN(...) ((const char *const[]){__VA_ARGS__, NULL})
 #define TABLE(array, Type) .parameters = array, .count = G_N_ELEMENTS(array), .size = sizeof(Type)
 
-/* What generated data remember (generated.h); the other parameters of their element are the options of the generator.
- */
+/* The rows by which generated data remember how they were made (generated.h). The other parameters of their element are
+ * options of the generator. */
 #define GENERATED(Type)                                                                                                \
   {.name = "source_hash",                                                                                              \
    .type = SPORE_TEXT,                                                                                                 \
@@ -43,7 +43,7 @@
     .doc = N_("Whether the data were edited by hand since they were generated.")                                       \
   }
 
-/* A ball that a generator does something of its own in. */
+/* The rows of a ball in which a generator has a setting of its own. */
 #define BALL(Type)                                                                                                     \
   NAME(Type, N_("Name of the region.")),                                                                               \
       {.name = "centre",                                                                                               \

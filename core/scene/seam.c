@@ -1,9 +1,10 @@
+/* Finds the nodes at which a seam joins two bodies. */
 #include "core/scene/seam.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Nodes at rest in the scene, 3 each; g_free. NULL: none. */
+/* Coordinates of the nodes at rest in the scene's axes, 3 a node; g_free. NULL: there are no nodes. */
 static double *place_nodes(const SporeSeamSide *side, size_t *count) {
   const SporeModel *model = side->model;
   *count = model && model->node_count > 1 ? model->node_count : 0;
@@ -21,7 +22,7 @@ static int compare(const void *one, const void *other) {
   return (a > b) - (a < b);
 }
 
-/* Whether a node of the sorted ones lies within `distance` of p. */
+/* Whether one of the nodes, sorted by x, lies within `distance` of p. */
 static gboolean has_near(const double *sorted, size_t count, SporeVec3 p, double distance) {
   size_t low = 0, high = count;
   while (low < high) {

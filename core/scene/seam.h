@@ -1,4 +1,4 @@
-/* Where two bodies meet: what a seam holds together. */
+/* The points at which a seam joins two bodies. */
 #ifndef SPORE_SCENE_SEAM_H
 #define SPORE_SCENE_SEAM_H
 

@@ -1,4 +1,4 @@
-/* A scene that runs: what it takes over from the one before, and edits that it hears. */
+/* Changes to a running simulation: it takes over state from an earlier simulation, and hears edits of the document. */
 #include <string.h>
 
 #include "core/base/memory.h"
@@ -10,17 +10,17 @@ static gboolean same_state(const SporeModel *a, const SporeModel *b) {
   return a->type == b->type && a->q_count == b->q_count && a->block_count == b->block_count;
 }
 
-/* The line has the knots of time 0. */
+/* Whether the line has the knots it started with: refinement has neither inserted nor removed any. */
 static gboolean has_first_knots(const SporeWorld *world, guint32 body) {
   SporeLineState line;
   return !spore_world_line_state(world, body, &line) || line.points == line.made;
 }
 
-/* The same level, where there still is one. */
+/* Sets the same level of detail, where the body still has that level. */
 static void carry_level(SporeWorld *to, guint32 body, const SporeWorld *from, guint32 old) {
-  SporeLevelState state;
-  if (!spore_world_level_state(from, old, &state) || !spore_world_level_model(to, body, state.level)) return;
-  spore_world_set_level(to, body, state.level);
+  SporeLodState state;
+  if (!spore_world_lod_state(from, old, &state) || !spore_world_lod_model(to, body, state.level)) return;
+  spore_world_set_lod(to, body, state.level);
 }
 
 void spore_simulation_carry_over(SporeSimulation *to, const SporeSimulation *from) {
@@ -82,11 +82,11 @@ static gboolean post_gravity(SporeSimulation *simulation, const SporeObject *env
 }
 
 static gboolean post_level(SporeSimulation *simulation, const SporeObject *fidelity) {
-  SporeCommand command = {.kind = SPORE_COMMAND_LEVEL,
+  SporeCommand command = {.kind = SPORE_COMMAND_LOD,
                           .body = spore_simulation_body_of(simulation, (SporeObject *)fidelity)};
   SporeFidelityFields fields;
   spore_object_fields(fidelity, &fields);
-  command.level = (SporeLevelGrade)fields.level;
+  command.level = (SporeLodGrade)fields.level;
   return command.body != SPORE_NO_BODY && spore_world_post(simulation->world, &command);
 }
 
@@ -99,7 +99,8 @@ gboolean spore_simulation_apply(SporeSimulation *simulation, SporeDocument *docu
   if (strcmp(type->element, "solver") == 0) return FALSE;
   if (strcmp(type->element, "fidelity") == 0 && strcmp(type->table->parameters[property].name, "level") == 0)
     return post_level(simulation, object);
-  if (!type->model && strcmp(type->element, "collision") != 0) return TRUE; /* only shown, or used when generating */
+  if (!type->model && strcmp(type->element, "collision") != 0)
+    return TRUE; /* the property is only shown, or only used by a generator */
   guint32 body = spore_simulation_body_of(simulation, object);
   if (body == SPORE_NO_BODY) return FALSE;
   return type->model ? retune(simulation, object, body) : post_contact(simulation, object, body);

@@ -99,8 +99,8 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
   case SPORE_COMMAND_THAW:
     thaw(body);
     break;
-  case SPORE_COMMAND_LEVEL:
-    spore_world_change_level(world, command->body, command->level);
+  case SPORE_COMMAND_LOD:
+    spore_world_change_lod(world, command->body, command->level);
     break;
   case SPORE_COMMAND_GRAVITY:
     break;

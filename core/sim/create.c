@@ -99,7 +99,7 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   assert((from->role == SPORE_PASSIVE) == (from->model != NULL));
   assert(!body->name);
   body->role = from->role;
-  body->level = SPORE_LEVEL_FINE;
+  body->grade = SPORE_LOD_FINE;
   body->model = from->model;
   body->total_mass = from->model ? spore_model_total_mass(from->model) : 0;
   body->collision.fields = from->contact;
@@ -117,10 +117,10 @@ static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDesc
   body->block_count = from->model ? from->model->block_count : SPORE_POSE_BLOCKS;
   body->name = spore_copy_text(from->name);
   if (!body->name) return no_memory(error);
-  if (!spore_levels_make(world, body, from, error)) return false;
-  body->q_most = body->levels ? body->levels->q_room : body->q_count;
-  body->block_most = body->levels ? body->levels->v_room / 3 : body->block_count;
-  bool roomy = from->model && !body->levels;
+  if (!spore_lod_make(world, body, from, error)) return false;
+  body->q_most = body->lod ? body->lod->q_room : body->q_count;
+  body->block_most = body->lod ? body->lod->v_room / 3 : body->block_count;
+  bool roomy = from->model && !body->lod;
   world->state.q_count += roomy ? from->model->q_room : body->q_most;
   world->state.v_count += 3 * (roomy ? from->model->block_room : body->block_most);
   return true;
@@ -245,9 +245,9 @@ static bool allocate_vectors(SporeWorld *world, SporeError *error) {
 static bool check_steps(SporeWorld *world, SporeError *error) {
   assert(world->state.rest_q && world->state.rest_v);
   for (uint32_t b = 0; b < world->body_count; b++)
-    for (int level = 0; level < SPORE_LEVEL_COUNT; level++) {
-      if (!spore_world_level_model(world, b, (SporeLevelGrade)level)) continue;
-      spore_world_select_level(world, b, (SporeLevelGrade)level);
+    for (int level = 0; level < SPORE_LOD_COUNT; level++) {
+      if (!spore_world_lod_model(world, b, (SporeLodGrade)level)) continue;
+      spore_world_select_lod(world, b, (SporeLodGrade)level);
       if (!spore_body_check_step(world, b, error)) return false;
     }
   return true;
@@ -256,7 +256,7 @@ static bool check_steps(SporeWorld *world, SporeError *error) {
 /* Frees the unfinished world. The models stay the caller's. */
 static SporeWorld *give_up(SporeWorld *world) {
   for (size_t i = 0; world->bodies && i < world->body_count; i++) {
-    spore_levels_give_up(&world->bodies[i]);
+    spore_lod_give_up(&world->bodies[i]);
     world->bodies[i].model = NULL;
   }
   spore_world_free(world);
@@ -279,13 +279,12 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
   world->state.gravity = description->gravity;
   world->schedule.profile.name = "step";
   world->links.hold_count = spore_tools_spring_count(description);
-  bool made = create_bodies(world, description, error) && create_spheres(world, description, error) &&
-              spore_world_create_links(world, description, error) &&
-              spore_world_create_tools(world, description, error) &&
-              spore_world_create_particles(world, description, error) &&
-              (spore_world_create_refinement(world) || no_memory(error)) && spore_world_create_factors(world, error) &&
-              spore_world_create_levels(world, description, error) && allocate_vectors(world, error) &&
-              check_steps(world, error);
+  bool made =
+      create_bodies(world, description, error) && create_spheres(world, description, error) &&
+      spore_world_create_links(world, description, error) && spore_world_create_tools(world, description, error) &&
+      spore_world_create_particles(world, description, error) &&
+      (spore_world_create_refinement(world) || no_memory(error)) && spore_world_create_factors(world, error) &&
+      spore_world_create_lod(world, description, error) && allocate_vectors(world, error) && check_steps(world, error);
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));

@@ -21,7 +21,7 @@ static void clear_body(SporeBody *body) {
   spore_block_pattern_clear(&body->changing.pattern);
   spore_block_room_clear(&body->changing.room);
   spore_free(body->changing.pinned);
-  if (body->levels) spore_levels_free(body);
+  if (body->lod) spore_lod_free(body);
   else if (body->model) body->model->type->destroy(body->model);
 }
 
@@ -61,7 +61,7 @@ void spore_world_reset(SporeWorld *world) {
   assert(world->state.next_q && world->state.next_v);
   spore_world_wake_all(world);
   spore_world_reset_cutting(world);
-  spore_world_reset_levels(world);
+  spore_world_reset_lod(world);
   spore_world_reset_refinement(world);
   memcpy(world->state.next_q, world->state.rest_q, world->state.q_count * sizeof *world->state.q);
   memcpy(world->state.next_v, world->state.rest_v, world->state.v_count * sizeof *world->state.v);

@@ -50,27 +50,27 @@ typedef struct SporeContactFields {
 extern const SporeParameterTable spore_contact_parameters;
 
 /* Levels of detail of a body. */
-typedef enum SporeLevelGrade { SPORE_LEVEL_COARSE, SPORE_LEVEL_MEDIUM, SPORE_LEVEL_FINE } SporeLevelGrade;
-#define SPORE_LEVEL_COUNT 3                   /* number of levels of detail */
-extern const char *const spore_level_names[]; /* as in the file, NULL at the end */
+typedef enum SporeLodGrade { SPORE_LOD_COARSE, SPORE_LOD_MEDIUM, SPORE_LOD_FINE } SporeLodGrade;
+#define SPORE_LOD_COUNT 3                   /* number of levels of detail */
+extern const char *const spore_lod_names[]; /* as in the file, NULL at the end */
 
 /* The same body made less finely. A running world can change the body to such a level. */
-typedef struct SporeLevelsDescription {
+typedef struct SporeLodDescription {
   SporeModel
-      *model[SPORE_LEVEL_FINE]; /* of the same type as the body's model, and owned as that is; NULL: no such level */
-  SporeLevelGrade first;        /* the level at time 0 */
-  double tolerance;             /* m: a change that moves a point of the body further than this is refused */
+      *model[SPORE_LOD_FINE]; /* of the same type as the body's model, and owned as that is; NULL: no such level */
+  SporeLodGrade first;        /* the level at time 0 */
+  double tolerance;           /* m: a change that moves a point of the body further than this is refused */
   size_t surface_count;
   const double *surface; /* surface_count x 3, body's frame at rest, borrowed: points that the error of a change is
                             measured on, besides spheres and nodes */
-} SporeLevelsDescription;
+} SporeLodDescription;
 
 /* A body of a world that is to be made. */
 typedef struct SporeBodyDescription {
   const char *name; /* unique, not empty */
   SporeRole role;
-  SporeModel *model; /* of a passive body: owned by the world once spore_world_create succeeded; else NULL */
-  SporeLevelsDescription levels;  /* coarser levels of detail; `model` is the level SPORE_LEVEL_FINE */
+  SporeModel *model;       /* of a passive body: owned by the world once spore_world_create succeeded; else NULL */
+  SporeLodDescription lod; /* coarser levels of detail; `model` is the level SPORE_LOD_FINE */
   SporeIntegratorKind integrator; /* of a passive body; SPORE_INTEGRATOR_DEFAULT: as the world's solver says */
   size_t substeps;                /* of the integrator in a step; 0: as the world's solver says */
   SporePose pose;                 /* of the body's frame at time 0 */
@@ -174,7 +174,7 @@ const double *spore_world_v(const SporeWorld *world, uint32_t body);
  */
 void spore_world_set_state(SporeWorld *world, uint32_t body, const double *q, const double *v);
 /* Puts a body at a level of detail that it has, with the level's state at time 0. The caller sets the state next. */
-void spore_world_set_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
+void spore_world_set_lod(SporeWorld *world, uint32_t body, SporeLodGrade level);
 
 /* Makes the mapping of points to the body at its present level of detail, whatever its role; for viewers and measuring.
  * points: count x 3, body's frame at rest, m. The caller frees the mapping by spore_mapping_clear. A viewer evaluates
@@ -192,31 +192,31 @@ size_t spore_world_corner_start(const SporeWorld *world, uint32_t body);
 size_t spore_world_v_offset(const SporeWorld *world, uint32_t body);
 
 /* Level of detail of the body at time 0. Any thread may ask. */
-SporeLevelGrade spore_world_first_level(const SporeWorld *world, uint32_t body);
+SporeLodGrade spore_world_first_lod(const SporeWorld *world, uint32_t body);
 /* Model of the body at a level of detail; owned by the world. NULL: there is no such level. Any thread may ask. */
-const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t body, SporeLevelGrade level);
+const SporeModel *spore_world_lod_model(const SporeWorld *world, uint32_t body, SporeLodGrade level);
 /* As spore_world_map, at a level of detail that the body has. */
-bool spore_world_map_level(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const double *points,
-                           size_t count, SporeMapping *mapping, SporeError *error);
-/* As spore_world_map_level, of the vertices of a mesh that is only drawn, where the model has a mapping of its own for
+bool spore_world_map_lod(const SporeWorld *world, uint32_t body, SporeLodGrade level, const double *points,
+                         size_t count, SporeMapping *mapping, SporeError *error);
+/* As spore_world_map_lod, of the vertices of a mesh that is only drawn, where the model has a mapping of its own for
  * such meshes (SporeModelType.carry). mesh: body's frame at rest. */
-bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const SporeTriangleMesh *mesh,
+bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLodGrade level, const SporeTriangleMesh *mesh,
                            SporeMapping *mapping, SporeError *error);
 /* Level of detail of a body, and what changes of level did since time 0. */
-typedef struct SporeLevelState {
-  SporeLevelGrade level; /* now */
-  uint64_t changes;      /* of level that were made */
-  uint64_t refused;      /* changes of level that were refused */
-  double error;          /* m: largest distance by which a change moved a sphere, a node or a point of the surface */
+typedef struct SporeLodState {
+  SporeLodGrade level; /* now */
+  uint64_t changes;    /* of level that were made */
+  uint64_t refused;    /* changes of level that were refused */
+  double error;        /* m: largest distance by which a change moved a sphere, a node or a point of the surface */
   double energy;   /* J: largest gain of the body's own energy (kinetic and internal) by a change; negative: each lost
                       some */
   double momentum; /* N s: largest error that a change made in the momentum of a free body, or in its angular momentum
                       about its centre divided by its extent */
-} SporeLevelState;
+} SporeLodState;
 /* Fills *state. False: the body has but one level. */
-bool spore_world_level_state(const SporeWorld *world, uint32_t body, SporeLevelState *state);
+bool spore_world_lod_state(const SporeWorld *world, uint32_t body, SporeLodState *state);
 /* Bytes of the mappings, matrices and states that the levels of a body take, without models and factors. */
-size_t spore_world_level_memory(const SporeWorld *world, uint32_t body);
+size_t spore_world_lod_memory(const SporeWorld *world, uint32_t body);
 
 /* A line whose control points are inserted where it bends, and removed where it is straight again. */
 typedef struct SporeLineState {
@@ -406,8 +406,8 @@ typedef struct SporeSnapshot {
   double time_s;
   size_t q_count, v_count;
   const double *q, *v; /* all bodies; see spore_world_q_offset and spore_world_v_offset */
-  uint8_t *level; /* body_count, SporeLevelGrade: the level of detail that q and v are of; NULL: bodies have but one */
-  double *reaction;     /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
+  uint8_t *level;   /* body_count, SporeLodGrade: the level of detail that q and v are of; NULL: bodies have but one */
+  double *reaction; /* body_count x 6: force (N) and torque about the body's origin (N m) from contacts and links */
   size_t contact_count; /* of bodies that are awake; at most contact_capacity of these contacts are listed */
   size_t contact_capacity;
   SporeSnapshotContact *contacts;
@@ -445,7 +445,7 @@ typedef enum SporeCommandKind {
                             spore_allocate, freed by the world */
   SPORE_COMMAND_CONTACT, /* sets the contact law of `body` to `contact` */
   SPORE_COMMAND_THAW,    /* lets a frozen body move again */
-  SPORE_COMMAND_LEVEL    /* changes `body` to `level`; where that is refused, the monitor says why */
+  SPORE_COMMAND_LOD      /* changes `body` to `level`; where that is refused, the monitor says why */
 } SporeCommandKind;
 /* A change of a running world. */
 typedef struct SporeCommand {
@@ -455,7 +455,7 @@ typedef struct SporeCommand {
   double number;
   void *fields;
   SporeContactFields contact;
-  SporeLevelGrade level;
+  SporeLodGrade level;
 } SporeCommand;
 /* Queues a command; the next step applies it when it begins. For one writer, on any thread. False: the queue is full
  * (1024 commands); `fields` still belong to the caller then. */

@@ -31,8 +31,8 @@ struct SporeBody {
   SporePose rest_pose; /* at time 0 */
   SporeModel *model;
   double total_mass;                               /* kg, of the model */
-  SporeLevels *levels;                             /* NULL: the body has one level of detail */
-  SporeLevelGrade level;                           /* active level: model, matrix, spheres and pins are of this level */
+  SporeLod *lod;                                   /* NULL: the body has one level of detail */
+  SporeLodGrade grade;                             /* active level: model, matrix, spheres and pins are of this level */
   size_t q_offset, q_count, v_offset, block_count; /* place in q and v; v_offset in doubles */
   size_t q_most, block_most; /* largest counts so far: values behind the present ones are 0 up to there */
   uint64_t changed;          /* number of the newest state in which the body differs from the state before */
@@ -59,7 +59,7 @@ struct SporeWorld {
   SporeBody *bodies;
   SporeSolverFields solver;
   SporePool *pool;
-  bool has_levels; /* some body has levels of detail */
+  bool has_lod; /* some body has levels of detail */
   SporeCommands commands;
   SporeSchedule schedule;
   SporeState state;
@@ -84,7 +84,7 @@ static inline SporeVec3 spore_body_gravity(const SporeWorld *world, const SporeB
 }
 /* Whether ties between the body's nodes may be cut. The drawn surface follows cuts of the finest level only. */
 static inline bool spore_body_can_be_cut(const SporeBody *body) {
-  return body->model && body->model->type->cut && body->level == SPORE_LEVEL_FINE;
+  return body->model && body->model->type->cut && body->grade == SPORE_LOD_FINE;
 }
 static inline size_t spore_world_spring_count(const SporeWorld *world) {
   return world->links.term_count + world->links.hold_count + world->body_count;

@@ -57,10 +57,10 @@ double spore_spline_line_polar(const SporeSplineLine *line, const SporeSplineLin
 /* The slots map, samples and spheres of SporeModelType; arms as for spore_spline_map. */
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,
                            double slack, bool follows, SporeMapping *mapping, SporeError *error);
-/* The slot map_drawn of a model that begins with the line; arms: it has them behind the control points, else a root if it
- * has a frame. */
+/* The slot map_drawn of a model that begins with the line; arms: it has them behind the control points, else a root if
+ * it has a frame. */
 bool spore_spline_line_map_drawn(const SporeSplineLine *line, const SporeModel *model, bool arms,
-                             const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error);
+                                 const SporeTriangleMesh *mesh, SporeMapping *mapping, SporeError *error);
 bool spore_spline_line_samples(const SporeSplineLine *line, const double *arms, size_t arm_count, double **points,
                                size_t *count, size_t *seen);
 bool spore_spline_line_spheres(const SporeSplineLine *line, SporeSphereSet *set, SporeError *error);

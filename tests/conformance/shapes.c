@@ -1,3 +1,4 @@
+/* Shapes that the conformance tests make models of: boxes, sheets, lines, helices and blocks. */
 #include "tests/conformance/shapes.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* One model of each registered type and shape, and the states that the conformance tests put it in. */
 #include "tests/conformance/specimen.h"
 
 #include <string.h>

@@ -33,7 +33,9 @@ static gboolean has_jacobian(const SporeModelType *type) { return type->jacobian
 static gboolean has_force_along(const SporeModelType *type) { return type->force_along != NULL; }
 static gboolean has_tangent(const SporeModelType *type) { return type->tangent != NULL; }
 /* Of nodes alone, and nothing around them: what smoke loses goes to the air (tests/stability/test_smoke.c). */
-static gboolean is_alone(const SporeModelType *type) { return !type->inertia && !(type->particles && type->particles->puff); }
+static gboolean is_alone(const SporeModelType *type) {
+  return !type->inertia && !(type->particles && type->particles->puff);
+}
 
 static void make_matrix(const SporeModel *model, SporeBlockMatrix *matrix) {
   g_assert_nonnull(model->type->pattern);

@@ -144,7 +144,7 @@ static void test_open(void) {
 }
 
 /* All instruction sets give the same bits. */
-static void test_levels(void) {
+static void test_instruction_sets(void) {
   double side, *first = NULL;
   SporeCpuLevel highest = spore_cpu_level();
   for (int level = (int)highest; level >= 0; level--) {
@@ -307,7 +307,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/lennard_jones/pairs", test_pairs);
   g_test_add_func("/lennard_jones/open", test_open);
-  g_test_add_func("/lennard_jones/levels", test_levels);
+  g_test_add_func("/lennard_jones/instruction-sets", test_instruction_sets);
   g_test_add_func("/lennard_jones/energy_slope", test_energy_slope);
   g_test_add_func("/lennard_jones/liquid", test_liquid);
   g_test_add_func("/lennard_jones/units", test_units);

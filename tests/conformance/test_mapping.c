@@ -103,7 +103,7 @@ static void check_rest_of(const Specimen *specimen, Slot slot) {
 }
 
 static void check_rest(gconstpointer data) { check_rest_of(data, MAP); }
-static void check_rest_carried(gconstpointer data) { check_rest_of(data, CARRY); }
+static void check_rest_drawn(gconstpointer data) { check_rest_of(data, CARRY); }
 
 static void check_virtual_work_of(const Specimen *specimen, Slot slot) {
   SporeModel *model = specimen_model(specimen);
@@ -147,7 +147,7 @@ static void check_virtual_work_of(const Specimen *specimen, Slot slot) {
 }
 
 static void check_virtual_work(gconstpointer data) { check_virtual_work_of(data, MAP); }
-static void check_virtual_work_carried(gconstpointer data) { check_virtual_work_of(data, CARRY); }
+static void check_virtual_work_drawn(gconstpointer data) { check_virtual_work_of(data, CARRY); }
 
 /* A helix has the same curvature all along; a straight line none. */
 static void check_crowd(const Specimen *specimen, const SporeMappingError *measured) {
@@ -192,7 +192,7 @@ static void check_measure_of(const Specimen *specimen, Slot slot) {
 }
 
 static void check_measure(gconstpointer data) { check_measure_of(data, MAP); }
-static void check_measure_carried(gconstpointer data) { check_measure_of(data, CARRY); }
+static void check_measure_drawn(gconstpointer data) { check_measure_of(data, CARRY); }
 
 static void check_without_memory_of(const Specimen *specimen, Slot slot) {
   SporeModel *model = specimen_model(specimen);
@@ -217,7 +217,7 @@ static void check_without_memory_of(const Specimen *specimen, Slot slot) {
 }
 
 static void check_without_memory(gconstpointer data) { check_without_memory_of(data, MAP); }
-static void check_without_memory_carried(gconstpointer data) { check_without_memory_of(data, CARRY); }
+static void check_without_memory_drawn(gconstpointer data) { check_without_memory_of(data, CARRY); }
 
 static gboolean carries(const SporeModelType *type) { return type->line && type->line->map_drawn; }
 static gboolean has_spheres(const SporeModelType *type) { return type->spheres != NULL; }
@@ -331,10 +331,10 @@ int main(int argc, char **argv) {
   specimen_add_tests("/conformance/virtual_work", check_virtual_work, NULL);
   specimen_add_tests("/conformance/measure", check_measure, NULL);
   specimen_add_tests("/conformance/map_without_memory", check_without_memory, NULL);
-  specimen_add_tests("/conformance/carried/rest", check_rest_carried, carries);
-  specimen_add_tests("/conformance/carried/virtual_work", check_virtual_work_carried, carries);
-  specimen_add_tests("/conformance/carried/measure", check_measure_carried, carries);
-  specimen_add_tests("/conformance/carried/without_memory", check_without_memory_carried, carries);
+  specimen_add_tests("/conformance/drawn/rest", check_rest_drawn, carries);
+  specimen_add_tests("/conformance/drawn/virtual_work", check_virtual_work_drawn, carries);
+  specimen_add_tests("/conformance/drawn/measure", check_measure_drawn, carries);
+  specimen_add_tests("/conformance/drawn/without_memory", check_without_memory_drawn, carries);
   specimen_add_tests("/conformance/drift", check_drift, turns);
   specimen_add_tests("/conformance/spheres", check_spheres, has_spheres);
   return g_test_run();

@@ -1,3 +1,4 @@
+/* Puts a fake helper in the place of a real one; the fake helper answers what a file holds. */
 #include "answers.h"
 
 #include <glib.h>

@@ -1,3 +1,4 @@
+/* What the tests of tetrahedra share: a run of the generator, and the checks of its result. */
 #include "cells.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* What the tests of sphere sets share: a run of the generator, and counts over its result. */
 #include "sets.h"
 
 #include <glib.h>

@@ -444,7 +444,7 @@ static const SporeIntegratorKind explicit_kinds[] = {SPORE_INTEGRATOR_SYMPLECTIC
 
 /* Bodies of two methods on a smooth spring: of first order together, and the explicit one's matrix is never asked
  * for. */
-static void test_mixed_order(void) {
+static void test_multirate_order(void) {
   Pair pair = {{SPORE_INTEGRATOR_RK4, SPORE_INTEGRATOR_RK4}, 1, {60, 200}, 40, 0.1, 1e-5, {0, -9.81, 0}, 0};
   double exact[18], q[18], error[LEVELS];
   couple_to(&pair, 0.3, exact);
@@ -460,7 +460,7 @@ static void test_mixed_order(void) {
     double slope = fit_slope(error, LEVELS);
     SporeWorld *world = couple(&pair);
     run(world, 3);
-    g_test_message("mixed order: %s with implicit Euler: slope %.3f (error %.1e m at 1 ms)",
+    g_test_message("multirate order: %s with implicit Euler: slope %.3f (error %.1e m at 1 ms)",
                    spore_integrator_names[explicit_kinds[k]], slope, error[0]);
     g_assert_cmpfloat_with_epsilon(slope, 1, 0.2);
     g_assert_cmpuint(spore_world_counts(world).islands, ==, 1);
@@ -488,7 +488,7 @@ static double couple_long(const Pair *pair, double *drift) {
 /* Nothing gains energy however stiff the spring between them, also where the explicit chain's fastest mode and the step
  * meet (h w = pi and around), where impulses at the step's end would resonate. What one gains the other loses, to
  * the solver's tolerance of what they exchange, which grows with the stiffness. */
-static void test_mixed_stiff(void) {
+static void test_multirate_stiff(void) {
   for (unsigned k = 0; k < G_N_ELEMENTS(explicit_kinds); k++)
     for (double link = 1e2; link < 1e9; link *= 1e3) {
       double most = 0, drift = 0, both_implicit = 0;
@@ -503,9 +503,10 @@ static void test_mixed_stiff(void) {
         pair.substeps = 1;
         couple_long(&pair, &both_implicit);
       }
-      g_test_message("mixed: %s, tie of %.0e N/m: energy at most %+.1e of the start's above it, momentum off by %.1e "
-                     "(both implicit: %.1e)",
-                     spore_integrator_names[explicit_kinds[k]], link, most, drift, both_implicit);
+      g_test_message(
+          "multirate: %s, tie of %.0e N/m: energy at most %+.1e of the start's above it, momentum off by %.1e "
+          "(both implicit: %.1e)",
+          spore_integrator_names[explicit_kinds[k]], link, most, drift, both_implicit);
       g_assert_cmpfloat(most, <, 0.01);
       g_assert_cmpfloat(drift, <, fmax(1e-8, 1e-11 * link));
     }
@@ -513,7 +514,7 @@ static void test_mixed_stiff(void) {
 
 /* Hanging together they come to rest where statics has them: static beside moving, and explicit beside implicit but for
  * h^2 a / 2 in the spring that ties them, a = 3 g being what it gives the particle that carries two others. */
-static void test_mixed_rest(void) {
+static void test_multirate_rest(void) {
   static const struct {
     SporeIntegratorKind kinds[2];
     size_t substeps;
@@ -529,7 +530,7 @@ static void test_mixed_rest(void) {
     pair.damping = 2;
     couple_to(&pair, 30, q);
     double off = distance(q, exact, 18) / sqrt(6);
-    g_test_message("mixed rest: %s under %s: %.1e m from the balance", spore_integrator_names[pair.kinds[0]],
+    g_test_message("multirate rest: %s under %s: %.1e m from the balance", spore_integrator_names[pair.kinds[0]],
                    spore_integrator_names[pair.kinds[1]], off);
     bool apart = !spore_integrator(pair.kinds[0])->implicit;
     g_assert_cmpfloat(off, <, apart ? 1.1 * h * h * 3 * 9.81 / 2 : 1e-5);
@@ -548,8 +549,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/integrate/limits", test_limits);
   g_test_add_func("/integrate/static", test_static);
   g_test_add_func("/integrate/static-unheld", test_static_unheld);
-  g_test_add_func("/integrate/mixed-order", test_mixed_order);
-  g_test_add_func("/integrate/mixed-stiff", test_mixed_stiff);
-  g_test_add_func("/integrate/mixed-rest", test_mixed_rest);
+  g_test_add_func("/integrate/multirate-order", test_multirate_order);
+  g_test_add_func("/integrate/multirate-stiff", test_multirate_stiff);
+  g_test_add_func("/integrate/multirate-rest", test_multirate_rest);
   return g_test_run();
 }

@@ -1,3 +1,4 @@
+/* Writes a mesh in each of the formats that SPORE imports. */
 #include "tests/io/mesh_files.h"
 
 #include <string.h>

@@ -90,7 +90,7 @@ static void test_values(void) { at_each_level(check_values); }
 static void test_nodes(void) { at_each_level(check_nodes); }
 static void test_within(void) { at_each_level(check_within); }
 
-static void test_levels(void) {
+static void test_instruction_sets(void) {
   double a[LONGEST], b[LONGEST], y[2][LONGEST];
   for (size_t n = 0; n <= LONGEST; n++) {
     fill(a);
@@ -116,7 +116,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/vector/values", test_values);
   g_test_add_func("/vector/nodes", test_nodes);
   g_test_add_func("/vector/within", test_within);
-  g_test_add_func("/vector/levels", test_levels);
+  g_test_add_func("/vector/instruction-sets", test_instruction_sets);
   int status = g_test_run();
   g_rand_free(random_source);
   return status;

@@ -1,3 +1,4 @@
+/* Shapes for the tests of meshes: box, ball, torus and capsule, and ways to spoil a mesh. */
 #include "tests/mesh/shapes.h"
 
 #include <glib.h>

@@ -1,3 +1,4 @@
+/* Bounding volume hierarchy: nearest points, winding numbers and rays against exact results. */
 #include <glib.h>
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* Surface around a set of particles. */
 #include <glib.h>
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* Tetrahedral meshes: boundary, edges, quality, validation, faces of a cut mesh and pieces. */
 #include <glib.h>
 #include <math.h>
 #include <string.h>

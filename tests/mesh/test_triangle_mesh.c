@@ -1,3 +1,4 @@
+/* Triangle meshes: report, welding, orientation, normals, validation, edges and tubes. */
 #include <glib.h>
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* What the tests of the renderer draw, and how pictures are compared. */
 #include "tests/render/scenery.h"
 
 #include <math.h>

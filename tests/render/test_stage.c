@@ -21,7 +21,8 @@ typedef struct Setting {
 
 static Setting setting_open(const char *scene) {
   GError *error = NULL;
-  Setting setting = {.bench = bench_open(), .schema = spore_schema_new(spore_model_registry, spore_generator_elements())};
+  Setting setting = {.bench = bench_open(),
+                     .schema = spore_schema_new(spore_model_registry, spore_generator_elements())};
   setting.document = spore_scene_load(setting.schema, scene, &error);
   g_assert_no_error(error);
   setting.stage = spore_stage_new(setting.bench.renderer, setting.document);
@@ -368,7 +369,7 @@ static const SporeStageBody *body_named(const Setting *setting, const char *name
 }
 
 /* Where scissors divide tetrahedra, the surface parts with them and the inside is seen; whole again after a reset. */
-static void test_divided_is_seen(void) {
+static void test_node_splitting_is_seen(void) {
   Setting setting = setting_open(SPORE_SCENES "/cut-ovary.spore");
   setting_run(&setting, 0);
   SporeWorld *world = setting.simulation->world;
@@ -407,6 +408,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/render/stage/empty-scene", test_empty_scene);
   g_test_add_func("/render/stage/liquid", test_liquid);
   g_test_add_func("/render/stage/cut-is-seen", test_cut_is_seen);
-  g_test_add_func("/render/stage/divided-is-seen", test_divided_is_seen);
+  g_test_add_func("/render/stage/node-splitting-is-seen", test_node_splitting_is_seen);
   return g_test_run();
 }

@@ -1,3 +1,4 @@
+/* What the tests of scenes share: a schema with one small model, and scene folders to load and to write. */
 #include "fixture.h"
 
 #include <ftw.h>

@@ -389,12 +389,12 @@ static void test_mapping_report(Fixture *fixture, gconstpointer data) {
   g_assert_true(spore_mapping_report_holds(&report, fixture->document, body));
   g_autofree char *text = spore_mapping_report_text(&report);
   g_assert_cmpstr(report.trouble, ==, NULL);
-  g_assert_true(report.known[SPORE_CARRIED_VISUAL] && !report.known[SPORE_CARRIED_COLLISION]);
+  g_assert_true(report.known[SPORE_MAPPED_VISUAL] && !report.known[SPORE_MAPPED_COLLISION]);
   g_assert_true(spore_mapping_report_worst(&report, &place, &size));
-  const SporeCarried *carried = &report.carried[SPORE_CARRIED_VISUAL];
+  const SporeMappingQuality *quality = &report.quality[SPORE_MAPPED_VISUAL];
   g_assert_nonnull(strstr(text, "extrapolated"));
-  g_assert_cmpuint(carried->off, >, 0);
-  g_assert_cmpfloat(spore_vec3_distance(place, carried->place), ==, 0);
+  g_assert_cmpuint(quality->off, >, 0);
+  g_assert_cmpfloat(spore_vec3_distance(place, quality->place), ==, 0);
   gsize count;
   spore_edit_add_region(fixture->document, body, "bodies/my_organ/regions", NULL);
   g_autofree double *rings = spore_body_marks(fixture->document, body, &report, &count);

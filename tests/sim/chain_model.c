@@ -1,3 +1,4 @@
+/* A small model for the tests of the world: particles in a row, joined by springs. */
 #include "tests/sim/chain_model.h"
 
 #include <math.h>

@@ -151,7 +151,7 @@ static void test_factor(void) {
 
 /* What hangs on one body alone is in its matrix, so that its factor undoes all of A: contacts with what does not move,
  * a link to the world, and, where two nodes that touch are neighbours, its contact with itself. */
-static void test_folded(void) {
+static void test_local_assembly(void) {
   SporeWorld *world = make();
   SporeBody *other = &world->bodies[1];
   other->frozen = true; /* the contacts and the spring of the first one end on it as on what does not move */
@@ -311,7 +311,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/sim/operator/dense", test_dense);
   g_test_add_func("/sim/operator/preconditioner", test_preconditioner);
   g_test_add_func("/sim/operator/factor", test_factor);
-  g_test_add_func("/sim/operator/folded", test_folded);
+  g_test_add_func("/sim/operator/local-assembly", test_local_assembly);
   g_test_add_func("/sim/operator/kept-factor", test_kept_factor);
   g_test_add_func("/sim/operator/choice", test_choice);
   return g_test_run();

@@ -1,3 +1,4 @@
+/* A chain of mass points and springs, whose rest state under gravity is known in closed form. */
 #include "tests/stability/chain.h"
 
 #include <glib.h>

@@ -1,3 +1,4 @@
+/* Builds worlds for the tests of stability: models, bodies, spheres, pins and links. */
 #include "tests/stability/rig.h"
 
 #include <math.h>
@@ -37,7 +38,7 @@ void rig_free(Rig *rig) {
   spore_world_free(rig->world);
   for (guint i = 0; !rig->world && i < rig->bodies->len; i++) {
     const SporeBodyDescription *body = &g_array_index(rig->bodies, SporeBodyDescription, i);
-    SporeModel *const models[] = {body->model, body->levels.model[0], body->levels.model[1]};
+    SporeModel *const models[] = {body->model, body->lod.model[0], body->lod.model[1]};
     for (size_t k = 0; k < G_N_ELEMENTS(models); k++)
       if (models[k]) models[k]->type->destroy(models[k]);
   }

@@ -1,3 +1,4 @@
+/* Static balance of a model under a load, and its lowest natural frequency, by dense matrices. */
 #include "tests/stability/statics.h"
 
 #include <math.h>

@@ -305,7 +305,7 @@ static void hand_close(SporeDevice *device) {}
 static const SporeDeviceType hand_type = {.name = "hand", .doc = "", .exchange = hand_exchange, .close = hand_close};
 
 /* What a device moves: its tip is where the device says, its shaft goes through the port. */
-static void test_port_active(void) {
+static void test_trocar_active(void) {
   const SporeVec3 pivot = {0, 0, 0.1};
   Rig *rig = rig_new();
   rig_active(rig, "grasper", rig_sphere(rig, 0.005));
@@ -326,7 +326,7 @@ static void test_port_active(void) {
 }
 
 /* A rod that falls through a port turns on it and slides through. */
-static void test_port_passive(void) {
+static void test_trocar_passive(void) {
   Rig *rig = rig_new();
   rig->description.gravity = spore_vec3(0.5, 0, -9.81);
   rig->description.solver.time_step = 1e-3;
@@ -410,8 +410,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/links/drift", test_drift);
   g_test_add_func("/links/hinge-period", test_hinge_period);
   g_test_add_func("/links/slide", test_slide);
-  g_test_add_func("/links/port-active", test_port_active);
-  g_test_add_func("/links/port-passive", test_port_passive);
+  g_test_add_func("/links/trocar-active", test_trocar_active);
+  g_test_add_func("/links/trocar-passive", test_trocar_passive);
   g_test_add_func("/links/breaking", test_breaking);
   g_test_add_func("/links/weld-tissue", test_weld_tissue);
   return g_test_run();

@@ -158,7 +158,8 @@ static void check_model(gconstpointer data) {
   const SporeModelType *type = of->type;
   static const double steps[] = {1e-5, 1e-3, 1e-2, 1e-1};
   unsigned failed = 0;
-  Load loads = type->particles && type->particles->puff ? HEAVY : LOAD_COUNT;                      /* nothing can hang on smoke (test_smoke.c) */
+  Load loads =
+      type->particles && type->particles->puff ? HEAVY : LOAD_COUNT; /* nothing can hang on smoke (test_smoke.c) */
   for (Load load = 0; load < loads; load += of->variant ? HEAVY : 1) /* of a variant, every other load */
     for (SporeIntegratorKind kind = 0; kind < SPORE_INTEGRATOR_COUNT; kind++) {
       GString *line = g_string_new(NULL);

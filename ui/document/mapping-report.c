@@ -18,10 +18,10 @@ static gboolean measure_units(SporeMappingReport *report, const SporeSimulation 
                               SporeObject *body, const SporeProgress *progress, GError **error) {
   static const char *const stages[] = {N_("Measuring the visual mesh"), N_("Measuring the spheres")};
   g_autoptr(GError) trouble = NULL;
-  for (int unit = 0; !trouble && unit < SPORE_CARRIED_COUNT; unit++) {
+  for (int unit = 0; !trouble && unit < SPORE_MAPPED_UNITS; unit++) {
     if (!goes_on(progress, 0.5 + 0.25 * unit, _(stages[unit]), error)) return FALSE;
-    report->known[unit] =
-        spore_carried_measure(simulation, document, body, (SporeCarriedUnit)unit, &report->carried[unit], &trouble);
+    report->known[unit] = spore_mapping_quality_measure(simulation, document, body, (SporeMappedUnit)unit,
+                                                        &report->quality[unit], &trouble);
   }
   if (trouble) report->trouble = g_strdup(trouble->message);
   return TRUE;
@@ -46,41 +46,41 @@ gboolean spore_mapping_report_holds(const SporeMappingReport *report, const Spor
   return report->body == spore_object_id(body) && report->revision == spore_document_revision(document);
 }
 
-static void append_unit(GString *text, SporeCarriedUnit unit, const SporeCarried *carried) {
+static void append_unit(GString *text, SporeMappedUnit unit, const SporeMappingQuality *quality) {
   if (text->len) g_string_append_c(text, '\n');
-  g_string_append_printf(
-      text, unit == SPORE_CARRIED_VISUAL ? _("Visual mesh: %zu vertices") : _("Spheres: %zu centres"), carried->count);
+  g_string_append_printf(text, unit == SPORE_MAPPED_VISUAL ? _("Visual mesh: %zu vertices") : _("Spheres: %zu centres"),
+                         quality->count);
   g_string_append_c(text, '\n');
-  if (carried->off)
-    g_string_append_printf(text, _("%zu extrapolated, the worst %.3g mm off (marked in the view)"), carried->off,
-                           1e3 * carried->farthest);
+  if (quality->off)
+    g_string_append_printf(text, _("%zu extrapolated, the worst %.3g mm off (marked in the view)"), quality->off,
+                           1e3 * quality->farthest);
   else g_string_append(text, _("none extrapolated"));
   g_string_append_c(text, '\n');
-  g_string_append_printf(text, _("Error at rest %.2g mm, turned and moved %.2g mm"), 1e3 * carried->error.rest,
-                         1e3 * carried->error.rigid);
-  if (!isfinite(carried->error.bend)) return;
+  g_string_append_printf(text, _("Error at rest %.2g mm, turned and moved %.2g mm"), 1e3 * quality->error.rest,
+                         1e3 * quality->error.rigid);
+  if (!isfinite(quality->error.bend)) return;
   g_string_append_c(text, '\n');
-  g_string_append_printf(text, _("stretched %.2g mm, bent by a tenth %.2g mm"), 1e3 * carried->error.affine,
-                         1e3 * carried->error.bend);
+  g_string_append_printf(text, _("stretched %.2g mm, bent by a tenth %.2g mm"), 1e3 * quality->error.affine,
+                         1e3 * quality->error.bend);
 }
 
 char *spore_mapping_report_text(const SporeMappingReport *report) {
   if (report->trouble) return g_strdup_printf(_("It cannot be measured: %s"), report->trouble);
   GString *text = g_string_new(NULL);
-  for (int unit = 0; unit < SPORE_CARRIED_COUNT; unit++)
-    if (report->known[unit]) append_unit(text, (SporeCarriedUnit)unit, &report->carried[unit]);
+  for (int unit = 0; unit < SPORE_MAPPED_UNITS; unit++)
+    if (report->known[unit]) append_unit(text, (SporeMappedUnit)unit, &report->quality[unit]);
   if (!text->len) g_string_append(text, _("Nothing is mapped: what is drawn and felt is what moves"));
   return g_string_free(text, FALSE);
 }
 
 gboolean spore_mapping_report_worst(const SporeMappingReport *report, SporeVec3 *place, double *size) {
   double farthest = 0;
-  for (int unit = 0; unit < SPORE_CARRIED_COUNT; unit++) {
-    const SporeCarried *carried = &report->carried[unit];
-    if (!report->known[unit] || !carried->off || carried->farthest <= farthest) continue;
-    farthest = carried->farthest;
-    *place = carried->place;
-    *size = carried->size;
+  for (int unit = 0; unit < SPORE_MAPPED_UNITS; unit++) {
+    const SporeMappingQuality *quality = &report->quality[unit];
+    if (!report->known[unit] || !quality->off || quality->farthest <= farthest) continue;
+    farthest = quality->farthest;
+    *place = quality->place;
+    *size = quality->size;
   }
   return farthest > 0;
 }

@@ -3,13 +3,13 @@
 #define SPORE_UI_DOCUMENT_MAPPING_REPORT_H
 
 #include "core/base/progress.h"
-#include "core/scene/carried.h"
+#include "core/scene/mapping_quality.h"
 
 typedef struct SporeMappingReport {
   guint32 body;     /* object id; 0: nothing was measured */
   guint64 revision; /* of the document that was measured */
-  gboolean known[SPORE_CARRIED_COUNT];
-  SporeCarried carried[SPORE_CARRIED_COUNT];
+  gboolean known[SPORE_MAPPED_UNITS];
+  SporeMappingQuality quality[SPORE_MAPPED_UNITS];
   char *trouble; /* why nothing could be; NULL: it was */
 } SporeMappingReport;
 

@@ -75,7 +75,7 @@ static void show_cuts(SporeStage *stage, const SporeSnapshot *snapshot) {
 static SporeStageBody *body_of_level(SporeStage *stage, guint index, const SporeSnapshot *snapshot) {
   SporeStageBody *body = stage->bodies->pdata[index];
   if (!snapshot->level || body->world_body == SPORE_NO_BODY) return body;
-  SporeLevelGrade level = (SporeLevelGrade)snapshot->level[body->world_body];
+  SporeLodGrade level = (SporeLodGrade)snapshot->level[body->world_body];
   SporeObject *object = level == body->level ? NULL : spore_document_by_id(stage->document, body->object);
   if (!object) return body;
   spore_stage_body_free(stage, body);

@@ -18,7 +18,7 @@ static const float wire_colour[3] = {0.16f, 0.42f, 0.55f};
 /* The configuration at time 0. It comes from the model, which never changes. The world may be stepping on another
  * thread. */
 static void init_configuration(SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation,
-                               const SporeLevelGrade *level) {
+                               const SporeLodGrade *level) {
   SporePose pose = spore_body_pose(object);
   const SporeModel *model = NULL;
   if (simulation) {
@@ -26,8 +26,8 @@ static void init_configuration(SporeStageBody *body, const SporeObject *object, 
     for (gsize i = 0; i < spore_world_body_count(world); i++)
       if (simulation->body_object[i] == body->object) body->world_body = (guint32)i;
     if (body->world_body != SPORE_NO_BODY) {
-      body->level = level ? *level : spore_world_first_level(world, body->world_body);
-      model = spore_world_level_model(world, body->world_body, body->level);
+      body->level = level ? *level : spore_world_first_lod(world, body->world_body);
+      model = spore_world_lod_model(world, body->world_body, body->level);
       body->moves = spore_world_body_role(world, body->world_body) != SPORE_UNMOVABLE;
       body->q_offset = spore_world_q_offset(world, body->world_body);
     }
@@ -52,10 +52,10 @@ static void keep_points(const SporeStageBody *body, gsize count, SporeStagePoint
 
 static gboolean map_points(const SporeStageBody *body, const SporeSimulation *simulation, const double *points,
                            gsize count, SporeStagePoints *mapped) {
-  gboolean done = body->world_body != SPORE_NO_BODY
-                      ? spore_world_map_level(simulation->world, body->world_body, body->level, points, count,
-                                              &mapped->mapping, NULL)
-                      : spore_mapping_init_points(&mapped->mapping, SPORE_MAPPING_RIGID, points, count, NULL);
+  gboolean done =
+      body->world_body != SPORE_NO_BODY
+          ? spore_world_map_lod(simulation->world, body->world_body, body->level, points, count, &mapped->mapping, NULL)
+          : spore_mapping_init_points(&mapped->mapping, SPORE_MAPPING_RIGID, points, count, NULL);
   if (done) keep_points(body, count, mapped);
   return done;
 }
@@ -137,7 +137,7 @@ static void add_surface(SporeStage *stage, SporeStageBody *body, const SporeSimu
 /* Puffs instead of a surface and spheres. */
 static void build_smoke(SporeStage *stage, SporeStageBody *body, const SporeSimulation *simulation) {
   if (body->world_body == SPORE_NO_BODY) return;
-  const SporeModel *model = spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE);
+  const SporeModel *model = spore_world_lod_model(simulation->world, body->world_body, SPORE_LOD_FINE);
   if (!model || !model->type->particles || !model->type->particles->puff) return;
   body->smoke = model;
   body->puffs = g_new(SporePuff, model->node_count);
@@ -146,7 +146,7 @@ static void build_smoke(SporeStage *stage, SporeStageBody *body, const SporeSimu
 
 static gboolean is_liquid(const SporeStageBody *body, const SporeObject *object, const SporeSimulation *simulation) {
   return body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object) &&
-         spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE)->type->particles;
+         spore_world_lod_model(simulation->world, body->world_body, SPORE_LOD_FINE)->type->particles;
 }
 
 /* The mesh of the visual unit. Without one: the mesh of the mechanical unit, the boundary of its tetrahedra, or a tube
@@ -231,7 +231,7 @@ static void build_spheres(SporeStage *stage, SporeStageBody *body, const SporeOb
   if (set) {
     show_spheres(stage, body, simulation, set, asset);
   } else if (body->world_body != SPORE_NO_BODY && spore_body_has_own_spheres(object)) {
-    const SporeModel *model = spore_world_level_model(simulation->world, body->world_body, SPORE_LEVEL_FINE);
+    const SporeModel *model = spore_world_lod_model(simulation->world, body->world_body, SPORE_LOD_FINE);
     body->particles = model->type->particles != NULL;
     if (model->type->spheres(model, &own, NULL)) show_spheres(stage, body, simulation, &own, NULL);
     spore_sphere_set_clear(&own);
@@ -266,7 +266,7 @@ static void prepare_divide(SporeStage *stage, SporeStageBody *body, const SporeO
 }
 
 SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
-                                     const SporeLevelGrade *level) {
+                                     const SporeLodGrade *level) {
   SporeStageBody *body = g_new0(SporeStageBody, 1);
   SporeVisualFields visual = {.colour = {0.75, 0.35, 0.32}, .wetness = 0.5};
   const SporeObject *unit = spore_object_child_of(object, "visual");

@@ -15,7 +15,7 @@ typedef struct SporeStageBody {
   guint32 object;     /* id */
   guint32 world_body; /* SPORE_NO_BODY: not simulated */
   gboolean moves;
-  SporeLevelGrade level; /* of q and of all mappings */
+  SporeLodGrade level; /* of q and of all mappings */
   gsize q_offset, q_count;
   double *q; /* configuration that is shown */
 
@@ -81,7 +81,7 @@ struct SporeStage {
 /* Builds what is drawn of a body, at time 0. Assets that cannot be read are left out. level: NULL for the level at time
  * 0. */
 SporeStageBody *spore_stage_body_new(SporeStage *stage, SporeObject *object, const SporeSimulation *simulation,
-                                     const SporeLevelGrade *level);
+                                     const SporeLodGrade *level);
 /* Updates the mappings of a line whose knots were inserted or removed, by the knots of the snapshot. */
 void spore_stage_body_follow_knots(SporeStageBody *body, const SporeSimulation *simulation,
                                    const SporeSnapshot *snapshot);

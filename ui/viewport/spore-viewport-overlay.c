@@ -120,9 +120,9 @@ static void append_tools(GString *text, const SporeSnapshot *snapshot) {
 static void append_levels(GString *text, const SporeWorld *world, const SporeSnapshot *snapshot) {
   guint32 count = snapshot->level ? (guint32)spore_world_body_count(world) : 0;
   for (guint32 body = 0, shown = 0; body < count && shown < MOST_LEVELS; body++) {
-    SporeLevelState state;
-    if (!spore_world_level_state(world, body, &state)) continue;
-    g_autofree char *level = spore_label_of_name(spore_level_names[snapshot->level[body]]);
+    SporeLodState state;
+    if (!spore_world_lod_state(world, body, &state)) continue;
+    g_autofree char *level = spore_label_of_name(spore_lod_names[snapshot->level[body]]);
     g_string_append_c(text, '\n');
     g_string_append_printf(text, _("%s: %s"), spore_world_body_name(world, body), _(level));
     shown++;

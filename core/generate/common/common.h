@@ -4,7 +4,7 @@
 #define SPORE_GENERATE_COMMON_COMMON_H
 
 #include "core/base/progress.h"
-#include "core/generate/common/sizing.h"
+#include "core/mesh/sizing.h"
 #include "core/mesh/bvh.h"
 
 /* False; *error says that what is generated needs more memory than there is. */

@@ -2,9 +2,9 @@
 #ifndef SPORE_GENERATE_TETRAHEDRA_PRIVATE_H
 #define SPORE_GENERATE_TETRAHEDRA_PRIVATE_H
 
-#include "core/generate/common/sizing.h"
+#include "core/mesh/sizing.h"
 #include "core/generate/tetrahedra/tetrahedra.h"
-#include "core/generate/tetrahedra/wire.h"
+#include "core/io/tetrahedra_wire.h"
 #include "core/mesh/bvh.h"
 
 #define SPORE_TETRAHEDRA_ANGLE 10                             /* degrees: the least dihedral angle wanted */

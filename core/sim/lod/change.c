@@ -30,11 +30,11 @@ static bool is_sewn(const SporeWorld *world, uint32_t index) {
   return false;
 }
 
-static const char *fault_of(const SporeWorld *world, uint32_t index, SporeLevelGrade level) {
+static const char *fault_of(const SporeWorld *world, uint32_t index, SporeLodGrade level) {
   assert(index < world->body_count);
-  assert((unsigned)level < SPORE_LEVEL_COUNT);
+  assert((unsigned)level < SPORE_LOD_COUNT);
   const SporeBody *body = &world->bodies[index];
-  if (!body->levels || !body->levels->level[level].model) return _("it has no such level; add one to its fidelity");
+  if (!body->lod || !body->lod->level[level].model) return _("it has no such level; add one to its fidelity");
   if (body->frozen) return _("it is frozen; thaw it first");
   if (body->altered) return _("it was cut, torn or coagulated, which no other level knows of; start again from time 0");
   if (is_sewn(world, index))
@@ -58,19 +58,19 @@ static double momentum_missed(const SporeModel *from, const double *q, const dou
 }
 
 /* Kinetic and internal energy of the candidate, less that of the body, J. */
-static double energy_gained(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to) {
-  assert(body->levels && body->levels->level[to].model);
-  const SporeLevels *levels = body->levels;
+static double energy_gained(const SporeWorld *world, const SporeBody *body, SporeLodGrade to) {
+  assert(body->lod && body->lod->level[to].model);
+  const SporeLod *levels = body->lod;
   return own_energy(levels->level[to].model, levels->q, levels->v) -
          own_energy(body->model, world->state.q + body->q_offset, world->state.v + body->v_offset);
 }
 
-static void note_change(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to, double error) {
-  SporeLevels *levels = body->levels;
-  const SporeLevel *level = &levels->level[to];
+static void note_change(const SporeWorld *world, const SporeBody *body, SporeLodGrade to, double error) {
+  SporeLod *levels = body->lod;
+  const SporeLodLevel *level = &levels->level[to];
   const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
   double gained = energy_gained(world, body, to);
-  SporeLevelState *state = &levels->state;
+  SporeLodState *state = &levels->state;
   state->energy = state->changes ? fmax(state->energy, gained) : gained;
   state->error = fmax(state->error, error);
   state->changes++;
@@ -79,46 +79,46 @@ static void note_change(const SporeWorld *world, const SporeBody *body, SporeLev
     state->momentum = fmax(state->momentum, momentum_missed(body->model, q, v, level->model, levels->q, levels->v));
 }
 
-static void accept(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
-  assert(world->bodies[index].level != to);
+static void accept(SporeWorld *world, uint32_t index, SporeLodGrade to) {
+  assert(world->bodies[index].grade != to);
   SporeBody *body = &world->bodies[index];
   SporeVec3 pulled;
   bool pull = spore_world_pulled_point(world, index, &pulled);
-  spore_world_exchange_level(world, index, to);
-  memcpy(world->state.next_q + body->q_offset, body->levels->q, body->q_count * sizeof(double));
-  memcpy(world->state.next_v + body->v_offset, body->levels->v, 3 * body->block_count * sizeof(double));
+  spore_world_exchange_lod(world, index, to);
+  memcpy(world->state.next_q + body->q_offset, body->lod->q, body->q_count * sizeof(double));
+  memcpy(world->state.next_v + body->v_offset, body->lod->v, 3 * body->block_count * sizeof(double));
   spore_body_mark_changed(world, body);
   spore_world_advance_state(world);
   if (body->model->type->forget) body->model->type->forget(body->model);
   spore_body_forget_steps(world, body);
   spore_body_set_mass(world, body);
-  if (to != SPORE_LEVEL_FINE && world->topology.cuts.capacity > 0 && body->model->type->cut)
+  if (to != SPORE_LOD_FINE && world->topology.cuts.capacity > 0 && body->model->type->cut)
     spore_world_report(world, _("%s: at level %s it is neither cut nor torn; change it to level fine before"),
-                       body->name, spore_level_names[to]);
+                       body->name, spore_lod_names[to]);
   if (pull) spore_world_pull_by(world, index, pulled);
   spore_world_map_spheres(world);
   spore_world_link(world);
   spore_world_publish(world);
 }
 
-static void refuse(SporeWorld *world, SporeBody *body, SporeLevelGrade to, const char *reason) {
+static void refuse(SporeWorld *world, SporeBody *body, SporeLodGrade to, const char *reason) {
   assert(reason);
-  if (body->levels) body->levels->state.refused++;
-  spore_world_report(world, _("%s: does not change to level %s: %s"), body->name, spore_level_names[to], reason);
+  if (body->lod) body->lod->state.refused++;
+  spore_world_report(world, _("%s: does not change to level %s: %s"), body->name, spore_lod_names[to], reason);
 }
 
 /* Whether the candidate is refused, and the reason as text. It may have more energy than the body only by what lifting
  * the body by the tolerance takes: the levels' fineness does not explain more. */
-static bool refuses(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to, double error, char *text,
+static bool refuses(const SporeWorld *world, const SporeBody *body, SporeLodGrade to, double error, char *text,
                     size_t size) {
   double own = own_energy(body->model, world->state.q + body->q_offset, world->state.v + body->v_offset);
-  double gained = energy_gained(world, body, to), most = own + WEIGHT * body->total_mass * body->levels->tolerance;
-  if (!(error <= body->levels->tolerance))
+  double gained = energy_gained(world, body, to), most = own + WEIGHT * body->total_mass * body->lod->tolerance;
+  if (!(error <= body->lod->tolerance))
     snprintf(
         text, size,
         _("a point of it would move %.3g m, and level_tolerance is %.3g m; wait until it is bent less, or make the "
           "level finer"),
-        error, body->levels->tolerance);
+        error, body->lod->tolerance);
   else if (!(gained <= most))
     snprintf(text, size,
              _("it would add %.3g J to the %.3g J that the body has; wait until it is bent less, or make the level "
@@ -128,19 +128,19 @@ static bool refuses(const SporeWorld *world, const SporeBody *body, SporeLevelGr
   return true;
 }
 
-void spore_world_change_level(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+void spore_world_change_lod(SporeWorld *world, uint32_t index, SporeLodGrade to) {
   assert(index < world->body_count);
-  assert((unsigned)to < SPORE_LEVEL_COUNT);
+  assert((unsigned)to < SPORE_LOD_COUNT);
   SporeBody *body = &world->bodies[index];
-  if (body->level == to) return;
+  if (body->grade == to) return;
   const char *fault = fault_of(world, index, to);
   if (fault) {
     refuse(world, body, to, fault);
     return;
   }
   char reason[300];
-  spore_level_fit(world, body, to);
-  double error = spore_level_error(body->levels, to);
+  spore_lod_fit(world, body, to);
+  double error = spore_lod_error(body->lod, to);
   if (refuses(world, body, to, error, reason, sizeof reason)) {
     refuse(world, body, to, reason);
     return;
@@ -149,16 +149,16 @@ void spore_world_change_level(SporeWorld *world, uint32_t index, SporeLevelGrade
   accept(world, index, to);
 }
 
-void spore_world_set_level(SporeWorld *world, uint32_t index, SporeLevelGrade to) {
+void spore_world_set_lod(SporeWorld *world, uint32_t index, SporeLodGrade to) {
   assert(index < world->body_count);
-  assert((unsigned)to < SPORE_LEVEL_COUNT);
+  assert((unsigned)to < SPORE_LOD_COUNT);
   SporeBody *body = &world->bodies[index];
-  if (!body->levels || body->level == to) return;
-  assert(body->levels->level[to].model);
+  if (!body->lod || body->grade == to) return;
+  assert(body->lod->level[to].model);
   spore_world_wake(world, index);
-  spore_world_exchange_level(world, index, to);
-  body->levels->state.level = to;
-  spore_world_set_state(world, index, body->levels->level[to].rest_q, body->levels->level[to].rest_v);
+  spore_world_exchange_lod(world, index, to);
+  body->lod->state.level = to;
+  spore_world_set_state(world, index, body->lod->level[to].rest_q, body->lod->level[to].rest_v);
 }
 
 void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, const double *v) {

@@ -16,8 +16,8 @@
 
 /* Unknowns of a fit: the first `count` blocks, without the held ones. */
 typedef struct Fit {
-  const SporeLevels *levels;
-  const SporeLevel *level;
+  const SporeLod *levels;
+  const SporeLodLevel *level;
   size_t count;
 } Fit;
 
@@ -29,7 +29,7 @@ static void filter(const Fit *fit, double *x) {
 /* r = W^T w (target - W x); without a target r = W^T w W x. */
 static void residual(const Fit *fit, const double *target, const double *x, double *r) {
   assert(fit->level->samples.point_count == fit->levels->sample_count);
-  const SporeLevels *levels = fit->levels;
+  const SporeLod *levels = fit->levels;
   double *at = levels->after;
   spore_mapping_positions(&fit->level->samples, x, at);
   for (size_t s = 0; s < levels->sample_count; s++)
@@ -75,7 +75,7 @@ static void solve(const Fit *fit, const double *target, double *x) {
 /* Start of the fit: each node is displaced from its place of time 0 like the sample next to it. */
 static void begin(const Fit *fit, double *q) {
   assert(fit->level->model->q_count <= fit->levels->q_room);
-  const SporeLevel *level = fit->level;
+  const SporeLodLevel *level = fit->level;
   double *rest = fit->levels->after;
   memcpy(q, level->rest_q, level->model->q_count * sizeof *q);
   spore_mapping_positions(&level->samples, level->rest_q, rest);
@@ -105,7 +105,7 @@ static void place_frame(const SporeModel *from, const double *from_rest, const d
 
 /* Keeps momentum, and does not let energy grow. A pinned body gives momentum to its pins, so that only energy counts.
  */
-static void keep_motion(const SporeModel *from, const double *q, const double *v, const SporeLevel *to, bool free,
+static void keep_motion(const SporeModel *from, const double *q, const double *v, const SporeLodLevel *to, bool free,
                         double *q1, double *v1) {
   SporeMotion before = spore_model_motion(from, q, v, NULL);
   double gained = to->model->type->potential(to->model, q1) - from->type->potential(from, q);
@@ -119,11 +119,11 @@ static void keep_motion(const SporeModel *from, const double *q, const double *v
   for (size_t i = 0; i < 3 * to->model->block_count; i++) v1[i] *= share;
 }
 
-void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to) {
-  assert(body->levels && body->level != to);
-  assert(body->levels->level[to].model);
-  const SporeLevels *levels = body->levels;
-  const SporeLevel *from = &levels->level[body->level], *level = &levels->level[to];
+void spore_lod_fit(const SporeWorld *world, const SporeBody *body, SporeLodGrade to) {
+  assert(body->lod && body->grade != to);
+  assert(body->lod->level[to].model);
+  const SporeLod *levels = body->lod;
+  const SporeLodLevel *from = &levels->level[body->grade], *level = &levels->level[to];
   const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
   bool framed = !spore_model_is_nodal(level->model);
   Fit fit = {levels, level, level->model->node_count - framed};
@@ -142,7 +142,7 @@ void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelG
 }
 
 /* Greatest distance of `count` samples from index `start` on, m. */
-static double distance_of(const SporeLevels *levels, size_t start, size_t count) {
+static double distance_of(const SporeLod *levels, size_t start, size_t count) {
   assert(start + count <= levels->sample_count);
   double worst = 0;
   for (size_t s = start; s < start + count; s++) {
@@ -153,13 +153,13 @@ static double distance_of(const SporeLevels *levels, size_t start, size_t count)
   return worst;
 }
 
-double spore_level_error(const SporeLevels *levels, SporeLevelGrade to) {
+double spore_lod_error(const SporeLod *levels, SporeLodGrade to) {
   assert(levels->level[to].model);
   double worst = 0;
   size_t own = 0;
   spore_mapping_positions(&levels->level[to].samples, levels->q, levels->after);
-  for (int k = 0; k < SPORE_LEVEL_COUNT; k++) {
-    const SporeLevel *level = &levels->level[k];
+  for (int k = 0; k < SPORE_LOD_COUNT; k++) {
+    const SporeLodLevel *level = &levels->level[k];
     if (!level->model) continue;
     worst = fmax(worst, distance_of(levels, level->sample_start, level->seen_count));
     own = level->sample_start + level->sample_count;

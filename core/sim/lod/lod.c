@@ -15,17 +15,17 @@ static bool no_memory(SporeError *error) {
 }
 
 static bool refuse(const SporeBody *body, int grade, const char *reason, SporeError *error) {
-  assert(grade >= 0 && grade < SPORE_LEVEL_COUNT);
+  assert(grade >= 0 && grade < SPORE_LOD_COUNT);
   char place[200];
   snprintf(place, sizeof place, "bodies/%s", body->name);
-  return spore_error_set(error, SPORE_ERROR_INPUT, place, _("level %s: %s"), spore_level_names[grade], reason);
+  return spore_error_set(error, SPORE_ERROR_INPUT, place, _("level %s: %s"), spore_lod_names[grade], reason);
 }
 
 /* Sizes. */
 
 static bool check_model(const SporeBody *body, int grade, SporeError *error) {
-  assert(body->model && body->levels->level[grade].model);
-  const SporeModel *fine = body->model, *model = body->levels->level[grade].model;
+  assert(body->model && body->lod->level[grade].model);
+  const SporeModel *fine = body->model, *model = body->lod->level[grade].model;
   if (fine->type->particles || spore_model_is_rigid(fine))
     return refuse(body, grade,
                   _("the body does not deform as one piece, so that it has no levels; take them out of its fidelity"),
@@ -42,23 +42,23 @@ static bool check_model(const SporeBody *body, int grade, SporeError *error) {
   return refuse(body, grade, reason, error);
 }
 
-static bool make_room(SporeLevels *levels, const SporeModel *model) {
+static bool make_room(SporeLod *levels, const SporeModel *model) {
   if (model->q_room > levels->q_room) levels->q_room = model->q_room;
   if (3 * model->block_room > levels->v_room) levels->v_room = 3 * model->block_room;
   return true;
 }
 
-bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
-  assert(!body->levels);
-  SporeModel *const *model = from->levels.model;
-  if (!model[SPORE_LEVEL_COARSE] && !model[SPORE_LEVEL_MEDIUM]) return true;
-  SporeLevels *levels = body->levels = SPORE_NEW(SporeLevels);
+bool spore_lod_make(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
+  assert(!body->lod);
+  SporeModel *const *model = from->lod.model;
+  if (!model[SPORE_LOD_COARSE] && !model[SPORE_LOD_MEDIUM]) return true;
+  SporeLod *levels = body->lod = SPORE_NEW(SporeLod);
   if (!levels) return no_memory(error);
-  levels->tolerance = from->levels.tolerance;
-  levels->first = from->levels.first;
-  levels->level[SPORE_LEVEL_FINE].model = body->model;
+  levels->tolerance = from->lod.tolerance;
+  levels->first = from->lod.first;
+  levels->level[SPORE_LOD_FINE].model = body->model;
   make_room(levels, body->model);
-  for (int k = 0; k < SPORE_LEVEL_FINE; k++) {
+  for (int k = 0; k < SPORE_LOD_FINE; k++) {
     if (!model[k]) continue;
     levels->level[k].model = model[k];
     model[k]->map_slack = levels->tolerance;
@@ -69,7 +69,7 @@ bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescri
     return refuse(body, (int)levels->first, _("the body begins at it, and has no such level; add it, or begin at fine"),
                   error);
   body->model->map_slack = levels->tolerance;
-  world->has_levels = true;
+  world->has_lod = true;
   return true;
 }
 
@@ -78,8 +78,8 @@ bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescri
 /* The parts of a level move out of the body and into it. Only pointers are copied. */
 
 static void put_away(SporeWorld *world, SporeBody *body) {
-  assert(body->levels->level[body->level].model == body->model);
-  SporeLevel *level = &body->levels->level[body->level];
+  assert(body->lod->level[body->grade].model == body->model);
+  SporeLodLevel *level = &body->lod->level[body->grade];
   level->spheres = body->collision.spheres;
   level->whole_weight = body->collision.whole_weight;
   level->matrix = body->preconditioner.matrix;
@@ -88,14 +88,14 @@ static void put_away(SporeWorld *world, SporeBody *body) {
   level->held = body->held.blocks;
   level->held_count = body->held.count;
   level->pin_count = body->held.pin_count;
-  for (size_t e = 0; level->ends && e < body->levels->end_count; e++)
-    level->ends[e] = world->links.mappings[body->levels->ends[e]];
+  for (size_t e = 0; level->ends && e < body->lod->end_count; e++)
+    level->ends[e] = world->links.mappings[body->lod->ends[e]];
 }
 
-static void take_out(SporeWorld *world, SporeBody *body, SporeLevelGrade grade) {
-  assert(body->levels->level[grade].model);
-  SporeLevel *level = &body->levels->level[grade];
-  body->level = grade;
+static void take_out(SporeWorld *world, SporeBody *body, SporeLodGrade grade) {
+  assert(body->lod->level[grade].model);
+  SporeLodLevel *level = &body->lod->level[grade];
+  body->grade = grade;
   body->model = level->model;
   body->q_count = level->model->q_count;
   body->block_count = level->model->block_count;
@@ -108,17 +108,17 @@ static void take_out(SporeWorld *world, SporeBody *body, SporeLevelGrade grade) 
   body->held.blocks = level->held;
   body->held.count = level->held_count;
   body->held.pin_count = level->pin_count;
-  for (size_t e = 0; level->ends && e < body->levels->end_count; e++)
-    world->links.mappings[body->levels->ends[e]] = level->ends[e];
+  for (size_t e = 0; level->ends && e < body->lod->end_count; e++)
+    world->links.mappings[body->lod->ends[e]] = level->ends[e];
 }
 
 static void take_rest(SporeWorld *world, const SporeBody *body) {
-  assert(body->q_count <= body->levels->q_room);
-  assert(3 * body->block_count <= body->levels->v_room);
-  const SporeLevel *level = &body->levels->level[body->level];
+  assert(body->q_count <= body->lod->q_room);
+  assert(3 * body->block_count <= body->lod->v_room);
+  const SporeLodLevel *level = &body->lod->level[body->grade];
   double *q = world->state.rest_q + body->q_offset, *v = world->state.rest_v + body->v_offset;
-  memset(q, 0, body->levels->q_room * sizeof *q);
-  memset(v, 0, body->levels->v_room * sizeof *v);
+  memset(q, 0, body->lod->q_room * sizeof *q);
+  memset(v, 0, body->lod->v_room * sizeof *v);
   memcpy(q, level->rest_q, body->q_count * sizeof *q);
   memcpy(v, level->rest_v, 3 * body->block_count * sizeof *v);
 }
@@ -136,9 +136,9 @@ static void seek_curve_joints(SporeWorld *world, uint32_t index) {
   }
 }
 
-void spore_world_exchange_level(SporeWorld *world, uint32_t index, SporeLevelGrade grade) {
+void spore_world_exchange_lod(SporeWorld *world, uint32_t index, SporeLodGrade grade) {
   assert(index < world->body_count);
-  assert(world->bodies[index].levels);
+  assert(world->bodies[index].lod);
   SporeBody *body = &world->bodies[index];
   size_t free_before = body->block_count - body->held.count;
   put_away(world, body);
@@ -147,29 +147,29 @@ void spore_world_exchange_level(SporeWorld *world, uint32_t index, SporeLevelGra
   world->state.dof += 3 * (body->block_count - body->held.count - free_before);
 }
 
-void spore_world_select_level(SporeWorld *world, uint32_t index, SporeLevelGrade grade) {
+void spore_world_select_lod(SporeWorld *world, uint32_t index, SporeLodGrade grade) {
   assert(index < world->body_count);
-  assert((unsigned)grade < SPORE_LEVEL_COUNT);
+  assert((unsigned)grade < SPORE_LOD_COUNT);
   SporeBody *body = &world->bodies[index];
-  if (!body->levels || body->level == grade) return;
-  spore_world_exchange_level(world, index, grade);
+  if (!body->lod || body->grade == grade) return;
+  spore_world_exchange_lod(world, index, grade);
   take_rest(world, body);
 }
 
-void spore_world_reset_levels(SporeWorld *world) {
-  for (uint32_t b = 0; world->has_levels && b < world->body_count; b++) {
-    SporeLevels *levels = world->bodies[b].levels;
+void spore_world_reset_lod(SporeWorld *world) {
+  for (uint32_t b = 0; world->has_lod && b < world->body_count; b++) {
+    SporeLod *levels = world->bodies[b].lod;
     if (!levels) continue;
-    spore_world_select_level(world, b, levels->first);
+    spore_world_select_lod(world, b, levels->first);
     take_rest(world,
               &world->bodies[b]); /* a change while the world runs leaves the rest state of another level there */
-    levels->state = (SporeLevelState){.level = levels->first};
+    levels->state = (SporeLodState){.level = levels->first};
   }
 }
 
 /* Making a level: the level is put into the body as if it were its only one. */
 
-static bool remember_rest(const SporeWorld *world, const SporeBody *body, SporeLevel *level) {
+static bool remember_rest(const SporeWorld *world, const SporeBody *body, SporeLodLevel *level) {
   assert(!level->rest_q && !level->rest_v);
   level->rest_q = SPORE_NEW_ARRAY(double, body->q_count);
   level->rest_v = SPORE_NEW_ARRAY(double, 3 * body->block_count);
@@ -182,8 +182,8 @@ static bool remember_rest(const SporeWorld *world, const SporeBody *body, SporeL
 /* Maps the points that links hold and the pull may hold, where the finest level has them. */
 static bool map_ends(SporeWorld *world, uint32_t index, SporeMapping *ends, SporeError *error) {
   const SporeBody *body = &world->bodies[index];
-  const SporeLevels *levels = body->levels;
-  const double *fine = levels->level[SPORE_LEVEL_FINE].rest_q;
+  const SporeLod *levels = body->lod;
+  const double *fine = levels->level[SPORE_LOD_FINE].rest_q;
   assert(fine);
   for (size_t e = 0; e < levels->end_count; e++) {
     double point[3];
@@ -208,21 +208,21 @@ static bool fill_level(SporeWorld *world, const SporeWorldDescription *descripti
          spore_body_create_pins(world, description, index, error) && spore_body_create_factor(world, body, error);
 }
 
-static bool keep_whole_weight(const SporeBody *body, SporeLevel *level) {
+static bool keep_whole_weight(const SporeBody *body, SporeLodLevel *level) {
   const SporeBody *fine = body;
-  if (!fine->levels->level[SPORE_LEVEL_FINE].whole_weight || level->spheres.kind != SPORE_MAPPING_LINEAR) return true;
+  if (!fine->lod->level[SPORE_LOD_FINE].whole_weight || level->spheres.kind != SPORE_MAPPING_LINEAR) return true;
   size_t count = level->spheres.row_start[level->spheres.point_count];
   level->whole_weight = SPORE_NEW_ARRAY(double, count);
   if (level->whole_weight) memcpy(level->whole_weight, level->spheres.weight, count * sizeof(double));
   return level->whole_weight != NULL;
 }
 
-static bool make_level(SporeWorld *world, const SporeWorldDescription *description, uint32_t index,
-                       SporeLevelGrade grade, SporeError *error) {
-  assert(grade != SPORE_LEVEL_FINE && world->bodies[index].level == SPORE_LEVEL_FINE);
+static bool make_level(SporeWorld *world, const SporeWorldDescription *description, uint32_t index, SporeLodGrade grade,
+                       SporeError *error) {
+  assert(grade != SPORE_LOD_FINE && world->bodies[index].grade == SPORE_LOD_FINE);
   SporeBody *body = &world->bodies[index];
-  SporeLevel *level = &body->levels->level[grade];
-  SporeMapping *ends = SPORE_NEW_ARRAY(SporeMapping, body->levels->end_count);
+  SporeLodLevel *level = &body->lod->level[grade];
+  SporeMapping *ends = SPORE_NEW_ARRAY(SporeMapping, body->lod->end_count);
   if (!ends) return no_memory(error);
   put_away(world, body);
   take_out(world, body, grade);
@@ -230,14 +230,14 @@ static bool make_level(SporeWorld *world, const SporeWorldDescription *descripti
   good = good && (remember_rest(world, body, level) || no_memory(error));
   good = good && map_ends(world, index, ends, error);
   put_away(world, body);
-  take_out(world, body, SPORE_LEVEL_FINE);
+  take_out(world, body, SPORE_LOD_FINE);
   level->ends = ends;
   return good && (keep_whole_weight(body, level) || no_memory(error));
 }
 
 static bool find_ends(SporeWorld *world, uint32_t index) {
-  assert(world->bodies[index].levels && !world->bodies[index].levels->ends);
-  SporeLevels *levels = world->bodies[index].levels;
+  assert(world->bodies[index].lod && !world->bodies[index].lod->ends);
+  SporeLod *levels = world->bodies[index].lod;
   size_t springs = world->links.term_count;
   levels->ends = SPORE_NEW_ARRAY(uint32_t, 2 * springs + 1);
   if (!levels->ends) return false;
@@ -247,36 +247,35 @@ static bool find_ends(SporeWorld *world, uint32_t index) {
       levels->ends[levels->end_count++] = (uint32_t)(2 * i + 1);
   }
   levels->ends[levels->end_count++] = (uint32_t)(2 * spore_world_pull_index(world, index));
-  levels->level[SPORE_LEVEL_FINE].ends = SPORE_NEW_ARRAY(SporeMapping, levels->end_count);
-  return levels->level[SPORE_LEVEL_FINE].ends != NULL;
+  levels->level[SPORE_LOD_FINE].ends = SPORE_NEW_ARRAY(SporeMapping, levels->end_count);
+  return levels->level[SPORE_LOD_FINE].ends != NULL;
 }
 
 static bool make_levels(SporeWorld *world, const SporeWorldDescription *description, uint32_t index,
                         SporeError *error) {
   SporeBody *body = &world->bodies[index];
-  SporeLevels *levels = body->levels;
-  if (!find_ends(world, index) || !remember_rest(world, body, &levels->level[SPORE_LEVEL_FINE]))
-    return no_memory(error);
-  for (int k = 0; k < SPORE_LEVEL_FINE; k++) {
-    if (!levels->level[k].model || make_level(world, description, index, (SporeLevelGrade)k, error)) continue;
+  SporeLod *levels = body->lod;
+  if (!find_ends(world, index) || !remember_rest(world, body, &levels->level[SPORE_LOD_FINE])) return no_memory(error);
+  for (int k = 0; k < SPORE_LOD_FINE; k++) {
+    if (!levels->level[k].model || make_level(world, description, index, (SporeLodGrade)k, error)) continue;
     SporeError reason = *error;
     char place[200];
     snprintf(place, sizeof place, "bodies/%s", body->name);
     return spore_error_set(error, reason.code, *reason.place ? reason.place : place, _("level %s: %s"),
-                           spore_level_names[k], reason.message);
+                           spore_lod_names[k], reason.message);
   }
-  return spore_levels_sample(world, &description->bodies[index], index, error);
+  return spore_lod_sample(world, &description->bodies[index], index, error);
 }
 
-bool spore_world_create_levels(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
-  for (uint32_t b = 0; world->has_levels && b < world->body_count; b++)
-    if (world->bodies[b].levels && !make_levels(world, description, b, error)) return false;
+bool spore_world_create_lod(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
+  for (uint32_t b = 0; world->has_lod && b < world->body_count; b++)
+    if (world->bodies[b].lod && !make_levels(world, description, b, error)) return false;
   return true;
 }
 
 /* Freeing. */
 
-static void free_level(SporeLevels *levels, SporeLevel *level, bool active) {
+static void free_level(SporeLod *levels, SporeLodLevel *level, bool active) {
   spore_free(level->rest_q);
   spore_free(level->rest_v);
   spore_mapping_clear(&level->samples);
@@ -294,10 +293,10 @@ static void free_level(SporeLevels *levels, SporeLevel *level, bool active) {
   spore_free(level->held);
 }
 
-void spore_levels_free(SporeBody *body) {
-  assert(body->levels);
-  SporeLevels *levels = body->levels;
-  for (int k = 0; k < SPORE_LEVEL_COUNT; k++) free_level(levels, &levels->level[k], (SporeLevelGrade)k == body->level);
+void spore_lod_free(SporeBody *body) {
+  assert(body->lod);
+  SporeLod *levels = body->lod;
+  for (int k = 0; k < SPORE_LOD_COUNT; k++) free_level(levels, &levels->level[k], (SporeLodGrade)k == body->grade);
   spore_free(levels->ends);
   spore_free(levels->sample_weight);
   spore_free(levels->before);
@@ -309,8 +308,8 @@ void spore_levels_free(SporeBody *body) {
   spore_free(levels);
 }
 
-void spore_levels_give_up(SporeBody *body) {
-  for (int k = 0; body->levels && k < SPORE_LEVEL_COUNT; k++) body->levels->level[k].model = NULL;
+void spore_lod_give_up(SporeBody *body) {
+  for (int k = 0; body->lod && k < SPORE_LOD_COUNT; k++) body->lod->level[k].model = NULL;
 }
 
 /* Queries. */
@@ -321,39 +320,39 @@ static size_t mapping_memory(const SporeMapping *mapping) {
   return mapping->point_count * points + entries * (sizeof(uint32_t) + sizeof(double));
 }
 
-static size_t waiting_memory(const SporeLevel *level) {
+static size_t waiting_memory(const SporeLodLevel *level) {
   const SporeBlockMatrix *matrix = &level->matrix;
   size_t blocks = matrix->row_start ? matrix->row_start[matrix->block_count] : 0;
   size_t bytes = blocks * (9 * sizeof(double) + sizeof(uint32_t)) + mapping_memory(&level->spheres);
   return bytes + (level->model->q_count + 3 * level->model->block_count) * sizeof(double);
 }
 
-size_t spore_world_level_memory(const SporeWorld *world, uint32_t index) {
+size_t spore_world_lod_memory(const SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
   const SporeBody *body = &world->bodies[index];
-  const SporeLevels *levels = body->levels;
+  const SporeLod *levels = body->lod;
   size_t bytes = 0;
-  for (int k = 0; levels && k < SPORE_LEVEL_COUNT; k++) {
-    const SporeLevel *level = &levels->level[k];
+  for (int k = 0; levels && k < SPORE_LOD_COUNT; k++) {
+    const SporeLodLevel *level = &levels->level[k];
     if (!level->model) continue;
     bytes += mapping_memory(&level->samples);
-    if ((SporeLevelGrade)k != body->level) bytes += waiting_memory(level);
+    if ((SporeLodGrade)k != body->grade) bytes += waiting_memory(level);
   }
   if (levels)
-    bytes += (10 * levels->sample_count + levels->q_room + (1 + SPORE_LEVEL_VECTORS) * levels->v_room) * sizeof(double);
+    bytes += (10 * levels->sample_count + levels->q_room + (1 + SPORE_LOD_VECTORS) * levels->v_room) * sizeof(double);
   return bytes;
 }
 
-SporeLevelGrade spore_world_first_level(const SporeWorld *world, uint32_t body) {
+SporeLodGrade spore_world_first_lod(const SporeWorld *world, uint32_t body) {
   assert(body < world->body_count);
-  const SporeLevels *levels = world->bodies[body].levels;
-  return levels ? levels->first : SPORE_LEVEL_FINE;
+  const SporeLod *levels = world->bodies[body].lod;
+  return levels ? levels->first : SPORE_LOD_FINE;
 }
 
-bool spore_world_level_state(const SporeWorld *world, uint32_t body, SporeLevelState *state) {
+bool spore_world_lod_state(const SporeWorld *world, uint32_t body, SporeLodState *state) {
   assert(body < world->body_count);
   assert(state);
-  if (!world->bodies[body].levels) return false;
-  *state = world->bodies[body].levels->state;
+  if (!world->bodies[body].lod) return false;
+  *state = world->bodies[body].lod->state;
   return true;
 }

@@ -10,7 +10,7 @@
 #include "core/sim/state/state.h"
 
 /* One level of a body. Of the active level, only the first part is in use; the second part lies in the body. */
-typedef struct SporeLevel {
+typedef struct SporeLodLevel {
   SporeModel *model;                 /* NULL: there is no such level */
   double *rest_q, *rest_v;           /* at time 0 */
   SporeMapping samples;              /* where the level puts the samples of all levels */
@@ -18,7 +18,7 @@ typedef struct SporeLevel {
   size_t seen_count;                 /* of those, the first ones: they lie in the body */
   uint32_t *nearest;                 /* one a node: the sample nearest to the node at time 0 */
   double *diagonal;                  /* one a block: diagonal of the normal equations of the fit */
-  SporeMapping *ends;                /* end_count: mappings of the ends that SporeLevels.ends lists */
+  SporeMapping *ends;                /* end_count: mappings of the ends that SporeLod.ends lists */
   /* Second part, of a level that is not active. */
   SporeMapping spheres;
   double *whole_weight;
@@ -27,12 +27,12 @@ typedef struct SporeLevel {
   uint8_t *held_flags;
   uint32_t *held;
   size_t held_count, pin_count;
-} SporeLevel;
+} SporeLodLevel;
 
 /* The levels of a body. */
-typedef struct SporeLevels {
-  SporeLevel level[SPORE_LEVEL_COUNT];
-  SporeLevelGrade first; /* at time 0 */
+typedef struct SporeLod {
+  SporeLodLevel level[SPORE_LOD_COUNT];
+  SporeLodGrade first;   /* at time 0 */
   double tolerance;      /* m */
   size_t q_room, v_room; /* doubles in the world's vectors: those of the largest level */
   size_t end_count;
@@ -42,38 +42,38 @@ typedef struct SporeLevels {
   double *sample_weight;          /* sample_count: weight in the fit; 0: only the error is measured there */
   double *before, *speed, *after; /* sample_count x 3: positions and velocities before the change; positions after */
   double *q, *v;                  /* the fitted state, before it is accepted */
-  double *work;                   /* SPORE_LEVEL_VECTORS x v_room */
-  SporeLevelState state;
-} SporeLevels;
-#define SPORE_LEVEL_VECTORS 4
+  double *work;                   /* SPORE_LOD_VECTORS x v_room */
+  SporeLodState state;
+} SporeLod;
+#define SPORE_LOD_VECTORS 4
 
 /* Makes the level the active one. The state of the body is not set. */
-void spore_world_exchange_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
+void spore_world_exchange_lod(SporeWorld *world, uint32_t body, SporeLodGrade level);
 
 /* samples.c: makes the samples, after all levels were made. */
-bool spore_levels_sample(SporeWorld *world, const SporeBodyDescription *from, uint32_t body, SporeError *error);
+bool spore_lod_sample(SporeWorld *world, const SporeBodyDescription *from, uint32_t body, SporeError *error);
 
 /* fit.c: computes the state of level `to`, in levels->q and levels->v. It puts the samples where the active level has
  * them now (weighted least squares), and keeps the momentum of the body. */
-void spore_level_fit(const SporeWorld *world, const SporeBody *body, SporeLevelGrade to);
+void spore_lod_fit(const SporeWorld *world, const SporeBody *body, SporeLodGrade to);
 /* Largest distance between the positions of the samples before and after the change, of those that lie in the body, m.
  */
-double spore_level_error(const SporeLevels *levels, SporeLevelGrade to);
+double spore_lod_error(const SporeLod *levels, SporeLodGrade to);
 
 /* lod.c */
 /* Takes the models of the levels from the description, and checks them. */
-bool spore_levels_make(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error);
+bool spore_lod_make(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error);
 /* Makes what the levels that are not active need, after everything else of the world was made. */
-bool spore_world_create_levels(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
-void spore_levels_free(SporeBody *body);
+bool spore_world_create_lod(SporeWorld *world, const SporeWorldDescription *description, SporeError *error);
+void spore_lod_free(SporeBody *body);
 /* Gives the models back to the caller. */
-void spore_levels_give_up(SporeBody *body);
+void spore_lod_give_up(SporeBody *body);
 /* Makes the level the active one, and its state at time 0 that of the body (rest_q, rest_v). */
-void spore_world_select_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
+void spore_world_select_lod(SporeWorld *world, uint32_t body, SporeLodGrade level);
 /* Back to the levels of time 0. */
-void spore_world_reset_levels(SporeWorld *world);
+void spore_world_reset_lod(SporeWorld *world);
 
 /* change.c: changes to the level at the start of a step, unless the fit moves a point by more than the tolerance. */
-void spore_world_change_level(SporeWorld *world, uint32_t body, SporeLevelGrade level);
+void spore_world_change_lod(SporeWorld *world, uint32_t body, SporeLodGrade level);
 
 #endif

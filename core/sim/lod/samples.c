@@ -35,9 +35,9 @@ static bool append(double **all, size_t *count, const double *points, size_t mor
 }
 
 /* Collects the samples of each level's own. */
-static bool collect_own(SporeLevels *levels, double **all) {
-  for (int k = 0; k < SPORE_LEVEL_COUNT; k++) {
-    SporeLevel *level = &levels->level[k];
+static bool collect_own(SporeLod *levels, double **all) {
+  for (int k = 0; k < SPORE_LOD_COUNT; k++) {
+    SporeLodLevel *level = &levels->level[k];
     double *points = NULL;
     if (!level->model) continue;
     bool (*take)(const SporeModel *, double **, size_t *, size_t *) =
@@ -52,23 +52,23 @@ static bool collect_own(SporeLevels *levels, double **all) {
 }
 
 /* The samples of each level have the same weight together. */
-static bool weigh(SporeLevels *levels) {
+static bool weigh(SporeLod *levels) {
   levels->sample_weight = SPORE_NEW_ARRAY(double, levels->sample_count);
   if (!levels->sample_weight) return false;
-  for (int k = 0; k < SPORE_LEVEL_COUNT; k++) {
-    const SporeLevel *level = &levels->level[k];
+  for (int k = 0; k < SPORE_LOD_COUNT; k++) {
+    const SporeLodLevel *level = &levels->level[k];
     for (size_t s = 0; level->model && s < level->sample_count; s++)
       levels->sample_weight[level->sample_start + s] = 1 / (double)level->sample_count;
   }
   return true;
 }
 
-static bool collect(SporeLevels *levels, const SporeBodyDescription *from, double **all) {
+static bool collect(SporeLod *levels, const SporeBodyDescription *from, double **all) {
   if (!collect_own(levels, all)) return false;
   const SporeSphereSet *spheres = from->spheres;
   for (size_t s = 0; spheres && s < spheres->count; s++)
     if (!append(all, &levels->sample_count, spheres->spheres + 4 * s, 1)) return false;
-  return append(all, &levels->sample_count, from->levels.surface, from->levels.surface_count) && weigh(levels);
+  return append(all, &levels->sample_count, from->lod.surface, from->lod.surface_count) && weigh(levels);
 }
 
 static size_t next_to(const double *points, size_t count, const double *at) {
@@ -83,7 +83,7 @@ static size_t next_to(const double *points, size_t count, const double *at) {
 }
 
 /* A node that is itself a sample is its own nearest; other nodes search the samples of their level. */
-static bool find_nearest(SporeLevel *level, const double *all) {
+static bool find_nearest(SporeLodLevel *level, const double *all) {
   assert(level->model && all);
   double *nodes = NULL;
   size_t count = 0, seen;
@@ -99,7 +99,7 @@ static bool find_nearest(SporeLevel *level, const double *all) {
   return good;
 }
 
-static bool find_diagonal(const SporeLevels *levels, SporeLevel *level) {
+static bool find_diagonal(const SporeLod *levels, SporeLodLevel *level) {
   assert(level->samples.kind == SPORE_MAPPING_LINEAR && level->samples.point_count == levels->sample_count);
   const SporeMapping *samples = &level->samples;
   level->diagonal = SPORE_NEW_ARRAY(double, level->model->block_count);
@@ -111,40 +111,40 @@ static bool find_diagonal(const SporeLevels *levels, SporeLevel *level) {
 }
 
 static bool map_level(SporeWorld *world, uint32_t index, int k, const double *all, SporeError *error) {
-  assert(k >= 0 && k < SPORE_LEVEL_COUNT);
+  assert(k >= 0 && k < SPORE_LOD_COUNT);
   const SporeBody *body = &world->bodies[index];
-  SporeLevel *level = &body->levels->level[k];
+  SporeLodLevel *level = &body->lod->level[k];
   SporeError reason = SPORE_ERROR_INIT;
-  bool mapped = spore_world_map_level(world, index, (SporeLevelGrade)k, all, body->levels->sample_count,
-                                      &level->samples, &reason);
+  bool mapped =
+      spore_world_map_lod(world, index, (SporeLodGrade)k, all, body->lod->sample_count, &level->samples, &reason);
   if (mapped && level->samples.kind == SPORE_MAPPING_LINEAR)
-    return (find_nearest(level, all) && find_diagonal(body->levels, level)) || no_memory(error);
+    return (find_nearest(level, all) && find_diagonal(body->lod, level)) || no_memory(error);
   char place[200];
   snprintf(place, sizeof place, "bodies/%s", body->name);
   return spore_error_set(error, SPORE_ERROR_INPUT, place,
                          _("level %s does not lie where the others do: %s; give it a geometry that follows theirs, or "
                            "a larger level_tolerance"),
-                         spore_level_names[k], mapped ? _("its points follow no nodes") : reason.message);
+                         spore_lod_names[k], mapped ? _("its points follow no nodes") : reason.message);
 }
 
-static bool allocate(SporeLevels *levels) {
+static bool allocate(SporeLod *levels) {
   size_t samples = 3 * levels->sample_count;
   levels->before = SPORE_NEW_ARRAY(double, samples);
   levels->speed = SPORE_NEW_ARRAY(double, samples);
   levels->after = SPORE_NEW_ARRAY(double, samples);
   levels->q = SPORE_NEW_ARRAY(double, levels->q_room);
   levels->v = SPORE_NEW_ARRAY(double, levels->v_room);
-  levels->work = SPORE_NEW_ARRAY(double, SPORE_LEVEL_VECTORS * levels->v_room);
+  levels->work = SPORE_NEW_ARRAY(double, SPORE_LOD_VECTORS * levels->v_room);
   return levels->before && levels->speed && levels->after && levels->q && levels->v && levels->work;
 }
 
-bool spore_levels_sample(SporeWorld *world, const SporeBodyDescription *from, uint32_t index, SporeError *error) {
+bool spore_lod_sample(SporeWorld *world, const SporeBodyDescription *from, uint32_t index, SporeError *error) {
   assert(index < world->body_count);
-  SporeLevels *levels = world->bodies[index].levels;
-  assert(levels && levels->level[SPORE_LEVEL_FINE].model);
+  SporeLod *levels = world->bodies[index].lod;
+  assert(levels && levels->level[SPORE_LOD_FINE].model);
   double *all = NULL;
   bool good = (collect(levels, from, &all) && allocate(levels)) || no_memory(error);
-  for (int k = 0; good && k < SPORE_LEVEL_COUNT; k++)
+  for (int k = 0; good && k < SPORE_LOD_COUNT; k++)
     if (levels->level[k].model) good = map_level(world, index, k, all, error);
   spore_free(all);
   return good;

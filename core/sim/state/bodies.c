@@ -3,21 +3,21 @@
 
 #include "core/sim/world_private.h"
 
-const char *const spore_level_names[] = {"coarse", "medium", "fine", NULL};
+const char *const spore_lod_names[] = {"coarse", "medium", "fine", NULL};
 
 void spore_body_each_model(const SporeBody *body, void (*call)(SporeModel *model, void *user), void *user) {
   assert(call);
-  if (!body->levels && body->model) call(body->model, user);
-  for (int k = 0; body->levels && k < SPORE_LEVEL_COUNT; k++)
-    if (body->levels->level[k].model) call(body->levels->level[k].model, user);
+  if (!body->lod && body->model) call(body->model, user);
+  for (int k = 0; body->lod && k < SPORE_LOD_COUNT; k++)
+    if (body->lod->level[k].model) call(body->lod->level[k].model, user);
 }
 
-const SporeModel *spore_world_level_model(const SporeWorld *world, uint32_t index, SporeLevelGrade level) {
+const SporeModel *spore_world_lod_model(const SporeWorld *world, uint32_t index, SporeLodGrade level) {
   assert(index < world->body_count);
-  assert((unsigned)level < SPORE_LEVEL_COUNT);
+  assert((unsigned)level < SPORE_LOD_COUNT);
   const SporeBody *body = &world->bodies[index];
-  if (body->levels) return body->levels->level[level].model;
-  return level == SPORE_LEVEL_FINE ? body->model : NULL;
+  if (body->lod) return body->lod->level[level].model;
+  return level == SPORE_LOD_FINE ? body->model : NULL;
 }
 
 /* Points of an unmovable body are fixed where its pose puts them. */
@@ -30,30 +30,30 @@ static bool map_fixed(const SporeBody *body, const double *points, size_t count,
   return true;
 }
 
-bool spore_world_map_level(const SporeWorld *world, uint32_t index, SporeLevelGrade level, const double *points,
-                           size_t count, SporeMapping *mapping, SporeError *error) {
+bool spore_world_map_lod(const SporeWorld *world, uint32_t index, SporeLodGrade level, const double *points,
+                         size_t count, SporeMapping *mapping, SporeError *error) {
   assert(count == 0 || points);
   const SporeBody *body = &world->bodies[index];
-  const SporeModel *model = spore_world_level_model(world, index, level);
+  const SporeModel *model = spore_world_lod_model(world, index, level);
   assert(body->role != SPORE_PASSIVE || model);
   if (body->role == SPORE_UNMOVABLE) return map_fixed(body, points, count, mapping, error);
   if (body->role == SPORE_ACTIVE) return spore_mapping_init_points(mapping, SPORE_MAPPING_RIGID, points, count, error);
   return model->type->map(model, points, count, mapping, error);
 }
 
-bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLevelGrade level, const SporeTriangleMesh *mesh,
+bool spore_world_map_drawn(const SporeWorld *world, uint32_t body, SporeLodGrade level, const SporeTriangleMesh *mesh,
                            SporeMapping *mapping, SporeError *error) {
   assert(mesh);
-  const SporeModel *model = spore_world_level_model(world, body, level);
+  const SporeModel *model = spore_world_lod_model(world, body, level);
   if (world->bodies[body].role == SPORE_PASSIVE && model->type->line && model->type->line->map_drawn)
     return model->type->line->map_drawn(model, mesh, mapping, error);
-  return spore_world_map_level(world, body, level, mesh->vertices, mesh->vertex_count, mapping, error);
+  return spore_world_map_lod(world, body, level, mesh->vertices, mesh->vertex_count, mapping, error);
 }
 
 bool spore_world_map(const SporeWorld *world, uint32_t body, const double *points, size_t count, SporeMapping *mapping,
                      SporeError *error) {
   assert(body < world->body_count);
-  return spore_world_map_level(world, body, world->bodies[body].level, points, count, mapping, error);
+  return spore_world_map_lod(world, body, world->bodies[body].grade, points, count, mapping, error);
 }
 
 SporeVec3 spore_world_to_frame(const SporeWorld *world, uint32_t body, SporeVec3 at) {

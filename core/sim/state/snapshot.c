@@ -30,8 +30,8 @@ static bool init_buffer(SporeWorld *world, int index) {
   snapshot->q_count = world->state.q_count;
   snapshot->v_count = world->state.v_count;
   snapshot->reaction = SPORE_NEW_ARRAY(double, 6 * world->body_count);
-  if (world->has_levels) snapshot->level = SPORE_NEW_ARRAY(uint8_t, world->body_count);
-  if (world->has_levels && !snapshot->level) return false;
+  if (world->has_lod) snapshot->level = SPORE_NEW_ARRAY(uint8_t, world->body_count);
+  if (world->has_lod && !snapshot->level) return false;
   snapshot->contacts = SPORE_NEW_ARRAY(SporeSnapshotContact, snapshot->contact_capacity);
   snapshot->cuts.capacity = world->topology.cuts.capacity;
   snapshot->cuts.edges = SPORE_NEW_ARRAY(SporeCutEdge, world->topology.cuts.capacity);
@@ -180,7 +180,7 @@ void spore_world_publish(SporeWorld *world) {
   snapshot->time_s = spore_world_time_s(world);
   memcpy(snapshot->reaction, world->state.reaction, 6 * world->body_count * sizeof *world->state.reaction);
   for (size_t b = 0; snapshot->level && b < world->body_count; b++)
-    snapshot->level[b] = (uint8_t)world->bodies[b].level;
+    snapshot->level[b] = (uint8_t)world->bodies[b].grade;
   copy_contacts(world, snapshot);
   snapshot->counts = world->state.counts;
   snapshot->tools = world->tools.counts;

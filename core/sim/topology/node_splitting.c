@@ -23,8 +23,8 @@ static bool has_scissors(const SporeWorldDescription *description) {
 
 /* A body with levels of detail is not split: its other levels would not have the cut. */
 static bool has_levels(const SporeBodyDescription *body) {
-  for (size_t i = 0; i < SPORE_LEVEL_FINE; i++)
-    if (body->levels.model[i]) return true;
+  for (size_t i = 0; i < SPORE_LOD_FINE; i++)
+    if (body->lod.model[i]) return true;
   return false;
 }
 

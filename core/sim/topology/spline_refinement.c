@@ -15,7 +15,7 @@
 #include "core/sim/world_private.h"
 
 static bool changes_nodes(const SporeBody *body) {
-  return body->model && !body->levels && body->model->q_room > body->model->q_count;
+  return body->model && !body->lod && body->model->q_room > body->model->q_count;
 }
 
 /* Makes the matrix anew, with room, and lists the blocks that pins hold now and at time 0. */

@@ -21,8 +21,8 @@ typedef struct Case {
   double force_flops, jacobian_flops;
 } Case;
 
-/* Operations of one element's force and Jacobian, counted by hand in models/tetrahedra/corotation_kernels.c (five rounds of the
- * polar iteration), models/net/springs.c and models/spline/spline_kernels.c. */
+/* Operations of one element's force and Jacobian, counted by hand in models/tetrahedra/corotation_kernels.c (five
+ * rounds of the polar iteration), models/net/springs.c and models/spline/spline_kernels.c. */
 #define TETRAHEDRON_FLOPS .force_flops = 1000, .jacobian_flops = 2600
 #define SPRING_FLOPS .force_flops = 35, .jacobian_flops = 75
 #define SPAN_FLOPS .force_flops = 260, .jacobian_flops = 900

@@ -1,3 +1,4 @@
+/* Measures what the processor can do at most: memory bandwidth and floating-point operations. */
 #include "tests/bench/sofa/hardware.h"
 
 #include <math.h>

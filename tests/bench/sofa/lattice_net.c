@@ -1,3 +1,4 @@
+/* A net as in the benchmark of SOFA: mass points in a lattice, with springs along edges and diagonals. */
 #include "tests/bench/sofa/lattice_net.h"
 
 #include <glib.h>

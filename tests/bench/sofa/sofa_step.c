@@ -1,3 +1,4 @@
+/* The step of the default scenes of SOFA: one linearised implicit Euler step, solved by a few conjugate gradients. */
 #include "tests/bench/sofa/sofa_step.h"
 
 #include <glib.h>

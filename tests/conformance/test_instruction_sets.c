@@ -28,7 +28,7 @@ static double *answers(const SporeModel *model, const State *state, size_t *coun
   return all;
 }
 
-static void check_levels(gconstpointer data) {
+static void check_instruction_sets(gconstpointer data) {
   const Specimen *specimen = data;
   SporeModel *model = specimen_model(specimen);
   GRand *random = g_rand_new_with_seed(8);
@@ -54,6 +54,6 @@ static void check_levels(gconstpointer data) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
-  specimen_add_tests("/conformance/levels", check_levels, NULL);
+  specimen_add_tests("/conformance/instruction_sets", check_instruction_sets, NULL);
   return g_test_run();
 }

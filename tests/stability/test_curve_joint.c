@@ -1,4 +1,4 @@
-/* What slides along the line of a thread: a bead on a wire, a thread through rings. */
+/* Curve joints: a bead slides along a wire, a thread slides through rings. */
 #include <math.h>
 #include <string.h>
 
@@ -366,7 +366,7 @@ static void test_ends(void) {
 }
 
 /* A bead that is set elsewhere on its thread is found there. */
-static void test_carried_over(void) {
+static void test_state_carried_over(void) {
   Rig *rig = thrown(SPORE_INTEGRATOR_IMPLICIT_EULER, 1e-3, 1e4, false);
   SporeWorld *world = rig_build(rig);
   double q[7] = {0, 0, 0, 1, 0, 0, 0}, v[6] = {0};
@@ -399,14 +399,14 @@ static void test_refused(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
-  g_test_add_func("/slide/helix", test_helix);
-  g_test_add_func("/slide/atwood", test_atwood);
-  g_test_add_func("/slide/capstan", test_capstan);
-  g_test_add_func("/slide/momentum", test_momentum);
-  g_test_add_func("/slide/opposite", test_opposite);
-  g_test_add_func("/slide/jacobian", test_jacobian);
-  g_test_add_func("/slide/ends", test_ends);
-  g_test_add_func("/slide/carried-over", test_carried_over);
-  g_test_add_func("/slide/refused", test_refused);
+  g_test_add_func("/curve_joint/helix", test_helix);
+  g_test_add_func("/curve_joint/atwood", test_atwood);
+  g_test_add_func("/curve_joint/capstan", test_capstan);
+  g_test_add_func("/curve_joint/momentum", test_momentum);
+  g_test_add_func("/curve_joint/opposite", test_opposite);
+  g_test_add_func("/curve_joint/jacobian", test_jacobian);
+  g_test_add_func("/curve_joint/ends", test_ends);
+  g_test_add_func("/curve_joint/state-carried-over", test_state_carried_over);
+  g_test_add_func("/curve_joint/refused", test_refused);
   return g_test_run();
 }

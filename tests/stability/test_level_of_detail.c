@@ -1,4 +1,4 @@
-/* Levels of a body: what a change keeps, how far it moves anything, and what it refuses. */
+/* Level of detail: what a change of level preserves, how far it moves a body, and which changes are refused. */
 #include <math.h>
 #include <string.h>
 
@@ -84,14 +84,14 @@ static const Specimen specimens[] = {
 #define CENTRE spore_vec3(0.3, 0.2, -0.1)
 
 /* A body with its levels, turned, turning and flying, with spheres on some of its nodes. */
-static Rig *rig_of(const Specimen *specimen, SporeLevelGrade first) {
+static Rig *rig_of(const Specimen *specimen, SporeLodGrade first) {
   Rig *rig = rig_new();
   SporeModel *model = specimen->create(specimen->fine);
   SporeBodyDescription *body = rig_passive(rig, "body", model, NULL);
-  body->levels =
-      (SporeLevelsDescription){.model = {specimen->create(specimen->fine / 4), specimen->create(specimen->fine / 2)},
-                               .first = first,
-                               .tolerance = specimen->tolerance};
+  body->lod =
+      (SporeLodDescription){.model = {specimen->create(specimen->fine / 4), specimen->create(specimen->fine / 2)},
+                            .first = first,
+                            .tolerance = specimen->tolerance};
   body->pose = (SporePose){CENTRE, spore_quat_from_rotation_vector(spore_vec3(0.4, -0.3, 0.8))};
   body->velocity = spore_vec3(0.3, 0.1, -0.2);
   body->spin = spore_vec3(1, -2, 3);
@@ -111,15 +111,15 @@ static void bend(SporeWorld *world, double rate) {
   spore_world_set_state(world, 0, q, v);
 }
 
-static SporeLevelState state_of(const SporeWorld *world) {
-  SporeLevelState state;
-  g_assert_true(spore_world_level_state(world, 0, &state));
+static SporeLodState state_of(const SporeWorld *world) {
+  SporeLodState state;
+  g_assert_true(spore_world_lod_state(world, 0, &state));
   return state;
 }
 
 /* Changes it at once, without a step. */
-static SporeLevelState change(SporeWorld *world, SporeLevelGrade level) {
-  SporeCommand command = {.kind = SPORE_COMMAND_LEVEL, .body = 0, .level = level};
+static SporeLodState change(SporeWorld *world, SporeLodGrade level) {
+  SporeCommand command = {.kind = SPORE_COMMAND_LOD, .body = 0, .level = level};
   g_assert_true(spore_world_post(world, &command));
   spore_world_apply_commands(world);
   return state_of(world);
@@ -151,9 +151,9 @@ static void assert_vectors_equal(SporeVec3 a, SporeVec3 b, double scale, double 
 /* Down and up again while it moves and bends: momentum to rounding, error below the bound, no energy from nowhere. */
 static void test_moving(gconstpointer data) {
   const Specimen *specimen = data;
-  static const SporeLevelGrade way[] = {SPORE_LEVEL_MEDIUM, SPORE_LEVEL_COARSE, SPORE_LEVEL_FINE, SPORE_LEVEL_COARSE,
-                                        SPORE_LEVEL_FINE};
-  Rig *rig = rig_of(specimen, SPORE_LEVEL_FINE);
+  static const SporeLodGrade way[] = {SPORE_LOD_MEDIUM, SPORE_LOD_COARSE, SPORE_LOD_FINE, SPORE_LOD_COARSE,
+                                      SPORE_LOD_FINE};
+  Rig *rig = rig_of(specimen, SPORE_LOD_FINE);
   SporeWorld *world = rig_build(rig);
   bend(world, specimen->bend);
   rig_run(world, 10);
@@ -161,9 +161,9 @@ static void test_moving(gconstpointer data) {
   for (size_t k = 0; k < G_N_ELEMENTS(way); k++) {
     SporeMotion before = motion_of(world, NULL);
     double energy = own_energy(world);
-    SporeLevelState state = change(world, way[k]);
+    SporeLodState state = change(world, way[k]);
     g_test_message("%s to %s: error %.2e m, energy %+.2e of %.2e J, momentum %.1e of %.1e N s", specimen->name,
-                   spore_level_names[way[k]], state.error, own_energy(world) - energy, energy, state.momentum,
+                   spore_lod_names[way[k]], state.error, own_energy(world) - energy, energy, state.momentum,
                    spore_vec3_length(before.momentum));
     if (state.level != way[k]) g_test_message("%s", rig_last_message(world));
     g_assert_cmpint((int)state.level, ==, (int)way[k]);
@@ -185,20 +185,20 @@ static void test_moving(gconstpointer data) {
 /* What the coarse one can do the fine one can do: the way through the fine level changes nothing. */
 static void test_round_trip(gconstpointer data) {
   const Specimen *specimen = data;
-  Rig *rig = rig_of(specimen, SPORE_LEVEL_COARSE);
+  Rig *rig = rig_of(specimen, SPORE_LOD_COARSE);
   SporeWorld *world = rig_build(rig);
   bend(world, specimen->bend);
   rig_run(world, 10);
   size_t count = spore_world_body_model(world, 0)->node_count;
   g_autofree double *before = g_memdup2(spore_world_q(world, 0), 3 * count * sizeof(double));
-  SporeLevelState up = change(world, SPORE_LEVEL_FINE), down = change(world, SPORE_LEVEL_COARSE);
+  SporeLodState up = change(world, SPORE_LOD_FINE), down = change(world, SPORE_LOD_COARSE);
   double apart = 0;
   for (size_t i = 0; i < count; i++)
     apart = fmax(
         apart, spore_vec3_distance(spore_vec3_load(before + 3 * i), spore_vec3_load(spore_world_q(world, 0) + 3 * i)));
   g_test_message("%s: %.2e m up, %.2e m in all, nodes %.2e m from where they were", specimen->name, up.error,
                  down.error, apart);
-  g_assert_cmpint((int)down.level, ==, SPORE_LEVEL_COARSE);
+  g_assert_cmpint((int)down.level, ==, SPORE_LOD_COARSE);
   g_assert_cmpfloat(apart, <=, 0.1 * specimen->tolerance);
   rig_free(rig);
 }
@@ -206,12 +206,12 @@ static void test_round_trip(gconstpointer data) {
 /* At rest a change moves nothing beyond what one level lies beside the other, and gives it no energy. */
 static void test_rest(gconstpointer data) {
   const Specimen *specimen = data;
-  Rig *rig = rig_of(specimen, SPORE_LEVEL_FINE);
+  Rig *rig = rig_of(specimen, SPORE_LOD_FINE);
   SporeBodyDescription *body = &g_array_index(rig->bodies, SporeBodyDescription, 0);
   body->velocity = body->spin = spore_vec3(0, 0, 0);
   SporeWorld *world = rig_build(rig);
-  for (int level = SPORE_LEVEL_MEDIUM; level >= 0; level--) change(world, (SporeLevelGrade)level);
-  SporeLevelState state = change(world, SPORE_LEVEL_FINE);
+  for (int level = SPORE_LOD_MEDIUM; level >= 0; level--) change(world, (SporeLodGrade)level);
+  SporeLodState state = change(world, SPORE_LOD_FINE);
   g_test_message("%s: %.2e m, %.2e J", specimen->name, state.error, state.energy);
   g_assert_cmpuint(state.changes, ==, 3);
   g_assert_cmpfloat(state.energy, <=, 1e-9);
@@ -220,7 +220,7 @@ static void test_rest(gconstpointer data) {
 
 /* Held at one edge, with a spring at the other; falls, and changes level on the way. */
 static Rig *hanging(const Specimen *specimen) {
-  Rig *rig = rig_of(specimen, SPORE_LEVEL_FINE);
+  Rig *rig = rig_of(specimen, SPORE_LOD_FINE);
   SporeBodyDescription *body = &g_array_index(rig->bodies, SporeBodyDescription, 0);
   body->pose = spore_pose_identity();
   body->velocity = body->spin = spore_vec3(0, 0, 0);
@@ -249,7 +249,7 @@ static void test_held(void) {
   for (int k = 0; k < 6; k++) {
     rig_run(world, 10);
     SporeVec3 force = spore_world_link_state(world, 0).force;
-    SporeLevelState state = change(world, k % 2 ? SPORE_LEVEL_FINE : SPORE_LEVEL_COARSE);
+    SporeLodState state = change(world, k % 2 ? SPORE_LOD_FINE : SPORE_LOD_COARSE);
     g_assert_cmpuint(state.changes, ==, (guint)k + 1);
     g_assert_cmpuint(spore_world_dof(world), ==, k % 2 ? dof : 3 * (6 * 6 - 1));
     assert_vectors_equal(spore_vec3_load(spore_world_q(world, 0)), spore_vec3(0, 0, 0), 1, 0);
@@ -273,13 +273,13 @@ static void test_deterministic(void) {
     for (int run = 0; run < 2; run++) {
       for (int k = 0; k < 3; k++) {
         rig_run(world, 10);
-        g_assert_cmpuint(change(world, (SporeLevelGrade)k).changes, ==, (guint)k + 1);
+        g_assert_cmpuint(change(world, (SporeLodGrade)k).changes, ==, (guint)k + 1);
       }
       rig_run(world, 10);
       if (expected == 0) expected = spore_world_hash(world);
       g_assert_cmphex(spore_world_hash(world), ==, expected);
       spore_world_reset(world);
-      g_assert_cmpint((int)state_of(world).level, ==, SPORE_LEVEL_FINE);
+      g_assert_cmpint((int)state_of(world).level, ==, SPORE_LOD_FINE);
     }
     rig_free(rig);
     spore_pool_free(pool);
@@ -289,12 +289,12 @@ static void test_deterministic(void) {
 /* What cannot be is said, and changes nothing. */
 static void test_refused(void) {
   const Specimen specimen = {"rod", rod, 32, 1e-12, 40};
-  Rig *rig = rig_of(&specimen, SPORE_LEVEL_FINE);
+  Rig *rig = rig_of(&specimen, SPORE_LOD_FINE);
   SporeWorld *world = rig_build(rig);
   bend(world, specimen.bend);
   rig_run(world, 20);
   uint64_t hash = spore_world_hash(world);
-  SporeLevelState state = change(world, SPORE_LEVEL_COARSE);
+  SporeLodState state = change(world, SPORE_LOD_COARSE);
   g_assert_cmpuint(state.refused, ==, 1);
   g_assert_cmpuint(state.changes, ==, 0);
   g_assert_cmphex(spore_world_hash(world), ==, hash);
@@ -305,7 +305,7 @@ static void test_refused(void) {
 static void assert_no_world(SporeModel *fine, SporeModel *coarse, const char *said) {
   Rig *rig = rig_new();
   SporeBodyDescription *body = rig_passive(rig, "body", fine, NULL);
-  body->levels = (SporeLevelsDescription){.model = {coarse}, .first = SPORE_LEVEL_FINE, .tolerance = 1e-3};
+  body->lod = (SporeLodDescription){.model = {coarse}, .first = SPORE_LOD_FINE, .tolerance = 1e-3};
   SporeError error = SPORE_ERROR_INIT;
   g_assert_null(rig_try_build(rig, &error));
   g_assert_cmpstr(error.place, ==, "bodies/body");
@@ -328,16 +328,16 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(specimens); i++) {
     const Specimen *specimen = &specimens[i];
-    g_autofree char *moving = g_strdup_printf("/resolution/moving/%s", specimen->name);
-    g_autofree char *round = g_strdup_printf("/resolution/round-trip/%s", specimen->name);
-    g_autofree char *rest = g_strdup_printf("/resolution/rest/%s", specimen->name);
+    g_autofree char *moving = g_strdup_printf("/level_of_detail/moving/%s", specimen->name);
+    g_autofree char *round = g_strdup_printf("/level_of_detail/round-trip/%s", specimen->name);
+    g_autofree char *rest = g_strdup_printf("/level_of_detail/rest/%s", specimen->name);
     g_test_add_data_func(moving, specimen, test_moving);
     g_test_add_data_func(round, specimen, test_round_trip);
     g_test_add_data_func(rest, specimen, test_rest);
   }
-  g_test_add_func("/resolution/held", test_held);
-  g_test_add_func("/resolution/deterministic", test_deterministic);
-  g_test_add_func("/resolution/refused", test_refused);
-  g_test_add_func("/resolution/no-level", test_no_level);
+  g_test_add_func("/level_of_detail/held", test_held);
+  g_test_add_func("/level_of_detail/deterministic", test_deterministic);
+  g_test_add_func("/level_of_detail/refused", test_refused);
+  g_test_add_func("/level_of_detail/no-level", test_no_level);
   return g_test_run();
 }

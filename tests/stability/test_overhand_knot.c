@@ -203,8 +203,8 @@ static void knot(gconstpointer data) {
 int main(int argc, char **argv) {
   static const Case supple = {0.5, 0.01, 0.004, 30}, smooth = {0, 0.01, 0.004, 30}, firm = {0.5, 0.1, 0.004, 40};
   g_test_init(&argc, &argv, NULL);
-  g_test_add_data_func("/knot/holds/supple", &supple, knot);
-  g_test_add_data_func("/knot/holds/firm", &firm, knot);
-  g_test_add_data_func("/knot/slips/supple", &smooth, knot);
+  g_test_add_data_func("/overhand_knot/holds/supple", &supple, knot);
+  g_test_add_data_func("/overhand_knot/holds/firm", &firm, knot);
+  g_test_add_data_func("/overhand_knot/slips/supple", &smooth, knot);
   return g_test_run();
 }

@@ -1,4 +1,4 @@
-/* Threads whose control points come and go while they run. */
+/* Spline refinement: control points of a thread are inserted and removed while it runs. */
 #include <math.h>
 #include <string.h>
 
@@ -136,7 +136,8 @@ static void test_removal(void) {
   const double twist = 0, turns = 0;
   State state = state_new(thread(12, 0.4, 60, twist, turns), 0.012);
   SporeModel *model = state.model;
-  while (model->type->adapt->weigh_nodes(model, 1e-3, state.q, NULL)) model->type->adapt->change_nodes(model, state.q, state.v, NULL);
+  while (model->type->adapt->weigh_nodes(model, 1e-3, state.q, NULL))
+    model->type->adapt->change_nodes(model, state.q, state.v, NULL);
   size_t most = model->node_count;
   double worst = 0, mass = spore_model_total_mass(model);
   SporeSplineKnots knots = model->type->line->path(model);
@@ -478,16 +479,16 @@ static void test_threads(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
-  g_test_add_func("/knots/insertion", test_insertion);
-  g_test_add_func("/knots/twisted", test_twisted);
-  g_test_add_func("/knots/removal", test_removal);
-  g_test_add_func("/knots/pulley", test_pulley);
-  g_test_add_func("/knots/momentum", test_momentum);
-  g_test_add_func("/knots/twisted-momentum", test_twisted_momentum);
-  g_test_add_func("/knots/repeats", test_repeats);
-  g_test_add_func("/knots/follow", test_follow);
-  g_test_add_func("/knots/follow-twisted", test_follow_twisted);
-  g_test_add_func("/knots/pulled", test_pulled);
-  g_test_add_func("/knots/threads", test_threads);
+  g_test_add_func("/spline_refinement/insertion", test_insertion);
+  g_test_add_func("/spline_refinement/twisted", test_twisted);
+  g_test_add_func("/spline_refinement/removal", test_removal);
+  g_test_add_func("/spline_refinement/pulley", test_pulley);
+  g_test_add_func("/spline_refinement/momentum", test_momentum);
+  g_test_add_func("/spline_refinement/twisted-momentum", test_twisted_momentum);
+  g_test_add_func("/spline_refinement/repeats", test_repeats);
+  g_test_add_func("/spline_refinement/follow", test_follow);
+  g_test_add_func("/spline_refinement/follow-twisted", test_follow_twisted);
+  g_test_add_func("/spline_refinement/pulled", test_pulled);
+  g_test_add_func("/spline_refinement/threads", test_threads);
   return g_test_run();
 }

@@ -1,4 +1,4 @@
-/* Scissors on tetrahedra. */
+/* Node splitting: scissors cut tetrahedra apart. */
 #include <math.h>
 #include <string.h>
 
@@ -392,10 +392,10 @@ static void test_reserve(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
-  g_test_add_func("/division/bar", test_bar);
-  g_test_add_func("/division/random", test_random);
-  g_test_add_func("/division/same", test_same);
-  g_test_add_func("/division/tidy", test_tidy);
-  g_test_add_func("/division/reserve", test_reserve);
+  g_test_add_func("/node_splitting/bar", test_bar);
+  g_test_add_func("/node_splitting/random", test_random);
+  g_test_add_func("/node_splitting/same", test_same);
+  g_test_add_func("/node_splitting/tidy", test_tidy);
+  g_test_add_func("/node_splitting/reserve", test_reserve);
   return g_test_run();
 }

@@ -1,11 +1,12 @@
-/* How long the edges of a mesh shall be, from place to place: values at the nodes of a regular grid. libc alone. */
-#ifndef SPORE_GENERATE_COMMON_SIZING_H
-#define SPORE_GENERATE_COMMON_SIZING_H
+/* Wanted edge lengths of a mesh, which vary from place to place: values at the nodes of a regular grid. Needs libc
+ * alone. */
+#ifndef SPORE_MESH_SIZING_H
+#define SPORE_MESH_SIZING_H
 
 #include <stddef.h>
 
 #define SPORE_SIZING_NODES 64      /* along an axis at most */
-#define SPORE_SIZING_GRADATION 0.4 /* by which the size may grow with distance */
+#define SPORE_SIZING_GRADATION 0.4 /* largest growth of the size with distance */
 
 /* One value (count 1 x 1 x 1) is a size that is the same everywhere. */
 typedef struct SporeSizing {
@@ -16,7 +17,7 @@ typedef struct SporeSizing {
 
 static inline double spore_sizing_between(double a, double b, double t) { return a + t * (b - a); }
 
-/* Between the nodes by their eight neighbours; outside of the grid as at its border. */
+/* The size at p, interpolated between the eight nodes around p; outside of the grid as at its border. */
 static inline double spore_sizing_at(const SporeSizing *sizing, const double p[3]) {
   size_t low[3], step[3];
   double t[3];

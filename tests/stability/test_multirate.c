@@ -1,4 +1,4 @@
-/* Bodies of different methods in contact: an explicit net with substeps on implicit tissue, and tissue on such a net.
+/* Multirate integration: an explicit net with substeps lies on implicit tissue, and tissue lies on such a net.
  */
 #include <math.h>
 
@@ -34,14 +34,14 @@ static SporeBodyDescription *add_net(Rig *rig, double height, SporeIntegratorKin
 
 /* Energy above the start at most, J; what contacts hold is left out: they are met at full depth where a step finds
  * them. */
-static double highest(SporeWorld *world, unsigned steps, unsigned *mixed) {
+static double highest(SporeWorld *world, unsigned steps, unsigned *multirate_steps) {
   SporeEnergy start = spore_world_energy(world);
   double most = -HUGE_VAL;
   for (unsigned i = 0; i < steps; i++) {
     spore_world_step(world);
     SporeEnergy now = spore_world_energy(world);
     most = fmax(most, now.kinetic + now.gravity + now.internal - start.kinetic - start.gravity - start.internal);
-    *mixed += spore_world_counts(world).contacts > 0 && spore_world_counts(world).newton_iterations > 0;
+    *multirate_steps += spore_world_counts(world).contacts > 0 && spore_world_counts(world).newton_iterations > 0;
   }
   return most;
 }
@@ -58,13 +58,13 @@ static void drape(void) {
   for (unsigned k = 0; k < G_N_ELEMENTS(kinds); k++)
     for (double stiffness = 1e2; stiffness < 1e6; stiffness *= 1e3) {
       Rig *rig = rig_new();
-      unsigned mixed = 0;
+      unsigned multirate_steps = 0;
       rig->description.gravity = spore_vec3(0, -9.81, 0);
       rig_unmovable(rig, "floor", rig_floor(rig, 16, 16, 0.008, 0.006))->contact.stiffness = stiffness;
       add_block(rig, 0.005, stiffness);
       add_net(rig, 0.04, kinds[k], stiffness);
       SporeWorld *world = rig_build(rig);
-      double most = highest(world, steps, &mixed),
+      double most = highest(world, steps, &multirate_steps),
              fallen = 9.81 * 0.01 * spore_model_total_mass(spore_world_body_model(world, 2));
       const SporeMonitor *monitor = spore_world_monitor(world);
       double spread = spore_world_q(world, 2)[1];
@@ -75,7 +75,7 @@ static void drape(void) {
           (unsigned)monitor->recoveries, (unsigned)monitor->not_converged, spread, rig_last_message(world));
       g_assert_true(rig_finite(world));
       g_assert_false(rig_any_frozen(world));
-      g_assert_cmpuint(mixed, >, steps / 5);
+      g_assert_cmpuint(multirate_steps, >, steps / 5);
       g_assert_cmpfloat(most, <=, 0.05 * fallen);
       rig_free(rig);
     }
@@ -86,13 +86,13 @@ static void catch_block(void) {
   unsigned steps = rig_steps(500, 250);
   for (unsigned k = 0; k < G_N_ELEMENTS(kinds); k++) {
     Rig *rig = rig_new();
-    unsigned mixed = 0;
+    unsigned multirate_steps = 0;
     rig->description.gravity = spore_vec3(0, -9.81, 0);
     add_block(rig, 0.012, 1e5);
     add_net(rig, 0, kinds[k], 1e5);
     for (int c = 0; c < 4; c++) rig_pin(rig, 1, spore_vec3(c & 1 ? 0.032 : -0.032, 0, c & 2 ? 0.032 : -0.032), 1e-3);
     SporeWorld *world = rig_build(rig);
-    double most = highest(world, steps, &mixed),
+    double most = highest(world, steps, &multirate_steps),
            fallen = 9.81 * 0.01 * spore_model_total_mass(spore_world_body_model(world, 0));
     g_test_message("catch: %s: energy at most %+.1e J above the start (%.1e J a cm), net down to %.4f m, block to %.4f "
                    "m, %u recoveries, %s",
@@ -100,7 +100,7 @@ static void catch_block(void) {
                    (unsigned)spore_world_monitor(world)->recoveries, rig_last_message(world));
     g_assert_true(rig_finite(world));
     g_assert_false(rig_any_frozen(world));
-    g_assert_cmpuint(mixed, >, steps / 5);
+    g_assert_cmpuint(multirate_steps, >, steps / 5);
     g_assert_cmpfloat(most, <=, 0.05 * fallen);
     g_assert_cmpfloat(lowest(world, 0), >, lowest(world, 1)); /* it lies on it */
     rig_free(rig);
@@ -109,7 +109,7 @@ static void catch_block(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
-  g_test_add_func("/stability/mixed/drape", drape);
-  g_test_add_func("/stability/mixed/catch", catch_block);
+  g_test_add_func("/stability/multirate/drape", drape);
+  g_test_add_func("/stability/multirate/catch", catch_block);
   return g_test_run();
 }
