@@ -1,3 +1,4 @@
+/* Object types of a scene, made from the tables of the scene and from the registries of models, links and tools. */
 #include "core/scene/schema.h"
 
 #include <glib/gi18n.h>
