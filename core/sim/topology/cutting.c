@@ -16,7 +16,7 @@ typedef struct Preparation {
 } Preparation;
 
 static void prepare_model(SporeModel *model, void *user) {
-  assert(model->type->prepare_cut);
+  assert(model->type->cut && model->type->cut->prepare);
   Preparation *preparation = user;
   preparation->made = preparation->made && model->type->cut->prepare(model, preparation->edges);
 }

@@ -143,7 +143,7 @@ static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
 
 static void change(SporeWorld *world, uint32_t index) {
   SporeBody *body = &world->bodies[index];
-  assert(body->refinement.possible && body->model->type->change_nodes);
+  assert(body->refinement.possible && body->model->type->adapt);
   SporeModel *model = body->model;
   double *q = world->state.next_q + body->q_offset, *v = world->state.next_v + body->v_offset;
   size_t points = body->refinement.state.points;
