@@ -53,7 +53,7 @@ typedef struct SporeSpheresReport {
   double seconds;
   size_t mirrors; /* mirror planes that the solid and the set have in common: 0 to 3 */
 } SporeSpheresReport;
-/* The depth error that a haptic contact has: of the weighted sum if the set has weights, else of the deepest sphere. */
+/* The depth error that counts: of the weighted sum if the set has weights, else of the deepest sphere. */
 static inline double spore_spheres_felt_error(const SporeSpheresReport *report) {
   return report->weighted_depth_error > 0 ? report->weighted_depth_error : report->depth_error;
 }
@@ -78,7 +78,7 @@ typedef struct SporeSpheresSource {
   const SporeCurve *curve;
   /* A surface without volume, open or closed. Spheres lie on the surface, closer where the surface bends. In the
    * report, coverage is the share of the area that lies in spheres. Distance is the distance from points of the surface
-   * to the nearest sphere if `thickness` is given, else the radius of the nearest sphere. Outside and depth error are
+   * to the nearest sphere if `thickness` is given, else the radius of the sphere there. Outside and depth error are
    * NaN. */
   const SporeTriangleMesh *sheet;
 } SporeSpheresSource;
@@ -126,7 +126,7 @@ bool spore_spheres_series(const SporeSpheresSource *source, const SporeSpheresOp
                           const SporeProgress *progress, SporeError *error);
 
 /* Index of the first point after which each doubling of the number lowers the error by less than `worth`, up to the
- * last point. Between points the error is taken as linear in the logarithm of the number. */
+ * last point; `count` if there is none. Between points the error is taken as linear in the logarithm of the number. */
 size_t spore_enough(const size_t *counts, const double *errors, size_t count, double worth);
 
 #endif
