@@ -12,7 +12,7 @@
 #include "core/base/text.h"
 #include "core/generate/spheres/bounding_search.h"
 
-#define FEW 60                /* balls: for this many the sweeps are doubled, for half as many or fewer tripled */
+#define FEW 60                /* balls: up to this many, twice the sweeps; up to half as many, three times the sweeps */
 #define WORK_PER_BALL 6000000 /* work of relocations per ball */
 #define WORK_MOST 180000000   /* of all balls together: most solids take less than five seconds */
 #define GAP_VOLUME 0.3        /* of a cube of edge `finest`: volume of an added point */
