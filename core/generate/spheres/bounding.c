@@ -1,8 +1,9 @@
-/* Balls around a solid: a search that moves one ball at a time to where it, the others as they are, costs least. What
- * is outside costs its volume; what is left uncovered costs its volume times a cost that rises, so that at first balls
- * can hand over what they hold to their neighbours. Once little is left uncovered, balls that do little are put where
- * others hold much outside, wherever that turns out to pay after those around have settled. In the end all is held, and
- * a ball costs the volume that it adds to the others. */
+/* Balls around a solid: a search that moves one ball at a time to the place of least cost, the other balls unchanged.
+ * Covered volume outside costs its volume. Uncovered volume costs its volume times a factor. The factor rises from
+ * stage to stage, so that at first balls can pass volume to their neighbours. Once little is uncovered, balls of little
+ * worth are moved to balls that contain much volume outside, where that lowers the cost after the balls around have
+ * settled. In the last stages all must be covered, and a ball costs the volume that it adds to the union of the others.
+ */
 #include "core/generate/spheres/bounding.h"
 
 #include <math.h>
@@ -11,21 +12,21 @@
 #include "core/base/text.h"
 #include "core/generate/spheres/bounding_search.h"
 
-#define FEW 60                /* balls: so many sweep twice, half as many or fewer three times */
-#define WORK_PER_BALL 6000000 /* that goes into relocations, */
-#define WORK_MOST 180000000   /* of all balls: so that most solids take less than five seconds */
-#define GAP_VOLUME 0.3        /* of a cube: volume that an added point stands for */
+#define FEW 60                /* balls: up to this many, twice the sweeps; up to half as many, three times the sweeps */
+#define WORK_PER_BALL 6000000 /* work of relocations per ball */
+#define WORK_MOST 180000000   /* of all balls together: most solids take less than five seconds */
+#define GAP_VOLUME 0.3        /* of a cube of edge `finest`: volume of an added point */
 
-/* What the search does one after the other. */
+/* One of the successive stages of the search. */
 typedef struct Stage {
   double cost;
-  double margin, finest; /* of the diagonal: which points of the surface are added; finest 0: none */
-  double step;           /* of a radius: how far balls look around at first */
+  double margin, finest; /* of the diagonal: see spore_balls_gaps, for points that are added; finest 0: none */
+  double step;           /* of a radius: initial search distance */
   int sweeps;
-  bool relocate; /* after the sweeps, which are done again then */
+  bool relocate; /* after the sweeps, and then sweep again */
 } Stage;
 
-/* The balls and their images in the planes that they are not bound to, those of a ball one after the other. */
+/* The balls and their images in the planes to which they are not bound; the images of a ball are consecutive. */
 static bool make_images(const SporeSolid *solid, const SporeBalls *balls, const uint8_t *bound, SporeBalls *all) {
   size_t count = spore_balls_images(&solid->symmetry, balls, bound, NULL);
   double *spheres = SPORE_NEW_ARRAY(double, 4 * count);
@@ -37,8 +38,9 @@ static bool make_images(const SporeSolid *solid, const SporeBalls *balls, const 
   return done;
 }
 
-/* Adds points where the balls hold the surface by less than the margin. Once leaving them costs more than any ball
- * could, they are covered one by one, by the ball that does it best: the first that looks around would take them. */
+/* Adds points where the balls cover the surface by less than the margin. In the stages where all must be covered, the
+ * points are then covered one by one, each by the ball of least cost. Otherwise the first ball that searches would take
+ * them all. */
 static bool add_points(SporeBoundingSearch *search, const Stage *stage) {
   double *points = NULL, length = stage->finest * search->solid->diagonal;
   size_t count = 0;
@@ -97,7 +99,7 @@ static bool run_stages(SporeBoundingSearch *search, const SporeProgressPart *pro
                                  {SPORE_BOUNDING_HARD, 1e-4, 5e-4, 0.06, 5, false},
                                  {SPORE_BOUNDING_HARD, 1e-4, 4e-4, 0.06, 4, false}};
   const size_t count = sizeof stages / sizeof *stages;
-  double share[sizeof stages / sizeof *stages], sum = 0; /* of the time, about */
+  double share[sizeof stages / sizeof *stages], sum = 0; /* about the share of the time */
   for (size_t s = 0; s < count; s++) sum += share[s] = stages[s].relocate ? 1.5 * (double)count : 1;
   double first = progress->first;
   for (size_t s = 0; s < count; s++) {

@@ -1,6 +1,6 @@
-/* Relocations: a ball that alone holds little of the solid is given up, and one that holds much outside is divided in
- * two. Whether that pays shows late, and one helps another, so many are done at once, those around settle, and all
- * stand together where that saves; the next time there are fewer where it does not. */
+/* Relocations: a ball that alone contains little of the solid is removed, and a ball that contains much volume outside
+ * is divided in two. The gain shows late, and relocations help each other. So many are done in a batch, then the balls
+ * around settle. The batch is kept if it lowers the cost; if not, it is undone and the next batch is smaller. */
 #include <math.h>
 #include <string.h>
 
@@ -10,28 +10,29 @@
 
 #define BATCH 0.25          /* of the balls: relocations of the first batch, and at most */
 #define PASS 0.125          /* of the balls: relocations from one ranking */
-#define FEWER 0.7           /* relocations, after a batch that does not pay */
-#define MORE 1.2            /* after one that does */
-#define NEIGHBOURS_MOST 10  /* of a ball, that settle with it */
-#define PAIR_SWEEPS 3       /* of the two alone, */
-#define NEIGHBOURS_SWEEPS 1 /* and with their neighbours; more of them, in the same work, end at dearer sets */
+#define FEWER 0.7           /* relocations after a batch that is undone, relative to that batch */
+#define MORE 1.2            /* after a batch that is kept */
+#define NEIGHBOURS_MOST 10  /* neighbours that settle with a ball */
+#define PAIR_SWEEPS 3       /* sweeps of the pair alone */
+#define NEIGHBOURS_SWEEPS 1 /* then with neighbours; at equal work, more give sets of higher cost */
 #define BATCH_SWEEPS 12
-#define STEP 0.2         /* of a radius: of the first sweep */
-#define HALF_RADIUS 0.85 /* of the divided ball's: radius of its halves, at first */
-#define APART_LEAST 0.2  /* of the divided ball's radius: its halves' way from its middle */
+#define STEP 0.2         /* of a radius: search distance in the first sweep */
+#define HALF_RADIUS 0.85 /* of the divided ball's radius: initial radius of the halves */
+#define APART_LEAST 0.2  /* of the divided ball's radius: distance of the halves from its centre */
 #define APART_MOST 0.6
-#define SHAKE 1.2 /* largest logarithm of a factor by which ranks are blurred */
+#define SHAKE 1.2 /* range of the logarithm of the random factor on ranking values */
 #define AXIS_ROUNDS 20
 
 typedef struct Relocate {
   SporeBoundingSearch *search;
-  double *worth, *burden; /* balls: volume inside that it holds alone, volume outside that it holds, shared, m^3 */
-  bool *marked;           /* balls: done with in this pass */
+  double *worth, *burden; /* balls: volume inside that the ball alone contains; its share of the volume outside that it
+                             contains; m^3 */
+  bool *marked;           /* balls: handled in this pass */
   uint32_t active[2 + 2 * NEIGHBOURS_MOST];
   size_t active_count;
   SporeBalls before;
   uint16_t *held;       /* before */
-  uint64_t first, work; /* search->work at the start, and how much more there may be */
+  uint64_t first, work; /* search->work at the start, and the work allowed after it */
   const SporeProgressPart *progress;
   SporeError *error;
   bool cancelled;
@@ -56,7 +57,7 @@ static void weigh_ball(Relocate *r, size_t i) {
   }
 }
 
-/* Blurs what the balls are ranked by, so that another pass tries other pairs. */
+/* Weighs all balls, with a random factor on each value, so that another pass tries other pairs. */
 static void weigh_balls(Relocate *r) {
   SporeRandom *random = &r->search->random;
   double little = 1e-3 * r->search->solid->volume / (double)r->search->balls->count;
@@ -68,7 +69,8 @@ static void weigh_balls(Relocate *r) {
   }
 }
 
-/* Ball of the least (sign 1) or the largest (sign -1) value, of those not marked, and marks it; SIZE_MAX: all are. */
+/* Marks and returns the ball of the least (sign 1) or the largest (sign -1) value among those not marked; SIZE_MAX: all
+ * are marked. */
 static size_t take_first(Relocate *r, const double *value, double sign) {
   size_t best = SIZE_MAX;
   for (size_t i = 0; i < r->search->balls->count; i++)
@@ -77,7 +79,7 @@ static size_t take_first(Relocate *r, const double *value, double sign) {
   return best;
 }
 
-/* Direction in which the inside points that the ball alone holds lie widest, as long as their deviation. */
+/* Principal axis of the inside points that the ball alone contains, with their standard deviation as its length. */
 static SporeVec3 long_axis(SporeBoundingSearch *search, size_t i) {
   const SporePoints *points = &search->costs.points;
   SporeVec3 c = spore_balls_centre(search->balls, i);
@@ -110,7 +112,7 @@ static bool is_active(const Relocate *r, size_t i) {
   return false;
 }
 
-/* Those that overlap the ball most. */
+/* Adds the balls that overlap the ball most. */
 static void add_neighbours(Relocate *r, size_t of) {
   const SporeBalls *balls = r->search->balls;
   double gap[NEIGHBOURS_MOST];
@@ -126,14 +128,14 @@ static void add_neighbours(Relocate *r, size_t of) {
   for (size_t k = 0; k < count; k++) r->active[r->active_count++] = (uint32_t)found[k];
 }
 
-/* A sweep of the first `count`; what it saves. */
+/* Settles the first `count` active balls once; returns the cost saved. */
 static double settle_active(Relocate *r, size_t count) {
   double saved = 0;
   for (size_t k = 0; k < count; k++) saved += spore_bounding_settle(r->search, r->active[k]);
   return saved;
 }
 
-/* What it saves that `spare` becomes one half of `target`. */
+/* Divides `target` in two halves, one of which is `spare`; returns the cost saved. */
 static double divide_ball(SporeBoundingSearch *search, size_t spare, size_t target) {
   double saved = spore_bounding_remove(search, spare);
   double radius = search->balls->r[target], half = HALF_RADIUS * radius;
@@ -147,7 +149,7 @@ static double divide_ball(SporeBoundingSearch *search, size_t spare, size_t targ
   return saved + spore_bounding_insert(search, spare, other, half);
 }
 
-/* Moves the one to the other, and those around settle; what that saves. */
+/* Divides `target` with `spare` and settles the balls around both; returns the cost saved. */
 static double relocate(Relocate *r, size_t spare, size_t target) {
   SporeBoundingSearch *search = r->search;
   r->active[0] = (uint32_t)target, r->active[1] = (uint32_t)spare;
@@ -161,7 +163,7 @@ static double relocate(Relocate *r, size_t spare, size_t target) {
   return saved;
 }
 
-/* From one ranking; at most `wanted`, of which *done are. What that saves. */
+/* At most `wanted` relocations from one ranking; *done: their number. Returns the cost saved. */
 static double run_pass(Relocate *r, size_t wanted, size_t *done) {
   double saved = 0;
   weigh_balls(r);
@@ -173,8 +175,8 @@ static double run_pass(Relocate *r, size_t wanted, size_t *done) {
   return saved;
 }
 
-/* Those of the last pass settle, or all; what that saves, given what was saved so far: they stop where it will not come
- * to be more than nothing. */
+/* Settles the balls of the last pass, or all balls. `saved`: cost saved so far. Stops where the total cannot be
+ * expected to become positive. Returns the total saved. */
 static double settle_marked(Relocate *r, bool all, double saved) {
   for (int left = BATCH_SWEEPS - 1; left >= 0 && go_on(r); left--) {
     double more = 0;
@@ -186,7 +188,7 @@ static double settle_marked(Relocate *r, bool all, double saved) {
   return saved;
 }
 
-/* True: it pays, and stands. */
+/* True: the batch lowers the cost and is kept. */
 static bool try_batch(Relocate *r, size_t wanted) {
   SporeCosts *costs = &r->search->costs;
   size_t size = costs->points.block_count * SPORE_BLOCK * sizeof *r->held,

@@ -1,4 +1,4 @@
-/* The search for bounding spheres: what a ball costs at a place, and where another place costs less. */
+/* The search for bounding spheres: the cost of a ball at a place, and places of less cost. */
 #include "core/generate/spheres/bounding_search.h"
 
 #include <math.h>
@@ -6,15 +6,15 @@
 #include "core/base/memory.h"
 #include "core/generate/spheres/kernels.h"
 
-#define BINS 48          /* of radii, of which the best is looked for */
-#define SETTLE_TRIES 6   /* of places of a ball, a sweep */
-#define HARD_TRIES 12    /* the same where all has to be held */
-#define LOOK_WORK 100    /* of looking around at no point */
-#define COVER_TRIES 10   /* of places of a ball, to cover a point */
-#define COVER_SLACK 2e-3 /* of the diagonal: balls not this much farther from a point than the nearest may cover it */
-#define NEEDED 1e3       /* of the solid's volume: cost of a point that must be covered */
-#define SHORTER 0.85     /* how far to look around, after a place that costs more */
-#define LONGER 1.5       /* after a look that found a better one */
+#define BINS 48          /* number of radii that are compared */
+#define SETTLE_TRIES 6   /* places tried for a ball in a sweep */
+#define HARD_TRIES 12    /* the same where all must be covered */
+#define LOOK_WORK 100    /* fixed work of a search around a ball */
+#define COVER_TRIES 10   /* places tried for a ball, to cover a point */
+#define COVER_SLACK 2e-3 /* of the diagonal: tolerance in choosing the balls that may cover a point */
+#define NEEDED 1e3       /* of the solid's volume: cost of not covering a point that must be covered */
+#define SHORTER 0.85     /* factor on the search distance, after a place of no less cost */
+#define LONGER 1.5       /* factor after a search that found a better place */
 #define STEP_LEAST 1e-3  /* of a radius */
 #define STEP_MOST 0.3
 #define ROUNDING 1e-6f /* of a distance in single precision */
@@ -69,8 +69,8 @@ static void pad_local(SporeBoundingLocal *local) {
     local->x[k] = local->y[k] = local->z[k] = local->cost[k] = 0;
 }
 
-/* Points of those reached that a ball about c could hold alone; `radius` of the ball that is counted in `held` now, 0:
- * there is none. */
+/* Collects the reached points that a ball near c could be the only one to contain. `radius`: of the ball at c that
+ * `held` counts now; 0: there is none. */
 static void find_local(SporeBoundingSearch *search, SporeVec3 c, double radius) {
   const SporePoints *points = &search->costs.points;
   SporeBoundingLocal *local = &search->local;
@@ -82,20 +82,20 @@ static void find_local(SporeBoundingSearch *search, SporeVec3 c, double radius) 
     unsigned held = search->costs.held[k];
     double cost = held > 1 ? 0 : cost_of_point(search, k);
     if (held == 1 && square_distance(points, k, c) > r2) cost = 0;
-    if (hard && (held == 0 || cost > 0)) cost = 0; /* whoever covers it best does so, one by one */
+    if (hard && (held == 0 || cost > 0)) cost = 0; /* uncovered points are covered one by one: spore_bounding_cover */
     if (cost != 0) add_local(local, points->x[k] - c.x, points->y[k] - c.y, points->z[k] - c.z, cost);
   }
   pad_local(local);
 }
 
-/* Distances of the local points from a place, relative to where they are. */
+/* Distances of the local points from `at`, in the local coordinates. */
 static void measure_local(SporeBoundingLocal *local, SporeVec3 at) {
   SPORE_KERNEL(spore_local_distances)
   (local->x, local->y, local->z, local->count, (const float[3]){(float)at.x, (float)at.y, (float)at.z},
    local->distance);
 }
 
-/* What a ball of that radius costs, from the distances. */
+/* Cost of a ball of this radius, from the distances. */
 static double local_cost(const SporeBoundingLocal *local, double radius, double *farthest) {
   SporeLocalCost cost;
   SPORE_KERNEL(spore_local_cost)(local->distance, local->cost, local->count, (float)radius, &cost);
@@ -103,14 +103,14 @@ static double local_cost(const SporeBoundingLocal *local, double radius, double 
   return (double)cost.outside + (double)cost.inside;
 }
 
-/* The radius at which a ball holds all that must be held. */
+/* The radius at which a ball contains all points that must be covered. */
 static double needed_radius(const SporeBoundingLocal *local, double least) {
   double farthest;
   local_cost(local, HUGE_VAL, &farthest);
   return fmax(least, farthest * (1 + (double)ROUNDING));
 }
 
-/* The radius between least and most at which a ball costs least, about; just enough for what it holds. */
+/* About the radius of least cost between least and most, reduced to just contain the inside points within it. */
 static double best_radius(const SporeBoundingLocal *local, double least, double most) {
   double sum[BINS + 1] = {0}, width = (most - least) / (BINS - 1);
   float scale = (float)(1 / width), first = (float)least;
@@ -129,15 +129,15 @@ static double best_radius(const SporeBoundingLocal *local, double least, double 
   return fmax(least, farthest * (1 + (double)ROUNDING));
 }
 
-/* Where ball i costs least of a few places nearby, and what that saves. */
+/* A place for a ball, and the cost that a move there saves. */
 typedef struct Place {
   SporeVec3 centre;
   double radius, saved;
 } Place;
 
-/* From the best place so far, first on the way that led to it, then a random way; shorter after each that fails. *scale
- * (m) is at most the first one's, which is what was reached; it comes back as what the next look had better begin
- * with. */
+/* The best of a few places for ball i. Each try starts from the best place so far: first again in the direction that
+ * led to it, then in a random direction. The distance shrinks after each failure. *scale (m): the search distance,
+ * within which points were collected; returns the distance with which the next search should start. */
 static Place try_places(SporeBoundingSearch *search, size_t i, double *scale, int tries, const SporeVec3 *needed) {
   SporeVec3 start = spore_balls_centre(search->balls, i), way = spore_vec3(0, 0, 0);
   double radius = search->balls->r[i], reach = *scale;
@@ -187,7 +187,7 @@ static Place look_around(SporeBoundingSearch *search, size_t i, double *scale, i
   return try_places(search, i, scale, tries, needed);
 }
 
-/* Counts the ball's points from the reached ones: `by` 1 as held, -1 as no longer held. */
+/* Adds `by` to `held` of the reached points in the ball: 1 when the ball is inserted, -1 when removed. */
 static void hold_reached(SporeBoundingSearch *search, SporeVec3 c, double radius, int by) {
   for (size_t m = 0; m < search->reached_count; m++) {
     size_t k = search->reached[m];
@@ -196,7 +196,7 @@ static void hold_reached(SporeBoundingSearch *search, SporeVec3 c, double radius
   }
 }
 
-/* Puts ball i elsewhere; what it holds and will hold is reached. */
+/* Moves ball i to a place. The points in the ball before and after must be in `reached`. */
 static void put_reached(SporeBoundingSearch *search, size_t i, const Place *place) {
   hold_reached(search, spore_balls_centre(search->balls, i), search->balls->r[i], -1);
   hold_reached(search, place->centre, place->radius, 1);
@@ -237,7 +237,7 @@ void spore_bounding_cover(SporeBoundingSearch *search, SporeVec3 p) {
   put_reached(search, ball, &best);
 }
 
-/* What ball i costs where it is, the points it holds reached. */
+/* Cost of a ball at c; the points in the ball must be in `reached`. `counted`: `held` counts the ball. */
 static double cost_of(SporeBoundingSearch *search, SporeVec3 c, double radius, bool counted) {
   find_local(search, c, counted ? radius : 0);
   measure_local(&search->local, spore_vec3(0, 0, 0));

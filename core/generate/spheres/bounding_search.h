@@ -1,4 +1,4 @@
-/* Balls around a solid, moved one at a time: what a place costs, where another costs less. */
+/* Search for bounding balls, which moves one ball at a time: the cost of a place, and places of less cost. */
 #ifndef SPORE_GENERATE_SPHERES_BOUNDING_SEARCH_H
 #define SPORE_GENERATE_SPHERES_BOUNDING_SEARCH_H
 
@@ -6,65 +6,67 @@
 
 #define SPORE_BOUNDING_HARD 1e4
 
-/* Points about a ball that no other one holds, relative to where it was; padded to whole SPORE_LOCAL_LANES. */
+/* Points near a ball that no other ball contains, relative to the ball's old centre; padded to whole SPORE_LOCAL_LANES.
+ */
 typedef struct SporeBoundingLocal {
   size_t count;
   float *x, *y, *z, *distance; /* m; scratch */
-  float *cost;                 /* of holding a point, below 0: of leaving it; 0: of the padding */
+  float *cost;                 /* above 0: of containing the point; below 0: of leaving it uncovered; 0: padding */
 } SporeBoundingLocal;
 
 #define SPORE_BOUNDING_RAYS 256
 
-/* Rays from where a ball is, lengths in its radii. */
+/* Rays from the centre of a ball, lengths in radii of the ball. */
 typedef struct SporeBoundingShell {
   float *x, *y, *z;
-  float *from, *to; /* where they leave the other balls; where they end */
+  float *from, *to; /* where the rays leave the other balls; where the rays end */
   SporeVec3 middle; /* m */
   double radius;    /* m */
 } SporeBoundingShell;
 bool spore_bounding_shell_create(SporeBoundingShell *shell);
 void spore_bounding_shell_clear(SporeBoundingShell *shell);
-/* All rays together, somehow. */
+/* Sets the rays, with one random rotation for all. */
 void spore_bounding_shell_turn(SporeBoundingShell *shell, SporeRandom *random);
-/* From ball i, which may come to reach out farther by `reach`. */
+/* Prepares the rays of ball i, whose surface may move outward by up to `reach`. */
 void spore_bounding_shell_look(SporeBoundingShell *shell, const SporeSymmetry *symmetry, const SporeBalls *balls,
                                size_t i, double reach);
-/* m^3 that the ball adds to the others if it is put there. */
+/* m^3 that the ball adds to the union of the others if the ball is put there. */
 double spore_bounding_shell_volume(const SporeBoundingShell *shell, SporeVec3 centre, double radius);
 
 typedef struct SporeBoundingSearch {
-  const SporeSolid *solid; /* whose symmetry the balls follow: they stand for their images, points are folded */
-  const uint8_t *bound;    /* balls: mirror planes that they stay on, as bits */
+  const SporeSolid *solid; /* with its symmetry: each ball stands for its images too, and points are folded */
+  const uint8_t *bound;    /* balls: bits of the mirror planes that each stays on */
   SporeCosts costs;
   SporeBalls *balls;
-  double cost;       /* of volume left uncovered, against volume outside; from SPORE_BOUNDING_HARD on nothing is */
-  double *step;      /* balls: how far to look around, in radii; settling makes it longer or shorter */
+  double cost;  /* of uncovered volume relative to volume outside; from SPORE_BOUNDING_HARD on all must be covered */
+  double *step; /* balls: search distance, in radii; spore_bounding_settle adapts it */
   uint32_t *reached; /* scratch: points, reached_count */
   size_t reached_count;
   SporeBoundingLocal local;
   SporeBoundingShell shell;
-  uint64_t work; /* points looked at so far, about: what looking around costs */
+  uint64_t work; /* about the number of points visited so far: measure of the time spent */
   SporeRandom random;
 } SporeBoundingSearch;
 
-/* Room for search->costs, and `held` counted anew. False: no memory. */
+/* Allocates for search->costs and counts `held` again. False: no memory. */
 bool spore_bounding_open(SporeBoundingSearch *search);
 void spore_bounding_close(SporeBoundingSearch *search);
-/* The centre, or its image, that ball i may have. */
+/* The allowed centre for ball i: folded by the symmetry and projected on the planes to which the ball is bound. */
 SporeVec3 spore_bounding_confine(const SporeBoundingSearch *search, size_t i, SporeVec3 centre);
-/* Points at `inner` to `radius` from c, into search->reached. */
+/* Collects the points at distances `inner` to `radius` from c in search->reached. */
 void spore_bounding_reach(SporeBoundingSearch *search, SporeVec3 c, double inner, double radius);
-/* How far all balls look around next, in radii. */
+/* Sets the search distance of all balls, in radii. */
 void spore_bounding_set_steps(SporeBoundingSearch *search, double step);
-/* Moves ball i to the best of some places around; returns what that saves, m^3, 0: it stays. */
+/* Moves ball i to the best of some places nearby. Returns the cost saved, m^3; 0: the ball stays. */
 double spore_bounding_settle(SporeBoundingSearch *search, size_t i);
-/* Covers p with the ball that can do so at least cost, where no ball does. */
+/* If no ball contains p: covers p with the ball that can do so at least cost. */
 void spore_bounding_cover(SporeBoundingSearch *search, SporeVec3 p);
-/* Takes ball i away, or puts it where there is none (radius > 0 then); both return what that saves. */
+/* Removes ball i, or inserts ball i after its removal (radius > 0). Both return the cost saved. */
 double spore_bounding_remove(SporeBoundingSearch *search, size_t i);
 double spore_bounding_insert(SporeBoundingSearch *search, size_t i, SporeVec3 c, double radius);
-/* Gives up balls of little worth and divides those that hold much outside, in batches, each of which stands where it
- * saves once all around have settled; until about `work` is done. False: no memory, or cancelled, which *error says. */
+/* Removes balls of little worth and divides balls that contain much volume outside, in batches. A batch is kept if it
+ * lowers the cost after the balls around have settled. Stops after about `work`. False: no memory or cancelled; see
+ * *error. */
 bool spore_bounding_relocate(SporeBoundingSearch *search, uint64_t work, const SporeProgressPart *progress,
                              SporeError *error);
 

@@ -1,5 +1,5 @@
-/* The volume that a ball adds to the union of the others, along rays from its middle: where all of the solid has to be
- * held, that is all that sets differ by. Rays see thin caps that points of a volume would miss. */
+/* The volume that a ball adds to the union of the others, measured along rays from its centre. Where all of the solid
+ * must be covered, sets differ only in this volume. Rays detect thin caps that sample points would miss. */
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -33,7 +33,7 @@ void spore_bounding_shell_turn(SporeBoundingShell *shell, SporeRandom *random) {
   }
 }
 
-/* How far rays go before they come to a mirror plane, in radii: beyond it are the images. */
+/* Ends the rays at the mirror planes, in radii: beyond a plane are the images. */
 static void end_at_planes(SporeBoundingShell *shell, const SporeSymmetry *symmetry, SporeVec3 middle, double radius) {
   for (int i = 0; i < SPORE_BOUNDING_RAYS; i++) shell->to[i] = HUGE_VALF;
   for (unsigned k = 0; k < symmetry->count; k++) {

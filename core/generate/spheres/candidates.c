@@ -1,4 +1,4 @@
-/* Balls inside the solid that touch its surface, of which a fit starts from those that hold most samples. */
+/* Balls inside the solid that touch the surface. A fit starts from those that contain most samples. */
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -7,10 +7,10 @@
 
 #define SHRINK_ROUNDS 24
 #define REPORT_EVERY 8       /* candidates */
-#define COVER_TOLERANCE 0.12 /* of the typical radius: how far outside a ball a sample counts as held */
+#define COVER_TOLERANCE 0.12 /* of the typical radius: a sample this far outside a ball still counts as contained */
 
-/* Largest ball that touches the surface at p from inside (Ma, Bae and Choi 2012: shrink it until its nearest surface
- * point is p itself). False: none, as on a wall without thickness. */
+/* Largest ball that touches the surface at p from inside (Ma, Bae and Choi 2012: shrink the ball until its nearest
+ * surface point is p itself). False: there is none, as on a wall without thickness. */
 static bool shrink_ball(const SporeSolid *solid, SporeVec3 p, SporeVec3 inward, SporeVec3 *centre, double *radius) {
   double r = solid->diagonal / 2, reach = 0;
   for (int round = 0; round < SHRINK_ROUNDS; round++) {
@@ -27,7 +27,8 @@ static bool shrink_ball(const SporeSolid *solid, SporeVec3 p, SporeVec3 inward, 
   return reach > 1e-6 * solid->diagonal && spore_bvh_winding(solid->bvh, *centre) > 0.5;
 }
 
-/* One in four candidates is a plain interior point with its depth, for solids whose surface tells too little. */
+/* One candidate in four is a random interior point with its depth as radius, for solids whose surface points give too
+ * few good balls. */
 bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, size_t count, SporeRandom *random,
                              const SporeProgressPart *progress, SporeError *error) {
   size_t medial = count - count / 4, found = 0;
@@ -60,17 +61,18 @@ bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, si
   return done;
 }
 
-/* Which samples are held, with a count a block, so that a ball over a whole block need not look inside. */
+/* Which samples are contained in a chosen ball. Counts by block avoid a look at each sample where a ball contains a
+ * whole block. */
 typedef struct Cover {
   const SporePoints *points;
   const double *depth;
   double tolerance;
-  bool *open;           /* interior sample not yet held */
+  bool *open;           /* interior sample that no chosen ball contains yet */
   uint16_t *open_count; /* block_count */
-  uint16_t *open_group; /* group_count: sums of those */
+  uint16_t *open_group; /* group_count: sums of open_count */
 } Cover;
 
-/* The same of one block. */
+/* As cover_ball, for one block. */
 static size_t cover_block(Cover *cover, size_t b, SporeVec3 c, double r, bool take) {
   const double *block = cover->points->block + 4 * b;
   double dx = block[0] - c.x, dy = block[1] - c.y, dz = block[2] - c.z, d2 = dx * dx + dy * dy + dz * dz;
@@ -167,8 +169,8 @@ static bool fill_heap(Heap *heap, Cover *cover, const SporeBalls *candidates, co
   return true;
 }
 
-/* Takes the best candidate while any adds something: a stale gain only ever shrinks, so the top that stays on top after
- * being counted again is the best of all. False: cancelled. */
+/* Takes the best candidate as long as one has a gain. Gains only ever shrink, so a top candidate whose gain is
+ * unchanged after a new count is the best of all. False: cancelled. */
 static bool take_best(Heap *heap, Cover *cover, const SporeBalls *candidates, SporeBalls *balls, size_t *taken_count,
                       const SporeProgressPart *progress, SporeError *error) {
   size_t taken = 0;
@@ -200,7 +202,8 @@ bool spore_candidates_cover(const SporeBalls *candidates, const SporeSamples *sa
   done = done && fill_heap(&heap, &cover, candidates, progress, error) &&
          take_best(&heap, &cover, candidates, balls, &taken, progress, error);
   if (done) {
-    /* more were asked than are needed: the rest starts on the remaining candidates, and the fit finds them work */
+    /* more balls were asked for than are needed: the rest starts on the remaining candidates, and the fit relocates
+     * them */
     for (size_t i = 0; taken < balls->count; i++) {
       size_t c = heap.count ? heap.item[i % heap.count] : i % candidates->count;
       spore_balls_set(balls, taken++, spore_vec3(candidates->x[c], candidates->y[c], candidates->z[c]),

@@ -1,4 +1,4 @@
-/* Points in and around a solid with what it costs to leave them uncovered, or to cover them. */
+/* Points in and around a solid, with the cost of leaving them uncovered (inside) or of covering them (outside). */
 #include <math.h>
 #include <string.h>
 
@@ -9,9 +9,9 @@
 #define CELLS_PER_BALL 100 /* at the surface, about */
 #define CELLS_LEAST 5000
 #define CELLS_MOST 60000
-#define GRADE 0.4         /* of the distance from the surface: edge of a cell there */
-#define PADDING 1.0       /* of the longest side: how far the points go beyond the solid */
-#define SURFACE_SHARE 2.0 /* points on the surface, of the cells there */
+#define GRADE 0.4         /* of the distance from the surface: edge of a cell at that distance */
+#define PADDING 1.0       /* of the longest side of the bounding box: how far the points go beyond the solid */
+#define SURFACE_SHARE 2.0 /* points on the surface, relative to the number of cells there */
 #define REPORT_EVERY 4096
 
 typedef struct Cells {
@@ -41,9 +41,10 @@ static double factor_at(const SporeSolid *solid, SporeVec3 p) {
   return solid->region_count ? spore_solid_factor(solid, p) : 1;
 }
 
-/* A point somewhere in the cell, which is of one side or so small that the point tells for all of it. What a ball adds
- * outside goes by the square of the surface that it is for, so that in a region it weighs by the square of the factor:
- * the sum is least then where balls are as many times as dense. */
+/* Adds a random point of the cell. The cell lies on one side of the surface (`side`), or is so small that the point
+ * stands for all of it. The volume that a ball adds outside is proportional to the square of the surface area that the
+ * ball covers. So in a region the volume is weighted by the square of the factor: the sum is then least where the
+ * density of balls is larger by the factor. */
 static bool add_cell(Cells *cells, SporeVec3 middle, double edge, int side) {
   double offset[3];
   for (int k = 0; k < 3; k++) offset[k] = edge * (spore_random_unit(cells->random) - 0.5);
@@ -84,7 +85,8 @@ static bool divide_all(Cells *cells) {
   return divide(cells, middle, (1 + 2 * PADDING) * edge);
 }
 
-/* The surface's corners stand out most, so all of them are there, unless they are very many. */
+/* Adds points on the surface, and all vertices, as these stick out most; only a part of the vertices where there are
+ * very many. */
 static bool add_surface(Cells *cells, size_t count, double area) {
   const SporeTriangleMesh *mesh = &cells->solid->mesh;
   size_t step = mesh->vertex_count / (4 * count) + 1, corners = (mesh->vertex_count + step - 1) / step;
@@ -100,7 +102,7 @@ static bool add_surface(Cells *cells, size_t count, double area) {
   return done;
 }
 
-/* In the order of space, held by none. */
+/* Sorts the points in space-filling order and sets `held` to 0. */
 static bool sort_points(SporeCosts *costs) {
   spore_points_clear(&costs->points);
   spore_free(costs->volume);

@@ -1,8 +1,8 @@
-/* Whether balls cover a solid, without sampling. The surface: a triangle whose corners lie in one ball lies in it, so
- * triangles are divided until each piece lies in one ball. The inside: with the surface covered, what is left uncovered
- * are closed hollows between balls. Seen from a hollow, balls bulge in, so no point of its wall on fewer than three
- * spheres is an extreme point of it: a hollow is in the convex hull of its corners, each on three spheres, and there is
- * none where no such corner inside the solid is free of the other balls. */
+/* Whether balls cover a solid, without sampling. The surface: a triangle whose corners lie in one ball lies in that
+ * ball, so triangles are divided until each piece lies in one ball. The inside: once the surface is covered, the
+ * uncovered rest consists of closed hollows between balls. The balls bulge into a hollow, so a point of the hollow's
+ * wall on fewer than three spheres is not an extreme point of the hollow. So a hollow lies in the convex hull of its
+ * corners, each on three spheres. There is no hollow if each such corner inside the solid lies in another ball. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 #define FINEST 4e-4   /* of the diagonal: longest edge of the smallest pieces */
 #define TOUCHING 1e-9 /* of the diagonal: corners nearer than this to the outside of a ball count as free */
 #define HOLLOW_ROUNDS 64
-#define GAPS_MOST 100000 /* that are listed */
+#define GAPS_MOST 100000 /* listed at most */
 
 typedef struct Piece {
   SporeVec3 a, b, c;
@@ -24,22 +24,22 @@ typedef struct Cover {
   const SporeSolid *solid;
   SporeBalls *balls;
   Aim target;
-  uint32_t *near; /* balls that reach the triangle, near_count; then scratch for hollows */
+  uint32_t *near; /* near_count: balls that reach the triangle; later scratch for hollows */
   size_t near_count;
   double finest, touching; /* m */
-  double *gaps;            /* gap_count x 3: middles of pieces that are not held */
+  double *gaps;            /* gap_count x 3: middles of pieces that no ball contains */
   size_t gap_count, gap_capacity;
   bool failed; /* no memory */
 } Cover;
 
-/* Radius of ball i at which it holds the piece. */
+/* Radius at which ball i contains the piece. */
 static double radius_for(const SporeBalls *balls, size_t i, const Piece *p) {
   SporeVec3 c = spore_balls_centre(balls, i);
   return fmax(spore_vec3_distance(p->a, c), fmax(spore_vec3_distance(p->b, c), spore_vec3_distance(p->c, c)));
 }
 
-/* Ball of the `count` listed ones (all where `list` is NULL) that has to grow least to hold the piece, and by how much;
- * not above 0: it holds it. */
+/* The ball of the `count` listed ones (list NULL: all) that needs the least growth to contain the piece. *growth: the
+ * growth; not above 0: the ball contains the piece. */
 static size_t least_growth(const SporeBalls *balls, const uint32_t *list, size_t count, const Piece *piece,
                            double *growth) {
   size_t best = 0;
@@ -52,7 +52,7 @@ static size_t least_growth(const SporeBalls *balls, const uint32_t *list, size_t
   return best;
 }
 
-/* Longest edge; the piece is turned so that it is ab. */
+/* Length of the longest edge. Rotates the corners so that this edge is ab. */
 static double longest_edge(Piece *p) {
   double ab = spore_vec3_distance(p->a, p->b), bc = spore_vec3_distance(p->b, p->c),
          ca = spore_vec3_distance(p->c, p->a);
@@ -72,9 +72,8 @@ static bool add_gap(Cover *cover, const Piece *piece) {
   return true;
 }
 
-/* Divides until one ball holds each piece. A piece far out of all balls is not divided further than its distance
- * deserves. False: some piece is not held and nothing may grow, or there is
- * no memory. */
+/* Divides until one ball contains each piece. A piece that is small relative to its distance from all balls is not
+ * divided further. False: no ball contains some piece and no ball may grow, the list is full, or there is no memory. */
 static bool cover_piece(Cover *cover, Piece piece) {
   double growth, edge = longest_edge(&piece);
   size_t ball = least_growth(cover->balls, cover->near, cover->near_count, &piece, &growth);
@@ -108,7 +107,7 @@ static bool cover_surface(Cover *cover) {
   return true;
 }
 
-/* The two points on three spheres; false: there are none. */
+/* The two points that lie on three spheres; false: there are none. */
 static bool meeting_points(const SporeBalls *balls, size_t i, size_t j, size_t k, SporeVec3 meeting[2]) {
   SporeVec3 a = spore_balls_centre(balls, i), ab = spore_vec3_sub(spore_balls_centre(balls, j), a),
             ac = spore_vec3_sub(spore_balls_centre(balls, k), a), n = spore_vec3_cross(ab, ac);
@@ -190,7 +189,7 @@ static int common_balls(const Corner *a, const Corner *b) {
   return common;
 }
 
-/* An edge of a hollow lies on two spheres, so corners of one hollow hang together by pairs. */
+/* Joins corners with two common spheres into one hollow, as an edge of a hollow lies on two spheres. */
 static void join_corners(Corners *corners) {
   for (uint32_t a = 0; a < corners->count; a++)
     for (uint32_t b = a + 1; b < corners->count; b++)
@@ -198,7 +197,7 @@ static void join_corners(Corners *corners) {
         corners->corner[hollow_of(corners, b)].hollow = hollow_of(corners, a);
 }
 
-/* Grows the ball that needs it least to hold all corners of the hollow. */
+/* Grows the ball that needs the least growth to contain all corners of the hollow. */
 static void fill_hollow(Cover *cover, const Corners *corners, uint32_t hollow) {
   double least = HUGE_VAL, radius = 0;
   size_t best = 0;
@@ -244,7 +243,7 @@ static bool open_cover(Cover *cover, const SporeSolid *solid, SporeBalls *balls,
 }
 
 bool spore_balls_cover(const SporeSolid *solid, const SporeBalls *balls) {
-  SporeBalls looked_at = *balls; /* nothing grows */
+  SporeBalls looked_at = *balls; /* the balls do not grow */
   Cover cover;
   bool covered = open_cover(&cover, solid, &looked_at, CHECK, FINEST) && cover_surface(&cover) && cover_hollows(&cover);
   spore_free(cover.near);
@@ -267,7 +266,7 @@ bool spore_balls_gaps(const SporeSolid *solid, const SporeBalls *balls, double m
   spore_balls_copy(&smaller, balls);
   for (size_t i = 0; i < balls->count; i++) smaller.r[i] -= margin * solid->diagonal;
   bool done = open_cover(&cover, solid, &smaller, LIST, finest), whole = done && cover_surface(&cover);
-  while (done && !whole && !cover.failed) { /* too many: larger pieces */
+  while (done && !whole && !cover.failed) { /* too many gaps: larger pieces */
     cover.gap_count = 0;
     cover.finest *= 2;
     whole = cover_surface(&cover);

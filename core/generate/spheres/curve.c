@@ -1,18 +1,18 @@
-/* Spheres strung along a curve. Between two of radius r a distance h apart the tube's wall stands h^2 / (8 r) farther
- * out than the spheres do, on the outer side of a bend of curvature k more by 1 + k r: spheres lie so that this is the
- * same between all neighbours. */
+/* Spheres along a curve. Between two spheres of radius r at a distance h, the tube's wall lies h^2 / (8 r) outside the
+ * spheres. On the outer side of a bend of curvature k, this gap is larger by the factor 1 + k r. The spheres are placed
+ * so that the gap is the same between all neighbours. */
 #include <math.h>
 
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/generate/spheres/private.h"
 
-#define PIECES_A_RADIUS 8. /* the curve is looked at in pieces of this part of the radius */
+#define PIECES_A_RADIUS 8. /* the curve is divided into this many pieces per radius */
 #define PIECES_MOST 64.    /* between two points */
 
 typedef struct Pieces {
   SporeCurve curve; /* points close together */
-  double *need;     /* points: how many spheres lie before it, in proportion */
+  double *need;     /* points: number of spheres before the point, up to a factor */
 } Pieces;
 
 static SporeVec3 point(const SporeCurve *curve, size_t i) { return spore_vec3_load(curve->points + 4 * i); }
@@ -32,7 +32,7 @@ static size_t pieces_between(const SporeCurve *curve, size_t i) {
   return (size_t)fmin(ceil(length / fmin(a[3], b[3]) * PIECES_A_RADIUS), PIECES_MOST);
 }
 
-/* How closely spheres are wanted about a point of the curve as it came, a metre. */
+/* Wanted density of spheres at a point of the input curve, per metre, up to a factor. */
 static double density(const SporeCurve *curve, size_t i) {
   double r = curve->points[4 * i + 3];
   return sqrt((1 + fmin(curvature(curve, i) * r, 1)) / r);
@@ -77,15 +77,15 @@ static void sphere_at(const Pieces *pieces, double need, double sphere[4]) {
   for (int c = 0; c < 4; c++) sphere[c] = a[c] + t * (b[c] - a[c]);
 }
 
-/* Each sphere grown so that half of the wall to its neighbours stands inside it, half outside: on the wall of a tube of
- * radius r, at a quarter of the distance h to the neighbour, r'^2 = r^2 + h^2 / 16. Ends stay: there is no neighbour.
- */
+/* Grows each sphere so that half of the wall towards its neighbours lies inside the sphere and half outside: on the
+ * wall of a tube of radius r, at a quarter of the distance h to the neighbour, r'^2 = r^2 + h^2 / 16. The end spheres
+ * stay, as they have one neighbour only. */
 static void grow(SporeSphereSet *set) {
   double before = 0;
   for (size_t i = 0; i + 1 < set->count; i++) {
     double *s = set->spheres + 4 * i;
     double after = spore_vec3_distance(spore_vec3_load(s), spore_vec3_load(s + 4));
-    double h = i == 0 ? 0 : fmin(before, after); /* the end's cap is round as it is */
+    double h = i == 0 ? 0 : fmin(before, after); /* the round end needs no growth */
     s[3] = sqrt(s[3] * s[3] + fmin(h, 2 * s[3]) * fmin(h, 2 * s[3]) / 16);
     before = after;
   }
@@ -97,8 +97,8 @@ static bool copy_balls(SporeBalls *balls, const double *spheres, size_t count) {
   return true;
 }
 
-/* Against the curve's own points, which are so close that the tube's wall stands out of their balls by a few
- * thousandths of the radius. */
+/* Measures against balls at the points of `pieces`. The points are so close that the tube's wall lies only a few
+ * thousandths of the radius outside these balls. */
 static bool measure(const Pieces *pieces, const SporeSphereSet *set, SporeSpheresReport *report,
                     const SporeProgressPart *progress, SporeError *error) {
   SporeBalls whole = {0}, balls = {0};

@@ -35,7 +35,7 @@ static bool morton_order(const double *xyz, size_t count, uint32_t *order) {
   return done;
 }
 
-/* Middle of the box of the points first .. end - 1, and the farthest of them from it. */
+/* Bounding sphere of the points first .. end - 1, centred in their bounding box. */
 static void bound_points(const SporePoints *points, size_t first, size_t end, double bound[4]) {
   const double *column[3] = {points->x, points->y, points->z};
   double radius = 0;
@@ -159,7 +159,7 @@ static void gather_near(SporeField *field, const SporeBalls *balls, double least
   field->near.count = near;
 }
 
-/* The near balls and the points relative to the block's middle, in single precision. */
+/* Evaluates the near balls at the block's points, relative to the block's middle, in single precision. */
 static void evaluate_block(SporeField *field, const SporePoints *points, size_t b, double least) {
   const double *middle = points->block + 4 * b, *columns[3] = {points->x, points->y, points->z};
   const SporeBalls *balls = &field->near;
@@ -181,8 +181,8 @@ static void evaluate_block(SporeField *field, const SporePoints *points, size_t 
   }
 }
 
-/* Within R of a middle no value moves by more than R, so what is 2 R below the second largest there is third at best.
- */
+/* Within R of the middle no value changes by more than R. So a ball whose value at the middle is 2 R below the second
+ * largest is third at best. */
 static double least_value(double second, double radius) { return second - 2 * radius * (1 + 1e-12); }
 
 static size_t group_end(const SporePoints *points, size_t g) {
@@ -251,7 +251,7 @@ void spore_progress_show_images(const SporeProgressPart *part, const SporeSymmet
   if (!part->whole || !part->whole->show) return;
   size_t count = spore_balls_images(symmetry, balls, bound, NULL);
   double *spheres = SPORE_NEW_ARRAY(double, 4 * count);
-  if (!spheres) return; /* a look that is missed */
+  if (!spheres) return; /* this display update is skipped */
   spore_balls_images(symmetry, balls, bound, spheres);
   part->whole->show(part->whole->data, spheres, count);
   spore_free(spheres);

@@ -1,4 +1,4 @@
-/* Balls are fitted to the depth of a solid: damped least squares, with balls of little worth put elsewhere. */
+/* Fits balls to the depth of a solid by damped least squares, and relocates balls of little worth. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 #define FIRST_ROUNDS 60
 #define FILL_EVERY 6
 #define LAST_ROUNDS 24
-#define POLISHED_MOST 1000 /* balls: for more the samples of a polish are too few */
+#define POLISHED_MOST 1000 /* balls: for more balls the polish has too few samples */
 #define SETTLED 1e-5       /* relative change of the loss in a round below which the last rounds end */
 
 static double loss_of(const SporeFit *fit, const SporeField *field) {
@@ -53,7 +53,7 @@ static void take_round(SporeFit *fit) {
   step_balls(fit);
   spore_field_evaluate(&fit->trial_field, &fit->samples->points, &fit->trial);
   double loss = loss_of(fit, &fit->trial_field);
-  if (loss >= 1.002 * fit->loss) { /* a little uphill is let pass: owners change */
+  if (loss >= 1.002 * fit->loss) { /* a small increase is accepted, as samples change owners */
     fit->damping = fmin(4 * fit->damping, 10);
     return;
   }
@@ -106,12 +106,12 @@ static void close_fit(SporeFit *fit) {
   spore_field_clear(&fit->trial_field);
 }
 
-/* The last round was taken, and changed next to nothing. */
+/* The last step was accepted and changed the loss by almost nothing. */
 static bool settled(const SporeFit *fit, double before) {
   return fit->loss != before && fabs(fit->loss - before) < SETTLED * before;
 }
 
-/* Rounds in which balls of little worth go where depth is missing. */
+/* Rounds of steps; every few rounds, balls of little worth move to where depth is missing. */
 static bool fill(SporeFit *fit, const SporeProgressPart *progress, double from, double to, SporeError *error) {
   for (int round = 0; round < FIRST_ROUNDS; round++) {
     double fraction = from + (to - from) * round / FIRST_ROUNDS;
@@ -131,7 +131,7 @@ static bool fill(SporeFit *fit, const SporeProgressPart *progress, double from, 
   return true;
 }
 
-/* Rounds from the best so far, until the loss settles. */
+/* Rounds of steps from the best balls so far, until the loss settles. */
 static bool settle(SporeFit *fit, int rounds, const SporeProgressPart *progress, double from, double to,
                    SporeError *error) {
   if (!spore_progress_part(progress, from, _("Fitting spheres"), error)) return false;
@@ -147,7 +147,7 @@ static bool settle(SporeFit *fit, int rounds, const SporeProgressPart *progress,
   return true;
 }
 
-/* Trials of single relocations from the best so far. */
+/* Trials of single relocations from the best balls so far. */
 static bool relocate(SporeFit *fit, const SporeProgressPart *progress, double from, double to, SporeError *error) {
   SporeProgressPart part = {progress->whole, progress->first + progress->share * from, progress->share * (to - from)};
   if (fit->balls.count < 2) return true;

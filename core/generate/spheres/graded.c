@@ -1,4 +1,4 @@
-/* Samples of the depth in small cells, closest together at the surface. */
+/* Samples of the depth in small cells, densest at the surface. */
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -8,8 +8,8 @@
 #define SAMPLES_PER_BALL 700 /* at the surface, about */
 #define SAMPLES_LEAST 12000
 #define SAMPLES_MOST 90000
-#define NEAR 0.2 /* of the typical radius: as far from the surface samples are close */
-#define FAR 0.7  /* of it: as far outside there are any */
+#define NEAR 0.2 /* of the typical radius: samples are dense up to this distance from the surface */
+#define FAR 0.7  /* of the typical radius: how far outside samples go */
 #define REPORT_EVERY 4096
 
 typedef struct Cells {
@@ -35,8 +35,8 @@ static bool grow(Cells *cells) {
   return true;
 }
 
-/* A point somewhere in the cell, for all of it, unless that lies too far outside. Where regions want more balls errors
- * weigh more, see spheres_sample.c. */
+/* Adds a random point of the cell, which stands for the whole cell, unless the point lies too far outside. Errors weigh
+ * more where regions want more balls, see samples.c. */
 static bool add_cell(Cells *cells, SporeVec3 middle, double edge, const SporeBvhKnown *known) {
   const SporeSolid *solid = cells->solid;
   double offset[3];
@@ -72,7 +72,7 @@ static bool divide(Cells *cells, SporeVec3 middle, double edge, const SporeBvhKn
   return true;
 }
 
-/* From a cell that holds all and is a power of two of the finest. */
+/* Starts from a cell that contains all, with an edge of a power of two times the finest. */
 static bool divide_all(Cells *cells) {
   const SporeTriangleMesh *mesh = &cells->solid->mesh;
   double lower[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, extent = 0;

@@ -5,9 +5,9 @@
 
 #include "core/generate/spheres/private.h"
 
-#define LANES SPORE_LOCAL_LANES /* of the widest set: what is known of so many points stays in registers */
+#define LANES SPORE_LOCAL_LANES /* of the widest instruction set: the values of this many points stay in registers */
 
-/* Single precision will do: lengths are relative to the block. */
+/* Single precision is enough: lengths are relative to the block. */
 void SPORE_LEVEL_NAME(spore_field_block)(const SporeNearBalls *balls, const float *x, const float *y, const float *z,
                                          float *best, float *second, float *owner) {
   for (size_t first = 0; first < SPORE_BLOCK; first += LANES) {
@@ -38,7 +38,7 @@ void SPORE_LEVEL_NAME(spore_local_distances)(const float *x, const float *y, con
     }
 }
 
-/* Two sums, so that what is cheap is not lost beside what is dear. */
+/* Two sums, so that small costs are not lost to rounding beside large ones. */
 void SPORE_LEVEL_NAME(spore_local_cost)(const float *distance, const float *cost, size_t count, float radius,
                                         SporeLocalCost *sum) {
   float outside[LANES] = {0}, inside[LANES] = {0}, farthest[LANES] = {0};
@@ -77,7 +77,7 @@ static void sum_depths(const SporeWeightedBlock *b, size_t first, float *restric
   for (int k = 0; k < LANES; k++) sum[first + k] = all[k] - b->level;
 }
 
-/* Of what is wrong at each sample, by the sum there. */
+/* Derivative of each sample's loss by the sum there. */
 static void slopes_of_samples(const SporeWeightedBlock *b, const float *sum, float *restrict slope) {
   for (size_t k = 0; k < SPORE_BLOCK; k++) {
     float depth = b->depth[k], wrong = sum[k] - (depth > 0 ? depth : 0);

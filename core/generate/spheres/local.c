@@ -1,6 +1,6 @@
-/* Relocations one at a time. A ball that is worth little is put beside one that bears much, and both are refitted with
- * their neighbours while all other balls stay: only the groups of samples that these can reach are looked at again, so
- * a trial costs the same however many balls there are. */
+/* Relocations one at a time. A ball of little worth is put beside a ball of large burden. Both are refitted with their
+ * neighbours, while all other balls stay. Only the groups of samples that the refitted balls can reach are evaluated
+ * again, so the cost of a trial does not depend on the number of balls. */
 #include <math.h>
 #include <string.h>
 
@@ -8,23 +8,23 @@
 #include "core/base/text.h"
 #include "core/generate/spheres/fit.h"
 
-#define SPLIT_SHARE 0.5 /* of a ball's burden: what a split is taken to save */
+#define SPLIT_SHARE 0.5 /* of a ball's burden: the expected gain of a split */
 #define MOST_ACTIVE 40  /* balls refitted in a trial */
 #define TRIAL_ROUNDS 8
 #define WORK 32000  /* groups of samples evaluated, after which no more trials are made */
-#define PATIENCE 12 /* passes in vain, after which no more are made */
+#define PATIENCE 12 /* passes without gain, after which the search ends */
 
 typedef struct Local {
   SporeFit *fit;
-  double *least, *loss;             /* groups: value at its middle that a ball needs to matter; loss of its samples */
-  double *saved_least, *saved_loss; /* groups in the trial: before it */
-  SporeField saved;                 /* the field there, before it */
+  double *least, *loss; /* groups: least value at the middle for a ball to matter there; loss of the samples */
+  double *saved_least, *saved_loss; /* the same before the trial, for groups in the trial */
+  SporeField saved;                 /* the field before the trial, for groups in the trial */
   uint32_t *groups;                 /* in the trial */
   size_t group_count;
   bool *taken;                                           /* groups: in the trial */
   uint32_t active[MOST_ACTIVE];                          /* balls refitted */
-  double before[4 * MOST_ACTIVE], last[4 * MOST_ACTIVE]; /* they before the trial, before the round */
-  double found[4 * MOST_ACTIVE];                         /* they where the loss was least */
+  double before[4 * MOST_ACTIVE], last[4 * MOST_ACTIVE]; /* active balls before the trial; before the round */
+  double found[4 * MOST_ACTIVE];                         /* active balls at the least loss */
   double known[4 * MOST_ACTIVE];                         /* see SporeFit, before the trial */
   size_t active_count, work;
 } Local;
@@ -64,7 +64,7 @@ static void take_group(Local *l, size_t g) {
   copy_field(l, &l->saved, &l->fit->field, g);
 }
 
-/* Takes every group in which an active ball may be best or second best where it now is. */
+/* Adds to the trial each group in which an active ball, at its present place, may be best or second best. */
 static void take_groups(Local *l) {
   const SporePoints *points = &l->fit->samples->points;
   const SporeBalls *balls = &l->fit->balls;
@@ -108,7 +108,7 @@ static void add_active(Local *l, size_t ball) {
   if (l->active_count < MOST_ACTIVE) l->active[l->active_count++] = (uint32_t)ball;
 }
 
-/* The pair and the balls that overlap either of them. */
+/* The pair and the balls that overlap a ball of the pair. */
 static void choose_active(Local *l, size_t spare, size_t target) {
   const SporeBalls *balls = &l->fit->balls;
   const size_t pair[2] = {target, spare};
@@ -158,7 +158,7 @@ static void undo_trial(Local *l) {
   }
 }
 
-/* Rounds of all active balls; ends where the loss was least. */
+/* Steps all active balls in rounds; keeps the state of least loss. */
 static void refit(Local *l) {
   double damping = 1e-2, best = HUGE_VAL;
   bool at_best = false;
@@ -181,7 +181,7 @@ static void refit(Local *l) {
   evaluate_trial(l);
 }
 
-/* True: it pays, and stands. */
+/* True: the split lowers the loss and is kept. */
 static bool try_split(Local *l, size_t spare, size_t target) {
   choose_active(l, spare, target);
   store_active(l, l->before);
@@ -195,7 +195,7 @@ static bool try_split(Local *l, size_t spare, size_t target) {
   return better;
 }
 
-/* Trials over pairs that have nothing to do with what changed before in the pass; *paid: how many were worth it. False:
+/* Trials over pairs without balls that already changed in this pass. *paid: number of trials that were kept. False:
  * cancelled. */
 static bool pass(Local *l, double shake, size_t *paid, const SporeProgressPart *progress, SporeError *error) {
   SporeFit *fit = l->fit;

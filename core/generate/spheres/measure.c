@@ -1,4 +1,4 @@
-/* How well a sphere set stands for a solid: coverage, volume outside, distance and depth error. */
+/* How well a sphere set approximates a solid: coverage, volume outside, distance and depth error. */
 #include <math.h>
 #include <string.h>
 
@@ -7,9 +7,9 @@
 #include "core/generate/spheres/bounding.h"
 
 #define MEASURE_SAMPLES 30000
-#define ON_BALL 2e-6 /* of the largest radius: a point that is no deeper lies on the union's surface */
+#define ON_BALL 2e-6 /* of the largest radius: a point that is not deeper counts as on the union's surface */
 #define REPORT_EVERY 1024
-#define MEASURE_SEED UINT64_C(0x5350484552455321) /* other than any fit's */
+#define MEASURE_SEED UINT64_C(0x5350484552455321) /* differs from the seeds of the fits */
 
 typedef struct Measure {
   const SporeSolid *solid;
@@ -18,27 +18,28 @@ typedef struct Measure {
   double *points; /* 3 x capacity, scratch */
   double *value;  /* capacity, scratch */
   size_t capacity;
-  SporeProgressPart progress; /* of the figure at work */
+  SporeProgressPart progress; /* of the quantity being measured */
   SporeError *error;
   bool cancelled;
-  double ball_volume; /* of all balls, overlaps counted each time */
+  double ball_volume; /* sum of r^3 of all balls, overlaps counted repeatedly */
   double on_ball;     /* m: see ON_BALL */
 } Measure;
 
-/* To be asked before each of `count` points. False: cancelled. */
+/* Called before each of `count` points. False: cancelled. */
 static bool go_on(Measure *m, size_t i, size_t count) {
   if (i % REPORT_EVERY) return true;
   m->cancelled = !spore_progress_part(&m->progress, (double)i / (double)count, _("Measuring"), m->error);
   return !m->cancelled;
 }
 
-/* Points inside, into m->points. False: cancelled. */
+/* Draws points inside the solid into m->points. False: cancelled. */
 static bool draw_interior(Measure *m) {
   m->cancelled = !spore_solid_interior(m->solid, MEASURE_SAMPLES, &m->random, m->points, &m->progress, m->error);
   return !m->cancelled;
 }
 
-/* max_i (r_i - d_i), whose it is, and how many hold it; back in the order of `points`. Each output may be NULL. */
+/* At each point of xyz, in order: max_i (r_i - d_i), the ball that has it, and the number of balls that contain the
+ * point. Each output may be NULL. */
 static bool field_at(const Measure *m, const double *xyz, size_t count, double *best, uint32_t *owner, uint32_t *held) {
   SporePoints points = {0};
   SporeField field = {0};
@@ -88,7 +89,7 @@ double spore_spheres_weighted_depth(const SporeSphereSet *set, const double p[3]
   return fmax(sum, 0);
 }
 
-/* Depth error of the weighted sum, and where it is felt outside. False: cancelled. */
+/* Depth error of the weighted sum, and the share of points outside with a sum above 0. False: cancelled. */
 static bool measure_weighted(Measure *m, const SporeSphereSet *set, SporeSpheresReport *report) {
   double deepest = 0, error = 0, near = SPORE_SPHERES_NEAR * m->solid->diagonal;
   size_t outside = 0, felt = 0;
@@ -115,7 +116,8 @@ static bool measure_weighted(Measure *m, const SporeSphereSet *set, SporeSpheres
   return true;
 }
 
-/* Volume of the union outside the solid, from points spread over the balls, each divided by how many hold it. */
+/* Volume of the union outside the solid, from points drawn in the balls. Each point is divided by the number of balls
+ * that contain it. */
 static bool measure_outside(Measure *m, SporeSpheresReport *report) {
   uint32_t *held = SPORE_NEW_ARRAY(uint32_t, MEASURE_SAMPLES);
   if (!held) return false;
@@ -139,8 +141,8 @@ static bool measure_outside(Measure *m, SporeSpheresReport *report) {
   return done;
 }
 
-/* Points on the balls, keeping those that no other ball holds: the surface of the union. Returns how many; 0 with
- * *failed: no memory. */
+/* Draws points on the spheres and keeps those that no other ball contains, which lie on the surface of the union.
+ * Returns their number. *failed: no memory. */
 static size_t union_surface(Measure *m, bool *failed) {
   double area = 0;
   size_t count = 0, kept = 0;
@@ -184,7 +186,7 @@ static void add_distance(Distances *d, double distance) {
   d->count++;
 }
 
-/* Points of the solid's surface, and for each the way straight out of its deepest ball. */
+/* Points of the solid's surface, and for each its radial projection on the sphere of its deepest ball. */
 typedef struct Projection {
   double *surface, *way_out; /* x 3 */
   double *value, *way_value; /* the field there */
@@ -214,8 +216,9 @@ static void clear_projection(Projection *p) {
   spore_free(p->owner);
 }
 
-/* Surface of the solid to the union's. Outside the union the field is the distance; inside, the way out of the deepest
- * ball is, where no other ball covers it; else the nearest known point of the union's surface (`known` so far). */
+/* Distances from the solid's surface to the union's surface. Outside the union the distance is the absolute field.
+ * Inside it is the depth in the deepest ball, if no other ball contains the projected point; else the distance to the
+ * nearest known point of the union's surface. `known`: number of known points, in m->points. */
 static bool from_solid(Measure *m, const Projection *p, size_t known, Distances *distances, SporeError *error) {
   for (size_t i = 0; i < MEASURE_SAMPLES; i++)
     if (p->way_value[i] <= m->on_ball) memcpy(m->points + 3 * known++, p->way_out + 3 * i, 3 * sizeof(double));
@@ -252,7 +255,7 @@ static bool measure_surfaces(Measure *m, SporeSpheresReport *report, SporeError 
   return true;
 }
 
-/* What samples find a gap in needs no proof. */
+/* The proof is skipped where samples already found a gap. */
 static bool certify(const Measure *m, const SporeSpheresReport *report) {
   SporeMeshReport mesh;
   return report->coverage == 1 && spore_triangle_mesh_report(&m->solid->mesh, &mesh, NULL) && mesh.closed &&

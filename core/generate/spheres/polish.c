@@ -1,6 +1,6 @@
-/* The last of a balanced fit: all balls move together down what a set is judged by, the volume inside that none holds,
- * the volume outside that some hold, and the difference of depth inside. The fit before it goes down a sum of
- * differences of depth, in which those volumes stand only as what is missing at the surface. */
+/* The last part of a balanced fit: all balls move together to reduce the errors that a set is judged by. These are the
+ * uncovered volume inside, the covered volume outside, and the depth error inside. The fit before minimises a sum of
+ * depth errors, in which the two volumes count only through the errors at the surface. */
 #include <math.h>
 #include <string.h>
 
@@ -10,16 +10,16 @@
 
 #define ROUNDS_MOST 160
 #define ROUNDS_LEAST 30
-#define ROUNDS_OF_BALLS 16000 /* balls in all rounds, between those */
-#define BLUR_FIRST 0.25       /* of the typical radius: to both sides of a ball's edge, in the first rounds */
-#define BLUR_LAST 0.06        /* and in the last */
+#define ROUNDS_OF_BALLS 16000 /* balls times rounds, within those limits */
+#define BLUR_FIRST 0.25       /* of the typical radius: on both sides of a ball's surface, in the first round */
+#define BLUR_LAST 0.06        /* in the last round */
 #define STEP_FIRST 0.02       /* of the typical radius */
 #define STEP_LAST 0.0005
-#define LEAST_RADIUS 0.02 /* of it */
-#define REACH 0.5         /* of it: farthest out of a ball */
+#define LEAST_RADIUS 0.02 /* of the typical radius */
+#define REACH 0.5         /* of the typical radius: how far a ball may reach out of the solid */
 #define KEEP_SLOPE 0.9    /* Adam's two rates: Kingma and Ba 2015 */
 #define KEEP_SQUARE 0.98
-/* Shares of what is judged. What is missing weighs somewhat more than what is too much. */
+/* Weights of the errors. Uncovered volume weighs somewhat more than volume outside. */
 #define UNCOVERED_SHARE 2.4
 #define OUTSIDE_SHARE 1.6
 #define DEPTH_SHARE 1.0
@@ -35,13 +35,14 @@ typedef struct Polish {
   SporeBalls *balls, best;
   SporeField field;
   double *slope;   /* balls x JUDGED x 4: by x, y, z, r */
-  double *running; /* balls x 8: means of the loss' slopes and of their squares */
-  double *known;   /* balls x 4: where a centre's depth was last asked for, and that depth */
+  double *running; /* balls x 8: running means of the loss' slopes and of the squared slopes */
+  double *known;   /* balls x 4: place where the depth of a centre was last computed, and that depth */
   double judged[JUDGED], first[JUDGED];
   double blur; /* m */
 } Polish;
 
-/* Share of a sample that is held at the value f, blurred: 0 to 1 over -1 .. 1 times the blur, and its slope. */
+/* Covered share of a sample with the field value f, blurred: rises from 0 to 1 over f = -1 .. 1 times the blur. Also
+ * its slope. */
 static double held(double f, double blur, double *slope) {
   double x = fmin(fmax(f / blur, -1), 1);
   *slope = 0.75 * (1 - x * x) / blur;
@@ -73,7 +74,8 @@ static void judge_outside(Polish *p, size_t i) {
   if (slope > 0) add_slope(p, i, OUTSIDE, volume * slope);
 }
 
-/* What the loss has for each: both volumes stand beside what they were together at first. */
+/* Factors of the squared errors in the loss. Both volumes are relative to the sum of the squares of their initial
+ * values. */
 static void find_scales(const Polish *p, double scale[JUDGED]) {
   const double *first = p->first;
   double volumes = first[UNCOVERED] * first[UNCOVERED] + first[OUTSIDE] * first[OUTSIDE];
@@ -82,7 +84,7 @@ static void find_scales(const Polish *p, double scale[JUDGED]) {
   scale[DEPTH] = DEPTH_SHARE / (first[DEPTH] * first[DEPTH]);
 }
 
-/* The squares of both volumes, and of the depth. */
+/* Scaled sum of the squares of both volumes and of the depth error. */
 static double loss_of(const Polish *p) {
   double scale[JUDGED], sum = 0;
   find_scales(p, scale);
@@ -100,7 +102,8 @@ static double judge(Polish *p, double blur) {
   return loss_of(p);
 }
 
-/* No farther out than its reach; the depth changes no faster than the centre moves. */
+/* The radius within its limits. The depth is computed again only if needed: it changes by no more than the centre
+ * moves. */
 static double limit(Polish *p, size_t ball, SporeVec3 centre, double radius) {
   double *known = p->known + 4 * ball, reach = REACH * p->samples.typical;
   double least = fmax(known[3] - spore_vec3_distance(centre, spore_vec3_load(known)), 0);
@@ -119,7 +122,7 @@ static void move(Polish *p, size_t ball, const double change[4]) {
   spore_balls_set(p->balls, ball, centre, limit(p, ball, centre, p->balls->r[ball] - change[3]));
 }
 
-/* A step of Adam down the loss at the slopes of the last judgement. */
+/* An Adam step down the loss, with the slopes of the last call of judge. */
 static void step(Polish *p, int round, double length) {
   double share[JUDGED];
   find_scales(p, share);
@@ -140,7 +143,7 @@ static void step(Polish *p, int round, double length) {
 
 static void evaluate(Polish *p) { spore_field_evaluate(&p->field, &p->samples.points, p->balls); }
 
-/* Geometric from `first` to `last`. */
+/* Geometric interpolation from `first` to `last`. */
 static double between(double first, double last, double fraction) { return first * pow(last / first, fraction); }
 
 static bool open_polish(Polish *p) {

@@ -4,8 +4,8 @@
 
 #include "core/generate/spheres/spheres.h"
 
-/* Points in space-filling order, in blocks and groups of blocks, each with a bounding sphere, so that most balls are
- * ruled out for a whole group or block at once. */
+/* Points in space-filling order, in blocks and groups of blocks. Each block and group has a bounding sphere, which
+ * rules out most balls for the whole block or group at once. */
 #define SPORE_BLOCK 32
 #define SPORE_GROUP 16 /* blocks */
 typedef struct SporePoints {
@@ -32,87 +32,87 @@ static inline void spore_balls_set(SporeBalls *balls, size_t i, SporeVec3 centre
 static inline SporeVec3 spore_balls_centre(const SporeBalls *balls, size_t i) {
   return spore_vec3(balls->x[i], balls->y[i], balls->z[i]);
 }
-/* Lets whom it concerns see the balls so far; the picture of a long fit. Costs nothing where nobody looks. */
+/* Passes the current balls to the progress callback, to display a long fit. Costs nothing without a callback. */
 void spore_progress_show_balls(const SporeProgressPart *part, const SporeBalls *balls);
 
-/* max_i (r_i - |p - c_i|) at each point: the largest, whose it is, and the second largest (-HUGE_VAL where there is one
- * sphere). Arrays are padded to whole blocks. */
+/* max_i (r_i - |p - c_i|) at each point: the largest value, the ball that has it, and the second largest value
+ * (-HUGE_VAL where there is one sphere). Arrays are padded to whole blocks. */
 typedef struct SporeField {
   double *best, *second;
   uint32_t *owner;
   double *value;    /* scratch, balls */
   SporeBalls near;  /* scratch: the balls that may own a point of a group */
-  uint32_t *number; /* balls: theirs */
+  uint32_t *number; /* balls: indices of the near balls */
   float *local;     /* scratch: 5 columns of `capacity` */
   size_t capacity;  /* balls */
 } SporeField;
 bool spore_field_create(SporeField *field, const SporePoints *points, size_t ball_count);
 void spore_field_clear(SporeField *field);
 void spore_field_evaluate(SporeField *field, const SporePoints *points, const SporeBalls *balls);
-/* The same of one group. Returns what a ball's value at the middle of the group has to be, at least, for it to be best
- * or second best anywhere in the group. */
+/* The same for one group. Returns the least value that a ball must have at the middle of the group to be best or second
+ * best anywhere in the group. */
 double spore_field_evaluate_group(SporeField *field, const SporePoints *points, const SporeBalls *balls, size_t group);
-/* Number of balls that hold each point, padded. */
+/* held: the number of balls that contain each point, padded. */
 void spore_field_multiplicity(SporeField *field, const SporePoints *points, const SporeBalls *balls, uint32_t *held);
 
 /* Samples of the signed depth: inside, on the surface, and in a band outside, in that order of kinds before sorting. */
 typedef struct SporeSamples {
   SporePoints points;
-  double *depth, *weight; /* padded; the padding weighs nothing */
-  double band;            /* m: how far outside the samples go, about */
+  double *depth, *weight; /* padded; the padding has weight 0 */
+  double band;            /* m: about how far outside the samples go */
   double typical;         /* m: radius of one of `count` equal balls that fill the volume */
 } SporeSamples;
 bool spore_samples_create(SporeSamples *samples, const SporeSolid *solid, size_t count, SporeRandom *random,
                           const SporeProgressPart *progress, SporeError *error);
-/* Others for the same: one in each of small cells, closest at the surface, down to samples->band outside; their weights
- * are the cells' volumes (m^3). count: of the balls they are for; typical: as in SporeSamples. */
+/* Another kind of samples: one in each of many small cells, densest at the surface, to samples->band outside. The
+ * weights are the cells' volumes (m^3). count: number of balls to fit; typical: as in SporeSamples. */
 bool spore_samples_create_graded(SporeSamples *samples, const SporeSolid *solid, size_t count, double typical,
                                  SporeRandom *random, const SporeProgressPart *progress, SporeError *error);
 void spore_samples_clear(SporeSamples *samples);
 
-/* Balls inside the solid that touch its surface, most about its medial axis. */
+/* Balls inside the solid that touch the surface, most of them on the medial axis. */
 bool spore_candidates_create(SporeBalls *candidates, const SporeSolid *solid, size_t count, SporeRandom *random,
                              const SporeProgressPart *progress, SporeError *error);
-/* Picks balls->count of the candidates, each the one that holds most samples not yet held, and grows them a little. */
+/* Picks balls->count candidates: each time the one that contains most samples not yet contained. Grows them a little.
+ */
 bool spore_candidates_cover(const SporeBalls *candidates, const SporeSamples *samples, SporeBalls *balls,
                             const SporeProgressPart *progress, SporeError *error);
 
-/* Moves the balls so that their field meets the samples' depth. `candidates`: where balls may be put anew. `bound`: for
- * each ball the bits of the mirror planes that its centre stays on, NULL: none. `rough`: what another search starts
- * from.
- */
+/* Moves the balls so that their field matches the samples' depth. `candidates`: places to which balls may be relocated.
+ * `bound`: for each ball, the bits of the mirror planes that its centre stays on; NULL: none. `rough`: a shorter fit,
+ * as the start of another search. */
 bool spore_spheres_fit(const SporeSolid *solid, const SporeSamples *samples, const SporeBalls *candidates,
                        SporeBalls *balls, const uint8_t *bound, bool rough, uint64_t seed,
                        const SporeProgressPart *progress, SporeError *error);
 
-/* Moves the balls of a fit on, all together, by the volumes and the depth that a set is judged by. typical: as in
+/* Improves the balls of a fit, all together, by the volumes and the depth error that a set is judged by. typical: as in
  * SporeSamples; bound: as above. */
 bool spore_spheres_polish(const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound, double typical,
                           uint64_t seed, const SporeProgressPart *progress, SporeError *error);
 
-/* The balls and their images in the planes that they are not bound to (bound: as for spore_spheres_fit), x y z r each;
- * spheres: NULL to count alone. Returns how many. */
+/* The balls and their images in the planes to which the balls are not bound (bound: as for spore_spheres_fit), x y z r
+ * each. spheres: NULL to count only. Returns the number of balls and images. */
 size_t spore_balls_images(const SporeSymmetry *symmetry, const SporeBalls *balls, const uint8_t *bound,
                           double *spheres);
 /* As spore_progress_show_balls, with all images. */
 void spore_progress_show_images(const SporeProgressPart *part, const SporeSymmetry *symmetry, const SporeBalls *balls,
                                 const uint8_t *bound);
 
-/* False: they are out of their ranges, or none is given, and *error says so. */
+/* False: a target is out of range, or there is no target; see *error. */
 bool spore_targets_check(const SporeSpheresTargets *targets, SporeError *error);
-/* False; *error says by how much the largest set misses them. */
+/* Returns false; *error says by how much the largest set misses the targets. */
 bool spore_targets_out_of_reach(const SporeSpheresTargets *targets, const SporeSpheresReport *report,
                                 SporeError *error);
 
-/* Numbers of spheres tried so far, from all zero: the most that are too few, the fewest that are enough (0: none), and
- * what their sets err by over what is allowed. */
+/* Counts of spheres tried so far; starts all zero. few: the largest count that is too small; enough: the smallest count
+ * that reaches the targets (0: none); excess: error over allowed error of these two sets. */
 typedef struct SporeTargetSearch {
   size_t few, enough, trials;
   double few_excess, enough_excess;
 } SporeTargetSearch;
 /* The number to try next. */
 size_t spore_target_search_next(const SporeTargetSearch *search);
-/* Takes in what was measured of that many. True: they reach the targets. */
+/* Records the report of a set of `count` spheres. True: the set reaches the targets. */
 bool spore_target_search_add(SporeTargetSearch *search, size_t count, const SporeSpheresTargets *targets,
                              const SporeSpheresReport *report);
 bool spore_target_search_done(const SporeTargetSearch *search);
@@ -122,16 +122,16 @@ bool spore_target_search_failed(const SporeTargetSearch *search);
 bool spore_balls_compare(const SporeBalls *whole, const SporeBalls *balls, SporeSpheresReport *report,
                          const SporeProgressPart *progress, SporeError *error);
 
-/* As spore_spheres_from_source, of a curve or a sheet, exactly `count`. */
+/* As spore_spheres_from_source, for a curve or a sheet, exactly `count` spheres. */
 bool spore_spheres_along(const SporeCurve *curve, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
                          const SporeProgressPart *progress, SporeError *error);
 bool spore_spheres_over(const SporeTriangleMesh *sheet, size_t count, const SporeSpheresOptions *options,
                         SporeSphereSet *set, SporeSpheresReport *report, const SporeProgressPart *progress,
                         SporeError *error);
 
-/* (sum_i w_i (r_i - |p - c_i|)+ - level)+ of a set with weights. */
+/* (sum_i w_i (r_i - |p - c_i|)+ - level)+ for a set with weights. */
 double spore_spheres_weighted_depth(const SporeSphereSet *set, const double p[3]);
-/* As spore_spheres_measure, on a solid that is there already. */
+/* As spore_spheres_measure, for an existing SporeSolid. */
 bool spore_solid_measure(const SporeSolid *solid, const SporeSphereSet *set, SporeSpheresReport *report,
                          const SporeProgressPart *progress, SporeError *error);
 

@@ -1,4 +1,4 @@
-/* How well each sphere fits, and how far each vertex of the surface is from the set. */
+/* The error of each sphere, and the distance of each vertex of the surface from the set. */
 #include "core/generate/spheres/spheres.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #define POINTS_A_SPHERE 64
 #define GOLDEN_ANGLE 2.399963229728653 /* rad: points on a Fibonacci spiral */
 
-/* Points spread evenly in the unit ball: shells of equal volume along a spiral. */
+/* Points spread evenly in the unit ball: directions on a spiral, radii of shells of equal volume. */
 static SporeVec3 unit_point(int i) {
   double z = 1 - (2 * i + 1.0) / POINTS_A_SPHERE, ring = sqrt(1 - z * z), turn = i * GOLDEN_ANGLE;
   double r = cbrt((i * 29 % POINTS_A_SPHERE + 0.5) / POINTS_A_SPHERE);

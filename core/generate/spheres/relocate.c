@@ -1,4 +1,4 @@
-/* Which balls of a fit are worth little, and where others are missed: balls are moved there. */
+/* Finds balls of a fit that are worth little and places where depth is missing, and moves balls there. */
 #include <math.h>
 #include <string.h>
 
@@ -66,7 +66,7 @@ static double missing_depth(const SporeFit *fit, size_t candidate) {
   return sum;
 }
 
-/* True when the candidate lies in one that was used already. */
+/* Whether the candidate is close to one that is already used. */
 static bool crowded(const SporeFit *fit, const size_t *used, size_t count, size_t c) {
   const SporeBalls *k = fit->candidates;
   for (size_t i = 0; i < count; i++) {
@@ -110,7 +110,7 @@ static void place(SporeFit *fit, size_t ball, SporeVec3 centre, double radius) {
   spore_balls_set(&fit->balls, ball, centre, fmin(radius, most));
 }
 
-/* Along the longest spread. */
+/* Along the axis of largest variance of the samples. */
 void spore_fit_split(SporeFit *fit, size_t target, size_t spare) {
   const double *m = fit->spread + 10 * target;
   double w = fmax(m[0], 1e-300), x = m[1] / w, y = m[2] / w, z = m[3] / w, values[3];

@@ -1,4 +1,4 @@
-/* Samples of the signed depth of a solid, inside, on its surface and in a band outside. */
+/* Samples of the signed depth of a solid: inside, on the surface and in a band outside. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "core/base/text.h"
 #include "core/generate/spheres/private.h"
 
-/* Weights of the kinds of samples, each as a whole. */
+/* Total weight of each kind of samples. */
 #define WEIGHT_INTERIOR 1.0
 #define WEIGHT_SURFACE 0.6
 #define WEIGHT_OUTSIDE 0.5
@@ -33,7 +33,7 @@ static double most_factor(const SporeSolid *solid) {
   return most;
 }
 
-/* Keeps of the first `count` points each with the chance factor / most; returns how many. */
+/* Keeps each of the first `count` points with the probability factor / most; returns how many are kept. */
 static size_t thin_out(const SporeSolid *solid, double most, double *points, size_t count, SporeRandom *random) {
   size_t kept = 0;
   for (size_t i = 0; i < count; i++) {
@@ -43,7 +43,8 @@ static size_t thin_out(const SporeSolid *solid, double most, double *points, siz
   return kept;
 }
 
-/* `count` points of the inside or of the surface, closer by their factor, folded by the symmetry. False: cancelled. */
+/* Draws `count` points of the inside or of the surface, with a density proportional to the factor, folded by the
+ * symmetry. False: cancelled. */
 static bool draw_points(const SporeSolid *solid, bool surface, size_t count, SporeRandom *random, double *points,
                         const SporeProgressPart *progress, SporeError *error) {
   double most = most_factor(solid);
@@ -57,8 +58,8 @@ static bool draw_points(const SporeSolid *solid, bool surface, size_t count, Spo
   return true;
 }
 
-/* Points off the surface by a normal deviate of the band, kept where they are outside and not far;
- * kinds->outside becomes how many those are. False: cancelled. */
+/* Points at random distances of the order of the band from the surface; keeps points that are outside and not too far.
+ * Sets kinds->outside to their number. False: cancelled. */
 static bool outside_points(const SporeSolid *solid, const double *surface, Kinds *kinds, double band,
                            SporeRandom *random, double *points, double *depth, const SporeProgressPart *progress,
                            SporeError *error) {
@@ -89,14 +90,14 @@ static bool measure_depths(const SporeSolid *solid, const double *points, size_t
   return true;
 }
 
-/* Weight of a point among its kind. The error of spheres of size h is about proportional to h, so that as many as give
- * the least sum of weighted errors are as close as the 3/4th power of the weight; the points are as close as the factor
- * already. */
+/* Weight of a point among its kind. The error of spheres of size h is about proportional to h. So at the least sum of
+ * weighted errors, the density of spheres is proportional to the 3/4th power of the weight. The density of the points
+ * is proportional to the factor already. */
 static double point_weight(const SporeSolid *solid, const double *point) {
   return solid->region_count ? cbrt(spore_solid_factor(solid, spore_vec3_load(point))) : 1;
 }
 
-/* Of the points first .. first + count - 1 together `whole`. */
+/* Sets the weights of the points first .. first + count - 1, with the sum `whole`. */
 static void weigh_kind(const SporeSolid *solid, const double *points, size_t first, size_t count, double whole,
                        double *weight) {
   double sum = 0;

@@ -1,5 +1,5 @@
-/* Spheres on a surface without volume: its area is shared out among centres as k-means does it (Lloyd 1982), parts
- * where it bends counting for more, and each centre stays on the surface. */
+/* Spheres on a surface without volume: k-means (Lloyd 1982) divides the area among the centres. Parts where the surface
+ * bends weigh more. Each centre stays on the surface. */
 #include <math.h>
 #include <string.h>
 
@@ -11,15 +11,15 @@
 #define SAMPLES_LEAST 6000
 #define SAMPLES_MOST 120000
 #define ROUNDS 20
-#define BENDING 2.0      /* how much more a place counts whose radius of curvature is the distance between spheres */
-#define BENDING_MOST 8.0 /* times that of a flat one, at most */
+#define BENDING 2.0      /* additional weight where the radius of curvature equals the spacing of spheres */
+#define BENDING_MOST 8.0 /* largest weight; 1: flat */
 
 typedef struct Sheet {
-  SporeTriangleMesh mesh; /* a copy: the solid's sampler reads it */
+  SporeTriangleMesh mesh; /* a copy, for the sampler of solids */
   SporeBvh *bvh;
-  SporeSolid solid; /* no solid: its mesh and areas alone, for the sampler */
+  SporeSolid solid; /* not a solid: only the mesh and the areas are set, for the sampler */
   SporePoints points;
-  double *weight; /* points, in their order; the padding weighs nothing */
+  double *weight; /* of the points, in their order; the padding has weight 0 */
   SporeBalls balls;
   SporeField field;
   double *sums; /* balls x 4 */
@@ -30,7 +30,7 @@ static SporeVec3 corner(const SporeTriangleMesh *mesh, size_t triangle, int k) {
   return spore_vec3_load(mesh->vertices + 3 * (size_t)mesh->triangles[3 * triangle + (size_t)k]);
 }
 
-/* How much a triangle's surroundings bend: the turn of its corners' normals along its edges, 1/m. */
+/* Curvature about a triangle, 1/m: largest change of the corner normals along an edge, over the edge's length. */
 static double bend(const SporeTriangleMesh *mesh, const double *normals, size_t triangle) {
   double most = 0;
   for (int k = 0; k < 3; k++) {
@@ -55,7 +55,7 @@ static bool sum_areas(Sheet *sheet) {
   return true;
 }
 
-/* Weights in the points' order, by the bend of the triangle on which each lies. */
+/* Sets the weights in the points' order, by the curvature of the triangle on which each point lies. */
 static bool weigh(Sheet *sheet) {
   size_t padded = sheet->points.block_count * SPORE_BLOCK;
   double *normals = SPORE_NEW_ARRAY(double, 3 * sheet->mesh.vertex_count);
@@ -115,7 +115,7 @@ static SporeVec3 sample(const Sheet *sheet, size_t i) {
   return spore_vec3(sheet->points.x[i], sheet->points.y[i], sheet->points.z[i]);
 }
 
-/* Centres at equal shares of the weight along the space-filling order of the points. */
+/* Puts centres at equal shares of the weight along the space-filling order of the points. */
 static void start(Sheet *sheet) {
   double all = 0, sum = 0;
   size_t n = sheet->balls.count, next = 0;
@@ -128,7 +128,7 @@ static void start(Sheet *sheet) {
   for (; next < n; next++) spore_balls_set(&sheet->balls, next, sample(sheet, sheet->points.count - 1), 0);
 }
 
-/* Each centre to the middle of what it is nearest to, then back onto the surface. */
+/* Moves each centre to the weighted mean of the points nearest to it, then back onto the surface. */
 static void move_centres(Sheet *sheet) {
   memset(sheet->sums, 0, 4 * sheet->balls.count * sizeof *sheet->sums);
   for (size_t i = 0; i < sheet->points.count; i++) {
@@ -143,7 +143,7 @@ static void move_centres(Sheet *sheet) {
   }
 }
 
-/* As wide as was asked, or each as wide as what it is nearest to. */
+/* Radii from the thickness; if that is 0, each sphere just contains the points nearest to its centre. */
 static void set_radii(Sheet *sheet, double thickness) {
   for (size_t i = 0; i < sheet->balls.count; i++)
     sheet->balls.r[i] = thickness > 0 ? 0.5 * thickness : 1e-6 * sheet->spacing;

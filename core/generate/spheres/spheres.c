@@ -1,4 +1,4 @@
-/* Sphere sets from solids, tetrahedra, curves and sheets: the steps of each, by number, by targets, and in series. */
+/* Sphere sets from solids, tetrahedra, curves and sheets: with a given count, by targets, and in series. */
 #include "core/generate/spheres/spheres.h"
 
 #include <math.h>
@@ -12,19 +12,19 @@
 
 #define CANDIDATES_LEAST 1500
 #define CANDIDATES_PER_SPHERE 12
-#define ENOUGH_ROOM 0.9 /* of its radius: depth where a ball is moved to that has to lie on a plane */
-#define RANKED_LEAST 64 /* balls to choose those from that go with the number */
-#define NEAR_PLANE 0.4  /* of its radius: a ball whose centre is nearer to a mirror plane starts on it */
+#define ENOUGH_ROOM 0.9 /* of the radius: least depth at the new centre of a ball that is moved onto a plane */
+#define RANKED_LEAST 64 /* balls from which those that add up to the count are chosen */
+#define NEAR_PLANE 0.4  /* of the radius: a ball whose centre is nearer to a mirror plane starts on the plane */
 
 const char *const spore_spheres_mode_names[SPORE_SPHERES_MODE_COUNT + 1] = {[SPORE_SPHERES_BALANCED] = "balanced",
                                                                             [SPORE_SPHERES_BOUNDING] = "bounding",
                                                                             [SPORE_SPHERES_WEIGHTED] = "weighted"};
 
-/* What one way to make spheres works on. */
+/* Input of a Maker. */
 typedef struct Work {
   const SporeSpheresSource *source;
   const SporeSpheresOptions *options;
-  SporeSolid *solid; /* NULL: the source is none */
+  SporeSolid *solid; /* NULL: the source is a curve or a sheet */
 } Work;
 typedef bool Maker(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
                    const SporeProgressPart *progress, SporeError *error);
@@ -59,7 +59,7 @@ static bool check_options(const SporeSpheresOptions *options, SporeError *error)
   return check_regions(options, error);
 }
 
-/* Only what has an inside can be covered, and has an outside and a depth. */
+/* Only a source with an inside has a volume to cover, an outside and a depth. */
 static bool check_mode(const SporeSpheresSource *source, const SporeSpheresOptions *options, SporeError *error) {
   const SporeSpheresTargets *targets = &options->targets;
   if (source->solid || source->tetrahedra) return true;
@@ -81,7 +81,7 @@ static SporeProgressPart part_of(const SporeProgressPart *whole, double first, d
 
 static unsigned count_bits(unsigned mask) { return (unsigned)__builtin_popcount(mask); }
 
-/* A ball stands for its images too, save in the planes that it is bound to. */
+/* Number of images of a ball, itself included: planes to which the ball is bound give none. */
 static size_t images_of(const SporeSymmetry *symmetry, unsigned bound) {
   return (size_t)1 << (symmetry->count - count_bits(bound));
 }
@@ -99,7 +99,7 @@ static bool store_balls(const SporeSymmetry *symmetry, const SporeBalls *balls, 
   return true;
 }
 
-/* Planes that the ball is so near that it and its images had better be one. */
+/* Planes so near to the ball that the ball is better placed on them than mirrored. */
 static unsigned near_planes(const SporeSymmetry *symmetry, SporeVec3 centre, double radius) {
   unsigned planes = 0;
   for (unsigned k = 0; k < symmetry->count; k++) {
@@ -109,8 +109,8 @@ static unsigned near_planes(const SporeSymmetry *symmetry, SporeVec3 centre, dou
   return planes;
 }
 
-/* More planes for a ball that has too many images to be one of `count`: those where it has as much room. `forced`: any.
- */
+/* Binds a ball with more than `count` images to more planes: planes on which the solid is deep enough for the ball.
+ * `forced`: any planes. */
 static unsigned bind_more(const SporeSolid *solid, size_t count, SporeVec3 centre, double radius, unsigned planes,
                           bool forced) {
   for (unsigned k = 0; k < solid->symmetry.count && images_of(&solid->symmetry, planes) > count; k++) {
@@ -120,8 +120,8 @@ static unsigned bind_more(const SporeSolid *solid, size_t count, SporeVec3 centr
   return planes;
 }
 
-/* Of `ranked`, the best first, those that with their images come to `count`, each bound to the planes it is near.
- * False: they do not come to it, unless `forced`. Counts in *chosen. */
+/* Chooses balls of `ranked`, the best first, that with their images add up to `count`. Each is bound to the planes near
+ * it; *chosen: their number. `forced`: see bind_more. False: the balls do not add up to `count`. */
 static bool choose_bound(const SporeSolid *solid, size_t count, const SporeBalls *ranked, bool forced, uint32_t *which,
                          uint8_t *bound, size_t *chosen) {
   *chosen = 0;
@@ -171,11 +171,11 @@ static SporeSymmetry some_planes(const SporeSymmetry *all, unsigned planes) {
   return some;
 }
 
-/* A start in as many of the solid's mirror planes as the number goes with: an odd one, say, needs a ball that is its
- * own image in all. */
+/* A start with as many of the solid's mirror planes as the count allows. An odd count, for instance, needs a ball that
+ * lies on all planes. */
 static bool start_in_planes(Start *start, SporeSolid *solid, size_t count, uint64_t seed, uint32_t *which,
                             uint8_t *bound, size_t *chosen, const SporeProgressPart *progress, SporeError *error) {
-  static const unsigned char ways[] = {7, 3, 5, 6, 1, 2, 4, 1}; /* the most first; the last one is forced */
+  static const unsigned char ways[] = {7, 3, 5, 6, 1, 2, 4, 1}; /* the most planes first; the last way is forced */
   const SporeSymmetry all = solid->symmetry;
   for (size_t i = 0; i < sizeof ways; i++) {
     SporeProgressPart part = part_of(progress, (double)i / sizeof ways, 1. / sizeof ways);
@@ -188,8 +188,8 @@ static bool start_in_planes(Start *start, SporeSolid *solid, size_t count, uint6
   return false;
 }
 
-/* Balls in the solid that come to `count` with their images in those of its planes that are left. *balls is made; bound
- * holds `count`. */
+/* Balls in the solid that with their images add up to `count`. Reduces the solid's planes to those used. Creates
+ * *balls; bound has room for `count`. */
 static bool place_balls(SporeSolid *solid, size_t count, const SporeSpheresOptions *options, SporeBalls *balls,
                         uint8_t *bound, const SporeProgressPart *progress, SporeError *error) {
   SporeProgressPart starting = part_of(progress, 0, 0.3), fitting = part_of(progress, 0.3, 0.7);
@@ -210,7 +210,7 @@ static bool place_balls(SporeSolid *solid, size_t count, const SporeSpheresOptio
   return done;
 }
 
-/* What the other modes make of a balanced start; *weights: the caller's to free. */
+/* Fits the balls of a balanced start in the bounding and the weighted mode. The caller frees *weights. */
 static bool refine(const Work *work, const SporeSolid *solid, SporeBalls *balls, const uint8_t *bound, double **weights,
                    double *level, const SporeProgressPart *progress, SporeError *error) {
   uint64_t seed = work->options->seed;
@@ -225,7 +225,7 @@ static bool refine(const Work *work, const SporeSolid *solid, SporeBalls *balls,
 /* Exactly `count` spheres in the solid, measured. */
 static bool fill_solid(const Work *work, size_t count, SporeSphereSet *set, SporeSpheresReport *report,
                        const SporeProgressPart *progress, SporeError *error) {
-  SporeSolid part = *work->solid, *solid = &part; /* of which it may take fewer planes */
+  SporeSolid part = *work->solid, *solid = &part; /* a copy, whose planes may be reduced */
   bool balanced = work->options->mode == SPORE_SPHERES_BALANCED;
   SporeProgressPart placing = part_of(progress, 0, balanced ? 0.9 : 0.4), refining = part_of(progress, 0.4, 0.5),
                     measuring = part_of(progress, 0.9, 0.1);
@@ -378,7 +378,7 @@ bool spore_spheres_series(const SporeSpheresSource *source, const SporeSpheresOp
                           const SporeProgress *progress, SporeError *error) {
   double sum = 0, done = 0;
   if (!check_counts(counts, count, error)) return false;
-  for (size_t i = 0; i < count; i++) sum += 40 + (double)counts[i]; /* about what each takes */
+  for (size_t i = 0; i < count; i++) sum += 40 + (double)counts[i]; /* about the time of each */
   for (size_t i = 0; i < count; i++) {
     SporeProgressShare part = {progress, done / sum, (40 + (double)counts[i]) / sum};
     SporeProgress inner = spore_progress_of_share(&part);
@@ -393,7 +393,7 @@ bool spore_spheres_series(const SporeSpheresSource *source, const SporeSpheresOp
   return true;
 }
 
-/* What a doubling lowers the error by, before point i. */
+/* How much a doubling lowers the error, between the points i - 1 and i. */
 static double gain(const size_t *counts, const double *errors, size_t i) {
   return (errors[i - 1] - errors[i]) / log2((double)counts[i] / (double)counts[i - 1]);
 }

@@ -1,4 +1,4 @@
-/* One step of Gauss and Newton of a ball towards the depth of the samples that it owns. */
+/* One Gauss-Newton step of a ball towards the depth of the samples that the ball owns. */
 #include <math.h>
 
 #include "core/generate/spheres/fit.h"
@@ -6,7 +6,7 @@
 #define LEAST_RADIUS 0.02 /* of the typical radius */
 #define LONGEST_STEP 0.3  /* of the typical radius */
 
-/* Weighted so that a least-squares step follows the nearly linear loss. */
+/* The weights make a least-squares step follow the nearly linear loss. */
 void spore_fit_add_normal(const SporeFit *fit, size_t sample, double *m) {
   const SporeSamples *s = fit->samples;
   size_t ball = fit->field.owner[sample];
@@ -43,8 +43,8 @@ static void solve_damped(const double *m, double shift, double x[4]) {
   }
 }
 
-/* The depth at a ball's new centre if its radius may be over it and the band, else what it is at least: it changes no
- * faster than the centre moves. */
+/* A lower bound of the depth at a ball's new centre if the radius is surely within the bound plus the band, else the
+ * depth itself. The bound holds because the depth changes by no more than the centre moves. */
 static double depth_for(SporeFit *fit, size_t ball, SporeVec3 centre, double radius) {
   double *known = fit->known + 4 * ball, band = fit->samples->band;
   double least = fmax(known[3] - spore_vec3_distance(centre, spore_vec3_load(known)), 0);

@@ -1,17 +1,18 @@
-/* The fewest spheres that reach what is asked of them. */
+/* Search for the fewest spheres that reach the targets. */
 #include <math.h>
 
 #include "core/base/text.h"
 #include "core/generate/spheres/private.h"
 
-/* Sets of numbers a few % apart err by more or less than each other by as much, so that it is no use to go on. */
-#define NEAR_COUNT 30 /* fewest that are enough / difference to those that are too few */
+/* When the search ends. The errors of sets whose counts differ by a few % scatter by as much, so a finer search is of
+ * no use. */
+#define NEAR_COUNT 30 /* smallest count that is enough / its difference to the largest count that is too small */
 #define NEAR_EXCESS 0.97
 #define FIRST_COUNT 32
-#define USUAL_SLOPE -0.8  /* of the logarithm of what a set errs by over that of its number */
-#define LEAST_EXCESS 1e-3 /* a logarithm is taken of it */
+#define USUAL_SLOPE -0.8  /* slope of log(error) over log(count) */
+#define LEAST_EXCESS 1e-3 /* its logarithm must be finite */
 #define GENTLEST_SLOPE -0.2
-#define BEYOND 1.02      /* of what is allowed, where a trial is to land */
+#define BEYOND 1.02      /* factor beyond the allowed error at which a trial aims */
 #define BISECTED_AFTER 6 /* trials */
 
 const char *spore_spheres_hardest_target(const SporeSpheresTargets *targets, const SporeSpheresReport *report,
@@ -64,9 +65,9 @@ static double power(size_t a, double a_excess, size_t b, double b_excess) {
   return fmin(log(b_excess / a_excess) / log((double)b / (double)a), GENTLEST_SLOPE);
 }
 
-/* The excess falls about as a power of the count, so each trial goes where a line in logarithms says. Its slope is
- * taken from the best known to be too few and enough; from the one nearer to 1 it goes a little beyond, so that the
- * next is likely to be on the other side. */
+/* The excess falls about as a power of the count, so each trial follows a line in logarithms. The slope comes from the
+ * largest count that is too small and the smallest that is enough. The line starts at the one whose excess is nearer to
+ * 1 and aims a little beyond 1, so that the next trial is likely to be on the other side. */
 size_t spore_target_search_next(const SporeTargetSearch *s) {
   if (!s->trials) return FIRST_COUNT;
   bool both = s->few && s->enough;

@@ -1,4 +1,4 @@
-/* How well one union of balls stands in for another, larger one: what a curve's spheres are measured by. */
+/* How well one union of balls approximates another, larger one. Used to measure a curve's spheres. */
 #include <math.h>
 
 #include "core/base/memory.h"
@@ -7,12 +7,12 @@
 
 #define SAMPLES 20000
 #define SEED UINT64_C(0x53504f5245554e49)
-#define ON_BALL 2e-5 /* of the radius: a point that is no deeper lies on the surface */
+#define ON_BALL 2e-5 /* of the radius: a point that is not deeper counts as on the surface */
 
-/* Points about a union, and what two unions say there. */
+/* Points in or on a union, and the fields of two unions there. */
 typedef struct Look {
-  double *xyz, *own, *other; /* SAMPLES: the field of the union that they were drawn from, and of the other */
-  uint32_t *held;            /* SAMPLES: balls of the own union that hold the point */
+  double *xyz, *own, *other; /* SAMPLES: the field of the union from which the points are drawn, and of the other */
+  uint32_t *held;            /* SAMPLES: number of balls of the own union that contain the point */
 } Look;
 
 static bool open_look(Look *look) {
@@ -28,7 +28,7 @@ static void close_look(Look *look) {
   spore_free(look->held);
 }
 
-/* The value of the field of `balls` at the points, and how many hold each (held may be NULL). */
+/* The field of `balls` at the points, and the number of balls that contain each point (held may be NULL). */
 static bool ask(const SporeBalls *balls, const double *xyz, double *value, uint32_t *held) {
   SporePoints points = {0};
   SporeField field = {0};
@@ -47,7 +47,7 @@ static bool ask(const SporeBalls *balls, const double *xyz, double *value, uint3
   return done;
 }
 
-/* Points in the balls, or on them; *size: their volumes or areas together, overlaps counted each time. */
+/* Draws points in the balls, or on them. *size: sum of the balls' volumes or areas, overlaps counted repeatedly. */
 static bool draw(Look *look, const SporeBalls *own, const SporeBalls *other, bool surface, double *size) {
   SporeRandom random = {SEED};
   double power = surface ? 2 : 3, all = 0, end = 0;
@@ -65,8 +65,8 @@ static bool draw(Look *look, const SporeBalls *own, const SporeBalls *other, boo
   return ask(own, look->xyz, look->own, look->held) && ask(other, look->xyz, look->other, NULL);
 }
 
-/* Volume of the own union, and how much of it the other one holds; the mean of |own - other+| in it, and the most of
- * own. */
+/* Volume of the own union, the volume of it that the other union contains, the mean of |own - other+| in it, and the
+ * largest value of own. */
 typedef struct Filling {
   double volume, held, error, deepest;
 } Filling;
@@ -87,8 +87,8 @@ static Filling weigh(const Look *look, double size) {
   return f;
 }
 
-/* Mean and most of the distance from the own union's surface to the other's: outside that one exact, inside along the
- * way out of its deepest ball. */
+/* Mean and largest distance from the own union's surface to the other's surface. Outside the other union the distance
+ * is exact; inside it is the depth in its deepest ball. */
 static void compare_surfaces(const Look *look, double radius, double *mean, double *most) {
   double sum = 0;
   size_t count = 0;

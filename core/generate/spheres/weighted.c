@@ -1,5 +1,5 @@
-/* Joint fit of centres, radii and weights: all go down the mean absolute error of depth by Adam's rule (Kingma and Ba
- * 2015), rounded at first so that what is far off leads; meanwhile balls that are worth little are put elsewhere. */
+/* Joint fit of centres, radii and weights: Adam (Kingma and Ba 2015) minimises the mean absolute error of depth. The
+ * error is smoothed more at first, so that large errors dominate. Meanwhile, balls of little worth are relocated. */
 #include "core/generate/spheres/weighted_parts.h"
 
 #include <math.h>
@@ -9,12 +9,12 @@
 #include "core/base/text.h"
 
 #define ROUNDS 1000
-#define FIRST_TRIAL 150 /* round: of relocations; then one every so many rounds */
+#define FIRST_TRIAL 150 /* first round with relocations; then every TRIAL_ROUNDS rounds */
 #define TRIAL_ROUNDS 50
 #define LAST_TRIAL 700
-#define MOST_REPLACED 10 /* one ball in so many, in a trial */
-#define SAMPLES 4        /* times as many as a balanced fit takes: there is a fifth unknown, and fewer overlap */
-#define PART 60000       /* samples looked at in a round */
+#define MOST_REPLACED 10 /* at most one ball in this many, in a trial */
+#define SAMPLES 4        /* times the samples of a balanced fit, as a ball has a fifth unknown */
+#define PART 60000       /* samples evaluated in a round, about */
 #define START_LEVEL 0.4  /* of the typical radius */
 #define SMOOTHING_FIRST 0.2
 #define SMOOTHING_LAST 0.01
@@ -23,11 +23,12 @@
 #define KEEP_SLOPE 0.9 /* Adam's two rates */
 #define KEEP_SQUARE 0.98
 #define LEAST_RADIUS 0.05 /* of the typical radius */
-#define SURFACE_SHARE 0.3 /* of what the samples weigh there in a balanced fit */
+#define SURFACE_SHARE 0.3 /* of the weight of surface samples in a balanced fit */
 #define START_WEIGHT 0.6
 #define START_GROWTH 0.15 /* of the typical radius */
 
-/* The depth changes no faster than the centre moves. */
+/* The radius within its limits. The depth is computed again only if needed: it changes by no more than the centre
+ * moves. */
 static double limit(SporeWeightedFit *fit, size_t ball, SporeVec3 centre, double radius) {
   double *known = fit->known + 4 * ball, reach = spore_weighted_reach(fit);
   double least = fmax(known[3] - spore_vec3_distance(centre, spore_vec3_load(known)), 0);
@@ -38,12 +39,12 @@ static double limit(SporeWeightedFit *fit, size_t ball, SporeVec3 centre, double
   return fmin(fmax(radius, LEAST_RADIUS * fit->samples.typical), least + reach);
 }
 
-/* How far a round goes, and the share of the running means that rounds have filled. */
+/* Step length of a round, and Adam's corrections of the running means for the number of rounds so far. */
 typedef struct Pace {
   double rate, slopes, squares;
 } Pace;
 
-/* Of one unknown, and its running means. */
+/* The change of one unknown. Updates its running means. */
 static double change_of(double slope, double *mean, Pace pace) {
   mean[0] = KEEP_SLOPE * mean[0] + (1 - KEEP_SLOPE) * slope;
   mean[1] = KEEP_SQUARE * mean[1] + (1 - KEEP_SQUARE) * slope * slope;
@@ -87,8 +88,9 @@ static bool fit_rounds(SporeWeightedFit *fit, const SporeProgressPart *progress,
   return true;
 }
 
-/* What the samples weigh: those inside 1 together; those outside more where there is more surface to the volume, in
- * thin shapes, or else what is felt outside would be paid for by little that is right inside. */
+/* Sets the weights of the samples. Samples inside weigh 1 together. Samples outside weigh more where the ratio of
+ * surface to volume is larger, as in thin shapes. Otherwise a small gain inside would outweigh a positive depth
+ * outside. */
 static void share_out(SporeSamples *samples, const SporeSolid *solid) {
   double inside = 0, area = solid->triangle_end[solid->mesh.triangle_count - 1];
   for (size_t k = 0; k < samples->points.count; k++) {
@@ -143,7 +145,7 @@ bool spore_spheres_weigh(const SporeSolid *solid, SporeBalls *balls, const uint8
   bool done = spore_samples_create(&fit.samples, solid, SAMPLES * images, &random, &sampling, error);
   if (done) {
     fit.samples.typical *= cbrt(SAMPLES), fit.samples.band *= cbrt(SAMPLES);
-    fit.levelled = balls->count > 1; /* of one, a level is a smaller radius */
+    fit.levelled = balls->count > 1; /* for one ball, a level equals a smaller radius */
     fit.level = fit.levelled ? START_LEVEL * fit.samples.typical : 0;
     done = open_fit(&fit, balls) || spore_generate_no_memory(error);
   }

@@ -14,31 +14,31 @@ typedef struct SporeWeightedImage {
 } SporeWeightedImage;
 
 typedef struct SporeWeightedFit {
-  const SporeSolid *solid; /* whose symmetry the balls follow: they stand for their images, samples are folded */
-  const uint8_t *bound;    /* balls: mirror planes that they stay on, as bits */
+  const SporeSolid *solid; /* with its symmetry: each ball stands for its images too, and samples are folded */
+  const uint8_t *bound;    /* balls: bits of the mirror planes that each stays on */
   SporeSamples samples;    /* their weights are shares in the loss */
   SporeBalls balls;
   double *weights;
-  double *sum;                                 /* samples: the sum less the level, m */
-  double *slope, *running;                     /* balls x UNKNOWNS, x 2: of the loss; means of it and its square */
-  double level_slope, level_running[2];        /* the same of the level */
-  double *known;                               /* balls x 4: where a centre's depth was last asked for, and that */
+  double *sum;             /* samples: the sum less the level, m */
+  double *slope, *running; /* balls x UNKNOWNS: slope of the loss; x 2: running means of the slope and its square */
+  double level_slope, level_running[2]; /* the same for the level */
+  double *known; /* balls x 4: place where the depth of a centre was last computed, and that depth */
   SporeWeightedImage *near_group, *near_block; /* images */
-  float *columns, *slopes;                     /* images x UNKNOWNS, of a block; and the level's slope */
+  float *columns, *slopes;                     /* images x UNKNOWNS, for a block; slopes also has the level's slope */
   size_t image_count;                          /* most */
   SporeRandom random;
   double smoothing, level; /* m */
   bool levelled;           /* the level is an unknown; else it is 0 */
 } SporeWeightedFit;
 
-/* The sum at the samples, and the slopes of the loss, of each `parts`th block, the first of them `part`. */
+/* Computes the sum at the samples and the slopes of the loss for every `parts`th block, from block `part`. */
 void spore_weighted_evaluate(SporeWeightedFit *fit, size_t part, size_t parts);
-/* The centre, or its image, that the ball may have. */
+/* The allowed centre for the ball: folded by the symmetry and projected on the planes to which the ball is bound. */
 SporeVec3 spore_weighted_confine(const SporeWeightedFit *fit, size_t ball, SporeVec3 centre);
 /* How far out of the solid a ball may reach, m. */
 double spore_weighted_reach(const SporeWeightedFit *fit);
-/* Puts up to `most` balls of little worth where others would gain more, by the sum at all samples. Evaluates nothing.
- * False: no memory. */
+/* Moves up to `most` balls of little worth to where a new ball would gain more. The sum must be up to date at all
+ * samples. Does not evaluate. False: no memory. */
 bool spore_weighted_replace(SporeWeightedFit *fit, size_t most);
 
 #endif

@@ -1,23 +1,24 @@
-/* Relocations of weighted balls: those whose weight is missed least go where another one would gain more. */
+/* Relocations of weighted balls: a ball whose removal adds least to the loss goes where a new ball would gain more. */
 #include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/generate/spheres/weighted_parts.h"
 
-#define LOOKS 200       /* places that are looked at */
-#define WORTH_SHARE 0.3 /* of a ball's worth: what a newcomer must gain, for the others come to fit either */
-#define APART 0.7       /* of the radii together: nearer newcomers would gain the same */
+#define LOOKS 200       /* places that are tried */
+#define WORTH_SHARE 0.3 /* of a ball's worth: least gain of a new ball; the other balls adapt to either change */
+#define APART 0.7       /* of the sum of the radii: nearer new balls would gain the same */
 
 enum { WEIGHTS = 3 };
 
-/* What is wrong at the sample with the value f. */
+/* The loss at the sample if the sum there is f. */
 static double loss_at(const SporeWeightedFit *fit, size_t sample, double f) {
   double depth = fit->samples.depth[sample];
   return fit->samples.weight[sample] * (depth < 0 ? fmax(f, 0) : fabs(f - depth));
 }
 
-/* Takes from the loss what a further ball of each weight would gain, the others as they are. */
+/* Adds to gains[w] what an additional ball of weights[w] would take off the loss in block b, the other balls unchanged.
+ */
 static void add_gains(const SporeWeightedFit *fit, size_t b, SporeVec3 c, double radius, const double *weights,
                       size_t count, double *gains) {
   const SporePoints *points = &fit->samples.points;
@@ -45,13 +46,13 @@ static void find_gains(const SporeWeightedFit *fit, SporeVec3 c, double radius, 
   }
 }
 
-/* A ball that would lower the loss, the others as they are. */
+/* A ball that would lower the loss, the other balls unchanged. */
 typedef struct Newcomer {
   SporeVec3 centre;
   double radius, weight, gain;
 } Newcomer;
 
-/* The best of a few radii and weights about the sample. */
+/* The best of a few radii and weights, centred on the sample. */
 static Newcomer find_newcomer(const SporeWeightedFit *fit, size_t sample) {
   static const double radii[] = {0.5, 0.8, 1.2, 1.8}; /* of the typical one */
   static const double weights[WEIGHTS] = {0.2, 0.4, 0.8};
@@ -68,7 +69,7 @@ static Newcomer find_newcomer(const SporeWeightedFit *fit, size_t sample) {
   return best;
 }
 
-/* About samples drawn by what is wrong at them. */
+/* Finds new balls at samples that are drawn in proportion to their loss. */
 static void look_about(SporeWeightedFit *fit, Newcomer *found) {
   double all = 0, passed = 0;
   size_t k = 0, count = fit->samples.points.count;

@@ -1,10 +1,10 @@
-/* The sum of weighted balls at the samples and how it follows them, block by block. */
+/* The sum of weighted balls at the samples and its slopes by the balls' unknowns, block by block. */
 #include <string.h>
 
 #include "core/generate/spheres/kernels.h"
 #include "core/generate/spheres/weighted_parts.h"
 
-#define REACH 2 /* of the samples' band, outside */
+#define REACH 2 /* of the samples' band: how far outside a ball may reach */
 
 SporeVec3 spore_weighted_confine(const SporeWeightedFit *fit, size_t ball, SporeVec3 centre) {
   const SporeSymmetry *symmetry = &fit->solid->symmetry;
@@ -21,7 +21,7 @@ static bool reaches(const SporeWeightedFit *fit, SporeWeightedImage image, const
   return spore_vec3_distance(*centre, spore_vec3_load(bound)) < fit->balls.r[image.ball] + bound[3];
 }
 
-/* Balls and images that reach the group; returns how many. */
+/* Collects the balls and images that reach the group; returns their number. */
 static size_t gather_near(SporeWeightedFit *fit, size_t group) {
   const double *bound = fit->samples.points.group + 4 * group;
   size_t near = 0;
@@ -34,7 +34,7 @@ static size_t gather_near(SporeWeightedFit *fit, size_t group) {
   return near;
 }
 
-/* Slopes by an image are those by the ball, mirrored. */
+/* Adds the slopes of the images to their balls, mirrored back. */
 static void add_slopes(SporeWeightedFit *fit, size_t count) {
   const SporeSymmetry *symmetry = &fit->solid->symmetry;
   for (size_t n = 0; n < count; n++) {
@@ -49,7 +49,7 @@ static void add_slopes(SporeWeightedFit *fit, size_t count) {
   fit->level_slope += (double)fit->slopes[SPORE_WEIGHTED_UNKNOWNS * count];
 }
 
-/* The block's samples as columns of SPORE_BLOCK, lengths in `unit` from its middle. */
+/* The block's samples as columns of SPORE_BLOCK, relative to the block's middle, lengths in `unit`. */
 static void load_samples(const SporeWeightedFit *fit, size_t b, double unit, float columns[][SPORE_BLOCK]) {
   const SporePoints *points = &fit->samples.points;
   const double *middle = points->block + 4 * b;
