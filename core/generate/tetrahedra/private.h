@@ -8,9 +8,8 @@
 #include "core/io/tetrahedra_wire.h"
 #include "core/mesh/bvh.h"
 
-#define SPORE_TETRAHEDRA_ANGLE 10 /* degrees: the least dihedral angle wanted */
-#define SPORE_TETRAHEDRA_KEPT                                                                                          \
-  (SPORE_TETRAHEDRA_ANGLE + 0.75)    /* least angle that is kept where vertices move for another purpose */
+#define SPORE_TETRAHEDRA_ANGLE 10                             /* degrees: the least dihedral angle wanted */
+#define SPORE_TETRAHEDRA_KEPT (SPORE_TETRAHEDRA_ANGLE + 0.75) /* kept by moves that serve another purpose */
 #define SPORE_TETRAHEDRA_CLOSING 0.3 /* a winding number nearer than this to one half lies in a hole of the surface */
 #define SPORE_TETRAHEDRA_COUNT 0.1   /* tolerance of the number of cells, as a logarithm */
 

@@ -18,11 +18,10 @@
 #define MOST_FIRST 200000.0  /* most triangles of the first wrap, or of the wrap that closes openings */
 #define WRAPPED_NEAR 0.8     /* of the tolerance */
 #define PREPARED_SAMPLES 10000
-#define MOST_GIVEN                                                                                                     \
-  200000            /* triangles: with more, checking, repairing and wrapping take minutes; a lattice takes seconds */
-#define SURE 0.9    /* of the tolerance */
-#define BETTER 0.95 /* of the mesher's misfit: a lattice must be below this to replace the mesher's cells */
-#define MOST_CHANGE 0.1 /* of the volume */
+#define MOST_GIVEN 200000 /* triangles: with more, CGAL takes minutes, a lattice seconds */
+#define SURE 0.9          /* of the tolerance */
+#define BETTER 0.95       /* of the mesher's misfit: a lattice must be below this to replace the mesher's cells */
+#define MOST_CHANGE 0.1   /* of the volume */
 
 const char *const spore_tetrahedra_method_names[] = {"direct", "repaired", "wrapped", "voxels", NULL};
 
