@@ -1,4 +1,4 @@
-/* Shares of labels at any place: voxels blurred by one voxel, interpolated between their middles. */
+/* Shares of labels at any place: voxels blurred by one voxel, interpolated between voxel centres. */
 #include <math.h>
 #include <string.h>
 
@@ -6,10 +6,10 @@
 #include "core/base/text.h"
 #include "core/generate/labels/private.h"
 
-#define BLUR 1.0 /* voxels: less leaves terraces, more rounds off what is small */
+#define BLUR 1.0 /* voxels: a smaller value leaves terraces, a larger one rounds off small parts */
 #define REACH 3  /* voxels */
 #define WIDTH (2 * REACH + 1)
-#define GAIN 2.0 /* a voxel whose own label would lose by a margin wins by so many of it */
+#define GAIN 2.0 /* own label of a voxel that would lose by a margin wins by this many times the margin */
 #define ALL_LABELS 65536
 #define ROWS_A_REPORT 8
 
@@ -40,7 +40,8 @@ static uint16_t label_of(const SporeLabelField *field, int64_t i, int64_t j, int
   return field->wanted[label] ? label : 0;
 }
 
-/* Marks the voxels of a row that have another label beside them, by a side, an edge or a corner, or lie at the rim. */
+/* Marks the voxels of a row near a border: the voxel, or the one before or after it in the row, touches another label
+ * (by a face, an edge or a corner) or lies at the rim of the map. Returns their number. */
 static size_t mark_row(const SporeLabelMap *map, size_t j, size_t k, uint8_t *differs, uint8_t *near) {
   const size_t *n = map->size;
   const uint16_t *own = map->labels + (k * n[1] + j) * n[0];
@@ -74,7 +75,7 @@ static void gather(const SporeLabelField *field, Gathering *g, int64_t i, int64_
     }
 }
 
-/* How far the voxel's own label is from losing: below 0, it has lost. */
+/* Margin by which the voxel's own label wins; below 0: the label loses. */
 static double margin(const Gathering *g, uint16_t own) {
   double most = 0;
   if (own == 0) return g->share[0] - 0.5;
@@ -83,7 +84,7 @@ static double margin(const Gathering *g, uint16_t own) {
   return fmin(0.5 - g->share[0], g->share[own] - most);
 }
 
-/* The largest shares, which then sum to 1. Empties the gathering. */
+/* Keeps the largest shares, scaled to a sum of 1. Empties the gathering. */
 static void keep(Gathering *g, uint16_t own, SporeLabelShare shares[SPORE_LABEL_SHARES]) {
   double lost = margin(g, own), sum = 0, back = lost < 0 ? fmin(-(1 + GAIN) * lost / (0.5 - lost), 1) : 0;
   if (g->share[own] == 0) g->label[g->count++] = own;
@@ -117,7 +118,7 @@ static void fill_row(Making *m, size_t j, size_t k, size_t at) {
   }
 }
 
-/* Once to count, once to fill in. */
+/* One pass over the rows: to count the voxels, or with `fill` to fill in their shares. */
 static bool pass_over(Making *m, bool fill, const SporeProgress *progress, SporeError *error) {
   SporeLabelField *field = m->field;
   const size_t *n = field->map->size;
@@ -173,7 +174,7 @@ void spore_label_field_clear(SporeLabelField *field) {
   *field = (SporeLabelField){0};
 }
 
-/* What a voxel has; NULL: its own label alone. */
+/* The shares of a voxel; NULL: the voxel has its own label only. */
 static const SporeLabelShare *find(const SporeLabelField *field, int64_t i, int64_t j, int64_t k) {
   const size_t *n = field->map->size;
   if (i < 0 || j < 0 || k < 0 || i >= (int64_t)n[0] || j >= (int64_t)n[1] || k >= (int64_t)n[2]) return NULL;

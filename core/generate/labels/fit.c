@@ -1,4 +1,4 @@
-/* Vertices between labels move to where the labels meet, and give way a little for the labels' volumes. */
+/* Moves vertices between labels to where the labels meet, with small shifts to meet the labels' volumes. */
 #include <math.h>
 #include <string.h>
 
@@ -9,23 +9,23 @@
 #define ROUNDS 12
 #define REPORT_VERTICES 1024
 #define FLATTEST 0.9659258262890683 /* cosine of 15 degrees */
-#define REACH 0.75                  /* edges: how far from a vertex the border of its labels is looked for */
+#define REACH 0.75                  /* edges: search distance from a vertex for the border of its labels */
 #define STEPS 12                    /* to each side */
 #define BISECTIONS 20
-#define ALONG 0.4 /* of the way to the middle of its neighbours on the border */
+#define ALONG 0.4 /* of the way from a vertex to the mean of its neighbours on the border */
 #define MOST_SIDES 4
-#define MOST_GROWTH 0.3 /* edges: how far a border gives way for the volume */
-#define GRADIENT 0.25   /* edges */
-#define MEETINGS 6      /* turns on the way to where three labels meet */
-#define OF_A_PAIR 0.4   /* share that two labels have at least where they border */
-#define FEEDBACK 0.7    /* of what a border's area says */
+#define MOST_GROWTH 0.3 /* edges: largest shift of a border for the volume */
+#define GRADIENT 0.25   /* edges: step of the central differences */
+#define MEETINGS 6      /* iterations to find where three labels meet */
+#define OF_A_PAIR 0.4   /* least total share of two labels on their border */
+#define FEEDBACK 0.7    /* of the shift computed from a border's area */
 
-/* What a vertex lies between: labels, 0 for outside, ascending. */
+/* The labels around a vertex, ascending; 0: outside. */
 typedef struct Border {
   uint16_t label[MOST_SIDES];
   uint8_t count;    /* 0: inside an organ; more than MOST_SIDES count as that many */
-  SporeVec3 normal; /* of the faces between two labels, from the lower to the higher one; length: their area */
-  SporeVec3 sum;    /* of neighbours on the same border */
+  SporeVec3 normal; /* summed over the faces between labels, from the lower to the higher label; length: the area */
+  SporeVec3 sum;    /* of the places of neighbours on the same border */
   double neighbours;
 } Border;
 
@@ -39,7 +39,7 @@ typedef struct Fit {
   const double *wanted; /* volume of each label, m^3 */
   SporeLabelPoints *points;
   size_t face_count;
-  double *volume, *area, *growth; /* of each label: now, m^3; of its border, m^2; how far that moves outward, m */
+  double *volume, *area, *growth; /* of each label: volume now, m^3; area and outward shift of its border, m^2, m */
 } Fit;
 
 static SporeVec3 vertex(const Fit *f, uint32_t v) { return spore_vec3_load(f->mesh->vertices + 3 * (size_t)v); }
@@ -85,7 +85,7 @@ static void note_labels(Fit *f, const uint32_t corner[3], uint16_t label, uint16
   }
 }
 
-/* A vertex is pulled along its border by neighbours that lie on the same one: as many labels, or more. */
+/* Whether the neighbour has all labels of the vertex. Such neighbours pull the vertex along its border. */
 static bool same_border(const Border *of, const Border *neighbour) {
   int shared = 0;
   for (int i = 0; i < of->count; i++)
@@ -112,7 +112,8 @@ static void note_shape(Fit *f, const uint32_t corner[3], uint16_t label, uint16_
   }
 }
 
-/* Share of the higher label less that of the lower one; against nothing, of all organs. */
+/* Share of the higher label minus the share of the lower one. If the lower label is nothing: share of all organs minus
+ * the share of nothing. */
 static double balance(const Fit *f, const Border *border, SporeVec3 p) {
   SporeLabelShare shares[SPORE_LABEL_MOST];
   int count = spore_label_field_shares(f->field, p, shares);
@@ -125,7 +126,8 @@ static double balance(const Fit *f, const Border *border, SporeVec3 p) {
   return sum;
 }
 
-/* Way along the unit vector n to the nearest place where the lower label gives way to the higher one; 0: none near. */
+/* Signed distance along the unit vector n to the nearest place where the share of the higher label overtakes the
+ * share of the lower one; 0: none near. */
 static double way_to_border(const Fit *f, const Border *border, SporeVec3 p, SporeVec3 n) {
   double step = REACH * f->edge / STEPS;
   for (int s = 0; s < STEPS; s++)
@@ -144,7 +146,7 @@ static double way_to_border(const Fit *f, const Border *border, SporeVec3 p, Spo
   return 0;
 }
 
-/* How far each label's border is to move outward for its volume. */
+/* Adjusts the outward shift of each label's border to the label's error in volume. */
 static void adjust_growth(Fit *f) {
   for (int label = 0; label < 65536; label++) f->volume[label] = 0;
   for (size_t c = 0; c < f->mesh->tetrahedron_count; c++) {
@@ -160,7 +162,7 @@ static void adjust_growth(Fit *f) {
   }
 }
 
-/* Largest cosine of an angle between faces, of either sign; over 1: turned over. */
+/* Largest absolute cosine of a dihedral angle; over 1: the cell is inverted. */
 static double flatness(const Fit *f, uint32_t cell) {
   const uint32_t *v = f->mesh->tetrahedra + 4 * (size_t)cell;
   SporeVec3 p[4], normal[4];
@@ -184,7 +186,8 @@ static double star_flatness(const Fit *f, uint32_t v) {
   return most;
 }
 
-/* As far toward `to` as the cells around stay sound, or get no worse. strict: only where they get better. */
+/* Moves a vertex toward `to`, in the largest tried step after which the cells around it are within FLATTEST, or no
+ * flatter than before. strict: no flatter than before. */
 static void move(Fit *f, uint32_t v, SporeVec3 to, bool strict) {
   SporeVec3 from = vertex(f, v);
   double before = star_flatness(f, v), limit = strict ? before : fmax(before, FLATTEST);
@@ -195,7 +198,7 @@ static void move(Fit *f, uint32_t v, SporeVec3 to, bool strict) {
   spore_vec3_store(f->mesh->vertices + 3 * (size_t)v, from);
 }
 
-/* Steepest way from the lower label to the higher one, unit length; 0: they are not near. */
+/* Unit gradient of the balance, from the lower label to the higher one; 0: the labels are not near. */
 static SporeVec3 way_between(const Fit *f, const Border *pair, SporeVec3 p) {
   const double h = GRADIENT * f->edge;
   const SporeVec3 step[3] = {{h, 0, 0}, {0, h, 0}, {0, 0, h}};
@@ -205,7 +208,8 @@ static SporeVec3 way_between(const Fit *f, const Border *pair, SporeVec3 p) {
   return spore_vec3_normalise(spore_vec3_load(d), spore_vec3(0, 0, 0));
 }
 
-/* Toward the line or the corner where all of a vertex's labels meet: to the border of each two of them in turn. */
+/* Place near the line or corner where all labels of a vertex meet. The place moves toward the border of each pair of
+ * labels in turn. */
 static SporeVec3 meeting_place(const Fit *f, const Border *border, SporeVec3 p) {
   for (int turn = 0; turn < MEETINGS; turn++)
     for (int i = 0; i < border->count; i++)
@@ -253,7 +257,7 @@ static bool run(Fit *f, const SporeProgress *progress, SporeError *error) {
     for (int label = 0; label < 65536; label++) f->area[label] = 0;
     f->face_count = 0;
     each_border_face(f, note_shape);
-    if (round > 2) adjust_growth(f); /* once the borders are near their places */
+    if (round > 2) adjust_growth(f); /* from round 3 on, when the borders are near their places */
     for (uint32_t v = 0; v < f->mesh->vertex_count; v++) {
       double done = round + (double)v / (double)f->mesh->vertex_count;
       if (v % REPORT_VERTICES == 0 && !spore_progress_step(progress, done / ROUNDS, _("fitting the borders"), error))
@@ -277,7 +281,8 @@ static void add_point(SporeLabelPoints *points, const uint32_t host[3], const Bo
   points->between[2 * at + 1] = between->label[between->count == 2];
 }
 
-/* Whether no third label has most of the place: a border of two ends where others begin. */
+/* Whether the pair dominates the place: the border of two labels ends where other labels begin. Always true against
+ * nothing. */
 static bool is_between(const Fit *f, const Border *pair, SporeVec3 p) {
   SporeLabelShare shares[SPORE_LABEL_MOST];
   int count = spore_label_field_shares(f->field, p, shares);
@@ -296,7 +301,7 @@ static void note_points(Fit *f, const uint32_t corner[3], uint16_t label, uint16
   if (other < label) n = spore_vec3_scale(-1, n);
   SporeVec3 place = spore_vec3_add_scaled(middle, way_to_border(f, &pair, middle, n), n);
   add_point(f->points, corner, &pair, n, is_between(f, &pair, place) ? place : middle);
-  for (int k = 0; k < 3; k++) { /* of the line where three meet, once for each face there */
+  for (int k = 0; k < 3; k++) { /* on the line where three labels meet, once for each face there */
     const Border *border = f->border + corner[k];
     if (border->count < 3 || !same_border(border, f->border + corner[(k + 1) % 3])) continue;
     SporeVec3 half = spore_vec3_scale(0.5, spore_vec3_add(p[k], p[(k + 1) % 3]));
@@ -306,7 +311,7 @@ static void note_points(Fit *f, const uint32_t corner[3], uint16_t label, uint16
 
 static bool make_points(Fit *f) {
   SporeLabelPoints *made = f->points;
-  size_t most = 4 * f->face_count; /* a face and its sides */
+  size_t most = 4 * f->face_count; /* a face and its three sides */
   *made =
       (SporeLabelPoints){.between = SPORE_NEW_ARRAY(uint16_t, 2 * most), .normal = SPORE_NEW_ARRAY(double, 3 * most)};
   made->points.places = SPORE_NEW_ARRAY(double, 3 * most);

@@ -6,16 +6,16 @@
 #include "core/mesh/mesh.h"
 
 typedef struct SporeLabelTetrahedraOptions {
-  size_t cells;           /* wanted of all labels together, about; or 0 to go by size */
+  size_t cells;           /* approximate number wanted for all labels together; 0: `size` is used instead */
   double size;            /* m, edge of the lattice's cubes, when cells is 0 */
-  const uint16_t *labels; /* wanted ones; the rest counts as nothing */
+  const uint16_t *labels; /* wanted labels; all others count as nothing */
   size_t label_count;     /* 0: all above 0 */
 } SporeLabelTetrahedraOptions;
 
 typedef struct SporeLabelFigures {
   uint16_t label;
   size_t cells;
-  double volume, voxel_volume; /* m^3: of its cells, of its voxels */
+  double volume, voxel_volume; /* m^3: of the label's cells, of the label's voxels */
   double min_dihedral_deg;
 } SporeLabelFigures;
 
@@ -27,14 +27,14 @@ typedef struct SporeLabelTetrahedraReport {
   double seconds;
 } SporeLabelTetrahedraReport;
 
-/* A body-centred cubic lattice whose cells take the label that has most of them, of the voxels' labels blurred by one
- * voxel (no layer of a voxel is lost by that); its vertices between labels then move to where the labels' shares are
- * alike (against nothing: where that has half), as far as no angle between faces gets nearer than 15 degrees to flat or
- * to nothing; cells that the border could not pass change sides. Where a number of cells is asked for the lattice has
- * up to 24 times as many, and is made coarser where that moves the borders least, which then give way a little for each
- * label's volume: no angle gets below 11 degrees then. So every cell is sound, and organs share the faces between them.
- * result->labels says of which organ each tetrahedron is. An organ finer than the lattice may have no cell: the figures
- * say so. FALSE: nothing to mesh, too many cells, no memory, cancelled. */
+/* Each cell of a body-centred cubic lattice takes the label with the largest share in the cell. The shares are the
+ * voxels' labels, blurred by one voxel; layers of one voxel survive the blur. Vertices between labels then move to
+ * where the shares are equal (against nothing: where nothing has one half). Moves keep dihedral angles at least 15
+ * degrees from 0 and from 180. Cells that the border could not pass are relabelled. For a wanted number of cells the
+ * lattice has up to 24 times as many. The lattice is coarsened where this moves the borders least, with no angle below
+ * 11 degrees; the borders then shift slightly to restore each label's volume. So every cell is sound, and organs share
+ * the faces between them. result->labels has the organ of each tetrahedron. An organ finer than the lattice may have no
+ * cell: the figures show this. FALSE: nothing to mesh, too many cells, no memory, cancelled. */
 gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, const SporeLabelTetrahedraOptions *options,
                                 SporeTetrahedralMesh *result, SporeLabelTetrahedraReport *report,
                                 const SporeProgress *progress, GError **error);

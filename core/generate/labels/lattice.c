@@ -1,4 +1,4 @@
-/* The lattice that organs are cut out of: each cell gets the label that has most of it. */
+/* The lattice from which the organs are cut: each cell gets the label with the largest share. */
 #include <math.h>
 #include <string.h>
 
@@ -8,10 +8,11 @@
 
 #define MOST_CUBES ((size_t)12 << 20)
 #define CELLS_A_CUBE 12
-#define SAMPLES 5 /* of a cell: its middle, and halfway from there to each corner */
+#define SAMPLES 5 /* of a cell: its centre, and halfway from the centre to each corner */
 
-/* Corners of cubes, then their middles. A cell is an edge of the square between two neighbouring cubes with the middles
- * of both: four around each square, all alike, none with an angle below 60 degrees. */
+/* Nodes are the corners of the cubes, then the centres of the cubes. A cell joins an edge of the square between two
+ * neighbouring cubes with the centres of both cubes. Each square has four cells. All cells are congruent, with no
+ * dihedral angle below 60 degrees. */
 typedef struct Lattice {
   double lower[3], edge;
   size_t n[3];
@@ -34,7 +35,7 @@ static SporeVec3 node_place(const Lattice *l, size_t node) {
                     l->lower[2] + l->edge * ((double)(at / nx / ny) + shift));
 }
 
-/* Nodes of cell q of a cube, turned so that its volume is positive; false: there is no cube on that side. */
+/* Nodes of cell q of a cube, ordered so that the volume is positive. False: no neighbouring cube on that side. */
 static bool cell_nodes(const Lattice *l, const size_t cube[3], int q, size_t node[4]) {
   int axis = q / 4, side = q % 4, u = (axis + 1) % 3, v = (axis + 2) % 3;
   static const uint8_t around[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -64,7 +65,7 @@ uint16_t spore_label_of_cell(const SporeLabelField *field, const SporeVec3 corne
   return spore_label_winner(sum, labels);
 }
 
-/* Labels of all cells, CELLS_A_CUBE a cube; how many are above 0. */
+/* Labels all cells, CELLS_A_CUBE for each cube. *count: number of labels above 0. */
 static bool label_cells(const Lattice *l, const SporeLabelField *field, uint16_t *labels, size_t *count,
                         const SporeProgress *progress, SporeError *error) {
   *count = 0;
@@ -88,7 +89,7 @@ static bool label_cells(const Lattice *l, const SporeLabelField *field, uint16_t
   return true;
 }
 
-/* The labelled cells; `number` is scratch, one a node. */
+/* Makes the mesh of the labelled cells. `number`: scratch, one for each node. */
 static bool build(const Lattice *l, const uint16_t *labels, size_t count, uint32_t *number, SporeTetrahedralMesh *mesh,
                   SporeError *error) {
   size_t nodes = corner_count(l) + cube_count(l), used = 0, at = 0, node[4];

@@ -6,16 +6,16 @@
 #include "core/generate/labels/private.h"
 #include "core/mesh/sort.h"
 
-/* Nodes are the middles of voxels in the label's box and one around it; corners of the surface lie halfway along edges
- * from a node to one that is no lower in any index: key = node x 8 + which indices are one higher. */
+/* Nodes are the centres of the voxels in the label's box, widened by one voxel. Corners of the surface lie halfway
+ * along edges from a node to a node with no lower index. key = node x 8 + a bit for each index that is one higher. */
 typedef struct Marching {
   const SporeLabelMap *map;
   uint16_t label;
   int64_t lower[3], n[3]; /* of the nodes */
-  GArray *keys;           /* guint64, three a triangle */
+  GArray *keys;           /* guint64, three for each triangle */
 } Marching;
 
-/* The six tetrahedra of a cube around its diagonal (Freudenthal), by corners with a bit an index. */
+/* The six tetrahedra of a cube around its diagonal (Freudenthal). A corner number has one bit for each index. */
 static const uint8_t tetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
                                          {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
 
@@ -45,7 +45,8 @@ static bool inside(const Marching *m, int64_t i, int64_t j, int64_t k) {
   return m->map->labels[((size_t)k * n[1] + (size_t)j) * n[0] + (size_t)i] == m->label;
 }
 
-/* Corner of the surface between two corners of a cube, of which one's bits are among the other's. */
+/* Key of the surface's corner between two corners of a cube. The bits of one corner must be a subset of the other's
+ * bits. */
 static guint64 key_between(const Marching *m, const int64_t cube[3], unsigned a, unsigned b) {
   unsigned low = a & b;
   int64_t at[3];
@@ -60,7 +61,8 @@ static void corner_at(guint64 key, const int64_t n[3], double p[3]) {
   p[2] = (double)(node / (guint64)n[0] / (guint64)n[1]) + 0.5 * (double)(key >> 2 & 1);
 }
 
-/* Turned so that it looks from the corners inside to those outside, in the indices' space. */
+/* Adds a triangle, oriented so that its normal in index space points along `way`: from the corners inside to the
+ * corners outside. */
 static void add_triangle(Marching *m, guint64 a, guint64 b, guint64 c, const double way[3]) {
   double p[3][3];
   const guint64 key[3] = {a, b, c};
@@ -119,7 +121,7 @@ static bool march(Marching *m, const SporeProgress *progress, SporeError *error)
   return true;
 }
 
-/* Gives each key a number and a place. */
+/* Gives each distinct key a vertex. */
 static bool build(const Marching *m, SporeTriangleMesh *surface, SporeError *error) {
   size_t corners = m->keys->len, vertices = 0;
   uint64_t *keys = (uint64_t *)(void *)m->keys->data;
@@ -142,7 +144,7 @@ static bool build(const Marching *m, SporeTriangleMesh *surface, SporeError *err
   return true;
 }
 
-/* Indices that run left-handed in space turn every triangle over. */
+/* Whether the index axes are left-handed in space; every triangle is then turned over. */
 static bool mirrors(const SporeLabelMap *map) {
   const double *a = map->axes;
   return spore_vec3_dot(spore_vec3(a[0], a[4], a[8]),

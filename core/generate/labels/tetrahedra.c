@@ -1,4 +1,4 @@
-/* Tetrahedra of all organs of a label map: the size of the lattice, its borders, spikes, and the coarser cells. */
+/* Tetrahedra of all organs of a label map: size of the lattice, fit of borders, removal of spikes, coarsening. */
 #include "core/generate/labels/labels.h"
 
 #include <glib/gi18n.h>
@@ -12,20 +12,20 @@
 
 #define MOST_CELLS 2000000u
 #define CELLS_A_VOLUME 12 /* in a cube of the lattice */
-#define ATTEMPTS 3        /* at the number of cells that was asked for */
+#define ATTEMPTS 3        /* at the wanted number of cells */
 #define NEAR_ENOUGH 0.03
-#define FINE 24.0 /* cells of the lattice, of those that are asked for: of 5000 or fewer */
+#define FINE 24.0 /* cells of the lattice for each wanted cell, if 5000 or fewer are wanted */
 #define USUAL 5000.0
 #define LEAST_FINE 2.0
 #define CELL 0.12 /* volume of a cell whose edges have length 1 */
 #define SPIKE_ROUNDS 3
 #define TURNS 2          /* of moving the borders */
-#define MOST_SPIKES 20   /* an organ of fewer cells keeps them all */
+#define MOST_SPIKES 20   /* an organ of at most so many cells keeps all of them */
 #define LEAST_ANGLE 11.0 /* degrees */
-#define BORDER_TURNS 8   /* of moving the borders of the coarser cells, and the points after it */
-#define ROUNDS 2         /* of moving, a turn */
+#define BORDER_TURNS 8   /* of moving the borders of the coarser cells, and then the points */
+#define ROUNDS 2         /* of moving, for each turn */
 #define NEAR 0.02        /* edges: distances beyond count more than by their squares */
-#define MOST_GROWTH 0.15 /* edges: how far a border gives way for the volume */
+#define MOST_GROWTH 0.15 /* edges: largest shift of a border for the volume */
 #define LABELS 65536
 
 typedef struct Meshing {
@@ -36,11 +36,11 @@ typedef struct Meshing {
   double lower[3], upper[3]; /* of the wanted voxels */
   double volume;
   double edge;
-  SporeProgressShare stage; /* the one at work */
+  SporeProgressShare stage; /* the current stage */
 } Meshing;
 
-/* Cells of which three faces or all lie against one other organ (or outside) are spikes: they go over to it, so that no
- * border folds back on itself. */
+/* A cell with three or four faces against one other organ (or outside) is a spike. The cell is given to that organ, so
+ * that no border folds back on itself. */
 static bool remove_spikes(SporeTetrahedralMesh *mesh, SporeError *error) {
   g_autofree size_t *cells = g_new0(size_t, 65536);
   for (size_t c = 0; c < mesh->tetrahedron_count; c++) cells[mesh->labels[c]]++;
@@ -54,7 +54,7 @@ static bool remove_spikes(SporeTetrahedralMesh *mesh, SporeError *error) {
         uint32_t other = across[4 * c + (size_t)k];
         label[k] = other == UINT32_MAX ? 0 : mesh->labels[other];
       }
-      for (int k = 0; k < 2 && cells[own] > MOST_SPIKES; k++) { /* one of the first two is among any three */
+      for (int k = 0; k < 2 && cells[own] > MOST_SPIKES; k++) { /* any three of the four include one of the first two */
         int same = 0;
         for (int i = 0; i < 4; i++) same += label[i] == label[k];
         if (same >= 3 && label[k] != own) winner = label[k];
@@ -72,7 +72,8 @@ static bool remove_spikes(SporeTetrahedralMesh *mesh, SporeError *error) {
   return true;
 }
 
-/* Box (of the wanted voxels' box in the indices' space) and volumes; false: there are none. */
+/* Measures the volumes of the wanted labels, and the box in space around the wanted voxels' index box. False: no voxel
+ * is wanted. */
 static bool measure_map(Meshing *m, const SporeLabelMap *map) {
   size_t low[3] = {SIZE_MAX, SIZE_MAX, SIZE_MAX}, high[3] = {0, 0, 0}, index = 0;
   double voxel = spore_label_map_voxel_volume(map);
@@ -97,7 +98,7 @@ static bool measure_map(Meshing *m, const SporeLabelMap *map) {
   return m->volume > 0;
 }
 
-/* A lattice of about as many cells as are wanted. */
+/* Makes a lattice of about the wanted number of cells. */
 static bool make_cells(Meshing *m, SporeTetrahedralMesh *mesh, SporeError *error) {
   SporeProgress progress = spore_progress_of_share(&m->stage);
   double wanted = (double)m->options->cells;
@@ -121,7 +122,7 @@ static bool make_cells(Meshing *m, SporeTetrahedralMesh *mesh, SporeError *error
   return remove_spikes(mesh, error) && spore_tetrahedral_mesh_drop_unused(mesh, error);
 }
 
-/* Cells that the border could not be moved past go over to whom they are of by now. */
+/* A cell that the border could not pass is given to the label that now wins the cell. Small organs keep their cells. */
 static void relabel(const Meshing *m, SporeTetrahedralMesh *mesh) {
   size_t kept = 0;
   g_autofree size_t *cells = g_new0(size_t, 65536);
@@ -140,7 +141,7 @@ static void relabel(const Meshing *m, SporeTetrahedralMesh *mesh) {
   mesh->tetrahedron_count = kept;
 }
 
-/* Moves the borders to their places. points: where cells are drawn together after that. */
+/* Moves the borders to their places. points: filled if the mesh is to be coarsened. */
 static bool fit(Meshing *m, SporeTetrahedralMesh *mesh, SporeLabelPoints *points, SporeError *error) {
   for (int turn = 0; turn < TURNS; turn++) {
     SporeProgress progress = spore_progress_of_share(&m->stage);
@@ -252,7 +253,7 @@ gboolean spore_label_tetrahedra(const char *place, const SporeLabelMap *map, con
   return spore_error_propagate(&failure, error);
 }
 
-/* Coarser cells whose borders stay where the map has them. */
+/* Coarsening that keeps the borders where the map has them. */
 
 /* Volume of each label's cells and area of its border. */
 static bool measure_borders(const SporeTetrahedralMesh *mesh, double *volume, double *area) {
@@ -274,10 +275,10 @@ static bool measure_borders(const SporeTetrahedralMesh *mesh, double *volume, do
 
 typedef struct Balance {
   double volume[LABELS], area[LABELS]; /* of each label's cells, m^3; of its border, m^2 */
-  double growth[LABELS], step[LABELS]; /* how far its points were moved outward, and are now, m */
+  double growth[LABELS], step[LABELS]; /* outward shift of the label's points: total, and in this turn, m */
 } Balance;
 
-/* Moves the points as far outward of each label as its volume lacks, within bounds. */
+/* Moves the points outward of each label by its missing volume over the area of its border, within bounds. */
 static void give_way(SporeLabelPoints *points, Balance *b, const double *wanted, double most) {
   for (int label = 1; label < LABELS; label++) {
     if (!(b->area[label] > 0)) continue;
@@ -287,7 +288,7 @@ static void give_way(SporeLabelPoints *points, Balance *b, const double *wanted,
     b->growth[label] = growth;
   }
   for (size_t i = 0; i < points->points.count; i++) {
-    const uint16_t *between = points->between + 2 * i; /* alike: stays */
+    const uint16_t *between = points->between + 2 * i; /* equal labels: the point stays */
     double way = b->step[between[0]] - b->step[between[1]];
     for (size_t k = 0; k < 3; k++) points->points.places[3 * i + k] += way * points->normal[3 * i + k];
   }

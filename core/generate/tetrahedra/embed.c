@@ -1,5 +1,5 @@
-/* The solid embedded in a lattice that is finer than the cells that are wanted, so that thin walls and slits are in it;
- * then it is made coarser. */
+/* The solid is embedded in a lattice finer than the wanted cells, so that the lattice has thin walls and slits. The
+ * lattice is then coarsened. */
 #include <math.h>
 #include <string.h>
 
@@ -12,25 +12,25 @@
 #define CELLS_A_CUBE 12 /* of the lattice */
 #define CELL 0.12       /* volume of a cell whose edges have length 1 */
 #define EDGE_SCALE 0.7  /* circumradius bound of cells whose edges have length 1 */
-#define FINE 12.0       /* cells of the first lattice, of those wanted */
-#define USUAL 5000.0    /* cells: for more, the lattice has fewer of each */
+#define FINE 12.0       /* cells of the first lattice for each wanted cell */
+#define USUAL 5000.0    /* wanted cells: above this, the first lattice has fewer cells for each wanted cell */
 #define LEAST_FINE 2.0
-#define FINER 2.5 /* times as many in the next lattice */
+#define FINER 2.5 /* times as many cells in the next lattice */
 #define MOST_LATTICES 2
 #define MOST_WIDENINGS 2
 #define MOST_FINE 1000000.0
-#define NEAR 0.9 /* of the tolerance: what a lattice shall come to */
+#define NEAR 0.9 /* of the tolerance: the wanted distance of a lattice */
 #define POINTS 4 /* of the surface, for each cell */
 #define LEAST_POINTS 1000
 #define GOAL 14    /* degrees, for the least angle */
-#define REGION 0.8 /* edges of the lattice, of the least size of a region */
+#define REGION 0.8 /* edge of the lattice, as a share of the least size of a region */
 
-/* Edges of the lattice whose cells are so many. */
+/* Edge of a lattice with this number of cells. */
 static double edge_of(const SporeTetrahedraWork *work, double cells) {
   return cbrt(CELLS_A_CUBE * work->volume / cells);
 }
 
-/* A lattice whose walls and slits are as wide as it needs to have them. */
+/* Makes a lattice and widens thin walls and slits until the lattice has them. */
 static bool stuff(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *mesh, SporeError *error) {
   double missed = HUGE_VAL;
   for (int i = 0; missed > (i > 1 ? NEAR * work->options.tolerance : 0); i++) {
@@ -43,7 +43,7 @@ static bool stuff(SporeTetrahedraWork *work, double edge, SporeTetrahedralMesh *
   return true;
 }
 
-/* Before it is made coarser: a small component would become one cell, as large as any. */
+/* Runs before coarsening: coarsening would turn a small component into one cell of full size. */
 static bool drop_small(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeError *error) {
   SporeTetrahedraReport pieces;
   bool done = spore_tetrahedra_drop_small(work, mesh, &pieces, error);
@@ -51,7 +51,7 @@ static bool drop_small(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, Sp
   return done;
 }
 
-/* A lattice that is near the surface; it gets finer while it is not. */
+/* Makes a lattice near the surface. A lattice that is too far is replaced by a finer one. */
 static bool make_fine(SporeTetrahedraWork *work, double cells, SporeTetrahedralMesh *mesh, SporeError *error) {
   const double from = work->fraction, share = work->share;
   double distance = HUGE_VAL;
@@ -75,7 +75,7 @@ static bool make_fine(SporeTetrahedraWork *work, double cells, SporeTetrahedralM
                            "cells or a smaller size"));
 }
 
-/* Cells that sizes make. */
+/* Number of cells that the sizes give. */
 static double count_of(const SporeSizing *sizing, const SporeTetrahedralMesh *mesh) {
   double sum = 0;
   for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
@@ -90,7 +90,7 @@ static double count_of(const SporeSizing *sizing, const SporeTetrahedralMesh *me
   return sum;
 }
 
-/* plan->grid: lengths of edges, for the number of cells that is asked for. */
+/* plan->grid: edge lengths for the wanted number of cells. */
 static void size_edges(SporeSizingPlan *plan, const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh) {
   const SporeTetrahedraOptions *options = &work->options;
   const size_t nodes = plan->grid.count[0] * plan->grid.count[1] * plan->grid.count[2];
@@ -103,7 +103,7 @@ static void size_edges(SporeSizingPlan *plan, const SporeTetrahedraWork *work, c
   }
 }
 
-/* Cells of the first lattice. */
+/* Chooses the number of cells of the first lattice. */
 static bool choose_fine(const SporeTetrahedraWork *work, double *cells, SporeError *error) {
   const SporeTetrahedraOptions *options = &work->options;
   double wanted = options->cells ? (double)options->cells : work->volume / (CELL * pow(options->size, 3));

@@ -1,5 +1,6 @@
-/* The number of cells that is asked for, as near to the surface as that many can be: meshes are made and measured, the
- * size follows a secant on the logarithm of their number, and where one is too far from the surface it gets finer. */
+/* Finds a mesh with the wanted number of cells and the least distance to the surface. Trial meshes are made and
+ * measured. The size follows a secant iteration on the logarithm of the number of cells. Cells are refined where a mesh
+ * is too far from the surface. */
 #include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
@@ -11,31 +12,31 @@
 
 #define MOST_TRIES 12
 #define MOST_REFINEMENTS 5
-#define AIM 0.7 /* of the tolerance: what is measured of rough meshes */
+#define AIM 0.7 /* of the tolerance: the wanted distance of rough meshes */
 #define SAMPLES 10000
 #define TURNS 4           /* of moving the boundary */
 #define GOAL 14           /* degrees, for the least angle */
-#define LEAST_VOLUME 0.75 /* of the surface's: a mesh below lost a part that is thinner than its cells */
-#define USUAL_SLOPE 2.8   /* by which the logarithm of the number falls with that of the size */
+#define LEAST_VOLUME 0.75 /* of the surface's: a mesh below has lost a part thinner than its cells */
+#define USUAL_SLOPE 2.8   /* fall of log(number of cells) for each unit of log(size) */
 #define EDGE_SCALE 0.7    /* circumradius bound of cells whose edges have length 1 */
 #define NEAR_COUNT (3 * SPORE_TETRAHEDRA_COUNT)
-#define HOPELESS 2.5 /* of the tolerance, by as many cells as are wanted that got finer where it was worst, */
-#define MANY 2.0     /* or by so many times as many */
+#define HOPELESS 2.5 /* of the tolerance: too far, with the wanted cells after two refinements, */
+#define MANY 2.0     /* or with this many times the wanted cells before */
 
 typedef struct {
   SporeTetrahedraWork *work;
-  const SporeTriangleMesh *surface; /* that is meshed */
-  SporeBvh *tree;                   /* of it */
-  double *points, *samples;         /* of it, of the mesh */
+  const SporeTriangleMesh *surface; /* the surface that is meshed */
+  SporeBvh *tree;                   /* of the surface */
+  double *points, *samples;         /* of the surface, of the mesh */
   SporeSizingPlan plan;
-  double volume; /* of what it encloses */
+  double volume; /* enclosed by the surface */
   double scale, made_scale, known_scale, known_count, slope;
   int refinements, tries_left;
-  double *kept, *best; /* relative sizes of the plan: of the last mesh, of the best */
+  double *kept, *best; /* relative sizes of the plan: of the last mesh, of the best mesh */
   size_t nodes;
 } Fit;
 
-/* Makes cells finer at the points that are too far; returns the largest distance. */
+/* With `change`, refines the plan at points that are too far. Returns the largest distance. */
 static double refine_at(Fit *fit, const SporeBvh *tree, const double *points, size_t count, bool change) {
   const double aim = AIM * fit->work->options.tolerance;
   double most = 0;
@@ -51,8 +52,8 @@ static double refine_at(Fit *fit, const SporeBvh *tree, const double *points, si
   return most;
 }
 
-/* Largest distance between mesh and surface; with `change`, the plan gets finer where it is too large. Below 0 with
- * *error: it failed. */
+/* Largest distance between mesh and surface. With `change`, the plan is refined where the distance is too large. Below
+ * 0 with *error: failed. */
 static double distance_of(Fit *fit, const SporeTetrahedralMesh *mesh, bool change, SporeError *error) {
   SporeTriangleMesh boundary = {.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
   double most = -1;
@@ -78,7 +79,7 @@ static gboolean mesh_at(Fit *fit, double scale, SporeTetrahedraFinish finish, Sp
                                  error);
 }
 
-/* The next size after one that gave `count` cells. */
+/* Computes the next size from the number of cells that the last size gave. */
 static void step(Fit *fit, double count) {
   double gap = log(count / (double)fit->work->options.cells);
   if (fit->known_scale > 0 && fabs(log(fit->scale / fit->known_scale)) > 1e-3)
@@ -90,12 +91,13 @@ static void step(Fit *fit, double count) {
 }
 
 typedef struct {
-  double scale, gap, distance; /* gap: of the logarithm of the number */
+  double scale, gap, distance; /* gap: error of the logarithm of the number of cells */
 } Found;
 
 static gboolean has_choice(const Fit *fit) { return fit->work->options.method == SPORE_TETRAHEDRA_METHODS; }
 
-/* Whether a lattice, which can be chosen as well, had better be: its cells keep thin parts that the mesher's miss. */
+/* Whether a lattice should be used instead, where the choice is free. The cells of a lattice keep thin parts that the
+ * mesher misses. */
 static gboolean is_hopeless(const Fit *fit, double count, double distance) {
   const SporeTetrahedraOptions *options = &fit->work->options;
   const double least = fit->refinements > 1 ? 1 : MANY;
@@ -104,7 +106,7 @@ static gboolean is_hopeless(const Fit *fit, double count, double distance) {
 
 static void keep_plan(Fit *fit) { memcpy(fit->kept, fit->plan.relative, fit->nodes * sizeof *fit->kept); }
 
-/* The number must be met first, then the tolerance; nearer is better still. */
+/* The number of cells counts first, then the tolerance; above the tolerance, the nearer mesh is better. */
 static gboolean is_better(const Fit *fit, const Found *best, double gap, double distance) {
   const double near = AIM * fit->work->options.tolerance;
   gboolean meets = gap < 0.8 * SPORE_TETRAHEDRA_COUNT, met = best->gap < 0.8 * SPORE_TETRAHEDRA_COUNT;
@@ -113,10 +115,10 @@ static gboolean is_better(const Fit *fit, const Found *best, double gap, double 
   return distance < best->distance;
 }
 
-/* What came of a rough mesh; count 0: the mesher would not. */
+/* Figures of a rough mesh; count 0: the mesher failed. */
 typedef struct {
   double count, volume, gap, distance;
-  gboolean changed; /* the plan is finer now where it was too far */
+  gboolean changed; /* the plan is finer now where the mesh was too far */
 } Rough;
 
 static gboolean make_rough(Fit *fit, Rough *rough, GError **error) {
@@ -149,7 +151,7 @@ static gboolean make_rough(Fit *fit, Rough *rough, GError **error) {
   return rough->distance >= 0 || spore_error_propagate(&failure, error);
 }
 
-/* What to try after that; FALSE: it is good enough. */
+/* Sets the next size to try. FALSE: the mesh is good enough. */
 static gboolean go_on(Fit *fit, const Rough *rough) {
   if (!rough->count) fit->scale = fit->made_scale > 0 ? sqrt(fit->scale * fit->made_scale) : 1.6 * fit->scale;
   else if (rough->volume < LEAST_VOLUME * fit->volume) fit->scale *= 0.8;
@@ -193,7 +195,8 @@ static gboolean search(Fit *fit, GError **error) {
   return TRUE;
 }
 
-/* Ways to better a mesh, tried in turn until the angles are wide enough. None depends on the clock. */
+/* Ways to improve a mesh, tried in turn until the angles are wide enough. No way has a time limit, so results are
+ * reproducible. */
 static const struct {
   double scale;
   SporeTetrahedraFinish finish;
@@ -203,7 +206,7 @@ static const struct {
             {0.98, SPORE_TETRAHEDRA_SMOOTH | SPORE_TETRAHEDRA_EXUDE}};
 #define WAYS ((int)(sizeof ways / sizeof *ways))
 
-/* What the mesher left. */
+/* Improves the mesher's result. */
 static bool better(Fit *fit, SporeTetrahedralMesh *mesh, SporeError *error) {
   const SporeProgress progress = {spore_tetrahedra_report, fit->work};
   return spore_tetrahedra_mend(mesh, error) &&
@@ -215,7 +218,7 @@ static gboolean finish(Fit *fit, SporeTetrahedralMesh *mesh, GError **error) {
   SporeTetrahedraWork *work = fit->work;
   const SporeTetrahedraOptions *options = &work->options;
   const double from = work->fraction, share = work->share;
-  double best = -1; /* least angle, as far as it is wanted, and 1 where the number is met */
+  double best = -1; /* least angle, up to the wanted one, plus 1 if the number of cells is met */
   for (int i = 0; i < WAYS && best < SPORE_TETRAHEDRA_ANGLE + 1; i++) {
     SporeTetrahedralMesh made = {0};
     SporeTetrahedraQuality quality;

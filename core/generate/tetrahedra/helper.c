@@ -1,5 +1,5 @@
-/* SPORE's side of the tetrahedra helper. It is not believed: sizes must agree to the byte, and what comes is validated
- * like any other mesh. */
+/* SPORE's side of the tetrahedra helper. The helper's answer is not trusted: its size must match to the byte, and the
+ * mesh is validated like any other. */
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -28,7 +28,7 @@ static GBytes *make_request(SporeTetrahedraRequest head, const SporeTriangleMesh
   return g_byte_array_free_to_bytes(bytes);
 }
 
-/* Vertices and corners of an answer, in place; FALSE: it is none. */
+/* Finds the vertices and corners in an answer, without a copy. FALSE: the answer is malformed. */
 static gboolean open_answer(GBytes *answer, guint64 corners, SporeTetrahedraAnswer *head, const double **vertices,
                             const guint32 **indices) {
   gsize size;

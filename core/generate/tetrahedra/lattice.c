@@ -1,4 +1,4 @@
-/* A body-centred cubic lattice around a solid, with its nodes snapped to the surface and its edges cut by it. */
+/* A body-centred cubic lattice around a solid: its nodes are snapped to the surface, and the surface cuts its edges. */
 #include "core/generate/tetrahedra/lattice.h"
 
 #include <math.h>
@@ -29,7 +29,7 @@ SporeVec3 spore_bcc_place(const SporeBcc *lattice, SporeBccNode node) {
   return moved ? spore_vec3_load(lattice->places + 3 * (size_t)(moved - 1)) : regular_place(lattice, node);
 }
 
-/* Signs along rows; runs of nodes far from the surface are decided by one distance. */
+/* Classifies the nodes along rows. One distance decides a run of nodes far from the surface. */
 static bool classify(SporeBcc *lattice, const SporeTetrahedraWork *work, SporeError *error) {
   for (size_t z = 0; z < lattice->layers; z++) {
     if (!spore_tetrahedra_progress(work, 0.4 * (double)z / (double)lattice->layers, _("filling a lattice"), error))
@@ -53,11 +53,11 @@ static SporeBccNode node_of(const SporeBcc *lattice, size_t index) {
                         2 * (int32_t)(index / lattice->columns % lattice->rows) + kind, z};
 }
 
-/* What cannot be reached from the lattice's corner is inside. */
+/* Nodes that cannot be reached from the lattice's corner are set inside. */
 static bool fill_cavities(SporeBcc *lattice, size_t count, SporeError *error) {
   uint32_t *stack = SPORE_NEW_ARRAY(uint32_t, count);
   if (!stack) return spore_mesh_no_memory(error);
-  size_t waiting = 1; /* node 0, which is outside; 0 marks what is reached */
+  size_t waiting = 1; /* node 0, which is outside; value 0 marks reached nodes */
   lattice->value[0] = 0;
   while (waiting) {
     SporeBccNode node = node_of(lattice, stack[--waiting]);
@@ -96,7 +96,7 @@ static bool grow_cuts(SporeBcc *lattice) {
   return true;
 }
 
-/* By false position, halving where the depth is far from linear. */
+/* By false position, with bisection where the depth is far from linear. */
 static double find_cut(const SporeBcc *lattice, const SporeTetrahedraWork *work, SporeVec3 a, SporeVec3 b) {
   double low = 0, high = 1, f_low = fmax(spore_tetrahedra_depth(work, a), 0),
          f_high = fmin(spore_tetrahedra_depth(work, b), 0);
@@ -123,10 +123,10 @@ SporeBccCut *spore_bcc_cut(SporeBcc *lattice, const SporeTetrahedraWork *work, S
   return cut;
 }
 
-/* The neighbour whose edge back to a node has the same two ends. */
+/* The index of the opposite step: from the neighbour back to the node. */
 static int back(int neighbour) { return neighbour < AXES ? neighbour ^ 1 : AXES + 7 - (neighbour - AXES); }
 
-/* Moves a node to the nearest cut of its edges that is nearer than the snapping share. */
+/* Moves a node to the cut of its edges that is nearest in units of the snapping share, if one is within that share. */
 static bool snap(SporeBcc *lattice, const SporeTetrahedraWork *work, SporeBccNode node) {
   size_t index = spore_bcc_index(lattice, node);
   double best = HUGE_VAL;

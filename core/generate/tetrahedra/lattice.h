@@ -1,4 +1,4 @@
-/* A body-centred cubic lattice: two cubic ones, each with its nodes in the middles of the other's cubes. */
+/* A body-centred cubic lattice: two cubic lattices, each with its nodes at the centres of the other's cubes. */
 #ifndef SPORE_GENERATE_TETRAHEDRA_LATTICE_H
 #define SPORE_GENERATE_TETRAHEDRA_LATTICE_H
 
@@ -6,12 +6,12 @@
 
 #define SPORE_BCC_NEIGHBOURS 14 /* of a node: 6 along the axes, 8 along the diagonals */
 
-/* A node's place in halves of an edge: all even or all odd. Layer z holds columns x rows nodes, of z's kind. */
+/* A node's place in half edges: all even or all odd. Layer z holds columns x rows nodes, of the parity of z. */
 typedef struct SporeBccNode {
   int32_t x, y, z;
 } SporeBccNode;
 
-/* Where an edge is cut by the surface; the edge goes out from a node inside. */
+/* Where the surface cuts an edge that starts at a node inside. */
 typedef struct SporeBccCut {
   uint64_t key; /* node x SPORE_BCC_NEIGHBOURS + neighbour + 1; 0: free */
   double share; /* of the edge, from the node inside */
@@ -22,18 +22,18 @@ typedef struct SporeBcc {
   double edge, lower[3], filled; /* filled: volume of cavities */
   size_t columns, rows, layers;
   int8_t *value;    /* of a node: 1 inside, -1 outside, 0 on the surface */
-  uint32_t *moved;  /* of a node: its place in `places`, 1 on; 0: where the lattice has it */
-  uint32_t *vertex; /* of a node: its number in the mesh, 1 on; 0: none */
+  uint32_t *moved;  /* of a node: its index in `places` plus 1; 0: not moved */
+  uint32_t *vertex; /* of a node: its vertex of the mesh plus 1; 0: none */
   double *places;   /* place_count x 3 */
   size_t place_count, place_room;
   SporeBccCut *cuts; /* open addressing; room is a power of two */
   size_t cut_count, cut_room;
 } SporeBcc;
 
-/* The 14 ways from a node to its neighbours: the first six along the axes. */
+/* The 14 steps from a node to its neighbours: the first six along the axes. */
 extern const int8_t spore_bcc_steps[SPORE_BCC_NEIGHBOURS][3];
 
-/* Around the solid, nodes classified and moved onto the surface where they are near to it (see tetrahedra_voxels.c).
+/* Makes the lattice around the solid, classifies its nodes, and moves nodes near the surface onto it (see voxels.c).
  * False: no memory, too many nodes, cancelled; *lattice is cleared. */
 bool spore_bcc_create(SporeBcc *lattice, const SporeTetrahedraWork *work, double edge, SporeError *error);
 void spore_bcc_clear(SporeBcc *lattice);
@@ -50,7 +50,7 @@ static inline SporeBccNode spore_bcc_neighbour(SporeBccNode node, int n) {
   return (SporeBccNode){node.x + step[0], node.y + step[1], node.z + step[2]};
 }
 SporeVec3 spore_bcc_place(const SporeBcc *lattice, SporeBccNode node);
-/* The cut of the edge from a node inside; NULL: no memory. */
+/* The cut of the edge from a node inside to a neighbour; NULL: no memory. */
 SporeBccCut *spore_bcc_cut(SporeBcc *lattice, const SporeTetrahedraWork *work, SporeBccNode inside, int neighbour);
 
 #endif

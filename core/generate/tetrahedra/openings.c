@@ -1,4 +1,4 @@
-/* Openings and cavities of a surface: what closes its holes, and which of its parts are turned inside out. */
+/* Openings and cavities of a surface: the faces that close its holes, and its parts that are oriented inward. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "core/generate/tetrahedra/private.h"
 #include "core/mesh/common.h"
 
-#define APART 0.1 /* of the tolerance: a face that is no farther from the surface closes nothing */
+#define APART 0.1 /* of the tolerance: a face nearer to the surface than this closes no hole */
 
 static bool closes(const SporeTetrahedraWork *work, const SporeTriangleMesh *boundary, size_t triangle) {
   SporeVec3 middle = {0, 0, 0};
@@ -17,7 +17,8 @@ static bool closes(const SporeTetrahedraWork *work, const SporeTriangleMesh *bou
          fabs(spore_bvh_winding(work->tree, middle) - 0.5) < SPORE_TETRAHEDRA_CLOSING;
 }
 
-/* The given surface and those faces of the boundary, whose vertices come after its own. */
+/* Joins the given surface and the faces of the boundary that close holes. The boundary's vertices follow the surface's
+ * vertices. */
 static bool join(SporeTetrahedraWork *work, const SporeTriangleMesh *boundary, SporeError *error) {
   const SporeTriangleMesh *surface = &work->surface;
   SporeTriangleMesh joined = {0};
@@ -52,7 +53,7 @@ bool spore_tetrahedra_close(SporeTetrahedraWork *work, const SporeTetrahedralMes
 
 #define LEAST_WELD 1e-12 /* of the diagonal */
 
-/* The smallest vertex that is known to be joined to i. */
+/* The root of i: the smallest vertex known so far to be connected to i (union-find). */
 static uint32_t root_of(uint32_t *joined, uint32_t i) {
   while (joined[i] != i) i = joined[i] = joined[joined[i]];
   return i;

@@ -1,14 +1,14 @@
-/* The figures of tetrahedra that were made, and what a user should know of them. */
+/* The figures of generated tetrahedra, and the remarks for the user. */
 
 #include <glib/gi18n.h>
 #include <math.h>
 
 #include "core/generate/tetrahedra/private.h"
 
-#define LEAST_SAID 5e-4 /* of the surface: what would be 0.0 % of it is left to the figures */
-#define MANY 1.1        /* times as many cells as were asked for */
+#define LEAST_SAID 5e-4 /* share of the surface: a smaller share would print as 0.0 % and gets no remark */
+#define MANY 1.1        /* times as many cells as wanted */
 
-/* Pieces that the surface does not have: nothing holds one to the other. */
+/* Remarks on pieces of the mesh that are not connected, where the surface is. */
 static void say_pieces(GString *text, const SporeTetrahedraReport *report) {
   if (report->small_components > 0)
     g_string_append_printf(text,
@@ -22,7 +22,7 @@ static void say_pieces(GString *text, const SporeTetrahedraReport *report) {
         report->pieces, report->pieces_given);
 }
 
-/* Where the solid is not what the surface shows, and what to do about it. */
+/* Remarks on differences between the solid and the surface, and what to do about them. */
 static void say_left_out(GString *text, const SporeTetrahedraReport *report) {
   if (report->inner_share >= LEAST_SAID)
     g_string_append_printf(
@@ -45,7 +45,7 @@ static void say_left_out(GString *text, const SporeTetrahedraReport *report) {
         100 * report->widened, 1e3 * report->thickness);
 }
 
-/* What was asked for and did not come. */
+/* Remarks on requests that were not met. */
 static void say_missed(GString *text, const SporeTetrahedralMesh *mesh, const SporeTetrahedraOptions *options,
                        const SporeTetrahedraReport *report) {
   if (options->cells && (double)mesh->tetrahedron_count > MANY * (double)options->cells)
@@ -70,7 +70,7 @@ char *spore_tetrahedra_remarks(const SporeTetrahedralMesh *mesh, const SporeTetr
   return g_string_free(text, FALSE);
 }
 
-/* What of the surface the solid does not show as it is. */
+/* Shares of the surface that the solid does not show as given. */
 static void report_left_out(const SporeTetrahedraWork *work, SporeTetrahedraReport *report) {
   const double bounding = (double)work->bounding_count;
   report->inner_share = (double)work->inner_count / (bounding + (double)work->inner_count);

@@ -1,4 +1,4 @@
-/* How long edges shall be from place to place: by curvature, by regions, and by where a mesh was too coarse. */
+/* The field of wanted edge lengths: from curvature, from regions, and from places where a mesh was too coarse. */
 #include <math.h>
 #include <string.h>
 
@@ -7,8 +7,8 @@
 #include "core/mesh/common.h"
 
 #define EDGE_SCALE 0.7       /* circumradius bound of cells whose edges have length 1 */
-#define LEAST_RELATIVE 0.1   /* as fine as distances alone may make it */
-#define LEAST_CURVATURE 0.25 /* as fine as bends alone may make it */
+#define LEAST_RELATIVE 0.1   /* least relative size that distances alone may set */
+#define LEAST_CURVATURE 0.25 /* least relative size that curvature alone may set */
 #define MARGIN 2             /* nodes of the grid around the surface */
 
 static size_t node_count(const SporeSizing *grid) { return grid->count[0] * grid->count[1] * grid->count[2]; }
@@ -30,8 +30,8 @@ static void corners_around(const SporeSizing *grid, SporeVec3 p, size_t corners[
     corners[i] = ((low[2] + (i >> 2)) * grid->count[1] + low[1] + (i >> 1 & 1)) * grid->count[0] + low[0] + (i & 1);
 }
 
-/* Curvature at a vertex: the largest turn of the normal an edge's length, rad/m; edges shorter than `least` count as
- * that long, so that what is finer than the cells does not matter. */
+/* Bounds the size around each edge by the turn of the normal along it. Edges shorter than the grid spacing count as one
+ * spacing, so that details finer than the grid have no effect. */
 static bool bound_by_curvature(SporeSizingPlan *plan, const SporeTriangleMesh *surface, double degrees,
                                SporeError *error) {
   double *normals = SPORE_NEW_ARRAY(double, 3 * surface->vertex_count);
@@ -101,8 +101,8 @@ static double region_bound(const SporeGenerateRegion *region, SporeVec3 p, doubl
   return EDGE_SCALE * region->value + SPORE_SIZING_GRADATION * fmax(beyond, 0);
 }
 
-/* The nodes before a node in the order in which they lie, those after it mirrored: steps, and by how much the size may
- * grow on the way. */
+/* The neighbours that precede a node in the order of the nodes; the neighbours that follow are their mirror images.
+ * Each has a step and the growth of the size allowed along the step. */
 typedef struct Neighbour {
   int step[3];
   ptrdiff_t offset;
@@ -129,8 +129,8 @@ static bool is_node(const SporeSizing *grid, const size_t at[3], ptrdiff_t sign,
   return true;
 }
 
-/* No size is larger than a neighbour's and what the way between lets it grow. One sweep along the order of the nodes,
- * or against it. */
+/* Limits each size to a neighbour's size plus the growth allowed between them. One sweep in the order of the nodes, or
+ * against it. */
 static void limit_growth(SporeSizing *grid, const Neighbour neighbours[NEIGHBOURS], bool forth) {
   const size_t count = node_count(grid), *sides = grid->count;
   const ptrdiff_t sign = forth ? 1 : -1;

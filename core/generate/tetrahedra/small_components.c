@@ -1,4 +1,4 @@
-/* Cells that hang together with nothing where the surface does: nothing would hold them. */
+/* Drops small pieces of cells that are disconnected where the surface is connected. */
 #include <math.h>
 #include <string.h>
 
@@ -7,12 +7,12 @@
 #include "core/mesh/common.h"
 #include "core/mesh/edit.h"
 
-#define SMALL 0.02 /* of the volume: what breaks off is as thin as that little changes */
+#define SMALL 0.02 /* of the volume: pieces above this share are kept */
 
 /* A piece of the cells. */
 typedef struct Piece {
   double volume;
-  uint32_t of; /* piece of the surface that it lies at */
+  uint32_t of; /* the piece of the surface at this piece */
   bool small;
 } Piece;
 
@@ -23,7 +23,7 @@ static double volume_of(const SporeTetrahedralMesh *mesh, size_t t) {
   return fabs(spore_vec3_dot(across, spore_vec3_sub(p[3], p[0]))) / 6;
 }
 
-/* A piece lies at the surface's piece that is nearest to its first corner. */
+/* A piece belongs to the piece of the surface nearest to its first corner. */
 static void measure(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, const uint32_t *pieces,
                     const uint32_t *surface_pieces, Piece *found) {
   size_t known = 0;
@@ -39,7 +39,8 @@ static void measure(const SporeTetrahedraWork *work, const SporeTetrahedralMesh 
   }
 }
 
-/* Those next to a larger one of the same piece of the surface. Returns what share of the volume they are. */
+/* Marks small pieces whose piece of the surface has a larger piece. Returns the share of the volume in marked pieces.
+ */
 static double mark(Piece *found, size_t count) {
   double all = 0, small = 0;
   for (size_t i = 0; i < count; i++) all += found[i].volume;

@@ -1,4 +1,5 @@
-/* The solid that a surface bounds, however dirty: where its winding number is over one half. */
+/* The solid of a surface: where the winding number is over one half. The surface may have holes and self-intersections.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -10,13 +11,13 @@
 
 #define WELD 1e-6         /* of the diagonal */
 #define SAMPLES 20000     /* of a surface */
-#define BESIDE 1e-4       /* of the diagonal: how far from the surface its two sides are looked at */
+#define BESIDE 1e-4       /* of the diagonal: distance from the surface at which its two sides are tested */
 #define VOLUME_ROWS 96    /* across the diagonal */
-#define THIN 8            /* walls that are met, of the distance of rows */
+#define THIN 8            /* row distance over the thickness of the thinnest wall that a row cannot miss */
 #define LEAST_VOLUME 1e-6 /* of the diagonal's cube */
 #define SAMPLES_A_REPORT 512
-#define ROUNDS 4   /* of moving vertices of the boundary, a turn */
-#define BEYOND 0.3 /* of the tolerance: distances that count more than by their squares */
+#define ROUNDS 4   /* of moving vertices of the boundary, for each turn */
+#define BEYOND 0.3 /* of the tolerance: distances beyond count more than by their squares */
 #define POINTS 2   /* of the surface, for each cell */
 #define LEAST_POINTS 1000
 
@@ -28,7 +29,8 @@ static SporeVec3 normal_of(const SporeTriangleMesh *mesh, uint32_t triangle) {
                               spore_vec3(0, 0, 0));
 }
 
-/* Sorts points of the surface: those with the solid on one side alone bound it. */
+/* Sorts points of the surface. Points with the solid on one side only bound the solid; points with the solid on both
+ * sides lie inside. */
 static bool sort_samples(SporeTetrahedraWork *work, SporeError *error) {
   double *points = SPORE_NEW_ARRAY(double, 3 * SAMPLES);
   uint32_t *triangles = SPORE_NEW_ARRAY(uint32_t, SAMPLES);
@@ -50,8 +52,9 @@ static bool sort_samples(SporeTetrahedraWork *work, SporeError *error) {
   return done;
 }
 
-/* Length of the solid along a row: steps as long as the surface is away, or `least`, so that no wall of that thickness
- * is passed over; where it enters and where it leaves err by as much to either side. */
+/* Length of the solid along a row. Each step is the distance to the surface, or at least `least`, so that no wall of
+ * that thickness is missed. The errors where the row enters and leaves the solid are at most `least`, in opposite
+ * directions. */
 static double row_inside(const SporeBvh *tree, SporeVec3 p, double length, double least) {
   double sum = 0, step;
   for (double x = 0; x < length; x += step) {
@@ -62,7 +65,7 @@ static double row_inside(const SporeBvh *tree, SporeVec3 p, double length, doubl
   return sum;
 }
 
-/* given: of the surface before its cavities were dropped. */
+/* given: figures of the surface before its cavities were dropped. */
 static bool measure_volume(SporeTetrahedraWork *work, const SporeMeshReport *given, SporeError *error) {
   SporeMeshReport report;
   if (!spore_triangle_mesh_report(&work->surface, &report, error)) return false;
@@ -92,7 +95,7 @@ bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error) {
   if (!spore_triangle_mesh_weld(&work->surface, WELD, error) || !spore_triangle_mesh_orient(&work->surface, error) ||
       !spore_triangle_mesh_report(&work->surface, &report, error))
     return false;
-  /* Sheets that are not closed keep the way they were turned: all inside out is as good as all outside in. */
+  /* Open sheets keep their orientation. A surface that is inside out as a whole is turned over. */
   if (report.volume < 0)
     for (size_t t = 0; t < work->surface.triangle_count; t++) {
       uint32_t *corner = work->surface.triangles + 3 * t, kept = corner[1];
@@ -110,7 +113,7 @@ bool spore_tetrahedra_solid(SporeTetrahedraWork *work, SporeError *error) {
       work->surface.triangle_count);
 }
 
-/* Largest distance from `count` points. */
+/* Largest distance from `count` points to the surface. */
 static double farthest(const SporeBvh *tree, const double *points, size_t count) {
   double most = 0;
   for (size_t i = 0; i < count; i++)

@@ -1,4 +1,4 @@
-/* Tetrahedra in a surface: which methods are tried, in which order, and why one is refused. */
+/* Tetrahedra in a surface: the methods, their order, and the reasons for refusing one. */
 #include "core/generate/tetrahedra/tetrahedra.h"
 
 #include <glib/gi18n.h>
@@ -13,14 +13,14 @@
 #define TOLERANCE 0.01 /* of the diagonal */
 #define LOOKING 0.05   /* share of the progress, before and after the work */
 #define MOST_WRAPS 3
-#define MOST_WRAPPED 40000.0 /* triangles of a closer wrap, */
-#define CLOSER 4             /* times as many by half the alpha, or more */
-#define MOST_FIRST 200000.0  /* of the first, or of that which closes openings */
+#define MOST_WRAPPED 40000.0 /* most triangles of a closer wrap */
+#define CLOSER 4             /* halving alpha gives at least this many times the triangles */
+#define MOST_FIRST 200000.0  /* most triangles of the first wrap, or of the wrap that closes openings */
 #define WRAPPED_NEAR 0.8     /* of the tolerance */
 #define PREPARED_SAMPLES 10000
-#define MOST_GIVEN 200000 /* triangles: of more, checking, repairing and wrapping take minutes, a lattice seconds */
+#define MOST_GIVEN 200000 /* triangles: with more, CGAL takes minutes, a lattice seconds */
 #define SURE 0.9          /* of the tolerance */
-#define BETTER 0.95       /* of what a mesher is off: a lattice no nearer is not worth its shapes */
+#define BETTER 0.95       /* of the mesher's misfit: a lattice must be below this to replace the mesher's cells */
 #define MOST_CHANGE 0.1   /* of the volume */
 
 const char *const spore_tetrahedra_method_names[] = {"direct", "repaired", "wrapped", "voxels", NULL};
@@ -73,7 +73,7 @@ static gboolean check_options(const char *place, const SporeTetrahedraOptions *o
   return check_regions(place, options, error);
 }
 
-/* Cells in a solid where they have all the same size. */
+/* Checks the number of cells, as if all had the same size. */
 static gboolean check_count(const char *place, const SporeTetrahedraWork *work, GError **error) {
   const SporeTetrahedraOptions *options = &work->options;
   double cells = options->cells ? (double)options->cells : work->volume * 6 * sqrt(2) / pow(options->size, 3);
@@ -83,7 +83,7 @@ static gboolean check_count(const char *place, const SporeTetrahedraWork *work, 
                        SPORE_TETRAHEDRA_CELLS);
 }
 
-/* A copy about the origin with a diagonal of 1, so that no library meets organs in micrometres or kilometres. */
+/* Copies the surface, centred at the origin and scaled to a diagonal of 1, so that libraries see no extreme lengths. */
 static bool normalise(SporeTetrahedraWork *work, const SporeTriangleMesh *surface,
                       const SporeTetrahedraOptions *options, const SporeMeshReport *report, const double centre[3],
                       SporeError *error) {
@@ -114,8 +114,8 @@ static void clear(SporeTetrahedraWork *work) {
   spore_free(work->inner);
 }
 
-/* Largest distance between a prepared surface and what bounds the solid. Where the given surface is open, the winding
- * number says that the solid ends where the prepared one closes it, and that counts as near. Below 0: no memory. */
+/* Largest distance between a prepared surface and the bounds of the solid. Where the prepared surface closes a hole of
+ * the given one, a winding number near one half counts as no distance. Below 0: no memory. */
 static double distance_to(const SporeTetrahedraWork *work, const SporeTriangleMesh *surface) {
   double *points = SPORE_NEW_ARRAY(double, 3 * PREPARED_SAMPLES);
   SporeBvh *tree = points ? spore_bvh_create(surface, NULL) : NULL;
@@ -145,7 +145,8 @@ static gboolean fail(GError **error, const char *format, ...) {
   return spore_error_raise(error, SPORE_ERROR_NUMERICAL, NULL, "%s", message);
 }
 
-/* Half the edge length, so that walls finer than the cells melt, within what is quick and what is still the shape. */
+/* Half the edge length, so that walls finer than the cells merge. The bounds keep the wrap fast and close to the shape.
+ */
 static double usual_alpha(const SporeTetrahedraWork *work) {
   double edge = work->options.cells ? cbrt(work->volume / (0.12 * (double)work->options.cells)) : work->options.size;
   return fmin(fmax(0.5 * edge, 1.0 / 150), 1.0 / 50);
@@ -162,7 +163,7 @@ static gboolean wrap_at(SporeTetrahedraWork *work, double alpha, double most_tri
   return done;
 }
 
-/* Wraps tighter until the wrap follows the solid as closely as the cells shall, or that takes too many triangles. */
+/* Wraps more tightly until the wrap is as close to the solid as the cells must be, or has too many triangles. */
 static gboolean wrap(SporeTetrahedraWork *work, SporeTriangleMesh *surface, GError **error) {
   const bool by_gap = work->options.gap > 0;
   double alpha = by_gap ? work->options.gap : usual_alpha(work);
@@ -237,8 +238,8 @@ static gboolean attempt(SporeTetrahedraWork *work, SporeTetrahedraMethod method,
   return done;
 }
 
-/* How far a mesh is from the surface and its volume from the solid's, of what is allowed; parts: it falls into more
- * pieces than the surface. Below 0: it failed. */
+/* Misfit of a mesh: the errors of distance, volume and count relative to what is allowed. 1 is added for an angle below
+ * the least, and 1 for `parts`: the mesh has more pieces than the surface. Below 0: failed. */
 static double misfit_of(const SporeTetrahedraWork *work, const SporeTetrahedralMesh *mesh, bool parts, double *distance,
                         double *change, SporeError *error) {
   SporeTetrahedraQuality quality;
@@ -254,8 +255,7 @@ static double misfit_of(const SporeTetrahedraWork *work, const SporeTetrahedralM
 
 static bool falls_apart(const SporeTetrahedraReport *report) { return report->pieces > report->pieces_given; }
 
-/* Where a mesher's cells are farther from the solid than they shall be, those of a coarsened lattice may be nearer: the
- * better of the two are kept. */
+/* Where the mesher's cells miss the limits, the cells of a coarsened lattice may be better. Keeps the better mesh. */
 static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh *mesh, SporeTetrahedraReport *report,
                                 GError **error) {
   SporeTetrahedralMesh other = {0};
@@ -270,7 +270,7 @@ static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh 
     return failure.code != SPORE_ERROR_CANCELLED || spore_error_propagate(&failure, error);
   }
   double after = misfit_of(work, &other, falls_apart(&lattice), &near, &change, &failure);
-  if (work->closed) /* now that it is known what closes it */
+  if (work->closed) /* the faces that close the holes are known now */
     before = misfit_of(work, mesh, falls_apart(report), &far, &lost, &failure);
   if (after >= 0 && before > 1 && after < BETTER * before) {
     g_snprintf(lattice.refused[report->method], sizeof lattice.refused[report->method],
@@ -286,8 +286,8 @@ static gboolean look_at_lattice(SporeTetrahedraWork *work, SporeTetrahedralMesh 
   return (after >= 0 && before >= 0) || spore_error_propagate(&failure, error);
 }
 
-/* What is tried next: where a surface was fit for meshing and its cells were not what they shall be, another surface of
- * the same shape will not help, but a lattice may. */
+/* The method to try next. If a surface could be prepared but its cells were refused, another surface of the same shape
+ * will not help, but a lattice may. */
 static SporeTetrahedraMethod next_method(const SporeTetrahedraWork *work, const bool *tried) {
   int method = 0;
   if (work->prepared && !tried[SPORE_TETRAHEDRA_VOXELS]) return SPORE_TETRAHEDRA_VOXELS;
@@ -295,7 +295,7 @@ static SporeTetrahedraMethod next_method(const SporeTetrahedraWork *work, const 
   return (SporeTetrahedraMethod)method;
 }
 
-/* The first method that works, or the one that is asked for. */
+/* Runs the first method that works, or the requested one. */
 static gboolean run_methods(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
                             SporeTetrahedraReport *report, GError **error) {
   const SporeTetrahedraMethod asked = work->options.method;
@@ -333,7 +333,7 @@ static bool wraps(const SporeTetrahedraOptions *options) {
   return options->gap > 0 && options->method >= SPORE_TETRAHEDRA_WRAPPED;
 }
 
-/* The methods, and a second look at what came of them. */
+/* Runs the methods, then compares the result with a lattice. */
 static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
                           SporeTetrahedraReport *report, GError **error) {
   const SporeTetrahedraOptions *options = &work->options;
@@ -351,7 +351,7 @@ static gboolean run_chain(SporeTetrahedraWork *work, const char *place, SporeTet
   return look_at_lattice(work, mesh, report, error);
 }
 
-/* Openings are closed by a wrap: what that encloses is filled like any other surface, by the mesher or by a lattice. */
+/* Closes openings by a wrap. The wrap is then filled like any other surface, by the mesher or by a lattice. */
 static gboolean run_closed(SporeTetrahedraWork *work, const char *place, SporeTetrahedralMesh *mesh,
                            SporeTetrahedraReport *report, GError **error) {
   const double from = work->fraction, share = work->share;

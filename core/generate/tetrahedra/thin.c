@@ -1,15 +1,16 @@
-/* Walls and slits of a solid that are thinner than a lattice's cells have no node of it in them. Their points are known
- * by their distance from cells that were made without; around them, the lattice is told of solid, or of a gap. */
+/* Walls and slits of a solid that are thinner than the cells of a lattice contain no node of the lattice. Points of
+ * such walls and slits are found by their distance from the cells. Around these points, the depth is changed so that
+ * the lattice has solid, or a gap. */
 #include <math.h>
 
 #include "core/base/memory.h"
 #include "core/generate/tetrahedra/private.h"
 #include "core/mesh/common.h"
 
-#define MISSED 0.5       /* of the tolerance: what is farther from the cells */
-#define NECK 1.2         /* of the tolerance: so far around it, walls are widened that are */
-#define NECK_MISSED 0.05 /* no nearer to the cells */
-#define REACH 0.7        /* edges: a node is within 0.56 of any point, and neighbours of it hold together */
+#define MISSED 0.5       /* of the tolerance: points farther from the cells are missed */
+#define NECK 1.2         /* of the tolerance: around a missed wall, walls within this are widened too, */
+#define NECK_MISSED 0.05 /* if they are farther than this from the cells */
+#define REACH 0.7        /* edges: any point has a node within 0.56; with the excess, neighbouring nodes connect */
 #define MOST_REACH 0.6   /* of the tolerance */
 
 double spore_tetrahedra_depth(const SporeTetrahedraWork *work, SporeVec3 p) {
@@ -20,7 +21,7 @@ double spore_tetrahedra_depth(const SporeTetrahedraWork *work, SporeVec3 p) {
   return depth;
 }
 
-/* A tree of points, as triangles without area. */
+/* Builds a tree of points, as triangles without area. */
 static bool grow_tree(SporeBvh **tree, double *points, size_t count, SporeError *error) {
   SporeTriangleMesh mesh = {.vertex_count = count, .vertices = points, .triangle_count = count};
   spore_bvh_free(*tree);
@@ -33,7 +34,7 @@ static bool grow_tree(SporeBvh **tree, double *points, size_t count, SporeError 
   return *tree != NULL;
 }
 
-/* Points of walls next to those that were missed: without them there would be islands. */
+/* Adds points of walls next to missed walls: without these points, missed walls would become islands. */
 static void note_necks(SporeTetrahedraWork *work, const SporeBvh *cells) {
   SporeTetrahedraThin *thin = &work->thin;
   const size_t missed = thin->wall_count;
@@ -47,10 +48,10 @@ static void note_necks(SporeTetrahedraWork *work, const SporeBvh *cells) {
   }
 }
 
-/* Noted before: each point counts once. */
+/* Whether the point is already in the tree: each point counts once. */
 static bool is_of(const SporeBvh *tree, SporeVec3 p) { return tree && !(spore_bvh_distance(tree, p, NULL, NULL) > 0); }
 
-/* cells: NULL where there are none, so that all is missed. */
+/* cells: NULL if there are none; then all points are missed. Returns the largest distance. */
 static double note_missed(SporeTetrahedraWork *work, const SporeBvh *cells) {
   SporeTetrahedraThin *thin = &work->thin;
   double farthest = 0;

@@ -1,8 +1,8 @@
 /* Isosurface stuffing (Labelle and Shewchuk 2007, "Isosurface stuffing: fast tetrahedral meshes with good dihedral
- * angles"): a body-centred cubic lattice of tetrahedra, whose nodes near the surface move onto it, is cut where the
- * solid ends. With the snapping shares of tetrahedra_lattice.c the paper proves dihedral angles of 10.7 to 164.8
- * degrees whatever the solid, so this needs nothing of the surface but its winding number. Diagonals of four-sided
- * faces are chosen by what both cells at the face know: its edges' lengths, and the parity of nodes. */
+ * angles"). A body-centred cubic lattice of tetrahedra is cut at the boundary of the solid; nodes near the surface
+ * first move onto the surface. With the snapping shares of lattice.c the paper proves dihedral angles of 10.7 to 164.8
+ * degrees for any solid. So the method needs only the winding number of the surface. The diagonal of a four-sided face
+ * depends only on data that both cells at the face share: the lengths of the face's edges, and the parity of nodes. */
 #include "core/base/memory.h"
 #include "core/base/text.h"
 #include "core/generate/tetrahedra/lattice.h"
@@ -64,8 +64,8 @@ static int way_to(SporeBccNode from, SporeBccNode to) {
   return n;
 }
 
-/* What stands for the end `to` of the edge from a node inside: its cut, or the node itself when that is on the surface.
- */
+/* The vertex for the end `to` of the edge from a node inside: the cut of the edge, or the node itself if it is inside
+ * or on the surface. */
 static bool end_vertex(Stuffing *stuffing, SporeBccNode inside, const Corner *to, uint32_t *number) {
   if (to->value >= 0) return node_vertex(stuffing, to->node, number);
   SporeBccCut *cut = spore_bcc_cut(stuffing->lattice, stuffing->work, inside, way_to(inside, to->node));
@@ -79,17 +79,17 @@ static bool end_vertex(Stuffing *stuffing, SporeBccNode inside, const Corner *to
   return true;
 }
 
-/* Along an axis, between two nodes of one kind. */
+/* An edge along an axis, between two nodes of the same parity. */
 static bool is_long(const Corner *a, const Corner *b) { return ((a->node.z ^ b->node.z) & 1) == 0; }
 
-/* Of the two ends of a long edge. */
+/* Whether `a` is the even end of a long edge; the other end is odd. */
 static bool is_even(const Corner *a, const Corner *b) {
   int32_t along = a->node.x != b->node.x ? a->node.x : a->node.y != b->node.y ? a->node.y : a->node.z;
   return (along >> 1 & 1) == 0;
 }
 
-/* Three cells of a prism with the sides low[i]-high[i], whose four-sided faces are divided from low of the earlier to
- * high of the later. */
+/* Three cells of a prism with the sides low[i]-high[i]. The diagonal of each four-sided face runs from low of the side
+ * earlier in `order` to high of the later side. */
 static bool add_prism(Stuffing *stuffing, const uint32_t low[3], const uint32_t high[3], const int order[3]) {
   int a = order[0], b = order[1], c = order[2];
   return add_cell(stuffing, low[a], low[b], low[c], high[c]) && add_cell(stuffing, low[a], low[b], high[b], high[c]) &&
@@ -132,14 +132,14 @@ static bool stuff_two_on(Stuffing *stuffing, const Corner *a, const Corner *b, c
       !node_vertex(stuffing, z->node, &vz) || !end_vertex(stuffing, a->node, c, &cut_a) ||
       !end_vertex(stuffing, b->node, c, &cut_b))
     return false;
-  bool from_a = is_long(a, b) ? is_even(a, b) : is_long(b, c); /* divided from a to b's cut */
+  bool from_a = is_long(a, b) ? is_even(a, b) : is_long(b, c); /* the diagonal runs from a to b's cut */
   if (from_a) return add_cell(stuffing, va, vb, cut_b, vz) && add_cell(stuffing, va, cut_b, cut_a, vz);
   return add_cell(stuffing, va, vb, cut_a, vz) && add_cell(stuffing, vb, cut_b, cut_a, vz);
 }
 
-/* The part of a lattice cell that is inside. */
+/* Adds the part of a lattice cell that is inside. */
 static bool stuff_cell(Stuffing *stuffing, const SporeBccNode nodes[4]) {
-  Corner corner[4]; /* inside, on the surface, outside */
+  Corner corner[4]; /* sorted: inside, on the surface, outside */
   int inside = 0, count = 0, outside = 0;
   for (int value = 1; value >= -1; value--)
     for (int i = 0; i < 4; i++) {
@@ -160,8 +160,8 @@ static bool stuff_cell(Stuffing *stuffing, const SporeBccNode nodes[4]) {
   return add_cell(stuffing, v[0], v[1], v[2], v[3]);
 }
 
-/* The cells around the edge from `node` along an axis: each cell of the lattice is met once, at its edge along the
- * earlier axis. The four nodes around are of the other kind. */
+/* Adds the cells around the edge from `node` along an axis. Each cell of the lattice is added once, at its edge along
+ * the earlier axis. The four nodes around the edge are of the other parity. */
 static bool stuff_edge(Stuffing *stuffing, SporeBccNode node, int axis) {
   static const int8_t around[2][4][3] = {{{1, 1, 1}, {1, -1, 1}, {1, -1, -1}, {1, 1, -1}},
                                          {{1, 1, 1}, {-1, 1, 1}, {-1, 1, -1}, {1, 1, -1}}};
@@ -169,7 +169,7 @@ static bool stuff_edge(Stuffing *stuffing, SporeBccNode node, int axis) {
   if (!spore_bcc_has(stuffing->lattice, nodes[1])) return true;
   for (int i = 0; i < 4; i++) {
     const int8_t *p = around[axis][i], *q = around[axis][(i + 1) % 4];
-    if (axis == 1 && p[2] == q[2]) continue; /* along x: met there */
+    if (axis == 1 && p[2] == q[2]) continue; /* has an edge along x: added there */
     nodes[2] = (SporeBccNode){node.x + p[0], node.y + p[1], node.z + p[2]};
     nodes[3] = (SporeBccNode){node.x + q[0], node.y + q[1], node.z + q[2]};
     if (!spore_bcc_has(stuffing->lattice, nodes[2]) || !spore_bcc_has(stuffing->lattice, nodes[3])) continue;
