@@ -111,8 +111,8 @@ static const SporeStageType stages[] = {
      N_("suction and emitters exchange particles"), N_("nothing sucks particles away or lets them out")},
     {"split_nodes", may_split, spore_world_split_nodes, tetrahedra, /**/
      N_("scissors may cut tetrahedra apart"), N_("nothing cuts tetrahedra apart")},
-    {"advance", has_moving, spore_world_advance, bodies, /**/
-     N_("the next state becomes the state"), N_("no body moves")},
+    {"advance", always, spore_world_advance, bodies, /**/
+     N_("the next state becomes the state"), NULL},
     {"friction", may_touch, spore_world_keep_friction, contacts, /**/
      N_("contacts that stick hold on in the next step"), N_("no two bodies can touch")},
     {"break_links", may_break, spore_world_break_links, links, /**/

@@ -1072,9 +1072,9 @@ def view_goes_with_the_camera():
             return name and editor.text_of(name) == "ball"
 
         ui.wait(middle_is_ball, "the ball in the middle")
-        editor.act("play")
-        ui.wait(lambda: (editor.time_s() or 0) > 0.15, "the ball to fall")
-        editor.act("pause")
+        for step in range(1, 71):  # by 24 mm, of a ball of 20
+            editor.act("step")
+            ui.wait(lambda: (editor.time_s() or 0) > 0.001 * step - 5e-4, "a step")
         ui.wait(middle_is_ball, "the view to fall with the ball")
         editor.act("view", "s", "front")
         editor.act("reset")
