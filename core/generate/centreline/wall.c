@@ -11,9 +11,8 @@
 #define HIDDEN 3   /* rays that reach the outside: with fewer a triangle is hidden */
 #define OUTER 13   /* with this many a triangle is of the outer wall; at the mouth of a lumen half go out */
 #define INNER_WALL                                                                                                     \
-  0.1 /* hidden share of the surface above which there may be a lumen; a few loops that touch hide less */
-#define ASTRAY                                                                                                         \
-  0.01 /* share of the surface that is seen from behind, above which triangles have inconsistent orientations */
+  0.1               /* hidden share of the surface above which there may be a lumen; a few loops that touch hide less */
+#define ASTRAY 0.01 /* share of the surface seen from behind, above which triangles are turned */
 #define INSIDE -1
 #define REPORT_EACH 64
 

@@ -11,7 +11,7 @@
 #define RING 8    /* cells around an edge at most */
 #define GAIN 1e-3 /* degrees by which a flip must raise the least angle */
 #define GONE UINT32_MAX
-#define FLAT 0.1 /* of the cube of the longest edge: largest volume product of a boundary sliver */
+#define FLAT 0.1 /* of the cube of its longest edge: six times the largest volume of a boundary sliver */
 
 typedef struct {
   SporeStars *stars;

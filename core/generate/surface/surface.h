@@ -41,12 +41,12 @@ typedef struct SporeWallReport {
   double seconds;
 } SporeWallReport;
 
-/* The inner surface is where the depth below the closed mesh is the thickness (m). It is found on a lattice. At
- * edges of the lumen the lattice is refined where the error exceeds .56 of the thickness over the detail. The triangles
- * are then made fewer, with an error of at most .32 of that limit's unit (thickness over detail) where it was not
- * larger before. The result is closed, turned outward, and does not intersect itself or the mesh. detail: twice as much
- * halves the error; 0: SPORE_WALL_DETAIL, for which the error is below 5 %. Refused, with the place of the deepest
- * point found, if the mesh is nowhere so deep. *inner is empty on failure. */
+/* The inner surface is where the depth below the closed mesh is the thickness (m). It is found on a lattice, which
+ * is refined at edges of the lumen where the error exceeds .56 of the thickness over the detail. The triangles are then
+ * made fewer, with an error of at most .32 of the thickness over the detail where it was not larger before. The result
+ * is closed, turned outward, and does not intersect itself or the mesh. detail: twice as much halves the error; 0:
+ * SPORE_WALL_DETAIL, for which the error is below 5 %. Refused, with the place of the deepest point found, if the mesh
+ * is nowhere so deep. *inner is empty on failure. */
 bool spore_wall_inner(const SporeTriangleMesh *outer, double thickness, double detail, SporeTriangleMesh *inner,
                       SporeWallReport *report, const SporeProgress *progress, SporeError *error);
 
