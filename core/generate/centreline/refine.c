@@ -50,7 +50,7 @@ static double mean_radius(const Line *line) {
   return sum / (double)line->count;
 }
 
-/* Length of the piece before point i, in radii. The radius is at least `least`. */
+/* Length of the piece before point i, in radii. Where the line is thinner than `least`, `least` is the radius. */
 static double piece(const Line *line, size_t i, double least) {
   double radius = 0.5 * (fmax(line->points[4 * i - 1], least) + fmax(line->points[4 * i + 3], least));
   return spore_vec3_distance(at(line, i - 1), at(line, i)) / radius;

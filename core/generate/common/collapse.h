@@ -28,7 +28,7 @@ bool spore_collapse_create(SporeCollapse *collapse, SporeError *error);
 void spore_collapse_clear(SporeCollapse *collapse);
 
 /* Collapses the edge a-b if the topology of the mesh and its labels is kept, cells stay above `floor`, and the skin
- * stays within `limit` of its points and of the surface. The vertex goes to the end or to the middle, wherever the skin
+ * stays within `limit` of its points and of the surface. The vertex goes to an end or to the middle, wherever the skin
  * is nearest. A removed cell has UINT32_MAX as its first corner. False: nothing changed. */
 bool spore_collapse_edge(SporeCollapse *collapse, uint32_t a, uint32_t b);
 

@@ -61,11 +61,10 @@ typedef struct SporeSolid {
   double *cell_end;  /* cell_count: running sum of volumes */
   bool *cell_inside; /* cell_count: wholly inside */
   size_t cell_count;
-  double *triangle_end;             /* triangle_count: running sum of areas */
-  double volume, diagonal, deepest; /* m^3 and m, estimates by sampling; diagonal exact */
-  SporeSymmetry symmetry;           /* samples and candidates are folded by it; empty unless a caller sets it */
-  const SporeGenerateRegion
-      *regions; /* region_count: regions where samples are denser and weigh more; none unless a caller sets them */
+  double *triangle_end;               /* triangle_count: running sum of areas */
+  double volume, diagonal, deepest;   /* m^3 and m, estimates by sampling; diagonal exact */
+  SporeSymmetry symmetry;             /* samples and candidates are folded by it; empty unless a caller sets it */
+  const SporeGenerateRegion *regions; /* region_count: where samples are denser and weigh more; none by default */
   size_t region_count;
 } SporeSolid;
 /* Largest value of the regions that contain the point; 1 if there is none. */
