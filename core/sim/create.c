@@ -69,12 +69,12 @@ static bool check_description(const SporeWorldDescription *description, SporeErr
   return true;
 }
 
-/* Most substeps that are chosen without being asked for. Contacts are found once a step: in more substeps than these,
- * particles may move so far that the next detection finds them deep inside others. */
+/* Most substeps that are chosen automatically. Contacts are found once a step. With more substeps, particles may
+ * move so far that the next detection finds them deep inside others. */
 #define SUBSTEPS_UNASKED 20
 
 /* Chooses the integrator and the substeps that the scene leaves open, for a model that has rates and no Jacobian. An
- * implicit method that the scene asks for has no Jacobian either, and needs steps as small as an explicit one. */
+ * implicit method requested by the scene has no Jacobian either, and needs steps as small as an explicit one. */
 static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBodyDescription *from) {
   assert(body->model->type->rates);
   assert(world->solver.time_step > 0);
@@ -94,7 +94,7 @@ static void choose_steps(const SporeWorld *world, SporeBody *body, const SporeBo
   body->method.substeps_source = SPORE_SOURCE_AUTOMATIC;
 }
 
-/* Sets offsets and names. The models stay the caller's until the world is complete. */
+/* Sets offsets and names. The caller owns the models until the world is complete. */
 static bool lay_out_body(SporeWorld *world, SporeBody *body, const SporeBodyDescription *from, SporeError *error) {
   assert((from->role == SPORE_PASSIVE) == (from->model != NULL));
   assert(!body->name);
@@ -253,7 +253,7 @@ static bool check_steps(SporeWorld *world, SporeError *error) {
   return true;
 }
 
-/* Frees the unfinished world. The models stay the caller's. */
+/* Frees the unfinished world. The caller keeps the models. */
 static SporeWorld *give_up(SporeWorld *world) {
   for (size_t i = 0; world->bodies && i < world->body_count; i++) {
     spore_lod_give_up(&world->bodies[i]);

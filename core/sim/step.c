@@ -1,5 +1,5 @@
-/* The step of a world: one table of stages, run from top to bottom. A stage that a world does not need is left out of
- * its schedule and costs nothing. */
+/* The step of a world: one table of stages, run from top to bottom. A stage that a world does not need is not in its
+ * schedule and costs nothing. */
 #include "core/sim/step.h"
 
 #include "core/base/text.h"
@@ -75,8 +75,9 @@ static size_t lines(const SporeWorld *world) { return world->topology.line_count
 static size_t islands(const SporeWorld *world) { return world->solve.island_count; }
 static size_t degrees_of_freedom(const SporeWorld *world) { return world->state.dof; }
 
-/* The step. Contacts and links that `detect` to `link` find stay as they are for the rest of the step, so that forces
- * are a pure function of q, v and t. From `accept` on the next state is written, from `advance` on it is the state. */
+/* The stages of a step. Contacts and links are found from `detect` to `link` and do not change in the rest of the
+ * step, so that forces are a pure function of q, v and t. From `accept` on the next state is written; from `advance` on
+ * the next state is the state. */
 static const SporeStageType stages[] = {
     {"commands", always, spore_world_apply_commands, NULL, /**/
      N_("parameters and pulls may change while it runs"), NULL},
@@ -130,7 +131,7 @@ static const SporeStageType stages[] = {
 };
 _Static_assert(sizeof stages / sizeof *stages == SPORE_STAGE_COUNT, "SPORE_STAGE_COUNT");
 
-/* What a world is spared besides stages. */
+/* Work besides stages that a world does not need. */
 
 static bool explicit_alone(const SporeWorld *world) {
   const SporeBody *first = NULL;
@@ -138,7 +139,7 @@ static bool explicit_alone(const SporeWorld *world) {
     const SporeBody *body = &world->bodies[b];
     if (body->role != SPORE_PASSIVE) continue;
     if (!first) first = body;
-    /* Bodies that choose differently are coupled implicitly. */
+    /* Bodies with different choices are coupled implicitly. */
     if (spore_integrator(body->method.integrator)->implicit || body->method.integrator != first->method.integrator ||
         body->method.substeps != first->method.substeps)
       return false;
@@ -201,7 +202,7 @@ void spore_world_make_plan(SporeWorld *world) {
 void spore_world_step(SporeWorld *world) {
   SporeSchedule *schedule = &world->schedule;
   uint64_t start = spore_clock_ns(), before = start;
-  /* The first stage applies commands, which may put a stage behind it in or out. */
+  /* The first stage applies commands, which may add or remove a later stage. */
   for (size_t i = 0; i < schedule->run_count; i++) {
     size_t stage = schedule->run[i];
     stages[stage].run(world);
@@ -216,14 +217,14 @@ void spore_world_step(SporeWorld *world) {
 }
 
 const SporePlan *spore_world_plan(const SporeWorld *world) {
-  /* What a stage works on changes from step to step; the plan is brought up to date when somebody looks. */
+  /* The item counts of stages change from step to step. They are updated only when the plan is read. */
   SporeSchedule *schedule = &((SporeWorld *)(uintptr_t)world)->schedule;
   for (size_t i = 0; i < schedule->plan.stage_count; i++)
     if (schedule->plan_stages[i].included && stages[i].items) schedule->plan_stages[i].items = stages[i].items(world);
   return &schedule->plan;
 }
 
-/* What automatic is at present: a body's choice of a factor decides both. */
+/* The present meaning of automatic: the body's choice of a factor decides both solvers. */
 static SporeChoice nonlinear_choice(const SporeWorld *world, const SporeBody *body) {
   int kind = world->solver.nonlinear;
   if (kind != SPORE_NONLINEAR_AUTOMATIC) return (SporeChoice){spore_nonlinear_names[kind], SPORE_SOURCE_SCENE};

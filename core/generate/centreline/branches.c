@@ -1,21 +1,21 @@
-/* Side branches and loops of an organ: what the way through its middle leaves out, longest first. */
+/* Side branches and loops of an organ: the parts that the path through its middle leaves out, longest first. */
 #include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/generate/centreline/search.h"
 
-#define SIDE 2.0   /* radii from the way up to which a voxel is part of it */
-#define BRANCH 3.0 /* radii from the way to the end of what is a branch */
-#define THIN 0.75  /* of the mean depth of the way */
-#define APART 6.0  /* radii along the way between two places that a loop joins */
+#define SIDE 2.0   /* radii from the path within which a voxel belongs to it */
+#define BRANCH 3.0 /* radii from the path to the tip of a branch, at least */
+#define THIN 0.75  /* of the mean depth of the path */
+#define APART 6.0  /* radii along the path between the two places that a loop joins, at least */
 
 typedef struct Leftovers {
   const SporeVoxelSearch *search;
   const SporeVoxelPath *path;
   double *along;  /* path: m from the beginning */
-  double *radius; /* path: the largest depth near there, and no less than THIN of the mean */
-  uint32_t *foot; /* voxel: number on the path of the voxel that it is nearest to */
+  double *radius; /* path: the largest depth nearby, at least THIN of the mean */
+  uint32_t *foot; /* voxel: index on the path of the nearest voxel of the path */
   bool *seen;     /* voxel: near the path, or counted */
   uint32_t *stack;
 } Leftovers;
@@ -39,7 +39,7 @@ static bool leftovers_create(Leftovers *left, const SporeVoxelSearch *search, co
   return left->along && left->radius && left->foot && left->seen && left->stack;
 }
 
-/* The way comes out of a corner at its ends, and has its radius from the middle of the organ. */
+/* The path begins and ends in a corner. So each point takes the largest depth nearby as its radius. */
 static void measure_path(Leftovers *left) {
   const SporeVoxelTube *tube = left->search->tube;
   const SporeVoxelPath *path = left->path;
@@ -58,7 +58,7 @@ static void measure_path(Leftovers *left) {
   for (size_t i = 0; i < path->count; i++) left->radius[i] = fmax(left->radius[i], THIN * mean);
 }
 
-/* Each way is followed to its start once, and what it passes is remembered. */
+/* Each path is followed back only until a voxel whose foot is known; the foot of every voxel passed is stored. */
 static void find_feet(Leftovers *left) {
   const SporeVoxelSearch *search = left->search;
   memset(left->foot, 0xff, search->tube->count * sizeof *left->foot);
@@ -83,7 +83,7 @@ static double mark_near(Leftovers *left) {
   return (double)near / (double)all;
 }
 
-/* One piece that lies off the way: its farthest voxel, and whether it comes back to the way elsewhere. */
+/* Collects one piece off the path: its farthest voxel, and whether it rejoins the path elsewhere. */
 static uint32_t take_piece(Leftovers *left, uint32_t start, bool *returns) {
   const SporeVoxelSearch *search = left->search;
   double first = HUGE_VAL, last = -HUGE_VAL, radius = 0;

@@ -1,4 +1,5 @@
-/* The middle line of a tubular organ: the steps from its surface to a curve, and the refusal of what is no tube. */
+/* The centreline of a tubular organ: the steps from its surface to a curve, and the refusal of shapes that are not
+ * tubes. */
 #include "core/generate/centreline/centreline.h"
 
 #include <math.h>
@@ -9,12 +10,12 @@
 #include "core/base/text.h"
 #include "core/generate/centreline/private.h"
 
-#define LEAST_SLENDER 4.5 /* diameters that a tube is long */
-#define MOST_OFFSET 0.4   /* radii from the middle of its sections: what is more is no line in the middle of a tube */
-#define LEAST_COVER 0.4   /* of the volume of a tube, within two radii of its middle line */
-#define COILED 0.9 /* of a tube's volume, at its middle line, in what has no lumen: in a wall round one it is less */
-#define SKIN 0.1   /* of what it encloses together with its lumen: a wall of less is no tube by itself */
-#define BESIDE 1.5 /* voxels that an end may be from the organ */
+#define LEAST_SLENDER 4.5 /* least length of a tube, in diameters */
+#define MOST_OFFSET 0.4   /* radii from the centroids of its sections: farther off, a line is no centreline */
+#define LEAST_COVER 0.4   /* least share of a tube's volume within two radii of its centreline */
+#define COILED 0.9        /* share of a solid near its centreline, if it has no lumen; less for the wall of a lumen */
+#define SKIN 0.1          /* of the volume of wall and lumen: a wall with less is not a tube by itself */
+#define BESIDE 1.5        /* largest distance of an end from the organ, in voxels */
 
 static bool check_options(const SporeCentrelineOptions *options, SporeError *error) {
   if (options->points == 1 || options->points > SPORE_CENTRELINE_MOST_POINTS)
@@ -27,8 +28,9 @@ static bool check_options(const SporeCentrelineOptions *options, SporeError *err
                          options->tolerance, SPORE_CENTRELINE_TOLERANCE);
 }
 
-/* Whether a solid is a tube as it is, so that what is hidden of its surface lies between its coils and is no lumen's.
- * filled: it with its lumen, as far as that is known; of so thin a wall the voxels would be too many to ask. */
+/* Whether the solid without a lumen is already a tube. Its hidden surface then lies between its coils and is not the
+ * wall of a lumen. filled: the solid with its lumen, as far as known. A very thin wall is not tested, because it would
+ * need too many voxels. */
 static bool is_coiled(const SporeSolid *solid, const SporeSolid *filled, bool *coiled,
                       const SporeProgressPart *progress, SporeError *error) {
   SporeVoxelTube tube;
@@ -56,8 +58,8 @@ static bool replace_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, Spor
   return spore_solid_create(solid, mesh, error);
 }
 
-/* The solid whose middle is looked for, without walls inside: that of the outer wall where there is a lumen. curve: of
- * which it is known that it runs in the middle; NULL: none. */
+/* The solid whose centreline is sought, without inner walls. If there is a lumen, this is the solid of the outer
+ * wall. curve: a curve that is known to run in the middle; NULL: none. */
 static bool make_solid(SporeSolid *solid, const SporeTriangleMesh *mesh, const SporeCurve *curve, double *inner_wall,
                        const SporeProgressPart *progress, SporeError *error) {
   SporeOuterWall wall;
@@ -124,7 +126,7 @@ static bool refuse_shape(const SporeCentrelineOptions *options, const SporeCentr
       100 * report->cover, report->offset);
 }
 
-/* The way from voxel to voxel is longer than the smooth line: where along that each branch leaves it. */
+/* The voxel path is longer than the smooth line. Sets where along the smooth line each branch leaves. */
 static void place_branches(const SporeCurve *curve, SporeCentrelineReport *report) {
   for (size_t i = 0; i < SPORE_CENTRELINE_NAMED && i < report->branches; i++) {
     SporeVec3 foot = spore_vec3_load(report->branch[i].foot);

@@ -1,4 +1,4 @@
-/* Sections of an organ across its middle line, and the figures of the line. */
+/* Sections of an organ perpendicular to its centreline, and the measurements of the centreline. */
 #include <string.h>
 #include <stdlib.h>
 #include <math.h>
@@ -7,8 +7,8 @@
 #include "core/generate/centreline/private.h"
 
 #define SECTION_REACH 2.5 /* radii */
-#define NEIGHBOUR 3.0     /* sums of two points' radii: on the line, points nearer than that are neighbours */
-#define RIM 1.5           /* radii from an end that are not asked for their middle */
+#define NEIGHBOUR 3.0     /* sums of two points' radii: points nearer than this along the line are neighbours */
+#define RIM 1.5           /* radii from an end within which the offset is not measured */
 
 static SporeVec3 point(const SporeCurve *curve, size_t i) { return spore_vec3_load(curve->points + 4 * i); }
 
@@ -67,10 +67,10 @@ void spore_centreline_figures(const SporeSolid *solid, const SporeCurve *curve, 
   measure_approach(curve, report);
 }
 
-#define OUTLIER 1.25 /* of the median distance of a section's wall, that counts at most */
+#define OUTLIER 1.25 /* of the median distance to the wall: largest distance that counts in a section */
 
-/* Whether the ray leaves through the triangle's front; what it comes to from outside lies within the organ, or is
- * turned the wrong way round. */
+/* Whether the ray leaves through the triangle's front. A triangle that the ray enters from outside lies within the
+ * organ, or has the wrong orientation. */
 static bool leaves(const SporeSolid *solid, uint32_t triangle, SporeVec3 d) {
   SporeVec3 corner[3];
   for (size_t k = 0; k < 3; k++)
@@ -97,8 +97,8 @@ static int by_size(const void *a, const void *b) {
   return (one > other) - (one < other);
 }
 
-/* Through the neck where two loops touch, rays go on into the other: none counts for more than a bit over the median.
- */
+/* Where two loops touch, rays pass through the neck into the other loop. So no distance counts for more than
+ * slightly over the median. */
 static void cut_outliers(double wall[SPORE_SECTION_RAYS]) {
   double sorted[SPORE_SECTION_RAYS];
   memcpy(sorted, wall, sizeof sorted);

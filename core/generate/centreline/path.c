@@ -1,4 +1,4 @@
-/* The way through the voxels of an organ that covers most of it, between two far ends or two given ones. */
+/* The path through the voxels of an organ that covers most of it, between two far ends or two given ones. */
 #include <math.h>
 #include <string.h>
 
@@ -6,14 +6,14 @@
 #include "core/base/text.h"
 #include "core/generate/centreline/search.h"
 
-/* The cost of a way falls with this power of the depth, so that it keeps to the middle and does not take the narrow
- * neck where two loops touch. Each is tried, and the way that covers most of the organ is kept: a low power takes too
- * many necks, a high one shuns narrows that are the organ's own. */
+/* The cost of a path falls with this power of the depth, so that the path keeps to the middle and avoids the narrow
+ * neck where two loops touch. Each power is tried, and the path that covers most of the organ is kept. A low power
+ * takes too many necks; a high power avoids narrow parts that belong to the organ. */
 static const double powers[] = {3, 6, 12};
 #define POWERS (sizeof powers / sizeof *powers)
-#define MUCH 0.85    /* of the volume that a way may hold: with more than that it is compared by length */
-#define ENOUGH 0.995 /* share covered, with which no other power is tried */
-#define LONGER 2.0   /* mean radii by which a branch is longer than the end that it replaces: a diameter */
+#define MUCH 0.85    /* of the largest volume of a path: paths with more than this are compared by length */
+#define ENOUGH 0.995 /* covered share above which no other power is tried */
+#define LONGER 2.0   /* mean radii by which a branch must be longer than the end that it replaces: a diameter */
 #define MOST_CHANGES 4
 
 static void set_costs(SporeVoxelSearch *search, double power) {
@@ -30,8 +30,8 @@ static bool is_end(const SporeVoxelSearch *search, uint32_t voxel) {
   return true;
 }
 
-/* The end of the longest of the cheapest ways. Ways that run round the organ and end where they meet are long too, so
- * it must hold about as much as any other way. */
+/* The end of the longest of the cheapest paths. Paths that run around the organ and end where they meet are long
+ * too, so the volume of the path must be nearly the largest. */
 static uint32_t farthest(const SporeVoxelSearch *search) {
   uint32_t far = 0, count = (uint32_t)search->tube->count;
   double most = 0, length = -1;
@@ -56,7 +56,7 @@ void spore_voxel_path_clear(SporeVoxelPath *path) {
   *path = (SporeVoxelPath){0};
 }
 
-/* The way by which the search came to `end`. */
+/* The path by which the search reached `end`. */
 static bool trace(const SporeVoxelSearch *search, uint32_t end, SporeVoxelPath *path) {
   size_t count = 1;
   for (uint32_t i = end; search->from[i] != i; i = search->from[i]) count++;
@@ -90,8 +90,8 @@ static double mean_depth(const SporeVoxelTube *tube, const SporeVoxelPath *path)
   return sum / (double)path->count;
 }
 
-/* Length of the way from the joint to its front or its other end, without the corner of a wide end into which it goes:
- * as far as the outer half is deep. */
+/* Length of the path from the joint to its front or its other end. The last part, which runs into the corner of a
+ * wide end, is subtracted: the largest depth of the outer half. */
 static double length_to_end(const SporeVoxelTube *tube, const SporeVoxelPath *path, size_t joint, bool front) {
   size_t from = front ? 0 : joint, to = front ? joint : path->count - 1, half = (to - from) / 2;
   double corner = 0;
@@ -99,7 +99,7 @@ static double length_to_end(const SporeVoxelTube *tube, const SporeVoxelPath *pa
   return length_of(tube, path, from, to) - corner;
 }
 
-/* The way with a branch, from where that leaves it, in place of the end that is nearer to there. */
+/* The path with a branch that replaces one end, from the joint on. front: the front end is replaced. */
 static bool join_branch(const SporeVoxelPath *way, const SporeVoxelPath *branch, size_t joint, bool front,
                         SporeVoxelPath *joined) {
   size_t kept = front ? way->count - joint : joint + 1, count = kept + branch->count - 1;
@@ -110,7 +110,7 @@ static bool join_branch(const SporeVoxelPath *way, const SporeVoxelPath *branch,
   return true;
 }
 
-/* Lets the way end in this branch where that is longer than what the way has from there to its nearer end. */
+/* Lets the path end in this branch if the branch is longer than the path from the joint to its nearer end. */
 static bool take_branch(SporeVoxelSearch *search, double power, const SporeCentrelineBranch *branch,
                         SporeVoxelPath *path, bool *taken, SporeError *error) {
   SporeVoxelPath side, joined;
@@ -136,7 +136,7 @@ static bool take_branch(SporeVoxelSearch *search, double power, const SporeCentr
   return done;
 }
 
-/* The cheapest way to a far end is not always the longest: what leaves it may be longer than the end itself. */
+/* The cheapest path to a far end is not always the longest: a branch of the path may be longer than the end itself. */
 static bool take_longer_ends(SporeVoxelSearch *search, double power, SporeVoxelPath *path,
                              SporeCentrelineReport *report, const SporeCentrelineReport *clean, double *cover,
                              SporeError *error) {

@@ -1,5 +1,5 @@
-/* From a way along voxels to a smooth line: points move to the middle of their sections, and the ends reach the
- * organ's. */
+/* From a voxel path to a smooth line: points move to the centroids of their sections, and the line is extended to
+ * the ends of the organ. */
 #include <math.h>
 #include <string.h>
 
@@ -7,22 +7,22 @@
 #include "core/base/text.h"
 #include "core/generate/centreline/private.h"
 
-#define SPACING 0.35    /* of points while they are moved, in radii */
-#define THIN 0.4        /* of the mean radius: points are no nearer to each other where the line is thinner */
-#define ROUNDS 10       /* of middling and smoothing */
-#define SMOOTHING 3.0   /* of a round: waves shorter than about 2 pi SMOOTHING^(1/4) points go */
+#define SPACING 0.35    /* of points while the line is refined, in radii */
+#define THIN 0.4        /* of the mean radius: least radius used for the spacing where the line is thinner */
+#define ROUNDS 10       /* of centring and smoothing */
+#define SMOOTHING 3.0   /* of a round: removes waves shorter than about 2 pi SMOOTHING^(1/4) points */
 #define REACH 2.0       /* of a section, in radii */
-#define MOVE 0.7        /* of the way to the middle of the section */
-#define END_DEPTH 0.35  /* of the radius: where an end is so near to the surface, it goes there straight */
-#define CUT 3.0         /* radii of each end that are found anew, at most */
+#define MOVE 0.7        /* of the distance to the section's centroid */
+#define END_DEPTH 0.35  /* of the radius: an end this near to the surface is extended straight to it */
+#define CUT 3.0         /* radii of each end that are cut off and found again, at most */
 #define MIDDLED 0.7     /* of the largest depth ahead */
-#define STEERED 0.75    /* of the radius: the least depth at which an end that is led on is middled */
-#define BACK 4          /* points from whose pieces an end's direction is taken */
-#define HOOK 2.0        /* mean radii of each end in which a sharp bend is cut off */
+#define STEERED 0.75    /* of the radius: least depth at which an extended end is centred */
+#define BACK 4          /* points in each of the two pieces that give an end's direction */
+#define HOOK 2.0        /* mean radii of each end within which a sharp bend is cut off */
 #define BEND 3          /* points on either side between which a bend is measured */
-#define SHARP 0.75      /* cosine of what is sharp */
-#define TIGHTEST 0.5    /* mean radii over the radius of a bend that is led on */
-#define LONGEST_END 5.0 /* radii by which an end may be led on */
+#define SHARP 0.75      /* cosine of a sharp bend */
+#define TIGHTEST 0.5    /* largest curvature of an extension, times the mean radius */
+#define LONGEST_END 5.0 /* radii by which an end may be extended */
 
 /* Points that are added one by one: x y z r. */
 typedef struct Line {
@@ -50,13 +50,13 @@ static double mean_radius(const Line *line) {
   return sum / (double)line->count;
 }
 
-/* Length of the piece before point i in radii; where the line is thin against the rest of it, in those of the rest. */
+/* Length of the piece before point i, in radii. Where the line is thinner than `least`, `least` is the radius. */
 static double piece(const Line *line, size_t i, double least) {
   double radius = 0.5 * (fmax(line->points[4 * i - 1], least) + fmax(line->points[4 * i + 3], least));
   return spore_vec3_distance(at(line, i - 1), at(line, i)) / radius;
 }
 
-/* Points SPACING radii apart, with the first and the last kept. */
+/* Resamples the line to points SPACING radii apart. The first and the last point are kept. */
 static bool respace(Line *line) {
   double whole = 0, walked = 0, least = THIN * mean_radius(line);
   for (size_t i = 1; i < line->count; i++) whole += piece(line, i, least);
@@ -111,7 +111,7 @@ static void smooth_columns(double *p, size_t count, size_t columns, const double
   }
 }
 
-/* Smooths places (and radii); the two ends weigh `end`. */
+/* Smooths positions; the two ends have the weight `end`. */
 static bool smooth(Line *line, double stiffness, double end) {
   double *weight = SPORE_NEW_ARRAY(double, line->count), *band = SPORE_NEW_ARRAY(double, 3 * line->count);
   bool done = weight && band;
@@ -127,7 +127,7 @@ static SporeVec3 direction_at(const Line *line, size_t i) {
   return spore_vec3_normalise(spore_vec3_sub(at(line, after), at(line, before)), spore_vec3(1, 0, 0));
 }
 
-/* Each point toward the middle of its section. */
+/* Moves each point toward the centroid of its section. */
 static void middle(Line *line, const SporeSolid *solid) {
   double *moved = line->points;
   SporeVec3 before = at(line, 0);
@@ -153,7 +153,7 @@ static void turn_round(Line *line) {
     }
 }
 
-/* Direction in which the line ends, and how that turns, 1/m: from two pieces of BACK points each. */
+/* Direction at the end of the line, and its rate of change, 1/m: from two pieces of BACK points each. */
 static SporeVec3 heading(const Line *line, SporeVec3 *turn) {
   size_t last = line->count - 1, step = last >= 2 * BACK ? BACK : last / 2;
   SporeVec3 a = spore_vec3_sub(at(line, last - step), at(line, last - 2 * step)),
@@ -166,14 +166,14 @@ static SporeVec3 heading(const Line *line, SporeVec3 *turn) {
   return spore_vec3_normalise(spore_vec3_add_scaled(now, 0.5 * length, *turn), now);
 }
 
-/* How far from p along d the line may still go: to the surface or, where that is nearer, to the section with `end`. */
+/* How far the line may continue from p along d: to the surface or, if nearer, to the section that contains `end`. */
 static double way_left(const SporeSolid *solid, SporeVec3 p, SporeVec3 d, double reach, const double *end) {
   double left = spore_section_wall(solid, p, d, reach);
   if (end) left = fmin(left, spore_vec3_dot(spore_vec3_sub(spore_vec3_load(end), p), d));
   return left;
 }
 
-/* Leads the end of the line on to the surface, or to the section that holds the end that was asked for. */
+/* Extends the end of the line to the surface, or to the section that contains the end that was asked for. */
 static bool lead_on(Line *line, const SporeSolid *solid, const double *end) {
   SporeVec3 turn, p = at(line, line->count - 1), d = heading(line, &turn);
   double radius = line->points[4 * line->count - 1], limit = LONGEST_END * radius;
@@ -188,7 +188,7 @@ static bool lead_on(Line *line, const SporeSolid *solid, const double *end) {
     d = spore_vec3_normalise(spore_vec3_add_scaled(d, step, turn), d);
     double depth = depth_at(solid, next);
     if (!(depth > 0)) return true;
-    if (depth > STEERED * radius) { /* nearer to the end its sides say nothing any more */
+    if (depth > STEERED * radius) { /* nearer to the end the sides do not give a reliable centroid */
       SporeVec3 middle_of = spore_section_middle(solid, next, d, 1.5 * radius);
       next = spore_vec3_add_scaled(next, 0.5, spore_vec3_sub(middle_of, next));
       d = spore_vec3_normalise(spore_vec3_add_scaled(d, 0.3 / step, spore_vec3_sub(next, p)), d);
@@ -209,7 +209,7 @@ static bool lead_on_both(Line *line, const SporeSolid *solid, const SporeCentrel
   return true;
 }
 
-/* Largest radius of the points from `first` on, over a length of at most `reach`. */
+/* Largest radius of the points from `first` on, within a length of `reach`. */
 static double widest(const Line *line, size_t first, double reach) {
   double most = 0, gone = 0;
   for (size_t i = first; i < line->count && gone <= reach; i++) {
@@ -219,8 +219,8 @@ static double widest(const Line *line, size_t first, double reach) {
   return most;
 }
 
-/* First point at which the line is in the middle of the organ: not much deeper in what follows, or as far from the
- * beginning as CUT radii. Before that it may run along a wall or come out of a corner. */
+/* First point at which the line is in the middle of the organ: the depth ahead is not much larger, or CUT radii are
+ * passed. Before this point the line may run along a wall or come out of a corner. */
 static size_t end_of_cap(const Line *line) {
   double gone = 0, usual = mean_radius(line);
   for (size_t i = 0; i + 1 < line->count; i++) {
@@ -245,14 +245,14 @@ void spore_centreline_set_radii(const SporeSolid *solid, SporeCurve *curve) {
   }
 }
 
-/* Last point that is at most `reach` along the line behind point `from`. */
+/* Last point that is at most `reach` along the line after point `from`. */
 static size_t point_after(const Line *line, size_t from, double reach) {
   double gone = 0;
   while (from + 1 < line->count && (gone += spore_vec3_distance(at(line, from), at(line, from + 1))) <= reach) from++;
   return from;
 }
 
-/* Drops what is before a sharp bend near the beginning: there the way came out of the rim of an open lumen. */
+/* Drops the points before a sharp bend near the beginning: there the path came out of the rim of an open lumen. */
 static void cut_hook(Line *line) {
   double usual = mean_radius(line);
   size_t last = point_after(line, 0, HOOK * usual), hook = 0;
@@ -266,7 +266,7 @@ static void cut_hook(Line *line) {
   memmove(line->points, line->points + 4 * hook, 4 * line->count * sizeof *line->points);
 }
 
-/* Points of an end that was asked for, up to which it is nearer to that than to the surface. */
+/* Number of points at a given end that are nearer to the end than to the surface. */
 static size_t end_given(const Line *line) {
   double gone = 0;
   for (size_t i = 0; i + 1 < line->count; i++) {
@@ -276,8 +276,8 @@ static size_t end_given(const Line *line) {
   return 0;
 }
 
-/* The middles of the way's voxels without the ends, in which the way leaves the middle for the outermost corner: those
- * are found anew. */
+/* The centres of the path's voxels, without the ends. At the ends the path leaves the middle for the outermost
+ * corner; they are found again. */
 static bool take_way(Line *line, const SporeVoxelTube *tube, const SporeVoxelPath *path, bool given) {
   for (size_t i = 0; i < path->count; i++)
     if (!line_add(line, spore_voxel_middle(tube, path->voxel[i]), tube->depth[path->voxel[i]])) return false;

@@ -1,4 +1,4 @@
-/* Shortest ways from voxel to voxel by Dijkstra's search, which prefers voxels deep inside. */
+/* Cheapest paths from voxel to voxel by Dijkstra's algorithm, with costs that favour deep voxels. */
 #include "core/generate/centreline/search.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static void rise(SporeVoxelQueue *queue, size_t at) {
   queue->place[voxel] = (uint32_t)at;
 }
 
-/* A voxel that is new, or whose distance became less. */
+/* Inserts a new voxel, or moves one whose distance decreased. */
 static void put(SporeVoxelQueue *queue, uint32_t voxel, bool is_new) {
   if (is_new) queue->voxel[queue->count] = voxel, queue->place[voxel] = (uint32_t)queue->count++;
   rise(queue, queue->place[voxel]);

@@ -1,36 +1,36 @@
-/* Cheapest ways through the voxels of a tube. */
+/* Cheapest paths through the voxels of a tube. */
 #ifndef SPORE_GENERATE_CENTRELINE_SEARCH_H
 #define SPORE_GENERATE_CENTRELINE_SEARCH_H
 
 #include "core/generate/centreline/private.h"
 
-/* Voxels by their distance, least first; of equal ones the lower number first. */
+/* Priority queue of voxels, least distance first; at equal distance the lower number first. */
 typedef struct SporeVoxelQueue {
   size_t count;
   uint32_t *voxel;        /* a heap */
-  uint32_t *place;        /* by voxel: where it lies in the heap */
+  uint32_t *place;        /* by voxel: its position in the heap */
   const double *distance; /* by voxel */
 } SporeVoxelQueue;
 
-/* All arrays by voxel; what no way leads to has the distance HUGE_VAL. */
+/* All arrays are by voxel. A voxel that no path reaches has the distance HUGE_VAL. */
 typedef struct SporeVoxelSearch {
   const SporeVoxelTube *tube;
   SporeVoxelQueue queue;
-  double *cost;     /* of a metre in the voxel */
+  double *cost;     /* per metre in the voxel */
   double *distance; /* sum of costs */
-  double *length;   /* m along the way there */
-  double *volume;   /* of a tube around the way there as thick as the way is deep, over pi, m^3 */
-  uint32_t *from;   /* the voxel before; itself at a start, SPORE_NO_VOXEL where no way leads to */
+  double *length;   /* m along the path to the voxel */
+  double *volume;   /* of a tube around the path to the voxel, with the depth as its radius, over pi, m^3 */
+  uint32_t *from;   /* the previous voxel; itself at a start, SPORE_NO_VOXEL where no path leads */
   const SporeProgressPart *progress;
 } SporeVoxelSearch;
 
 bool spore_voxel_search_create(SporeVoxelSearch *search, const SporeVoxelTube *tube, const SporeProgressPart *progress,
                                SporeError *error);
 void spore_voxel_search_clear(SporeVoxelSearch *search);
-/* The cheapest way from any of the starts to each voxel. */
+/* The cheapest path from any of the starts to each voxel. */
 bool spore_voxel_search_spread(SporeVoxelSearch *search, const uint32_t *starts, size_t start_count, SporeError *error);
 
-/* What the way leaves out, into the report; the share of the voxels that are near the way, into *cover. */
+/* Puts the parts that the path leaves out into the report, and the share of the voxels near the path into *cover. */
 bool spore_voxel_search_leftovers(SporeVoxelSearch *search, const SporeVoxelPath *path, SporeCentrelineReport *report,
                                   double *cover, SporeError *error);
 

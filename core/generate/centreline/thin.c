@@ -1,11 +1,11 @@
-/* A dense curve is thinned to the points that a number or a tolerance asks for. */
+/* Reduces a dense curve to a given number of points or to a tolerance. */
 #include <math.h>
 #include <string.h>
 
 #include "core/base/memory.h"
 #include "core/generate/centreline/private.h"
 
-/* Cubic through four points in a row (Catmull and Rom 1974), between the middle two; beyond an end straight on. */
+/* Cubic through four successive points (Catmull and Rom 1974), between the middle two; straight beyond an end. */
 static void between(const SporeCurve *curve, size_t i, double part, double result[4]) {
   const double *b = curve->points + 4 * i, *c = b + 4;
   for (int k = 0; k < 4; k++) {
@@ -36,7 +36,8 @@ static bool even(const SporeCurve *dense, size_t count, SporeCurve *curve, Spore
   return true;
 }
 
-/* How far point i is from the straight piece between two others, or its radius from theirs, in its radius. */
+/* Distance of point i from the segment between two others, or the error of the interpolated radius, whichever is
+ * larger, over the radius of point i. */
 static double error_of(const SporeCurve *dense, size_t from, size_t to, size_t i) {
   SporeVec3 a = spore_vec3_load(dense->points + 4 * from), b = spore_vec3_load(dense->points + 4 * to),
             p = spore_vec3_load(dense->points + 4 * i), ab = spore_vec3_sub(b, a);
@@ -47,7 +48,7 @@ static double error_of(const SporeCurve *dense, size_t from, size_t to, size_t i
   return fmax(spore_vec3_distance(p, spore_vec3_add_scaled(a, part, ab)), fabs(radius - straight)) / radius;
 }
 
-/* Keeps the worst point of a piece as long as it is over the tolerance (Douglas and Peucker 1973). stack: 2 count. */
+/* Keeps the worst point of a piece while its error is over the tolerance (Douglas and Peucker 1973). stack: 2 count. */
 static size_t choose(const SporeCurve *dense, double tolerance, bool *kept, size_t *stack) {
   size_t waiting = 0, count = 2;
   kept[0] = kept[dense->count - 1] = true;

@@ -1,4 +1,4 @@
-/* The inside of an organ as voxels: which there are, their neighbours, and the pieces that hang together. */
+/* The inside of an organ as voxels: their positions, their neighbours, and the connected components. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +14,7 @@
 
 static uint64_t key_of(const uint64_t place[3]) { return place[0] << 2 * AXIS_BITS | place[1] << AXIS_BITS | place[2]; }
 
-/* Their order is that of keys: the first 13 lie before the voxel. */
+/* The offsets are in the order of the keys: the first 13 come before the voxel. */
 void spore_voxel_offset(int k, int offset[3]) {
   int place = k < SPORE_VOXEL_NEIGHBOURS / 2 ? k : k + 1; /* 13 is the voxel itself */
   offset[0] = place / 9 - 1, offset[1] = place / 3 % 3 - 1, offset[2] = place % 3 - 1;
@@ -70,7 +70,7 @@ static bool fill_cell(Filling *filling, size_t cell) {
   return true;
 }
 
-/* Edge of the voxels: the least cell's, divided into as many as come near to WANTED. */
+/* Edge of the voxels: the edge of the smallest cell, divided so that the number of voxels is near WANTED. */
 static bool choose_edge(SporeVoxelTube *tube, const SporeSolid *solid, SporeError *error) {
   double least = HUGE_VAL;
   for (int k = 0; k < 3; k++) tube->lower[k] = HUGE_VAL;
@@ -111,7 +111,8 @@ static bool fill(Filling *filling, const SporeProgressPart *progress, SporeError
   return true;
 }
 
-/* Keys ascend, and so do those of all neighbours along one offset: two fingers find them. */
+/* Keys ascend, and so do the keys of all neighbours along one offset. So two indices that only move forward find
+ * them. */
 static void find_neighbours(SporeVoxelTube *tube) {
   memset(tube->neighbour, 0xff, SPORE_VOXEL_NEIGHBOURS * tube->count * sizeof *tube->neighbour);
   for (int k = SPORE_VOXEL_NEIGHBOURS / 2; k < SPORE_VOXEL_NEIGHBOURS; k++) {

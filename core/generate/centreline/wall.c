@@ -1,4 +1,4 @@
-/* The outer wall of a surface: walls inside the organ are told apart by rays that see nothing of the outside. */
+/* The outer wall of a surface: inner walls are recognised by rays that do not reach the outside. */
 #include <math.h>
 #include <string.h>
 
@@ -6,13 +6,13 @@
 #include "core/base/text.h"
 #include "core/generate/centreline/private.h"
 
-#define RAYS 24    /* of a triangle, each side */
-#define RAY_STEP 7 /* their order: from steep to flat and again; no divisor in common with RAYS */
-#define HIDDEN 3   /* rays that go out: with fewer a triangle is seen from nowhere */
-#define OUTER 13   /* with as many it is of the outer wall: at its very mouth a lumen sees half of its side */
+#define RAYS 24    /* per triangle and side */
+#define RAY_STEP 7 /* their order: from steep to flat and again; coprime to RAYS */
+#define HIDDEN 3   /* rays that reach the outside: with fewer a triangle is hidden */
+#define OUTER 13   /* with this many a triangle is of the outer wall; at the mouth of a lumen half go out */
 #define INNER_WALL                                                                                                     \
-  0.1               /* share of the surface that is hidden in what may have a lumen; a few loops that touch hide less */
-#define ASTRAY 0.01 /* share of the surface that is seen from behind where its triangles are not turned alike */
+  0.1               /* hidden share of the surface above which there may be a lumen; a few loops that touch hide less */
+#define ASTRAY 0.01 /* share of the surface seen from behind, above which triangles are turned */
 #define INSIDE -1
 #define REPORT_EACH 64
 
@@ -33,7 +33,7 @@ static int open_rays(const SporeBvh *bvh, SporeVec3 p, SporeVec3 n) {
   return open;
 }
 
-/* The side from which a triangle is seen best. */
+/* The side from which most rays of a triangle reach the outside. */
 typedef struct View {
   int open;    /* rays; INSIDE where the organ is on both sides */
   bool behind; /* seen from the side its normal points away from */
@@ -55,10 +55,10 @@ static View view_of(const SporeTriangleMesh *mesh, const SporeBvh *bvh, size_t t
   return (View){back > front ? back : front, back > front};
 }
 
-/* What is to be done about the walls: shares are of the area that is no wall inside. */
+/* The findings on the walls. Shares are of the area without walls that have the organ on both sides. */
 typedef struct Walls {
-  bool inside;   /* there are such with the organ on both sides */
-  double hidden; /* share that is seen from nowhere */
+  bool inside;   /* there are walls with the organ on both sides */
+  double hidden; /* hidden share */
   double turned; /* share that is seen from the side its normals point away from */
 } Walls;
 
@@ -81,7 +81,7 @@ static bool look(const SporeTriangleMesh *mesh, const SporeBvh *bvh, double lift
   return true;
 }
 
-/* Those seen from so many rays, and turned to where they are seen from. */
+/* Keeps the triangles with at least `least` open rays, turned to the side from which they are seen. */
 static bool keep(SporeTriangleMesh *kept, const SporeTriangleMesh *mesh, const View *views, int least,
                  SporeError *error) {
   size_t count = 0;

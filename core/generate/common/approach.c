@@ -1,5 +1,5 @@
-/* Vertices of the skin go to where their faces are nearest to the points that they stand for, on whichever side of them
- * that is: steps of Gauss and Newton on the sum of squares and, where it is far, of fourth and sixth powers. */
+/* Moves vertices of the skin to where their faces are nearest to their points, on either side: Gauss-Newton steps on
+ * the sum of squares and, for large distances, of fourth and sixth powers. */
 #include <math.h>
 #include <string.h>
 
@@ -9,16 +9,16 @@
 #include "core/mesh/common.h"
 
 #define HALVINGS 2
-#define RELAX 1.5        /* times the least quality: what vertices inside make room for */
-#define LEAST_SHARE 1e-3 /* of the sum of squared weights: a vertex that hardly moves its points stays */
-#define OF_A_FACE 2.0    /* points for which the middle of a face counts, its sides together, and the vertex */
+#define RELAX 1.5        /* times the least quality: goal for smoothing the vertices inside */
+#define LEAST_SHARE 1e-3 /* least sum of squared weights: a vertex that hardly moves its points stays */
+#define OF_A_FACE 2.0    /* weight in points of the middle of a face, of its sides together, and of the vertex */
 
 typedef struct {
   const SporeStars *stars;
   const SporeSkin *skin;
   const SporeSkinPoints *points;
   const SporeBvh *surface;
-  double usual; /* squared: distances beyond count more */
+  double usual; /* squared; larger distances count more */
 } Approach;
 
 typedef struct {
@@ -26,7 +26,7 @@ typedef struct {
   double squares, cost;
 } Sum;
 
-/* How much of a corner k there is in a point of a triangle. */
+/* The barycentric coordinate of corner k at a point of a triangle. */
 static double share_of(const double *corners, int k, SporeVec3 p) {
   SporeVec3 a = spore_vec3_load(corners + 3 * k), b = spore_vec3_load(corners + 3 * ((k + 1) % 3)),
             c = spore_vec3_load(corners + 3 * ((k + 2) % 3));
@@ -41,14 +41,14 @@ static void add_gap(const Approach *approach, Sum *sum, SporeVec3 gap, double sh
   sum->cost += count * squared * (1 + far / 2 + far * far / 3);
 }
 
-/* The gap from a place of the mesh to the surface. */
+/* Adds the gap from a place of the mesh to the surface. */
 static void add_place(const Approach *approach, Sum *sum, SporeVec3 p, double share, double count) {
   SporeVec3 near;
   spore_bvh_distance(approach->surface, p, &near, NULL);
   add_gap(approach, sum, spore_vec3_sub(near, p), share, count);
 }
 
-/* With v at p. */
+/* The step and the cost with v at p. */
 static Sum measure(const Approach *approach, uint32_t v, SporeVec3 p) {
   const SporeSkin *skin = approach->skin;
   Sum sum = {0};
@@ -73,7 +73,7 @@ static Sum measure(const Approach *approach, uint32_t v, SporeVec3 p) {
     for (int k = 0; k < 3; k++) {
       if (k == moving) continue;
       SporeVec3 half = spore_vec3_scale(0.5, spore_vec3_add(p, spore_vec3_load(corners + 3 * k)));
-      add_place(approach, &sum, half, 0.5, 0.5 * OF_A_FACE); /* two faces at each side */
+      add_place(approach, &sum, half, 0.5, 0.5 * OF_A_FACE); /* each side belongs to two faces */
     }
   }
   if (approach->surface) {

@@ -1,5 +1,4 @@
-/* A mesh of few cells that is as near to what it was made of as that many can be: a fine one is made coarser, where
- * that costs the least. */
+/* Coarsens a fine mesh where that costs least, so that the few cells left are as near to the original as possible. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,12 +9,12 @@
 #include "core/mesh/common.h"
 
 #define MOST_PASSES 100
-#define FIRST_LIMIT 0.02 /* of an edge of the mesh that is wanted: how far the skin may be off in the first pass */
+#define FIRST_LIMIT 0.02 /* of a wanted edge: largest distance of the skin in the first pass */
 #define NEXT_LIMIT 1.3
-#define NEXT_SHARE 0.95 /* of the cells: a pass that leaves more is followed by one with more room */
-#define OUTER_COST 0.15 /* of an edge of the length that is wanted: what it costs to have one on the skin */
-#define INNER_COST 0.05 /* and inside */
-#define MARGIN 3        /* degrees over the least: quality that is kept */
+#define NEXT_SHARE 0.95 /* of the cells: a pass that leaves more is followed by one with a larger limit */
+#define OUTER_COST 0.15 /* cost of an edge of the wanted length on the skin */
+#define INNER_COST 0.05 /* the same inside */
+#define MARGIN 3        /* degrees above `least`: the quality that is kept */
 
 typedef struct {
   double cost;
@@ -28,7 +27,7 @@ static int cheaper_first(const void *a, const void *b) {
   return x->a != y->a ? (x->a < y->a ? -1 : 1) : x->b < y->b ? -1 : x->b > y->b;
 }
 
-/* Edges that cost less than `limit` by their lengths, cheapest first. NULL: no memory. */
+/* Edges whose cost by length is below `limit`, cheapest first. NULL: no memory. */
 static Edge *list_edges(const SporeStars *stars, const SporeSizing *sizing, double usual, double limit, size_t *count) {
   const SporeTetrahedralMesh *mesh = stars->mesh;
   uint32_t *ends;

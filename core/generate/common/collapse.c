@@ -1,5 +1,5 @@
-/* What must hold so that a complex stays what it was: Dey, Edelsbrunner, Guha and Nekhayev 1999, "Topology preserving
- * edge contraction", for the cells and for the faces between labels. */
+/* Conditions under which an edge collapse keeps the topology: Dey, Edelsbrunner, Guha and Nekhayev 1999, "Topology
+ * preserving edge contraction", for the cells and for the faces between labels. */
 #include "core/generate/common/collapse.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "core/mesh/common.h"
 
-#define MOST_TURN 0.3 /* cosine between a face's normals before and after */
+#define MOST_TURN 0.3 /* least cosine between a face's normals before and after */
 
 static const uint32_t *cell_of(const SporeCollapse *c, uint32_t cell) {
   return c->stars->mesh->tetrahedra + 4 * (size_t)cell;
@@ -35,7 +35,7 @@ void spore_collapse_clear(SporeCollapse *c) {
   c->touched = NULL, c->mark = c->ring_mark = NULL;
 }
 
-/* Cells that go and cells that change; false: too many, or touched before. */
+/* Collects the cells that are removed and the cells that change; false: too many, or touched before. */
 static bool gather_cells(SporeCollapse *c, uint32_t a, uint32_t b) {
   const SporeStars *stars = c->stars;
   c->dying_count = c->changed_count = 0;
@@ -63,7 +63,7 @@ static void mark_neighbours(SporeCollapse *c, uint32_t *mark, uint32_t v, bool s
   }
 }
 
-/* How many vertices are marked in both, each counted once: `mark` loses its marks there. */
+/* The number of vertices marked in both, each counted once: `mark` is cleared for each of them. */
 static size_t count_common(SporeCollapse *c, uint32_t v, bool skin, uint32_t not_a, uint32_t not_b) {
   size_t begin = skin ? c->skin->first[v] : c->stars->first[v],
          end = skin ? c->skin->first[v + 1] : c->stars->first[v + 1];
@@ -80,7 +80,7 @@ static size_t count_common(SporeCollapse *c, uint32_t v, bool skin, uint32_t not
   return count;
 }
 
-/* Vertices next to both ends are those of the cells at the edge, and no others. */
+/* The link condition for vertices: the vertices next to both ends are exactly those of the cells at the edge. */
 static bool vertices_allow(SporeCollapse *c, uint32_t a, uint32_t b) {
   size_t ring = 0;
   c->stamp++;
@@ -107,7 +107,8 @@ static bool has_triangle(const SporeCollapse *c, uint32_t v, uint32_t x, uint32_
   return false;
 }
 
-/* No two triangles, one at each end, fall onto each other but those of the cells at the edge. */
+/* The link condition for triangles: two triangles, one at each end, coincide after the collapse only if they belong
+ * to a cell at the edge. */
 static bool triangles_allow(const SporeCollapse *c, uint32_t a, uint32_t b) {
   for (size_t i = 0; i < c->changed_count; i++) {
     const uint32_t *corner = cell_of(c, c->changed[i]);
@@ -122,7 +123,7 @@ static bool triangles_allow(const SporeCollapse *c, uint32_t a, uint32_t b) {
   return true;
 }
 
-/* Whether a face at a would fall onto one at b: no cell would be left between them. */
+/* Whether a face at a would coincide with one at b: no cell would be left between them. */
 static bool leaves_nothing(const SporeCollapse *c, uint32_t a, uint32_t b) {
   const SporeSkin *skin = c->skin;
   for (size_t i = skin->first[a]; i < skin->first[a + 1]; i++) {
@@ -139,7 +140,8 @@ static bool leaves_nothing(const SporeCollapse *c, uint32_t a, uint32_t b) {
   return false;
 }
 
-/* The same on the skin: edges of it to a common vertex are those of its faces at the edge. */
+/* The link condition on the skin: the vertices that are next to both ends on the skin are exactly those of its faces
+ * at the edge. */
 static bool skin_allows(SporeCollapse *c, uint32_t a, uint32_t b) {
   size_t wings = 0;
   c->face_count = 0;
@@ -163,7 +165,7 @@ static bool same_sides(const uint32_t *a, int a_count, const uint32_t *b, int b_
   return a_count == b_count && a_count <= SPORE_SKIN_SIDES && !memcmp(a, b, (size_t)a_count * sizeof *a);
 }
 
-/* Which ends may go: one that lies between the same labels as the edge. */
+/* Which ends may be removed: an end that lies between the same labels as the edge. */
 static void sides_allow(const SporeCollapse *c, uint32_t a, uint32_t b, bool *a_goes, bool *b_goes) {
   uint32_t of_a[SPORE_SKIN_SIDES], of_b[SPORE_SKIN_SIDES], of_edge[SPORE_SKIN_SIDES];
   int na = spore_skin_sides(c->skin, a, UINT32_MAX, of_a), nb = spore_skin_sides(c->skin, b, UINT32_MAX, of_b),
@@ -183,7 +185,7 @@ static double quality_at(const SporeCollapse *c, uint32_t a, uint32_t b, SporeVe
   return least;
 }
 
-/* The faces that stay, with the edge's vertex at p; false: one would turn over. */
+/* The remaining faces, with the edge's vertex at p; false: a face would turn over. */
 static bool face_places(const SporeCollapse *c, uint32_t a, uint32_t b, SporeVec3 p, double (*corners)[9],
                         uint32_t *kept, size_t *count) {
   *count = 0;
@@ -204,7 +206,8 @@ static bool face_places(const SporeCollapse *c, uint32_t a, uint32_t b, SporeVec
   return *count > 0;
 }
 
-/* Largest distance of the points of these faces from the faces that stay, hosts noted; HUGE_VAL: over `limit`. */
+/* Largest distance of the points of these faces from the remaining faces; stores the new hosts. HUGE_VAL: not below
+ * `limit`. */
 static double points_off(SporeCollapse *c, double (*corners)[9], const uint32_t *kept, size_t kept_count,
                          double limit) {
   const SporeSkin *skin = c->skin;
@@ -239,7 +242,7 @@ static double faces_off(const SporeCollapse *c, double (*corners)[9], size_t cou
   return most < limit ? most : HUGE_VAL;
 }
 
-/* How far the skin is off with the edge's vertex at p; HUGE_VAL: it cannot be there. */
+/* Largest distance of the skin with the edge's vertex at p; HUGE_VAL: the vertex cannot be there. */
 static double cost_at(SporeCollapse *c, uint32_t a, uint32_t b, SporeVec3 p, double limit) {
   double corners[SPORE_COLLAPSE_FACES][9];
   uint32_t kept[SPORE_COLLAPSE_FACES];
@@ -262,7 +265,7 @@ static void settle_hosts(SporeCollapse *c, uint32_t a, uint32_t b) {
     }
 }
 
-/* a goes, b is at p. */
+/* Removes vertex a and moves b to p. */
 static void perform(SporeCollapse *c, uint32_t a, uint32_t b, SporeVec3 p) {
   SporeTetrahedralMesh *mesh = c->stars->mesh;
   settle_hosts(c, a, b);
@@ -279,7 +282,7 @@ static void perform(SporeCollapse *c, uint32_t a, uint32_t b, SporeVec3 p) {
   }
 }
 
-/* How far off the points of the faces around the edge are. */
+/* Largest present distance of the points of the faces around the edge. */
 static double off_now(const SporeCollapse *c) {
   double most = 0;
   for (size_t i = 0; i < c->face_count; i++)

@@ -1,6 +1,7 @@
-/* Exchanges of edges and faces (Freitag and Ollivier-Gooch 1997, "Tetrahedral mesh improvement using swapping and
- * smoothing"): the cells around an edge give way to the best others that fill the same ring (Klincsek 1980), two at a
- * face to three around the edge across it. Each exchange raises the least angle of the cells that it touches. */
+/* Edge and face flips (Freitag and Ollivier-Gooch 1997, "Tetrahedral mesh improvement using swapping and
+ * smoothing"): the cells around an edge are replaced by the best others that fill the same ring (Klincsek 1980), and
+ * two cells at a face by three around the edge across it. Each flip raises the least angle of the cells that it
+ * changes. */
 #include <math.h>
 #include <string.h>
 
@@ -8,13 +9,13 @@
 #include "core/mesh/common.h"
 
 #define RING 8    /* cells around an edge at most */
-#define GAIN 1e-3 /* degrees by which an exchange must better the least angle */
+#define GAIN 1e-3 /* degrees by which a flip must raise the least angle */
 #define GONE UINT32_MAX
-#define FLAT 0.1 /* of its longest edge: a sliver of the boundary is no thicker */
+#define FLAT 0.1 /* of the cube of its longest edge: six times the largest volume of a boundary sliver */
 
 typedef struct {
   SporeStars *stars;
-  bool *touched;   /* of cells that were there at the beginning */
+  bool *touched;   /* of cells that existed at the beginning */
   uint32_t *made;  /* new cells, 4 corners each */
   uint32_t *label; /* of new cells */
   size_t made_count, made_room, cell_count;
@@ -56,8 +57,8 @@ static void drop(Flips *flips, uint32_t cell) {
   flips->stars->mesh->tetrahedra[4 * (size_t)cell] = GONE;
 }
 
-/* The cells around the edge a-b in order, counter-clockwise about a to b, and the vertices between them. 0: the edge is
- * on the boundary, the ring is too long, some cell was touched, or labels differ. */
+/* The cells around the edge a-b in order, counter-clockwise about a to b, and the vertices between them. 0: the edge
+ * is on the boundary, the ring is too long, some cell was touched, or labels differ. */
 static int ring_of(const Flips *flips, uint32_t a, uint32_t b, uint32_t cells[RING], uint32_t ring[RING]) {
   const SporeStars *stars = flips->stars;
   uint32_t from[RING], to[RING], found[RING];
@@ -88,8 +89,8 @@ static int ring_of(const Flips *flips, uint32_t a, uint32_t b, uint32_t cells[RI
   return at == 0 ? count : 0;
 }
 
-/* The best way to fill a ring with triangles, each of which makes two cells with the ends of the edge. choice[i][j]:
- * the third corner of the triangle on the side i-j. */
+/* The best triangulation of a ring. Each triangle makes two cells with the ends of the edge. choice[i][j]: the third
+ * corner of the triangle on the side i-j. */
 static double best_filling(const Flips *flips, uint32_t a, uint32_t b, const uint32_t *ring, int n,
                            int choice[RING][RING]) {
   double best[RING][RING];
@@ -132,7 +133,7 @@ static bool remove_edge(Flips *flips, uint32_t a, uint32_t b) {
   return true;
 }
 
-/* The other cell at a face; GONE: none that may be touched. */
+/* The other cell at a face; GONE: there is none that may be changed. */
 static uint32_t across(const Flips *flips, uint32_t cell, uint32_t a, uint32_t b, uint32_t c) {
   const SporeStars *stars = flips->stars;
   for (size_t i = stars->first[a]; i < stars->first[a + 1]; i++) {
@@ -166,7 +167,7 @@ static bool remove_face(Flips *flips, uint32_t cell, int f) {
   return true;
 }
 
-/* A flat cell with two faces on the boundary goes, where what it leaves is a surface again: the edge between the other
+/* Removes a flat cell with two faces on the boundary, if the boundary remains a surface: the edge between the other
  * two faces was inside. */
 static bool remove_sliver(Flips *flips, uint32_t cell) {
   const SporeTetrahedralMesh *mesh = flips->stars->mesh;
@@ -199,7 +200,7 @@ static bool remove_sliver(Flips *flips, uint32_t cell) {
   return true;
 }
 
-/* Removes what is gone and appends what was made. */
+/* Removes the dropped cells and appends the new ones. */
 static bool settle(Flips *flips, uint32_t **labels) {
   SporeTetrahedralMesh *mesh = flips->stars->mesh;
   size_t kept = 0, total;
@@ -241,7 +242,7 @@ long spore_stars_flip(SporeStars *stars, uint32_t **labels, double goal, SporeEr
   flips.no_memory = !flips.touched;
   for (size_t t = 0; t < count && !flips.no_memory; t++)
     if (stars->quality[t] < goal && !flips.touched[t]) done += better(&flips, (uint32_t)t);
-  /* without memory some cells are gone for which none were made: nothing is worth keeping, the caller gives up */
+  /* without memory some cells were dropped and not replaced: the mesh is not usable, and the caller gives up */
   if (flips.no_memory || !settle(&flips, labels)) {
     spore_mesh_no_memory(error);
     done = -1;

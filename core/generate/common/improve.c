@@ -1,4 +1,4 @@
-/* Cells of a tetrahedral mesh are made better in place, in rounds of smoothing and flipping. */
+/* Improves the cells of a tetrahedral mesh in place, in rounds of smoothing and flipping. */
 #include "core/generate/common/common.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #define GAIN 1e-3 /* degrees */
 #define WAYS 14
 
-/* To the faces and the corners of a cube, of equal length. */
+/* Unit directions to the faces and the corners of a cube. */
 static SporeVec3 way(int i) {
   if (i < 6) {
     double d[3] = {0, 0, 0};
@@ -25,7 +25,8 @@ static SporeVec3 way(int i) {
   return spore_vec3(i & 1 ? -c : c, i & 2 ? -c : c, (i - 6) & 4 ? -c : c);
 }
 
-/* Where v would be, `step` that way: on the surface if it is on the boundary. False: nowhere. */
+/* The position of v after a step in direction i, projected onto the surface if v is on the boundary. False: there is
+ * none. */
 static bool candidate(const SporeStars *stars, const SporeBvh *surface, uint32_t v, SporeVec3 here, double step, int i,
                       SporeVec3 *place) {
   *place = spore_vec3_add_scaled(here, step, way(i));

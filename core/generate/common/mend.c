@@ -1,4 +1,4 @@
-/* A mesh whose boundary is a surface everywhere: cells that hold together at an edge or a vertex alone are parted. */
+/* Makes the boundary of a mesh a manifold surface: separates cells that are connected only by an edge or a vertex. */
 #include <math.h>
 #include <string.h>
 
@@ -20,8 +20,8 @@ static bool share_face(const uint32_t a[4], const uint32_t b[4]) {
   return shared == 3;
 }
 
-/* Which of the cells around v (and `other`, unless it is UINT32_MAX) hold together by faces: group[i] of the i-th cell
- * of them, listed in `cells`. Returns how many groups; 0: too many cells. */
+/* Groups the cells around v (and `other`, unless it is UINT32_MAX) that are connected by faces: group[i] is the
+ * group of cells[i]. Returns the number of groups; 0: too many cells. */
 static size_t group_cells(const SporeStars *stars, uint32_t v, uint32_t other, uint32_t *cells, uint32_t *group,
                           size_t *count) {
   const uint32_t *all = stars->mesh->tetrahedra;
@@ -77,7 +77,7 @@ static bool part_vertices(SporeTetrahedralMesh *mesh, size_t *parted, SporeError
   return done;
 }
 
-/* Edges of more than two faces of the boundary, smaller vertex << 32 | larger, from spore_allocate. */
+/* Edges with more than two faces of the boundary, smaller vertex << 32 | larger, from spore_allocate. */
 static bool list_knots(const SporeTetrahedralMesh *mesh, uint64_t **edges, size_t *count) {
   uint32_t *faces;
   size_t face_count;
@@ -98,7 +98,7 @@ static bool list_knots(const SporeTetrahedralMesh *mesh, uint64_t **edges, size_
   return done;
 }
 
-/* Of the groups of cells around an edge all but the largest go. */
+/* Marks all groups of cells around an edge except the largest for removal. */
 static void drop_wedges(const SporeStars *stars, uint32_t a, uint32_t b, bool *gone) {
   uint32_t cells[AROUND], group[AROUND];
   double volume[AROUND] = {0};

@@ -20,7 +20,7 @@ SporeVec3 spore_random_direction(SporeRandom *random) {
   return spore_vec3(s * cos(angle), s * sin(angle), z);
 }
 
-/* First index whose running sum is over `value`. */
+/* First index whose running sum exceeds `value`. */
 static size_t pick(const double *end, size_t count, double value) {
   size_t low = 0, high = count - 1;
   while (low < high) {
@@ -42,7 +42,7 @@ bool spore_solid_interior(const SporeSolid *solid, size_t count, SporeRandom *ra
   double filling = solid->volume / solid->cell_end[solid->cell_count - 1];
   size_t found = 0, round = (size_t)((double)count / filling * 1.02) + 64;
   while (found < count) {
-    /* strata in a scrambled order, so that what is cut off at the end is spread over the solid */
+    /* strata in a scrambled order, so that a cut-off at the end affects the whole solid evenly */
     for (size_t i = 0; found < count && i < round; i++) {
       double golden = (double)i * 0.6180339887498949;
       if (i % TRIES_A_REPORT == 0 && !spore_progress_part(progress, 0, _("Sampling the solid"), error)) return false;

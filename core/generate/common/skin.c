@@ -1,4 +1,4 @@
-/* The faces that bound the cells of a label, and the points of a surface that each face stands for. */
+/* The faces that bound the cells of a label, and the sample points of a surface that belong to each face. */
 #include "core/generate/common/skin.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@ static uint32_t label_of(const SporeTetrahedralMesh *mesh, uint32_t cell) {
   return cell == UINT32_MAX ? 0 : mesh->labels ? mesh->labels[cell] : 1;
 }
 
-/* The faces between two labels, each once, out of the higher one. */
+/* Lists the faces between two labels, each once, outward from the higher label. */
 static bool list_faces(SporeSkin *skin, const SporeTetrahedralMesh *mesh) {
   uint32_t *neighbours;
   if (!spore_tetrahedral_mesh_neighbours(mesh, &neighbours)) return false;
@@ -35,7 +35,7 @@ static bool list_faces(SporeSkin *skin, const SporeTetrahedralMesh *mesh) {
   return done;
 }
 
-/* Which of `count` holders each of `items` is of, sorted by them. first: count + 2, zero. */
+/* Sorts items by their holder (counting sort over `count` holders). first: count + 2, zero. */
 static void share_out(const uint32_t *holders, size_t items, size_t each, size_t count, size_t *first,
                       uint32_t *result) {
   for (size_t i = 0; i < items; i++) first[holders[i] + 2]++;
@@ -55,7 +55,7 @@ static double distance_to_face(const SporeTetrahedralMesh *mesh, const uint32_t 
   return spore_vec3_distance(p, spore_triangle_nearest(p, corners));
 }
 
-/* The face that is a point's host; where that is gone the nearest around it. */
+/* The host face of a point; if it is gone, the nearest face at the host's vertices. */
 static uint32_t face_of(const SporeSkin *skin, const SporeTetrahedralMesh *mesh, const SporeSkinPoints *points,
                         size_t point) {
   const uint32_t *host = points->hosts + 3 * point;

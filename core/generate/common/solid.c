@@ -1,4 +1,4 @@
-/* The solid of a surface: an octree of cells about it, its volume, and the regions in which it is sampled closer. */
+/* The solid of a surface: an octree of cells that contains it, its volume, and the regions of denser sampling. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #define CELL_BUDGET 12000 /* cells are divided while fewer than this are on the boundary */
 #define MOST_DIVISIONS 12
 #define VOLUME_TRIES 32768 /* points that estimate the volume */
-#define LEAST_FILLING 1e-3 /* of the cells, below which the surface is taken not to enclose anything */
+#define LEAST_FILLING 1e-3 /* of the volume of the cells: below this the surface is taken to enclose nothing */
 
 typedef struct Cells {
   double *cells; /* x 4 */
@@ -31,7 +31,8 @@ static bool cells_add(Cells *cells, const double lower[3], double edge, bool ins
   return true;
 }
 
-/* Sorts the cell into the next division: dropped when outside, whole when inside, by the depth of its middle. */
+/* Classifies the cell by the depth of its centre: an outside cell is dropped, any other is added, with a mark if it
+ * is wholly inside. */
 static bool cells_sift(Cells *next, const SporeBvh *bvh, const double lower[3], double edge) {
   SporeVec3 middle = spore_vec3(lower[0] + edge / 2, lower[1] + edge / 2, lower[2] + edge / 2);
   double depth = spore_bvh_depth(bvh, middle), reach = edge * (sqrt(3) / 2);
@@ -60,7 +61,7 @@ static size_t boundary_cells(const Cells *cells) {
   return count;
 }
 
-/* An octree's leaves about the solid: fine at the surface, as deep as the budget goes. */
+/* The leaves of an octree around the solid: fine at the surface, as deep as the budget allows. */
 static bool build_cells(SporeSolid *solid, const SporeMeshReport *report) {
   double edge = 0;
   for (int k = 0; k < 3; k++) edge = fmax(edge, report->upper[k] - report->lower[k]);

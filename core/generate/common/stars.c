@@ -1,4 +1,4 @@
-/* The cells around each vertex, and vertices that move to where the worst of their cells is best. */
+/* The cells around each vertex, and the movement of vertices with the quality of their cells. */
 #include "core/generate/common/stars.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static void fill(SporeStars *stars) {
   size_t corners = 4 * mesh->tetrahedron_count;
   for (size_t i = 0; i < corners; i++) stars->first[mesh->tetrahedra[i] + 2]++;
   for (size_t v = 0; v < mesh->vertex_count; v++) stars->first[v + 2] += stars->first[v + 1];
-  for (size_t i = 0; i < corners; i++) /* first[v + 1] walks from the beginning of v's cells to their end */
+  for (size_t i = 0; i < corners; i++) /* first[v + 1] runs from the beginning of v's cells to their end */
     stars->cells[stars->first[mesh->tetrahedra[i] + 1]++] = (uint32_t)(i / 4);
   for (size_t t = 0; t < mesh->tetrahedron_count; t++) {
     SporeVec3 p[4];

@@ -1,4 +1,4 @@
-/* Mirror planes of a solid: which there are, and points folded at them. */
+/* Mirror planes of a solid: finding them, and folding points at them. */
 #include <math.h>
 
 #include "core/generate/common/common.h"
@@ -32,7 +32,7 @@ static SporeVec3 corner(const SporeTriangleMesh *mesh, size_t triangle, int k) {
   return spore_vec3_load(mesh->vertices + 3 * (size_t)mesh->triangles[3 * triangle + (size_t)k]);
 }
 
-/* Middle of the surface and the moments about it, all by area. */
+/* Centroid of the surface and the second moments about it, weighted by area. */
 static void find_moments(const SporeTriangleMesh *mesh, SporeVec3 *middle, SporeMat3 *moments) {
   double area = 0, sum[3] = {0}, squares[9] = {0};
   SporeVec3 origin = corner(mesh, 0, 0);
@@ -41,7 +41,7 @@ static void find_moments(const SporeTriangleMesh *mesh, SporeVec3 *middle, Spore
     for (int k = 0; k < 3; k++) p[k] = spore_vec3_sub(corner(mesh, t, k), origin);
     double a = spore_vec3_length(spore_vec3_cross(spore_vec3_sub(p[1], p[0]), spore_vec3_sub(p[2], p[0])));
     area += a;
-    /* Three midpoints of edges integrate squares exactly. */
+    /* The midpoints of the three edges integrate squares exactly. */
     for (int k = 0; k < 3; k++) {
       double m[3];
       spore_vec3_store(m, spore_vec3_scale(0.5, spore_vec3_add(p[k], p[(k + 1) % 3])));
@@ -60,7 +60,7 @@ static bool on_surface(const SporeBvh *bvh, SporeVec3 p, double tolerance) {
   return spore_bvh_distance(bvh, p, NULL, NULL) <= tolerance;
 }
 
-/* Whether the images of the triangles' corners and middles lie on the surface. */
+/* Whether the images of the triangles' corners and centroids lie on the surface. */
 static bool maps_onto_itself(const SporeSymmetry *one, const SporeTriangleMesh *mesh, const SporeBvh *bvh,
                              double tolerance) {
   for (size_t t = 0; t < mesh->triangle_count; t++) {

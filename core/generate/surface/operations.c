@@ -8,8 +8,8 @@
 #include "core/mesh/edit.h"
 #include "core/mesh/simplify.h"
 
-#define WELD 1e-6     /* of the diagonal: what a clean takes for one place */
-#define SAMPLES 20000 /* a surface, for the Hausdorff distance */
+#define WELD 1e-6     /* of the diagonal: a clean merges vertices nearer than this */
+#define SAMPLES 20000 /* per surface, for the Hausdorff distance */
 #define MEASURING 0.3 /* share of the progress */
 
 const SporeMeshOperation spore_mesh_operations[SPORE_MESH_OPERATIONS] = {
@@ -74,13 +74,14 @@ static bool check_argument(const SporeMeshOperation *operation, double argument,
                          argument, operation->minimum, operation->maximum);
 }
 
-/* Holes are walked around by triangles that turn alike, and what closes by being filled has an outside then. */
+/* Following the edge of a hole needs triangles of consistent orientation. A piece that is closed by filling is then
+ * turned outward. */
 static bool fill_holes(SporeTriangleMesh *mesh, size_t most_edges, const SporeProgress *progress, SporeError *error) {
   return spore_triangle_mesh_orient(mesh, error) && spore_triangle_mesh_fill_holes(mesh, most_edges, progress, error) &&
          spore_triangle_mesh_orient(mesh, error);
 }
 
-/* What vertices are more than half the triangles, pieces and handles make, which stay. */
+/* The vertices in excess of half the triangles come from pieces and handles, which stay. */
 static bool decimate(SporeTriangleMesh *mesh, size_t triangles, const SporeProgress *progress, SporeError *error) {
   if (mesh->triangle_count <= triangles) return true;
   double more = (double)mesh->vertex_count - 0.5 * (double)mesh->triangle_count;

@@ -1,4 +1,4 @@
-/* A surface of fewer, well-shaped triangles, and how far it is from the given one. */
+/* A surface of fewer, well-shaped triangles, and its distance from the given one. */
 #include "core/generate/surface/surface.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ static SporeVec3 vertex(const SporeTriangleMesh *mesh, uint32_t index) {
   return spore_vec3_load(mesh->vertices + 3 * (size_t)index);
 }
 
-/* Each open edge as a triangle without an area, so that distances to them are those to a surface. */
+/* Each open edge as a triangle of zero area, so that distances to edges are computed as distances to a surface. */
 static bool outline_of(const SporeTriangleMesh *mesh, SporeTriangleMesh *outline) {
   SporeHalfEdges halves;
   *outline = (SporeTriangleMesh){.vertex_count = mesh->vertex_count, .vertices = mesh->vertices};
@@ -33,7 +33,7 @@ static bool outline_of(const SporeTriangleMesh *mesh, SporeTriangleMesh *outline
   return outline->triangles != NULL;
 }
 
-/* Points at and between the ends of each edge. */
+/* Largest distance from points at and between the ends of each edge. */
 static double farthest_from(const SporeTriangleMesh *outline, const SporeBvh *other) {
   double farthest = 0;
   for (size_t e = 0; e < outline->triangle_count; e++)

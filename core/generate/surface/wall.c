@@ -12,14 +12,14 @@
 #include "core/mesh/isosurface.h"
 #include "core/mesh/simplify.h"
 
-#define FINEST 0.01        /* of the diagonal: no finer is needed than this, unless the wall is thinner */
-#define REFINED 0.56       /* of a thickness over the detail: how far off the cut surface may be */
-#define THINNED 0.32       /* of it: how far off triangles may be that take the place of smaller ones */
-#define SPACING (1.0 / 3)  /* of the thickness: between the points at which that is looked at */
-#define MEASURED (1.0 / 6) /* of it: and at which it is reported */
-#define MOST_PARTS 32      /* of a side, for that */
+#define FINEST 0.01        /* of the diagonal: largest step of the lattice, unless the wall is thinner */
+#define REFINED 0.56       /* of the thickness over the detail: largest error of the surface from the lattice */
+#define THINNED 0.32       /* of the same: largest error of triangles that replace smaller ones */
+#define SPACING (1.0 / 3)  /* of the thickness: between the points at which that error is checked */
+#define MEASURED (1.0 / 6) /* of the thickness: between the points at which the error is reported */
+#define MOST_PARTS 32      /* of a side, for the report */
 #define TRIANGLES_A_REPORT 256
-#define SEARCHES 20000 /* places that are looked at for the deepest */
+#define SEARCHES 20000 /* places at which the depth is sampled to find the deepest */
 
 typedef struct Depth {
   const SporeBvh *bvh;
@@ -34,7 +34,7 @@ static double beyond_wall(void *data, SporeVec3 place) {
   return depth->thickness - depth->known.depth;
 }
 
-/* Where of a lattice over the box it is deepest. */
+/* The deepest point of a lattice over the box. */
 static double find_deepest(const SporeBvh *bvh, const SporeMeshReport *box, SporeVec3 *place) {
   int each = (int)cbrt(SEARCHES);
   double deepest = -HUGE_VAL;
@@ -62,7 +62,7 @@ static bool go_on(const SporeProgress *progress, double fraction, SporeError *er
   return spore_progress_step(progress, fraction, _("measuring the distance"), error);
 }
 
-/* From the outer surface, at vertices and middles of triangles. */
+/* Distances from the outer surface, at vertices and centroids of triangles. */
 static bool measure_outer(const SporeTriangleMesh *outer, const SporeBvh *inner, SporeWallReport *report,
                           const SporeProgress *progress, SporeError *error) {
   double area = 0;
@@ -86,7 +86,7 @@ static bool measure_outer(const SporeTriangleMesh *outer, const SporeBvh *inner,
   return true;
 }
 
-/* From the inner one, at points of each triangle and its sides. */
+/* Distances from the inner surface, at points of each triangle and its sides. */
 static void measure_triangle(const SporeVec3 p[3], const SporeBvh *outer, double thickness, SporeWallReport *report) {
   SporeVec3 one = spore_vec3_sub(p[1], p[0]), other = spore_vec3_sub(p[2], p[0]);
   double longest = fmax(spore_vec3_distance(p[1], p[2]), fmax(spore_vec3_length(one), spore_vec3_length(other)));
@@ -133,7 +133,7 @@ static bool report_wall(const SporeTriangleMesh *outer, const SporeBvh *bvh, con
   return done;
 }
 
-/* As near as the detail asks for, in as few triangles as keep to that. */
+/* The inner surface, as accurate as the detail asks for, in as few triangles as this accuracy allows. */
 static bool make_inner(Depth *depth, const SporeMeshReport *box, double step, double detail, SporeTriangleMesh *inner,
                        const SporeProgress *progress, SporeError *error) {
   double lower[3], upper[3], near = depth->thickness / (detail > 0 ? detail : SPORE_WALL_DETAIL);

@@ -1,4 +1,4 @@
-/* The ball joint: holds two points together and leaves all ways to turn free. */
+/* The ball joint: holds two points together and leaves all rotations free. */
 #include "core/base/text.h"
 #include "core/sim/link/link_rows.h"
 

@@ -1,19 +1,19 @@
-/* Lines that links run along: those of rigid bodies, which are straight, and those of threads and tubes, which bend. */
+/* Lines along which links slide: the straight lines of rigid bodies, and the curved lines of threads and tubes. */
 #include "core/base/text.h"
 #include "core/sim/link/link_rows.h"
 #include "core/sim/world_private.h"
 
-#define OFF_LINE 0.01 /* of a line's length: what is farther from it would be pulled there with a jerk */
-#define SHARP 0.5   /* rad: turning by more from knot to knot, a line slides half as well as it should, or not at all */
-#define PATIENCE 20 /* steps in which points may come to where it is sharp, before it is said */
-#define SLIPPED 1e-3 /* of a span, that the end of a line may lie behind what slips off it */
+#define OFF_LINE 0.01 /* of a line's length: a point farther from the line would be pulled there with a jerk */
+#define SHARP 0.5     /* rad: a line that turns by more from knot to knot slides badly, or not at all */
+#define PATIENCE 20   /* steps in which control points may be added at a sharp bend before it is reported */
+#define SLIPPED 1e-3  /* of a span: distance beyond the end of a line at which a point slips off */
 
 /* The body that the line of a slide or port belongs to. */
 static uint32_t line_body(const SporeLinkDescription *link) {
   return link->type->line == SPORE_LINE_OF_BODY_A ? link->body_a : link->body_b;
 }
 
-/* The line is that of a body that deforms. */
+/* Whether the line belongs to a deformable body. */
 bool spore_link_is_curved(const SporeWorld *world, const SporeLinkDescription *link) {
   uint32_t body = line_body(link);
   const SporeModel *model = body < world->body_count ? world->bodies[body].model : NULL;
@@ -47,7 +47,7 @@ static bool refuse_far(const SporePathPlace *place, double off, double most, Spo
 
 bool spore_link_make_curve(SporeWorld *world, SporeLink *link, const SporeLinkDescription *from, SporeError *error) {
   static const uint32_t blocks[SPORE_PATH_WIDTH] = {0, 1, 2, 3};
-  static const double weights[SPORE_PATH_WIDTH] = {0.25, 0.25, 0.25, 0.25}; /* none is 0: each keeps its place */
+  static const double weights[SPORE_PATH_WIDTH] = {0.25, 0.25, 0.25, 0.25}; /* no weight is 0: each keeps its entry */
   const SporeBody *body = &world->bodies[line_body(from)];
   const double *rest = world->state.rest_q + body->q_offset;
   SporeSplineKnots knots = body->model->type->line->path(body->model);
@@ -74,7 +74,7 @@ static SporeVec3 end_position(const SporeWorld *world, const SporeEnd *end) {
   return spore_mapping_position(end->mapping, end->point, q);
 }
 
-/* The line of a rigid body, and the point on it that is nearest to the other end. */
+/* Updates the line of a rigid body, and the point on the line that is nearest to the other end. */
 static void follow_line(SporeWorld *world, const SporeLink *link, SporeSpringTerm *term) {
   SporePose frame = spore_pose_identity();
   if (term->b.mapping->kind == SPORE_MAPPING_RIGID) {
@@ -87,7 +87,7 @@ static void follow_line(SporeWorld *world, const SporeLink *link, SporeSpringTer
   spore_vec3_store(world->links.mappings[2 * link->term_start + 1].points, point);
 }
 
-/* A cubic between two knots turns no more sharply than so: the line is caught there instead of sliding on. */
+/* Reports a line that turns too sharply for a cubic between two knots: the point sticks there. */
 static void watch_bend(SporeWorld *world, SporeLink *link, const SporePathPlace *place, uint32_t index) {
   if (link->reported_sharp) return;
   double square = spore_vec3_dot(place->slope, place->slope),

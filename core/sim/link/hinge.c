@@ -1,4 +1,4 @@
-/* The hinge: holds two points of an axis, about which the bodies turn. */
+/* The hinge: holds two points of the axis about which the bodies turn. */
 #include "core/base/text.h"
 #include "core/sim/link/link_rows.h"
 

@@ -1,4 +1,4 @@
-/* Rows that the parameter tables of several links share. For C files that declare a table. */
+/* Rows shared by the parameter tables of several links. For C files that declare a table. */
 #ifndef SPORE_SIM_LINK_ROWS_H
 #define SPORE_SIM_LINK_ROWS_H
 
@@ -12,7 +12,7 @@
 #define LINK_DIRECTION(text) SPORE_ROW_DIRECTION(SporeLinkDescription, direction, 0, 1, 0, text)
 #define LINK_LENGTH(text) SPORE_ROW_REAL(SporeLinkDescription, length, "m", 1e-6, SPORE_POSITION_MAXIMUM_M, 0.01, text)
 
-/* How a joint holds. Type: SporeLinkDescription, or a structure with members of these names. */
+/* Parameters of a joint. Type: SporeLinkDescription, or a structure with members of these names. */
 #define SPORE_JOINT_ROWS(Type)                                                                                         \
   SPORE_ROW_REAL(Type, stiffness, "N/m", 1e-3, 1e12, 1e5,                                                              \
                  N_("Force for each metre that what is held together comes apart.")),                                  \
@@ -22,7 +22,7 @@
       SPORE_ROW_REAL(Type, strength, "N", 0, 1e9, 0, N_("Force above which it breaks for good; 0: never."))
 
 extern const char *const spore_link_ends[3]; /* choices of `ends`, NULL at the end */
-/* Of a point that runs along a line. */
+/* Parameters of a point that slides along a line. */
 #define LINK_SLIDING_ROWS                                                                                              \
   SPORE_ROW_REAL(SporeLinkDescription, friction, "", 0, 10, 0,                                                         \
                  N_("Coulomb coefficient against running along the line: force for each newton that it holds "         \
@@ -31,7 +31,7 @@ extern const char *const spore_link_ends[3]; /* choices of `ends`, NULL at the e
                        N_("What happens at the ends of a thread's or tube's own line: stop, it is held there; "        \
                           "slip_off, it is let go for good."))
 
-/* What is wrong with a link that needs a direction or a length, or NULL. */
+/* The fault of a link that needs a direction or a length, or NULL. */
 const char *spore_link_direction_fault(const SporeLinkDescription *link);
 const char *spore_link_length_fault(const SporeLinkDescription *link);
 

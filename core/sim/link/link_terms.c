@@ -1,5 +1,5 @@
-/* Links as spring terms: their law, what they bear, and when they break. A joint is made of stiff springs of length 0,
- * so that all that bears springs bears joints: every integrator, islands, sleep, and bodies that deform. */
+/* Links as spring terms: their law, their load, and when they break. A joint consists of stiff springs of length 0.
+ * So joints work wherever springs work: with every integrator, islands, sleep, and deformable bodies. */
 #include <assert.h>
 #include <math.h>
 
@@ -10,7 +10,7 @@ static bool is_passive(const SporeWorld *world, uint32_t body) {
   return body < world->body_count && world->bodies[body].role == SPORE_PASSIVE;
 }
 
-/* Critical for the lighter of the bodies that move. */
+/* Critical damping for the lighter of the bodies that move. */
 static double critical_damping(const SporeWorld *world, const SporeLinkDescription *link) {
   double mass = INFINITY;
   if (is_passive(world, link->body_a)) mass = world->bodies[link->body_a].total_mass;

@@ -1,5 +1,5 @@
-/* Links of a world: checked, made and followed. Pins become held blocks, trocars turn active bodies, all others are
- * terms. */
+/* Links of a world: checking, making and updating them. Pins become held blocks, trocars turn active bodies, all
+ * others are terms. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,8 +14,8 @@ static bool no_memory(SporeError *error) {
   return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the links"));
 }
 
-/* Where the blocks of a body are at time 0, count x 3. A frame's angular velocity is where its origin is: at the last
- * node. */
+/* Positions of the blocks of a body at time 0, count x 3. The angular velocity of a frame is placed at the frame's
+ * origin, the last node. */
 static double *block_positions(const SporeWorld *world, const SporeBody *body) {
   double *points = SPORE_NEW_ARRAY(double, 3 * body->block_count);
   const double *q = world->state.rest_q + body->q_offset;
@@ -25,7 +25,7 @@ static double *block_positions(const SporeWorld *world, const SporeBody *body) {
   return points;
 }
 
-/* What is wrong with a link that hangs on a body whose particles come and go, or NULL. */
+/* The fault of a link to a body whose particles come and go, or NULL. */
 static const char *particles_fault(const SporeWorld *world, const SporeWorldDescription *description, uint32_t index) {
   const SporeModel *model = index < world->body_count ? world->bodies[index].model : NULL;
   if (!model || !model->type->particles) return NULL;
@@ -48,7 +48,7 @@ static bool is_passive(const SporeWorld *world, uint32_t body) {
   return is_known(world, body) && world->bodies[body].role == SPORE_PASSIVE;
 }
 
-/* Whether the link is a trocar of an active body: no term, but a turn of where the body is to be. */
+/* Whether the link is a trocar of an active body: it has no term but rotates the body's target pose. */
 static bool is_trocar(const SporeWorld *world, const SporeLinkDescription *link) {
   return link->type->line == SPORE_LINE_OF_BODY_A && is_known(world, link->body_a) &&
          world->bodies[link->body_a].role == SPORE_ACTIVE;
@@ -84,7 +84,7 @@ const char *spore_link_length_fault(const SporeLinkDescription *link) {
   return _("the link has no length, so that it cannot keep bodies from turning; expected more than 0 m; set it");
 }
 
-/* What is wrong with a link that has terms, or NULL. */
+/* The fault of a link that has terms, or NULL. */
 static const char *term_fault(const SporeWorld *world, const SporeLinkDescription *link) {
   const char *fault = ends_fault(world, link);
   if (fault) return fault;
@@ -96,7 +96,7 @@ static const char *term_fault(const SporeWorld *world, const SporeLinkDescriptio
   return fault;
 }
 
-/* What is wrong with a pin's body, or NULL. */
+/* The fault of a pin's body, or NULL. */
 static const char *pin_fault(const SporeWorld *world, const SporeLinkDescription *link) {
   if (link->body_a < world->body_count && world->bodies[link->body_a].role == SPORE_PASSIVE) return NULL;
   return _("a pin holds nothing here: its body does not move; choose a passive body");
@@ -123,7 +123,7 @@ static bool mark_held(const SporeBody *body, const SporeWorldDescription *descri
   return true;
 }
 
-/* The list of held blocks from the marks, and velocity 0 for them. */
+/* Makes the list of held blocks from the marks, and sets the velocity of these blocks to 0. */
 static bool collect_held(SporeWorld *world, SporeBody *body, const uint8_t *marks) {
   size_t count = 0;
   for (size_t i = 0; i < body->block_count; i++) count += marks[i];

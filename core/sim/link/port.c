@@ -1,5 +1,5 @@
-/* The port: a line of one body goes through a point of the other, as an instrument through a trocar (a remote centre of
- * motion). */
+/* The port: a line of one body passes through a point of the other, as an instrument through a trocar (a remote
+ * centre of motion). */
 #include "core/base/text.h"
 #include "core/sim/link/link_rows.h"
 

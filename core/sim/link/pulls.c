@@ -1,4 +1,4 @@
-/* Pulls: springs that commands put between a body and a point of the world. */
+/* Pulls: springs that commands create between a body and a point of the world. */
 #include <float.h>
 
 #include "core/sim/world_private.h"
@@ -7,7 +7,7 @@ size_t spore_world_pull_index(const SporeWorld *world, uint32_t body) {
   return world->links.term_count + world->links.hold_count + body;
 }
 
-/* A pull needs a place to hold one point of a frame; nodes need none. */
+/* A mapping for each pull: a rigid body needs room for one point of its frame, nodes need none. */
 bool spore_world_create_pulls(SporeWorld *world) {
   const double origin[3] = {0, 0, 0};
   for (size_t b = 0; b < world->body_count; b++) {
@@ -34,7 +34,7 @@ static size_t nearest_block(const double *q, size_t count, SporeVec3 point) {
   return nearest;
 }
 
-/* Chooses the material point that a pull holds, and a damping that does not let it swing. */
+/* Chooses the material point that a pull holds, and a damping that prevents oscillation. */
 static void grasp(SporeWorld *world, size_t index, const SporeBody *body, SporeVec3 point, double stiffness) {
   SporeSpringTerm *term = &world->links.springs[index];
   const double *q = world->state.q + body->q_offset;
@@ -56,7 +56,7 @@ static void set_pulled(SporeWorld *world, size_t index, bool pulled) {
   world->links.active[index] = pulled;
   if (pulled) world->links.pull_count++;
   else world->links.pull_count--;
-  world->schedule.stale = true; /* there may be something to link now, or nothing any more */
+  world->schedule.stale = true; /* the link stage may be needed now, or no longer */
 }
 
 void spore_world_pull(SporeWorld *world, const SporeCommand *command) {

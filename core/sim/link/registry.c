@@ -1,4 +1,4 @@
-/* The kinds of links that there are. */
+/* The list of the kinds of links. */
 #include <string.h>
 
 #include "core/sim/link/link_type.h"

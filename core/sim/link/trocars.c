@@ -1,7 +1,8 @@
-/* Ports that a device's instrument goes through: its tip is where the device says, its shaft through the port. */
+/* Ports for an instrument that a device moves: the tip is where the device puts it, and the shaft passes through the
+ * port. */
 #include "core/sim/world_private.h"
 
-#define LEAST_M 1e-6 /* nearer to its pivot an instrument points anywhere */
+#define LEAST_M 1e-6 /* least distance to the pivot: nearer, the direction is undefined */
 
 static SporeVec3 to_frame(SporeQuat orientation, SporeVec3 a) {
   return spore_quat_rotate(spore_quat_conjugate(orientation), a);
@@ -17,7 +18,7 @@ void spore_trocar_make(const SporeWorld *world, SporeTrocar *trocar, const Spore
   trocar->base = spore_vec3_add_scaled(trocar->base, -spore_vec3_dot(trocar->base, trocar->along), trocar->along);
 }
 
-/* The least turn that takes one unit vector to the other. */
+/* The smallest rotation that takes one unit vector to the other. */
 static SporeQuat turn_between(SporeVec3 from, SporeVec3 to) {
   SporeVec3 axis = spore_vec3_cross(from, to);
   double w = 1 + spore_vec3_dot(from, to);
@@ -35,7 +36,7 @@ void spore_trocar_aim(const SporeWorld *world, const SporeTrocar *trocar) {
   SporeVec3 to_pivot = spore_vec3_sub(trocar->pivot, spore_vec3_load(target));
   double distance = spore_vec3_length(to_pivot), aside = spore_vec3_length(trocar->base);
   if (!(distance > aside + LEAST_M)) return;
-  /* The two points of the line that are as far from the origin as the pivot is: the one that lies nearer to it. */
+  /* Of the two points of the line that are as far from the origin as the pivot is, take the one nearer to the pivot. */
   double reach = sqrt(distance * distance - aside * aside);
   SporeVec3 ahead = spore_vec3_add_scaled(trocar->base, reach, trocar->along);
   SporeVec3 behind = spore_vec3_add_scaled(trocar->base, -reach, trocar->along);

@@ -1,4 +1,4 @@
-/* The weld: holds four points of a tetrahedron, so that the bodies are as one. */
+/* The weld: holds four points of a tetrahedron together, so that the bodies move as one. */
 #include <math.h>
 
 #include "core/base/text.h"
