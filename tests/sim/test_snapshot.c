@@ -225,6 +225,25 @@ static void test_messages(void) {
   spore_world_free(world);
 }
 
+/* Where nothing moves the state is shown all the same, at each step. */
+static void test_still(void) {
+  SporeBodyDescription body = {
+      .name = "table", .role = SPORE_UNMOVABLE, .pose = {.position = {1, 2, 3}, .orientation = {1, 0, 0, 0}}};
+  spore_parameters_set_initial(&spore_contact_parameters, &body.contact);
+  SporeWorldDescription description = world_description(&body, 1);
+  SporeError error = SPORE_ERROR_INIT;
+  SporeWorld *world = spore_world_create(&description, NULL, &error);
+  g_assert_nonnull(world);
+  for (int step = 0; step < 5; step++) {
+    const SporeSnapshot *snapshot = spore_world_snapshot_acquire(world);
+    g_assert_cmpuint(snapshot->step, ==, (guint64)step);
+    const double *q = snapshot->q + spore_world_q_offset(world, 0);
+    g_assert_true(q[0] == 1 && q[1] == 2 && q[2] == 3 && q[3] == 1);
+    spore_world_step(world);
+  }
+  spore_world_free(world);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/sim/snapshot/acquired-at-random", test_acquired_at_random);
@@ -232,5 +251,6 @@ int main(int argc, char **argv) {
   g_test_add_data_func("/sim/snapshot/reader/2", GINT_TO_POINTER(2), test_reader);
   g_test_add_data_func("/sim/snapshot/reader/4", GINT_TO_POINTER(4), test_reader);
   g_test_add_func("/sim/snapshot/messages", test_messages);
+  g_test_add_func("/sim/snapshot/still", test_still);
   return g_test_run();
 }
