@@ -138,6 +138,9 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
           "lost_holds (that tore away from jaws), torn_springs (of nets)")},
       {"monitor.frozen", N_("names of bodies that could not be computed")},
       {"monitor.made_safer", N_("names of bodies that were moved by a safer method than the scene says")},
+      {"monitor.unsolved",
+       N_("what was not solved as the scene is written, by body and cause: body, steps, worst (null where "
+          "the cause has no figure), cause, remedy; the exit status is 1 where there is any")},
       {"monitor.messages", N_("the last of them, each naming body and cause")},
       {"realtime",
        N_("with --realtime: factor (simulated by real time), deadline_misses (steps that ended late), worst_late_us, "
@@ -148,10 +151,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
   static const SporeCommandInfo info = {
       "run",
       "SCENE",
-      N_("Runs a scene and says how it went. The exit status is 1 where a body was frozen, where one had to be "
-         "integrated "
-         "by a safer method than the scene says, where a step's equations were not solved to the tolerance, and with "
-         "--realtime where the steps did not keep pace."),
+      N_("Runs a scene and says how it went. The exit status is 1 where a step was not solved as the scene is written "
+         "(monitor.unsolved says of which body, and why), and with --realtime where the steps did not keep pace."),
       1,
       1,
       members};

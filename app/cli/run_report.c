@@ -40,17 +40,12 @@ static void report_solver(SporeCli *cli, const SporeRunStatistics *result) {
 
 typedef bool (*BodyTest)(const SporeWorld *world, uint32_t body);
 
-/* Reports the names of the bodies for which the test holds; returns their number. */
-static guint report_bodies(SporeCli *cli, const char *member, const SporeWorld *world, BodyTest holds) {
-  guint count = 0;
+/* Reports the names of the bodies for which the test holds. */
+static void report_bodies(SporeCli *cli, const char *member, const SporeWorld *world, BodyTest holds) {
   spore_cli_open_array(cli, member);
-  for (guint body = 0; body < spore_world_body_count(world); body++) {
-    if (!holds(world, body)) continue;
-    spore_cli_text(cli, NULL, spore_world_body_name(world, body));
-    count++;
-  }
+  for (guint body = 0; body < spore_world_body_count(world); body++)
+    if (holds(world, body)) spore_cli_text(cli, NULL, spore_world_body_name(world, body));
   spore_cli_close_array(cli);
-  return count;
 }
 
 static void report_messages(SporeCli *cli, const SporeMonitor *monitor) {
@@ -62,6 +57,30 @@ static void report_messages(SporeCli *cli, const SporeMonitor *monitor) {
     spore_cli_say(cli, _("  step %llu: %s\n"), (unsigned long long)message->step, message->text);
   }
   spore_cli_close_array(cli);
+}
+
+/* Every step that was not solved as the scene is written. Returns whether there is none. */
+static gboolean report_unsolved(SporeCli *cli, const SporeWorld *world) {
+  gsize count = spore_world_unsolved_count(world);
+  spore_cli_open_array(cli, "unsolved");
+  for (gsize i = 0; i < count; i++) {
+    SporeUnsolved entry = spore_world_unsolved(world, i);
+    const char *name = spore_world_body_name(world, entry.body);
+    g_autofree char *worst =
+        entry.unit ? g_strdup_printf(_(" (worst %.2g%s%s)"), entry.worst, *entry.unit ? " " : "", entry.unit)
+                   : g_strdup("");
+    spore_cli_open(cli, NULL);
+    spore_cli_text(cli, "body", name);
+    spore_cli_count(cli, "steps", (gint64)entry.steps);
+    spore_cli_number(cli, "worst", entry.unit ? entry.worst : NAN);
+    spore_cli_text(cli, "cause", entry.cause);
+    spore_cli_text(cli, "remedy", entry.remedy);
+    spore_cli_close(cli);
+    spore_cli_say(cli, _("unsolved: %s: %llu steps: %s%s; %s\n"), name, (unsigned long long)entry.steps, entry.cause,
+                  worst, entry.remedy);
+  }
+  spore_cli_close_array(cli);
+  return count == 0;
 }
 
 /* Whether the checks of the monitor held. */
@@ -91,11 +110,12 @@ static gboolean report_monitor(SporeCli *cli, const SporeWorld *world) {
                   (unsigned long long)monitor->not_converged, (unsigned long long)monitor->recoveries,
                   (unsigned long long)monitor->substeps);
   if (monitor->torn_springs) spore_cli_say(cli, _("torn: %llu springs\n"), (unsigned long long)monitor->torn_springs);
-  guint frozen = report_bodies(cli, "frozen", world, spore_world_body_frozen);
-  guint safer = report_bodies(cli, "made_safer", world, spore_world_body_made_safer);
+  report_bodies(cli, "frozen", world, spore_world_body_frozen);
+  report_bodies(cli, "made_safer", world, spore_world_body_made_safer);
+  gboolean solved = report_unsolved(cli, world);
   report_messages(cli, monitor);
   spore_cli_close(cli);
-  return frozen == 0 && safer == 0 && monitor->not_converged == 0;
+  return solved;
 }
 
 /* Links and tools, where there are any. */

@@ -237,7 +237,7 @@ static bool allocate_vectors(SporeWorld *world, SporeError *error) {
   world->contact.frames = SPORE_NEW_ARRAY(double, SPORE_FRAME_DOUBLES *bodies);
   world->commands.ring = SPORE_NEW_ARRAY(SporeCommand, SPORE_COMMAND_CAPACITY);
   bool made = state->target_q && state->mass && state->mass_inverse && state->reaction && world->contact.frames &&
-              world->commands.ring && spore_world_create_solve(world);
+              world->commands.ring && spore_world_create_unsolved(world) && spore_world_create_solve(world);
   return made || no_memory(error);
 }
 

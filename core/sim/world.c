@@ -80,6 +80,7 @@ void spore_world_reset(SporeWorld *world) {
   world->schedule.step_us = 0;
   for (size_t b = 0; b < world->body_count; b++) reset_body(world, &world->bodies[b]);
   spore_monitor_reset(&world->state.monitor);
+  spore_world_reset_unsolved(world);
   spore_world_make_plan(world);
   spore_world_map_spheres(world);
   spore_world_link(world);

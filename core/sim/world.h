@@ -346,6 +346,19 @@ typedef struct SporeMonitor {
 } SporeMonitor;
 /* The monitor; owned by the world. */
 const SporeMonitor *spore_world_monitor(const SporeWorld *world);
+/* Steps of a body that were not solved as the scene is written, by one cause. */
+typedef struct SporeUnsolved {
+  uint32_t body;
+  uint64_t steps;             /* in which the cause was met, since time 0 */
+  double worst;               /* the largest figure of the cause so far, in `unit` */
+  const char *unit;           /* "": a ratio; NULL: the cause has no figure */
+  const char *cause, *remedy; /* sentences without a full stop, translated */
+} SporeUnsolved;
+/* Number of entries: one a body and cause that was met since time 0. 0: every step was solved as the scene is written.
+ */
+size_t spore_world_unsolved_count(const SporeWorld *world);
+/* Entry i, by bodies, and of one body by causes. i: below the count. */
+SporeUnsolved spore_world_unsolved(const SporeWorld *world, size_t i);
 /* Sets the time that a step may take, us of the clock; 0: any. A longer step is counted and reported; nothing else
  * changes. */
 void spore_world_set_budget(SporeWorld *world, double budget_us);

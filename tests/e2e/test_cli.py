@@ -614,6 +614,10 @@ def run_says_what_did_not_hold():
                       "solver/linear_iterations=1", "--set", "solver/tolerance=1e-12", status=1)
     assert unsolved["monitor"]["not_converged"] > 0
     assert any("not solved to tolerance" in message for message in unsolved["monitor"]["messages"])
+    entry, = unsolved["monitor"]["unsolved"]
+    assert set(entry) == {"body", "steps", "worst", "cause", "remedy"} and entry["worst"] > 1e-12, entry
+    assert entry["body"] == "ball" and entry["steps"] == unsolved["monitor"]["not_converged"], entry
+    assert report("run", soft_ball(), "--steps", 200)["monitor"]["unsolved"] == []
     paced = json.loads(spore("run", soft_ball(), "--steps", 20, "--realtime", "--json", status=(0, 1)).stdout)
     assert set(paced["realtime"]) >= {"factor", "deadline_misses", "worst_late_us", "jitter_us", "given_up_s"}
     assert set(paced["realtime"]["jitter_us"]) == {"median", "p99", "max"}

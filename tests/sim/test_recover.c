@@ -11,8 +11,6 @@
 #define N (3 * PARTICLES)
 #define STEPS 100
 #define NEWTON 2
-#define NEWTON 2
-#define NEWTON 2
 #define PARTS                                                                                                          \
   (2 + 4 + 8) /* of all smaller steps: where no attempt is worth a step each takes an iteration at least               \
                */
@@ -128,8 +126,40 @@ static void test_pause(void) {
   spore_world_free(world);
 }
 
+/* The register of unsolved steps: an entry a body and cause, each step once, the largest figure; empty where all was
+ * solved, and after a reset. */
+static void test_register(void) {
+  SporeWorld *world = make(1e5, NEWTON, 2);
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0);
+  for (uint64_t step = 1; step <= STEPS; step++) spore_world_step(world);
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 1);
+  SporeUnsolved entry = spore_world_unsolved(world, 0);
+  g_assert_cmpuint(entry.body, ==, 0);
+  g_assert_cmpuint(entry.steps, ==, spore_world_monitor(world)->not_converged);
+  g_assert_cmpfloat(entry.worst, >, 1e-10);
+  g_assert_cmpstr(entry.unit, ==, "");
+  spore_world_count_unsolved(world, 0, SPORE_UNSOLVED_RESIDUAL, 2 * entry.worst);
+  spore_world_count_unsolved(world, 0, SPORE_UNSOLVED_RESIDUAL, entry.worst);
+  spore_world_count_unsolved(world, 0, SPORE_UNSOLVED_FROZEN, 0);
+  SporeUnsolved again = spore_world_unsolved(world, 0);
+  g_assert_cmpuint(again.steps, ==, entry.steps + 1);
+  g_assert_cmpfloat(again.worst, ==, 2 * entry.worst);
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 2);
+  g_assert_null(spore_world_unsolved(world, 1).unit);
+  spore_world_count_unsolved(world, 0, SPORE_UNSOLVED_RESIDUAL, NAN);
+  g_assert_true(isinf(spore_world_unsolved(world, 0).worst));
+  spore_world_reset(world);
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0);
+  spore_world_free(world);
+  world = make(1e2, 50, 200);
+  for (uint64_t step = 1; step <= STEPS; step++) spore_world_step(world);
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0);
+  spore_world_free(world);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/recover/register", test_register);
   g_test_add_func("/recover/best", test_best);
   g_test_add_func("/recover/pause", test_pause);
   return g_test_run();

@@ -73,8 +73,22 @@ static void report_notice(SporeWorld *world, SporeBody *body) {
   spore_world_report(world, "%s: %s", body->name, notice);
 }
 
+/* Counts the bodies that this step did not move as the scene is written. */
+static void count_unsolved(SporeWorld *world) {
+  for (uint32_t b = 0; b < world->body_count; b++) {
+    if (world->bodies[b].frozen) spore_world_count_unsolved(world, b, SPORE_UNSOLVED_FROZEN, 0);
+    else if (spore_world_body_made_safer(world, b)) spore_world_count_unsolved(world, b, SPORE_UNSOLVED_SAFER, 0);
+  }
+  for (size_t i = 0; i < world->solve.island_count; i++) {
+    const SporeIsland *island = &world->solve.islands[i];
+    if (!island->result.converged)
+      spore_world_count_unsolved(world, island->offender, SPORE_UNSOLVED_RESIDUAL, island->result.residual);
+  }
+}
+
 void spore_world_report_islands(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) report_notice(world, &world->bodies[b]);
+  count_unsolved(world);
   SporeMonitor *monitor = &world->state.monitor;
   for (size_t i = 0; i < world->solve.island_count; i++) {
     const SporeIsland *island = &world->solve.islands[i];

@@ -233,4 +233,5 @@ void spore_state_clear(SporeState *state) {
   spore_free(state->mass);
   spore_free(state->mass_inverse);
   spore_free(state->reaction);
+  spore_free(state->unsolved);
 }

@@ -30,6 +30,20 @@ typedef struct SporeSnapshots {
   atomic_bool energy_wanted;  /* a reader acquired a snapshot since the energy was last computed */
 } SporeSnapshots;
 
+/* Why a step of a body does not count as solved. The table of causes is in unsolved.c. */
+typedef enum SporeUnsolvedCause {
+  SPORE_UNSOLVED_RESIDUAL, /* figure: the relative residual */
+  SPORE_UNSOLVED_SAFER,    /* another integrator than the scene's moves the body; no figure */
+  SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
+  SPORE_UNSOLVED_CAUSES
+} SporeUnsolvedCause;
+/* Register of the steps that were not solved, since time 0. */
+typedef struct SporeUnsolvedCount {
+  uint64_t steps;
+  uint64_t last; /* the last of the steps; holds only where `steps` is above 0 */
+  double worst;
+} SporeUnsolvedCount;
+
 /* The world's state. q vectors have q_count doubles, v vectors v_count. */
 typedef struct SporeState {
   size_t q_count, v_count;
@@ -47,6 +61,7 @@ typedef struct SporeState {
   SporeEnergy energy; /* as last computed for a snapshot */
   SporeSnapshots snapshots;
   SporeMonitor monitor;
+  SporeUnsolvedCount *unsolved; /* body_count x SPORE_UNSOLVED_CAUSES */
 } SporeState;
 
 /* What may go wrong with a body in a step; the worst is last. */
@@ -93,6 +108,13 @@ void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term);
 /* Reports that the step took longer than the budget. */
 void spore_world_report_budget(SporeWorld *world);
 void spore_monitor_reset(SporeMonitor *monitor); /* counts to 0; the messages stay */
+
+/* unsolved.c */
+bool spore_world_create_unsolved(SporeWorld *world); /* false: no memory */
+void spore_world_reset_unsolved(SporeWorld *world);
+/* Counts this step as unsolved for the body, once for each cause. worst: the figure of the cause, 0 or more; NaN counts
+ * as infinite. Not for code that several threads run. */
+void spore_world_count_unsolved(SporeWorld *world, uint32_t body, SporeUnsolvedCause cause, double worst);
 
 /* energy.c: energy of a body at q, v, in J. */
 double spore_body_kinetic_energy(const SporeWorld *world, const SporeBody *body, const double *v);

@@ -1,0 +1,65 @@
+/* Register of steps that were not solved as the scene is written: of which body, why, how often and how far. */
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/base/memory.h"
+#include "core/base/text.h"
+#include "core/sim/world_private.h"
+
+static const struct {
+  const char *cause, *remedy;
+  const char *unit;
+} causes[] = {
+    [SPORE_UNSOLVED_RESIDUAL] = {N_("its equations are not solved to tolerance"),
+                                 N_("take a smaller time_step or more newton_iterations"), ""},
+    [SPORE_UNSOLVED_SAFER] = {N_("another integrator than the scene's moves it, since that one failed"),
+                              N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
+    [SPORE_UNSOLVED_FROZEN] = {N_("it stands still, since its motion could not be computed"),
+                               N_("reset, or change its parameters"), NULL},
+};
+_Static_assert(sizeof causes / sizeof *causes == SPORE_UNSOLVED_CAUSES, "one row a cause");
+
+static size_t entries(const SporeWorld *world) { return world->body_count * SPORE_UNSOLVED_CAUSES; }
+
+bool spore_world_create_unsolved(SporeWorld *world) {
+  assert(!world->state.unsolved);
+  world->state.unsolved = SPORE_NEW_ARRAY(SporeUnsolvedCount, entries(world));
+  return world->state.unsolved != NULL;
+}
+
+void spore_world_reset_unsolved(SporeWorld *world) {
+  assert(world->state.unsolved || world->body_count == 0);
+  if (world->body_count > 0) memset(world->state.unsolved, 0, entries(world) * sizeof *world->state.unsolved);
+}
+
+void spore_world_count_unsolved(SporeWorld *world, uint32_t body, SporeUnsolvedCause cause, double worst) {
+  assert(body < world->body_count && cause < SPORE_UNSOLVED_CAUSES);
+  SporeUnsolvedCount *count = &world->state.unsolved[body * SPORE_UNSOLVED_CAUSES + cause];
+  if (isnan(worst)) worst = HUGE_VAL;
+  count->worst = fmax(count->worst, worst);
+  if (count->steps > 0 && count->last == world->state.step) return;
+  count->steps++;
+  count->last = world->state.step;
+}
+
+size_t spore_world_unsolved_count(const SporeWorld *world) {
+  size_t count = 0;
+  for (size_t e = 0; e < entries(world); e++) count += world->state.unsolved[e].steps > 0;
+  return count;
+}
+
+SporeUnsolved spore_world_unsolved(const SporeWorld *world, size_t i) {
+  assert(i < spore_world_unsolved_count(world));
+  size_t e = 0;
+  for (;; e++)
+    if (world->state.unsolved[e].steps > 0 && i-- == 0) break;
+  const SporeUnsolvedCount *count = &world->state.unsolved[e];
+  size_t cause = e % SPORE_UNSOLVED_CAUSES;
+  return (SporeUnsolved){.body = (uint32_t)(e / SPORE_UNSOLVED_CAUSES),
+                         .steps = count->steps,
+                         .worst = count->worst,
+                         .unit = causes[cause].unit,
+                         .cause = _(causes[cause].cause),
+                         .remedy = _(causes[cause].remedy)};
+}
