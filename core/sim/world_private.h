@@ -70,6 +70,10 @@ struct SporeWorld {
   SporeToolSystem tools;
 };
 
+/* Whether physics moves the body; `body` may be SPORE_NO_BODY. */
+static inline bool spore_body_is_passive(const SporeWorld *world, uint32_t body) {
+  return body < world->body_count && world->bodies[body].role == SPORE_PASSIVE;
+}
 /* Whether physics moves the body in this step. */
 static inline bool spore_body_moves(const SporeBody *body) {
   return body->role == SPORE_PASSIVE && !body->frozen && !body->sleep.asleep;

@@ -6,15 +6,11 @@
 #include "core/base/text.h"
 #include "core/sim/world_private.h"
 
-static bool is_passive(const SporeWorld *world, uint32_t body) {
-  return body < world->body_count && world->bodies[body].role == SPORE_PASSIVE;
-}
-
 /* Critical damping for the lighter of the bodies that move. */
 static double critical_damping(const SporeWorld *world, const SporeLinkDescription *link) {
   double mass = INFINITY;
-  if (is_passive(world, link->body_a)) mass = world->bodies[link->body_a].total_mass;
-  if (is_passive(world, link->body_b)) mass = fmin(mass, world->bodies[link->body_b].total_mass);
+  if (spore_body_is_passive(world, link->body_a)) mass = world->bodies[link->body_a].total_mass;
+  if (spore_body_is_passive(world, link->body_b)) mass = fmin(mass, world->bodies[link->body_b].total_mass);
   return 2 * sqrt(link->stiffness * mass);
 }
 

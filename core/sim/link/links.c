@@ -44,10 +44,6 @@ static const char *particles_fault(const SporeWorld *world, const SporeWorldDesc
 
 static bool is_known(const SporeWorld *world, uint32_t body) { return body < world->body_count; }
 
-static bool is_passive(const SporeWorld *world, uint32_t body) {
-  return is_known(world, body) && world->bodies[body].role == SPORE_PASSIVE;
-}
-
 /* Whether the link is a trocar of an active body: it has no term but rotates the body's target pose. */
 static bool is_trocar(const SporeWorld *world, const SporeLinkDescription *link) {
   return link->type->line == SPORE_LINE_OF_BODY_A && is_known(world, link->body_a) &&
@@ -69,7 +65,7 @@ static const char *ends_fault(const SporeWorld *world, const SporeLinkDescriptio
     return _("both ends of the link are of one body; expected two bodies, or one and the scene; choose another");
   if (trocar && !to_world && world->bodies[link->body_b].role != SPORE_UNMOVABLE)
     return _("the port of a body that a device moves must stand still; expected an unmovable body or none; choose one");
-  if (!trocar && !is_passive(world, link->body_a) && !is_passive(world, link->body_b))
+  if (!trocar && !spore_body_is_passive(world, link->body_a) && !spore_body_is_passive(world, link->body_b))
     return _("neither end of the link can move; expected at least one passive body; choose one");
   return NULL;
 }

@@ -79,6 +79,24 @@ static void note_change(const SporeWorld *world, const SporeBody *body, SporeLod
     state->momentum = fmax(state->momentum, momentum_missed(body->model, q, v, level->model, levels->q, levels->v));
 }
 
+/* Makes the body's part of the next state the state between two steps: its solver and the model know nothing of the
+ * state before. */
+static void take_state(SporeWorld *world, SporeBody *body) {
+  spore_body_mark_changed(world, body);
+  spore_world_advance_state(world);
+  spore_body_forget_steps(world, body);
+  if (!body->model) return;
+  if (body->model->type->forget) body->model->type->forget(body->model);
+  spore_body_set_mass(world, body);
+}
+
+/* Places what follows from the state: spheres and the ends of links; and shows the state to the reader. */
+static void show_state(SporeWorld *world) {
+  spore_world_map_spheres(world);
+  spore_world_link(world);
+  spore_world_publish(world);
+}
+
 static void accept(SporeWorld *world, uint32_t index, SporeLodGrade to) {
   assert(world->bodies[index].grade != to);
   SporeBody *body = &world->bodies[index];
@@ -87,18 +105,12 @@ static void accept(SporeWorld *world, uint32_t index, SporeLodGrade to) {
   spore_world_exchange_lod(world, index, to);
   memcpy(world->state.next_q + body->q_offset, body->lod->q, body->q_count * sizeof(double));
   memcpy(world->state.next_v + body->v_offset, body->lod->v, 3 * body->block_count * sizeof(double));
-  spore_body_mark_changed(world, body);
-  spore_world_advance_state(world);
-  if (body->model->type->forget) body->model->type->forget(body->model);
-  spore_body_forget_steps(world, body);
-  spore_body_set_mass(world, body);
+  take_state(world, body);
   if (to != SPORE_LOD_FINE && world->topology.cuts.capacity > 0 && body->model->type->cut)
     spore_world_report(world, _("%s: at level %s it is neither cut nor torn; change it to level fine before"),
                        body->name, spore_lod_names[to]);
   if (pull) spore_world_pull_by(world, index, pulled);
-  spore_world_map_spheres(world);
-  spore_world_link(world);
-  spore_world_publish(world);
+  show_state(world);
 }
 
 static void refuse(SporeWorld *world, SporeBody *body, SporeLodGrade to, const char *reason) {
@@ -171,14 +183,8 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   memcpy(world->state.next_v + body->v_offset, v, 3 * body->block_count * sizeof *v);
   if (body->parking_gap > 0) spore_body_find_parked(body, q);
   spore_pin_filter(body->held.blocks, body->held.count, world->state.next_v + body->v_offset);
-  spore_body_mark_changed(world, body);
-  spore_world_advance_state(world);
-  spore_body_forget_steps(world, body);
-  if (body->model && body->model->type->forget) body->model->type->forget(body->model);
+  take_state(world, body);
   world->contact.count = world->contact.friction_count = 0; /* contacts belong to the state before */
   spore_world_lose_lines(world);
-  if (body->model) spore_body_set_mass(world, body);
-  spore_world_map_spheres(world);
-  spore_world_link(world);
-  spore_world_publish(world);
+  show_state(world);
 }

@@ -45,8 +45,7 @@ static void use(SporeWorld *world, SporeTool *tool) {
 
 static const char *fault(const SporeWorld *world, const SporeToolDescription *from) {
   const SporeBipolarFields *fields = from->fields;
-  if (spore_vec3_is_finite(spore_vec3_load(fields->point))) return NULL;
-  return _("a point of the tool is not finite; expected it in m; correct it");
+  return spore_tool_point_fault(fields->point);
 }
 
 static bool make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {

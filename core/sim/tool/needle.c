@@ -85,9 +85,11 @@ static const char *fault(const SporeWorld *world, const SporeToolDescription *fr
   SporeVec3 tip = spore_vec3_load(fields->tip), middle = spore_vec3_load(fields->middle);
   SporeVec3 swage = spore_vec3_load(fields->swage);
   double off;
-  if (!spore_vec3_is_finite(tip)) return _("a point of the tool is not finite; expected it in m; correct it");
-  if (!spore_vec3_is_finite(middle) || !spore_vec3_is_finite(swage))
-    return _("a point of the needle is not finite; expected it in m; correct it");
+  const double *points[] = {fields->tip, fields->middle, fields->swage};
+  for (size_t i = 0; i < 3; i++) {
+    const char *fault = spore_tool_point_fault(points[i]);
+    if (fault) return fault;
+  }
   SporeVec3 a = spore_vec3_sub(middle, tip), b = spore_vec3_sub(swage, middle);
   if (!(spore_vec3_length(a) > 0) || !(spore_vec3_length(b) > 0) ||
       spore_vec3_length(spore_vec3_add(a, b)) < 1e-3 * (spore_vec3_length(a) + spore_vec3_length(b)))

@@ -72,8 +72,8 @@ static void cut_between(SporeWorld *world, SporeScissors *scissors, double from,
 /* Scissors may have blades only, without bodies for them. */
 static const char *fault(const SporeWorld *world, const SporeToolDescription *from) {
   const SporeJawFields *fields = from->fields;
-  if (!spore_vec3_is_finite(spore_vec3_load(fields->tip)))
-    return _("a point of the tool is not finite; expected it in m; correct it");
+  const char *fault = spore_tool_point_fault(fields->tip);
+  if (fault) return fault;
   bool bare = from->bodies[SPORE_TOOL_JAW_A] == SPORE_NO_BODY && from->bodies[SPORE_TOOL_JAW_B] == SPORE_NO_BODY;
   return bare ? spore_hinge_fault(fields) : spore_jaws_fault(world, from);
 }

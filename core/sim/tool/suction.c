@@ -43,8 +43,7 @@ static void exchange(SporeWorld *world, SporeTool *tool) {
 
 static const char *fault(const SporeWorld *world, const SporeToolDescription *from) {
   const SporeSuctionFields *fields = from->fields;
-  if (spore_vec3_is_finite(spore_vec3_load(fields->point))) return NULL;
-  return _("a point of the tool is not finite; expected it in m; correct it");
+  return spore_tool_point_fault(fields->point);
 }
 
 static bool make(SporeWorld *world, SporeTool *tool, const SporeToolDescription *from) {

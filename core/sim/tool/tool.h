@@ -44,6 +44,8 @@ void spore_world_use_tools(SporeWorld *world);
 void spore_world_tear_holds(SporeWorld *world);
 /* Adds to the commands of devices the forces on the other bodies of their tools, such as jaws. */
 void spore_world_feed_back_tools(SporeWorld *world);
+/* NULL: the point of the tool's file is finite; else the fault, translated. */
+const char *spore_tool_point_fault(const double point[3]);
 /* A direction of the world at time 0, as a unit vector in the frame of a body. */
 SporeVec3 spore_tool_direction(const SporeWorld *world, uint32_t body, const double direction[3]);
 /* Whether the first button of the device that moves the body is down. */

@@ -131,6 +131,11 @@ void spore_world_feed_back_tools(SporeWorld *world) {
   }
 }
 
+const char *spore_tool_point_fault(const double point[3]) {
+  if (spore_vec3_is_finite(spore_vec3_load(point))) return NULL;
+  return _("a point of the tool is not finite; expected it in m; correct it");
+}
+
 SporeVec3 spore_tool_direction(const SporeWorld *world, uint32_t body, const double direction[3]) {
   assert(body < world->body_count);
   SporeQuat back = spore_quat_conjugate(world->bodies[body].rest_pose.orientation);

@@ -20,6 +20,16 @@ void spore_body_list_held(SporeBody *body) {
     body->held.flags[i] = i >= nodes_in_use(body) || body->changing.pinned[i];
 }
 
+void spore_body_lay_out_matrix(SporeBody *body) {
+  assert(body->model->type->settle && body->model->type->pattern);
+  SporeChangingMatrix *changing = &body->changing;
+  spore_block_pattern_empty(&changing->pattern);
+  changing->pattern.block_count = body->block_count;
+  body->model->type->pattern(body->model, &changing->pattern);
+  spore_block_matrix_lay_out(&body->preconditioner.matrix, &changing->pattern, &changing->room);
+  body->model->type->settle(body->model, &body->preconditioner.matrix);
+}
+
 #define CALM_STEPS 16 /* without a change, before a factor is made: while blades keep cutting, it would not last */
 
 bool spore_world_tidy(SporeWorld *world) {

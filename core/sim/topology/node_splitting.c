@@ -151,16 +151,12 @@ void spore_world_clear_topology(SporeWorld *world) {
 static void follow(SporeWorld *world, uint32_t index) {
   assert(world->bodies[index].splitting.possible);
   SporeBody *body = &world->bodies[index];
-  SporeChangingMatrix *changing = &body->changing;
   size_t count;
   const uint32_t *corners = body->model->type->cut->corners(body->model, &count);
   for (size_t i = 0; i < world->topology.attached_count; i++)
     if (world->topology.attached[i].body == index)
       spore_mapping_follow(world->topology.attached[i].mapping, world->topology.attached[i].places, corners);
-  spore_block_pattern_empty(&changing->pattern);
-  body->model->type->pattern(body->model, &changing->pattern);
-  spore_block_matrix_lay_out(&body->preconditioner.matrix, &changing->pattern, &changing->room);
-  body->model->type->settle(body->model, &body->preconditioner.matrix);
+  spore_body_lay_out_matrix(body);
   copy_corners(world, body);
   world->topology.cuts.parted++;
 }

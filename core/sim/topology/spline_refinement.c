@@ -108,13 +108,9 @@ static void move_ends(SporeWorld *world, uint32_t index) {
     }
 }
 
-static void lay_out_matrix(SporeBody *body) {
+static void lay_out_solver(SporeBody *body) {
   SporeChangingMatrix *changing = &body->changing;
-  spore_block_pattern_empty(&changing->pattern);
-  changing->pattern.block_count = body->block_count;
-  body->model->type->pattern(body->model, &changing->pattern);
-  spore_block_matrix_lay_out(&body->preconditioner.matrix, &changing->pattern, &changing->room);
-  body->model->type->settle(body->model, &body->preconditioner.matrix);
+  spore_body_lay_out_matrix(body);
   bool had = body->preconditioner.factor.block_count > 0 || changing->factor_is_old;
   changing->factor_is_old =
       had && !spore_block_cholesky_lay_out(&body->preconditioner.factor, &body->preconditioner.matrix);
@@ -132,7 +128,7 @@ static void take_nodes(SporeWorld *world, uint32_t index, const double *q) {
   body->total_mass = spore_model_total_mass(body->model);
   spore_body_list_held(body);
   world->state.dof += 3 * (body->block_count - body->held.count - free_before);
-  lay_out_matrix(body);
+  lay_out_solver(body);
   body->changing.step = world->state.step;
   move_ends(world, index);
   move_last_point(world, index, body->refinement.state.points - 1,

@@ -79,5 +79,7 @@ void spore_world_reset_refinement(SporeWorld *world);
 /* changing_matrix.c */
 /* Lists the blocks of the body that stand still: first those that `pinned` marks, then spare nodes. */
 void spore_body_list_held(SporeBody *body);
+/* Gives the body's matrix the present pattern of its model, within the room that was made. */
+void spore_body_lay_out_matrix(SporeBody *body);
 
 #endif
