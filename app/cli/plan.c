@@ -26,12 +26,19 @@ static void report_stage(SporeCli *cli, const SporePlanStage *stage, gboolean me
 static const char *const source_names[] = {"body", "scene", "automatic", "monitor"}; /* by SporeMethodSource */
 static const char *const source_words[] = {N_("body"), N_("scene"), N_("automatic"), N_("monitor")};
 
-static void append_source(GString *row, const char *what, SporeMethodSource source) {
-  g_autofree char *text = g_strdup_printf("%s (%s)", what, _(source_words[source]));
+/* Reports who chose. The solver section always has a value: where the author gave none, that is the default. */
+static void report_source(SporeCli *cli, const SporeDocument *document, const char *member, const char *what,
+                          SporeMethodSource source, GString *row) {
+  const SporeObject *solver = spore_document_section(document, "solver");
+  int property = spore_parameter_find(spore_object_type(solver)->table, member);
+  bool given = source != SPORE_SOURCE_SCENE || (property >= 0 && spore_object_is_set(solver, (guint)property));
+  spore_cli_text(cli, "said_by", given ? source_names[source] : "default");
+  g_autofree char *text = g_strdup_printf("%s (%s)", what, given ? _(source_words[source]) : _("default"));
   g_string_append_printf(row, " %-30s", text);
 }
 
-static void report_choice(SporeCli *cli, const char *member, const SporeChoice *choice, GString *row) {
+static void report_choice(SporeCli *cli, const SporeDocument *document, const char *member, const SporeChoice *choice,
+                          GString *row) {
   if (!choice->name) {
     json_builder_set_member_name(cli->report, member);
     json_builder_add_null_value(cli->report);
@@ -40,29 +47,28 @@ static void report_choice(SporeCli *cli, const char *member, const SporeChoice *
   }
   spore_cli_open(cli, member);
   spore_cli_text(cli, "name", choice->name);
-  spore_cli_text(cli, "said_by", source_names[choice->source]);
+  report_source(cli, document, member, choice->name, choice->source, row);
   spore_cli_close(cli);
-  append_source(row, choice->name, choice->source);
 }
 
-static void report_method(SporeCli *cli, const char *body, int width, const SporeMethod *method) {
+static void report_method(SporeCli *cli, const SporeDocument *document, const char *body, int width,
+                          const SporeMethod *method) {
   g_autoptr(GString) row = g_string_new(NULL);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "name", body);
-  report_choice(cli, "integrator", &method->integrator, row);
+  report_choice(cli, document, "integrator", &method->integrator, row);
   spore_cli_open(cli, "substeps");
   spore_cli_count(cli, "count", (gint64)method->substeps);
-  spore_cli_text(cli, "said_by", source_names[method->substeps_source]);
-  spore_cli_close(cli);
   g_autofree char *substeps = g_strdup_printf("%zu", method->substeps);
-  append_source(row, substeps, method->substeps_source);
-  report_choice(cli, "nonlinear", &method->nonlinear, row);
-  report_choice(cli, "linear", &method->linear, row);
+  report_source(cli, document, "substeps", substeps, method->substeps_source, row);
+  spore_cli_close(cli);
+  report_choice(cli, document, "nonlinear", &method->nonlinear, row);
+  report_choice(cli, document, "linear", &method->linear, row);
   spore_cli_close(cli);
   spore_cli_say(cli, "%-*s%s\n", width, body, g_strchomp(row->str));
 }
 
-static void report_bodies(SporeCli *cli, const SporeWorld *world) {
+static void report_bodies(SporeCli *cli, const SporeDocument *document, const SporeWorld *world) {
   SporeMethod method;
   gboolean titled = FALSE;
   int width = spore_cli_body_width(world);
@@ -73,7 +79,7 @@ static void report_bodies(SporeCli *cli, const SporeWorld *world) {
       spore_cli_say(cli, "%-*s %-30s %-30s %-30s %s\n", width, _("body"), _("integrator (source)"), _("substeps"),
                     _("nonlinear"), _("linear"));
     titled = TRUE;
-    report_method(cli, spore_world_body_name(world, body), width, &method);
+    report_method(cli, document, spore_world_body_name(world, body), width, &method);
   }
   spore_cli_close_array(cli);
 }
@@ -87,7 +93,7 @@ static int report_library(struct dl_phdr_info *info, gsize size, void *data) {
   return 0;
 }
 
-static void report(SporeCli *cli, const SporeWorld *world, gboolean measured) {
+static void report(SporeCli *cli, const SporeDocument *document, const SporeWorld *world, gboolean measured) {
   const SporePlan *plan = spore_world_plan(world);
   spore_cli_say(cli, "%-14s %-4s %7s %12s  %s\n", _("stage"), _("in?"), _("items"), _("measured"), _("why"));
   spore_cli_open_array(cli, "stages");
@@ -102,7 +108,7 @@ static void report(SporeCli *cli, const SporeWorld *world, gboolean measured) {
     spore_cli_say(cli, _("left out: %s (%s)\n"), plan->left_out[i].what, plan->left_out[i].reason);
   }
   spore_cli_close_array(cli);
-  report_bodies(cli, world);
+  report_bodies(cli, document, world);
   spore_cli_open_array(cli, "libraries");
   dl_iterate_phdr(report_library, cli);
   spore_cli_close_array(cli);
@@ -114,7 +120,7 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
                     "measured_us, the median")},
       {"left_out", N_("what the scene does not need: what, reason")},
       {"bodies", N_("that physics moves, each with its name, integrator, substeps, nonlinear and linear solver: name "
-                    "or count, and said_by (body, scene, automatic, monitor); null: nothing is solved")},
+                    "or count, and said_by (body, scene, default, automatic, monitor); null: nothing is solved")},
       {"libraries", N_("that the program uses")},
       {"mappings",
        N_("what is drawn and felt of each body that physics moves, with points of its own: name, unit (visual or "
@@ -154,7 +160,7 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   if (!run) return spore_cli_fail(error);
   for (int i = 0; measure && i < MEASURED_STEPS && !spore_cli_interrupted(); i++)
     spore_world_step(run->simulation->world);
-  report(cli, run->simulation->world, measure);
+  report(cli, run->document, run->simulation->world, measure);
   spore_plan_report_mapping(cli, run);
   spore_plan_report_lines(cli, run->simulation->world, measure);
   if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);

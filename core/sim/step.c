@@ -103,7 +103,7 @@ static const SporeStageType stages[] = {
     {"integrate", has_passive, spore_world_integrate, degrees_of_freedom, /**/
      N_("passive bodies move by physics"), N_("no body moves by physics")},
     {"reactions", has_terms, spore_world_add_reactions, bodies, /**/
-     N_("contacts and links push back"), N_("nothing touches and nothing is tied")},
+     N_("contacts or links push back"), N_("nothing touches and nothing is tied")},
     {"feedback", has_active, spore_world_feed_back, active_bodies, /**/
      N_("devices feel what active bodies touch"), N_("no body is driven by a device or a track")},
     {"accept", has_moving, spore_world_accept, bodies, /**/
@@ -158,7 +158,13 @@ static bool no_passive(const SporeWorld *world) { return !has_passive(world); }
 static bool no_exchange(const SporeWorld *world) { return !spore_world_exchanges_particles(world); }
 static bool no_tools(const SporeWorld *world) { return !has_tools(world); }
 static bool no_active(const SporeWorld *world) { return !has_active(world); }
-static bool no_links(const SporeWorld *world) { return links(world) == 0; }
+static bool has_pins(const SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].held.pin_count > 0) return true;
+  return false;
+}
+static bool no_links(const SporeWorld *world) { return links(world) == 0 && !has_pins(world); }
+static bool pins_alone(const SporeWorld *world) { return links(world) == 0 && has_pins(world); }
 
 static const struct {
   const char *what;
@@ -174,6 +180,7 @@ static const struct {
     {N_("tools"), no_tools, N_("no instrument does more than touch")},
     {N_("devices and feedback"), no_active, N_("no body is driven by a device or a track")},
     {N_("links"), no_links, N_("the scene has none")},
+    {N_("links other than pins"), pins_alone, N_("the scene has none")},
 };
 _Static_assert(sizeof spared / sizeof *spared <= SPORE_LEFT_OUT_MAXIMUM, "SPORE_LEFT_OUT_MAXIMUM");
 

@@ -7,7 +7,7 @@
 #include "core/sim/world.h"
 
 #define SPORE_STAGE_COUNT 24
-#define SPORE_LEFT_OUT_MAXIMUM 8
+#define SPORE_LEFT_OUT_MAXIMUM 9
 #define SPORE_COMMAND_CAPACITY 1024
 
 /* A stage of the step. */

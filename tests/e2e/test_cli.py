@@ -773,7 +773,12 @@ def plan_says_why():
     assert all(s["reason"] for s in answer["stages"])
     assert names["detect"]["included"] and "measured_us" in names["detect"]
     assert not names["link"]["included"] and "measured_us" not in names["link"]
-    assert answer["left_out"] and answer["libraries"]
+    left_out = {entry["what"] for entry in answer["left_out"]}
+    assert "links" in left_out and "links other than pins" not in left_out and answer["libraries"]
+    pinned = {entry["what"] for entry in report("plan", SCENES / "plate8-clamp.spore")["left_out"]}
+    assert "links other than pins" in pinned and "links" not in pinned, pinned
+    tied = {entry["what"] for entry in report("plan", SCENES / "plate1-ovary.spore")["left_out"]}
+    assert not any(what.startswith("links") for what in tied), tied
     assert not any("gtk" in library for library in answer["libraries"])
 
 
@@ -781,10 +786,12 @@ def plan_says_why():
 def plan_names_methods():
     """plan names for each body how it is integrated and solved, and whether the scene says so."""
     (body,) = report("plan", soft_ball())["bodies"]
-    assert body["integrator"] == {"name": "implicit_euler", "said_by": "scene"}
-    assert body["substeps"] == {"count": 1, "said_by": "scene"}
+    assert body["integrator"] == {"name": "implicit_euler", "said_by": "default"}
+    assert body["substeps"] == {"count": 1, "said_by": "default"}
     assert body["nonlinear"] == {"name": "newton", "said_by": "automatic"}
     assert body["linear"] == {"name": "conjugate_gradients", "said_by": "automatic"}
+    (body,) = report("plan", soft_ball(), "--integrator", "bdf2", "--set", "solver/substeps=1")["bodies"]
+    assert body["integrator"]["said_by"] == body["substeps"]["said_by"] == "scene"
     chosen = ["--set", "solver/nonlinear=broyden", "--set", "solver/linear=cholesky"]
     bodies = {b["name"]: b for b in report("plan", SCENES / "laparoscopy.spore", *chosen)["bodies"]}
     for tube in (bodies["tube_left"], bodies["tube_right"]):
