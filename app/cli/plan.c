@@ -129,6 +129,11 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
           "much farther than its carriers one moves at most; 1: among them), and the largest error at rest, "
           "after a rigid motion, an affine one (null: it follows a frame), and a bend of a tenth of its length: "
           "rest_error_m, rigid_error_m, affine_error_m, bend_error_m")},
+      {"pins",
+       N_("pins on lines, a row for each side with a free part: name, body, side (start or end), held (control "
+          "points), "
+          "clamp_beyond_m (where the line bends as if it were clamped, from the end of the pin's radius; null: it can "
+          "turn there), free_m (length outside the radius)")},
       {"levels",
        N_("where bodies have levels: each one's name, memory_bytes (of mappings, matrices and states that having "
           "levels takes), levels: level, active, dof, spheres, and with --measure measured_us, the median of a "
@@ -162,6 +167,7 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
     spore_world_step(run->simulation->world);
   report(cli, run->document, run->simulation->world, measure);
   spore_plan_report_mapping(cli, run);
+  spore_plan_report_pins(cli, run);
   spore_plan_report_lines(cli, run->simulation->world, measure);
   if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);
   return spore_cli_finish(cli, spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : SPORE_EXIT_DONE);

@@ -4,8 +4,10 @@
 
 #include <glib/gi18n.h>
 #include <math.h>
+#include <string.h>
 
 #include "core/scene/mapping_quality.h"
+#include "core/scene/pinned_line.h"
 
 /* Points that follow a body. */
 
@@ -64,6 +66,44 @@ void spore_plan_report_mapping(SporeCli *cli, const SporeRun *run) {
       titled = TRUE;
       report_unit(cli, body, width, spore_mapped_unit_names[unit], &quality);
     }
+  }
+  spore_cli_close_array(cli);
+}
+
+/* Pins on lines. */
+
+static void report_pin(SporeCli *cli, const SporeObject *pin, const char *towards, const SporePinnedSide *side) {
+  const char *body = spore_object_name(spore_object_reference(pin, "body"));
+  spore_cli_open(cli, NULL);
+  spore_cli_text(cli, "name", spore_object_name(pin));
+  spore_cli_text(cli, "body", body);
+  spore_cli_text(cli, "side", towards);
+  spore_cli_count(cli, "held", (gint64)side->held);
+  spore_cli_number(cli, "clamp_beyond_m", side->turns ? NAN : side->beyond_m);
+  spore_cli_number(cli, "free_m", side->free_m);
+  spore_cli_close(cli);
+  if (side->turns)
+    spore_cli_say(cli, _("pin %s: holds %zu control points of %s, which can turn there\n"), spore_object_name(pin),
+                  side->held, body);
+  else
+    spore_cli_say(cli,
+                  side->beyond_m > 0
+                      ? _("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m "
+                          "beyond the pin's radius\n")
+                      : _("pin %s: holds %zu control points of %s, which bends as if it were clamped %.2g m "
+                          "within the pin's radius\n"),
+                  spore_object_name(pin), side->held, body, fabs(side->beyond_m));
+}
+
+void spore_plan_report_pins(SporeCli *cli, const SporeRun *run) {
+  const SporeObject *links = spore_document_section(run->document, "links");
+  spore_cli_open_array(cli, "pins");
+  for (guint i = 0; i < spore_object_child_count(links); i++) {
+    SporeObject *link = spore_object_child(links, i);
+    SporePinnedSide side;
+    if (strcmp(spore_object_type(link)->element, "pin") != 0) continue;
+    if (spore_pinned_side_measure(run->simulation, link, -1, &side)) report_pin(cli, link, "start", &side);
+    if (spore_pinned_side_measure(run->simulation, link, 1, &side)) report_pin(cli, link, "end", &side);
   }
   spore_cli_close_array(cli);
 }

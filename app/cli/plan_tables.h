@@ -6,6 +6,8 @@
 
 /* How far what is drawn of a body, and its spheres, lies off where the body moves it. */
 void spore_plan_report_mapping(SporeCli *cli, const SporeRun *run);
+/* Where each pin on a line clamps that line. */
+void spore_plan_report_pins(SporeCli *cli, const SporeRun *run);
 /* Reports the levels of every body that has levels. steps: number of steps that measure each level, in a copy of the
  * scene where nothing else changes; 0: nothing is measured. FALSE with a GError where a copy cannot be made. */
 gboolean spore_plan_report_levels(SporeCli *cli, SporeRun *run, int steps, GError **error);

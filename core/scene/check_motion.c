@@ -236,6 +236,7 @@ void spore_check_motion(SporeCheck *check) {
   if (simulation) check_piles(check, simulation);
   if (simulation) check_doubts(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);
+  if (simulation) spore_check_pins(check, simulation);
   spore_simulation_free(simulation);
   g_array_sort(start.balls, by_left_end);
   check_overlaps(&start);

@@ -38,6 +38,8 @@ void spore_check_materials(SporeCheck *check);
 void spore_check_solver(SporeCheck *check); /* methods and contact choices without effect */
 /* Links whose points lie far from what they tie. */
 void spore_check_link_points(SporeCheck *check, const SporeSimulation *simulation);
+/* Pins that clamp a line elsewhere than at their radius. */
+void spore_check_pins(SporeCheck *check, const SporeSimulation *simulation);
 /* Drawn vertices and collision spheres that lie off the geometry that moves them. */
 void spore_check_mapping(SporeCheck *check, const SporeSimulation *simulation);
 void spore_check_motion(SporeCheck *check); /* overlaps and loose bodies; compiles the scene for it */

@@ -594,6 +594,26 @@ def bad_label_maps():
 
 
 @check
+def pins_on_lines_say_what_they_hold():
+    """plan says where a pinned line bends as if it were clamped; check does where the pin's radius says much else."""
+    file("pin/line.curve", "".join(f"{i / 200} 0 0 0.001\n" for i in range(21)))
+    for points, radius, held, beyond, noted in ((10, 0.02, 3, 0.29 / 7 * 0.1 - 0.02, True), (80, 0.02, 17, 14.29 / 77 * 0.1 - 0.02, False),
+                                                (10, 0, 1, None, False)):
+        scene = file("pin/pin.spore", f"""<spore version="1.0"><assets><curve name="c" file="line.curve"/></assets>
+            <bodies><body name="b"><mechanical geometry="c"><spline_1d control_points="{points}"/></mechanical></body></bodies>
+            <links><pin name="p" body="b" point="0 0 0" radius="{radius}"/></links></spore>""")
+        (pin,) = report("plan", scene)["pins"]
+        assert (pin["name"], pin["body"], pin["side"], pin["held"]) == ("p", "b", "end", held), pin
+        if beyond is None:
+            assert pin["clamp_beyond_m"] is None and "can turn" in spore("plan", scene).stdout
+        else:
+            assert abs(pin["clamp_beyond_m"] - beyond) < 1e-3 and abs(pin["free_m"] - 0.08) < 1e-3, pin
+        said = [d["message"] for d in report("check", scene)["diagnostics"] if "as if it were clamped" in d["message"]]
+        assert len(said) == noted, (points, said)
+    assert report("plan", soft_ball())["pins"] == []
+
+
+@check
 def run_reports_the_contract():
     """run --json gives what the contract promises."""
     answer = report("run", soft_ball(), "--steps", 500)

@@ -12,8 +12,9 @@ static const SporeParameter rows[] = {
     LINK_NAME(N_("Name of the pin.")),
     SPORE_ROW_BODY(SporeLinkDescription, body, body_a_name, N_("Body that is held.")),
     LINK_POINT(N_("Centre of what is held, in the scene.")),
-    SPORE_ROW_REAL(SporeLinkDescription, radius, "m", 0, SPORE_POSITION_MAXIMUM_M, 0.005,
-                   N_("Every part of the body nearer than this to the point at the start is held still.")),
+    SPORE_ROW_REAL(
+        SporeLinkDescription, radius, "m", 0, SPORE_POSITION_MAXIMUM_M, 0.005,
+        N_("Every node or control point of the body nearer than this to the point at the start is held still.")),
 };
 
 const SporeLinkType spore_link_pin = {.element = "pin",
