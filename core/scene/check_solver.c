@@ -132,13 +132,32 @@ static gboolean keeps_shape(const SporeObject *body) {
   return type && type->inertia && !type->jacobian;
 }
 
+/* Whether the body's spheres have weights: they were fitted to be summed up to one depth. */
+static gboolean has_weights(const SporeCheck *check, const SporeObject *collision) {
+  SporeObject *asset = spore_object_reference(collision, "spheres");
+  const SporeSphereSet *set = asset ? spore_document_spheres(check->document, asset, NULL) : NULL;
+  return set && set->weights;
+}
+
+static void check_weights(SporeCheck *check, const SporeObject *body, const SporeObject *collision, gboolean summed) {
+  if (summed || !has_weights(check, collision)) return;
+  gboolean soft = is_passive(body) && !keeps_shape(body);
+  spore_check_say(check, SPORE_NOTE, collision,
+                  soft ? _("generate spheres without weights: the body deforms")
+                       : _("set surface to depth_field, or generate spheres without weights"),
+                  _("the weights of the spheres of \"%s\" are not used: others feel each sphere by itself"),
+                  spore_object_name(body));
+}
+
 static void check_contact(SporeCheck *check, const SporeObject *body) {
   const SporeObject *collision = spore_object_child_of(body, "collision");
   if (!collision) return;
   SporeCollisionFields fields;
   spore_object_fields(collision, &fields);
   gboolean passive = (SporeRole)spore_object_number(body, "role") == SPORE_PASSIVE;
-  if (passive && fields.contact.surface == SPORE_SURFACE_DEPTH_FIELD && !keeps_shape(body))
+  gboolean fielded = fields.contact.surface == SPORE_SURFACE_DEPTH_FIELD;
+  check_weights(check, body, collision, fielded && (!passive || keeps_shape(body)));
+  if (passive && fielded && !keeps_shape(body))
     spore_check_say(check, SPORE_WARNING, collision, _("leave surface at spheres, or make the body rigid"),
                     _("the depth field of \"%s\" is not used: the body deforms, and others feel its spheres"),
                     spore_object_name(body));

@@ -161,7 +161,20 @@ static const Mistake mistakes[] = {
            "name=\"felt\" file=\"felt.spheres\"/></assets>\n"
            "<bodies>\n" FLOOR "<body name=\"stone\" position=\"0 -0.01 0\">" STONE
            "<collision spheres=\"felt\"/></body>\n</bodies>\n"),
+     {"note 5:1: \"stone\" and \"floor\" overlap by 9.95 mm", "note 5:95: the weights of the spheres of \"stone\""}},
+    {"weights-of-a-field", /* summed: nothing is said of them */
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\"/><spheres "
+           "name=\"felt\" file=\"felt.spheres\"/></assets>\n"
+           "<bodies>\n" FLOOR "<body name=\"stone\" position=\"0 -0.01 0\">" STONE
+           "<collision spheres=\"felt\" surface=\"depth_field\"/></body>\n</bodies>\n"),
      {"note 5:1: \"stone\" and \"floor\" overlap by 9.95 mm"}},
+    {"weights-of-a-soft-body",
+     SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" file=\"ball.spheres\"/><spheres "
+           "name=\"felt\" file=\"felt.spheres\"/></assets>\n"
+           "<bodies>\n" FLOOR
+           "<body name=\"skin\" position=\"0 0.3 0\"><mechanical geometry=\"cube\"><mass_spring_net/>"
+           "</mechanical><collision spheres=\"felt\"/></body>\n</bodies>\n"),
+     {"note 5:97: the weights of the spheres of \"skin\" are not used"}},
     {"overlap-in-a-group",
      BODIES("<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\"><collision spheres=\"ball\" "
             "group=\"1\"/></body>\n"
