@@ -14,7 +14,7 @@ uint64_t spore_clock_ns(void);
 typedef struct SporeProfilePhase {
   const char *name;
   uint64_t count;                         /* samples ever taken */
-  uint32_t recent[SPORE_PROFILE_SAMPLES]; /* ns, ring */
+  uint64_t recent[SPORE_PROFILE_SAMPLES]; /* ns, ring */
   uint64_t total_ns, max_ns;
 } SporeProfilePhase;
 
@@ -27,7 +27,7 @@ typedef struct SporeProfileSummary {
 uint64_t spore_profile_last_ns(const SporeProfilePhase *phase);
 /* Adds a sample. */
 void spore_profile_add(SporeProfilePhase *phase, uint64_t duration_ns);
-/* Sums up the samples so far; all 0 without samples. Works on a copy of 16 KiB on the stack. */
+/* Sums up the samples so far; all 0 without samples. Works on a copy of 32 KiB on the stack. */
 SporeProfileSummary spore_profile_summary(const SporeProfilePhase *phase);
 
 #endif

@@ -33,14 +33,15 @@ static double uncut_friction(const SporeSpring *spring, double stretch, double s
   return spring->stiffness * stretch + spring->damping * speed;
 }
 
+/* held is not a number where the bodies are not: a step that goes wrong comes by there. */
 double spore_spring_friction(const SporeSpring *spring, double stretch, double speed, double held) {
-  assert(spring->friction >= 0 && held >= 0);
+  assert(spring->friction >= 0 && !(held < 0));
   double most = spring->friction * held;
   return fmin(fmax(uncut_friction(spring, stretch, speed), -most), most);
 }
 
 bool spore_spring_slips(const SporeSpring *spring, double stretch, double speed, double held) {
-  assert(spring->friction >= 0 && held >= 0);
+  assert(spring->friction >= 0 && !(held < 0));
   return fabs(uncut_friction(spring, stretch, speed)) > spring->friction * held;
 }
 

@@ -116,6 +116,12 @@ void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, cons
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
+void spore_spring_term_hold(SporeSpringTerm *term) {
+  assert(term->a.prescribed && term->b.prescribed);
+  term->softening = (SporeSoftening){0, 0, 0};
+  spore_spring_term_force(term, NULL, NULL, NULL, NULL);
+}
+
 SporeMat3 spore_spring_term_jacobian(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                                      double c, double c2) {
   SporeVec3 a, b;

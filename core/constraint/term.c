@@ -164,6 +164,12 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
   scatter_pair(&term->a, &term->b, sites, term->force, f);
 }
 
+void spore_contact_term_hold(SporeContactTerm *term) {
+  assert(term->a.prescribed && term->b.prescribed);
+  term->softening = (SporeSoftening){0, 0, 0};
+  spore_contact_term_force(term, NULL, NULL, NULL, 0, NULL);
+}
+
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,
                                       double elapsed_s, double c, double c2) {
   assert(c >= 0 && c2 >= 0);

@@ -117,6 +117,9 @@ void spore_contact_term_force(SporeContactTerm *term, const SporeSite *sites, co
                               double elapsed_s, double *f);
 void spore_spring_term_force(SporeSpringTerm *term, const SporeSite *sites, const double *q, const double *v,
                              double *f);
+/* Sets the force of a term of which physics moves no end: a device may still feel the force. */
+void spore_contact_term_hold(SporeContactTerm *term);
+void spore_spring_term_hold(SporeSpringTerm *term);
 /* c (-df/dv) + c2 (-df/dx) for the motion of end a relative to end b; of a contact without what is not symmetric in it,
  * which is kept as its drag. */
 SporeMat3 spore_contact_term_jacobian(SporeContactTerm *term, const SporeSite *sites, const double *q, const double *v,

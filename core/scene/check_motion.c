@@ -176,8 +176,8 @@ static void check_margin(const Start *start, guint body) {
   if (!(margin > least)) return;
   spore_check_say(
       start->check, SPORE_WARNING, collision, _("take about a quarter of that radius"),
-      _("the margin of \"%s\" is %.3g m, more than the radius of its smallest sphere, %.3g m: pairs that far "
-        "apart cost as much as contacts, and neighbours that near never meet"),
+      _("the margin of \"%s\" is %.3g m, more than the radius of its smallest sphere, %.3g m: of a sphere no more "
+        "than its radius counts, pairs that far apart cost as much as contacts, and neighbours that near never meet"),
       spore_object_name(start->bodies->pdata[body]), margin, least);
 }
 

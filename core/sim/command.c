@@ -67,12 +67,6 @@ static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
   spore_world_wake_all(world);
 }
 
-static void thaw(SporeBody *body) {
-  body->frozen = false;
-  body->reported.trouble = SPORE_TROUBLE_NONE;
-  body->watch.started = false;
-}
-
 static void apply(SporeWorld *world, const SporeCommand *command) {
   if (command->kind == SPORE_COMMAND_GRAVITY) {
     set_gravity(world, command->vector);
@@ -97,7 +91,7 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
     set_contact(world, body, &command->contact);
     break;
   case SPORE_COMMAND_THAW:
-    thaw(body);
+    spore_body_thaw(body);
     break;
   case SPORE_COMMAND_LOD:
     spore_world_change_lod(world, command->body, command->level);

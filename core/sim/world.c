@@ -43,9 +43,8 @@ static void reset_body(SporeWorld *world, SporeBody *body) {
   body->method.integrator = body->method.chosen;
   body->reported.deep = body->reported.soft = body->altered = false;
   body->collision.soft_since = body->collision.soft_last = 0;
-  body->frozen = false;
   body->sleep.steps = 0;
-  body->reported.trouble = SPORE_TROUBLE_NONE;
+  spore_body_thaw(body);
   body->reported.notice = false;
   spore_body_forget_steps(world, body);
   body->device.has_input = false;

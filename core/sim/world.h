@@ -169,9 +169,9 @@ const double *spore_world_q(const SporeWorld *world, uint32_t body);
 /* Velocity of the body: 3 doubles a block of its model. A body without a model has 6: velocity and angular velocity,
  * world axes. Valid until the next step. */
 const double *spore_world_v(const SporeWorld *world, uint32_t body);
-/* Overwrites the state of a body, with as many numbers as spore_world_q and spore_world_v give. Wakes all bodies, and
- * drops the contacts and the friction of the state before. For carrying a state over to another world, and for tests.
- */
+/* Overwrites the state of a body, with as many numbers as spore_world_q and spore_world_v give. Lets the body move
+ * again if it was frozen, wakes all bodies, and drops the contacts and the friction of the state before. For carrying a
+ * state over to another world, and for tests. */
 void spore_world_set_state(SporeWorld *world, uint32_t body, const double *q, const double *v);
 /* Puts a body at a level of detail that it has, with the level's state at time 0. The caller sets the state next. */
 void spore_world_set_lod(SporeWorld *world, uint32_t body, SporeLodGrade level);
@@ -331,7 +331,8 @@ typedef struct SporeMonitor {
   uint64_t energy;           /* steps taken again since an explicit integrator made energy without bound; the body is
                                 integrated implicitly from then on */
   uint64_t not_converged;    /* steps whose solver ended above its tolerance; taken again where the residual is large or
-                                energy was gained */
+                                energy was gained; of three in a row of which nothing was solved, the body that is
+                                pulled hardest is frozen */
   uint64_t deep_contacts;    /* contacts deeper than the radius of the smaller sphere; reported only */
   uint64_t soft_contacts;    /* contacts at rest with less than half of the stiffness they should have; reported only */
   uint64_t over_budget;      /* steps that took longer than the budget; reported only */

@@ -47,6 +47,8 @@ struct SporeBody {
   SporeBodySleep sleep;
   SporeEnergyWatch watch;
   uint32_t pause, pauses; /* steps until recovery tries smaller steps again; length of the last pause */
+  uint32_t hopeless;      /* steps that could not be solved at all, in a row: see recovery.c */
+  uint64_t hopeless_step; /* number of the last one */
   SporeReported reported;
   SporeChangingMatrix changing; /* of a body that is split or refined */
   SporeNodeSplitting splitting;

@@ -4,7 +4,8 @@
 #include <assert.h>
 #include <math.h>
 
-#define EVEN 1e-12 /* moments that differ by no more, relative, are equal */
+#define EVEN 1e-12          /* moments that differ by no more, relative, are equal */
+#define SUBSTEPS_MAXIMUM 25 /* of free rotation in a step: 5 rad */
 
 bool spore_inertia_init(SporeInertia *inertia, SporeMat3 tensor) {
   inertia->tensor = tensor;
@@ -76,19 +77,20 @@ static void composed_step(FreeTop *top, const double inverse[3], double h) {
 /* Turns the top for h seconds, in substeps in which neither partial rotation exceeds 0.2 rad; the error of one substep
  * is then below 1e-14. The bounds on the rotations are constants of free motion, so that the number of substeps does
  * not change along the motion. One step of second order is enough where its error is below rounding: for a body of
- * revolution, or for a body that hardly turns. Above the maximum number of substeps the motion stays stable and keeps
- * its momentum, but loses phase. */
+ * revolution, or for a body that hardly turns. One step is taken, too, where more than the maximum number of substeps
+ * were needed: the motion stays stable and keeps its momentum, but loses phase, as it would in fewer substeps than it
+ * needs; more of them would be work for nothing. */
 static void turn(FreeTop *top, const double inverse[3], double h) {
   assert(isfinite(h));
   double square = 0, energy2 = 0, size = fabs(h);
   for (int i = 0; i < 3; i++) square += top->p[i] * top->p[i], energy2 += top->p[i] * top->p[i] * inverse[i];
   double fast = size * fmin(sqrt(square), sqrt(energy2 / inverse[0])) * (inverse[0] - inverse[1]);
   double slow = size * fmin(sqrt(square), sqrt(energy2 / inverse[2])) * (inverse[1] - inverse[2]);
-  if (fast * slow * (fast + slow) < 1e-17 || fmin(fast, slow) < 1e-12) {
+  double count = fmax(ceil(fmax(fast, slow) / 0.2), 1);
+  if (fast * slow * (fast + slow) < 1e-17 || fmin(fast, slow) < 1e-12 || !(count <= SUBSTEPS_MAXIMUM)) {
     strang_step(top, inverse, h);
     return;
   }
-  double count = fmin(fmax(ceil(fmax(fast, slow) / 0.2), 1), 1000);
   for (int i = 0; i < (int)count; i++) composed_step(top, inverse, h / count);
 }
 

@@ -201,8 +201,8 @@ static void test_name(void) {
   g_assert_null(spore_name_nearest(NULL, "colour"));
 }
 
-static int compare_u32(const void *a, const void *b) {
-  guint32 x = *(const guint32 *)a, y = *(const guint32 *)b;
+static int compare_u64(const void *a, const void *b) {
+  guint64 x = *(const guint64 *)a, y = *(const guint64 *)b;
   return x < y ? -1 : x > y;
 }
 
@@ -211,20 +211,24 @@ static void test_profile(void) {
   SporeProfileSummary summary = spore_profile_summary(phase);
   g_assert_cmpfloat(summary.median_us, ==, 0);
   GRand *random = g_rand_new_with_seed(3);
-  guint32 samples[SPORE_PROFILE_SAMPLES];
+  guint64 samples[SPORE_PROFILE_SAMPLES];
   for (int i = 0; i < 3 * SPORE_PROFILE_SAMPLES / 2; i++) {
-    guint32 ns = (guint32)g_rand_int_range(random, 0, i % 3 ? 1000 : 1000000);
+    guint64 ns = (guint64)g_rand_int_range(random, 0, i % 3 ? 1000 : 1000000);
     samples[i % SPORE_PROFILE_SAMPLES] = ns;
     spore_profile_add(phase, ns);
   }
   g_rand_free(random);
   spore_profile_add(phase, UINT64_C(10000000000));
-  samples[3 * SPORE_PROFILE_SAMPLES / 2 % SPORE_PROFILE_SAMPLES] = UINT32_MAX;
-  qsort(samples, SPORE_PROFILE_SAMPLES, sizeof samples[0], compare_u32);
+  samples[3 * SPORE_PROFILE_SAMPLES / 2 % SPORE_PROFILE_SAMPLES] = UINT64_C(10000000000);
+  qsort(samples, SPORE_PROFILE_SAMPLES, sizeof samples[0], compare_u64);
   summary = spore_profile_summary(phase);
-  g_assert_cmpfloat(summary.median_us, ==, samples[(SPORE_PROFILE_SAMPLES - 1) / 2] * 1e-3);
-  g_assert_cmpfloat(summary.p99_us, ==, samples[(SPORE_PROFILE_SAMPLES - 1) * 99 / 100] * 1e-3);
+  g_assert_cmpfloat(summary.median_us, ==, (double)samples[(SPORE_PROFILE_SAMPLES - 1) / 2] * 1e-3);
+  g_assert_cmpfloat(summary.p99_us, ==, (double)samples[(SPORE_PROFILE_SAMPLES - 1) * 99 / 100] * 1e-3);
   g_assert_cmpfloat(summary.max_us, ==, 1e7);
+  for (int i = 0; i < SPORE_PROFILE_SAMPLES; i++) spore_profile_add(phase, UINT64_C(10000000000));
+  summary = spore_profile_summary(phase);
+  g_assert_cmpfloat(summary.median_us, ==, 1e7);
+  g_assert_cmpfloat(summary.p99_us, ==, 1e7);
   g_free(phase);
   uint64_t start = spore_clock_ns();
   g_assert_cmpuint(spore_clock_ns(), >=, start);

@@ -758,6 +758,17 @@ def shipped_scenes_run():
 
 
 @check
+def frozen_bodies_are_named():
+    """Bodies that links hold freeze without harm to the run, which ends with 1 and names each of them."""
+    frozen = report("run", SCENES / "laparoscopy.spore", "--steps", 10, "--set", "solver/maximum_speed=0.1", status=1)
+    names = frozen["monitor"]["frozen"]
+    assert len(names) > 1, names
+    for name in names:
+        assert any(message.startswith(f"{name}: frozen") for message in frozen["monitor"]["messages"])
+        assert any(u["body"] == name and "stands still" in u["cause"] for u in frozen["monitor"]["unsolved"])
+
+
+@check
 def record_and_replay():
     """run --record writes a track that gives the same hash again."""
     scene, track = SCENES / "laparoscopy.spore", WORK / "again.track"

@@ -49,9 +49,11 @@ static const SporeParameter parameters[] = {
      .initial = {0},
      .offset = offsetof(SporeContactFields, margin),
      .change = SPORE_CHANGE_REBUILD,
-     .doc = N_("How far apart spheres may be when a step begins and yet stop each other in it, where both move "
-               "implicitly: for what is so light and pulled so hard that it crosses a gap within a step, as a thread "
-               "that is tied. A quarter of the radius serves there; each near pair costs as much as a contact.")},
+     .doc = N_(
+         "How far apart spheres may be when a step begins and yet stop each other in it, where both move "
+         "implicitly: for what is so light and pulled so hard that it crosses a gap within a step, as a thread "
+         "that is tied. A quarter of the radius serves there; each near pair costs as much as a contact. Of a sphere "
+         "no more than its radius counts.")},
     {.name = "group",
      .type = SPORE_INTEGER,
      .unit = "",

@@ -208,7 +208,7 @@ void spore_world_respond(SporeWorld *world) {
     /* Two bodies that physics does not move still press on each other, such as a tool on a wall. The force goes to the
      * tool's device. */
     SporeContactTerm *term = &world->contact.terms[i];
-    if (term->a.prescribed && term->b.prescribed) spore_contact_term_force(term, NULL, NULL, NULL, 0, NULL);
+    if (term->a.prescribed && term->b.prescribed) spore_contact_term_hold(term);
     const double *radius = world->contact.spheres.radius;
     if (term->depth > fmin(radius[term->sphere_a], radius[term->sphere_b])) spore_world_report_depth(world, term);
   }

@@ -63,13 +63,33 @@ bool spore_spheres_radii(const SporeSphereSet *set, double *radius, size_t strid
   return true;
 }
 
+/* Of the margin of a sphere no more than its radius counts: beyond, pairs grow as the square of the margin, and what
+ * comes from so far in a step is found by its way. */
+static double useful_margin(double margin, double radius) { return fmin(margin, radius); }
+
+static void report_margins(SporeWorld *world) {
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    const double *radius = world->contact.spheres.radius + body->collision.start;
+    double widest = 0;
+    for (size_t i = 0; i < body->collision.spheres.point_count; i++) widest = fmax(widest, radius[i]);
+    if (widest == 0 || !(body->collision.fields.margin > widest)) continue;
+    spore_world_report(world,
+                       _("%s: its margin of %.3g m counts as no more than the radius of each sphere, %.3g m at most; "
+                         "take about a quarter of the radius"),
+                       body->name, body->collision.fields.margin, widest);
+  }
+}
+
 bool spore_world_create_fields(SporeWorld *world, const SporeWorldDescription *description, SporeError *error) {
   assert(description->body_count == world->body_count);
   const SporeSpheres *spheres = &world->contact.spheres;
   world->contact.reach = SPORE_NEW_ARRAY(double, spheres->count);
   bool made = world->contact.reach;
   for (size_t i = 0; made && i < spheres->count; i++)
-    world->contact.reach[i] = spheres->radius[i] + world->bodies[spheres->body[i]].collision.fields.margin;
+    world->contact.reach[i] =
+        spheres->radius[i] + useful_margin(world->bodies[spheres->body[i]].collision.fields.margin, spheres->radius[i]);
+  report_margins(world);
   for (size_t b = 0; made && b < world->body_count; b++) {
     SporeBody *body = &world->bodies[b];
     if (!wants_field(body)) continue;

@@ -243,8 +243,10 @@ void spore_world_link(SporeWorld *world) {
   size_t count = spore_world_spring_count(world);
   for (size_t i = 0; i < count; i++) {
     if (!world->links.active[i]) continue;
-    spore_world_fill_end(world, &world->links.springs[i].a);
-    spore_world_fill_end(world, &world->links.springs[i].b);
+    SporeSpringTerm *term = &world->links.springs[i];
+    spore_world_fill_end(world, &term->a);
+    spore_world_fill_end(world, &term->b);
+    if (term->a.prescribed && term->b.prescribed) spore_spring_term_hold(term);
   }
 }
 

@@ -184,6 +184,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   if (body->parking_gap > 0) spore_body_find_parked(body, q);
   spore_pin_filter(body->held.blocks, body->held.count, world->state.next_v + body->v_offset);
   take_state(world, body);
+  spore_body_thaw(body);
   world->contact.count = world->contact.friction_count = 0; /* contacts belong to the state before */
   spore_world_lose_lines(world);
   show_state(world);

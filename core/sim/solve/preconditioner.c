@@ -102,7 +102,7 @@ void spore_body_forget_steps(const SporeWorld *world, SporeBody *body) {
   body->preconditioner.matrix_c = 0;
   body->history.step_s = 0;
   body->watch.started = false;
-  body->pause = body->pauses = 0;
+  body->pause = body->pauses = body->hopeless = 0;
   spore_body_reset_choice(world, body);
 }
 

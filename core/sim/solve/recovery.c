@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "core/math/vector.h"
-#include "core/sim/world_private.h"
+#include "core/sim/solve/island_system.h"
 
 #define SUBSTEPS_MAXIMUM 8
 /* A solution that misses its tolerance by no more than MISS_TO_STAND is counted and reported, but accepted: another
@@ -17,7 +17,13 @@
 #define MISS_OF_LOAD 1e-3
 #define MISS_OF_STEP 0.1 /* of the load: a worse solution is of little use */
 #define PAUSE_MAXIMUM 32 /* steps */
-#define EFFORT 3         /* iterations of all smaller steps together, in those that a step may take */
+#define EFFORT                                                                                                         \
+  3 /* iterations of all smaller steps together, in those that a step may take; 1 after a hopeless step                \
+     */
+/* A step is hopeless where each attempt misses this part of the load, or makes energy. After so many of them in a row,
+ * which is work for nothing, the body that is pulled hardest is frozen. */
+#define HOPELESS 0.5
+#define HOPELESS_MOST 3
 #define ITERATIONS_MINIMUM                                                                                             \
   4 /* left for each smaller step, or the attempt is not begun; 1 where a step may take fewer */
 
@@ -54,53 +60,25 @@ void spore_island_examine(SporeWorld *world, SporeIsland *island) {
   }
 }
 
-/* A body whose own forces are not finite at the last good state, or SPORE_NO_BODY. */
-static uint32_t broken_model(SporeWorld *world, const SporeIsland *island) {
-  assert(island->v_start + island->v_count <= world->state.v_count);
+/* Whether the body's velocity or own forces are not finite at the last good state. */
+static bool is_broken(SporeWorld *world, const SporeIsland *island, const SporeBody *body) {
+  assert(3 * body->block_count <= world->state.v_count - island->v_start);
+  const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
+  double *f = world->solve.best_v + island->v_start; /* free: no attempt is kept there yet */
+  if (!finite_all(v, 3 * body->block_count)) return true;
+  memset(f, 0, 3 * body->block_count * sizeof *f);
+  body->model->type->force(body->model, q, q, v, f);
+  return !finite_all(f, 3 * body->block_count);
+}
+
+/* The first such body of the island, or SPORE_NO_BODY. */
+static uint32_t broken_body(SporeWorld *world, const SporeIsland *island) {
+  assert(island->body_start + island->body_count <= world->body_count);
   for (size_t i = 0; i < island->kept_count; i++) {
     uint32_t b = world->solve.island_bodies[island->body_start + i];
-    const SporeBody *body = &world->bodies[b];
-    double *f = world->solve.best_v + island->v_start; /* free: nothing was tried again yet */
-    memset(f, 0, 3 * body->block_count * sizeof *f);
-    const double *q = world->state.q + body->q_offset;
-    body->model->type->force(body->model, q, q, world->state.v + body->v_offset, f);
-    if (!finite_all(f, 3 * body->block_count)) return b;
+    if (is_broken(world, island, &world->bodies[b])) return b;
   }
   return SPORE_NO_BODY;
-}
-
-static void prescribe(SporeWorld *world, SporeEnd *end, uint32_t body) {
-  assert(body < world->body_count);
-  if (end->body != body) return;
-  const SporeVec3 none = {0, 0, 0};
-  end->prescribed = true;
-  end->velocity = end->offset = none;
-  end->position = spore_mapping_position(end->mapping, end->point, world->state.q + world->bodies[body].q_offset);
-}
-
-/* Takes the body out of the island for good. For its terms the body stands still. */
-static void freeze(SporeWorld *world, SporeIsland *island, uint32_t index) {
-  assert(index < world->body_count && !world->bodies[index].frozen);
-  assert(island->kept_count >= 1);
-  uint32_t *bodies = world->solve.island_bodies + island->body_start;
-  world->bodies[index].frozen = true;
-  if (!spore_model_is_nodal(world->bodies[index].model))
-    spore_body_turn_mass(world, &world->bodies[index], world->state.q + world->bodies[index].q_offset);
-  size_t at = 0;
-  while (bodies[at] != index) at++;
-  assert(at < island->kept_count);
-  memmove(bodies + at, bodies + at + 1, (island->kept_count - at - 1) * sizeof *bodies);
-  bodies[--island->kept_count] = index;
-  for (size_t i = 0; i < island->contact_count; i++) {
-    SporeContactTerm *term = &world->contact.terms[world->contact.order[island->contact_start + i]];
-    prescribe(world, &term->a, index);
-    prescribe(world, &term->b, index);
-  }
-  for (size_t i = 0; i < island->spring_count; i++) {
-    SporeSpringTerm *term = &world->links.springs[world->links.order[island->spring_start + i]];
-    prescribe(world, &term->a, index);
-    prescribe(world, &term->b, index);
-  }
 }
 
 /* Method of the smaller steps. Implicit Euler is the most robust where bodies have Jacobians. Particles have none, and
@@ -178,6 +156,7 @@ typedef enum Worth {
 typedef struct Best {
   Worth worth;
   double residual;
+  double least; /* residual of all attempts that gained no energy */
 } Best;
 
 static void remember_best(SporeWorld *world, const SporeIsland *island, Best *best) {
@@ -185,8 +164,10 @@ static void remember_best(SporeWorld *world, const SporeIsland *island, Best *be
   if (island->trouble > SPORE_TROUBLE_NOT_CONVERGED) return;
   double residual = island->result.residual;
   Worth worth = gained_energy(world, island) ? WORTH_GAINED : residual < MISS_OF_STEP ? WORTH_STEP : WORTH_MISSED;
+  if (worth > WORTH_GAINED) best->least = fmin(best->least, residual);
   if (worth < best->worth || (worth == WORTH_STEP && best->worth == worth && residual >= best->residual)) return;
-  *best = (Best){worth, residual};
+  best->worth = worth;
+  best->residual = residual;
   memcpy(world->solve.best_q + island->q_start, island->q1, island->q_count * sizeof(double));
   memcpy(world->solve.best_v + island->v_start, island->v1, island->v_count * sizeof(double));
 }
@@ -227,16 +208,42 @@ static bool try_without_friction(SporeWorld *world, SporeIsland *island, size_t 
   return !effort.given_up && stands(world, island, MISS_OF_LOAD);
 }
 
+/* Whether a hopeless step would now be the next one in a row, pauses apart. */
+static bool is_row(const SporeWorld *world, const SporeBody *body) {
+  return body->hopeless > 0 && world->state.step <= body->hopeless_step + body->pauses + 1;
+}
+
+static bool was_hopeless(const SporeWorld *world, const SporeIsland *island) {
+  for (size_t i = 0; i < island->kept_count; i++)
+    if (is_row(world, &world->bodies[world->solve.island_bodies[island->body_start + i]])) return true;
+  return false;
+}
+
+/* Counts a hopeless step for all bodies of the island. True: it is one too many in a row. */
+static bool despairs(SporeWorld *world, const SporeIsland *island) {
+  uint64_t step = world->state.step;
+  bool despairs = false;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    SporeBody *body = &world->bodies[world->solve.island_bodies[island->body_start + i]];
+    if (!is_row(world, body)) body->hopeless = 0;
+    if (body->hopeless == 0 || step > body->hopeless_step) body->hopeless++;
+    body->hopeless_step = step;
+    despairs |= body->hopeless >= HOPELESS_MOST;
+  }
+  return despairs;
+}
+
 /* Tries smaller and smaller steps, as long as the iterations last. Once an attempt was worth a step, hopeless attempts
  * are given up early. In the end the best attempt is accepted: a valid state that is not solved to tolerance is better
- * than a frozen body. */
-static void try_substeps(SporeWorld *world, SporeIsland *island) {
+ * than a frozen body. False: the step is hopeless. */
+static bool try_substeps(SporeWorld *world, SporeIsland *island) {
   assert(world->solver.newton_iterations >= 1);
   bool helped = false;
-  Best best = {WORTH_NOTHING, HUGE_VAL};
+  Best best = {WORTH_NOTHING, HUGE_VAL, HUGE_VAL};
   remember_best(world, island, &best);
   size_t most = (size_t)world->solver.newton_iterations, least = most < ITERATIONS_MINIMUM ? 1 : ITERATIONS_MINIMUM;
-  SporeEffort effort = {.iterations = EFFORT * most * island->substeps};
+  size_t iterations = (was_hopeless(world, island) ? 1 : EFFORT) * most * island->substeps;
+  SporeEffort effort = {.iterations = iterations};
   for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM && !helped; substeps *= 2) {
     if (best.worth > WORTH_GAINED && effort.iterations < least * substeps * island->substeps) break;
     effort.hopeless = best.worth == WORTH_STEP ? MISS_OF_LOAD : HUGE_VAL;
@@ -246,9 +253,33 @@ static void try_substeps(SporeWorld *world, SporeIsland *island) {
     if (!helped) remember_best(world, island, &best);
   }
   if (!helped && best.worth <= WORTH_GAINED && island->contact_count > 0)
-    helped = try_without_friction(world, island, EFFORT * most * island->substeps);
+    helped = try_without_friction(world, island, iterations);
   if (!helped && best.worth > WORTH_NOTHING) restore_best(world, island, &best);
   set_pause(world, island, helped);
+  return helped || best.least < HOPELESS;
+}
+
+/* The body that the forces of the last good state would accelerate most, each body as a whole. */
+static uint32_t most_pulled(SporeWorld *world, SporeIsland *island) {
+  assert(island->kept_count >= 1);
+  spore_island_gather(world, island);
+  SporeIslandSystem system = {.world = world, .island = island, .now_s = -1};
+  SporeDynamics dynamics = spore_island_system_dynamics(&system);
+  double *f = world->solve.best_v + island->v_start; /* free: the step is not kept */
+  dynamics.set_time(dynamics.data, 0);
+  dynamics.force(dynamics.data, island->q0, island->v0, f);
+  uint32_t found = world->solve.island_bodies[island->body_start];
+  double most = -1;
+  for (size_t i = 0; i < island->kept_count; i++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(&system, i, &site);
+    SporeVec3 sum = {0, 0, 0};
+    for (size_t k = 0; k < body->block_count; k++)
+      if (body->model->block_mass[k] > 0) sum = spore_vec3_add(sum, spore_vec3_load(f + site->v + 3 * k));
+    double acceleration = spore_vec3_length(sum) / body->total_mass;
+    if (acceleration > most) most = acceleration, found = world->solve.island_bodies[island->body_start + i];
+  }
+  return found;
 }
 
 /* A method without damping that failed once will fail again, so the bodies keep the method that helped. */
@@ -268,18 +299,19 @@ void spore_island_recover(SporeWorld *world, SporeIsland *island) {
   bool paused = pauses(world, island);
   if (stands(world, island, paused ? 1 : MISS_OF_LOAD)) return;
   SporeTrouble worst = island->trouble;
-  uint32_t met = island->offender, broken = broken_model(world, island);
+  uint32_t met = island->offender, broken = broken_body(world, island);
   while (island->kept_count > 0) {
     if (broken == SPORE_NO_BODY) {
-      try_substeps(world, island);
-      if (island->trouble <= SPORE_TROUBLE_NOT_CONVERGED) break;
-      broken = island->offender;
+      bool hopeless = !try_substeps(world, island);
       if (island->trouble > worst) worst = island->trouble;
+      if (island->trouble > SPORE_TROUBLE_NOT_CONVERGED) broken = island->offender;
+      else if (hopeless && despairs(world, island)) broken = most_pulled(world, island);
+      else break;
     } else {
       worst = SPORE_TROUBLE_NOT_FINITE;
     }
-    freeze(world, island, broken);
-    broken = broken_model(world, island);
+    spore_island_freeze(world, island, broken);
+    broken = broken_body(world, island);
   }
   if (island->kept_count == 0) island->result = (SporeStepResult){.converged = true};
   else if (worst > SPORE_TROUBLE_NOT_CONVERGED) make_safer(world, island);

@@ -213,6 +213,13 @@ void spore_island_examine(SporeWorld *world, SporeIsland *island);
 /* Corrects a step in trouble, or accepts it. island->trouble is the worst that was met, also after it was corrected. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island);
 
+/* freezing.c */
+/* Takes the body out of the island for good; for its terms it stands still. The attempts so far were made with the
+ * body, so they are of no use, and the island's trouble says so. */
+void spore_island_freeze(SporeWorld *world, SporeIsland *island, uint32_t body);
+/* Lets a frozen body move again. */
+void spore_body_thaw(SporeBody *body);
+
 /* step_limit.c: false for a body that cannot be integrated as the scene asks; the error names the largest possible step
  * where the step is too large. */
 bool spore_body_check_step(const SporeWorld *world, uint32_t body, SporeError *error);

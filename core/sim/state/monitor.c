@@ -76,8 +76,10 @@ static void report_notice(SporeWorld *world, SporeBody *body) {
 /* Counts the bodies that this step did not move as the scene is written. */
 static void count_unsolved(SporeWorld *world) {
   for (uint32_t b = 0; b < world->body_count; b++) {
-    if (world->bodies[b].frozen) spore_world_count_unsolved(world, b, SPORE_UNSOLVED_FROZEN, 0);
-    else if (spore_world_body_made_safer(world, b)) spore_world_count_unsolved(world, b, SPORE_UNSOLVED_SAFER, 0);
+    const SporeBody *body = &world->bodies[b];
+    if (body->frozen) spore_world_count_unsolved(world, b, SPORE_UNSOLVED_FROZEN, 0);
+    else if (body->method.integrator != body->method.chosen)
+      spore_world_count_unsolved(world, b, SPORE_UNSOLVED_SAFER, 0);
   }
   for (size_t i = 0; i < world->solve.island_count; i++) {
     const SporeIsland *island = &world->solve.islands[i];
