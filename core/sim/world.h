@@ -392,7 +392,8 @@ typedef struct SporeStepCounts {
   size_t contacts, islands; /* of bodies that are awake */
   size_t sleeping;          /* bodies asleep during the step */
   size_t newton_iterations, linear_iterations, force_evaluations;
-  double residual; /* largest relative residual of the islands' solves; 0 for explicit ones */
+  double residual; /* largest relative residual of the equations that islands solved, evaluated again apart from the
+                      solver; 0 for explicit ones */
 } SporeStepCounts;
 /* Counts of the last step; all 0 before the first one. */
 SporeStepCounts spore_world_counts(const SporeWorld *world);

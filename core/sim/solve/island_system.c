@@ -343,6 +343,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .factor_cost = spore_island_system_factor_cost,
                          .factorised = spore_island_system_factorised,
                          .rounding = spore_island_system_rounding,
+                         .keep = spore_island_system_keep,
                          .distance = distance,
                          .held = system->island->integrator == SPORE_INTEGRATOR_STATIC && is_held(system),
                          .gravity_momentum = system->island->gravity_momentum};

@@ -26,9 +26,12 @@ typedef struct SporeIslandSystem {
   bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
   bool asked_couples, couples;                /* see spore_island_system_couples */
   double softened_s;                          /* the step that terms are softened for; 0: not softened */
+  SporeKeptEquations *equations;              /* where solved equations are kept; NULL: none is solved */
 } SporeIslandSystem;
 
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
+/* verify.c: the slot of SporeDynamics. */
+void spore_island_system_keep(void *data, const SporeEquation *equation);
 /* Whether a step of h seconds is short for all contacts of the island. */
 bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h);
 /* contact_lanes.c: writes the forces of contacts into the terms, after the last evaluation. */
