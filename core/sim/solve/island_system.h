@@ -30,8 +30,6 @@ typedef struct SporeIslandSystem {
 } SporeIslandSystem;
 
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
-/* verify.c: the slot of SporeDynamics. */
-void spore_island_system_keep(void *data, const SporeEquation *equation);
 /* Whether a step of h seconds is short for all contacts of the island. */
 bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h);
 /* contact_lanes.c: writes the forces of contacts into the terms, after the last evaluation. */

@@ -23,25 +23,6 @@
 #define MOVED 256.        /* last digits: so many that sums of few numbers do not round the change away */
 #define TRIALS 2
 
-void spore_island_system_keep(void *data, const SporeEquation *equation) {
-  const SporeIslandSystem *system = data;
-  SporeKeptEquations *equations = system->equations;
-  SporeSolve *solve = &system->world->solve;
-  assert(equations && equation->c >= 0 && equation->qa && equation->v);
-  assert(!system->shape || system->shape == equation->qa);
-  const SporeIsland *island = system->island;
-  size_t i = equations->count++ % SPORE_EQUATIONS, buffer = SPORE_EQUATIONS * equations->set + i;
-  equations->kept[i].c = equation->c;
-  equations->kept[i].load = equation->load;
-  equations->kept[i].at_s = system->now_s;
-  equations->kept[i].shaped = system->shape != NULL;
-  equations->kept[i].apart = system->apart;
-  if (equation->c == 0) equations->balance_load = equation->load;
-  memcpy(solve->kept_q[buffer] + island->q_start, equation->qa, island->q_count * sizeof(double));
-  memcpy(solve->kept_v[buffer] + island->v_start, equation->v, island->v_count * sizeof(double));
-  if (equation->va) memcpy(solve->kept_va[buffer] + island->v_start, equation->va, island->v_count * sizeof(double));
-}
-
 /* An equation, and vectors of 3 block_count to evaluate it in; q: of at most 4/3 of one. */
 typedef struct Equation {
   SporeIslandSystem system;
