@@ -191,9 +191,18 @@ static void test_names(void) {
   }
 }
 
+static bool is_counted(const SporeWorld *world, uint32_t body, SporeUnsolvedCause cause) {
+  for (size_t i = 0; i < spore_world_unsolved_count(world); i++) {
+    SporeUnsolved entry = spore_world_unsolved(world, i);
+    if (entry.body == body && !strcmp(entry.cause, spore_unsolved_cause(cause))) return true;
+  }
+  return false;
+}
+
 /* A world's steps with too few iterations are counted as unsolved, by the residual that was found; with enough there is
  * none. */
 static void test_counts(void) {
+  unsigned stand_ins = 0;
   for (size_t k = 0; k < G_N_ELEMENTS(kinds); k++)
     for (int enough = 0; enough < 2; enough++) {
       SporeWorld *world = make(kinds[k], 2, enough ? 50 : 1);
@@ -207,8 +216,13 @@ static void test_counts(void) {
       if (enough) g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0);
       else g_assert_cmpuint(spore_world_unsolved_count(world), >, 0);
       g_assert_cmpint(worst <= 1e-10, ==, enough);
+      /* Smaller steps are those of implicit Euler: it stands in for the others. */
+      bool stood_in = is_counted(world, 0, SPORE_UNSOLVED_STOOD_IN);
+      if (enough || kinds[k] == SPORE_INTEGRATOR_IMPLICIT_EULER) g_assert_false(stood_in);
+      stand_ins += stood_in;
       spore_world_free(world);
     }
+  g_assert_cmpuint(stand_ins, >=, 2);
 }
 
 /* A tie so stiff that the last digit of a position is more than the tolerance: no answer is good enough, and that is
@@ -241,12 +255,36 @@ static void test_rounding(void) {
   }
 }
 
+/* What recovery did with a step is counted by body, and nothing of it where it was not needed. */
+static void test_causes(void) {
+  static const SporeUnsolvedCause causes[] = {SPORE_UNSOLVED_RETAKEN, SPORE_UNSOLVED_FRICTION, SPORE_UNSOLVED_CAUSES};
+  for (size_t c = 0; c < G_N_ELEMENTS(causes); c++) {
+    SporeWorld *world = make(SPORE_INTEGRATOR_IMPLICIT_EULER, 2, 50);
+    SporeIsland *island = attempt(world, 50);
+    island->offender = 1;
+    island->frictionless = causes[c] == SPORE_UNSOLVED_FRICTION;
+    if (causes[c] == SPORE_UNSOLVED_RETAKEN) {
+      island->trouble = SPORE_TROUBLE_SPEED;
+      spore_island_recover(world, island);
+      spore_world_verify(world);
+      g_assert_cmpuint(island->mending_substeps, >, 0);
+      g_assert_cmpuint(island->equations.count, ==, island->mending_substeps);
+    }
+    g_assert_cmpfloat(island->verdict.residual, <=, 1e-10);
+    spore_world_report_islands(world);
+    g_assert_cmpuint(spore_world_unsolved_count(world), ==, causes[c] == SPORE_UNSOLVED_CAUSES ? 0 : 1);
+    if (causes[c] != SPORE_UNSOLVED_CAUSES) g_assert_true(is_counted(world, 1, causes[c]));
+    spore_world_free(world);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/verify/by_hand", test_by_hand);
   g_test_add_func("/verify/as_written", test_as_written);
   g_test_add_func("/verify/names", test_names);
   g_test_add_func("/verify/counts", test_counts);
+  g_test_add_func("/verify/causes", test_causes);
   g_test_add_func("/verify/rounding", test_rounding);
   return g_test_run();
 }

@@ -76,9 +76,11 @@ static void report_mended(SporeWorld *world, const SporeIsland *island) {
 
 static void report_notice(SporeWorld *world, SporeBody *body) {
   const SporeModel *model = body->model;
-  if (body->reported.notice || !model || !model->type->notice) return;
+  if (!model || !model->type->notice) return;
   const char *notice = model->type->notice(model, world->state.q + body->q_offset);
   if (!notice) return;
+  spore_world_count_unsolved(world, (uint32_t)(body - world->bodies), SPORE_UNSOLVED_MODEL, 0);
+  if (body->reported.notice) return;
   body->reported.notice = true;
   spore_world_report(world, "%s: %s", body->name, notice);
 }

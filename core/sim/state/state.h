@@ -37,6 +37,7 @@ typedef enum SporeUnsolvedCause {
   SPORE_UNSOLVED_FRICTION, /* friction was left out; no figure */
   SPORE_UNSOLVED_RETAKEN,  /* a step that went wrong was taken again in smaller ones; no figure */
   SPORE_UNSOLVED_STOOD_IN, /* another integrator than the scene's took the step; no figure */
+  SPORE_UNSOLVED_MODEL,    /* the model capped or mended something, or is not meant for its state; no figure */
   SPORE_UNSOLVED_SAFER,    /* another integrator than the scene's moves the body; no figure */
   SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
   SPORE_UNSOLVED_CAUSES

@@ -22,6 +22,8 @@ static const struct {
                                 N_("take a smaller time_step"), NULL},
     [SPORE_UNSOLVED_STOOD_IN] = {N_("another integrator took steps that the scene's could not take"),
                                  N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
+    [SPORE_UNSOLVED_MODEL] = {N_("its model is not meant for what became of it, as its message says"),
+                              N_("do what the message advises"), NULL},
     [SPORE_UNSOLVED_SAFER] = {N_("another integrator than the scene's moves it, since that one failed"),
                               N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
     [SPORE_UNSOLVED_FROZEN] = {N_("it stands still, since its motion could not be computed"),
