@@ -330,9 +330,9 @@ typedef struct SporeMonitor {
   uint64_t too_fast;         /* steps taken again since something was faster than maximum_speed */
   uint64_t energy;           /* steps taken again since an explicit integrator made energy without bound; the body is
                                 integrated implicitly from then on */
-  uint64_t not_converged;    /* steps whose solver ended above its tolerance; taken again where the residual is large or
-                                energy was gained; of three in a row of which nothing was solved, the body that is
-                                pulled hardest is frozen */
+  uint64_t not_converged;    /* steps that were accepted with a residual above the tolerance (SporeStepCounts.residual);
+                                taken again before where the residual is large or energy was gained; of three in a row
+                                of which nothing was solved, the body that is pulled hardest is frozen */
   uint64_t deep_contacts;    /* contacts deeper than the radius of the smaller sphere; reported only */
   uint64_t soft_contacts;    /* contacts at rest with less than half of the stiffness they should have; reported only */
   uint64_t over_budget;      /* steps that took longer than the budget; reported only */

@@ -254,9 +254,9 @@ static void verify_island(void *data, size_t index) {
     judge_also(verdict, &balance, tolerance);
   }
   bool solved = verdict->residual <= tolerance;
-  if (solved && !island->result.converged && !(island->result.residual <= tolerance))
+  if (solved && !island->result.converged && !(island->result.residual <= tolerance)) {
     *verdict = (SporeVerdict){.residual = island->result.residual, .body = island->offender}; /* of an earlier part */
-  else if (!solved && island->trouble <= SPORE_TROUBLE_NOT_CONVERGED) {
+  } else if (!solved && island->trouble <= SPORE_TROUBLE_NOT_CONVERGED) {
     island->trouble = SPORE_TROUBLE_NOT_CONVERGED;
     island->offender = verdict->body;
   }
