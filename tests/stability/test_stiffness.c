@@ -43,8 +43,8 @@ static void case_1_chain(void) {
 }
 
 /* Case 1: a net with stiff edges and soft diagonals, held at two corners, swings at 16 ms. Every step is solved, as far
- * as the digits of its positions allow, and what they do not allow is said. Its energy may only fall, and what does not stretch comes down by its 5 cm; how well the stiffest springs are solved
- * shows in their stretch. */
+ * as the digits of its positions allow, and what they do not allow is said. Its energy may only fall, and what does not
+ * stretch comes down by its 5 cm; how well the stiffest springs are solved shows in their stretch. */
 static void case_1_net(void) {
   const unsigned side = 6, edges = 2 * side * (side - 1) + (side - 1) * (side - 1);
   for (int decade = 0; decade <= 12; decade += 2) {
