@@ -11,6 +11,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* An equation that a step solved, with its answer, so that others than the solver can evaluate it:
+ *   M (v - va) = c f(drift(qa, v, c), v),   M being that at qa.
+ * c = 0 stands for the balance of forces, f(qa, v) = 0. */
+typedef struct SporeEquation {
+  double c;                  /* s */
+  double load;               /* norm (r.M^-1 r)^1/2 that the tolerance of the residual r is a part of */
+  const double *qa, *va, *v; /* va: NULL where c = 0 */
+} SporeEquation;
+
 typedef struct SporeDynamics {
   void *data;
   size_t q_count, block_count;
@@ -54,6 +63,8 @@ typedef struct SporeDynamics {
   /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries, by the diagonal of the current A where that was made: along
    * the soft axes alone, or along the stiff ones too. */
   double (*rounding)(void *data, double c, bool stiff_axes);
+  /* Keeps a copy of an equation that was solved, or was not, for whoever checks the step. */
+  void (*keep)(void *data, const SporeEquation *equation);
   /* Largest root mean square displacement of a body, (x.M x / mass)^1/2, m; x in m. */
   double (*distance)(void *data, const double *x);
   bool held;               /* by pins, or by links to what does not follow from q */

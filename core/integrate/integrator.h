@@ -6,7 +6,7 @@
 #include "core/integrate/solver.h"
 
 typedef struct SporeStepResult {
-  bool converged; /* explicit ones always do */
+  bool converged; /* to the tolerance, or to rounding where that is more (see `residual`); explicit ones always do */
   size_t newton_iterations, linear_iterations, force_evaluations;
   size_t linearisations, unsolved; /* unsolved: linear systems that did not reach their tolerance */
   double residual;                 /* relative */

@@ -149,6 +149,7 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
     }
     pseudo_step = h; /* what was learnt before does not hold here */
   }
+  dynamics->keep(dynamics->data, &(SporeEquation){.load = wanted, .qa = balance.base, .v = balance.moved});
   history->step_s = result.converged ? balance.pseudo_step : 0;
   memcpy(q1, balance.base, dynamics->q_count * sizeof *q1);
   memcpy(v1, balance.moved, n * sizeof *v1);

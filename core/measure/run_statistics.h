@@ -10,7 +10,7 @@ typedef struct SporeRunStatistics {
   double energy_drift;             /* largest |energy - energy_start| of these calls, J */
   double contacts, newton, linear; /* sums over the steps */
   size_t contacts_max, newton_max, linear_max;
-  double residual_max; /* relative, worst of all implicit solves */
+  double residual_max; /* relative, worst of all steps: see SporeStepCounts */
 } SporeRunStatistics;
 
 void spore_run_statistics_start(SporeRunStatistics *statistics, const SporeWorld *world);

@@ -124,15 +124,17 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
   size_t n = system->count, since = 0;
   double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
   double *g = scratch + 3 * n, *weights = scratch + 4 * n, *weights_before = scratch + 5 * n;
+  double *best = scratch + 6 * n; /* x of the least residual */
   History history = {.system = system};
   for (size_t k = 0; k < MEMORY; k++) {
-    history.change[k] = scratch + (6 + 2 * k) * n;
-    history.path[k] = scratch + (7 + 2 * k) * n;
+    history.change[k] = scratch + (7 + 2 * k) * n;
+    history.path[k] = scratch + (8 + 2 * k) * n;
   }
   SporeNonlinearResult result = {0};
   SporeConvergence test;
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
   if (result.converged) return result;
+  memcpy(best, x, n * sizeof *x);
   bool fresh = !system->reuse(system->data, x), pending = false;
   if (fresh) {
     system->linearise(system->data, x, NULL);
@@ -172,6 +174,7 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
       memcpy(x, trial, n * sizeof *x);
       memcpy(r, trial_r, n * sizeof *r);
       spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
+      if (test.norm <= test.least) memcpy(best, x, n * sizeof *x);
       since++;
       if (result.converged) break;
     }
@@ -186,9 +189,11 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
       start = test.norm;
     }
   }
+  if (result.converged && test.norm > test.least) spore_convergence_return(&test, n, best, test.least, x, &result);
   if (result.converged || !result.finite) return result;
   SporeNonlinearOptions left = *options;
   left.iterations -= result.iterations / 2;
   left.linearised = fresh && since == 0;
+  left.load = test.scale_r;
   return hand_over(system, &left, x, r, scratch, result);
 }

@@ -3,13 +3,21 @@
 
 #include <assert.h>
 #include <math.h>
+#include <string.h>
+
+#define STALLS_ABOVE 0.5 /* of the least residual so far: an iteration that leaves more has gained nothing */
+#define STALLS 2         /* such iterations: the residual has ceased to fall */
+#define FAILURE 0.1      /* of the load: a residual above is no matter of rounding, and other attempts may do better */
 
 bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, const SporeNonlinearOptions *options,
                              double norm, SporeNonlinearResult *result) {
   assert(options->tolerance > 0);
   assert(system->scale_r >= 0 && system->scale_x >= 0);
-  *test = (SporeConvergence){options->tolerance, fmax(norm, system->scale_r), norm};
+  double load = fmax(norm, system->scale_r);
+  if (options->load > 0) load = fmin(load, options->load);
+  *test = (SporeConvergence){.tolerance = options->tolerance, .scale_r = load, .norm = norm, .least = norm};
   result->finite = isfinite(norm);
+  result->load = test->scale_r;
   /* A is no less than the matrix of `dot`, so the change that is still missing is at most the norm; where something
    * buckles it may be more, and that is what so small a disturbance would do. Only the load that the system names
    * counts here: beside the residual itself any guess would do. */
@@ -18,33 +26,47 @@ bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, 
   return result->finite;
 }
 
-/* A residual down to rounding counts as solved only where it is at most this part of the load: where rounding is as
- * large as the load, nothing has been computed, and that is reported. Where nothing loads the system, as in a body at
- * rest that nothing pulls or touches, there is nothing but rounding. */
-#define ROUNDING_OF_LOAD 0.1
+/* Where nothing loads the system, as in a body at rest that nothing pulls or touches, there is nothing but rounding. */
+static bool is_loaded(const SporeSystem *system, const double *x) {
+  return system->scale_r > 0 || !system->load || system->load(system->data, x) > 0;
+}
 
-static bool within_load(const SporeConvergence *test) { return test->norm <= ROUNDING_OF_LOAD * test->scale_r; }
+/* Down to rounding nothing is left to gain, so that the iteration ends as one that converged. Whether the residual is
+ * within the tolerance, too, is for its reader. */
+static void end_at_rounding(const SporeSystem *system, const double *x, SporeNonlinearResult *result) {
+  if (!is_loaded(system, x)) result->residual = 0;
+  result->converged = true;
+}
 
-static bool accept_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
-                            SporeNonlinearResult *result) {
-  bool loaded = system->scale_r > 0 || !system->load || system->load(system->data, x) > 0;
-  if (!loaded) result->residual = 0;
-  return !loaded || within_load(test);
+/* By an estimate from above, along the stiff axes. */
+static bool is_near_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x) {
+  if (test->norm > FAILURE * test->scale_r && is_loaded(system, x)) return false;
+  return test->norm <= system->rounding(system->data, x, true);
 }
 
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                                 SporeNonlinearResult *result) {
   assert(system->rounding);
   if (test->norm > system->rounding(system->data, x, false)) return false;
-  result->converged = accept_rounding(test, system, x, result);
+  if (test->stalls < STALLS && is_loaded(system, x)) return false;
+  end_at_rounding(system, x, result);
   return true;
 }
 
 void spore_convergence_end(const SporeConvergence *test, const SporeSystem *system, const double *x,
                            SporeNonlinearResult *result) {
   if (result->converged || result->linearisations == 0) return;
-  if (test->norm <= system->rounding(system->data, x, true))
-    result->converged = accept_rounding(test, system, x, result);
+  if (is_near_rounding(test, system, x)) end_at_rounding(system, x, result);
+}
+
+/* Along what is very stiff, rounding may be more than the tolerance. It is estimated from above, so that a residual
+ * below it counts as rounding only where it has ceased to fall. Iterations may lead far away and back in between. */
+static bool has_stalled(SporeConvergence *test, const SporeSystem *system, const double *x) {
+  bool falls = test->norm <= STALLS_ABOVE * test->least;
+  test->least = fmin(test->least, test->norm);
+  if (falls) test->stalls = 0;
+  else if (is_near_rounding(test, system, x)) test->stalls++;
+  return test->stalls >= STALLS;
 }
 
 void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,
@@ -55,13 +77,19 @@ void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, c
   result->iterations++;
   result->residual = norm == 0 ? 0 : norm / test->scale_r;
   result->converged = false;
-  bool small = norm <= test->tolerance * test->scale_r;
-  if (!small && !within_load(test)) return;
+  bool small = norm <= test->tolerance * test->scale_r, stalled = has_stalled(test, system, x);
+  if (!small && !stalled) return;
   /* What is still missing: the change made, times how much the residual shrank with it. */
   double change = length * sqrt(system->dot(system->data, d, d));
   double size = fmax(sqrt(system->dot(system->data, x, x)), system->scale_x);
   double missing = before > 0 ? change * fmin(norm / before, 1) : 0;
-  if (missing > test->tolerance * size) return;
-  /* Along what is very stiff, rounding is more than the tolerance, and more iterations would only stir it. */
-  result->converged = small || norm <= system->rounding(system->data, x, true);
+  result->converged = !small || missing <= test->tolerance * size;
+}
+
+void spore_convergence_return(SporeConvergence *test, size_t n, const double *to, double norm, double *x,
+                              SporeNonlinearResult *result) {
+  assert(to != x || n == 0);
+  memcpy(x, to, n * sizeof *x);
+  test->norm = norm;
+  result->residual = norm == 0 ? 0 : norm / test->scale_r;
 }

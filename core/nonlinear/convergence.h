@@ -6,6 +6,8 @@
 
 typedef struct SporeConvergence {
   double tolerance, scale_r, norm;
+  double least;  /* norm so far */
+  size_t stalls; /* iterations since then that gained nothing, with a residual near rounding */
 } SporeConvergence;
 
 /* Residual norm below which the residual is a gradient to go far by; farther from the answer it is none, since bodies
@@ -18,8 +20,8 @@ static inline double spore_convergence_near(const SporeConvergence *test, const 
  * A guess as good as any answer is convergence already: a residual within tolerance of scale_r, and of scale_x. */
 bool spore_convergence_begin(SporeConvergence *test, const SporeSystem *system, const SporeNonlinearOptions *options,
                              double norm, SporeNonlinearResult *result);
-/* True when the residual is down to rounding, so that nothing is left to gain: convergence too, unless rounding is as
- * large as the load. Needs a current linearisation. */
+/* True when the residual is down to rounding and does not fall any more, so that nothing is left to gain: the iteration
+ * has converged then. Needs a current linearisation. */
 bool spore_convergence_rounding(const SporeConvergence *test, const SporeSystem *system, const double *x,
                                 SporeNonlinearResult *result);
 /* At the end: a residual down to rounding along the stiff axes counts as convergence too. */
@@ -28,5 +30,8 @@ void spore_convergence_end(const SporeConvergence *test, const SporeSystem *syst
 /* After x moved by length * d to a residual of norm `norm`: counts the iteration and tests. */
 void spore_convergence_step(SporeConvergence *test, const SporeSystem *system, const double *x, const double *d,
                             double length, double norm, SporeNonlinearResult *result);
+/* Goes back to the point `to`, where the residual's norm was `norm`. x, to: n doubles. */
+void spore_convergence_return(SporeConvergence *test, size_t n, const double *to, double norm, double *x,
+                              SporeNonlinearResult *result);
 
 #endif

@@ -72,10 +72,12 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   double *d = scratch, *trial = scratch + n, *trial_r = scratch + 2 * n;
   Trust trust = {.x = scratch + 3 * n, .d = scratch + 4 * n, .r = scratch + 5 * n};
   double *from = scratch + 6 * n; /* where x was before the last step */
+  double *best = scratch + 7 * n; /* x of the least residual */
   SporeNonlinearResult result = {0};
   SporeConvergence test;
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
   bool whole = false; /* A alone leads from afar to the answer that has gained no energy, but near it may creep */
+  memcpy(best, x, n * sizeof *x);
   double previous = 0, near = spore_convergence_near(&test, system);
   while (!result.converged && result.iterations < options->iterations) {
     if (result.iterations > 0 || !options->linearised) {
@@ -127,14 +129,13 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     memcpy(r, trial_r, n * sizeof *r);
     previous = test.norm;
     spore_convergence_step(&test, system, x, d, length, trial_norm, &result);
+    if (test.norm <= test.least) memcpy(best, x, n * sizeof *x);
     result.converged |= solved;
     if (last) break;
   }
-  if (trust.given && !(test.norm < trust.norm)) {
-    memcpy(x, trust.x, n * sizeof *x);
-    test.norm = trust.norm;
-    result.residual = test.norm / test.scale_r;
-  }
+  if (result.converged && test.norm > test.least) spore_convergence_return(&test, n, best, test.least, x, &result);
+  else if (trust.given && !(test.norm < trust.norm))
+    spore_convergence_return(&test, n, trust.x, trust.norm, x, &result);
   spore_convergence_end(&test, system, x, &result);
   return result;
 }

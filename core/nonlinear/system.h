@@ -48,20 +48,24 @@ typedef struct SporeNonlinearOptions {
   size_t iterations; /* Newton's, at most */
   double tolerance;  /* of the residual and of the next change of x, both relative */
   bool linearised;   /* the system is, at the guess: Newton's method begins with that */
+  double load;       /* where another method goes on: norm that its residual was relative to, the most that this one's
+                        may be; 0: this is the first */
 } SporeNonlinearOptions;
 
 typedef struct SporeNonlinearResult {
-  bool converged, finite;
+  bool converged; /* the residual is within the tolerance, or is down to rounding and does not fall any more */
+  bool finite;
   size_t iterations, linear_iterations, evaluations, linearisations;
   size_t unsolved; /* linear systems that did not reach their tolerance */
   double residual; /* relative, at the x returned */
+  double load;     /* norm that the residual is relative to */
   bool indefinite; /* the linear solver met a direction of negative curvature */
 } SporeNonlinearResult;
 
 /* Newton's method with inexact linear solves and a line search. x holds the guess, and the answer after it; what is
  * best so far when it did not converge. r: the residual at the guess, overwritten. scratch: SPORE_NEWTON_SCRATCH x
  * count doubles. */
-#define SPORE_NEWTON_SCRATCH 7
+#define SPORE_NEWTON_SCRATCH 8
 SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinearOptions *options, double *x, double *r,
                                   double *scratch);
 
@@ -71,7 +75,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
  * iterations it saves, by how the residual shrinks, and hands over to Newton where that fails or takes more iterations
  * than Newton may. Its own are cheap and count half: together they are at most one and a half times as many. */
 #define SPORE_BROYDEN_MEMORY 8
-#define SPORE_BROYDEN_SCRATCH (6 + 2 * SPORE_BROYDEN_MEMORY)
+#define SPORE_BROYDEN_SCRATCH (7 + 2 * SPORE_BROYDEN_MEMORY)
 SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonlinearOptions *options, double *x,
                                    double *r, double *scratch);
 

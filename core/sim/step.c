@@ -49,6 +49,20 @@ static bool has_explicit(const SporeWorld *world) {
   return false;
 }
 
+/* Whether some step may solve equations: that of an implicit body, or of bodies with methods of their own that meet. In
+ * place of other explicit steps implicit Euler may stand, where something is fast or goes wrong; but not of particles.
+ */
+static bool may_solve(const SporeWorld *world) {
+  size_t passive = 0;
+  for (size_t b = 0; b < world->body_count; b++) {
+    const SporeBody *body = &world->bodies[b];
+    if (body->role != SPORE_PASSIVE) continue;
+    if (spore_integrator(body->method.chosen)->implicit || !body->model->type->rates) return true;
+    passive++;
+  }
+  return passive > 1;
+}
+
 static bool may_soften(const SporeWorld *world) { return may_touch(world) && has_explicit(world); }
 
 /* Items: what a stage works on. */
@@ -102,6 +116,8 @@ static const SporeStageType stages[] = {
      N_("bodies that touch are solved together"), N_("no body moves by physics")},
     {"integrate", has_passive, spore_world_integrate, degrees_of_freedom, /**/
      N_("passive bodies move by physics"), N_("no body moves by physics")},
+    {"verify", may_solve, spore_world_verify, degrees_of_freedom, /**/
+     N_("what steps solve is evaluated again, apart from the solver"), N_("no step solves equations")},
     {"reactions", has_terms, spore_world_add_reactions, bodies, /**/
      N_("contacts or links push back"), N_("nothing touches and nothing is tied")},
     {"feedback", has_active, spore_world_feed_back, active_bodies, /**/

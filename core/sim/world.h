@@ -330,9 +330,9 @@ typedef struct SporeMonitor {
   uint64_t too_fast;         /* steps taken again since something was faster than maximum_speed */
   uint64_t energy;           /* steps taken again since an explicit integrator made energy without bound; the body is
                                 integrated implicitly from then on */
-  uint64_t not_converged;    /* steps whose solver ended above its tolerance; taken again where the residual is large or
-                                energy was gained; of three in a row of which nothing was solved, the body that is
-                                pulled hardest is frozen */
+  uint64_t not_converged;    /* steps that were accepted with a residual above the tolerance (SporeStepCounts.residual);
+                                taken again before where the residual is large or energy was gained; of three in a row
+                                of which nothing was solved, the body that is pulled hardest is frozen */
   uint64_t deep_contacts;    /* contacts deeper than the radius of the smaller sphere; reported only */
   uint64_t soft_contacts;    /* contacts at rest with less than half of the stiffness they should have; reported only */
   uint64_t over_budget;      /* steps that took longer than the budget; reported only */
@@ -392,7 +392,8 @@ typedef struct SporeStepCounts {
   size_t contacts, islands; /* of bodies that are awake */
   size_t sleeping;          /* bodies asleep during the step */
   size_t newton_iterations, linear_iterations, force_evaluations;
-  double residual; /* largest relative residual of the islands' solves; 0 for explicit ones */
+  double residual; /* largest relative residual of the equations that islands solved, evaluated again apart from the
+                      solver; 0 for explicit ones */
 } SporeStepCounts;
 /* Counts of the last step; all 0 before the first one. */
 SporeStepCounts spore_world_counts(const SporeWorld *world);

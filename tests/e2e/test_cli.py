@@ -628,6 +628,24 @@ def run_reports_the_contract():
 
 
 @check
+def run_measures_what_is_solved():
+    """A status of 0 means a residual within the tolerance, measured; one above by rounding alone is told as such."""
+    scene = str(SCENES / "suture.spore")
+    fine = report("run", scene, "--steps", 60, "--dt", "1e-6")
+    assert fine["monitor"]["unsolved"] == [] and fine["solver"]["residual_max"] <= 1e-3, fine["solver"]
+    stiff = report("run", str(SCENES / "plate4-deformed-ovary.spore"), "--steps", 20, "--set",
+                   "links/right_cord_1/stiffness=1e12", "--set", "solver/tolerance=1e-5", status=1)
+    assert stiff["solver"]["residual_max"] > 1e-5
+    for entry in stiff["monitor"]["unsolved"]:
+        assert entry["body"] == "ovary_right" and entry["worst"] > 1e-5 and entry["steps"] <= 20, entry
+    assert any("rounding" in entry["cause"] and "tolerance" in entry["remedy"] for entry in stiff["monitor"]["unsolved"])
+    stages = [stage["name"] for stage in stiff["stages"]]
+    assert stages.index("integrate") < stages.index("verify") < stages.index("accept")
+    plan = {stage["name"]: stage for stage in report("plan", str(SCENES / "table1-fluid.spore"))["stages"]}
+    assert not plan["verify"]["included"] and plan["verify"]["reason"] == "no step solves equations"
+
+
+@check
 def run_says_what_did_not_hold():
     """A run whose equations were not solved ends with 1 and names the body; one that keeps pace says how well."""
     unsolved = report("run", soft_ball(), "--steps", 200, "--set", "solver/newton_iterations=1", "--set",

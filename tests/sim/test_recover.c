@@ -127,15 +127,20 @@ static void test_pause(void) {
 }
 
 /* The register of unsolved steps: an entry a body and cause, each step once, the largest figure; empty where all was
- * solved, and after a reset. */
+ * solved, and after a reset. A few of the steps may be unsolved by rounding alone. */
 static void test_register(void) {
   SporeWorld *world = make(1e5, NEWTON, 2);
   g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0);
   for (uint64_t step = 1; step <= STEPS; step++) spore_world_step(world);
-  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 1);
+  size_t count = spore_world_unsolved_count(world);
   SporeUnsolved entry = spore_world_unsolved(world, 0);
+  uint64_t rounded = count > 1 ? spore_world_unsolved(world, 1).steps : 0;
+  g_assert_cmpuint(count, <=, 2);
+  if (count > 1)
+    g_assert_cmpstr(spore_world_unsolved(world, 1).cause, ==, spore_unsolved_cause(SPORE_UNSOLVED_ROUNDING));
   g_assert_cmpuint(entry.body, ==, 0);
-  g_assert_cmpuint(entry.steps, ==, spore_world_monitor(world)->not_converged);
+  g_assert_cmpuint(entry.steps, >, 10 * rounded);
+  g_assert_cmpuint(entry.steps + rounded, ==, spore_world_monitor(world)->not_converged);
   g_assert_cmpfloat(entry.worst, >, 1e-10);
   g_assert_cmpstr(entry.unit, ==, "");
   spore_world_count_unsolved(world, 0, SPORE_UNSOLVED_RESIDUAL, 2 * entry.worst);
@@ -144,8 +149,8 @@ static void test_register(void) {
   SporeUnsolved again = spore_world_unsolved(world, 0);
   g_assert_cmpuint(again.steps, ==, entry.steps + 1);
   g_assert_cmpfloat(again.worst, ==, 2 * entry.worst);
-  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 2);
-  g_assert_null(spore_world_unsolved(world, 1).unit);
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, count + 1);
+  g_assert_null(spore_world_unsolved(world, count).unit);
   spore_world_count_unsolved(world, 0, SPORE_UNSOLVED_RESIDUAL, NAN);
   g_assert_true(isinf(spore_world_unsolved(world, 0).worst));
   spore_world_reset(world);

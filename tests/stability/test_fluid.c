@@ -22,6 +22,9 @@ static void case_27(void) {
     memcpy(q + 3 * (i + 1), q + 3 * i, 3 * sizeof *q);
     q[3 * (i + 1) + i % 3] += i < 30 ? 0.01 * sigma : 0;
   }
+  rig_run(world, 10);
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0); /* as it was made, nothing is capped */
+  spore_world_reset(world);
   spore_world_set_state(world, 0, q, v);
   model->type->force(model, q, q, v, f);
   for (size_t i = 0; i < count; i++) strongest = fmax(strongest, spore_vec3_length(spore_vec3_load(f + 3 * i)));
@@ -43,6 +46,8 @@ static void case_27(void) {
   g_assert_cmpfloat(most, <, 1.5 * start);
   g_assert_true(rig_said(world, "blood: particles are so near each other"));
   g_assert_cmpuint(spore_world_monitor(world)->message_count, ==, 1); /* once */
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 1);
+  g_assert_nonnull(strstr(spore_world_unsolved(world, 0).cause, "its model is not meant for"));
   g_free(q);
   g_free(v);
   g_free(f);

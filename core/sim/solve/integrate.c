@@ -40,8 +40,10 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
                                      SporeEffort *effort) {
   assert(substeps >= 1 && island->kept_count >= 1);
   assert(island->q0 && island->v0 && island->q1 && island->v1);
-  SporeIslandSystem system = {
-      .world = world, .island = island, .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
+  SporeIslandSystem system = {.world = world,
+                              .island = island,
+                              .equations = &island->equations,
+                              .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
   SporeDynamics dynamics = spore_island_system_dynamics(&system);
   const SporeIntegrator *integrator = spore_integrator(kind);
   const double *q0 = island->q0, *v0 = start_velocity(world, island, kind);
@@ -123,6 +125,7 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
     /* It fails on friction on nodes that are light without the stiffness of their body. With it the step may be solved.
      */
     spore_island_gather(world, island);
+    island->stand_in = &spore_implicit_euler;
     SporeStepResult whole = spore_island_advance(world, island, SPORE_INTEGRATOR_IMPLICIT_EULER, 1, NULL);
     spore_step_result_add(&multirate, &whole);
     multirate.converged = whole.converged;
@@ -130,7 +133,10 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
     return multirate;
   }
   SporeIntegratorKind kind = method(world, island);
-  if (kind != island->integrator && !spore_integrator(island->integrator)->implicit) slacken(world, island);
+  if (kind != island->integrator && !spore_integrator(island->integrator)->implicit) {
+    island->stand_in = spore_integrator(kind);
+    slacken(world, island);
+  }
   return spore_island_advance(world, island, kind, island->substeps, NULL);
 }
 
@@ -177,6 +183,5 @@ void spore_world_integrate(SporeWorld *world) {
     counts->newton_iterations += result->newton_iterations;
     counts->linear_iterations += result->linear_iterations;
     counts->force_evaluations += result->force_evaluations;
-    if (result->residual > counts->residual) counts->residual = result->residual;
   }
 }

@@ -272,6 +272,25 @@ static void mass_multiply(void *data, const double *x, double *y) {
   }
 }
 
+static void keep(void *data, const SporeEquation *equation) {
+  const SporeIslandSystem *system = data;
+  SporeKeptEquations *equations = system->equations;
+  SporeSolve *solve = &system->world->solve;
+  assert(equations && equation->c >= 0 && equation->qa && equation->v);
+  assert(!system->shape || system->shape == equation->qa);
+  const SporeIsland *island = system->island;
+  size_t i = equations->count++ % SPORE_EQUATIONS, buffer = SPORE_EQUATIONS * equations->set + i;
+  equations->kept[i].c = equation->c;
+  equations->kept[i].load = equation->load;
+  equations->kept[i].at_s = system->now_s;
+  equations->kept[i].shaped = system->shape != NULL;
+  equations->kept[i].apart = system->apart;
+  if (equation->c == 0) equations->balance_load = equation->load;
+  memcpy(solve->kept_q[buffer] + island->q_start, equation->qa, island->q_count * sizeof(double));
+  memcpy(solve->kept_v[buffer] + island->v_start, equation->v, island->v_count * sizeof(double));
+  if (equation->va) memcpy(solve->kept_va[buffer] + island->v_start, equation->va, island->v_count * sizeof(double));
+}
+
 static double distance(void *data, const double *x) {
   const SporeIslandSystem *system = data;
   double most = 0;
@@ -343,6 +362,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .factor_cost = spore_island_system_factor_cost,
                          .factorised = spore_island_system_factorised,
                          .rounding = spore_island_system_rounding,
+                         .keep = keep,
                          .distance = distance,
                          .held = system->island->integrator == SPORE_INTEGRATOR_STATIC && is_held(system),
                          .gravity_momentum = system->island->gravity_momentum};

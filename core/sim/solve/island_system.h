@@ -26,6 +26,7 @@ typedef struct SporeIslandSystem {
   bool frames;                                /* some contacts are evaluated by the frames of rigid bodies */
   bool asked_couples, couples;                /* see spore_island_system_couples */
   double softened_s;                          /* the step that terms are softened for; 0: not softened */
+  SporeKeptEquations *equations;              /* where solved equations are kept; NULL: none is solved */
 } SporeIslandSystem;
 
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);

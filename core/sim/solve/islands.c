@@ -244,6 +244,7 @@ void spore_island_gather(SporeWorld *world, SporeIsland *island) {
   const SporeBody *first = &world->bodies[bodies[0]];
   double mass = 0;
   island->attempts++;
+  island->equations.count = 0;
   for (size_t i = 0; i < island->kept_count; i++) mass += world->bodies[bodies[i]].total_mass;
   island->gravity_momentum = sqrt(mass) * spore_vec3_length(world->state.gravity);
   island->in_place = place_bodies(world, island);
@@ -281,6 +282,11 @@ bool spore_world_create_solve(SporeWorld *world) {
                        &solve->history_b, &solve->local_history_a, &solve->local_history_b, &solve->still};
   for (size_t i = 0; i < sizeof like_q / sizeof *like_q; i++) made &= (*like_q[i] = SPORE_NEW_ARRAY(double, q)) != NULL;
   for (size_t i = 0; i < sizeof like_v / sizeof *like_v; i++) made &= (*like_v[i] = SPORE_NEW_ARRAY(double, v)) != NULL;
+  for (size_t i = 0; i < 2 * SPORE_EQUATIONS; i++) {
+    made &= (solve->kept_q[i] = SPORE_NEW_ARRAY(double, q)) != NULL;
+    made &= (solve->kept_va[i] = SPORE_NEW_ARRAY(double, v)) != NULL;
+    made &= (solve->kept_v[i] = SPORE_NEW_ARRAY(double, v)) != NULL;
+  }
   return made;
 }
 
@@ -291,4 +297,9 @@ void spore_solve_clear(SporeSolve *solve) {
                     solve->best_v,   solve->history_a,      solve->history_b,     solve->local_history_a,
                     solve->still,    solve->local_history_b};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) spore_free(arrays[i]);
+  for (size_t i = 0; i < 2 * SPORE_EQUATIONS; i++) {
+    spore_free(solve->kept_q[i]);
+    spore_free(solve->kept_va[i]);
+    spore_free(solve->kept_v[i]);
+  }
 }

@@ -156,7 +156,8 @@ SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *i
   assert(island->multirate);
   assert(island->q0 && island->v0 && island->q1 && island->v1);
   Multirate multirate = begin(world, island);
-  SporeIslandSystem system = {.world = world, .island = island, .apart = true, .now_s = -1};
+  SporeIslandSystem system = {
+      .world = world, .island = island, .equations = &island->equations, .apart = true, .now_s = -1};
   SporeStepResult total = {.converged = true};
   const double *q0 = island->q0, *v0 = island->v0;
   double *v = multirate.q + 2 * island->v_count;

@@ -157,9 +157,11 @@ typedef struct Best {
   Worth worth;
   double residual;
   double least; /* residual of all attempts that gained no energy */
+  SporeKeptEquations equations;
+  const SporeIntegrator *stand_in;
 } Best;
 
-static void remember_best(SporeWorld *world, const SporeIsland *island, Best *best) {
+static void remember_best(SporeWorld *world, SporeIsland *island, Best *best) {
   assert(island->q_start + island->q_count <= world->state.q_count);
   if (island->trouble > SPORE_TROUBLE_NOT_CONVERGED) return;
   double residual = island->result.residual;
@@ -168,6 +170,9 @@ static void remember_best(SporeWorld *world, const SporeIsland *island, Best *be
   if (worth < best->worth || (worth == WORTH_STEP && best->worth == worth && residual >= best->residual)) return;
   best->worth = worth;
   best->residual = residual;
+  best->equations = island->equations;
+  best->stand_in = island->stand_in;
+  island->equations.set = 1 - island->equations.set; /* the next attempt's */
   memcpy(world->solve.best_q + island->q_start, island->q1, island->q_count * sizeof(double));
   memcpy(world->solve.best_v + island->v_start, island->v1, island->v_count * sizeof(double));
 }
@@ -178,6 +183,9 @@ static void restore_best(const SporeWorld *world, SporeIsland *island, const Bes
   memcpy(island->v1, world->solve.best_v + island->v_start, island->v_count * sizeof(double));
   island->result.converged = false;
   island->result.residual = best->residual;
+  island->equations = best->equations;
+  island->stand_in = best->stand_in;
+  island->frictionless = false;
   island->history.step_s = 0; /* the history is that of the last attempt */
   island->trouble = SPORE_TROUBLE_NOT_CONVERGED;
 }
@@ -188,7 +196,9 @@ static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps, S
   SporeStepResult spent = island->result;
   spore_island_gather(world, island);
   substeps *= island->substeps;
-  island->result = spore_island_advance(world, island, mending_method(world, island), substeps, effort);
+  SporeIntegratorKind kind = mending_method(world, island);
+  island->stand_in = spore_integrator(kind);
+  island->result = spore_island_advance(world, island, kind, substeps, effort);
   island->mending_substeps += substeps;
   spore_island_examine(world, island);
   spent.converged = island->result.converged;
@@ -202,6 +212,7 @@ static void try_again(SporeWorld *world, SporeIsland *island, size_t substeps, S
  * spinning, with more energy than it had. */
 static bool try_without_friction(SporeWorld *world, SporeIsland *island, size_t iterations) {
   SporeEffort effort = {.iterations = iterations, .hopeless = HUGE_VAL};
+  island->frictionless = true;
   for (size_t i = 0; i < island->contact_count; i++)
     world->contact.terms[world->contact.order[island->contact_start + i]].law.friction = 0;
   try_again(world, island, SUBSTEPS_MAXIMUM, &effort);
@@ -239,7 +250,7 @@ static bool despairs(SporeWorld *world, const SporeIsland *island) {
 static bool try_substeps(SporeWorld *world, SporeIsland *island) {
   assert(world->solver.newton_iterations >= 1);
   bool helped = false;
-  Best best = {WORTH_NOTHING, HUGE_VAL, HUGE_VAL};
+  Best best = {.worth = WORTH_NOTHING, .residual = HUGE_VAL, .least = HUGE_VAL};
   remember_best(world, island, &best);
   size_t most = (size_t)world->solver.newton_iterations, least = most < ITERATIONS_MINIMUM ? 1 : ITERATIONS_MINIMUM;
   size_t iterations = (was_hopeless(world, island) ? 1 : EFFORT) * most * island->substeps;

@@ -90,6 +90,29 @@ typedef struct SporeBodySleep {
   double energy;      /* J, of the contacts of a sleeping island: kept with the first body of that island */
 } SporeBodySleep;
 
+/* The equations that an island solved last in a step, kept so that stage `verify` can evaluate them again: two, since a
+ * step of TR-BDF2 solves two. Their vectors lie in SporeSolve.kept_q and so on, in buffer 2 set + i % 2 for the i-th.
+ */
+#define SPORE_EQUATIONS 2
+typedef struct SporeKeptEquations {
+  size_t count;        /* solved in this attempt at the step, kept or not */
+  size_t set;          /* 0 or 1: recovery keeps those of its best attempt in the other set */
+  double balance_load; /* load of the balance of forces that an attempt at this step sought; 0: none did */
+  struct {
+    double c, load; /* see SporeEquation */
+    double at_s;    /* since the step began: where prescribed ends are */
+    bool shaped;    /* viscous forces are those of the shape qa */
+    bool apart;     /* explicit bodies take part by their mass only: see multirate.c */
+  } kept[SPORE_EQUATIONS];
+} SporeKeptEquations;
+
+/* What stage `verify` finds. Residuals are norms (r.M^-1 r)^1/2 as parts of the equation's load. */
+typedef struct SporeVerdict {
+  double residual; /* the larger of the kept equations; 0: the island solved none */
+  double rounding; /* that of the state's own digits; measured only where the residual is above the tolerance, else 0 */
+  uint32_t body;   /* with the largest part of the residual; SPORE_NO_BODY: none */
+} SporeVerdict;
+
 /* An island: where its bodies, contacts and springs lie, how it is integrated, and what came of that. */
 typedef struct SporeIsland {
   size_t body_start, body_count;             /* in island_bodies */
@@ -107,13 +130,17 @@ typedef struct SporeIsland {
   double gravity_momentum; /* (M g . g)^(1/2), a scale for residuals */
   SporeHistory history;    /* in the local vectors */
   uint32_t attempts;       /* made at this step */
+  SporeKeptEquations equations;
   /* What came of the step. */
   SporeStepResult result;
-  SporeTrouble trouble;      /* the worst that was met, corrected or not */
-  uint32_t offender;         /* body in which the trouble was met */
-  bool made_safer;           /* this step took a safer integrator, for good */
-  uint64_t mending_substeps; /* substeps that recovery took; 0: it was not needed */
-  size_t kept_count;         /* bodies not frozen by this step: they come first in the island */
+  SporeVerdict verdict;
+  SporeTrouble trouble;            /* the worst that was met, corrected or not */
+  uint32_t offender;               /* body in which the trouble was met */
+  bool made_safer;                 /* this step took a safer integrator, for good */
+  bool frictionless;               /* this step was taken without friction, since with friction none was found */
+  const SporeIntegrator *stand_in; /* took this step for the bodies with other integrators; NULL: none */
+  uint64_t mending_substeps;       /* substeps that recovery took; 0: it was not needed */
+  size_t kept_count;               /* bodies not frozen by this step: they come first in the island */
   bool rests, falls_asleep;
 } SporeIsland;
 
@@ -128,9 +155,10 @@ typedef struct SporeSolve {
   double *local_q0, *local_v0, *local_q1, *local_v1;
   double *best_q, *best_v; /* like the local vectors: the best attempt of recovery at a step that went wrong */
   double *history_a, *history_b, *local_history_a, *local_history_b; /* as v and local_v0 */
-  double *still;                                                     /* zeros: velocity of the largest body at rest */
-  double *scratch;                                                   /* of the integrators */
-  size_t scratch_per_block;                                          /* doubles of scratch a block */
+  double *kept_q[2 * SPORE_EQUATIONS], *kept_va[2 * SPORE_EQUATIONS], *kept_v[2 * SPORE_EQUATIONS]; /* likewise */
+  double *still;            /* zeros: velocity of the largest body at rest */
+  double *scratch;          /* of the integrators */
+  size_t scratch_per_block; /* doubles of scratch a block */
   double
       *precondition; /* 9 doubles a block, in the order of the local vectors: diagonal blocks of the preconditioner */
   size_t sleeping_count; /* bodies asleep */
@@ -206,6 +234,10 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
 SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *island);
 /* Doubles of scratch that this takes a block. */
 size_t spore_multirate_scratch(void);
+
+/* verify.c */
+/* Stage: evaluates the equations that the islands solved, apart from the solver, each island on any thread. */
+void spore_world_verify(SporeWorld *world);
 
 /* recovery.c */
 /* Looks at the result of a step. Sets island->trouble and, where there is any, island->offender. */

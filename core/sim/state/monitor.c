@@ -45,6 +45,14 @@ static void report_frozen(SporeWorld *world, const SporeIsland *island) {
   }
 }
 
+static bool is_unsolved(const SporeWorld *world, const SporeIsland *island) {
+  return !(island->verdict.residual <= world->solver.tolerance);
+}
+
+static SporeUnsolvedCause unsolved_cause(const SporeIsland *island) {
+  return island->verdict.residual <= island->verdict.rounding ? SPORE_UNSOLVED_ROUNDING : SPORE_UNSOLVED_RESIDUAL;
+}
+
 /* Each trouble of a body is reported once. Only a worse trouble is reported after it. */
 static void report_mended(SporeWorld *world, const SporeIsland *island) {
   assert(island->offender < world->body_count);
@@ -54,23 +62,42 @@ static void report_mended(SporeWorld *world, const SporeIsland *island) {
                        _("%s: integrated by %s from now on, because %s; take a smaller time_step, or choose that "
                          "integrator"),
                        body->name, spore_integrator_names[SPORE_INTEGRATOR_IMPLICIT_EULER], cause(island->trouble));
-  if (body->reported.trouble >= island->trouble) return;
+  bool unsolved = is_unsolved(world, island), mended = island->mending_substeps > 0 && !island->made_safer;
+  if (body->reported.trouble >= island->trouble || !(unsolved || mended)) return;
   body->reported.trouble = island->trouble;
-  if (!island->result.converged)
-    spore_world_report(world, _("%s: %s (residual %.1e); take a smaller time step or more iterations"), body->name,
-                       cause(SPORE_TROUBLE_NOT_CONVERGED), island->result.residual);
-  else if (!island->made_safer)
+  if (unsolved)
+    spore_world_report(world, _("%s: %s (residual %.1e); %s"), world->bodies[island->verdict.body].name,
+                       spore_unsolved_cause(unsolved_cause(island)), island->verdict.residual,
+                       spore_unsolved_remedy(unsolved_cause(island)));
+  else
     spore_world_report(world, _("%s: a step was taken again in %llu smaller ones, because %s"), body->name,
                        (unsigned long long)island->mending_substeps, cause(island->trouble));
 }
 
 static void report_notice(SporeWorld *world, SporeBody *body) {
   const SporeModel *model = body->model;
-  if (body->reported.notice || !model || !model->type->notice) return;
+  if (!model || !model->type->notice) return;
   const char *notice = model->type->notice(model, world->state.q + body->q_offset);
   if (!notice) return;
+  spore_world_count_unsolved(world, (uint32_t)(body - world->bodies), SPORE_UNSOLVED_MODEL, 0);
+  if (body->reported.notice) return;
   body->reported.notice = true;
   spore_world_report(world, "%s: %s", body->name, notice);
+}
+
+/* Counts bodies of the island that its step did not move as the scene is written. */
+static void count_island(SporeWorld *world, const SporeIsland *island) {
+  bool wrong = island->trouble > SPORE_TROUBLE_NOT_CONVERGED;
+  if (is_unsolved(world, island))
+    spore_world_count_unsolved(world, island->verdict.body, unsolved_cause(island), island->verdict.residual);
+  if (island->frictionless) spore_world_count_unsolved(world, island->offender, SPORE_UNSOLVED_FRICTION, 0);
+  if (wrong && !island->made_safer && !world->bodies[island->offender].frozen)
+    spore_world_count_unsolved(world, island->offender, SPORE_UNSOLVED_RETAKEN, 0);
+  for (size_t i = 0; island->stand_in && !wrong && i < island->kept_count; i++) {
+    uint32_t b = world->solve.island_bodies[island->body_start + i];
+    if (spore_integrator(world->bodies[b].method.integrator) != island->stand_in)
+      spore_world_count_unsolved(world, b, SPORE_UNSOLVED_STOOD_IN, 0);
+  }
 }
 
 /* Counts the bodies that this step did not move as the scene is written. */
@@ -81,11 +108,7 @@ static void count_unsolved(SporeWorld *world) {
     else if (body->method.integrator != body->method.chosen)
       spore_world_count_unsolved(world, b, SPORE_UNSOLVED_SAFER, 0);
   }
-  for (size_t i = 0; i < world->solve.island_count; i++) {
-    const SporeIsland *island = &world->solve.islands[i];
-    if (!island->result.converged)
-      spore_world_count_unsolved(world, island->offender, SPORE_UNSOLVED_RESIDUAL, island->result.residual);
-  }
+  for (size_t i = 0; i < world->solve.island_count; i++) count_island(world, &world->solve.islands[i]);
 }
 
 void spore_world_report_islands(SporeWorld *world) {
@@ -100,7 +123,7 @@ void spore_world_report_islands(SporeWorld *world) {
     monitor->not_finite += island->trouble == SPORE_TROUBLE_NOT_FINITE;
     monitor->too_fast += island->trouble == SPORE_TROUBLE_SPEED;
     monitor->energy += island->trouble == SPORE_TROUBLE_ENERGY;
-    monitor->not_converged += !island->result.converged;
+    monitor->not_converged += is_unsolved(world, island);
     if (island->kept_count < island->body_count) report_frozen(world, island);
     else report_mended(world, island);
   }

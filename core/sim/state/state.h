@@ -33,6 +33,11 @@ typedef struct SporeSnapshots {
 /* Why a step of a body does not count as solved. The table of causes is in unsolved.c. */
 typedef enum SporeUnsolvedCause {
   SPORE_UNSOLVED_RESIDUAL, /* figure: the relative residual */
+  SPORE_UNSOLVED_ROUNDING, /* the same, where rounding alone explains it */
+  SPORE_UNSOLVED_FRICTION, /* friction was left out; no figure */
+  SPORE_UNSOLVED_RETAKEN,  /* a step that went wrong was taken again in smaller ones; no figure */
+  SPORE_UNSOLVED_STOOD_IN, /* another integrator than the scene's took the step; no figure */
+  SPORE_UNSOLVED_MODEL,    /* the model capped or mended something, or is not meant for its state; no figure */
   SPORE_UNSOLVED_SAFER,    /* another integrator than the scene's moves the body; no figure */
   SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
   SPORE_UNSOLVED_CAUSES
@@ -115,6 +120,9 @@ void spore_world_reset_unsolved(SporeWorld *world);
 /* Counts this step as unsolved for the body, once for each cause. worst: the figure of the cause, 0 or more; NaN counts
  * as infinite. Not for code that several threads run. */
 void spore_world_count_unsolved(SporeWorld *world, uint32_t body, SporeUnsolvedCause cause, double worst);
+/* The sentences of the table, translated: why, and what to do. */
+const char *spore_unsolved_cause(SporeUnsolvedCause cause);
+const char *spore_unsolved_remedy(SporeUnsolvedCause cause);
 
 /* energy.c: energy of a body at q, v, in J. */
 double spore_body_kinetic_energy(const SporeWorld *world, const SporeBody *body, const double *v);

@@ -13,6 +13,17 @@ static const struct {
 } causes[] = {
     [SPORE_UNSOLVED_RESIDUAL] = {N_("its equations are not solved to tolerance"),
                                  N_("take a smaller time_step or more newton_iterations"), ""},
+    [SPORE_UNSOLVED_ROUNDING] = {N_("rounding is more than its equations may miss"),
+                                 N_("take softer laws and links, move it nearer to the origin, or raise the tolerance"),
+                                 ""},
+    [SPORE_UNSOLVED_FRICTION] = {N_("friction was left out, since with friction no motion was found"),
+                                 N_("take a smaller time_step or less friction"), NULL},
+    [SPORE_UNSOLVED_RETAKEN] = {N_("a step went wrong, and was taken again in smaller ones"),
+                                N_("take a smaller time_step"), NULL},
+    [SPORE_UNSOLVED_STOOD_IN] = {N_("another integrator took steps that the scene's could not take"),
+                                 N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
+    [SPORE_UNSOLVED_MODEL] = {N_("its model is not meant for what became of it, as its message says"),
+                              N_("do what the message advises"), NULL},
     [SPORE_UNSOLVED_SAFER] = {N_("another integrator than the scene's moves it, since that one failed"),
                               N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
     [SPORE_UNSOLVED_FROZEN] = {N_("it stands still, since its motion could not be computed"),
@@ -41,6 +52,16 @@ void spore_world_count_unsolved(SporeWorld *world, uint32_t body, SporeUnsolvedC
   if (count->steps > 0 && count->last == world->state.step) return;
   count->steps++;
   count->last = world->state.step;
+}
+
+const char *spore_unsolved_cause(SporeUnsolvedCause cause) {
+  assert(cause < SPORE_UNSOLVED_CAUSES);
+  return _(causes[cause].cause);
+}
+
+const char *spore_unsolved_remedy(SporeUnsolvedCause cause) {
+  assert(cause < SPORE_UNSOLVED_CAUSES);
+  return _(causes[cause].remedy);
 }
 
 size_t spore_world_unsolved_count(const SporeWorld *world) {
