@@ -11,10 +11,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/base/cancel.h"
+
 typedef struct SporeDynamics {
   void *data;
   size_t q_count, block_count;
-  bool switches; /* some forces set in or end as things move: there are contacts */
+  bool switches;             /* some forces set in or end as things move: there are contacts */
+  const SporeCancel *cancel; /* ends a step before it is solved: what it leaves is of no use; NULL: none */
   /* From here on forces are elastic where they are evaluated and viscous at `shape` (borrowed), so that the viscous
    * ones are linear in v and A below is the whole Jacobian; first order in time; and they are asked for where nodes
    * moved from `shape` along v for h seconds, which saves work. At first, and with NULL: viscous there too. */

@@ -77,7 +77,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   if (!spore_convergence_begin(&test, system, options, system->norm(system->data, r), &result)) return result;
   bool whole = false; /* A alone leads from afar to the answer that has gained no energy, but near it may creep */
   double previous = 0, near = spore_convergence_near(&test, system);
-  while (!result.converged && result.iterations < options->iterations) {
+  while (!result.converged && result.iterations < options->iterations && !spore_cancel_asked(system->cancel)) {
     if (result.iterations > 0 || !options->linearised) {
       system->linearise(system->data, x, result.iterations > 0 ? from : NULL);
       result.linearisations++;

@@ -15,6 +15,8 @@ typedef struct SporeSystem {
   void *data;
   size_t count;  /* unknowns */
   bool switches; /* there are forces that set in or end with x, such as those of contacts */
+  const SporeCancel
+      *cancel; /* asked in each iteration; what was reached then is the answer, not converged; NULL: none */
   /* r(x); entries that are not finite are allowed and make `norm` not finite. */
   void (*residual)(void *data, const double *x, double *r);
   /* from: where the step to x was taken by the linearisation there, or NULL; what that promised of x may serve better

@@ -217,8 +217,8 @@ static void check_doubts(SporeCheck *check, const SporeSimulation *simulation) {
  * step too large for the stiffness. */
 static SporeSimulation *check_compiled(SporeCheck *check) {
   g_autoptr(GError) error = NULL;
-  SporeSimulation *simulation = spore_simulation_new(check->document, NULL, NULL, &error);
-  if (!simulation) spore_check_say_error(check, SPORE_FAULT, NULL, error);
+  SporeSimulation *simulation = spore_simulation_new(check->document, NULL, NULL, check->cancel, &error);
+  if (!simulation && !spore_cancel_asked(check->cancel)) spore_check_say_error(check, SPORE_FAULT, NULL, error);
   return simulation;
 }
 

@@ -83,7 +83,7 @@ static void compare(const char *name, SporeBlockPattern *pattern, SporeFactorLay
   SporeBlockCholesky factor;
   GRand *random = g_rand_new_with_seed(7);
   g_assert_true(spore_block_matrix_create(&matrix, pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
   g_assert_cmpuint(factor.block_count, ==, matrix.block_count);
   if (layout != SPORE_FACTOR_AUTOMATIC)
     g_assert_cmpuint(factor.band.block_count, ==, layout == SPORE_FACTOR_BANDED ? matrix.block_count : 0);
@@ -216,7 +216,7 @@ static void test_layout(void) {
     for (size_t width = 1; width <= SPORE_BAND_WIDEST + 1; width++) {
       band_pattern(&pattern, 60, width, NULL);
       g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-      g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+      g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
       g_assert_cmpuint(factor.block_count, ==, 60);
       bool banded = layout != SPORE_FACTOR_SPARSE && width <= SPORE_BAND_WIDEST;
       g_assert_cmpuint(factor.band.block_count, ==, banded ? 60 : 0);
@@ -239,7 +239,7 @@ static void test_fill(void) {
   SporeBlockCholesky factor;
   net_pattern(&pattern, 40);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, HUGE_VAL, NULL));
   g_test_message("net of 40 x 40: %.3g flops, %.3g a solve", factor.factor_flops, factor.solve_flops);
   g_assert_cmpfloat(factor.factor_flops, <, 0.5 * 27 * 80 * 80 * 1600);
   double flops = factor.factor_flops;
@@ -260,7 +260,7 @@ static void test_replaced(gconstpointer data) {
   GRand *random = g_rand_new_with_seed(3);
   pattern_for(layout, &pattern, 5);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
   fill_matrix(&matrix, random);
   double diagonal[25 * 9], b[75], x[75], product[75] = {0};
   uint8_t held[25] = {0};
@@ -293,7 +293,7 @@ static void test_not_positive(gconstpointer data) {
   GRand *random = g_rand_new_with_seed(5);
   pattern_for(layout, &pattern, 6);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
   fill_matrix(&matrix, random);
   const double bad[] = {-1e3, -INFINITY, INFINITY, NAN};
   for (size_t i = 0; i < 36; i++)
@@ -322,7 +322,7 @@ static void test_without_memory(gconstpointer data) {
   uint64_t refused = 0;
   while (!made) {
     spore_allocation_fail_at(++refused);
-    made = spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL);
+    made = spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL);
     spore_allocation_fail_at(0);
     if (!made) g_assert_null(factor.order);
     if (!made) g_assert_null(factor.band.order);

@@ -323,6 +323,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .q_count = system->island->q_count,
                          .block_count = system->island->v_count / 3,
                          .switches = switches(system),
+                         .cancel = system->world->cancel,
                          .set_shape = set_shape,
                          .force = force,
                          .body_force = body_force,

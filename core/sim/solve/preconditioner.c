@@ -72,9 +72,9 @@ bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeErr
           body->preconditioner.matrix.block_count)
     return true;
   if (!body->held.flags) body->held.flags = SPORE_NEW_ARRAY(uint8_t, body->preconditioner.matrix.block_room);
-  if (!body->held.flags ||
-      !spore_block_cholesky_create(&body->preconditioner.factor, &body->preconditioner.matrix,
-                                   layout_of(world->solver.linear), WORTH_ITERATIONS * jacobi_work(body)))
+  if (!body->held.flags || !spore_block_cholesky_create(&body->preconditioner.factor, &body->preconditioner.matrix,
+                                                        layout_of(world->solver.linear),
+                                                        WORTH_ITERATIONS * jacobi_work(body), world->cancel))
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
   for (size_t i = 0; i < body->held.count; i++) body->held.flags[body->held.blocks[i]] = 1;
   return true;

@@ -238,6 +238,7 @@ static void try_substeps(SporeWorld *world, SporeIsland *island) {
   size_t most = (size_t)world->solver.newton_iterations, least = most < ITERATIONS_MINIMUM ? 1 : ITERATIONS_MINIMUM;
   SporeEffort effort = {.iterations = EFFORT * most * island->substeps};
   for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM && !helped; substeps *= 2) {
+    if (spore_cancel_asked(world->cancel)) return;
     if (best.worth > WORTH_GAINED && effort.iterations < least * substeps * island->substeps) break;
     effort.hopeless = best.worth == WORTH_STEP ? MISS_OF_LOAD : HUGE_VAL;
     try_again(world, island, substeps, &effort);
@@ -270,8 +271,10 @@ void spore_island_recover(SporeWorld *world, SporeIsland *island) {
   SporeTrouble worst = island->trouble;
   uint32_t met = island->offender, broken = broken_model(world, island);
   while (island->kept_count > 0) {
+    if (spore_cancel_asked(world->cancel)) return;
     if (broken == SPORE_NO_BODY) {
       try_substeps(world, island);
+      if (spore_cancel_asked(world->cancel)) return;
       if (island->trouble <= SPORE_TROUBLE_NOT_CONVERGED) break;
       broken = island->offender;
       if (island->trouble > worst) worst = island->trouble;
