@@ -54,6 +54,9 @@ typedef struct SporeDynamics {
    * of the bodies' part of A; 0 where it is not meant to be one. */
   double (*factor_cost)(void *data);
   bool (*factorised)(void *data); /* whether P is one now */
+  /* Linear iterations that take as much work as the factor that P could be and is not: where so many do not solve a
+   * system, the step is better taken again with the factor. 0: there is no such factor. May be NULL: 0. */
+  size_t (*factor_patience)(void *data);
   /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries, by the diagonal of the current A where that was made: along
    * the soft axes alone, or along the stiff ones too. */
   double (*rounding)(void *data, double c, bool stiff_axes);

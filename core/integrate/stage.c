@@ -181,6 +181,7 @@ static SporeNonlinearResult solve_system(const SporeSystem *system, const SporeS
                                          double *r, double *scratch) {
   const SporeDynamics *dynamics = ((const Stage *)system->data)->dynamics;
   SporeNonlinearOptions options = {(size_t)fields->newton_iterations, fields->tolerance};
+  if (dynamics->factor_patience) options.linear_patience = dynamics->factor_patience(dynamics->data);
   bool broyden = fields->nonlinear == SPORE_NONLINEAR_BROYDEN ||
                  (fields->nonlinear == SPORE_NONLINEAR_AUTOMATIC && dynamics->factor_cost(dynamics->data) > 0);
   return broyden ? spore_broyden(system, &options, v, r, scratch) : spore_newton(system, &options, v, r, scratch);

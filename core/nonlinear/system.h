@@ -50,6 +50,9 @@ typedef struct SporeNonlinearOptions {
   size_t iterations; /* Newton's, at most */
   double tolerance;  /* of the residual and of the next change of x, both relative */
   bool linearised;   /* the system is, at the guess: Newton's method begins with that */
+  /* Linear iterations after which Newton's method ends where the linear solver meets its limit: another solver would
+   * have taken less work. 0: it never ends for that. */
+  size_t linear_patience;
 } SporeNonlinearOptions;
 
 typedef struct SporeNonlinearResult {

@@ -343,6 +343,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .precondition = spore_island_system_precondition,
                          .factor_cost = spore_island_system_factor_cost,
                          .factorised = spore_island_system_factorised,
+                         .factor_patience = spore_island_system_factor_patience,
                          .rounding = spore_island_system_rounding,
                          .distance = distance,
                          .held = system->island->integrator == SPORE_INTEGRATOR_STATIC && is_held(system),
