@@ -316,6 +316,16 @@ typedef struct SporeMethod {
   size_t substeps;
   SporeMethodSource substeps_source;
 } SporeMethod;
+/* Work that a body takes on one core, s: estimated from counts of blocks, and from how long a block took on a machine
+ * of 2024, so that every machine says the same. */
+typedef struct SporeBodyWork {
+  double make_s;   /* to make its matrix, and to analyse its factor */
+  double factor_s; /* to factorise once; 0: it is never factorised */
+  double step_s;   /* a step in which it moves, at the least: an iteration by the cheaper of the solvers that it has */
+  double time_step_s; /* the world's: what a step may take in real time */
+} SporeBodyWork;
+/* Fills *work. False: the body is not integrated implicitly. */
+bool spore_world_body_work(const SporeWorld *world, uint32_t body, SporeBodyWork *work);
 /* Fills *method. False: physics does not move the body. */
 bool spore_world_body_method(const SporeWorld *world, uint32_t body, SporeMethod *method);
 /* Times of whole steps. */

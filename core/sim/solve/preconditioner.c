@@ -52,6 +52,33 @@ double spore_body_iteration_work(const SporeBody *body) {
   return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
 }
 
+/* Time by work. Blocks of the matrix and of the factor are those of a spline of 200 x 200 control points; one thread.
+ */
+#define OPERATIONS_A_SECOND 2e9
+#define MAKE_WORK 520.           /* a block of the matrix, its model's part and all */
+#define ANALYSIS_WORK 290.       /* a block of the factor */
+#define SOLVE_FLOPS_OF_BLOCK 36. /* of a block of the factor */
+
+bool spore_world_body_work(const SporeWorld *world, uint32_t index, SporeBodyWork *work) {
+  assert(index < world->body_count);
+  const SporeBody *body = &world->bodies[index];
+  const SporePreconditioner *own = &body->preconditioner;
+  *work = (SporeBodyWork){.time_step_s = world->solver.time_step};
+  if (body->role != SPORE_PASSIVE || !spore_integrator(body->method.integrator)->implicit) return false;
+  if (own->matrix.block_count == 0) return false;
+  double blocks = own->matrix.row_start[own->matrix.block_count],
+         step = jacobian_work(body) + spore_body_gradient_work(body);
+  double make = MAKE_WORK * blocks;
+  if (own->factor.block_count > 0) {
+    make += ANALYSIS_WORK / SOLVE_FLOPS_OF_BLOCK * own->factor.solve_flops;
+    work->factor_s = factor_work(body) / OPERATIONS_A_SECOND;
+    step = fmin(step, spore_body_iteration_work(body));
+  }
+  work->make_s = make / OPERATIONS_A_SECOND;
+  work->step_s = step / OPERATIONS_A_SECOND;
+  return true;
+}
+
 static SporeFactorLayout layout_of(int linear) {
   if (linear == SPORE_LINEAR_BANDED) return SPORE_FACTOR_BANDED;
   return linear == SPORE_LINEAR_CHOLESKY ? SPORE_FACTOR_SPARSE : SPORE_FACTOR_AUTOMATIC;
