@@ -17,7 +17,8 @@
 #include "core/mesh/common.h"
 #include "core/scene/length_unit.h"
 
-#define GRACE_NS 300000000 /* of half a second that a user waits; the rest is for the system to take back the memory */
+#define GRACE_NS 300000000 /* of half a second that a user waits; the rest is for the system to take back the memory   \
+                            */
 #define AGAIN_NS 20000000
 
 static volatile sig_atomic_t interrupted;
