@@ -17,8 +17,7 @@
 #include "core/mesh/common.h"
 #include "core/scene/length_unit.h"
 
-#define GRACE_NS 300000000 /* of half a second that a user waits; the rest is for the system to take back the memory   \
-                            */
+#define GRACE_NS 300000000 /* of half a second that a user waits: to take back memory takes the system time, too */
 #define AGAIN_NS 20000000
 
 static volatile sig_atomic_t interrupted;
