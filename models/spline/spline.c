@@ -140,7 +140,7 @@ double spore_spline_radius(const SporeSplineCourse *course, SporeSplineKnots kno
   size_t i = piece_at(course, length);
   double share = fmin((length - course->length[i]) / (course->length[i + 1] - course->length[i]), 1);
   const double *points = course->curve.points + 4 * i;
-  return points[3] + share * (points[7] - points[3]);
+  return (1 - share) * points[3] + share * points[7];
 }
 
 bool spore_spline_allocate(SporeSpline *spline, size_t span_count) {
