@@ -41,7 +41,11 @@ int spore_command_check(SporeCli *cli, int argc, char **argv) {
   SporeDocument *document = spore_cli_load(cli, argv[1], &options, &error);
   spore_scene_options_clear(&options);
   if (!document) return spore_cli_fail(error);
-  g_autoptr(GPtrArray) diagnostics = spore_document_check(document);
+  g_autoptr(GPtrArray) diagnostics = spore_document_check(document, spore_cli_cancel());
+  if (spore_cli_interrupted()) {
+    spore_document_free(document);
+    return SPORE_EXIT_INTERRUPTED;
+  }
   guint faults = 0;
   spore_cli_open_array(cli, "diagnostics");
   for (guint i = 0; i < diagnostics->len; i++) {

@@ -8,22 +8,55 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "core/io/file_batch.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
 #include "core/mesh/common.h"
 #include "core/scene/length_unit.h"
 
-static volatile sig_atomic_t interrupted;
+#define GRACE_NS 300000000 /* of half a second that a user waits: to take back memory takes the system time, too */
+#define AGAIN_NS 20000000
 
-static void on_signal(int number) { interrupted = number; }
+static volatile sig_atomic_t interrupted;
+static timer_t grace;
+static bool has_grace;
 
 gboolean spore_cli_interrupted(void) { return interrupted != 0; }
 
-/* The handler only sets a flag. Work that sees the flag ends, and no file is left half-written. */
+static bool asked(void *data) { return interrupted != 0; }
+
+const SporeCancel *spore_cli_cancel(void) {
+  static const SporeCancel cancel = {asked, NULL};
+  return &cancel;
+}
+
+static void end_after(long nanoseconds) {
+  const struct itimerspec when = {.it_value = {.tv_nsec = nanoseconds}};
+  if (has_grace) timer_settime(grace, 0, &when, NULL);
+}
+
+static void on_signal(int number) {
+  if (!interrupted) end_after(GRACE_NS);
+  interrupted = number;
+}
+
+/* Files are written to the end: only then is none left half-written. */
+static void on_grace(int number) {
+  if (spore_file_batch_is_open()) end_after(AGAIN_NS);
+  else _exit(SPORE_EXIT_INTERRUPTED);
+}
+
+/* The handler of a signal sets a flag. Work that sees the flag ends by itself. What does not look at the flag, such as
+ * a library that reads a mesh, is ended by a timer. */
 static void catch_signals(void) {
   struct sigaction action = {.sa_handler = on_signal};
+  struct sigaction ending = {.sa_handler = on_grace, .sa_flags = SA_RESTART};
+  struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGALRM};
+  has_grace = timer_create(CLOCK_MONOTONIC, &event, &grace) == 0;
+  sigaction(SIGALRM, &ending, NULL);
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
 }

@@ -4,6 +4,7 @@
 
 #include <json-glib/json-glib.h>
 
+#include "core/base/cancel.h"
 #include "core/base/progress.h"
 #include "core/scene/document.h"
 
@@ -63,6 +64,8 @@ void spore_cli_close_array(SporeCli *cli);
 
 /* True after Ctrl-C or SIGTERM. */
 gboolean spore_cli_interrupted(void);
+/* The same question for the kernel. */
+const SporeCancel *spore_cli_cancel(void);
 /* Progress on stderr when that is a terminal; cancels on interruption. */
 const SporeProgress *spore_cli_progress(const SporeCli *cli);
 

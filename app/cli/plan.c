@@ -5,6 +5,7 @@
 #include "app/cli/cli.h"
 #include "app/cli/plan_tables.h"
 #include "app/cli/scene.h"
+#include "core/scene/work_estimate.h"
 
 #define MEASURED_STEPS 200
 
@@ -51,8 +52,22 @@ static void report_choice(SporeCli *cli, const SporeDocument *document, const ch
   spore_cli_close(cli);
 }
 
-static void report_method(SporeCli *cli, const SporeDocument *document, const char *body, int width,
+/* What takes long, said beforehand. */
+static void report_work(SporeCli *cli, const SporeWorld *world, guint body) {
+  SporeBodyWork work;
+  if (!spore_world_body_work(world, body, &work)) return;
+  spore_cli_number(cli, "make_s", work.make_s);
+  spore_cli_number(cli, "factor_s", work.factor_s);
+  spore_cli_number(cli, "step_s", work.step_s);
+}
+
+static void say_work(gpointer data, const char *sentence, const char *remedy) {
+  spore_cli_say(data, "%s; %s\n", sentence, remedy);
+}
+
+static void report_method(SporeCli *cli, const SporeDocument *document, const SporeWorld *world, guint index, int width,
                           const SporeMethod *method) {
+  const char *body = spore_world_body_name(world, index);
   g_autoptr(GString) row = g_string_new(NULL);
   spore_cli_open(cli, NULL);
   spore_cli_text(cli, "name", body);
@@ -64,6 +79,7 @@ static void report_method(SporeCli *cli, const SporeDocument *document, const ch
   spore_cli_close(cli);
   report_choice(cli, document, "nonlinear", &method->nonlinear, row);
   report_choice(cli, document, "linear", &method->linear, row);
+  report_work(cli, world, index);
   spore_cli_close(cli);
   spore_cli_say(cli, "%-*s%s\n", width, body, g_strchomp(row->str));
 }
@@ -79,8 +95,9 @@ static void report_bodies(SporeCli *cli, const SporeDocument *document, const Sp
       spore_cli_say(cli, "%-*s %-30s %-30s %-30s %s\n", width, _("body"), _("integrator (source)"), _("substeps"),
                     _("nonlinear"), _("linear"));
     titled = TRUE;
-    report_method(cli, document, spore_world_body_name(world, body), width, &method);
+    report_method(cli, document, world, body, width, &method);
   }
+  for (guint body = 0; body < spore_world_body_count(world); body++) spore_body_say_work(world, body, say_work, cli);
   spore_cli_close_array(cli);
 }
 
@@ -119,8 +136,11 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
       {"stages", N_("of a step, in their order: name, included, reason, items (what it works on), and with --measure "
                     "measured_us, the median")},
       {"left_out", N_("what the scene does not need: what, reason")},
-      {"bodies", N_("that physics moves, each with its name, integrator, substeps, nonlinear and linear solver: name "
-                    "or count, and said_by (body, scene, default, automatic, monitor); null: nothing is solved")},
+      {"bodies",
+       N_("that physics moves, each with its name, integrator, substeps, nonlinear and linear solver: name "
+          "or count, and said_by (body, scene, default, automatic, monitor); null: nothing is solved; where its steps "
+          "are implicit also about how long it takes on one core, by counts: make_s, "
+          "factor_s (each time that its matrix is factorised; 0: never), step_s (at least)")},
       {"libraries", N_("that the program uses")},
       {"mappings",
        N_("what is drawn and felt of each body that physics moves, with points of its own: name, unit (visual or "
@@ -165,10 +185,12 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
   if (!run) return spore_cli_fail(error);
   for (int i = 0; measure && i < MEASURED_STEPS && !spore_cli_interrupted(); i++)
     spore_world_step(run->simulation->world);
+  if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
   report(cli, run->document, run->simulation->world, measure);
   spore_plan_report_mapping(cli, run);
   spore_plan_report_pins(cli, run);
   spore_plan_report_lines(cli, run->simulation->world, measure);
   if (!spore_plan_report_levels(cli, run, measure ? MEASURED_STEPS : 0, &error)) return spore_cli_fail(error);
-  return spore_cli_finish(cli, spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : SPORE_EXIT_DONE);
+  if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
+  return spore_cli_finish(cli, SPORE_EXIT_DONE);
 }

@@ -113,8 +113,8 @@ void spore_plan_report_pins(SporeCli *cli, const SporeRun *run) {
 /* Median time of a step with the body at the level from time 0 on, us. */
 static gboolean measure(SporeRun *run, guint32 body, SporeLodGrade level, int steps, double *median_us,
                         GError **error) {
-  SporeSimulation *copy =
-      spore_simulation_new(run->document, run->pool, run->input.channel_count ? &run->input : NULL, error);
+  SporeSimulation *copy = spore_simulation_new(run->document, run->pool, run->input.channel_count ? &run->input : NULL,
+                                               spore_cli_cancel(), error);
   if (!copy) return FALSE;
   spore_world_set_lod(copy->world, body, level);
   for (int i = 0; i < steps && !spore_cli_interrupted(); i++) spore_world_step(copy->world);

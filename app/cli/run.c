@@ -45,6 +45,7 @@ static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint
     if (pace) spore_pace_begin(pace, spore_pace_due_ns(pace, spore_world_time_s(world)));
     spore_level_changes_post(levels, world);
     spore_world_step(world);
+    if (spore_world_cancelled(world)) break;
     if (pace) spore_pace_end(pace, spore_world_time_s(world));
     spore_world_tidy(world);
     spore_run_statistics_step(&statistics, world);

@@ -74,7 +74,7 @@ void spore_cli_diagnostic(SporeCli *cli, const char *place, const char *message,
 }
 
 void spore_cli_diagnostics(SporeCli *cli, SporeDocument *document) {
-  g_autoptr(GPtrArray) diagnostics = spore_document_check(document);
+  g_autoptr(GPtrArray) diagnostics = spore_document_check(document, spore_cli_cancel());
   for (guint i = 0; i < diagnostics->len; i++) {
     const SporeDiagnostic *diagnostic = g_ptr_array_index(diagnostics, i);
     spore_cli_diagnostic(cli, diagnostic->place, diagnostic->message, diagnostic->remedy);
@@ -108,7 +108,8 @@ SporeRun *spore_run_open(SporeCli *cli, const char *file, const SporeSceneOption
                       threads);
     return NULL;
   }
-  run->simulation = spore_simulation_new(run->document, run->pool, options->input ? &run->input : NULL, error);
+  run->simulation =
+      spore_simulation_new(run->document, run->pool, options->input ? &run->input : NULL, spore_cli_cancel(), error);
   return run->simulation ? g_steal_pointer(&run) : NULL;
 }
 

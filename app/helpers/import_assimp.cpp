@@ -139,6 +139,17 @@ void append(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &outer, 
   for (unsigned c = 0; c < node.mNumChildren; c++) append(scene, *node.mChildren[c], transform, mesh);
 }
 
+void check_faces(const aiScene &scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; m++)
+    for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; f++) {
+      const unsigned corners = scene.mMeshes[m]->mFaces[f].mNumIndices;
+      if (corners > SPORE_FACE_CORNERS_MAXIMUM)
+        throw Refusal{SPORE_ERROR_INPUT,
+                      N_("a face has too many corners; expected at most 10000; cut it into triangles first"),
+                      "face " + std::to_string(f) + ", " + std::to_string(corners) + " corners"};
+    }
+}
+
 /* The importer counts the numbers of an OBJ line by their first sign or digit. It misses a number that begins with its
  * decimal point. */
 std::string with_leading_zeros(const char *content, size_t size) {
@@ -170,7 +181,9 @@ Mesh import(const char *extension, const void *content, size_t size) {
   OneFile *files = new OneFile(name, content, size);
   importer.SetIOHandler(files); /* takes ownership */
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, 0);
-  const aiScene *scene = importer.ReadFile(name, aiProcess_Triangulate);
+  const aiScene *scene = importer.ReadFile(name, 0);
+  if (scene) check_faces(*scene);
+  if (scene) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   const std::string said = scene ? "" : importer.GetErrorString();
   if (Listener::complained)
     throw Refusal{SPORE_ERROR_INPUT,

@@ -11,6 +11,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/base/cancel.h"
+
 /* An equation that a step solved, with its answer, so that others than the solver can evaluate it:
  *   M (v - va) = c f(drift(qa, v, c), v),   M being that at qa.
  * c = 0 stands for the balance of forces, f(qa, v) = 0. */
@@ -23,7 +25,8 @@ typedef struct SporeEquation {
 typedef struct SporeDynamics {
   void *data;
   size_t q_count, block_count;
-  bool switches; /* some forces set in or end as things move: there are contacts */
+  bool switches;             /* some forces set in or end as things move: there are contacts */
+  const SporeCancel *cancel; /* ends a step before it is solved: what it leaves is of no use; NULL: none */
   /* From here on forces are elastic where they are evaluated and viscous at `shape` (borrowed), so that the viscous
    * ones are linear in v and A below is the whole Jacobian; first order in time; and they are asked for where nodes
    * moved from `shape` along v for h seconds, which saves work. At first, and with NULL: viscous there too. */
@@ -60,6 +63,9 @@ typedef struct SporeDynamics {
    * of the bodies' part of A; 0 where it is not meant to be one. */
   double (*factor_cost)(void *data);
   bool (*factorised)(void *data); /* whether P is one now */
+  /* Linear iterations that take as much work as the factor that P could be and is not: where so many do not solve a
+   * system, the step is better taken again with the factor. 0: there is no such factor. May be NULL: 0. */
+  size_t (*factor_patience)(void *data);
   /* Norm (r.M^-1 r)^1/2 of the rounding that c f carries, by the diagonal of the current A where that was made: along
    * the soft axes alone, or along the stiff ones too. */
   double (*rounding)(void *data, double c, bool stiff_axes);

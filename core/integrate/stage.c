@@ -50,7 +50,8 @@ static bool reuse(void *data, const double *v) {
 static SporeLinearResult solve(void *data, const double *r, double tolerance, double *dv) {
   Stage *stage = data;
   const SporeDynamics *dynamics = stage->dynamics;
-  SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply, dynamics->precondition};
+  SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply, dynamics->precondition,
+                                 dynamics->cancel};
   return spore_pcg(&operator, r, tolerance, stage->linear_iterations, dv, stage->linear);
 }
 
@@ -62,7 +63,7 @@ static SporeLinearResult solve_whole(void *data, const double *r, double toleran
   const SporeDynamics *dynamics = stage->dynamics;
   if (!dynamics->drags(dynamics->data)) return solve(data, r, tolerance, dv);
   SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply_dragged,
-                                 dynamics->precondition};
+                                 dynamics->precondition, dynamics->cancel};
   SporeLinearResult whole = spore_bicgstab(&operator, r, tolerance, stage->linear_iterations / 2, dv, stage->linear);
   whole.iterations *= 2; /* products */
   if (whole.status == SPORE_LINEAR_CONVERGED) return whole;
@@ -125,6 +126,7 @@ static SporeSystem stage_system(Stage *stage) {
   return (SporeSystem){.data = stage,
                        .count = 3 * stage->dynamics->block_count,
                        .switches = stage->dynamics->switches,
+                       .cancel = stage->dynamics->cancel,
                        .residual = residual,
                        .linearise = linearise,
                        .reuse = reuse,
@@ -179,6 +181,7 @@ static SporeNonlinearResult solve_system(const SporeSystem *system, const SporeS
                                          double *r, double *scratch) {
   const SporeDynamics *dynamics = ((const Stage *)system->data)->dynamics;
   SporeNonlinearOptions options = {(size_t)fields->newton_iterations, fields->tolerance};
+  if (dynamics->factor_patience) options.linear_patience = dynamics->factor_patience(dynamics->data);
   bool broyden = fields->nonlinear == SPORE_NONLINEAR_BROYDEN ||
                  (fields->nonlinear == SPORE_NONLINEAR_AUTOMATIC && dynamics->factor_cost(dynamics->data) > 0);
   return broyden ? spore_broyden(system, &options, v, r, scratch) : spore_newton(system, &options, v, r, scratch);

@@ -77,8 +77,9 @@ static bool balance_load(Balance *balance, const SporeSolverFields *fields, doub
   const SporeDynamics *dynamics = balance->dynamics;
   size_t n = 3 * dynamics->block_count;
   double *rest = scratch, *d = rest + n, *r = d + n, *trial = r + n, *trial_r = trial + n, *linear = trial_r + n;
-  SporeSystem system = {.data = balance, .count = n, .residual = residual, .norm = dual_norm};
-  SporeLinearOperator operator= {dynamics->data, n, dynamics->multiply, dynamics->precondition};
+  SporeSystem system = {
+      .data = balance, .count = n, .cancel = dynamics->cancel, .residual = residual, .norm = dual_norm};
+  SporeLinearOperator operator= {dynamics->data, n, dynamics->multiply, dynamics->precondition, dynamics->cancel};
   double norm = 0;
   memset(rest, 0, n * sizeof *rest);
   for (int64_t i = 0;; i++) {
@@ -86,7 +87,7 @@ static bool balance_load(Balance *balance, const SporeSolverFields *fields, doub
     result->force_evaluations++;
     norm = dual_norm(balance, r);
     result->residual = wanted > 0 ? norm / scale(balance) / wanted : norm;
-    if (!isfinite(norm)) return false;
+    if (!isfinite(norm) || spore_cancel_asked(dynamics->cancel)) return false;
     if (norm <= fields->tolerance * wanted * scale(balance)) return true;
     if (i == fields->newton_iterations || result->newton_iterations == most_iterations(fields)) break;
     double c2 = balance->pseudo_step * balance->pseudo_step;
@@ -137,7 +138,7 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
   double wanted = fmax(dual_norm(&balance, balance.start), dynamics->gravity_momentum);
   SporeStepResult result = {.force_evaluations = 1};
   for (int parts = 1; parts <= LOAD_STEPS_MAXIMUM && !result.converged; parts *= 2) {
-    if (result.newton_iterations == most_iterations(fields)) break;
+    if (result.newton_iterations == most_iterations(fields) || spore_cancel_asked(dynamics->cancel)) break;
     memcpy(balance.base, q0, dynamics->q_count * sizeof *q0);
     memset(balance.moved, 0, n * sizeof *balance.moved);
     dynamics->set_mass(dynamics->data, q0);

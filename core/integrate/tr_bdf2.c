@@ -88,7 +88,7 @@ static SporeStepResult adaptive_step(const SporeDynamics *dynamics, const SporeS
   SporeStepResult total = {.converged = true};
   for (bool last = false; !last;) {
     double left = h - done;
-    last = size >= left;
+    last = size >= left || spore_cancel_asked(dynamics->cancel);
     double part = last ? left : fmin(size, 0.5 * left);
     SporeTrBdf2Extra extra = {.start_s = done, .error = error};
     SporeStepResult result = spore_tr_bdf2_step(dynamics, fields, &extra, part, q, v, q1, v1, work);
@@ -99,7 +99,7 @@ static SporeStepResult adaptive_step(const SporeDynamics *dynamics, const SporeS
     bool solved = result.converged;
     result.converged = true;
     spore_step_result_add(&total, &result);
-    if (!good && !small) {
+    if (!good && !small && !spore_cancel_asked(dynamics->cancel)) {
       size = fmax(part * fmin(factor, SAFETY), smallest);
       last = false;
       dynamics->set_mass(dynamics->data, q);

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <glib/gi18n.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -42,7 +43,12 @@ static gboolean say_why(int fault, const char *place, GError **error) {
                            g_strerror(fault), remedy);
 }
 
+static atomic_int open_count;
+
+gboolean spore_file_batch_is_open(void) { return atomic_load(&open_count) > 0; }
+
 SporeFileBatch *spore_file_batch_new(void) {
+  atomic_fetch_add(&open_count, 1);
   SporeFileBatch *batch = g_new0(SporeFileBatch, 1);
   batch->entries = g_ptr_array_new();
   batch->made = g_array_new(FALSE, FALSE, sizeof(MadeFolder));
@@ -73,6 +79,7 @@ void spore_file_batch_free(SporeFileBatch *batch) {
   }
   g_array_unref(batch->made);
   g_free(batch);
+  atomic_fetch_sub(&open_count, 1);
 }
 
 /* Opens a folder below another folder, and makes it where it is missing. -1 with errno. */

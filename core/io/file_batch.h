@@ -10,6 +10,8 @@
 typedef struct SporeFileBatch SporeFileBatch;
 
 SporeFileBatch *spore_file_batch_new(void);
+/* Whether some batch is not freed yet, so that there may be temporary files. May be called by a handler of signals. */
+gboolean spore_file_batch_is_open(void);
 /* Takes back what was not committed. */
 void spore_file_batch_free(SporeFileBatch *batch);
 

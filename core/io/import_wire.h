@@ -4,6 +4,9 @@
 
 #include <stdint.h>
 
+/* Corners of a face at most. Cutting a face into triangles takes work by the square of its corners. */
+#define SPORE_FACE_CORNERS_MAXIMUM 10000
+
 /* The file's bytes follow. */
 typedef struct SporeImportRequest {
   uint64_t format; /* SporeMeshFormat, never OFF */

@@ -5,6 +5,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/io/import_wire.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scanner.h"
 
@@ -36,7 +37,9 @@ static gboolean read_vertices(SporeScanner *scanner, gsize count, GArray *vertic
 static gboolean read_face(SporeScanner *scanner, gsize vertex_count, GArray *triangles, GError **error) {
   guint64 corners, index;
   guint32 corner[3];
-  if (!spore_scanner_integer(scanner, _("the number of a face's corners"), 1, 1000000, &corners, error)) return FALSE;
+  if (!spore_scanner_integer(scanner, _("the number of a face's corners"), 1, SPORE_FACE_CORNERS_MAXIMUM, &corners,
+                             error))
+    return FALSE;
   for (guint64 i = 0; i < corners; i++) {
     if (!spore_scanner_integer(scanner, _("the index of a vertex"), 0, vertex_count - 1, &index, error)) return FALSE;
     corner[MIN(i, 2)] = (guint32)index;

@@ -31,6 +31,10 @@ SporeLinearResult spore_bicgstab(const SporeLinearOperator *operator, const doub
   if (!(start > 0) || !isfinite(start)) return ended(SPORE_LINEAR_BREAKDOWN, 0, INFINITY);
   memcpy(p, z, n * sizeof *p);
   for (size_t iteration = 1; iteration <= iterations; iteration++) {
+    if (spore_cancel_asked(operator->cancel)) {
+      memset(x, 0, n * sizeof *x);
+      return ended(SPORE_LINEAR_BREAKDOWN, iteration, INFINITY);
+    }
     operator->multiply(operator->data, p, v);
     operator->precondition(operator->data, v, vz);
     double alpha = rho / spore_vector_dot(n, shadow, vz);

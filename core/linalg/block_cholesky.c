@@ -88,7 +88,8 @@ static bool eliminate(SporeBlockCholesky *factor, const SporeSupernode *node, do
     add_update(factor, child, 0, child->inside, 0, child->inside, t, ldt, 0, 0);
     add_update(factor, child, 0, child->inside, child->inside, child->row_count, b, ld, 0, columns);
   }
-  if (!SPORE_KERNEL(spore_cholesky_eliminate)(columns_of(node), rows_of(node), t, b, update, factor->work))
+  if (!SPORE_KERNEL(spore_cholesky_eliminate)(columns_of(node), rows_of(node), t, b, update, factor->work,
+                                              factor->cancel))
     return false;
   for (const SporeSupernode *child = last; child; child = child_before(factor, child))
     add_update(factor, child, child->inside, child->row_count, child->inside, child->row_count, update, ld, columns,

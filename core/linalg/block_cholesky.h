@@ -7,6 +7,7 @@
 #ifndef SPORE_LINALG_BLOCK_CHOLESKY_H
 #define SPORE_LINALG_BLOCK_CHOLESKY_H
 
+#include "core/base/cancel.h"
 #include "core/linalg/block_band.h"
 
 /* Columns `first`.. of L that are kept together as one dense panel. */
@@ -37,6 +38,7 @@ typedef enum SporeFactorLayout {
 typedef struct SporeBlockCholesky {
   size_t block_count; /* 0: there is no factor */
   double factor_flops, solve_flops;
+  const SporeCancel *cancel; /* of the analysis and of each factorisation; borrowed; NULL: none */
   /* Of a matrix of blocks B with a direction: the factor is that of B, and by Sherman and Morrison's formula
    * (B + d d^T)^-1 b = z - w (d . z) / (1 + d . w), z = B^-1 b, w = B^-1 d. */
   double *direction, *response; /* d and w, 3 block_count each; NULL: the pattern has none */
@@ -58,17 +60,18 @@ typedef struct SporeBlockCholesky {
 } SporeBlockCholesky;
 
 /* Analyses the pattern and takes all memory that factorising and solving need. Where factorising would take more than
- * about most_flops there is no factor: true, and block_count 0. False: no memory. */
+ * about most_flops there is no factor: true, and block_count 0. cancel: ends the analysis, and later factorisations;
+ * borrowed as long as the factor lives; may be NULL. False: no memory, or cancelled. */
 bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
-                                 double most_flops);
+                                 double most_flops, const SporeCancel *cancel);
 /* spore_block_band_lay_out, where the factor is a band; else there is none then. */
 bool spore_block_cholesky_lay_out(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern);
 void spore_block_cholesky_clear(SporeBlockCholesky *factor);
 /* Factorises the matrix, of the pattern analysed, with its diagonal blocks replaced by `diagonal` (9 a block) unless
  * that is NULL, and with rows and columns of held blocks (a flag a block, or NULL) replaced by those of the identity.
- * False, and no factor to solve with, where a pivot is not positive. Reads one triangle. may_round: what does not lose
- * by it is stored in single precision, which is solved with in half the time; good for a preconditioner. A band is not
- * rounded. */
+ * False, and no factor to solve with, where a pivot is not positive or the work was cancelled. Reads one triangle.
+ * may_round: what does not lose by it is stored in single precision, which is solved with in half the time; good for a
+ * preconditioner. A band is not rounded. */
 bool spore_block_cholesky_factorise(SporeBlockCholesky *factor, const SporeBlockMatrix *matrix, const double *diagonal,
                                     const uint8_t *held, bool may_round);
 /* x = A^-1 b; may be the same vector. */

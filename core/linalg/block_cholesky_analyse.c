@@ -115,10 +115,11 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* A column of L has the rows of the matrix's column and those of its children in the tree. */
-static void find_rows(Analysis *analysis, const uint32_t *order) {
+static bool find_rows(Analysis *analysis, const uint32_t *order, const SporeCancel *cancel) {
   const SporeBlockMatrix *pattern = analysis->pattern;
   for (uint32_t j = 0; j < analysis->count; j++) analysis->mark[j] = 0;
   for (uint32_t j = 0; j < analysis->count; j++) {
+    if (spore_cancel_asked(cancel)) return false;
     analysis->start[j + 1] = analysis->start[j];
     for (uint32_t k = pattern->row_start[order[j]]; k < pattern->row_start[order[j] + 1]; k++)
       add_row(analysis, j, analysis->place[pattern->column[k]]);
@@ -126,6 +127,7 @@ static void find_rows(Analysis *analysis, const uint32_t *order) {
       for (size_t k = analysis->start[c]; k < analysis->start[c + 1]; k++) add_row(analysis, j, analysis->row[k]);
     qsort(analysis->row + analysis->start[j], analysis->start[j + 1] - analysis->start[j], sizeof(uint32_t), ascending);
   }
+  return true;
 }
 
 static size_t rows_below(const Analysis *analysis, uint32_t j) { return analysis->start[j + 1] - analysis->start[j]; }
@@ -287,7 +289,7 @@ static bool build(Analysis *analysis, SporeBlockCholesky *factor) {
   place_blocks(analysis, factor->order);
   find_parents(analysis, factor->order);
   postorder(analysis, factor->order);
-  find_rows(analysis, factor->order);
+  if (!find_rows(analysis, factor->order, factor->cancel)) return false;
   factor->block_count = n;
   factor->supernode_count = find_supernodes(analysis);
   factor->supernodes = SPORE_NEW_ARRAY(SporeSupernode, factor->supernode_count);
@@ -311,7 +313,8 @@ static bool create_sparse(SporeBlockCholesky *factor, const SporeBlockMatrix *pa
   const double flops_of_square = 27; /* three columns of 3 c numbers each, squared */
   SporeFill fill;
   factor->order = SPORE_NEW_ARRAY(uint32_t, pattern->block_count);
-  bool made = factor->order && spore_minimum_degree(pattern, most_flops / flops_of_square, factor->order, &fill);
+  bool made = factor->order &&
+              spore_minimum_degree(pattern, most_flops / flops_of_square, factor->cancel, factor->order, &fill);
   bool wanted = made && fill.squares <= most_flops / flops_of_square;
   if (wanted) {
     Analysis analysis;
@@ -332,9 +335,9 @@ static void count_band(SporeBlockCholesky *factor) {
 }
 
 static bool create_blocks(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
-                          double most_flops) {
+                          double most_flops, const SporeCancel *cancel) {
   SporeBlockBand band = {0};
-  *factor = (SporeBlockCholesky){0};
+  *factor = (SporeBlockCholesky){.cancel = cancel};
   if (pattern->block_count == 0) return true;
   if (layout != SPORE_FACTOR_SPARSE && !spore_block_band_create(&band, pattern)) return false;
   bool banded = band.block_count > 0;
@@ -350,7 +353,7 @@ static bool create_blocks(SporeBlockCholesky *factor, const SporeBlockMatrix *pa
     return true;
   }
   spore_block_cholesky_clear(factor);
-  *factor = (SporeBlockCholesky){.band = band};
+  *factor = (SporeBlockCholesky){.band = band, .cancel = cancel};
   count_band(factor);
   return true;
 }
@@ -363,9 +366,9 @@ bool spore_block_cholesky_lay_out(SporeBlockCholesky *factor, const SporeBlockMa
 }
 
 bool spore_block_cholesky_create(SporeBlockCholesky *factor, const SporeBlockMatrix *pattern, SporeFactorLayout layout,
-                                 double most_flops) {
+                                 double most_flops, const SporeCancel *cancel) {
   assert(layout <= SPORE_FACTOR_BANDED && most_flops >= 0);
-  if (!create_blocks(factor, pattern, layout, most_flops)) return false;
+  if (!create_blocks(factor, pattern, layout, most_flops, cancel)) return false;
   if (!pattern->direction || factor->block_count == 0) return true;
   factor->direction = SPORE_NEW_ARRAY(double, 3 * factor->block_count);
   factor->response = SPORE_NEW_ARRAY(double, 3 * factor->block_count);

@@ -7,6 +7,14 @@
 
 #define PARTS (SPORE_LANES / SPORE_WIDTH)
 #define DOWN(row) ((row) / SPORE_LANES * SPORE_LANES)
+#define ASKED_COLUMNS                                                                                                  \
+  48 /* a multiple of 6. Fewer columns are done so soon that asking between them is not worth it                       \
+      */
+
+/* Asked where a group of columns begins. */
+static bool is_ended(const SporeCancel *cancel, size_t column) {
+  return column % ASKED_COLUMNS == 0 && spore_cancel_asked(cancel);
+}
 
 /* Sums over k of a(i, k) b(j, k), for `vectors` vectors of rows i and `columns` columns j. a: column k at k lda; b: the
  * j of a k next to each other, at k ldb. */
@@ -56,9 +64,10 @@ static bool factorise_block(const double *t, size_t ld, double l[6]) {
 }
 
 /* Cholesky's factor of the triangle in t, but its diagonal blocks inverted already. */
-SPORE_INLINE bool factorise_triangle(size_t columns, size_t ld, double *t) {
+SPORE_INLINE bool factorise_triangle(size_t columns, size_t ld, double *t, const SporeCancel *cancel) {
   for (size_t j = 0; j < columns; j += 3) {
     double *c = t + j * ld, l[6];
+    if (is_ended(cancel, j)) return false;
     if (j > 0) subtract_rows(3, DOWN(j), ld, j, t, ld, t + j, ld, false, c, ld);
     if (!factorise_block(c + j, ld, l)) return false;
     double i0 = 1 / l[0], i1 = 1 / l[3], i2 = 1 / l[5];
@@ -76,9 +85,10 @@ SPORE_INLINE bool factorise_triangle(size_t columns, size_t ld, double *t) {
 }
 
 /* The whole inverse, from the last columns to the first: T21 = -T22 L21 T11. */
-SPORE_INLINE void invert_triangle(size_t columns, size_t ld, double *t, double *work) {
+SPORE_INLINE bool invert_triangle(size_t columns, size_t ld, double *t, double *work, const SporeCancel *cancel) {
   for (size_t j = columns; j > 0;) {
     j -= 3;
+    if (j > 0 && is_ended(cancel, j)) return false;
     double *c = t + j * ld, d[9], *below = c + j + 3;
     size_t depth = columns - j - 3;
     for (int e = 0; e < 9; e++) d[e] = c[j + (size_t)(e / 3) * ld + (size_t)(e % 3)];
@@ -96,6 +106,7 @@ SPORE_INLINE void invert_triangle(size_t columns, size_t ld, double *t, double *
     for (size_t e = 0; e < 3; e++) memset(c + e * ld, 0, j * sizeof *c);
     for (int e = 0; e < 9; e++) c[j + (size_t)(e / 3) * ld + (size_t)(e % 3)] = d[e];
   }
+  return true;
 }
 
 /* b = b t^T in place: the columns of a tile come from those up to it, so the last goes first. */
@@ -113,15 +124,21 @@ SPORE_INLINE void apply_columns(int vectors, size_t columns, const double *t, si
 }
 
 bool SPORE_LEVEL_NAME(spore_cholesky_eliminate)(size_t columns, size_t rows, double *t, double *b, double *u,
-                                                double *work) {
+                                                double *work, const SporeCancel *cancel) {
   assert(columns > 0 && columns % 3 == 0 && rows % 3 == 0);
   assert(t && work && (rows == 0 || (b && u)));
   size_t ldt = spore_cholesky_pad(columns), ld = spore_cholesky_pad(rows), i = 0, j = 0;
-  if (!factorise_triangle(columns, ldt, t)) return false;
-  invert_triangle(columns, ldt, t, work);
-  for (; i + 2 * SPORE_WIDTH <= ld; i += 2 * SPORE_WIDTH) apply_columns(2, columns, t, ldt, b + i, ld);
+  const SporeCancel *between = columns > ASKED_COLUMNS ? cancel : NULL;
+  if (!factorise_triangle(columns, ldt, t, cancel) || !invert_triangle(columns, ldt, t, work, cancel)) return false;
+  for (; i + 2 * SPORE_WIDTH <= ld; i += 2 * SPORE_WIDTH) {
+    if (spore_cancel_asked(between)) return false;
+    apply_columns(2, columns, t, ldt, b + i, ld);
+  }
   if (i < ld) apply_columns(1, columns, t, ldt, b + i, ld);
-  for (; j + 6 <= rows; j += 6) subtract_rows(6, DOWN(j), ld, columns, b, ld, b + j, ld, true, u + j * ld, ld);
+  for (; j + 6 <= rows; j += 6) {
+    if (spore_cancel_asked(between)) return false;
+    subtract_rows(6, DOWN(j), ld, columns, b, ld, b + j, ld, true, u + j * ld, ld);
+  }
   if (j < rows) subtract_rows(3, DOWN(j), ld, columns, b, ld, b + j, ld, true, u + j * ld, ld);
   return true;
 }

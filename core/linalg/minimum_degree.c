@@ -155,7 +155,8 @@ static uint32_t prune(Graph *graph, uint32_t i, uint32_t pivot) {
   return degree + kept;
 }
 
-bool spore_minimum_degree(const SporeBlockMatrix *pattern, double most, uint32_t *order, SporeFill *fill) {
+bool spore_minimum_degree(const SporeBlockMatrix *pattern, double most, const SporeCancel *cancel, uint32_t *order,
+                          SporeFill *fill) {
   assert(pattern->block_count < UINT32_MAX && most >= 0);
   assert(order && fill);
   Graph graph;
@@ -166,7 +167,7 @@ bool spore_minimum_degree(const SporeBlockMatrix *pattern, double most, uint32_t
   for (uint32_t step = 0; made && step < graph.count && fill->squares <= most; step++) {
     while (graph.first[lowest] == NONE) lowest++;
     uint32_t pivot = order[step] = graph.first[lowest], left = graph.count - step - 1;
-    made = eliminate(&graph, pivot);
+    made = !spore_cancel_asked(cancel) && eliminate(&graph, pivot);
     if (!made) break;
     uint32_t size = graph.around_size[pivot];
     fill->squares += (1.0 + size) * (1.0 + size);

@@ -37,6 +37,7 @@ SporeLinearResult spore_pcg(const SporeLinearOperator *operator, const double * 
   memcpy(p, z, n * sizeof *p);
   SporeLinearResult result = {SPORE_LINEAR_TOO_MANY, 0, 1};
   while (result.iterations < iterations) {
+    if (spore_cancel_asked(operator->cancel)) return broken(n, x, result.iterations);
     operator->multiply(operator->data, p, ap);
     double curvature = dot(n, p, ap);
     if (!isfinite(curvature)) return broken(n, x, result.iterations);

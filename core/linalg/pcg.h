@@ -4,18 +4,21 @@
 
 #include <stddef.h>
 
+#include "core/base/cancel.h"
+
 typedef struct SporeLinearOperator {
   void *data;
   size_t count;                                                 /* unknowns */
   void (*multiply)(void *data, const double *x, double *y);     /* y = A x */
   void (*precondition)(void *data, const double *r, double *z); /* z = P^-1 r, P positive definite */
+  const SporeCancel *cancel; /* asked in each iteration; NULL: the work is not ended early */
 } SporeLinearOperator;
 
 typedef enum SporeLinearStatus {
   SPORE_LINEAR_CONVERGED,
   SPORE_LINEAR_TOO_MANY,   /* iterations spent; x is the best so far */
   SPORE_LINEAR_INDEFINITE, /* a direction p with p.Ap <= 0 or r.P^-1 r < 0 was met; x is what was reached before it */
-  SPORE_LINEAR_BREAKDOWN   /* a number was not finite; x is zero */
+  SPORE_LINEAR_BREAKDOWN   /* a number was not finite, or the work was cancelled; x is zero */
 } SporeLinearStatus;
 
 typedef struct SporeLinearResult {

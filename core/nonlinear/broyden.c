@@ -142,7 +142,7 @@ SporeNonlinearResult spore_broyden(const SporeSystem *system, const SporeNonline
   }
   if (spore_convergence_rounding(&test, system, x, &result)) return result;
   double near = spore_convergence_near(&test, system), start = test.norm, target = test.tolerance * test.scale_r;
-  while (!result.converged && result.iterations < options->iterations) {
+  while (!result.converged && result.iterations < options->iterations && !spore_cancel_asked(system->cancel)) {
     if (!approximate(system, r, g, &result)) break;
     system->weigh(system->data, g, weights);
     if (pending) {

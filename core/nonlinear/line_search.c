@@ -37,7 +37,7 @@ static void try_length(Line *line, double length) {
 /* d need not go downhill: the norm has to fall. */
 static double by_norm(Line *line, double norm) {
   double length = 1;
-  for (int k = 0; k <= TRIALS; k++, length /= 2) {
+  for (int k = 0; k <= TRIALS && !spore_cancel_asked(line->system->cancel); k++, length /= 2) {
     try_length(line, length);
     if (line->norm <= (1 - 1e-4 * length) * norm) return length;
   }
@@ -52,7 +52,7 @@ static double between(double low, double low_slope, double high, double high_slo
 
 static double by_slope(Line *line, double norm, double start) {
   double low = 0, low_slope = start, high = HUGE_VAL, high_slope = 0, length = 1;
-  for (int k = 0, side = 0; k <= TRIALS; k++) {
+  for (int k = 0, side = 0; k <= TRIALS && !spore_cancel_asked(line->system->cancel); k++) {
     try_length(line, length);
     if (line->norm <= 0.5 * norm || fabs(line->slope) <= FLAT * start) return length;
     if (line->slope > 0) {

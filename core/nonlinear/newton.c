@@ -52,14 +52,17 @@ static void move(size_t n, const double *x, const double *d, double *to) {
   spore_vector_add_scaled(n, to, 1, d);
 }
 
-static bool direction(const SporeSystem *system, const SporeConvergence *test, double previous, const double *r,
-                      bool whole, double *d, SporeNonlinearResult *result) {
+/* False: there is none, or the solver took more than it may. */
+static bool direction(const SporeSystem *system, const SporeNonlinearOptions *options, const SporeConvergence *test,
+                      double previous, const double *r, bool whole, double *d, SporeNonlinearResult *result) {
   double tolerance = forcing_term(test->norm, previous, test->tolerance * test->scale_r);
   SporeLinearResult linear = whole && system->solve_whole ? system->solve_whole(system->data, r, tolerance, d)
                                                           : system->solve(system->data, r, tolerance, d);
   result->linear_iterations += linear.iterations;
   result->unsolved += linear.status != SPORE_LINEAR_CONVERGED;
   result->indefinite |= linear.status == SPORE_LINEAR_INDEFINITE;
+  bool impatient = options->linear_patience > 0 && result->linear_iterations >= options->linear_patience;
+  if (linear.status == SPORE_LINEAR_TOO_MANY && impatient) return false;
   return linear.status != SPORE_LINEAR_BREAKDOWN;
 }
 
@@ -79,7 +82,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
   bool whole = false; /* A alone leads from afar to the answer that has gained no energy, but near it may creep */
   memcpy(best, x, n * sizeof *x);
   double previous = 0, near = spore_convergence_near(&test, system);
-  while (!result.converged && result.iterations < options->iterations) {
+  while (!result.converged && result.iterations < options->iterations && !spore_cancel_asked(system->cancel)) {
     if (result.iterations > 0 || !options->linearised) {
       system->linearise(system->data, x, result.iterations > 0 ? from : NULL);
       result.linearisations++;
@@ -87,7 +90,7 @@ SporeNonlinearResult spore_newton(const SporeSystem *system, const SporeNonlinea
     /* A residual no greater than rounding may still be more than that: one more iteration takes away what is left. */
     bool last = spore_convergence_rounding(&test, system, x, &result), solved = result.converged;
     if (last && result.iterations == 0) break;
-    if (!direction(system, &test, previous, r, whole, d, &result)) break;
+    if (!direction(system, options, &test, previous, r, whole, d, &result)) break;
     double trial_norm, length = 1;
     move(n, x, d, trial);
     system->residual(system->data, trial, trial_r);

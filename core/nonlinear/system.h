@@ -15,6 +15,8 @@ typedef struct SporeSystem {
   void *data;
   size_t count;  /* unknowns */
   bool switches; /* there are forces that set in or end with x, such as those of contacts */
+  const SporeCancel
+      *cancel; /* asked in each iteration; what was reached then is the answer, not converged; NULL: none */
   /* r(x); entries that are not finite are allowed and make `norm` not finite. */
   void (*residual)(void *data, const double *x, double *r);
   /* from: where the step to x was taken by the linearisation there, or NULL; what that promised of x may serve better
@@ -50,6 +52,9 @@ typedef struct SporeNonlinearOptions {
   bool linearised;   /* the system is, at the guess: Newton's method begins with that */
   double load;       /* where another method goes on: norm that its residual was relative to, the most that this one's
                         may be; 0: this is the first */
+  /* Linear iterations after which Newton's method ends where the linear solver meets its limit: another solver would
+   * have taken less work. 0: it never ends for that. */
+  size_t linear_patience;
 } SporeNonlinearOptions;
 
 typedef struct SporeNonlinearResult {

@@ -209,8 +209,9 @@ static gint worst_first(gconstpointer a, gconstpointer b) {
 
 static void free_diagnostic(gpointer data) { spore_diagnostic_free(data); }
 
-GPtrArray *spore_document_check(SporeDocument *document) {
-  SporeCheck check = {document, g_ptr_array_new_with_free_func(free_diagnostic), NULL, 0};
+GPtrArray *spore_document_check(SporeDocument *document, const SporeCancel *cancel) {
+  SporeCheck check = {.document = document, .cancel = cancel};
+  check.found = g_ptr_array_new_with_free_func(free_diagnostic);
   check.users = g_hash_table_new_full(NULL, NULL, NULL, (GDestroyNotify)g_ptr_array_unref);
   check_references(&check, spore_document_root(document));
   if (spore_object_child_count(spore_document_section(document, "bodies")) == 0)

@@ -2,6 +2,7 @@
 #ifndef SPORE_SCENE_CHECK_H
 #define SPORE_SCENE_CHECK_H
 
+#include "core/base/cancel.h"
 #include "core/scene/document.h"
 
 typedef enum SporeSeverity { SPORE_NOTE, SPORE_WARNING, SPORE_FAULT } SporeSeverity;
@@ -14,7 +15,7 @@ void spore_diagnostic_free(SporeDiagnostic *diagnostic);
 /* GPtrArray of SporeDiagnostic *, worst first; never NULL. The reader has checked the format already. This function
  * checks references, assets, units (an organ 150 m long), mesh quality, initial overlap, loose passive bodies, unused
  * assets, stale generated data, the time step against the stiffness, and what a model reports that it computes badly.
- */
-GPtrArray *spore_document_check(SporeDocument *document);
+ * cancel: ends the check with what was found so far; NULL: none. */
+GPtrArray *spore_document_check(SporeDocument *document, const SporeCancel *cancel);
 
 #endif

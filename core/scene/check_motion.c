@@ -7,6 +7,7 @@
 #include "core/scene/check_private.h"
 #include "core/scene/compile.h"
 #include "core/scene/schema_fields.h"
+#include "core/scene/work_estimate.h"
 
 #define NOTED_OVERLAP 0.1 /* of the smaller radius: touching bodies overlap by less */
 #define WARNED_OVERLAP 0.5
@@ -213,12 +214,34 @@ static void check_doubts(SporeCheck *check, const SporeSimulation *simulation) {
   }
 }
 
+typedef struct SayWork {
+  SporeCheck *check;
+  const SporeObject *body;
+} SayWork;
+
+static void say_work(gpointer data, const char *sentence, const char *remedy) {
+  const SayWork *to = data;
+  spore_check_say(to->check, SPORE_WARNING, to->body, remedy, "%s", sentence);
+}
+
+/* Warns of what takes long to make or to run. */
+static void check_work(SporeCheck *check, const SporeSimulation *simulation) {
+  const SporeObject *bodies = spore_document_section(check->document, "bodies");
+  for (guint i = 0; i < spore_object_child_count(bodies); i++) {
+    SporeObject *body = spore_object_child(bodies, i);
+    guint32 index = spore_simulation_body_of(simulation, body);
+    if (index == SPORE_NO_BODY) continue;
+    SayWork to = {check, body};
+    spore_body_say_work(simulation->world, index, say_work, &to);
+  }
+}
+
 /* Checks what shows only when the scene is compiled: models that refuse their geometry, pins that hold nothing, a time
  * step too large for the stiffness. */
 static SporeSimulation *check_compiled(SporeCheck *check) {
   g_autoptr(GError) error = NULL;
-  SporeSimulation *simulation = spore_simulation_new(check->document, NULL, NULL, &error);
-  if (!simulation) spore_check_say_error(check, SPORE_FAULT, NULL, error);
+  SporeSimulation *simulation = spore_simulation_new(check->document, NULL, NULL, check->cancel, &error);
+  if (!simulation && !spore_cancel_asked(check->cancel)) spore_check_say_error(check, SPORE_FAULT, NULL, error);
   return simulation;
 }
 
@@ -235,6 +258,7 @@ void spore_check_motion(SporeCheck *check) {
   if (simulation) spore_check_mapping(check, simulation);
   if (simulation) check_piles(check, simulation);
   if (simulation) check_doubts(check, simulation);
+  if (simulation) check_work(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);
   if (simulation) spore_check_pins(check, simulation);
   spore_simulation_free(simulation);

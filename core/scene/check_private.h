@@ -11,6 +11,7 @@
 
 typedef struct SporeCheck {
   SporeDocument *document;
+  const SporeCancel *cancel;
   GPtrArray *found;  /* of SporeDiagnostic * */
   GHashTable *users; /* object -> GPtrArray of the objects that refer to that object */
   guint faults;

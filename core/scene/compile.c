@@ -2,6 +2,7 @@
  * devices. */
 #include "core/scene/compile_private.h"
 
+#include <glib/gi18n.h>
 #include <string.h>
 
 static void free_spheres(gpointer data) {
@@ -9,10 +10,15 @@ static void free_spheres(gpointer data) {
   g_free(data);
 }
 
+static gboolean go_on(SporeCompiler *compiler) {
+  if (!spore_cancel_asked(compiler->cancel)) return TRUE;
+  return spore_error_raise(compiler->error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+}
+
 static gboolean describe(SporeCompiler *compiler) {
   SporeObject *bodies = spore_document_section(compiler->document, "bodies");
   for (guint i = 0; i < spore_object_child_count(bodies); i++)
-    if (!spore_compiler_add_body(compiler, spore_object_child(bodies, i))) return FALSE;
+    if (!spore_compiler_add_body(compiler, spore_object_child(bodies, i)) || !go_on(compiler)) return FALSE;
   SporeObject *links = spore_document_section(compiler->document, "links");
   for (guint i = 0; i < spore_object_child_count(links); i++)
     if (!spore_compiler_add_link(compiler, spore_object_child(links, i))) return FALSE;
@@ -44,7 +50,8 @@ static gboolean say_in_scene(SporeCompiler *compiler, const SporeError *fault) {
 
 static SporeWorld *create_world(SporeCompiler *compiler, SporePool *pool) {
   SporeEnvironmentFields environment;
-  SporeWorldDescription description = {.body_count = compiler->bodies->len,
+  SporeWorldDescription description = {.cancel = compiler->cancel,
+                                       .body_count = compiler->bodies->len,
                                        .link_count = compiler->links->len,
                                        .tool_count = compiler->tools->len,
                                        .emitter_count = compiler->emitters->len,
@@ -82,8 +89,8 @@ static SporeSimulation *assemble(SporeCompiler *compiler, SporePool *pool, const
 }
 
 SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, const SporeTrack *input,
-                                      GError **error) {
-  SporeCompiler compiler = {.document = document, .error = error};
+                                      const SporeCancel *cancel, GError **error) {
+  SporeCompiler compiler = {.document = document, .cancel = cancel, .error = error};
   compiler.objects = g_ptr_array_new();
   compiler.bodies = g_array_new(FALSE, TRUE, sizeof(SporeBodyDescription));
   compiler.links = g_array_new(FALSE, TRUE, sizeof(SporeLinkDescription));

@@ -15,10 +15,11 @@ typedef struct SporeSimulation {
 } SporeSimulation;
 
 /* Compiles the document. The pool is borrowed. `input` replaces the scene's own tracks by body name, and is borrowed
- * for the simulation's life; NULL: the scene's tracks are used. Returns NULL with a GError (place "FILE:LINE:COLUMN" or
- * object path) when the scene cannot run. */
+ * for the simulation's life; NULL: the scene's tracks are used. cancel: ends the compilation and later steps, and is
+ * borrowed for the simulation's life; NULL: none. Returns NULL with a GError (place "FILE:LINE:COLUMN" or object path)
+ * when the scene cannot run, and when the compilation was cancelled. */
 SporeSimulation *spore_simulation_new(SporeDocument *document, SporePool *pool, const SporeTrack *input,
-                                      GError **error);
+                                      const SporeCancel *cancel, GError **error);
 void spore_simulation_free(SporeSimulation *simulation);
 /* Whether the body collides with its model's own spheres: its collision unit names no sphere set. */
 gboolean spore_body_has_own_spheres(const SporeObject *body);

@@ -15,6 +15,7 @@ typedef struct SporeCompiler {
   GArray *emitters;   /* of SporeEmitterDescription */
   GPtrArray *spheres; /* of SporeSphereSet: models' own */
   GPtrArray *fields;  /* parameters of tools; the tools' descriptions borrow them */
+  const SporeCancel *cancel;
   GError **error;
 } SporeCompiler;
 

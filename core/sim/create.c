@@ -275,6 +275,7 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
     return NULL;
   }
   world->pool = pool;
+  world->cancel = description->cancel;
   world->solver = description->solver;
   world->state.gravity = description->gravity;
   world->schedule.profile.name = "step";
@@ -285,6 +286,10 @@ SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePo
       spore_world_create_particles(world, description, error) &&
       (spore_world_create_refinement(world) || no_memory(error)) && spore_world_create_factors(world, error) &&
       spore_world_create_lod(world, description, error) && allocate_vectors(world, error) && check_steps(world, error);
+  if (spore_cancel_asked(world->cancel)) {
+    spore_error_set(error, SPORE_ERROR_CANCELLED, NULL, _("cancelled"));
+    return give_up(world);
+  }
   if (!made) return give_up(world);
   if (!spore_snapshots_init(world)) {
     spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the snapshots"));

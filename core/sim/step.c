@@ -222,12 +222,18 @@ void spore_world_make_plan(SporeWorld *world) {
       schedule->left_out[plan->left_out_count++] = (SporePlanLeftOut){_(spared[i].what), _(spared[i].reason)};
 }
 
+bool spore_world_cancelled(const SporeWorld *world) { return world->schedule.cancelled; }
+
 void spore_world_step(SporeWorld *world) {
   SporeSchedule *schedule = &world->schedule;
   uint64_t start = spore_clock_ns(), before = start;
+  bool accepted = false; /* before it nothing of the next state is kept; after it the step is short */
   /* The first stage applies commands, which may add or remove a later stage. */
   for (size_t i = 0; i < schedule->run_count; i++) {
     size_t stage = schedule->run[i];
+    schedule->cancelled |= !accepted && spore_cancel_asked(world->cancel);
+    if (schedule->cancelled) return;
+    accepted |= stages[stage].run == spore_world_accept;
     stages[stage].run(world);
     uint64_t after = spore_clock_ns();
     spore_profile_add(&schedule->profiles[stage], after - before);

@@ -30,6 +30,7 @@ typedef struct SporeSchedule {
   SporeProfilePhase profile; /* of whole steps */
   double step_us;            /* of the step before */
   double budget_us;          /* 0: none */
+  bool cancelled;            /* a step was, since time 0 */
 } SporeSchedule;
 
 typedef struct SporeCommands {

@@ -77,6 +77,7 @@ void spore_world_reset(SporeWorld *world) {
   world->contact.count = world->contact.friction_count = 0;
   world->state.counts = (SporeStepCounts){0};
   world->schedule.step_us = 0;
+  world->schedule.cancelled = false;
   for (size_t b = 0; b < world->body_count; b++) reset_body(world, &world->bodies[b]);
   spore_monitor_reset(&world->state.monitor);
   spore_world_reset_unsolved(world);

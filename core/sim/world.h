@@ -10,6 +10,7 @@
 #ifndef SPORE_SIM_WORLD_H
 #define SPORE_SIM_WORLD_H
 
+#include "core/base/cancel.h"
 #include "core/base/profile.h"
 #include "core/base/threads.h"
 #include "core/collide/sphere.h"
@@ -110,20 +111,26 @@ typedef struct SporeWorldDescription {
   const SporeLinkDescription *links;
   SporeVec3 gravity; /* m/s^2 */
   SporeSolverFields solver;
+  const SporeCancel *cancel; /* ends making the world, and steps; borrowed as long as the world lives; NULL: none */
 } SporeWorldDescription;
 
 /* A world at time 0, to be freed by spore_world_free. Names are copied; the models belong to the world from then on.
  * pool: threads for long loops, borrowed as long as the world lives; NULL: the calling thread alone. The results do not
  * depend on the pool.
  * NULL with the error where there is no memory, where a number is not finite or out of its range, where a pin holds
- * nothing, where nothing that a link ties can move, or where a body cannot be integrated as asked. The error's place is
- * "bodies/NAME", "links/NAME" or the like. The models still belong to the caller then. */
+ * nothing, where nothing that a link ties can move, where a body cannot be integrated as asked, or where it was
+ * cancelled (SPORE_ERROR_CANCELLED). The error's place is "bodies/NAME", "links/NAME" or the like. The models still
+ * belong to the caller then. */
 SporeWorld *spore_world_create(const SporeWorldDescription *description, SporePool *pool, SporeError *error);
 /* Frees the world and its models. Devices and the pool stay. NULL is allowed. */
 void spore_world_free(SporeWorld *world);
 
-/* One step of solver.time_step seconds. The stages of the step stand in one table, in step.c. */
+/* One step of solver.time_step seconds. The stages of the step stand in one table, in step.c. A step that is cancelled
+ * ends after a bounded piece of work, and so do all later steps before a reset: see spore_world_cancelled. */
 void spore_world_step(SporeWorld *world);
+/* Whether a step was cancelled since time 0. The state, its time and its number are those before that step. Commands
+ * and instruments may have taken effect in part, so that only a reset makes the world go on. */
+bool spore_world_cancelled(const SporeWorld *world);
 /* Back to time 0: the state is the same to the bit. */
 void spore_world_reset(SporeWorld *world);
 
@@ -309,6 +316,16 @@ typedef struct SporeMethod {
   size_t substeps;
   SporeMethodSource substeps_source;
 } SporeMethod;
+/* Work that a body takes on one core, s: estimated from counts of blocks, and from how long a block took on a machine
+ * of 2024, so that every machine says the same. */
+typedef struct SporeBodyWork {
+  double make_s;   /* to make its matrix, and to analyse its factor */
+  double factor_s; /* to factorise once; 0: it is never factorised */
+  double step_s;   /* a step in which it moves, at the least: an iteration by the cheaper of the solvers that it has */
+  double time_step_s; /* the world's: what a step may take in real time */
+} SporeBodyWork;
+/* Fills *work. False: the body is not integrated implicitly. */
+bool spore_world_body_work(const SporeWorld *world, uint32_t body, SporeBodyWork *work);
 /* Fills *method. False: physics does not move the body. */
 bool spore_world_body_method(const SporeWorld *world, uint32_t body, SporeMethod *method);
 /* Times of whole steps. */

@@ -61,6 +61,7 @@ struct SporeWorld {
   SporeBody *bodies;
   SporeSolverFields solver;
   SporePool *pool;
+  const SporeCancel *cancel;
   bool has_lod; /* some body has levels of detail */
   SporeCommands commands;
   SporeSchedule schedule;

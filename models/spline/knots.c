@@ -10,8 +10,7 @@
 #define STRAIGHT (1. / 3) /* of most_bend: what the halves turn by together before they become one again */
 
 bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLine *made, const SporeSplineTwist *twist,
-                               const SporeCurve *curve, const SporeSplineDensity *density,
-                               const SporeSplineSection *section) {
+                               const SporeSplineDensity *density, const SporeSplineSection *section) {
   assert(density->most >= made->control_count);
   size_t most = density->most;
   *changes = (SporeSplineChanges){
@@ -29,8 +28,7 @@ bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLin
   bool room = now->breaks && now->rest && now->mass && now->length && changes->lengths && changes->turn &&
               changes->calm && changes->work && changes->halve && spore_spline_allocate(&now->spline, most - 3);
   if (twist->span_count > 0) room = room && spore_spline_twist_reserve(&changes->twist, twist, most - 3);
-  if (!room || !spore_curve_allocate(&changes->curve, curve->count, NULL)) return false;
-  memcpy(changes->curve.points, curve->points, 4 * curve->count * sizeof *curve->points);
+  if (!room) return false;
   now->spline.young = made->spline.young;
   spore_spline_changes_undo(changes);
   return true;
@@ -39,7 +37,6 @@ bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLin
 void spore_spline_changes_clear(SporeSplineChanges *changes) {
   spore_spline_line_clear(&changes->now);
   spore_spline_twist_clear(&changes->twist);
-  spore_curve_clear(&changes->curve);
   spore_free(changes->lengths);
   spore_free(changes->turn);
   spore_free(changes->calm);
@@ -51,10 +48,9 @@ void spore_spline_changes_clear(SporeSplineChanges *changes) {
 static void measure(SporeSplineChanges *changes) {
   SporeSplineLine *now = &changes->now;
   now->control_count = now->knots.span_count + 3;
-  spore_spline_line_measure(now, changes->made, &changes->curve, &changes->section, changes->lengths);
+  spore_spline_line_measure(now, changes->made, &changes->section, changes->lengths);
   if (changes->made_twist->span_count > 0)
-    spore_spline_twist_measure(&changes->twist, changes->made_twist, now, changes->made, &changes->curve,
-                               &changes->section);
+    spore_spline_twist_measure(&changes->twist, changes->made_twist, now, changes->made, &changes->section);
 }
 
 void spore_spline_changes_undo(SporeSplineChanges *changes) {
@@ -164,7 +160,7 @@ static bool may_drop(SporeSplineChanges *changes, const double *q, const uint8_t
     if (held[i]) return false;
   if (held && is_twisted(changes) && held[changes->now.control_count + knot]) return false;
   spore_spline_insert(knots_without(changes, knot), knot - 1, at, ratio);
-  double radius = spore_spline_radius(&changes->curve, changes->now.knots, at);
+  double radius = spore_spline_radius(&changes->made->course, changes->now.knots, at);
   return merge_points(q, knot - 1, ratio, two) <= SPORE_KNOTS_SLACK * radius;
 }
 

@@ -21,7 +21,6 @@ typedef struct SporeSplineChanges {
   size_t most;
   double most_bend; /* rad */
   SporeSplineSection section;
-  SporeCurve curve;
   /* What is to be changed next. */
   double *lengths; /* as spore_spline_line_measure has them; twice most */
   double *turn;    /* a span: rad; most */
@@ -35,8 +34,7 @@ typedef struct SporeSplineChanges {
 
 /* The line and twist as they were made are borrowed. False: no memory. Clear it in either case. */
 bool spore_spline_changes_init(SporeSplineChanges *changes, const SporeSplineLine *made, const SporeSplineTwist *twist,
-                               const SporeCurve *curve, const SporeSplineDensity *density,
-                               const SporeSplineSection *section);
+                               const SporeSplineDensity *density, const SporeSplineSection *section);
 void spore_spline_changes_clear(SporeSplineChanges *changes);
 /* As it was made. */
 void spore_spline_changes_undo(SporeSplineChanges *changes);

@@ -17,6 +17,7 @@ static bool no_memory(SporeError *error) {
 
 void spore_spline_line_clear(SporeSplineLine *line) {
   spore_spline_clear(&line->spline);
+  spore_spline_course_clear(&line->course);
   spore_sphere_set_clear(&line->spheres);
   spore_free(line->breaks);
   spore_free(line->rest);
@@ -33,17 +34,17 @@ static SporeVec3 combine(const double *control, size_t span, const double weight
   return sum;
 }
 
-double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSection *section, SporeSplineKnots knots,
-                                   double parameter, double *inner) {
-  double outer = spore_spline_radius(curve, knots, parameter);
+double spore_spline_section_radius(const SporeSplineCourse *course, const SporeSplineSection *section,
+                                   SporeSplineKnots knots, double parameter, double *inner) {
+  double outer = spore_spline_radius(course, knots, parameter);
   *inner = section->wall_thickness > 0 ? fmax(outer - section->wall_thickness, 0) : 0;
   return outer;
 }
 
 /* One Gauss point, with derivatives by the length at rest: d/dS = 1/l d/du, d2/dS2 = 1/l^2 (d2/du2 - l'/l d/du).
  * Returns the length l for which it stands; 0 where the line turns back. */
-static double set_point(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section, size_t span,
-                        int point) {
+static double set_point(SporeSplineLine *line, const SporeSplineCourse *course, const SporeSplineSection *section,
+                        size_t span, int point) {
   assert(span < line->knots.span_count && point >= 0 && point < SPORE_SPLINE_POINTS);
   SporeSpline *spline = &line->spline;
   double u = spore_spline_gauss_parameter(line->knots, span, point), width = spore_spline_width(line->knots, span);
@@ -54,7 +55,7 @@ static double set_point(SporeSplineLine *line, const SporeCurve *curve, const Sp
   if (!(speed > 0)) return 0;
   SporeSplineGauss *gauss = &spline->gauss[span / SPORE_LANES * SPORE_SPLINE_POINTS + (size_t)point];
   size_t lane = span % SPORE_LANES;
-  double inner, outer = spore_spline_section_radius(curve, section, line->knots, u, &inner);
+  double inner, outer = spore_spline_section_radius(course, section, line->knots, u, &inner);
   double length = width * speed / SPORE_SPLINE_POINTS;
   double second[4], area = M_PI * (outer * outer - inner * inner), lumen = M_PI * inner * inner;
   for (size_t k = 0; k < 4; k++) {
@@ -117,8 +118,8 @@ static void weigh(SporeSplineLine *line, const SporeSplineLine *made) {
   }
 }
 
-void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *made, const SporeCurve *curve,
-                               const SporeSplineSection *section, double *lengths) {
+void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *made, const SporeSplineSection *section,
+                               double *lengths) {
   assert(line->knots.span_count > 0 && made->weights);
   SporeSpline *spline = &line->spline;
   spline->span_count = line->knots.span_count;
@@ -127,21 +128,19 @@ void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *mad
   memset(spline->gauss, 0, SPORE_SPLINE_POINTS * spline->group_count * sizeof *spline->gauss);
   for (size_t span = 0; span < spline->span_count; span++)
     for (int point = 0; point < SPORE_SPLINE_POINTS; point++)
-      lengths[SPORE_SPLINE_POINTS * span + (size_t)point] = set_point(line, curve, section, span, point);
+      lengths[SPORE_SPLINE_POINTS * span + (size_t)point] = set_point(line, &made->course, section, span, point);
   straighten(spline);
   weigh(line, made);
 }
 
-static bool set_points(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section,
-                       SporeError *error) {
+static bool set_points(SporeSplineLine *line, const SporeSplineSection *section, SporeError *error) {
   SporeSpline *spline = &line->spline;
-  double whole = 0;
+  double whole = 0, shortest = 1e-6 * spore_spline_course_length(&line->course) / spore_spline_end(line->knots);
   for (size_t span = 0; span < spline->span_count; span++)
     for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
-      double length = set_point(line, curve, section, span, point);
+      double length = set_point(line, &line->course, section, span, point);
       whole += length;
-      double even = spore_spline_width(line->knots, span) / spore_spline_end(line->knots) * spore_curve_length(curve);
-      if (length > 1e-6 * even) continue;
+      if (length > shortest * spore_spline_width(line->knots, span)) continue;
       char place[64];
       snprintf(place, sizeof place, "control point %zu", span);
       return spore_error_set(error, SPORE_ERROR_INPUT, place,
@@ -155,38 +154,38 @@ static bool set_points(SporeSplineLine *line, const SporeCurve *curve, const Spo
 }
 
 /* How many radii long the line is over one sample. */
-static double radii_of_sample(const SporeSplineLine *line, const SporeCurve *curve, size_t sample) {
+static double radii_of_sample(const SporeSplineLine *line, size_t sample) {
   size_t span;
   double u = ((double)sample + 0.5) / SAMPLES;
   SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
   return spore_vec3_length(combine(line->rest, span, basis.first)) / SAMPLES /
-         spore_spline_radius(curve, line->knots, u);
+         spore_spline_radius(&line->course, line->knots, u);
 }
 
-static void set_sphere(SporeSplineLine *line, const SporeCurve *curve, double u, double *sphere) {
+static void set_sphere(const SporeSplineLine *line, double u, double *sphere) {
   size_t span;
   SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
   spore_vec3_store(sphere, combine(line->rest, span, basis.value));
-  sphere[3] = spore_spline_radius(curve, line->knots, u);
+  sphere[3] = spore_spline_radius(&line->course, line->knots, u);
 }
 
 /* From end to end, as far apart as each is thick: smooth to what slides over them. */
-static bool set_spheres(SporeSplineLine *line, const SporeCurve *curve, SporeError *error) {
+static bool set_spheres(SporeSplineLine *line, SporeError *error) {
   double end = spore_spline_end(line->knots);
   size_t samples = SAMPLES * (size_t)end;
   double whole = 0, walked = 0;
-  for (size_t i = 0; i < samples; i++) whole += radii_of_sample(line, curve, i);
+  for (size_t i = 0; i < samples; i++) whole += radii_of_sample(line, i);
   size_t gaps = (size_t)fmin(fmax(ceil(whole), 1), 1e6), next = 0;
   if (!spore_sphere_set_allocate(&line->spheres, gaps + 1, error)) return false;
   for (size_t i = 0; i < samples; i++) {
-    double step = radii_of_sample(line, curve, i);
+    double step = radii_of_sample(line, i);
     for (; next < gaps && (double)next / (double)gaps * whole <= walked + step; next++) {
       double part = ((double)next / (double)gaps * whole - walked) / step;
-      set_sphere(line, curve, ((double)i + part) / SAMPLES, line->spheres.spheres + 4 * next);
+      set_sphere(line, ((double)i + part) / SAMPLES, line->spheres.spheres + 4 * next);
     }
     walked += step;
   }
-  for (; next <= gaps; next++) set_sphere(line, curve, end, line->spheres.spheres + 4 * next);
+  for (; next <= gaps; next++) set_sphere(line, end, line->spheres.spheres + 4 * next);
   return true;
 }
 
@@ -222,10 +221,10 @@ static bool halve(SporeSplineLine *line, const SporeSplineDensity *density, doub
   return added > 0;
 }
 
-static bool fit(SporeSplineLine *line, const SporeCurve *curve, const SporeSplineDensity *density) {
+static bool fit(SporeSplineLine *line, const SporeSplineDensity *density) {
   assert(density->count >= 4 && density->count <= density->most);
   line->knots = spore_spline_uniform(density->count - 3);
-  if (!spore_spline_fit(curve, line->knots, line->rest)) return false;
+  if (!spore_spline_fit(&line->course, line->knots, line->rest)) return false;
   if (!(density->most_bend > 0)) return true;
   double *next = SPORE_NEW_ARRAY(double, density->most);
   bool made = next && (line->breaks = SPORE_NEW_ARRAY(double, density->most));
@@ -234,18 +233,19 @@ static bool fit(SporeSplineLine *line, const SporeCurve *curve, const SporeSplin
     for (spans = 0; next[spans] < spore_spline_end(line->knots);) spans++;
     memcpy(line->breaks, next, (spans + 1) * sizeof *next);
     line->knots = (SporeSplineKnots){spans, line->breaks};
-    made = spore_spline_fit(curve, line->knots, line->rest);
+    made = spore_spline_fit(&line->course, line->knots, line->rest);
   }
   spore_free(next);
   line->control_count = line->knots.span_count + 3;
   return made;
 }
 
-static bool set_radii(SporeSplineLine *line, const SporeCurve *curve) {
+static bool set_radii(SporeSplineLine *line) {
   size_t count = SPORE_LINE_SAMPLES * line->knots.span_count + 1;
   line->radius = SPORE_NEW_ARRAY(double, count);
   for (size_t i = 0; line->radius && i < count; i++)
-    line->radius[i] = spore_spline_radius(curve, line->knots, spore_spline_part(line->knots, SPORE_LINE_SAMPLES, i));
+    line->radius[i] =
+        spore_spline_radius(&line->course, line->knots, spore_spline_part(line->knots, SPORE_LINE_SAMPLES, i));
   return line->radius;
 }
 
@@ -258,14 +258,14 @@ bool spore_spline_line_init(SporeSplineLine *line, const SporeCurve *curve, cons
                            _("there is no curve; a spline follows one; give the body a curve as its geometry"));
   if (!spore_curve_validate(curve, error)) return false;
   line->rest = SPORE_NEW_ARRAY(double, 3 * density->most);
-  if (!line->rest || !fit(line, curve, density)) return no_memory(error);
+  if (!line->rest || !spore_spline_course_init(&line->course, curve) || !fit(line, density)) return no_memory(error);
   line->mass = SPORE_NEW_ARRAY(double, line->control_count);
   line->length = SPORE_NEW_ARRAY(double, line->control_count);
   line->weights = SPORE_NEW_ARRAY(SporeSplineWeight, line->knots.span_count);
-  if (!line->mass || !line->length || !line->weights || !set_radii(line, curve) ||
+  if (!line->mass || !line->length || !line->weights || !set_radii(line) ||
       !spore_spline_allocate(&line->spline, line->knots.span_count))
     return no_memory(error);
-  return set_points(line, curve, section, error) && set_spheres(line, curve, error);
+  return set_points(line, section, error) && set_spheres(line, error);
 }
 
 bool spore_spline_line_map(const SporeSplineLine *line, const double *arms, const double *points, size_t count,

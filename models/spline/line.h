@@ -21,8 +21,8 @@ typedef struct SporeSplineDensity {
 } SporeSplineDensity;
 
 /* Radius of the section at a parameter of the spline, m; *inner: of what is hollow, 0 where it is solid. */
-double spore_spline_section_radius(const SporeCurve *curve, const SporeSplineSection *section, SporeSplineKnots knots,
-                                   double parameter, double *inner);
+double spore_spline_section_radius(const SporeSplineCourse *course, const SporeSplineSection *section,
+                                   SporeSplineKnots knots, double parameter, double *inner);
 
 /* How a span weighs by the parameter, at both Gauss points, between and beyond which it is linear. */
 typedef struct SporeSplineWeight {
@@ -33,6 +33,7 @@ typedef struct SporeSplineWeight {
 typedef struct SporeSplineLine {
   size_t control_count;
   SporeSplineKnots knots;
+  SporeSplineCourse course;   /* what it was made along; empty: another line has it */
   double *breaks;             /* of the knots; NULL: evenly */
   bool bends;                 /* a span turns by more than the density asks for: there were to be no more points */
   double *rest;               /* control points, 3 each, body's frame, m */
@@ -50,8 +51,8 @@ void spore_spline_line_clear(SporeSplineLine *line);
 /* Sets all that follows from the knots and control points of a line, in arrays that are there: stiffness, mass and
  * length. Mass and length are integrals of the weights of `made`, whose knots are among the knots of the line. lengths:
  * the length at rest for which each Gauss point stands, the points of a span next to each other, m. */
-void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *made, const SporeCurve *curve,
-                               const SporeSplineSection *section, double *lengths);
+void spore_spline_line_measure(SporeSplineLine *line, const SporeSplineLine *made, const SporeSplineSection *section,
+                               double *lengths);
 /* Polar inertia of a span of the line about itself, as `made` weighs, kg m^2. */
 double spore_spline_line_polar(const SporeSplineLine *line, const SporeSplineLine *made, size_t span);
 /* The slots map, samples and spheres of SporeModelType; arms as for spore_spline_map. */

@@ -7,68 +7,73 @@
 
 #include "core/base/memory.h"
 
-/* A smooth line through the curve's points, by the length of its straight pieces. */
-typedef struct Line {
-  const SporeCurve *curve;
-  double *length; /* up to each point, m */
-} Line;
-
 static SporeVec3 point(const SporeCurve *curve, size_t i) { return spore_vec3_load(curve->points + 4 * i); }
 
-static size_t piece_at(const Line *line, double length) {
-  size_t low = 0, high = line->curve->count - 1;
+static size_t piece_at(const SporeSplineCourse *course, double length) {
+  size_t low = 0, high = course->curve.count - 1;
   while (high - low > 1) {
     size_t middle = (low + high) / 2;
-    if (line->length[middle] <= length) low = middle;
+    if (course->length[middle] <= length) low = middle;
     else high = middle;
   }
   return low;
 }
 
-static SporeVec3 slope_of_piece(const Line *line, size_t i) {
-  assert(i + 1 < line->curve->count);
-  return spore_vec3_scale(1 / (line->length[i + 1] - line->length[i]),
-                          spore_vec3_sub(point(line->curve, i + 1), point(line->curve, i)));
+static SporeVec3 slope_of_piece(const SporeSplineCourse *course, size_t i) {
+  assert(i + 1 < course->curve.count);
+  return spore_vec3_scale(1 / (course->length[i + 1] - course->length[i]),
+                          spore_vec3_sub(point(&course->curve, i + 1), point(&course->curve, i)));
 }
 
 /* Slope at a point, of the parabola through it and its neighbours. */
-static SporeVec3 slope_at(const Line *line, size_t i) {
-  assert(i < line->curve->count);
-  size_t last = line->curve->count - 1, middle = i == 0 ? 1 : i == last ? last - 1 : i;
-  if (last < 2) return slope_of_piece(line, 0);
-  double before = line->length[middle] - line->length[middle - 1],
-         behind = line->length[middle + 1] - line->length[middle];
-  SporeVec3 a = slope_of_piece(line, middle - 1), b = slope_of_piece(line, middle);
+static SporeVec3 slope_at(const SporeSplineCourse *course, size_t i) {
+  assert(i < course->curve.count);
+  size_t last = course->curve.count - 1, middle = i == 0 ? 1 : i == last ? last - 1 : i;
+  if (last < 2) return slope_of_piece(course, 0);
+  double before = course->length[middle] - course->length[middle - 1],
+         behind = course->length[middle + 1] - course->length[middle];
+  SporeVec3 a = slope_of_piece(course, middle - 1), b = slope_of_piece(course, middle);
   SporeVec3 bend = spore_vec3_scale(1 / (before + behind), spore_vec3_sub(b, a));
   double offset = i < middle ? -before : i > middle ? before + 2 * behind : before;
   return spore_vec3_add_scaled(a, offset, bend);
 }
 
-static SporeVec3 line_at(const Line *line, double length) {
-  size_t i = piece_at(line, length);
-  double h = line->length[i + 1] - line->length[i], t = fmin(fmax((length - line->length[i]) / h, 0), 1), s = 1 - t;
-  SporeVec3 p = spore_vec3_scale(s * s * (1 + 2 * t), point(line->curve, i));
-  p = spore_vec3_add_scaled(p, t * t * (3 - 2 * t), point(line->curve, i + 1));
-  p = spore_vec3_add_scaled(p, h * s * s * t, slope_at(line, i));
-  return spore_vec3_add_scaled(p, -h * t * t * s, slope_at(line, i + 1));
+/* A smooth line through the curve's points. */
+static SporeVec3 line_at(const SporeSplineCourse *course, double length) {
+  size_t i = piece_at(course, length);
+  double h = course->length[i + 1] - course->length[i], t = fmin(fmax((length - course->length[i]) / h, 0), 1),
+         s = 1 - t;
+  SporeVec3 p = spore_vec3_scale(s * s * (1 + 2 * t), point(&course->curve, i));
+  p = spore_vec3_add_scaled(p, t * t * (3 - 2 * t), point(&course->curve, i + 1));
+  p = spore_vec3_add_scaled(p, h * s * s * t, slope_at(course, i));
+  return spore_vec3_add_scaled(p, -h * t * t * s, slope_at(course, i + 1));
 }
 
-static bool line_create(Line *line, const SporeCurve *curve) {
-  *line = (Line){curve, SPORE_NEW_ARRAY(double, curve->count)};
-  for (size_t i = 1; line->length && i < curve->count; i++)
-    line->length[i] = line->length[i - 1] + spore_vec3_distance(point(curve, i - 1), point(curve, i));
-  return line->length;
+bool spore_spline_course_init(SporeSplineCourse *course, const SporeCurve *curve) {
+  size_t count = curve->count;
+  *course = (SporeSplineCourse){.length = SPORE_NEW_ARRAY(double, count)};
+  if (!course->length || !spore_curve_allocate(&course->curve, count, NULL)) return false;
+  memcpy(course->curve.points, curve->points, 4 * count * sizeof *curve->points);
+  for (size_t i = 1; i < count; i++)
+    course->length[i] = course->length[i - 1] + spore_vec3_distance(point(curve, i - 1), point(curve, i));
+  return true;
+}
+
+void spore_spline_course_clear(SporeSplineCourse *course) {
+  spore_curve_clear(&course->curve);
+  spore_free(course->length);
+  *course = (SporeSplineCourse){0};
 }
 
 /* Products of the functions (band: i x 4, with i + k) and of them with the line (in control). */
-static void add_products(const Line *line, SporeSplineKnots knots, double *band, double *control) {
-  double whole = line->length[line->curve->count - 1];
+static void add_products(const SporeSplineCourse *course, SporeSplineKnots knots, double *band, double *control) {
+  double whole = spore_spline_course_length(course);
   for (size_t n = 0; n < SPORE_SPLINE_SAMPLES * knots.span_count; n++) {
     size_t span = n / SPORE_SPLINE_SAMPLES;
     double width = spore_spline_width(knots, span), part = (double)(n % SPORE_SPLINE_SAMPLES) + 0.5;
     double u = spore_spline_break(knots, span) + part / SPORE_SPLINE_SAMPLES * width;
     SporeSplineBasis basis = spore_spline_basis(knots, u, &span);
-    SporeVec3 p = line_at(line, u / spore_spline_end(knots) * whole);
+    SporeVec3 p = line_at(course, u / spore_spline_end(knots) * whole);
     for (size_t i = 0; i < 4; i++) {
       for (size_t j = i; j < 4; j++) band[4 * (span + i) + j - i] += width * basis.value[i] * basis.value[j];
       double *sum = control + 3 * (span + i);
@@ -115,35 +120,27 @@ void spore_spline_solve_band(size_t count, double *band, double *x) {
     }
 }
 
-bool spore_spline_fit(const SporeCurve *curve, SporeSplineKnots knots, double *control) {
-  assert(curve->count > 1 && knots.span_count > 0);
+bool spore_spline_fit(const SporeSplineCourse *course, SporeSplineKnots knots, double *control) {
+  assert(course->curve.count > 1 && knots.span_count > 0);
   size_t count = knots.span_count + 3;
-  Line line;
   double *band = SPORE_NEW_ARRAY(double, 4 * count);
-  bool made = line_create(&line, curve) && band;
-  if (made) {
-    memset(control, 0, 3 * count * sizeof *control);
-    add_products(&line, knots, band, control);
-    hold(count, 0, point(curve, 0), band, control);
-    hold(count, count - 1, point(curve, curve->count - 1), band, control);
-    spore_spline_solve_band(count, band, control);
-  }
-  spore_free(line.length);
+  if (!band) return false;
+  memset(control, 0, 3 * count * sizeof *control);
+  add_products(course, knots, band, control);
+  hold(count, 0, point(&course->curve, 0), band, control);
+  hold(count, count - 1, point(&course->curve, course->curve.count - 1), band, control);
+  spore_spline_solve_band(count, band, control);
   spore_free(band);
-  return made;
+  return true;
 }
 
-double spore_spline_radius(const SporeCurve *curve, SporeSplineKnots knots, double parameter) {
-  assert(curve->count > 0);
-  double left = parameter / spore_spline_end(knots) * spore_curve_length(curve);
-  for (size_t i = 0; i + 1 < curve->count; i++) {
-    double length = spore_vec3_distance(point(curve, i), point(curve, i + 1));
-    double share = left / length;
-    if (share <= 1 || i + 2 == curve->count)
-      return (1 - fmin(share, 1)) * curve->points[4 * i + 3] + fmin(share, 1) * curve->points[4 * i + 7];
-    left -= length;
-  }
-  return curve->points[3];
+double spore_spline_radius(const SporeSplineCourse *course, SporeSplineKnots knots, double parameter) {
+  assert(course->curve.count > 1);
+  double length = parameter / spore_spline_end(knots) * spore_spline_course_length(course);
+  size_t i = piece_at(course, length);
+  double share = fmin((length - course->length[i]) / (course->length[i + 1] - course->length[i]), 1);
+  const double *points = course->curve.points + 4 * i;
+  return (1 - share) * points[3] + share * points[7];
 }
 
 bool spore_spline_allocate(SporeSpline *spline, size_t span_count) {

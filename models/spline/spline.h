@@ -15,11 +15,23 @@
  * entry (i, i + k) in band[4 i + k], which is overwritten; x: count x 3. */
 void spore_spline_solve_band(size_t count, double *band, double *x);
 
+/* The curve that a spline follows, with the length up to each of its points: a place is found by bisection. */
+typedef struct SporeSplineCourse {
+  SporeCurve curve; /* a copy */
+  double *length;   /* up to each point, along the straight pieces, m */
+} SporeSplineCourse;
+/* False: no memory; clear it in either case. */
+bool spore_spline_course_init(SporeSplineCourse *course, const SporeCurve *curve);
+void spore_spline_course_clear(SporeSplineCourse *course);
+/* Length of the whole curve, m. */
+static inline double spore_spline_course_length(const SporeSplineCourse *course) {
+  return course->length[course->curve.count - 1];
+}
 /* Control points (knots.span_count + 3, three entries each) of the spline nearest to the curve in the mean square:
  * through its ends, and along a smooth line through its points. False: no memory. */
-bool spore_spline_fit(const SporeCurve *curve, SporeSplineKnots knots, double *control);
+bool spore_spline_fit(const SporeSplineCourse *course, SporeSplineKnots knots, double *control);
 /* Radius of the curve where the spline has this parameter. */
-double spore_spline_radius(const SporeCurve *curve, SporeSplineKnots knots, double parameter);
+double spore_spline_radius(const SporeSplineCourse *course, SporeSplineKnots knots, double parameter);
 
 /* One Gauss point of each of SPORE_LANES spans; behind the last span all is 0. With a = dr/dS and b = d2r/dS2 by the
  * length S at rest, where |a| = 1:

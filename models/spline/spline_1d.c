@@ -92,11 +92,10 @@ static void tune(Spline1d *body, const SplineFields *fields) {
   spline->viscous = twist_of(body)->viscous = fields->damping;
 }
 
-static bool make_twist(Spline1d *body, const SporeCurve *curve, const SporeSplineSection *section,
-                       const SplineFields *fields, SporeError *error) {
+static bool make_twist(Spline1d *body, const SporeSplineSection *section, const SplineFields *fields,
+                       SporeError *error) {
   if (fields->twist_modulus > 0)
-    return spore_spline_twist_init(&body->twist, &body->line, curve, section, fields->twist_modulus, fields->turns,
-                                   error);
+    return spore_spline_twist_init(&body->twist, &body->line, section, fields->twist_modulus, fields->turns, error);
   if (fields->turns == 0) return true;
   return spore_error_set(error, SPORE_ERROR_INPUT, NULL,
                          _("the line is to be twisted by %g turns, but nothing in it resists twist; expected a "
@@ -175,14 +174,14 @@ static bool build(Spline1d *body, const SporeCurve *curve, const SplineFields *f
   size_t most = (size_t)fields->maximum_control_points;
   density.most = density.most_bend > 0 && most > density.count ? most : density.count;
   if (!spore_spline_line_init(&body->line, curve, &density, &section, error) ||
-      !make_twist(body, curve, &section, fields, error))
+      !make_twist(body, &section, fields, error))
     return false;
   size_t count = body->line.control_count, room = density.most;
   bool twisted = body->twist.span_count > 0;
   if (!spore_model_init(&body->base, &spore_spline_1d, twisted ? 2 * room - 2 : room, false, error)) return false;
   body->base.line_room = room;
   body->base.pair_room = (twisted ? 12 : 3) * room; /* a span: 3 of its control points, and 9 of the arm behind it */
-  if (room > count && !spore_spline_changes_init(&body->changes, &body->line, &body->twist, curve, &density, &section))
+  if (room > count && !spore_spline_changes_init(&body->changes, &body->line, &body->twist, &density, &section))
     return no_memory(error);
   use_points(body);
   SporeBlockMatrix matrix;

@@ -37,8 +37,8 @@ typedef struct SporeSplineTwist {
 /* Arms for the line, twisted by so many turns from end to end, right-handed about the way it runs. Their nodes are
  * those behind the control points, and their mass is taken from them. Refuses turns that so few spans cannot have.
  * Clear it in either case. */
-bool spore_spline_twist_init(SporeSplineTwist *twist, SporeSplineLine *line, const SporeCurve *curve,
-                             const SporeSplineSection *section, double modulus, double turns, SporeError *error);
+bool spore_spline_twist_init(SporeSplineTwist *twist, SporeSplineLine *line, const SporeSplineSection *section,
+                             double modulus, double turns, SporeError *error);
 void spore_spline_twist_clear(SporeSplineTwist *twist);
 bool spore_spline_twist_pattern(const SporeSplineTwist *twist, SporeBlockPattern *pattern);
 /* In a matrix of the model's whole pattern. */
@@ -47,7 +47,7 @@ void spore_spline_twist_find_blocks(SporeSplineTwist *twist, const SporeBlockMat
 /* Sets what follows from the knots of the line, without the rest angles: nodes and stiffness of the spans, and the mass
  * of the arms by the weights of `made`. That mass is taken from the control points of the line. */
 void spore_spline_twist_set_spans(SporeSplineTwist *twist, SporeSplineLine *line, const SporeSplineLine *made,
-                                  const SporeCurve *curve, const SporeSplineSection *section);
+                                  const SporeSplineSection *section);
 
 /* spline_twist_knots.c: of a line whose knots come and go, whose twist as it was made is `made`. Room for so many
  * spans; false: no memory, clear it in either case. */
@@ -57,8 +57,7 @@ void spore_spline_twist_lead(const SporeSplineTwist *made, const SporeSplineLine
                              double *arms);
 /* All that follows from the knots that the line has now. */
 void spore_spline_twist_measure(SporeSplineTwist *now, const SporeSplineTwist *made, SporeSplineLine *line,
-                                const SporeSplineLine *made_line, const SporeCurve *curve,
-                                const SporeSplineSection *section);
+                                const SporeSplineLine *made_line, const SporeSplineSection *section);
 /* The arm at a new knot in a span of these knots: halfway between the arms of its ends, in angle, length and spin. */
 void spore_spline_twist_insert(const SporeSplineTwist *now, SporeSplineKnots knots, size_t span, double parameter,
                                const double *q, const double *v, double arm_q[3], double arm_v[3]);

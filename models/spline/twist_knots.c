@@ -87,11 +87,10 @@ static void set_rest(SporeSplineTwist *now, const SporeSplineTwist *made, const 
 }
 
 void spore_spline_twist_measure(SporeSplineTwist *now, const SporeSplineTwist *made, SporeSplineLine *line,
-                                const SporeSplineLine *made_line, const SporeCurve *curve,
-                                const SporeSplineSection *section) {
+                                const SporeSplineLine *made_line, const SporeSplineSection *section) {
   now->span_count = line->knots.span_count;
   spore_spline_twist_lead(made, made_line, line->knots, now->rest);
-  spore_spline_twist_set_spans(now, line, made_line, curve, section);
+  spore_spline_twist_set_spans(now, line, made_line, section);
   set_rest(now, made, line, made_line);
 }
 

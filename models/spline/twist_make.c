@@ -43,14 +43,14 @@ static void set_knot(const SporeSplineTwist *twist, SporeSplineKnots knots, size
 }
 
 /* How the span resists twist, by both Gauss points. */
-static void set_polar(SporeSplineTwist *twist, const SporeSplineLine *line, const SporeCurve *curve,
+static void set_polar(SporeSplineTwist *twist, const SporeSplineLine *line, const SporeSplineCourse *course,
                       const SporeSplineSection *section, size_t index) {
   assert(index < twist->span_count);
   double soft = 0;
   for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
     size_t span;
     double u = spore_spline_gauss_parameter(line->knots, index, point), inner;
-    double outer = spore_spline_section_radius(curve, section, line->knots, u, &inner);
+    double outer = spore_spline_section_radius(course, section, line->knots, u, &inner);
     SporeSplineBasis basis = spore_spline_basis(line->knots, u, &span);
     double part = spore_spline_width(line->knots, index) * spore_vec3_length(combine(line->rest, span, basis.first)) /
                   SPORE_SPLINE_POINTS;
@@ -60,7 +60,7 @@ static void set_polar(SporeSplineTwist *twist, const SporeSplineLine *line, cons
 }
 
 void spore_spline_twist_set_spans(SporeSplineTwist *twist, SporeSplineLine *line, const SporeSplineLine *made,
-                                  const SporeCurve *curve, const SporeSplineSection *section) {
+                                  const SporeSplineSection *section) {
   assert(twist->span_count > 0 && twist->arm > 0);
   memset(twist->mass, 0, (twist->span_count + 1) * sizeof *twist->mass);
   for (size_t index = 0; index < twist->span_count; index++) {
@@ -68,7 +68,7 @@ void spore_spline_twist_set_spans(SporeSplineTwist *twist, SporeSplineLine *line
     for (int end = 0; end < 2; end++) set_knot(twist, line->knots, index, end);
     for (size_t k = 0; k < 4; k++) span->node[k] = (uint32_t)(index + k);
     for (size_t end = 0; end < 2; end++) span->node[4 + end] = (uint32_t)(twist->span_count + 3 + index + end);
-    set_polar(twist, line, curve, section, index);
+    set_polar(twist, line, &made->course, section, index);
     double inertia = spore_spline_line_polar(line, made, index);
     for (size_t end = 0; end < 2; end++) twist->mass[index + end] += 0.5 * inertia / (twist->arm * twist->arm);
   }
@@ -79,13 +79,13 @@ void spore_spline_twist_set_spans(SporeSplineTwist *twist, SporeSplineLine *line
 }
 
 /* As long as a span, and so long that it weighs little beside the line. */
-static double arm_length(const SporeSplineLine *line, const SporeCurve *curve, const SporeSplineSection *section) {
+static double arm_length(const SporeSplineLine *line, const SporeSplineSection *section) {
   double length = 0, radius = 0, inner;
   for (size_t i = 0; i < line->control_count; i++) length += line->length[i];
   for (size_t index = 0; index < line->knots.span_count; index++)
     for (int point = 0; point < SPORE_SPLINE_POINTS; point++) {
       double u = spore_spline_gauss_parameter(line->knots, index, point);
-      radius = fmax(radius, spore_spline_section_radius(curve, section, line->knots, u, &inner));
+      radius = fmax(radius, spore_spline_section_radius(&line->course, section, line->knots, u, &inner));
     }
   return fmax(length / (double)line->knots.span_count, RADII * radius);
 }
@@ -134,8 +134,8 @@ static bool check_turns(const SporeSplineTwist *twist, double turns, SporeError 
                          turns, most, ceil(fabs(turns) / most * (double)twist->span_count) + 3);
 }
 
-bool spore_spline_twist_init(SporeSplineTwist *twist, SporeSplineLine *line, const SporeCurve *curve,
-                             const SporeSplineSection *section, double modulus, double turns, SporeError *error) {
+bool spore_spline_twist_init(SporeSplineTwist *twist, SporeSplineLine *line, const SporeSplineSection *section,
+                             double modulus, double turns, SporeError *error) {
   assert(modulus > 0 && isfinite(turns));
   size_t spans = line->spline.span_count;
   *twist = (SporeSplineTwist){.span_count = spans,
@@ -144,8 +144,8 @@ bool spore_spline_twist_init(SporeSplineTwist *twist, SporeSplineLine *line, con
                               .rest = SPORE_NEW_ARRAY(double, 3 * (spans + 1)),
                               .mass = SPORE_NEW_ARRAY(double, spans + 1)};
   if (!twist->spans || !twist->rest || !twist->mass) return no_memory(error);
-  twist->arm = arm_length(line, curve, section);
-  spore_spline_twist_set_spans(twist, line, line, curve, section);
+  twist->arm = arm_length(line, section);
+  spore_spline_twist_set_spans(twist, line, line, section);
   for (size_t index = 0; index < spans; index++) twist->spans[index].rest = 0.5 * M_PI;
   if (!check_turns(twist, turns, error)) return false;
   set_arms(twist, line, turns);

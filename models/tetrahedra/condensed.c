@@ -152,7 +152,7 @@ static bool eliminate(SporeLinearSolid *body, Condensation *work, const SporeLin
   work->pull = SPORE_NEW_ARRAY(double, 3 * n);
   bool made = mass && shares && work->moved && work->pull &&
               spore_linear_stiffness(&body->nodes, fields->poisson_ratio, &work->full) &&
-              spore_block_cholesky_create(&work->inner, &work->full, SPORE_FACTOR_AUTOMATIC, HUGE_VAL) &&
+              spore_block_cholesky_create(&work->inner, &work->full, SPORE_FACTOR_AUTOMATIC, HUGE_VAL, NULL) &&
               create_dense(body);
   if (!made) spore_linear_solid_no_memory(error);
   if (made && !spore_block_cholesky_factorise(&work->inner, &work->full, NULL, work->held, false))

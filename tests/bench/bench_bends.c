@@ -97,7 +97,7 @@ int main(int argc, char **argv) {
   SporeSchema *schema = spore_schema_new(spore_model_registry, spore_generator_elements());
   SporeDocument *document = spore_scene_load(schema, argv[1], &error);
   g_assert_no_error(error);
-  SporeSimulation *simulation = spore_simulation_new(document, NULL, NULL, &error);
+  SporeSimulation *simulation = spore_simulation_new(document, NULL, NULL, NULL, &error);
   g_assert_no_error(error);
   for (guint32 body = 0; body < spore_world_body_count(simulation->world); body++)
     if (spore_world_body_role(simulation->world, body) == SPORE_PASSIVE &&

@@ -81,7 +81,7 @@ static void refine(SporeDocument *document, const SporeWorld *world) {
 
 static SporeSimulation *compile(SporeDocument *document, SporePool *pool) {
   GError *error = NULL;
-  SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, &error);
+  SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, NULL, &error);
   if (error) g_printerr("%s\n", error->message);
   g_assert_no_error(error);
   return simulation;

@@ -91,7 +91,7 @@ static void bench_factor(const Case *c, SporeFactorLayout layout) {
   spore_model_mass(model, q, mass);
   double h = c->time_step, force_us = HUGE_VAL, jacobian_us = HUGE_VAL, factor_us = HUGE_VAL, solve_us = HUGE_VAL,
          multiply_us = HUGE_VAL, analyse_us = now_us();
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
   analyse_us = now_us() - analyse_us;
   bool banded = factor.band.block_count > 0;
   LEAST(force_us, 20, type->force(model, q, q, v, f));

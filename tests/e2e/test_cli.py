@@ -1302,19 +1302,62 @@ def no_output_destroys_an_input():
     assert done.stderr.count("folder.track") == 1, done.stderr
 
 
+def sheet_of(points):
+    """A scene with a sheet of points x points control points; 200 is the most that may be."""
+    file("sheets/sheet.off", "OFF\n9 8 0\n" + "".join(f"{x} {y} 0\n" for y in (0, .05, .1) for x in (0, .05, .1))
+         + "".join(f"3 {a} {a + 1} {a + 4}\n3 {a} {a + 4} {a + 3}\n" for a in (0, 1, 3, 4)))
+    return file(f"sheets/{points}.spore", f"""<spore version="1.0"><assets><mesh name="m" file="sheet.off"/></assets>
+<bodies><body name="sheet"><mechanical geometry="m"><spline_2d control_points_u="{points}" control_points_v="{points}"/>
+</mechanical></body></bodies></spore>""")
+
+
+def interrupt(number, *arguments, asked_alone=False):
+    """Sends the signal to a command at work. asked_alone: the timer that ends what does not ask is blocked."""
+    def block():
+        if asked_alone:
+            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGALRM])
+    process = subprocess.Popen([SPORE, *map(str, arguments)], cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               preexec_fn=block)
+    time.sleep(1)
+    assert process.poll() is None, f"{arguments} ended by itself: {process.communicate()}"
+    process.send_signal(number)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130, f"{arguments}: {process.returncode}\n{err.decode()}"
+    assert b"Sanitizer" not in err, err.decode()
+    return out
+
+
 @check
 def interruption_ends_work():
     """Ctrl-C ends long work with status 130 and leaves no half-written file (how soon: the benchmark `interrupt`)."""
     file("fine.off", shapes.off(*shapes.sphere(rings=60, sectors=120)))
-    for arguments in (["run", str(soft_ball()), "--steps", "1000000000"],
-                      ["spheres", "fine.off", "--count", "3000", "-o", "never.spheres"]):
-        process = subprocess.Popen([SPORE, *arguments], cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        time.sleep(1)
-        assert process.poll() is None, f"{arguments} ended by itself: {process.communicate()}"
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=60)
-        assert process.returncode == 130, process.returncode
+    for number in (signal.SIGINT, signal.SIGTERM):
+        interrupt(number, "run", soft_ball(), "--steps", 1000000000)
+        interrupt(number, "spheres", "fine.off", "--count", 3000, "-o", "never.spheres")
     assert not (WORK / "never.spheres").exists()
+
+
+@check
+def interruption_ends_a_long_step():
+    """A scene that takes minutes a step ends while it is made or stepped: the kernel asks, and there is a timer."""
+    scene = sheet_of(200)
+    interrupt(signal.SIGTERM, "run", scene, "-n", 100, asked_alone=True)
+    interrupt(signal.SIGTERM, "plan", scene, "--measure", asked_alone=True)
+    interrupt(signal.SIGTERM, "run", scene, "-n", 100, "--set", "solver/linear=cholesky")
+
+
+@check
+def what_takes_long_is_said_beforehand():
+    """check and plan say what takes longer than a second to make and longer than its time step to run, and no more."""
+    said = [one["message"] for one in report("check", sheet_of(200))["diagnostics"]]
+    for text in ("s to make", "each time that its matrix is factorised", "s a step, longer than its time step of 0.002 s"):
+        assert [one for one in said if one.startswith('"sheet" takes ') and text in one], (text, said)
+    assert not [one for one in report("check", sheet_of(10))["diagnostics"] if "takes" in one["message"]]
+    work = {points: report("plan", sheet_of(points))["bodies"][0] for points in (10, 60)}
+    assert 0 < work[10]["step_s"] < 0.002 < work[60]["step_s"] and work[60]["make_s"] < 1 and work[60]["factor_s"] < 1, work
+    said = spore("plan", sheet_of(60)).stdout
+    assert "longer than its time step" in said and "to make" not in said, said
+    assert "takes" not in spore("plan", sheet_of(10)).stdout
 
 
 @check

@@ -269,6 +269,39 @@ static void test_too_many(void) {
   check_refused("many.stl", head, sizeof head, "cut short");
 }
 
+/* A polygon of so many corners, in a text of the format. */
+static char *polygon(const char *format, unsigned corners) {
+  bool off = g_str_equal(format, "off");
+  GString *text = g_string_new(off ? "OFF\n" : "");
+  if (off) g_string_append_printf(text, "%u 1 0\n", corners);
+  for (unsigned i = 0; i < corners; i++)
+    g_string_append_printf(text, "%s%.9f %.9f 0\n", off ? "" : "v ", cos(2 * G_PI * i / corners),
+                           sin(2 * G_PI * i / corners));
+  if (off) g_string_append_printf(text, "%u", corners);
+  else g_string_append(text, "f");
+  for (unsigned i = 0; i < corners; i++) g_string_append_printf(text, " %u", off ? i : i + 1);
+  g_string_append_c(text, '\n');
+  return g_string_free(text, FALSE);
+}
+
+/* Cutting a face into triangles takes work by the square of its corners, so their number has a limit. */
+static void test_large_faces(void) {
+  static const char *const formats[] = {"off", "obj"};
+  for (size_t i = 0; i < G_N_ELEMENTS(formats); i++) {
+    g_autofree char *file = g_strdup_printf("face.%s", formats[i]), *many = polygon(formats[i], 10001);
+    check_refused_text(file, many, "10000");
+    check_refused_text(file, many, "10001");
+    unsigned corners = i == 0 ? 10000 : 1000;
+    g_autofree char *few = polygon(formats[i], corners);
+    SporeTriangleMesh mesh;
+    GError *error = NULL;
+    g_assert_true(spore_mesh_decode(file, file, few, strlen(few), 0, 0, &mesh, NULL, &error));
+    g_assert_no_error(error);
+    g_assert_cmpuint(mesh.triangle_count, ==, corners - 2);
+    spore_triangle_mesh_clear(&mesh);
+  }
+}
+
 static bool refuse(void *data, double fraction, const char *stage) { return false; }
 
 static void test_cancel(void) {
@@ -327,6 +360,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/mesh-import/frame-hint", test_frame_hint);
   g_test_add_func("/mesh-import/not-a-mesh", test_not_a_mesh);
   g_test_add_func("/mesh-import/too-many", test_too_many);
+  g_test_add_func("/mesh-import/large-faces", test_large_faces);
   if (SPORE_HAVE_ASSIMP) {
     g_test_add_func("/mesh-import/stl", test_stl);
     g_test_add_func("/mesh-import/obj", test_obj);

@@ -83,7 +83,7 @@ static void compare(const char *name, SporeBlockPattern *pattern, SporeFactorLay
   SporeBlockCholesky factor;
   GRand *random = g_rand_new_with_seed(7);
   g_assert_true(spore_block_matrix_create(&matrix, pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
   g_assert_cmpuint(factor.block_count, ==, matrix.block_count);
   if (layout != SPORE_FACTOR_AUTOMATIC)
     g_assert_cmpuint(factor.band.block_count, ==, layout == SPORE_FACTOR_BANDED ? matrix.block_count : 0);
@@ -216,7 +216,7 @@ static void test_layout(void) {
     for (size_t width = 1; width <= SPORE_BAND_WIDEST + 1; width++) {
       band_pattern(&pattern, 60, width, NULL);
       g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-      g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+      g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
       g_assert_cmpuint(factor.block_count, ==, 60);
       bool banded = layout != SPORE_FACTOR_SPARSE && width <= SPORE_BAND_WIDEST;
       g_assert_cmpuint(factor.band.block_count, ==, banded ? 60 : 0);
@@ -239,14 +239,89 @@ static void test_fill(void) {
   SporeBlockCholesky factor;
   net_pattern(&pattern, 40);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, HUGE_VAL, NULL));
   g_test_message("net of 40 x 40: %.3g flops, %.3g a solve", factor.factor_flops, factor.solve_flops);
   g_assert_cmpfloat(factor.factor_flops, <, 0.5 * 27 * 80 * 80 * 1600);
   double flops = factor.factor_flops;
   spore_block_cholesky_clear(&factor);
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE,
-                                            flops / 10)); /* too dear: no factor, no error */
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, flops / 10,
+                                            NULL)); /* too dear: no factor, no error */
   g_assert_cmpuint(factor.block_count, ==, 0);
+  spore_block_matrix_clear(&matrix);
+  spore_block_pattern_clear(&pattern);
+}
+
+/* Control points of a sheet: each is tied to those up to three away in both directions. */
+static void sheet_pattern(SporeBlockPattern *pattern, size_t side) {
+  spore_block_pattern_init(pattern, side * side);
+  for (size_t i = 0; i < side * side; i++)
+    for (size_t j = i + 1; j < side * side && j <= i + 3 * side + 3; j++) {
+      size_t across = i % side > j % side ? i % side - j % side : j % side - i % side;
+      if (across <= 3 && j / side - i / side <= 3) tie(pattern, i, j);
+    }
+}
+
+/* Nested dissection takes work by the cube of the side (A. George, SIAM J. Numer. Anal. 10, 1973): eight times as much
+ * for a sheet of twice the side. Sixteen times is the fourth power. */
+static void test_sheet_fill(void) {
+  double flops[2];
+  for (size_t k = 0; k < 2; k++) {
+    SporeBlockPattern pattern;
+    SporeBlockMatrix matrix;
+    SporeBlockCholesky factor;
+    sheet_pattern(&pattern, k == 0 ? 60 : 120);
+    g_assert_true(spore_block_matrix_create(&matrix, &pattern));
+    g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, HUGE_VAL, NULL));
+    flops[k] = factor.factor_flops;
+    spore_block_cholesky_clear(&factor);
+    spore_block_matrix_clear(&matrix);
+    spore_block_pattern_clear(&pattern);
+  }
+  g_test_message("sheets of 60 x 60 and 120 x 120: %.3g and %.3g flops", flops[0], flops[1]);
+  g_assert_cmpfloat(flops[1], <, 12 * flops[0]);
+}
+
+typedef struct Asker {
+  size_t asked, at; /* yes from the question number `at` on */
+} Asker;
+
+static bool answer(void *data) {
+  Asker *asker = data;
+  return ++asker->asked >= asker->at;
+}
+
+/* A factorisation asks after every so many operations at the most, on the average: some 5 ms of them. */
+#define OPERATIONS_A_QUESTION 2e7
+
+/* A front of 900 columns: the largest piece of a factorisation is one dense block. */
+static void test_cancel(void) {
+  SporeBlockPattern pattern;
+  SporeBlockMatrix matrix;
+  SporeBlockCholesky factor;
+  Asker asker = {0, SIZE_MAX};
+  const SporeCancel cancel = {answer, &asker};
+  size_t n = 300;
+  spore_block_pattern_init(&pattern, n);
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = i + 1; j < n; j++) tie(&pattern, i, j);
+  g_assert_true(spore_block_matrix_create(&matrix, &pattern));
+  for (size_t i = 0; i < n; i++)
+    for (size_t e = 0; e < 9; e += 4) matrix.values[9 * (size_t)matrix.diagonal[i] + e] = 1;
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, HUGE_VAL, &cancel));
+  g_assert_cmpuint(asker.asked, >=, n);
+  asker.asked = 0;
+  g_assert_true(spore_block_cholesky_factorise(&factor, &matrix, NULL, NULL, false));
+  size_t whole = asker.asked;
+  g_test_message("%.3g operations, asked %zu times", factor.factor_flops, whole);
+  g_assert_cmpfloat(factor.factor_flops / (double)whole, <, OPERATIONS_A_QUESTION);
+  for (size_t at = 1; at <= whole; at += (whole - 1) / 3) {
+    asker = (Asker){0, at};
+    g_assert_false(spore_block_cholesky_factorise(&factor, &matrix, NULL, NULL, false));
+    g_assert_cmpuint(asker.asked, ==, at);
+  }
+  spore_block_cholesky_clear(&factor);
+  asker = (Asker){0, n / 2};
+  g_assert_false(spore_block_cholesky_create(&factor, &matrix, SPORE_FACTOR_SPARSE, HUGE_VAL, &cancel));
   spore_block_matrix_clear(&matrix);
   spore_block_pattern_clear(&pattern);
 }
@@ -260,7 +335,7 @@ static void test_replaced(gconstpointer data) {
   GRand *random = g_rand_new_with_seed(3);
   pattern_for(layout, &pattern, 5);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
   fill_matrix(&matrix, random);
   double diagonal[25 * 9], b[75], x[75], product[75] = {0};
   uint8_t held[25] = {0};
@@ -293,7 +368,7 @@ static void test_not_positive(gconstpointer data) {
   GRand *random = g_rand_new_with_seed(5);
   pattern_for(layout, &pattern, 6);
   g_assert_true(spore_block_matrix_create(&matrix, &pattern));
-  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL));
   fill_matrix(&matrix, random);
   const double bad[] = {-1e3, -INFINITY, INFINITY, NAN};
   for (size_t i = 0; i < 36; i++)
@@ -322,7 +397,7 @@ static void test_without_memory(gconstpointer data) {
   uint64_t refused = 0;
   while (!made) {
     spore_allocation_fail_at(++refused);
-    made = spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL);
+    made = spore_block_cholesky_create(&factor, &matrix, layout, HUGE_VAL, NULL);
     spore_allocation_fail_at(0);
     if (!made) g_assert_null(factor.order);
     if (!made) g_assert_null(factor.band.order);
@@ -341,6 +416,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/cholesky/band", test_band);
   g_test_add_func("/cholesky/layout", test_layout);
   g_test_add_func("/cholesky/fill", test_fill);
+  g_test_add_func("/cholesky/sheet-fill", test_sheet_fill);
+  g_test_add_func("/cholesky/cancel", test_cancel);
   g_test_add_data_func("/cholesky/replaced", &sparse, test_replaced);
   g_test_add_data_func("/cholesky/replaced/banded", &banded, test_replaced);
   g_test_add_data_func("/cholesky/not-positive", &sparse, test_not_positive);

@@ -32,7 +32,7 @@ static Setting setting_open(const char *scene) {
 
 static void setting_run(Setting *setting, int steps) {
   GError *error = NULL;
-  setting->simulation = spore_simulation_new(setting->document, NULL, NULL, &error);
+  setting->simulation = spore_simulation_new(setting->document, NULL, NULL, NULL, &error);
   g_assert_no_error(error);
   spore_stage_rebuild(setting->stage, setting->simulation);
   for (int i = 0; i < steps; i++) spore_world_step(setting->simulation->world);

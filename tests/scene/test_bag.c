@@ -38,7 +38,7 @@ static void run_begin(Run *run) {
   run->document = spore_scene_load(run->schema, SPORE_SCENES "/bag.spore", &error);
   g_assert_no_error(error);
   run->pool = spore_pool_create(1);
-  run->simulation = spore_simulation_new(run->document, run->pool, NULL, &error);
+  run->simulation = spore_simulation_new(run->document, run->pool, NULL, NULL, &error);
   g_assert_no_error(error);
   run->world = run->simulation->world;
   run->bag = spore_world_find_body(run->world, "bag");

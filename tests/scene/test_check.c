@@ -14,7 +14,7 @@
 static char *check_text(const char *text) {
   g_autofree char *folder = fixture_scene_folder_new(text);
   SporeDocument *document = fixture_load(folder);
-  g_autoptr(GPtrArray) found = spore_document_check(document);
+  g_autoptr(GPtrArray) found = spore_document_check(document, NULL);
   GString *said = g_string_new(NULL);
   static const char *const severities[] = {"note", "warning", "fault"};
   SporeSeverity worst = SPORE_FAULT;

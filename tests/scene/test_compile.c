@@ -35,7 +35,7 @@ static const char hand_track[] = "spore-track 1\ndevice probe\n0 3 0 0 1 0 0 0 0
 
 static SporeSimulation *compile(SporeDocument *document, const SporeTrack *input) {
   GError *error = NULL;
-  SporeSimulation *simulation = spore_simulation_new(document, NULL, input, &error);
+  SporeSimulation *simulation = spore_simulation_new(document, NULL, input, NULL, &error);
   g_assert_no_error(error);
   return simulation;
 }
@@ -168,7 +168,7 @@ static void test_bad(gconstpointer data) {
                        "spore-track 1\ndevice x\n0 0 0 0 1 0 0 0 0 0\ndevice y\n0 0 0 0 1 0 0 0 0 0\n"));
   SporeDocument *document = fixture_load(folder);
   GError *error = NULL;
-  g_assert_null(spore_simulation_new(document, NULL, NULL, &error));
+  g_assert_null(spore_simulation_new(document, NULL, NULL, NULL, &error));
   g_test_message("%s", error->message);
   g_autofree char *place = g_strdup_printf("%s:%s: ", spore_document_file(document), one->place);
   if (!g_str_has_prefix(error->message, place)) g_error("\"%s\" is not at %s", error->message, one->place);
@@ -185,7 +185,7 @@ static void test_broken_asset(void) {
   g_autofree char *broken = fixture_write(folder, "ball.spheres", "0 0 0 0.05\n0 0 zero 0.05\n");
   SporeDocument *document = fixture_load(folder);
   GError *error = NULL;
-  g_assert_null(spore_simulation_new(document, NULL, NULL, &error));
+  g_assert_null(spore_simulation_new(document, NULL, NULL, NULL, &error));
   g_autofree char *place = g_strdup_printf("%s:2:5: ", broken);
   fixture_assert_error(error, SPORE_ERROR_INPUT, place);
   spore_document_free(document);
@@ -249,7 +249,7 @@ static void test_input_replaces(void) {
   spore_simulation_free(simulation);
   add_sample(&wrong, "stone", 0);
   GError *error = NULL;
-  g_assert_null(spore_simulation_new(document, NULL, &wrong, &error));
+  g_assert_null(spore_simulation_new(document, NULL, &wrong, NULL, &error));
   fixture_assert_error(error, SPORE_ERROR_INPUT, "the input track moves \"stone\"");
   spore_track_clear(&input);
   spore_track_clear(&wrong);

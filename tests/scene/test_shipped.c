@@ -22,7 +22,7 @@ static Run run_scene(const char *file, int threads) {
   SporeDocument *document = spore_scene_load(schema, file, &error);
   g_assert_no_error(error);
   SporePool *pool = spore_pool_create(threads);
-  SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, &error);
+  SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, NULL, &error);
   g_assert_no_error(error);
   SporeWorld *world = simulation->world;
   for (int i = 0; i < WARM_STEPS; i++) spore_world_step(world);

@@ -29,7 +29,7 @@ static void edges_come_together(void) {
   SporeDocument *document = spore_scene_load(schema, SPORE_SCENES "/suture.spore", &error);
   g_assert_no_error(error);
   SporePool *pool = spore_pool_create(1);
-  SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, &error);
+  SporeSimulation *simulation = spore_simulation_new(document, pool, NULL, NULL, &error);
   g_assert_no_error(error);
   SporeWorld *world = simulation->world;
   double before = wound_width(world);

@@ -213,7 +213,7 @@ static void test_linked_labels(Fixture *fixture, gconstpointer data) {
   g_assert_cmpuint(spore_object_child_count(links), ==, 1);
   SporeObject *seam = spore_document_by_path(fixture->document, "links/left_lobe_right_lobe");
   g_assert_cmpstr(spore_object_type(seam)->element, ==, "seam");
-  SporeSimulation *simulation = spore_simulation_new(fixture->document, NULL, NULL, &error);
+  SporeSimulation *simulation = spore_simulation_new(fixture->document, NULL, NULL, NULL, &error);
   g_assert_no_error(error);
   g_assert_cmpuint(spore_world_link_count(simulation->world), ==, 3);
   spore_simulation_free(simulation);

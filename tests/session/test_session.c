@@ -77,7 +77,7 @@ static void tear_down(Fixture *fixture, gconstpointer data) {
 
 static guint64 loop_hash(Fixture *fixture, const SporeTrack *input, guint steps) {
   GError *error = NULL;
-  SporeSimulation *simulation = spore_simulation_new(fixture->document, NULL, input, &error);
+  SporeSimulation *simulation = spore_simulation_new(fixture->document, NULL, input, NULL, &error);
   g_assert_no_error(error);
   for (guint i = 0; i < steps; i++) spore_world_step(simulation->world);
   guint64 hash = spore_world_hash(simulation->world);

@@ -53,7 +53,7 @@ static void linear_solve(Linear *linear) {
   double *f = g_new0(double, 3 * linear->n);
   spore_block_matrix_multiply_add(&linear->matrix, linear->u, f);
   for (size_t i = 0; i < 3 * linear->n; i++) f[i] = linear->held[i / 3] ? 0 : linear->load[i] - f[i];
-  g_assert_true(spore_block_cholesky_create(&factor, &linear->matrix, SPORE_FACTOR_AUTOMATIC, HUGE_VAL));
+  g_assert_true(spore_block_cholesky_create(&factor, &linear->matrix, SPORE_FACTOR_AUTOMATIC, HUGE_VAL, NULL));
   g_assert_true(spore_block_cholesky_factorise(&factor, &linear->matrix, NULL, linear->held, false));
   spore_block_cholesky_solve(&factor, f, f);
   for (size_t i = 0; i < 3 * linear->n; i++) linear->u[i] += f[i];

@@ -21,7 +21,8 @@ typedef struct Statics {
 
 static void prepare(Statics *statics) {
   g_assert_true(spore_model_matrix_create(statics->model, &statics->matrix));
-  g_assert_true(spore_block_cholesky_create(&statics->factor, &statics->matrix, SPORE_FACTOR_AUTOMATIC, HUGE_VAL));
+  g_assert_true(
+      spore_block_cholesky_create(&statics->factor, &statics->matrix, SPORE_FACTOR_AUTOMATIC, HUGE_VAL, NULL));
 }
 
 /* What is left of the forces at free nodes. */

@@ -31,7 +31,7 @@ gboolean spore_mapping_report_measure(SporeMappingReport *report, SporeDocument 
                                       const SporeProgress *progress, GError **error) {
   g_autoptr(GError) trouble = NULL;
   if (!goes_on(progress, 0, _("Compiling the scene"), error)) return FALSE;
-  SporeSimulation *simulation = spore_simulation_new(document, NULL, NULL, &trouble);
+  SporeSimulation *simulation = spore_simulation_new(document, NULL, NULL, NULL, &trouble);
   if (!simulation) {
     report->trouble = g_strdup(trouble->message);
     return TRUE;

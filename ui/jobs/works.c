@@ -68,7 +68,7 @@ SporeCheckWork *spore_check_work_new(const SporeDocument *document) {
 
 gboolean spore_check_work_run(gpointer data, const SporeProgress *progress, GError **error) {
   SporeCheckWork *work = data;
-  work->found = spore_document_check(work->document);
+  work->found = spore_document_check(work->document, NULL);
   return TRUE;
 }
 

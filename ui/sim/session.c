@@ -43,6 +43,8 @@ struct SporeSession {
   Recorder *recorders;
   guint recorder_count;
   GThread *thread;
+  SporeCancel cancel;
+  gint ending; /* read by the world while a step is under way; atomic */
 
   /* Guarded by the mutex, which no thread holds during a step. */
   GMutex mutex;
@@ -224,19 +226,25 @@ static void wait_standing(SporeSession *session) {
   while (!session->standing) g_cond_wait(&session->stood, &session->mutex);
 }
 
+static bool is_ending(void *data) {
+  SporeSession *session = data;
+  return g_atomic_int_get(&session->ending) != 0;
+}
+
 SporeSession *spore_session_new(SporeDocument *document, int threads, const SporeTrack *input, GError **error) {
   SporeSession *session = g_new0(SporeSession, 1);
   g_mutex_init(&session->mutex);
   g_cond_init(&session->wake);
   g_cond_init(&session->stood);
   session->speed = 1;
+  session->cancel = (SporeCancel){is_ending, session};
   session->pool = spore_pool_create(MAX(threads, 1));
   if (!session->pool) {
     spore_error_raise(error, SPORE_ERROR_MEMORY, "", "no threads to be had; close other programs");
     spore_session_free(session);
     return NULL;
   }
-  session->simulation = spore_simulation_new(document, session->pool, input, error);
+  session->simulation = spore_simulation_new(document, session->pool, input, &session->cancel, error);
   if (!session->simulation || !make_recorders(session, error)) {
     spore_session_free(session);
     return NULL;
@@ -247,6 +255,7 @@ SporeSession *spore_session_new(SporeDocument *document, int threads, const Spor
 
 void spore_session_free(SporeSession *session) {
   if (!session) return;
+  g_atomic_int_set(&session->ending, 1); /* a step under way ends soon */
   if (session->thread) {
     g_mutex_lock(&session->mutex);
     session->quit = TRUE;

@@ -68,7 +68,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
     SporeStepResult result = integrator->step(&dynamics, &fields, history, h, q0, v0, q1, v1, scratch);
     dynamics.set_time(dynamics.data, h);
     spore_step_result_add(&total, &result);
-    if (effort && !go_on(effort, &result)) break;
+    if ((effort && !go_on(effort, &result)) || spore_cancel_asked(world->cancel)) break;
   }
   spore_island_system_keep_contacts(&system);
   return total;
@@ -121,7 +121,7 @@ static SporeStepResult advance(SporeWorld *world, SporeIsland *island) {
   if (island->multirate) {
     island->history.step_s = 0;
     SporeStepResult multirate = spore_island_advance_multirate(world, island);
-    if (multirate.converged) return multirate;
+    if (multirate.converged || spore_cancel_asked(world->cancel)) return multirate;
     /* It fails on friction on nodes that are light without the stiffness of their body. With it the step may be solved.
      */
     spore_island_gather(world, island);
@@ -146,6 +146,7 @@ static void integrate_island(void *data, size_t index) {
   SporeIsland *island = &world->solve.islands[index];
   spore_island_gather(world, island);
   island->result = advance(world, island);
+  if (spore_cancel_asked(world->cancel)) return; /* the step ends, and nothing of what it did is kept */
   if (spore_island_choose(world, island)) {
     SporeStepResult spent = island->result;
     spore_island_gather(world, island);
@@ -158,6 +159,7 @@ static void integrate_island(void *data, size_t index) {
   if (island->trouble == SPORE_TROUBLE_NONE && !spore_island_energy_holds(world, island))
     island->trouble = SPORE_TROUBLE_ENERGY;
   if (island->trouble != SPORE_TROUBLE_NONE) spore_island_recover(world, island);
+  if (spore_cancel_asked(world->cancel)) return;
   spore_island_remember(world, island);
   island->rests = spore_island_rests(world, island);
 }

@@ -155,6 +155,7 @@ bool spore_island_system_drags(void *data);
 void spore_island_system_precondition(void *data, const double *r, double *z);
 double spore_island_system_factor_cost(void *data);
 bool spore_island_system_factorised(void *data);
+size_t spore_island_system_factor_patience(void *data);
 double spore_island_system_rounding(void *data, double c, bool stiff_axes);
 
 #endif

@@ -260,6 +260,23 @@ double spore_island_system_factor_cost(void *data) {
   return iteration > 0 && !spore_island_system_couples(system) ? linearisation / iteration : 0;
 }
 
+/* Only a body that chooses for itself, and that nothing is coupled to, is solved better by its factor alone. */
+size_t spore_island_system_factor_patience(void *data) {
+  const SporeIslandSystem *system = data;
+  double factor = 0, iteration = 0;
+  if (system->world->solver.linear != SPORE_LINEAR_AUTOMATIC) return 0;
+  if (system->island->contact_count + system->island->spring_count > 0) return 0;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    if (!spore_island_system_assembles(system, body)) continue;
+    if (body->preconditioner.factor.block_count == 0 || body->preconditioner.choice.factorised) return 0;
+    factor += spore_body_linearisation_work(body);
+    iteration += spore_body_gradient_work(body);
+  }
+  return iteration > 0 ? (size_t)(factor / iteration) + 1 : 0;
+}
+
 bool spore_island_system_factorised(void *data) {
   SporeIslandSystem *system = data;
   for (size_t b = 0; b < system->island->kept_count; b++) {

@@ -87,6 +87,7 @@ static void go_alone(const Multirate *multirate, size_t i, const double *given, 
     SporeStepResult part = integrator->step(&dynamics, &world->solver, &history, multirate->h / (double)substeps, q, v,
                                             q1 + site.q, v1 + site.v, scratch);
     spore_step_result_add(result, &part);
+    if (spore_cancel_asked(world->cancel)) break;
   }
   world->solve.local_sites[index] = site;
 }
@@ -169,6 +170,7 @@ SporeStepResult spore_island_advance_multirate(SporeWorld *world, SporeIsland *i
     system.start_s = (double)part * multirate.h;
     SporeStepResult result = advance_part(&multirate, &system, q0, v0);
     spore_step_result_add(&total, &result);
+    if (spore_cancel_asked(world->cancel)) break;
   }
   spore_island_system_keep_contacts(&system);
   return total;

@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/sim/solve/local_assembly.h"
 
-#define WORTH_ITERATIONS 2000 /* a factor that costs more than this many iterations is not made */
+#define WORTH_ITERATIONS 2000 /* a factor that takes more work than this many iterations is not made */
 #define GAIN 1.25             /* cost of the present choice over the other, above which it changes */
 #define PATIENCE 4            /* steps over which costs are compared */
 #define PATIENCE_MAXIMUM 256
@@ -35,7 +35,8 @@ static double product_work(const SporeBody *body) {
          36. * (double)body->block_count;
 }
 
-static double jacobi_work(const SporeBody *body) { return product_work(body) + 18. * (double)body->block_count; }
+double spore_body_gradient_work(const SporeBody *body) { return product_work(body) + 18. * (double)body->block_count; }
+
 static double solve_work(const SporeBody *body) { return SOLVE_WEIGHT * body->preconditioner.factor.solve_flops; }
 
 static double jacobian_work(const SporeBody *body) {
@@ -49,6 +50,33 @@ double spore_body_linearisation_work(const SporeBody *body) { return jacobian_wo
 double spore_body_iteration_work(const SporeBody *body) {
   assert(body->block_count > 0);
   return (FORCE_WORK + BROYDEN_WORK) * (double)body->block_count + solve_work(body);
+}
+
+/* Time by work. Blocks of the matrix and of the factor are those of a spline of 200 x 200 control points; one thread.
+ */
+#define OPERATIONS_A_SECOND 2e9
+#define MAKE_WORK 520.           /* a block of the matrix, its model's part and all */
+#define ANALYSIS_WORK 290.       /* a block of the factor */
+#define SOLVE_FLOPS_OF_BLOCK 36. /* of a block of the factor */
+
+bool spore_world_body_work(const SporeWorld *world, uint32_t index, SporeBodyWork *work) {
+  assert(index < world->body_count);
+  const SporeBody *body = &world->bodies[index];
+  const SporePreconditioner *own = &body->preconditioner;
+  *work = (SporeBodyWork){.time_step_s = world->solver.time_step};
+  if (body->role != SPORE_PASSIVE || !spore_integrator(body->method.integrator)->implicit) return false;
+  if (own->matrix.block_count == 0) return false;
+  double blocks = own->matrix.row_start[own->matrix.block_count],
+         step = jacobian_work(body) + spore_body_gradient_work(body);
+  double make = MAKE_WORK * blocks;
+  if (own->factor.block_count > 0) {
+    make += ANALYSIS_WORK / SOLVE_FLOPS_OF_BLOCK * own->factor.solve_flops;
+    work->factor_s = factor_work(body) / OPERATIONS_A_SECOND;
+    step = fmin(step, spore_body_iteration_work(body));
+  }
+  work->make_s = make / OPERATIONS_A_SECOND;
+  work->step_s = step / OPERATIONS_A_SECOND;
+  return true;
 }
 
 static SporeFactorLayout layout_of(int linear) {
@@ -74,7 +102,8 @@ bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeErr
   if (!body->held.flags) body->held.flags = SPORE_NEW_ARRAY(uint8_t, body->preconditioner.matrix.block_room);
   if (!body->held.flags ||
       !spore_block_cholesky_create(&body->preconditioner.factor, &body->preconditioner.matrix,
-                                   layout_of(world->solver.linear), WORTH_ITERATIONS * jacobi_work(body)))
+                                   layout_of(world->solver.linear),
+                                   WORTH_ITERATIONS / FACTOR_WEIGHT * spore_body_gradient_work(body), world->cancel))
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
   for (size_t i = 0; i < body->held.count; i++) body->held.flags[body->held.blocks[i]] = 1;
   return true;
@@ -119,7 +148,8 @@ static void change(SporeBody *body, double iterations) {
  * each linearisation, and solves with it about FACTOR_ITERATIONS times an iteration. Broyden's keeps one for some
  * steps. */
 static double work_without(const SporeBody *body, const SporeStepResult *result) {
-  return (double)result->linear_iterations * jacobi_work(body) + (double)result->linearisations * jacobian_work(body);
+  return (double)result->linear_iterations * spore_body_gradient_work(body) +
+         (double)result->linearisations * jacobian_work(body);
 }
 
 static double expected_with(const SporeBody *body, const SporeStepResult *result, bool broyden) {
@@ -137,7 +167,7 @@ static double work_with(const SporeBody *body, const SporeStepResult *result, ui
 
 static double expected_without(const SporeBody *body, const SporeStepResult *result) {
   return (double)result->newton_iterations *
-         (body->preconditioner.choice.iterations * jacobi_work(body) + jacobian_work(body));
+         (body->preconditioner.choice.iterations * spore_body_gradient_work(body) + jacobian_work(body));
 }
 
 /* Judges how long a linearisation is kept: as long as the extra iterations cost less than a new one. Where a new one is

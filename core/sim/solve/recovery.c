@@ -256,6 +256,7 @@ static bool try_substeps(SporeWorld *world, SporeIsland *island) {
   size_t iterations = (was_hopeless(world, island) ? 1 : EFFORT) * most * island->substeps;
   SporeEffort effort = {.iterations = iterations};
   for (size_t substeps = 2; substeps <= SUBSTEPS_MAXIMUM && !helped; substeps *= 2) {
+    if (spore_cancel_asked(world->cancel)) return true;
     if (best.worth > WORTH_GAINED && effort.iterations < least * substeps * island->substeps) break;
     effort.hopeless = best.worth == WORTH_STEP ? MISS_OF_LOAD : HUGE_VAL;
     try_again(world, island, substeps, &effort);
@@ -312,8 +313,10 @@ void spore_island_recover(SporeWorld *world, SporeIsland *island) {
   SporeTrouble worst = island->trouble;
   uint32_t met = island->offender, broken = broken_body(world, island);
   while (island->kept_count > 0) {
+    if (spore_cancel_asked(world->cancel)) return;
     if (broken == SPORE_NO_BODY) {
       bool hopeless = !try_substeps(world, island);
+      if (spore_cancel_asked(world->cancel)) return;
       if (island->trouble > worst) worst = island->trouble;
       if (island->trouble > SPORE_TROUBLE_NOT_CONVERGED) broken = island->offender;
       else if (hopeless && despairs(world, island)) broken = most_pulled(world, island);

@@ -211,6 +211,8 @@ void spore_body_reset_choice(const SporeWorld *world, SporeBody *body);
  * as a product with its matrix makes them. */
 double spore_body_linearisation_work(const SporeBody *body);
 double spore_body_iteration_work(const SporeBody *body);
+/* The same of an iteration of conjugate gradients without a factor. */
+double spore_body_gradient_work(const SporeBody *body);
 /* Chooses anew how each body of the island is preconditioned, from the work of the step just taken (island->result).
  * True: the step failed for lack of a factor, and should be taken again. */
 bool spore_island_choose(SporeWorld *world, const SporeIsland *island);
