@@ -49,10 +49,10 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   if (lanes) world->contact.lanes = lanes;
   SporeManifoldContact *manifold = spore_reallocate(world->contact.manifold, old, wanted, sizeof *manifold);
   if (manifold) world->contact.manifold = manifold;
-  bool friction = spore_friction_reserve(world, old, wanted);
+  bool pairs = spore_pairs_reserve(world, old, wanted);
   uint32_t *order = spore_reallocate(world->contact.order, old, wanted, sizeof *order);
   if (order) world->contact.order = order;
-  if (!terms || !couplings || !lanes || !manifold || !friction || !order) return false;
+  if (!terms || !couplings || !lanes || !manifold || !pairs || !order) return false;
   world->contact.capacity = wanted;
   world->contact.missed = 0;
   return true;
@@ -187,7 +187,7 @@ static void fill_term(const SporeWorld *world, const SporeManifoldContact *found
   term->field_b = found->field_b;
   term->normal = contact->normal;
   term->depth = contact->depth;
-  term->slack = 0;
+  term->slack = term->overlap = 0;
   set_arms(world, term);
   turn_driven_end(world, &term->a, term->frame_arm_a, term->arm_a, term->field_a, term->normal);
   turn_driven_end(world, &term->b, term->frame_arm_b, term->arm_b, term->field_b, term->normal);
@@ -198,25 +198,44 @@ static void fill_term(const SporeWorld *world, const SporeManifoldContact *found
   term->pressing = term->yield = INFINITY;
 }
 
+static void remember_centres(SporeSpheres *spheres) {
+  size_t first = 3 * spheres->static_count;
+  memcpy(spheres->before + first, spheres->centre + first, (3 * spheres->count - first) * sizeof *spheres->centre);
+}
+
 void spore_world_respond(SporeWorld *world) {
   world->contact.count = spore_world_find_manifold(world);
   assert(world->contact.count <= world->contact.capacity);
   for (size_t i = 0; i < world->contact.count; i++)
     fill_term(world, &world->contact.manifold[i], &world->contact.terms[i]);
-  spore_world_restore_friction(world);
+  spore_world_restore_pairs(world);
+  spore_world_watch_passing(world);
   for (size_t i = 0; i < world->contact.count; i++) {
     /* Two bodies that physics does not move still press on each other, such as a tool on a wall. The force goes to the
      * tool's device. */
     SporeContactTerm *term = &world->contact.terms[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_hold(term);
-    const double *radius = world->contact.spheres.radius;
-    if (term->depth > fmin(radius[term->sphere_a], radius[term->sphere_b])) spore_world_report_depth(world, term);
   }
+  remember_centres(&world->contact.spheres);
+}
+
+void spore_body_put(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
+  const SporeCollisionUnit *unit = &world->bodies[index].collision;
+  if (world->bodies[index].role == SPORE_UNMOVABLE) return;
+  double *before = world->contact.spheres.before + 3 * unit->start;
+  for (size_t k = 0; k < 3 * unit->spheres.point_count; k++) before[k] = NAN;
+}
+
+void spore_contacts_forget(SporeWorld *world) {
+  world->contact.count = world->contact.pair_count = 0; /* contacts belong to the state before */
+  for (uint32_t b = 0; b < world->body_count; b++) spore_body_put(world, b);
 }
 
 void spore_contacts_clear(SporeContactSystem *contact) {
   spore_grid_free(contact->grid);
   spore_free(contact->spheres.centre);
+  spore_free(contact->spheres.before);
   spore_free(contact->spheres.velocity);
   spore_free(contact->spheres.radius);
   spore_free(contact->spheres.body);
@@ -227,6 +246,6 @@ void spore_contacts_clear(SporeContactSystem *contact) {
   spore_free(contact->frames);
   spore_free(contact->couplings);
   spore_free(contact->order);
-  spore_free(contact->friction);
-  spore_free(contact->friction_scratch);
+  spore_free(contact->pairs);
+  spore_free(contact->pairs_scratch);
 }
