@@ -12,9 +12,6 @@
 #include "core/collide/narrow.h"
 #include "core/sim/world_private.h"
 
-#define PRESSED                                                                                                        \
-  0.01 /* of the energy that a contact holds: what moves with less is pressed in, and has not come so fast */
-
 static double smaller_radius(const SporeWorld *world, uint32_t a, uint32_t b) {
   assert(a < world->contact.spheres.count && b < world->contact.spheres.count);
   return fmin(world->contact.spheres.radius[a], world->contact.spheres.radius[b]);
@@ -77,13 +74,21 @@ static bool count(SporeWorld *world, uint32_t a, uint32_t b, double speed) {
   return any;
 }
 
-/* The body of the two spheres that a message names first: one that moves, and of two the first. */
+static double speed_of(const SporeWorld *world, uint32_t sphere) {
+  return spore_vec3_length(spore_vec3_load(world->contact.spheres.velocity + 3 * (size_t)sphere));
+}
+
+/* The body of the two spheres that a message names first: the one that physics moves, or else the faster. */
 static SporeBody *first_named(const SporeWorld *world, uint32_t a, uint32_t b, SporeBody **other) {
   SporeBody *one = body_of(world, a), *second = body_of(world, b);
-  bool swap = !is_held(one) && (is_held(second) || second->role == SPORE_ACTIVE);
+  bool alike = is_held(one) == is_held(second);
+  bool swap = alike ? speed_of(world, b) > speed_of(world, a) : is_held(second);
   *other = swap ? one : second;
   return swap ? second : one;
 }
+
+/* Of two bodies that physics does not move, no stiffness keeps one from the other. */
+static bool is_led(const SporeBody *a, const SporeBody *b) { return !is_held(a) && !is_held(b); }
 
 /* Deep. */
 
@@ -95,25 +100,23 @@ static double stiffness_for(const SporeContactLaw *law, double inverse_mass, dou
   return (law->stiffness * depth * depth + moving) / (radius * radius);
 }
 
-/* The speed with which it came, where it is not slowly pressed in: the spring has taken the rest of it. */
-static double speed_before(const SporeContactLaw *law, double inverse_mass, double depth, double speed) {
-  double taken = law->stiffness * inverse_mass * depth * depth;
-  return speed * speed > PRESSED * taken ? sqrt(speed * speed + taken) : speed;
-}
-
 static void watch_depth(SporeWorld *world, const SporeContactTerm *term, const SporeContact *contact) {
   SporeBody *b, *a = first_named(world, term->sphere_a, term->sphere_b, &b);
-  double radius = smaller_radius(world, term->sphere_a, term->sphere_b), speed = fmax(-contact->gap_speed, 0);
+  double radius = smaller_radius(world, term->sphere_a, term->sphere_b), speed = fabs(contact->gap_speed);
   double w = pair_inverse_mass(world, term->sphere_a, term->sphere_b, term->normal);
   double needed = stiffness_for(&term->law, w, radius, term->depth, speed);
-  speed = speed_before(&term->law, w, term->depth, speed);
   world->state.monitor.deep_contacts++;
   if (term->depth - term->overlap > radius) count(world, term->sphere_a, term->sphere_b, speed);
   if (a->reported.deep && b->reported.deep) return;
   a->reported.deep = b->reported.deep = true;
+  if (is_led(a, b)) {
+    spore_world_report(world, _("%s: is led %.2g m deep into %s, more than the radius of a sphere; lead it back"),
+                       a->name, term->depth, b->name);
+    return;
+  }
   spore_world_report(world,
-                     _("%s: is %.2g m deep in %s, more than the radius of a sphere, having come at %.2g m/s; take a "
-                       "contact stiffness of %.2g N/m or more for the two, or a smaller time_step"),
+                     _("%s: is %.2g m deep in %s, more than the radius of a sphere, at %.2g m/s; take a contact "
+                       "stiffness of %.2g N/m or more for the two, or a smaller time_step"),
                      a->name, term->depth, b->name, speed, needed);
 }
 
@@ -216,6 +219,11 @@ static void watch_passed(SporeWorld *world, const SporeContact *found) {
   SporeBody *b, *a = first_named(world, passed.a, passed.b, &b);
   if (a->reported.passed) return;
   a->reported.passed = true;
+  if (is_led(a, b)) {
+    spore_world_report(world, _("%s: was led through %s within a step, at %.3g m/s; lead it more slowly"), a->name,
+                       b->name, speed);
+    return;
+  }
   SporeContactLaw law = law_of(world, passed.a, passed.b);
   double radius = smaller_radius(world, passed.a, passed.b);
   double w = pair_inverse_mass(world, passed.a, passed.b, passed.normal);
