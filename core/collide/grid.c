@@ -116,13 +116,22 @@ static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double
   return contact_count;
 }
 
+/* The way of a sphere in the step before is told by its velocity before or after that step. Of two spheres that moved
+ * by the smaller radius against each other, one moved by half of it; what gains speed within a step has had half of it.
+ */
+static void find_balls(SporeGrid *grid, const SporeSpheres *spheres, double dt_s) {
+  size_t first = grid->static_count, count = grid->count - first;
+  double *balls = grid->balls + 4 * first;
+  bool fast = spore_cells_find_balls(spheres, first, count, dt_s, balls) > 0.25 * grid->smallest;
+  grid->strides = spheres->before && dt_s > 0 && (fast || grid->fast);
+  grid->fast = fast;
+  if (grid->strides) spore_cells_add_ways(spheres, first, count, balls);
+}
+
 size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
   assert(dt_s >= 0 && isfinite(dt_s));
   assert(spheres->count == grid->count && spheres->static_count == grid->static_count);
-  /* Of two spheres that moved by the smaller radius against each other, one moved by half of it. */
-  grid->strides = spore_cells_find_balls(spheres, grid->static_count, grid->count - grid->static_count, dt_s,
-                                         0.5 * grid->smallest, grid->balls + 4 * grid->static_count) &&
-                  dt_s > 0;
+  find_balls(grid, spheres, dt_s);
   if (!grid->listed || !list_serves(grid)) renew_list(grid, spheres);
   grid->list_steps++;
   *missed = 0;
@@ -205,7 +214,7 @@ static bool create_regions(SporeGrid *grid) {
 
 static void place_unmovable(SporeGrid *grid, const SporeSpheres *spheres) {
   double *balls = grid->unmovable.unsorted;
-  spore_cells_find_balls(spheres, 0, grid->static_count, 0, HUGE_VAL, balls);
+  spore_cells_find_balls(spheres, 0, grid->static_count, 0, balls);
   memcpy(grid->balls, balls, 4 * grid->static_count * sizeof *balls);
   if (grid->bounds) spore_grid_add_bounds(grid->bounds, spheres, 0, grid->static_count, balls);
   spore_cells_fill(&grid->unmovable, &grid->scale, spheres, 0, grid->static_count, NULL);
@@ -264,7 +273,7 @@ static bool build_exclusions(SporeGrid *grid, const SporeSpheres *rest, double *
   for (size_t i = 0; i < grid->body_count; i++) selves[i] = grid->bodies[i] & SPORE_GRID_SELF;
   SporeGrid *finder = create_plain(&spheres, selves, grid->body_count, 0);
   if (!finder) return false;
-  spore_cells_find_balls(&spheres, 0, finder->count, 0, HUGE_VAL, finder->balls);
+  spore_cells_find_balls(&spheres, 0, finder->count, 0, finder->balls);
   list_pairs(finder, &spheres, 0);
   bool complete = finder->missed_pairs == 0 || spore_grid_reserve(finder, finder->pair_capacity + finder->missed_pairs);
   if (complete) {

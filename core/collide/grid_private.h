@@ -31,7 +31,8 @@ struct SporeGrid {
   uint32_t *excluded;
 
   double smallest;        /* radius, m */
-  bool strides;           /* some sphere came so far in the step before that it may have passed another */
+  bool fast;              /* some sphere moves so far in this step that it may pass another */
+  bool strides;           /* some sphere did so in the step before, or does so now: it may have passed another */
   SporeContact *contacts; /* capacity */
   SporeContact *passed;   /* capacity: see spore_grid_passed */
   size_t passed_count;

@@ -18,8 +18,8 @@ typedef struct SporeSpheres {
   double *velocity; /* count x 3, m/s */
   double *radius;   /* count, m */
   uint32_t *body;   /* count: index of the body */
-  double *before;   /* count x 3, m: the centre a step ago; not a number: the sphere was put where it is since. NULL:
-                       nothing is known of a step before */
+  double *before;   /* count x 3, m: the centre a step ago; where a sphere was put where it is since, the centre, or
+                       not a number. NULL: nothing is known of a step before */
 } SporeSpheres;
 
 /* Normal from b to a; depth > 0 when they overlap. */

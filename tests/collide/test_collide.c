@@ -243,9 +243,11 @@ static void test_passed(void) {
     double *before = spheres->before = g_memdup2(spheres->centre, 3 * spheres->count * sizeof *before), dt_s = 1e-3;
     for (size_t i = 3 * spheres->static_count; i < 3 * spheres->count; i++) {
       before[i] = run < 3 ? spheres->centre[i] + uniform(-0.02, 0.02) : NAN;
-      if (run < 3) spheres->velocity[i] = onward[run] * (spheres->centre[i] - before[i]) / dt_s;
+      if (run < 3) spheres->velocity[i] = (spheres->centre[i] - before[i]) / dt_s;
     }
     SporeGrid *grid = create(&scene);
+    detect(grid, spheres, dt_s); /* the grid looks for what was fast in a step or is fast after it */
+    for (size_t i = 0; run < 3 && i < 3 * spheres->count; i++) spheres->velocity[i] *= onward[run];
     detect(grid, spheres, dt_s);
     const SporeContact *passed;
     SporeContact expected;

@@ -37,6 +37,7 @@ typedef struct SporeContactSystem {
   uint64_t mapped; /* number of the state (SporeSnapshots) that the spheres were last mapped from */
   double *reach;   /* radius by which the grid looks for pairs, m: that of the sphere plus a margin */
   SporeGrid *grid; /* NULL where nothing can touch */
+  bool any_put;    /* some body was put where it is since the last step */
   size_t missed;   /* contacts that the last detection had no room for */
   size_t count, capacity;
   SporeManifoldContact *manifold; /* capacity */
@@ -65,6 +66,8 @@ typedef struct SporeCollisionUnit {
   double *whole_weight;  /* weights of `spheres` before anything was cut, for a reset; NULL: nothing can cut the body */
   uint64_t soft_since,
       soft_last; /* numbers of steps, from 1: first and last step in a row with a soft contact, see soft_contact.c */
+  bool put;      /* the body was put where it is, or changed, since the last step: see spore_body_put */
+  bool moved;    /* its spheres are not where they were a step ago */
   bool pulled;   /* a viewer's pull moves the body: what it enters it has not entered by its own motion */
   SporeImpact impact;
 } SporeCollisionUnit;

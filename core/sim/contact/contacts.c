@@ -1,5 +1,6 @@
 /* Contacts of a step: maps spheres from the state, finds contacts of the spheres, and makes terms of the contacts. */
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,12 +17,31 @@ static void map_active(SporeWorld *world, const SporeBody *body, double *centre,
   for (size_t k = 0; k < 3 * body->collision.spheres.point_count; k++) velocity[k] = (velocity[k] - centre[k]) * rate;
 }
 
+/* Notes where the spheres of the body are, before they follow the state. */
+static void keep_centres(const SporeWorld *world, SporeBody *body, bool moves) {
+  size_t start = 3 * body->collision.start, count = 3 * body->collision.spheres.point_count;
+  const SporeSpheres *spheres = &world->contact.spheres;
+  if (moves || body->collision.moved) memcpy(spheres->before + start, spheres->centre + start, count * sizeof(double));
+  body->collision.moved = moves;
+}
+
+/* Of spheres that were put where they are: they have come no way. A particle that leaves the world or comes into it is
+ * put, too. */
+static void forget_ways(const SporeWorld *world, const SporeBody *body) {
+  size_t start = 3 * body->collision.start, count = 3 * body->collision.spheres.point_count;
+  const double *centre = world->contact.spheres.centre + start;
+  double *before = world->contact.spheres.before + start;
+  if (body->collision.put) memcpy(before, centre, count * sizeof *before);
+  for (size_t k = 0; body->parking_gap > 0 && k < count; k += 3)
+    if (fabs(centre[k] - before[k]) > 0.5 * SPORE_PARTICLES_OUT_M) before[k] = NAN;
+}
+
 void spore_world_map_spheres(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_UNMOVABLE || body->collision.spheres.point_count == 0 ||
-        body->changed <= world->contact.mapped)
-      continue;
+    SporeBody *body = &world->bodies[b];
+    if (body->role == SPORE_UNMOVABLE || body->collision.spheres.point_count == 0) continue;
+    keep_centres(world, body, body->changed > world->contact.mapped);
+    if (!body->collision.moved) continue;
     assert(body->collision.start + body->collision.spheres.point_count <= world->contact.spheres.count);
     const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
     double *centre = world->contact.spheres.centre + 3 * body->collision.start;
@@ -29,6 +49,7 @@ void spore_world_map_spheres(SporeWorld *world) {
     spore_mapping_positions(&body->collision.spheres, q, centre);
     if (body->role == SPORE_ACTIVE) map_active(world, body, centre, velocity);
     else spore_mapping_velocities(&body->collision.spheres, q, v, velocity);
+    forget_ways(world, body);
   }
   world->contact.mapped = world->state.snapshots.newest;
 }
@@ -198,11 +219,6 @@ static void fill_term(const SporeWorld *world, const SporeManifoldContact *found
   term->pressing = term->yield = INFINITY;
 }
 
-static void remember_centres(SporeSpheres *spheres) {
-  size_t first = 3 * spheres->static_count;
-  memcpy(spheres->before + first, spheres->centre + first, (3 * spheres->count - first) * sizeof *spheres->centre);
-}
-
 void spore_world_respond(SporeWorld *world) {
   world->contact.count = spore_world_find_manifold(world);
   assert(world->contact.count <= world->contact.capacity);
@@ -216,15 +232,13 @@ void spore_world_respond(SporeWorld *world) {
     SporeContactTerm *term = &world->contact.terms[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_hold(term);
   }
-  remember_centres(&world->contact.spheres);
+  for (size_t b = 0; world->contact.any_put && b < world->body_count; b++) world->bodies[b].collision.put = false;
+  world->contact.any_put = false;
 }
 
 void spore_body_put(SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
-  const SporeCollisionUnit *unit = &world->bodies[index].collision;
-  if (world->bodies[index].role == SPORE_UNMOVABLE) return;
-  double *before = world->contact.spheres.before + 3 * unit->start;
-  for (size_t k = 0; k < 3 * unit->spheres.point_count; k++) before[k] = NAN;
+  world->bodies[index].collision.put = world->contact.any_put = true;
 }
 
 void spore_contacts_forget(SporeWorld *world) {

@@ -85,7 +85,8 @@ static double find_overlap(const SporeWorld *world, size_t first, uint64_t pair)
 /* Whether something other than motion made the depth of the end's contacts since the last step. */
 static bool is_put(const SporeWorld *world, const SporeEnd *end, uint32_t sphere) {
   assert(end->body < world->body_count && sphere < world->contact.spheres.count);
-  return isnan(world->contact.spheres.before[3 * (size_t)sphere]) || world->bodies[end->body].collision.pulled;
+  const SporeCollisionUnit *unit = &world->bodies[end->body].collision;
+  return unit->put || unit->pulled || isnan(world->contact.spheres.before[3 * (size_t)sphere]);
 }
 
 void spore_world_restore_pairs(SporeWorld *world) {

@@ -60,7 +60,6 @@ static void drop_contacts(SporeWorld *world, const SporeBody *body, size_t parti
   assert(particle < body->block_count);
   if (body->collision.spheres.kind != SPORE_MAPPING_IDENTITY || body->collision.spheres.point_count == 0) return;
   uint32_t sphere = (uint32_t)(body->collision.start + particle);
-  world->contact.spheres.before[3 * (size_t)sphere] = NAN; /* put, not moved */
   for (size_t i = 0; i < world->contact.count; i++) {
     SporeContactTerm *term = &world->contact.terms[i];
     if (term->sphere_a != sphere && term->sphere_b != sphere) continue;
