@@ -125,10 +125,9 @@ static void check_overlaps(const Start *start) {
 
 /* Loose bodies. */
 
-/* How far the ball falls along the unit vector `down` until the ball `under`, of an unmovable body, stops it, m;
- * HUGE_VAL: that does not stop it. */
+/* How far the ball falls along the unit vector `down` until it meets the ball `under`, m; HUGE_VAL: it does not. */
 static double drop_to(const Start *start, const Ball *falling, const Ball *under, SporeVec3 down) {
-  if (!may_touch(start, under->body, falling->body) || role_of(start, under->body) != SPORE_UNMOVABLE) return HUGE_VAL;
+  if (!may_touch(start, under->body, falling->body)) return HUGE_VAL;
   SporeVec3 apart = spore_vec3_sub(under->centre, falling->centre);
   double along = spore_vec3_dot(apart, down), reach = under->radius + falling->radius;
   double beside = spore_vec3_length(spore_vec3_add_scaled(apart, -along, down));
@@ -136,16 +135,21 @@ static double drop_to(const Start *start, const Ball *falling, const Ball *under
   return fmax(along - sqrt(reach * reach - beside * beside), 0);
 }
 
-/* How far the body falls until something unmovable stops it, m; HUGE_VAL: nothing does. */
+/* How far the body falls until it meets another, m; HUGE_VAL: nothing unmovable lies under it. */
 static double drop_of(const Start *start, guint body, SporeVec3 down) {
   double drop = HUGE_VAL;
-  for (guint i = 0; i < start->balls->len && drop > 0; i++) {
+  gboolean held = FALSE;
+  for (guint i = 0; i < start->balls->len && !(held && drop <= 0); i++) {
     const Ball *falling = &g_array_index(start->balls, Ball, i);
     if (falling->body != body) continue;
-    for (guint j = 0; j < start->balls->len; j++)
-      drop = fmin(drop, drop_to(start, falling, &g_array_index(start->balls, Ball, j), down));
+    for (guint j = 0; j < start->balls->len; j++) {
+      const Ball *under = &g_array_index(start->balls, Ball, j);
+      double way = drop_to(start, falling, under, down);
+      held |= isfinite(way) && role_of(start, under->body) == SPORE_UNMOVABLE;
+      drop = fmin(drop, way);
+    }
   }
-  return drop;
+  return held ? drop : HUGE_VAL;
 }
 
 /* Air holds smoke up. */
