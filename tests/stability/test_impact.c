@@ -161,6 +161,8 @@ static void overlap(void) {
     g_assert_cmpfloat(sqrt(10 * STIFF / 0.064) * depth, >, 2 * SPORE_CONTACT_EXIT_SPEED); /* it would part so fast */
     g_assert_cmpfloat(fastest, >, 0.5);
     g_assert_cmpfloat(fastest, <=, SPORE_CONTACT_EXIT_SPEED);
+    g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0);
+    g_assert_true(rig_said(world, "ball: overlaps wall by ") == (depth > WALL));
     g_assert_cmpfloat(fabs(velocity_of(world, 1).y / 10 - 1), <, 0.01);
     rig_free(rig);
   }

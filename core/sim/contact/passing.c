@@ -100,24 +100,31 @@ static double stiffness_for(const SporeContactLaw *law, double inverse_mass, dou
   return (law->stiffness * depth * depth + moving) / (radius * radius);
 }
 
-static void watch_depth(SporeWorld *world, const SporeContactTerm *term, const SporeContact *contact) {
+static void report_depth(SporeWorld *world, const SporeContactTerm *term, double radius, double speed, bool put) {
   SporeBody *b, *a = first_named(world, term->sphere_a, term->sphere_b, &b);
-  double radius = smaller_radius(world, term->sphere_a, term->sphere_b), speed = fabs(contact->gap_speed);
-  double w = pair_inverse_mass(world, term->sphere_a, term->sphere_b, term->normal);
-  double needed = stiffness_for(&term->law, w, radius, term->depth, speed);
-  world->state.monitor.deep_contacts++;
-  if (term->depth - term->overlap > radius) count(world, term->sphere_a, term->sphere_b, speed);
   if (a->reported.deep && b->reported.deep) return;
   a->reported.deep = b->reported.deep = true;
-  if (is_led(a, b)) {
+  double w = pair_inverse_mass(world, term->sphere_a, term->sphere_b, term->normal);
+  if (is_led(a, b))
     spore_world_report(world, _("%s: is led %.2g m deep into %s, more than the radius of a sphere; lead it back"),
                        a->name, term->depth, b->name);
-    return;
-  }
-  spore_world_report(world,
-                     _("%s: is %.2g m deep in %s, more than the radius of a sphere, at %.2g m/s; take a contact "
-                       "stiffness of %.2g N/m or more for the two, or a smaller time_step"),
-                     a->name, term->depth, b->name, speed, needed);
+  else if (put)
+    spore_world_report(world, _("%s: overlaps %s by %.2g m, more than the radius of a sphere; move them apart"),
+                       a->name, b->name, term->depth);
+  else
+    spore_world_report(world,
+                       _("%s: is %.2g m deep in %s, more than the radius of a sphere, at %.2g m/s; take a contact "
+                         "stiffness of %.2g N/m or more for the two, or a smaller time_step"),
+                       a->name, term->depth, b->name, speed, stiffness_for(&term->law, w, radius, term->depth, speed));
+}
+
+/* A depth that motion has not made is told, but it is what the scene, or somebody, wants. */
+static void watch_depth(SporeWorld *world, const SporeContactTerm *term, const SporeContact *contact) {
+  double radius = smaller_radius(world, term->sphere_a, term->sphere_b), speed = fabs(contact->gap_speed);
+  bool put = term->depth - term->overlap <= radius;
+  world->state.monitor.deep_contacts++;
+  if (!put) count(world, term->sphere_a, term->sphere_b, speed);
+  report_depth(world, term, radius, speed, put);
 }
 
 /* Too fast. */
