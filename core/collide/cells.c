@@ -114,17 +114,32 @@ static uint32_t find_or_add(SporeCells *cells, int32_t x, int32_t y, int32_t z, 
   return index;
 }
 
-void spore_cells_find_balls(const SporeSpheres *spheres, size_t first, size_t count, double dt_s, double *balls) {
+/* Sum of the sizes of the components: at least the length, and no root is needed. */
+static double length_at_most(SporeVec3 a) { return fabs(a.x) + fabs(a.y) + fabs(a.z); }
+
+double spore_cells_find_balls(const SporeSpheres *spheres, size_t first, size_t count, double dt_s, double *balls) {
   assert(first + count <= spheres->count);
   assert(dt_s >= 0);
+  double longest = 0;
   for (size_t i = first; i < first + count; i++, balls += 4) {
     SporeVec3 velocity = spore_vec3_load(spheres->velocity + 3 * i);
     SporeVec3 middle = spore_vec3_add_scaled(spore_vec3_load(spheres->centre + 3 * i), 0.5 * dt_s, velocity);
-    double speed = fabs(velocity.x) + fabs(velocity.y) + fabs(velocity.z); /* at least: no root is needed */
-    double size = fabs(middle.x) + fabs(middle.y) + fabs(middle.z);
+    double speed = length_at_most(velocity), size = length_at_most(middle);
     double reach = spheres->radius[i] + 0.5 * dt_s * speed + ROUNDING * size;
     spore_vec3_store(balls, middle);
     balls[3] = isfinite(size + reach) ? reach : -1;
+    if (speed > longest) longest = speed;
+  }
+  return dt_s * longest;
+}
+
+void spore_cells_add_ways(const SporeSpheres *spheres, size_t first, size_t count, double *balls) {
+  assert(first + count <= spheres->count);
+  assert(spheres->before);
+  for (size_t i = first; i < first + count; i++, balls += 4) {
+    SporeVec3 way = spore_vec3_sub(spore_vec3_load(balls), spore_vec3_load(spheres->before + 3 * i));
+    double reach = spheres->radius[i] + length_at_most(way);
+    if (balls[3] >= 0 && isfinite(reach)) balls[3] = fmax(balls[3], reach);
   }
 }
 

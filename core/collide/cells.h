@@ -57,8 +57,10 @@ typedef struct SporeCells {
 bool spore_cells_create(SporeCells *cells, size_t capacity); /* false: no memory, *cells cleared */
 void spore_cells_clear(SporeCells *cells);
 /* Balls that spheres first..first+count-1 stay in during the step (4 a sphere: middle and reach); reach < 0 where a
- * sphere is not finite. */
-void spore_cells_find_balls(const SporeSpheres *spheres, size_t first, size_t count, double dt_s, double *balls);
+ * sphere is not finite. Returns the longest way of one, m, or somewhat more. */
+double spore_cells_find_balls(const SporeSpheres *spheres, size_t first, size_t count, double dt_s, double *balls);
+/* Makes those balls hold the ways of the spheres in the step before, too. */
+void spore_cells_add_ways(const SporeSpheres *spheres, size_t first, size_t count, double *balls);
 /* Puts spheres first..first+count-1, count <= capacity, with the balls in cells->unsorted, into cells: those whose ball
  * touches the region of their body; all where regions is NULL. */
 void spore_cells_fill(SporeCells *cells, const SporeCellScale *scale, const SporeSpheres *spheres, size_t first,

@@ -91,14 +91,22 @@ static bool pair_sleeps(const SporeGrid *grid, const SporeSpheres *spheres, cons
   return pair->a < grid->static_count || grid->bodies[spheres->body[pair->a]] & SPORE_GRID_ASLEEP;
 }
 
+static void note_passed(SporeGrid *grid, const SporeSpheres *spheres, const SporePair *pair, double dt_s) {
+  SporeContact contact;
+  if (grid->passed_count == grid->capacity || !spore_narrow_passed(spheres, pair->a, pair->b, dt_s, &contact)) return;
+  grid->passed[grid->passed_count++] = contact;
+}
+
 /* Contacts of the listed pairs; *missed: those without room. */
 static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
   size_t contact_count = 0;
   SporeContact beyond;
+  grid->passed_count = 0;
   for (size_t i = 0; i < grid->pair_count; i++) {
     const SporePair *pair = &grid->pairs[i];
     if (grid->sleeping > 0 && pair_sleeps(grid, spheres, pair)) continue;
     if (!spore_balls_touch(grid->balls + 4 * (size_t)pair->a, grid->balls + 4 * (size_t)pair->b)) continue;
+    if (grid->strides) note_passed(grid, spheres, pair, dt_s);
     bool room = contact_count < grid->capacity;
     SporeContact *contact = room ? &grid->contacts[contact_count] : &beyond;
     if (!spore_narrow_contact(spheres, pair->a, pair->b, dt_s, contact)) continue;
@@ -108,11 +116,22 @@ static size_t find_contacts(SporeGrid *grid, const SporeSpheres *spheres, double
   return contact_count;
 }
 
+/* The way of a sphere in the step before is told by its velocity before or after that step. Of two spheres that moved
+ * by the smaller radius against each other, one moved by half of it; what gains speed within a step has had half of it.
+ */
+static void find_balls(SporeGrid *grid, const SporeSpheres *spheres, double dt_s) {
+  size_t first = grid->static_count, count = grid->count - first;
+  double *balls = grid->balls + 4 * first;
+  bool fast = spore_cells_find_balls(spheres, first, count, dt_s, balls) > 0.25 * grid->smallest;
+  grid->strides = spheres->before && dt_s > 0 && (fast || grid->fast);
+  grid->fast = fast;
+  if (grid->strides) spore_cells_add_ways(spheres, first, count, balls);
+}
+
 size_t spore_grid_detect(SporeGrid *grid, const SporeSpheres *spheres, double dt_s, size_t *missed) {
   assert(dt_s >= 0 && isfinite(dt_s));
   assert(spheres->count == grid->count && spheres->static_count == grid->static_count);
-  spore_cells_find_balls(spheres, grid->static_count, grid->count - grid->static_count, dt_s,
-                         grid->balls + 4 * grid->static_count);
+  find_balls(grid, spheres, dt_s);
   if (!grid->listed || !list_serves(grid)) renew_list(grid, spheres);
   grid->list_steps++;
   *missed = 0;
@@ -171,11 +190,17 @@ static double usual_radius(const SporeSpheres *spheres, size_t first) {
   return exp(sum / (double)(spheres->count - first));
 }
 
+/* INFINITY where there is no sphere. */
+static double smallest_radius(const SporeSpheres *spheres) {
+  double smallest = INFINITY;
+  for (size_t i = 0; i < spheres->count; i++) smallest = fmin(smallest, spheres->radius[i]);
+  return smallest;
+}
+
 static SporeCellScale scale_of(const SporeSpheres *spheres) {
   size_t first = spheres->static_count < spheres->count ? spheres->static_count : 0;
   if (spheres->count == 0) return spore_cell_scale((SporeVec3){0, 0, 0}, 1, 1);
-  double smallest = INFINITY;
-  for (size_t i = 0; i < spheres->count; i++) smallest = fmin(smallest, spheres->radius[i]);
+  double smallest = smallest_radius(spheres);
   return spore_cell_scale(middle_of(spheres, first), smallest, fmax(usual_radius(spheres, first), smallest));
 }
 
@@ -204,6 +229,7 @@ static SporeGrid *create_plain(const SporeSpheres *spheres, const unsigned char 
   grid->static_count = spheres->static_count;
   grid->body_count = body_count;
   grid->scale = scale_of(spheres);
+  grid->smallest = smallest_radius(spheres);
   grid->pause = SPORE_GRID_SHORTEST_PAUSE;
   grid->balls = SPORE_NEW_ARRAY(double, 4 * spheres->count);
   grid->bodies = SPORE_NEW_ARRAY(unsigned char, body_count);
@@ -242,6 +268,7 @@ static bool build_exclusions(SporeGrid *grid, const SporeSpheres *rest, double *
   SporeSpheres spheres = *rest;
   spheres.radius = wider;
   spheres.velocity = still;
+  spheres.before = NULL;
   for (size_t i = 0; i < rest->count; i++) wider[i] = rest->radius[i] * (1 + SPORE_GRID_SELF_MARGIN);
   for (size_t i = 0; i < grid->body_count; i++) selves[i] = grid->bodies[i] & SPORE_GRID_SELF;
   SporeGrid *finder = create_plain(&spheres, selves, grid->body_count, 0);
@@ -309,6 +336,7 @@ void spore_grid_free(SporeGrid *grid) {
   spore_free(grid->excluded_start);
   spore_free(grid->excluded);
   spore_free(grid->contacts);
+  spore_free(grid->passed);
   spore_free(grid->pairs);
   spore_free(grid->sorted_pairs);
   spore_free(grid->bucket);
@@ -319,18 +347,23 @@ bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity) {
   if (contact_capacity == 0) contact_capacity = 4 * (grid->count - grid->static_count) + 64;
   size_t pair_capacity = CONTACT_PAIRS * contact_capacity;
   SporeContact *contacts = SPORE_NEW_ARRAY(SporeContact, contact_capacity);
+  SporeContact *passed = SPORE_NEW_ARRAY(SporeContact, contact_capacity);
   SporePair *pairs = SPORE_NEW_ARRAY(SporePair, pair_capacity),
             *sorted_pairs = SPORE_NEW_ARRAY(SporePair, pair_capacity);
-  if (!contacts || !pairs || !sorted_pairs) {
+  if (!contacts || !passed || !pairs || !sorted_pairs) {
     spore_free(contacts);
+    spore_free(passed);
     spore_free(pairs);
     spore_free(sorted_pairs);
     return false;
   }
   spore_free(grid->contacts);
+  spore_free(grid->passed);
   spore_free(grid->pairs);
   spore_free(grid->sorted_pairs);
   grid->contacts = contacts;
+  grid->passed = passed;
+  grid->passed_count = 0;
   grid->pairs = pairs;
   grid->sorted_pairs = sorted_pairs;
   grid->capacity = contact_capacity;
@@ -342,6 +375,12 @@ bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity) {
 const SporeContact *spore_grid_contacts(const SporeGrid *grid) { return grid->contacts; }
 
 size_t spore_grid_capacity(const SporeGrid *grid) { return grid->capacity; }
+
+size_t spore_grid_passed(const SporeGrid *grid, const SporeContact **passed) {
+  assert(passed);
+  *passed = grid->passed;
+  return grid->passed_count;
+}
 
 /* Pairs of bodies that would touch but for their group. */
 static size_t grouped_pairs(const SporeGridBody *bodies, size_t body_count) {

@@ -45,9 +45,9 @@ void spore_grid_free(SporeGrid *grid);
 bool spore_grid_reserve(SporeGrid *grid, size_t contact_capacity);
 
 /* Finds the contacts of spheres that start the step at `centre` and move with `velocity` for dt_s (0: as they stand).
- * A contact is a pair that overlaps now (depth > 0), or one whose relative travel in the step exceeds the smaller
- * radius and that meets within the step: its normal is then the one at first touch, and its depth (<= 0) grows along
- * the normal to 0 at that time, depth + t (-gap_speed) = 0.
+ * A contact is a pair that overlaps now (depth > 0), or a fast one (SPORE_SPHERES_FAST) that meets within the step: its
+ * normal is then the one at first touch, and its depth (<= 0) grows along the normal to 0 at that time,
+ * depth + t (-gap_speed) = 0.
  *
  * Contacts are ordered by (a, b). Coincident centres: the normal opposes the relative velocity, and is +y where there
  * is none. Spheres that are not finite touch nothing. Count and layout of the spheres and the radii are as at creation.
@@ -61,6 +61,12 @@ void spore_grid_set_asleep(SporeGrid *grid, uint32_t body, bool asleep);
 /* Those of the last detection; valid until the next one. */
 const SporeContact *spore_grid_contacts(const SporeGrid *grid);
 size_t spore_grid_capacity(const SporeGrid *grid);
+
+/* Pairs that the last detection found to have passed each other in the step before: on the straight way from `before`
+ * to `centre` they came nearer than both ends of that way, and then overlapped by more than the smaller radius (depth).
+ * The normal points against the way of a past b, at the speed -gap_speed. By (a, b); returns their number, of which no
+ * more are kept than contacts are. */
+size_t spore_grid_passed(const SporeGrid *grid, const SporeContact **passed);
 
 /* Pairs of bodies, a body with itself included, that the filter lets through. */
 size_t spore_grid_body_pairs(const SporeGridBody *bodies, size_t body_count);

@@ -30,7 +30,12 @@ struct SporeGrid {
   uint32_t *excluded_start; /* count + 1 */
   uint32_t *excluded;
 
+  double smallest;        /* radius, m */
+  bool fast;              /* some sphere moves so far in this step that it may pass another */
+  bool strides;           /* some sphere did so in the step before, or does so now: it may have passed another */
   SporeContact *contacts; /* capacity */
+  SporeContact *passed;   /* capacity: see spore_grid_passed */
+  size_t passed_count;
   size_t pair_capacity, pair_count, missed_pairs;
   SporePair *pairs, *sorted_pairs; /* pair_capacity; pairs: by (a, b) once found */
   uint32_t *bucket;                /* count + 1 */

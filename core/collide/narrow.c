@@ -1,4 +1,4 @@
-/* The contact of two spheres, overlapping or on their way to meet. */
+/* The contact of two spheres: overlapping, on their way to meet, or behind them. */
 #include "core/collide/narrow.h"
 
 #include <assert.h>
@@ -35,11 +35,28 @@ bool spore_narrow_contact(const SporeSpheres *spheres, uint32_t a, uint32_t b, d
     contact->gap_speed = spore_vec3_dot(contact->normal, velocity);
     return true;
   }
-  if (!(spore_vec3_length(velocity) * dt_s > fmin(ra, rb))) return false;
+  if (!(spore_vec3_length(velocity) * dt_s > SPORE_SPHERES_FAST * fmin(ra, rb))) return false;
   double touch_s = time_of_touch(offset, velocity, sum);
   if (!(touch_s >= 0 && touch_s <= dt_s)) return false;
   contact->normal = spore_vec3_normalise(spore_vec3_add_scaled(offset, touch_s, velocity), (SporeVec3){0, 1, 0});
   contact->gap_speed = spore_vec3_dot(contact->normal, velocity);
   contact->depth = contact->gap_speed * touch_s;
   return true;
+}
+
+bool spore_narrow_passed(const SporeSpheres *spheres, uint32_t a, uint32_t b, double dt_s, SporeContact *contact) {
+  assert(a < b && b < spheres->count);
+  assert(spheres->before && dt_s > 0);
+  SporeVec3 from = spore_vec3_sub(spore_vec3_load(spheres->before + 3 * a), spore_vec3_load(spheres->before + 3 * b));
+  SporeVec3 to = spore_vec3_sub(spore_vec3_load(spheres->centre + 3 * a), spore_vec3_load(spheres->centre + 3 * b));
+  SporeVec3 way = spore_vec3_sub(to, from);
+  double ra = spheres->radius[a], rb = spheres->radius[b], square = spore_vec3_dot(way, way), least = fmin(ra, rb);
+  if (!(square > least * least)) return false; /* nor where one was put since */
+  double part = -spore_vec3_dot(from, way) / square;
+  if (!(part > 0 && part < 1)) return false;
+  SporeVec3 nearest = spore_vec3_add_scaled(from, part, way);
+  double distance = spore_vec3_length(nearest), speed = sqrt(square) / dt_s;
+  SporeVec3 back = spore_vec3_scale(-1 / sqrt(square), way);
+  *contact = (SporeContact){.a = a, .b = b, .normal = back, .depth = ra + rb - distance, .gap_speed = -speed};
+  return contact->depth > least;
 }

@@ -36,7 +36,8 @@ SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactS
                                  double damping_scale, SporeVec3 *drag) {
   assert(stiffness_scale >= 0);
   const SporeVec3 none = *drag = (SporeVec3){0, 0, 0};
-  SporeContactNormal normal = spore_contact_normal(law, state->depth, spore_vec3_dot(state->normal, state->velocity));
+  SporeContactNormal normal =
+      spore_contact_normal(law, state->depth, state->overlap, spore_vec3_dot(state->normal, state->velocity));
   double along = stiffness_scale * normal.stiffness + damping_scale * normal.damping;
   double damping, most = law->friction * normal.force;
   if (!(most > 0)) return compose(state->normal, along, 0, 0, none);
@@ -48,6 +49,20 @@ SporeMat3 spore_contact_jacobian(const SporeContactLaw *law, const SporeContactS
   plane *= most / length;
   *drag = spore_vec3_scale(law->friction * along, slip);
   return compose(state->normal, along, plane, plane, slip);
+}
+
+/* z / sqrt(1 - z^2) acos z, for any z >= 0. */
+static double damping_exponent(double z) {
+  double square = 1 - z * z;
+  if (fabs(square) < 1e-6) return 1; /* its limit at z = 1 */
+  return square > 0 ? z / sqrt(square) * acos(z) : z / sqrt(-square) * acosh(z);
+}
+
+double spore_contact_stops(const SporeContactLaw *law, double inverse_mass, double depth) {
+  assert(inverse_mass >= 0 && depth >= 0);
+  if (!(law->stiffness > 0)) return law->damping * inverse_mass * depth;
+  double frequency = sqrt(law->stiffness * inverse_mass), z = 0.5 * law->damping / law->stiffness * frequency;
+  return depth * frequency * exp(damping_exponent(z));
 }
 
 double spore_contact_potential(const SporeContactLaw *law, double depth, SporeVec3 stretch) {

@@ -7,6 +7,10 @@
 
 #include "core/math/vec3.h"
 
+/* Part of the smaller radius. Two spheres that move further than this against each other in a step are fast: the step
+ * looks ahead for their contact, since without its force they would be deep in each other when the next step begins. */
+#define SPORE_SPHERES_FAST 0.25
+
 /* All spheres of a world, those of one body next to each other. Unmovable bodies come first. */
 typedef struct SporeSpheres {
   size_t count, static_count;
@@ -14,6 +18,8 @@ typedef struct SporeSpheres {
   double *velocity; /* count x 3, m/s */
   double *radius;   /* count, m */
   uint32_t *body;   /* count: index of the body */
+  double *before;   /* count x 3, m: the centre a step ago; where a sphere was put where it is since, the centre, or
+                       not a number. NULL: nothing is known of a step before */
 } SporeSpheres;
 
 /* Normal from b to a; depth > 0 when they overlap. */

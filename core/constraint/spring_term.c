@@ -71,7 +71,7 @@ static SporeContactNormal stop_of(const SporeSpringTerm *term, SporeVec3 a, Spor
       .stiffness = term->law.stiffness, .damping = term->law.damping, .damping_depth = joint->soft};
   double depth = joint->end * spore_vec3_dot(term->law.free, spore_vec3_sub(a, b));
   double speed = joint->end * spore_vec3_dot(term->law.free, spore_vec3_sub(velocity_a, velocity_b));
-  return spore_contact_normal(&law, depth, -speed);
+  return spore_contact_normal(&law, depth, depth, -speed);
 }
 
 static SporeMat3 spring_jacobian(const SporeSpringTerm *term, SporeVec3 a, SporeVec3 b, SporeVec3 velocity_a,

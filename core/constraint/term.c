@@ -82,7 +82,7 @@ INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *
   if (term->field_a) meet_at(&term->a, spore_vec3_add(b, term->arm_b), sites, q);
   if (term->field_b) meet_at(&term->b, spore_vec3_add(a, term->arm_a), sites, q);
   Motion motion = motion_of(term, a, b, sites, q);
-  SporeContactState state = {term->normal, depth_after(term, &motion) - term->slack};
+  SporeContactState state = {term->normal, depth_after(term, &motion) - term->slack, term->overlap};
   state.velocity = spore_vec3_sub(velocity(&term->a, sites, v), velocity(&term->b, sites, v));
   if (spore_contact_term_rolls(term)) {
     SporeVec3 slip = across(term->normal, spore_vec3_scale(elapsed_s, state.velocity));
@@ -100,23 +100,23 @@ INLINE SporeContactState contact_state(SporeContactTerm *term, const SporeSite *
 
 /* Residual of the implicit normal force N': the law at the gap speed and depth after a step of the two ends alone under
  * N', less N'. */
-static double unbalanced(const SporeContactLaw *law, double ahead, double faster, double depth, double gap_speed,
-                         double pressing) {
+static double unbalanced(const SporeContactLaw *law, double ahead, double faster, double depth, double overlap,
+                         double gap_speed, double pressing) {
   double change = faster * pressing;
-  return spore_contact_normal(law, depth - ahead * change, gap_speed + change).force - pressing;
+  return spore_contact_normal(law, depth - ahead * change, overlap, gap_speed + change).force - pressing;
 }
 
 /* The residual falls with N', so false position (the Illinois variant) converges. */
 double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
-                                       double gap_speed, double most) {
+                                       double overlap, double gap_speed, double most) {
   assert(ahead >= 0 && faster >= 0);
-  double low = 0, high = most, above = unbalanced(law, ahead, faster, depth, gap_speed, low);
-  double below = unbalanced(law, ahead, faster, depth, gap_speed, high);
+  double low = 0, high = most, above = unbalanced(law, ahead, faster, depth, overlap, gap_speed, low);
+  double below = unbalanced(law, ahead, faster, depth, overlap, gap_speed, high);
   if (!(above > 0)) return low;
   if (!(below < 0)) return high;
   for (int i = 0, side = 0; i < 40 && high - low > 1e-9 * most; i++) {
     double middle = low + (high - low) * above / (above - below);
-    double value = unbalanced(law, ahead, faster, depth, gap_speed, middle);
+    double value = unbalanced(law, ahead, faster, depth, overlap, gap_speed, middle);
     if (value > 0) {
       low = middle, above = value;
       if (side == 1) below *= 0.5;
@@ -131,18 +131,20 @@ double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead,
   return low;
 }
 
-/* Softens the normal force by the slopes of the law. Where that would throw the ends apart so fast that the law is not
- * linear, by the law itself. The spring of friction is softened on its own, and cut by the softened normal force. */
+/* Softens the normal force by the slopes of the law. Where that would throw the ends of an overlap apart so fast that
+ * the law is not linear, by the law itself. The spring of friction is softened on its own, and cut by the softened
+ * normal force. */
 static void soften_contact(SporeContactTerm *term, const SporeContactState *state) {
   const SporeSoftening *softening = &term->softening;
   double w = softening->inverse_mass, h = softening->h;
   SporeVec3 n = term->normal;
   if (term->pressing <= 0) return;
   double gap_speed = spore_vec3_dot(n, state->velocity);
-  SporeContactNormal law = spore_contact_normal(&term->law, state->depth, gap_speed);
+  SporeContactNormal law = spore_contact_normal(&term->law, state->depth, state->overlap, gap_speed);
   double pressing = term->pressing / (1 + w * h * (law.damping + softening->ahead * law.stiffness));
-  if (gap_speed + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
-    pressing = spore_contact_implicit_pressing(&term->law, softening->ahead, w * h, state->depth, gap_speed, pressing);
+  if (state->overlap > 0 && gap_speed + w * h * pressing > 0.5 * SPORE_CONTACT_EXIT_SPEED)
+    pressing = spore_contact_implicit_pressing(&term->law, softening->ahead, w * h, state->depth, state->overlap,
+                                               gap_speed, pressing);
   term->pressing = term->yield = pressing;
   term->force = spore_vec3_scale(pressing, n);
   if (!(term->law.friction > 0)) return;

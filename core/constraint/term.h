@@ -40,7 +40,7 @@ SporeSoftening spore_softening(double h, double inverse_mass, double stiffness);
 /* Normal force N, 0..most, of one implicit step of the two ends alone from a depth (m) and a gap speed; ahead: t, and
  * faster: w h, of the softening. */
 double spore_contact_implicit_pressing(const SporeContactLaw *law, double ahead, double faster, double depth,
-                                       double gap_speed, double most);
+                                       double overlap, double gap_speed, double most);
 
 typedef struct SporeContactTerm {
   SporeEnd a, b; /* sphere centres */
@@ -49,6 +49,7 @@ typedef struct SporeContactTerm {
   SporeVec3 normal;                   /* from b to a */
   double depth;                       /* m, when the step began */
   double slack;                       /* of the depth, m: in this step it presses nothing */
+  double overlap;                     /* of the depth, m: the part that motion has not made, see response.h */
   SporeVec3 arm_a, arm_b;             /* from the centres to the contact point when the step began, m */
   SporeVec3 frame_arm_a, frame_arm_b; /* the same in the frames of rigid bodies */
   bool field_a, field_b;              /* the body is felt as one: depth follows its contact point, not the centre */

@@ -11,6 +11,9 @@
 
 #define NOTED_OVERLAP 0.1 /* of the smaller radius: touching bodies overlap by less */
 #define WARNED_OVERLAP 0.5
+/* Of the speed that a contact stops: what the author gave it, and what it falls at. */
+#define NOTED_SPEED 0.1
+#define NOTED_FALL 0.5
 
 /* A sphere where it stands at the start. */
 typedef struct Ball {
@@ -32,6 +35,8 @@ typedef struct Start {
   GArray *roles;     /* SporeRole, of the bodies */
   GArray *groups;    /* gint64, of the bodies */
   GArray *balls;     /* of Ball, along x */
+  SporeVec3 gravity; /* m/s^2 */
+  double *drops;     /* m, of the bodies: how far each falls; HUGE_VAL: for ever; 0: not, or it lies on something */
 } Start;
 
 static SporeRole role_of(const Start *start, guint body) { return g_array_index(start->roles, SporeRole, body); }
@@ -121,22 +126,31 @@ static void check_overlaps(const Start *start) {
 
 /* Loose bodies. */
 
-/* Whether the ball `under`, of an unmovable body, stops the fall of the other ball along the unit vector `down`. */
-static gboolean catches(const Start *start, const Ball *falling, const Ball *under, SporeVec3 down) {
-  if (!may_touch(start, under->body, falling->body) || role_of(start, under->body) != SPORE_UNMOVABLE) return FALSE;
+/* How far the ball falls along the unit vector `down` until it meets the ball `under`, m; HUGE_VAL: it does not. */
+static double drop_to(const Start *start, const Ball *falling, const Ball *under, SporeVec3 down) {
+  if (!may_touch(start, under->body, falling->body)) return HUGE_VAL;
   SporeVec3 apart = spore_vec3_sub(under->centre, falling->centre);
   double along = spore_vec3_dot(apart, down), reach = under->radius + falling->radius;
-  return along > -reach && spore_vec3_length(spore_vec3_add_scaled(apart, -along, down)) < reach;
+  double beside = spore_vec3_length(spore_vec3_add_scaled(apart, -along, down));
+  if (!(along > -reach && beside < reach)) return HUGE_VAL;
+  return fmax(along - sqrt(reach * reach - beside * beside), 0);
 }
 
-static gboolean has_support(const Start *start, guint body, SporeVec3 down) {
-  for (guint i = 0; i < start->balls->len; i++) {
+/* How far the body falls until it meets another, m; HUGE_VAL: nothing unmovable lies under it. */
+static double drop_of(const Start *start, guint body, SporeVec3 down) {
+  double drop = HUGE_VAL;
+  gboolean held = FALSE;
+  for (guint i = 0; i < start->balls->len && !(held && drop <= 0); i++) {
     const Ball *falling = &g_array_index(start->balls, Ball, i);
     if (falling->body != body) continue;
-    for (guint j = 0; j < start->balls->len; j++)
-      if (catches(start, falling, &g_array_index(start->balls, Ball, j), down)) return TRUE;
+    for (guint j = 0; j < start->balls->len; j++) {
+      const Ball *under = &g_array_index(start->balls, Ball, j);
+      double way = drop_to(start, falling, under, down);
+      held |= isfinite(way) && role_of(start, under->body) == SPORE_UNMOVABLE;
+      drop = fmin(drop, way);
+    }
   }
-  return FALSE;
+  return held ? drop : HUGE_VAL;
 }
 
 /* Air holds smoke up. */
@@ -147,21 +161,53 @@ static gboolean is_smoke(const SporeObject *body) {
   return particles && particles->puff;
 }
 
-static void check_loose(const Start *start) {
+/* Whether the body falls: physics moves it, and no link holds it. */
+static gboolean is_loose(const Start *start, guint body) {
+  const SporeObject *object = start->bodies->pdata[body];
+  return role_of(start, body) == SPORE_PASSIVE && !is_smoke(object) &&
+         !spore_check_is_used(start->check, object, SPORE_HOLDING_LINKS);
+}
+
+static void find_drops(Start *start) {
   SporeEnvironmentFields environment;
-  SporeDocument *document = start->check->document;
-  spore_object_fields(spore_document_section(document, "environment"), &environment);
-  SporeVec3 gravity = spore_vec3_load(environment.gravity);
-  if (spore_vec3_length(gravity) == 0) return;
-  SporeVec3 down = spore_vec3_normalise(gravity, gravity);
+  spore_object_fields(spore_document_section(start->check->document, "environment"), &environment);
+  start->gravity = spore_vec3_load(environment.gravity);
+  start->drops = g_new0(double, MAX(start->bodies->len, 1));
+  if (spore_vec3_length(start->gravity) == 0) return;
+  SporeVec3 down = spore_vec3_normalise(start->gravity, start->gravity);
+  for (guint i = 0; i < start->bodies->len; i++)
+    if (is_loose(start, i)) start->drops[i] = drop_of(start, i, down);
+}
+
+static void check_loose(const Start *start) {
   for (guint i = 0; i < start->bodies->len; i++) {
     const SporeObject *body = start->bodies->pdata[i];
-    if (role_of(start, i) != SPORE_PASSIVE || is_smoke(body) ||
-        spore_check_is_used(start->check, body, SPORE_HOLDING_LINKS) || has_support(start, i, down))
-      continue;
+    if (isfinite(start->drops[i])) continue;
     spore_check_say(
         start->check, SPORE_NOTE, body, _("pin it, tie it with a spring, or put an unmovable body under it"),
         _("\"%s\" is held by nothing, and nothing unmovable lies under it: it falls"), spore_object_name(body));
+  }
+}
+
+/* Says how fast bodies may come for contacts to stop them, where they come nearly as fast, or faster. */
+static void check_impacts(const Start *start, const SporeSimulation *simulation) {
+  for (guint i = 0; i < start->bodies->len; i++) {
+    SporeObject *body = start->bodies->pdata[i];
+    guint32 index = spore_simulation_body_of(simulation, body);
+    SporeStoppingSpeed stopping;
+    if (index == SPORE_NO_BODY || !spore_world_stopping_speed(simulation->world, index, &stopping)) continue;
+    double fall = isfinite(start->drops[i]) ? 2 * spore_vec3_length(start->gravity) * start->drops[i] : 0;
+    double comes = sqrt(stopping.moves * stopping.moves + fall);
+    if (stopping.moves <= NOTED_SPEED * stopping.stops && comes <= NOTED_FALL * stopping.stops) continue;
+    const char *other = spore_world_body_name(simulation->world, stopping.other);
+    g_autofree char *stiffer = g_strdup_printf(_("make contacts %.3g times as stiff, or let it come more slowly"),
+                                               pow(comes / stopping.stops, 2));
+    gboolean stops = comes <= stopping.stops;
+    spore_check_say(
+        start->check, stops ? SPORE_NOTE : SPORE_WARNING, body, stops ? _("make contacts stiffer for more") : stiffer,
+        _("\"%s\" comes at %.3g m/s, and one contact, as with \"%s\", stops it up to %.3g m/s: r sqrt(k/m) of "
+          "its sphere, more with damping"),
+        spore_object_name(body), comes, other, stopping.stops);
   }
 }
 
@@ -261,11 +307,14 @@ void spore_check_motion(SporeCheck *check) {
   if (simulation) check_work(check, simulation);
   if (simulation) spore_check_link_points(check, simulation);
   if (simulation) spore_check_pins(check, simulation);
+  find_drops(&start);
+  if (simulation) check_impacts(&start, simulation);
   spore_simulation_free(simulation);
   g_array_sort(start.balls, by_left_end);
   check_overlaps(&start);
   for (guint i = 0; i < start.bodies->len; i++) check_margin(&start, i);
   check_loose(&start);
+  g_free(start.drops);
   g_ptr_array_unref(start.bodies);
   g_array_unref(start.roles);
   g_array_unref(start.groups);

@@ -50,8 +50,12 @@ static void retune(SporeWorld *world, SporeBody *body, const void *fields) {
 static void set_contact(SporeWorld *world, SporeBody *body, const SporeContactFields *contact) {
   assert(contact);
   SporeError error = SPORE_ERROR_INIT;
-  if (spore_parameters_check(&spore_contact_parameters, contact, &error)) body->collision.fields = *contact;
-  else spore_world_report(world, "%s: %s", body->name, error.message);
+  if (!spore_parameters_check(&spore_contact_parameters, contact, &error)) {
+    spore_world_report(world, "%s: %s", body->name, error.message);
+    return;
+  }
+  body->collision.fields = *contact;
+  spore_body_put(world, (uint32_t)(body - world->bodies)); /* a stiffer contact has energy that motion has not given */
 }
 
 static void set_gravity(SporeWorld *world, SporeVec3 gravity) {
@@ -91,6 +95,7 @@ static void apply(SporeWorld *world, const SporeCommand *command) {
     set_contact(world, body, &command->contact);
     break;
   case SPORE_COMMAND_THAW:
+    spore_body_put(world, command->body); /* others may have come into it meanwhile */
     spore_body_thaw(body);
     break;
   case SPORE_COMMAND_LOD:

@@ -216,12 +216,14 @@ static bool create_spheres(SporeWorld *world, const SporeWorldDescription *descr
     count += description->bodies[i].spheres ? description->bodies[i].spheres->count : 0;
   SporeSpheres *all = &world->contact.spheres;
   all->centre = SPORE_NEW_ARRAY(double, 3 * count);
+  all->before = SPORE_NEW_ARRAY(double, 3 * count);
   all->velocity = SPORE_NEW_ARRAY(double, 3 * count);
   all->radius = SPORE_NEW_ARRAY(double, count);
   all->body = SPORE_NEW_ARRAY(uint32_t, count);
-  if (!all->centre || !all->velocity || !all->radius || !all->body) return no_memory(error);
+  if (!all->centre || !all->before || !all->velocity || !all->radius || !all->body) return no_memory(error);
   if (!add_spheres(world, description, true, error)) return false;
   all->static_count = all->count;
+  memcpy(all->before, all->centre, 3 * all->count * sizeof *all->centre);
   return add_spheres(world, description, false, error) && spore_world_create_fields(world, description, error) &&
          make_grid(world, error);
 }

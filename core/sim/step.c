@@ -130,7 +130,7 @@ static const SporeStageType stages[] = {
      N_("scissors may cut tetrahedra apart"), N_("nothing cuts tetrahedra apart")},
     {"advance", always, spore_world_advance, bodies, /**/
      N_("the next state becomes the state"), NULL},
-    {"friction", may_touch, spore_world_keep_friction, contacts, /**/
+    {"friction", may_touch, spore_world_keep_pairs, contacts, /**/
      N_("contacts that stick hold on in the next step"), N_("no two bodies can touch")},
     {"break_links", may_break, spore_world_break_links, links, /**/
      N_("links may bear too much"), N_("no link can break")},

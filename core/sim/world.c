@@ -41,8 +41,9 @@ void spore_world_free(SporeWorld *world) {
 
 static void reset_body(SporeWorld *world, SporeBody *body) {
   body->method.integrator = body->method.chosen;
-  body->reported.deep = body->reported.soft = body->altered = false;
+  body->reported.deep = body->reported.fast = body->reported.passed = body->reported.soft = body->altered = false;
   body->collision.soft_since = body->collision.soft_last = 0;
+  body->collision.impact = (SporeImpact){0};
   body->sleep.steps = 0;
   spore_body_thaw(body);
   body->reported.notice = false;
@@ -74,7 +75,7 @@ void spore_world_reset(SporeWorld *world) {
   spore_world_reset_splitting(world);
   spore_world_reset_particles(world);
   world->state.step = 0;
-  world->contact.count = world->contact.friction_count = 0;
+  spore_contacts_forget(world);
   world->state.counts = (SporeStepCounts){0};
   world->schedule.step_us = 0;
   world->schedule.cancelled = false;

@@ -392,6 +392,15 @@ typedef struct SporePileLimit {
 bool spore_world_pile_sinks(const SporeWorld *world, uint32_t body, SporePileLimit *limit);
 /* Writes the remedy: "take ...", translated. text: room for `size` bytes. */
 void spore_pile_remedy(const SporePileLimit *limit, char *text, size_t size);
+/* How fast a body may come for a contact to hold it: within the depth of the smaller sphere's radius r, a contact of
+ * stiffness k stops the mass m up to the speed r sqrt(k/m) (core/collide/response.h). */
+typedef struct SporeStoppingSpeed {
+  double stops;   /* m/s: any contact with `other` alone stops it, up to this speed */
+  double moves;   /* m/s: its fastest sphere, now */
+  uint32_t other; /* the body that stops it least of all */
+} SporeStoppingSpeed;
+/* False: physics does not move the body, or it can touch nothing. */
+bool spore_world_stopping_speed(const SporeWorld *world, uint32_t body, SporeStoppingSpeed *stopping);
 /* Whether the monitor integrates the body by a safer integrator than the scene's. */
 bool spore_world_body_made_safer(const SporeWorld *world, uint32_t body);
 /* Whether the monitor froze the body: it stands still until SPORE_COMMAND_THAW or a reset. */

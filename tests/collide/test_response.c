@@ -16,8 +16,12 @@ static const SporeContactLaw law = {.stiffness = 1000, .damping = 2, .friction =
 
 /* With friction's spring not stretched. */
 static SporeVec3 push(const SporeContactLaw *pair, SporeVec3 normal, double depth, SporeVec3 velocity) {
-  SporeContactState state = {normal, depth, velocity};
+  SporeContactState state = {.normal = normal, .depth = depth, .velocity = velocity};
   return spore_contact_force(pair, &state);
+}
+
+static double press(const SporeContactLaw *pair, double depth, double overlap, double gap_speed) {
+  return spore_contact_normal(pair, depth, overlap, gap_speed).force;
 }
 
 static SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
@@ -26,7 +30,8 @@ static SporeVec3 across(SporeVec3 normal, SporeVec3 a) {
 
 static SporeContactState random_state(double slowest, double fastest) {
   SporeVec3 normal = spore_vec3_normalise(random_vec3(1), (SporeVec3){0, 1, 0});
-  return (SporeContactState){normal, uniform(-1e-3, 5e-3), random_vec3(pow(10, uniform(slowest, fastest))),
+  return (SporeContactState){normal, uniform(-1e-3, 5e-3), fmax(uniform(-5e-3, 5e-3), 0),
+                             random_vec3(pow(10, uniform(slowest, fastest))),
                              across(normal, random_vec3(pow(10, uniform(-6, -3))))};
 }
 
@@ -122,7 +127,7 @@ static void test_exit_speed(void) {
       double mass = 1e-3, depth = 18e-3, speed = 0, dt_s = 1e-3 / sqrt(stiffness / mass), energy;
       double start = spore_contact_potential(&pair, depth, (SporeVec3){0, 0, 0});
       for (int step = 0; step < 200000 && depth > 0; step++) {
-        speed += dt_s * push(&pair, (SporeVec3){0, 1, 0}, depth, (SporeVec3){0, speed, 0}).y / mass;
+        speed += dt_s * press(&pair, depth, depth, speed) / mass;
         depth -= dt_s * speed;
         energy = 0.5 * mass * speed * speed + spore_contact_potential(&pair, depth, (SporeVec3){0, 0, 0});
         g_assert_cmpfloat(energy, <=, start * 1.001);
@@ -130,6 +135,49 @@ static void test_exit_speed(void) {
       }
       g_assert_cmpfloat(depth, <=, 0);
     }
+}
+
+/* A point that comes from outside, taken to where it turns or leaves; the depth that it reached. */
+static double meet(const SporeContactLaw *pair, double mass, double *speed, double *overlap) {
+  double depth = 0, most = 0, dt_s = 1e-4 / (sqrt(pair->stiffness / mass) + pair->damping / mass);
+  for (int step = 0; step < 2000000 && depth >= 0; step++) {
+    double half = depth - 0.5 * dt_s * *speed;
+    *speed += dt_s * press(pair, half, *overlap, *speed) / mass;
+    depth = half - 0.5 * dt_s * *speed;
+    *overlap = fmin(*overlap, fmax(depth, 0));
+    most = fmax(most, depth);
+    if (pair->damping > 0 && *speed > 0) break;
+  }
+  return most;
+}
+
+/* What motion entered comes back as it went in, at any speed; of an overlap only the part beyond it does. */
+static void test_elastic(void) {
+  for (double came = 0.1; came < 2000; came *= 10) {
+    SporeContactLaw pair = {1e5, 0, 0, 5e-4};
+    double speed = -came, overlap = 0, mass = 0.03;
+    double depth = meet(&pair, mass, &speed, &overlap), expected = came / sqrt(pair.stiffness / mass);
+    g_assert_cmpfloat(fabs(speed / came - 1), <, 1e-3);
+    g_assert_cmpfloat(fabs(depth / expected - 1), <, 1e-3);
+  }
+  SporeContactLaw pair = {1e5, 0, 0, 5e-4};
+  g_assert_cmpfloat(press(&pair, 3e-3, 0, 3), ==, 300);
+  g_assert_cmpfloat(press(&pair, 3e-3, 1e-3, 3), ==, 200);
+  g_assert_cmpfloat(press(&pair, 3e-3, 5e-3, 3), ==, 0);
+}
+
+/* The speed that is stopped within a depth, against the motion itself: without damping, little, critical and much. */
+static void test_stops(void) {
+  static const double ratios[] = {0, 0.1, 0.7, 1, 1.5, 6};
+  for (unsigned i = 0; i < G_N_ELEMENTS(ratios); i++) {
+    double mass = 0.02, depth = 5e-3, none = 0;
+    SporeContactLaw pair = {1e4, 2 * ratios[i] * sqrt(1e4 * mass), 0, 1e-9}; /* damping from the first touch on */
+    double stops = spore_contact_stops(&pair, 1 / mass, depth), below = -0.99 * stops, above = -1.01 * stops;
+    if (ratios[i] == 0) g_assert_cmpfloat(fabs(stops - depth * sqrt(1e4 / mass)), <, 1e-12);
+    g_test_message("damping ratio %g: stops %.4g m/s", ratios[i], stops);
+    g_assert_cmpfloat(meet(&pair, mass, &below, &none), <, depth);
+    g_assert_cmpfloat(meet(&pair, mass, &above, &none), >, depth);
+  }
 }
 
 static gboolean is_positive_semidefinite(SporeMat3 a) {
@@ -230,6 +278,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/response/friction", test_friction);
   g_test_add_func("/response/continuous", test_continuous);
   g_test_add_func("/response/exit-speed", test_exit_speed);
+  g_test_add_func("/response/elastic", test_elastic);
+  g_test_add_func("/response/stops", test_stops);
   g_test_add_func("/response/semidefinite", test_semidefinite);
   g_test_add_func("/response/jacobian", test_jacobian);
   int status = g_test_run();

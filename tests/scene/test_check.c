@@ -215,7 +215,8 @@ static const Mistake mistakes[] = {
            "<body name=\"calm\" position=\"0 2 0\"><mechanical geometry=\"cube\" "
            "integrator=\"implicit_euler\"><rigid_body/>"
            "</mechanical><collision spheres=\"ball\" stiffness=\"1e7\"/></body>\n</bodies>\n"),
-     {"warning 6:1: \"low\" would sink into others in a pile"}},
+     {"warning 6:1: \"low\" would sink into others in a pile", "warning 7:1: \"high\" comes at 4.2 m/s",
+      "warning 8:1: \"calm\" comes at 4.2 m/s"}},
     {"error-tolerance-unused",
      SCENE("<solver error_tolerance=\"1e-6\"/>\n" ASSETS "<bodies>\n" FLOOR STAND "</bodies>\n"),
      {"warning 2:1: error_tolerance is not used"}},
@@ -241,6 +242,18 @@ static const Mistake mistakes[] = {
      BODIES("<body name=\"floor\" role=\"unmovable\" position=\"0 -0.1 0\"><collision spheres=\"ball\" "
             "self=\"true\"/></body>\n" STAND),
      {"note 4:57: the spheres of \"floor\" do not move"}},
+    {"too-fast",
+     BODIES(FLOOR "<body name=\"stone\" velocity=\"3 0 4\">" STONE
+                  "<collision spheres=\"ball\" stiffness=\"2000\" damping=\"0\"/></body>\n"),
+     {"warning 5:1: \"stone\" comes at 5 m/s, and one contact, as with \"floor\", stops it up to "}},
+    {"nearly-too-fast",
+     BODIES(FLOOR "<body name=\"stone\" velocity=\"0.6 0 0.8\">" STONE
+                  "<collision spheres=\"ball\" stiffness=\"2000\" damping=\"1000\"/></body>\n"),
+     {"note 5:1: \"stone\" comes at 1 m/s, and one contact, as with \"floor\", stops it up to "}},
+    {"not-too-fast",
+     BODIES(FLOOR "<body name=\"stone\" velocity=\"0.06 0 0.08\">" STONE
+                  "<collision spheres=\"ball\" stiffness=\"2000\" damping=\"1000\"/></body>\n"),
+     {NULL}},
     {"spheres-away",
      SCENE("<assets><mesh name=\"cube\" file=\"cube.off\"/><spheres name=\"ball\" "
            "file=\"away.spheres\"/></assets>\n"

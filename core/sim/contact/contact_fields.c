@@ -15,7 +15,9 @@ static const SporeParameter parameters[] = {
      .initial = {1000},
      .offset = offsetof(SporeContactFields, stiffness),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Force with which each sphere resists being entered, per depth.")},
+     .doc =
+         N_("Force with which each sphere resists being entered, per depth; the springs of two bodies act in series. "
+            "A contact stops a mass m up to the speed r sqrt(k/m), r the radius of the smaller sphere.")},
     {.name = "damping",
      .type = SPORE_REAL,
      .unit = "N s/m",
@@ -24,7 +26,8 @@ static const SporeParameter parameters[] = {
      .initial = {1},
      .offset = offsetof(SporeContactFields, damping),
      .change = SPORE_CHANGE_LIVE,
-     .doc = N_("Force against the speed at which spheres enter each other: takes the bounce away.")},
+     .doc = N_("Force against the speed at which spheres enter each other: takes the bounce away. With 0 they part as "
+               "fast as they came.")},
     {.name = "friction",
      .type = SPORE_REAL,
      .unit = "",

@@ -66,8 +66,8 @@ SPORE_INLINE SporeVd step(SporeVd x, SporeVd width, SporeVd *slope) {
   return spore_vd_select(inside, y * y * (3 - 2 * y), spore_vd_select(x > zero, one, zero));
 }
 
-/* Normal force by the law itself. For lanes where a step by the slopes of the law would throw the two ends apart so
- * fast that the law is no longer linear. */
+/* Normal force by the law itself. For lanes where a step by the slopes of the law would throw the two ends of an
+ * overlap apart so fast that the law is no longer linear. */
 static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, int k, SporeVl fast, SporeVd depth,
                                               SporeVd gap_speed, SporeVd pressing) {
   for (int i = 0; i < SPORE_WIDTH; i++) {
@@ -76,8 +76,8 @@ static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, in
     const SporeContactLaw law = {.stiffness = lanes->stiffness[lane],
                                  .damping = lanes->damping[lane],
                                  .damping_depth = lanes->damping_depth[lane]};
-    pressing[i] = spore_contact_implicit_pressing(&law, lanes->ahead[lane], lanes->faster[lane], depth[i], gap_speed[i],
-                                                  pressing[i]);
+    pressing[i] = spore_contact_implicit_pressing(&law, lanes->ahead[lane], lanes->faster[lane], depth[i],
+                                                  lanes->overlap[lane], gap_speed[i], pressing[i]);
   }
   return pressing;
 }
@@ -86,16 +86,25 @@ static __attribute__((noinline)) SporeVd bend(const SporeContactLanes *lanes, in
 SPORE_INLINE SporeVd press(const SporeContactLanes *lanes, int k, SporeVd depth, SporeVd gap_speed, SporeVd viscous,
                            SporeVd viscous_slope) {
   const double half_exit = 0.5 * SPORE_CONTACT_EXIT_SPEED;
-  SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, exit_slope;
-  SporeVd exit = 1 - step(gap_speed - half_exit, spore_vd_all(half_exit), &exit_slope);
-  SporeVd spring = stiffness * depth, force = spring * exit - viscous * gap_speed;
+  SporeVd stiffness = spore_vd_load(lanes->stiffness + k), zero = {0}, fading = zero, exit_slope = zero;
+  SporeVd held = depth, share = spore_vd_all(1);
+  if (lanes->overlaps) {
+    SporeVd overlap = spore_vd_load(lanes->overlap + k);
+    SporeVd lost = step(gap_speed - half_exit, spore_vd_all(half_exit), &exit_slope);
+    fading = spore_vd_select(overlap < depth, overlap, depth);
+    share = spore_vd_select(overlap < depth, share, 1 - lost);
+    held = depth - lost * fading;
+  }
+  SporeVd force = stiffness * held - viscous * gap_speed;
   SporeVl presses = (depth > zero) & (force > zero);
   if (!lanes->softened) return spore_vd_select(presses, force, zero);
   SporeVd ahead = spore_vd_load(lanes->ahead + k), faster = spore_vd_load(lanes->faster + k);
-  SporeVd slope = spore_vd_max(stiffness * exit - spore_vd_load(lanes->damping + k) * viscous_slope * gap_speed, zero);
-  SporeVd pressing = force / (1 + faster * (spring * exit_slope + viscous + ahead * slope));
+  SporeVd slope = spore_vd_max(stiffness * share - spore_vd_load(lanes->damping + k) * viscous_slope * gap_speed, zero);
+  SporeVd pressing = force / (1 + faster * (stiffness * fading * exit_slope + viscous + ahead * slope));
   pressing = spore_vd_select(presses, pressing, zero);
-  SporeVl fast = presses & (faster > zero) & (gap_speed + faster * pressing > spore_vd_all(half_exit));
+  if (!lanes->overlaps) return pressing;
+  SporeVl fast =
+      presses & (fading > zero) & (faster > zero) & (gap_speed + faster * pressing > spore_vd_all(half_exit));
   if (__builtin_expect(spore_vl_any(fast), 0)) pressing = bend(lanes, k, fast, depth, gap_speed, pressing);
   return pressing;
 }

@@ -32,12 +32,13 @@ typedef struct SporeLaneEnd {
 /* Consecutive contacts of an island. Lanes behind the last contact have no force. */
 typedef struct SporeContactLanes {
   SporeLanesKind kind;
-  bool rubs, softened; /* whether some lane has friction, is softened */
+  bool rubs, softened, overlaps; /* whether some lane has friction, is softened, has an overlap */
   uint32_t count;
   SporeLaneEnd a, b;
   SporeLaneVector normal, driven; /* driven: velocity of prescribed ends, a less b, m/s */
   int64_t rolls[SPORE_LANES];     /* -1, or 0: see spore_contact_term_rolls */
   double depth[SPORE_LANES];      /* that presses, m */
+  double overlap[SPORE_LANES];    /* of it, m: see SporeContactTerm */
   double stiffness[SPORE_LANES], damping[SPORE_LANES], damping_depth[SPORE_LANES], friction[SPORE_LANES];
   double ahead[SPORE_LANES], faster[SPORE_LANES]; /* t, and w h, of the softening */
   SporeLaneVector stretch;

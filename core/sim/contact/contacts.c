@@ -1,5 +1,6 @@
 /* Contacts of a step: maps spheres from the state, finds contacts of the spheres, and makes terms of the contacts. */
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,12 +17,31 @@ static void map_active(SporeWorld *world, const SporeBody *body, double *centre,
   for (size_t k = 0; k < 3 * body->collision.spheres.point_count; k++) velocity[k] = (velocity[k] - centre[k]) * rate;
 }
 
+/* Notes where the spheres of the body are, before they follow the state. */
+static void keep_centres(const SporeWorld *world, SporeBody *body, bool moves) {
+  size_t start = 3 * body->collision.start, count = 3 * body->collision.spheres.point_count;
+  const SporeSpheres *spheres = &world->contact.spheres;
+  if (moves || body->collision.moved) memcpy(spheres->before + start, spheres->centre + start, count * sizeof(double));
+  body->collision.moved = moves;
+}
+
+/* Of spheres that were put where they are: they have come no way. A particle that leaves the world or comes into it is
+ * put, too. */
+static void forget_ways(const SporeWorld *world, const SporeBody *body) {
+  size_t start = 3 * body->collision.start, count = 3 * body->collision.spheres.point_count;
+  const double *centre = world->contact.spheres.centre + start;
+  double *before = world->contact.spheres.before + start;
+  if (body->collision.put) memcpy(before, centre, count * sizeof *before);
+  for (size_t k = 0; body->parking_gap > 0 && k < count; k += 3)
+    if (fabs(centre[k] - before[k]) > 0.5 * SPORE_PARTICLES_OUT_M) before[k] = NAN;
+}
+
 void spore_world_map_spheres(SporeWorld *world) {
   for (size_t b = 0; b < world->body_count; b++) {
-    const SporeBody *body = &world->bodies[b];
-    if (body->role == SPORE_UNMOVABLE || body->collision.spheres.point_count == 0 ||
-        body->changed <= world->contact.mapped)
-      continue;
+    SporeBody *body = &world->bodies[b];
+    if (body->role == SPORE_UNMOVABLE || body->collision.spheres.point_count == 0) continue;
+    keep_centres(world, body, body->changed > world->contact.mapped);
+    if (!body->collision.moved) continue;
     assert(body->collision.start + body->collision.spheres.point_count <= world->contact.spheres.count);
     const double *q = world->state.q + body->q_offset, *v = world->state.v + body->v_offset;
     double *centre = world->contact.spheres.centre + 3 * body->collision.start;
@@ -29,6 +49,7 @@ void spore_world_map_spheres(SporeWorld *world) {
     spore_mapping_positions(&body->collision.spheres, q, centre);
     if (body->role == SPORE_ACTIVE) map_active(world, body, centre, velocity);
     else spore_mapping_velocities(&body->collision.spheres, q, v, velocity);
+    forget_ways(world, body);
   }
   world->contact.mapped = world->state.snapshots.newest;
 }
@@ -49,10 +70,10 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   if (lanes) world->contact.lanes = lanes;
   SporeManifoldContact *manifold = spore_reallocate(world->contact.manifold, old, wanted, sizeof *manifold);
   if (manifold) world->contact.manifold = manifold;
-  bool friction = spore_friction_reserve(world, old, wanted);
+  bool pairs = spore_pairs_reserve(world, old, wanted);
   uint32_t *order = spore_reallocate(world->contact.order, old, wanted, sizeof *order);
   if (order) world->contact.order = order;
-  if (!terms || !couplings || !lanes || !manifold || !friction || !order) return false;
+  if (!terms || !couplings || !lanes || !manifold || !pairs || !order) return false;
   world->contact.capacity = wanted;
   world->contact.missed = 0;
   return true;
@@ -187,7 +208,7 @@ static void fill_term(const SporeWorld *world, const SporeManifoldContact *found
   term->field_b = found->field_b;
   term->normal = contact->normal;
   term->depth = contact->depth;
-  term->slack = 0;
+  term->slack = term->overlap = 0;
   set_arms(world, term);
   turn_driven_end(world, &term->a, term->frame_arm_a, term->arm_a, term->field_a, term->normal);
   turn_driven_end(world, &term->b, term->frame_arm_b, term->arm_b, term->field_b, term->normal);
@@ -203,20 +224,32 @@ void spore_world_respond(SporeWorld *world) {
   assert(world->contact.count <= world->contact.capacity);
   for (size_t i = 0; i < world->contact.count; i++)
     fill_term(world, &world->contact.manifold[i], &world->contact.terms[i]);
-  spore_world_restore_friction(world);
+  spore_world_restore_pairs(world);
+  spore_world_watch_passing(world);
   for (size_t i = 0; i < world->contact.count; i++) {
     /* Two bodies that physics does not move still press on each other, such as a tool on a wall. The force goes to the
      * tool's device. */
     SporeContactTerm *term = &world->contact.terms[i];
     if (term->a.prescribed && term->b.prescribed) spore_contact_term_hold(term);
-    const double *radius = world->contact.spheres.radius;
-    if (term->depth > fmin(radius[term->sphere_a], radius[term->sphere_b])) spore_world_report_depth(world, term);
   }
+  for (size_t b = 0; world->contact.any_put && b < world->body_count; b++) world->bodies[b].collision.put = false;
+  world->contact.any_put = false;
+}
+
+void spore_body_put(SporeWorld *world, uint32_t index) {
+  assert(index < world->body_count);
+  world->bodies[index].collision.put = world->contact.any_put = true;
+}
+
+void spore_contacts_forget(SporeWorld *world) {
+  world->contact.count = world->contact.pair_count = 0; /* contacts belong to the state before */
+  for (uint32_t b = 0; b < world->body_count; b++) spore_body_put(world, b);
 }
 
 void spore_contacts_clear(SporeContactSystem *contact) {
   spore_grid_free(contact->grid);
   spore_free(contact->spheres.centre);
+  spore_free(contact->spheres.before);
   spore_free(contact->spheres.velocity);
   spore_free(contact->spheres.radius);
   spore_free(contact->spheres.body);
@@ -227,6 +260,6 @@ void spore_contacts_clear(SporeContactSystem *contact) {
   spore_free(contact->frames);
   spore_free(contact->couplings);
   spore_free(contact->order);
-  spore_free(contact->friction);
-  spore_free(contact->friction_scratch);
+  spore_free(contact->pairs);
+  spore_free(contact->pairs_scratch);
 }

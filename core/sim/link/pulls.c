@@ -54,6 +54,7 @@ static void grasp(SporeWorld *world, size_t index, const SporeBody *body, SporeV
 static void set_pulled(SporeWorld *world, size_t index, bool pulled) {
   if (world->links.active[index] == pulled) return;
   world->links.active[index] = pulled;
+  world->bodies[world->links.springs[index].a.body].collision.pulled = pulled;
   if (pulled) world->links.pull_count++;
   else world->links.pull_count--;
   world->schedule.stale = true; /* the link stage may be needed now, or no longer */

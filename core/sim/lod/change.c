@@ -109,6 +109,7 @@ static void accept(SporeWorld *world, uint32_t index, SporeLodGrade to) {
   if (to != SPORE_LOD_FINE && world->topology.cuts.capacity > 0 && body->model->type->cut)
     spore_world_report(world, _("%s: at level %s it is neither cut nor torn; change it to level fine before"),
                        body->name, spore_lod_names[to]);
+  spore_body_put(world, index);
   if (pull) spore_world_pull_by(world, index, pulled);
   show_state(world);
 }
@@ -185,7 +186,7 @@ void spore_world_set_state(SporeWorld *world, uint32_t index, const double *q, c
   spore_pin_filter(body->held.blocks, body->held.count, world->state.next_v + body->v_offset);
   take_state(world, body);
   spore_body_thaw(body);
-  world->contact.count = world->contact.friction_count = 0; /* contacts belong to the state before */
+  spore_contacts_forget(world);
   spore_world_lose_lines(world);
   show_state(world);
 }

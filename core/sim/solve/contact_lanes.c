@@ -82,6 +82,8 @@ static void fill_lane(const SporeIslandSystem *system, const SporeContactTerm *t
   set_lane(&lanes->driven, k, term->b.prescribed ? spore_vec3_sub(driven, term->b.velocity) : driven);
   set_lane(&lanes->stretch, k, term->stretch);
   lanes->depth[k] = term->depth - term->slack;
+  lanes->overlap[k] = term->overlap;
+  lanes->overlaps |= term->overlap > 0;
   lanes->rolls[k] = spore_contact_term_rolls(term) ? -1 : 0;
   lanes->stiffness[k] = term->law.stiffness;
   lanes->damping[k] = term->law.damping;
@@ -108,7 +110,7 @@ static void empty_lane(SporeContactLanes *lanes, size_t k) {
   set_lane(&lanes->driven, k, none);
   set_lane(&lanes->stretch, k, none);
   lanes->rolls[k] = 0;
-  lanes->depth[k] = lanes->stiffness[k] = lanes->damping[k] = lanes->friction[k] = 0;
+  lanes->depth[k] = lanes->overlap[k] = lanes->stiffness[k] = lanes->damping[k] = lanes->friction[k] = 0;
   lanes->ahead[k] = lanes->faster[k] = 0;
   lanes->damping_depth[k] = 1;
 }
@@ -141,7 +143,7 @@ void spore_island_system_lay_contacts(SporeIslandSystem *system) {
     size_t first = i * SPORE_LANES, count = count_in(system, i);
     lanes->kind = kind_of(system, first, count);
     lanes->count = (uint32_t)count;
-    lanes->rubs = lanes->softened = false;
+    lanes->rubs = lanes->softened = lanes->overlaps = false;
     if (lanes->kind == SPORE_LANES_APART) continue;
     system->frames |= lanes->kind == SPORE_LANES_FRAMES;
     for (size_t k = 0; k < count; k++) fill_lane(system, spore_island_system_contact(system, first + k), lanes, k);

@@ -129,18 +129,6 @@ void spore_world_report_islands(SporeWorld *world) {
   }
 }
 
-void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term) {
-  assert(term->a.body < world->body_count && term->b.body < world->body_count);
-  SporeBody *a = &world->bodies[term->a.body], *b = &world->bodies[term->b.body];
-  world->state.monitor.deep_contacts++;
-  if (a->reported.deep && b->reported.deep) return;
-  a->reported.deep = b->reported.deep = true;
-  spore_world_report(world,
-                     _("%s: is %.2g m deep in %s, more than the radius of a sphere; take a stiffer contact or a "
-                       "smaller time_step"),
-                     a->name, term->depth, b->name);
-}
-
 /* Name of the first body of the island that took most work, by the counts of the step. */
 static const char *busiest_body(const SporeWorld *world) {
   const char *name = NULL;

@@ -40,6 +40,7 @@ typedef enum SporeUnsolvedCause {
   SPORE_UNSOLVED_MODEL,    /* the model capped or mended something, or is not meant for its state; no figure */
   SPORE_UNSOLVED_SAFER,    /* another integrator than the scene's moves the body; no figure */
   SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
+  SPORE_UNSOLVED_PASSED,   /* a contact did not hold the body; figure: its speed, m/s */
   SPORE_UNSOLVED_CAUSES
 } SporeUnsolvedCause;
 /* Register of the steps that were not solved, since time 0. */
@@ -81,6 +82,8 @@ typedef enum SporeTrouble {
 typedef struct SporeReported {
   SporeTrouble trouble; /* the worst so far */
   bool deep;            /* the body lies too deep in another body */
+  bool fast;            /* the body comes faster than contacts stop it */
+  bool passed;          /* the body passed through another */
   bool soft;            /* the body's contacts hold too little */
   bool torn;            /* the body tears */
   bool notice;          /* what the body's model had to correct */
@@ -108,8 +111,6 @@ void spore_active_set_velocity(SporeWorld *world, uint32_t body);
 void spore_world_report(SporeWorld *world, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Stage: reports what went wrong in the islands of this step, and what models had to correct. */
 void spore_world_report_islands(SporeWorld *world);
-/* Reports that a contact is deeper than the radius of the smaller of its spheres. */
-void spore_world_report_depth(SporeWorld *world, const SporeContactTerm *term);
 /* Reports that the step took longer than the budget. */
 void spore_world_report_budget(SporeWorld *world);
 void spore_monitor_reset(SporeMonitor *monitor); /* counts to 0; the messages stay */

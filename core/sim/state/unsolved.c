@@ -28,6 +28,9 @@ static const struct {
                               N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
     [SPORE_UNSOLVED_FROZEN] = {N_("it stands still, since its motion could not be computed"),
                                N_("reset, or change its parameters"), NULL},
+    [SPORE_UNSOLVED_PASSED] = {N_("a contact does not hold it: it comes too fast, or a sphere goes deeper than its "
+                                  "radius, or passes another"),
+                               N_("take a larger contact stiffness, or a smaller time_step"), "m/s"},
 };
 _Static_assert(sizeof causes / sizeof *causes == SPORE_UNSOLVED_CAUSES, "one row a cause");
 
