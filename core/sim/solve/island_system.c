@@ -324,6 +324,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .block_count = system->island->v_count / 3,
                          .switches = switches(system),
                          .set_shape = set_shape,
+                         .definite = spore_island_system_definite,
                          .force = force,
                          .body_force = body_force,
                          .term_force = term_force,

@@ -147,6 +147,7 @@ void spore_island_system_soften_lanes(const SporeIslandSystem *system);
 /* linearise.c: the slots of SporeDynamics for A = M + c D + c2 K. */
 void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
                                    double c2);
+bool spore_island_system_definite(void *data);
 bool spore_island_system_reuse(void *data, const double *q, const double *v, double c, double c2);
 void spore_island_system_multiply(void *data, const double *x, double *y);
 void spore_island_system_multiply_dragged(void *data, const double *x, double *y);
