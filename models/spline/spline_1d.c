@@ -233,7 +233,7 @@ static void stiffness(const SporeModel *model, const SporeTangent *at, SporeBloc
   assert(model->type == &spore_spline_1d);
   assert(at->stiffness_scale >= 0);
   SPORE_KERNEL(spore_spline_jacobian)(&line_now(model)->spline, at, matrix);
-  spore_spline_twist_jacobian(twist_now(model), at->q, at->shape, at->stiffness_scale, at->damping_scale, matrix);
+  spore_spline_twist_jacobian(twist_now(model), at, matrix);
 }
 
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
