@@ -308,6 +308,7 @@ typedef struct SporeMethod {
   SporeChoice integrator, nonlinear, linear;
   size_t substeps;
   SporeMethodSource substeps_source;
+  bool balances; /* static, and held by a pin or a link: each step finds a balance, one of several that there may be */
 } SporeMethod;
 /* Fills *method. False: physics does not move the body. */
 bool spore_world_body_method(const SporeWorld *world, uint32_t body, SporeMethod *method);

@@ -292,8 +292,8 @@ static double distance(void *data, const double *x) {
   return most;
 }
 
-/* Whether a pin holds the island, or a link to a body that physics does not move. */
-static bool is_held(const SporeIslandSystem *system) {
+bool spore_island_system_is_held(const SporeIslandSystem *system) {
+  assert(system->world && system->island);
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     if (spore_island_system_body(system, b, &site)->held.pin_count > 0) return true;
@@ -345,7 +345,8 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .factorised = spore_island_system_factorised,
                          .rounding = spore_island_system_rounding,
                          .distance = distance,
-                         .held = system->island->integrator == SPORE_INTEGRATOR_STATIC && is_held(system),
+                         .held = system->island->integrator == SPORE_INTEGRATOR_STATIC &&
+                                 spore_island_system_is_held(system),
                          .gravity_momentum = system->island->gravity_momentum};
 }
 

@@ -31,6 +31,8 @@ typedef struct SporeIslandSystem {
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
 /* Whether a step of h seconds is short for all contacts of the island. */
 bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h);
+/* Whether a pin holds the island, or a link to a body that physics does not move. */
+bool spore_island_system_is_held(const SporeIslandSystem *system);
 /* contact_lanes.c: writes the forces of contacts into the terms, after the last evaluation. */
 void spore_island_system_keep_contacts(const SporeIslandSystem *system);
 
