@@ -43,9 +43,6 @@ extern const char *const spore_linear_names[];
 /* The most substeps that a step may be divided into. */
 #define SPORE_SUBSTEPS_MAXIMUM 1000
 
-/* Iterations that a step of `static` may take, in those of newton_iterations: a body may have far to go. */
-#define SPORE_STATIC_EFFORT 10
-
 /* How the world is integrated, for all bodies that do not say otherwise. */
 typedef struct SporeSolverFields {
   double time_step;          /* s */

@@ -7,15 +7,15 @@
 #include "core/integrate/stage.h"
 #include "core/nonlinear/line_search.h"
 
-#define EFFORT SPORE_STATIC_EFFORT
+#define EFFORT 16               /* of the iterations of a step, as the doc of newton_iterations says */
 #define PSEUDO_STEP_MAXIMUM 1e5 /* of h: beyond it inertia is nothing beside stiffness */
 #define GROWTH_MINIMUM 3.0
 #define GROWTH_MAXIMUM 100.0
 #define SHRINKING 0.5
-/* Where the matrix is indefinite H is at most BUCKLING_STEP h, which most that buckles bears, and then a quarter, again
- * and again. */
+/* Where the matrix is indefinite H is at most BUCKLING_STEP h, which most that buckles bears, and then half, again and
+ * again. */
 #define BUCKLING_STEP 4.0
-#define INDEFINITE_SHRINKING 0.25
+#define INDEFINITE_SHRINKING 0.5
 #define INDEFINITE_MOST 40
 #define LINEAR_TOLERANCE 1e-3
 
@@ -192,8 +192,10 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
 
 const SporeIntegrator spore_static = {
     .name = "static",
-    .doc = N_("No inertia and no damping of its own: every step finds where forces balance. For what is held, by a pin "
-              "or a link, and moved slowly; what only contacts hold creeps."),
+    .doc =
+        N_("No inertia and no damping of its own: every step finds where forces balance. Where there are several "
+           "such places, the one that the load leads to from the state before. For what is held, by a pin or a link, "
+           "and moved slowly; what only contacts hold creeps."),
     .implicit = true,
     .remembers = true,
     .chooses_step = true,

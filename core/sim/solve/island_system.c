@@ -345,8 +345,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .factorised = spore_island_system_factorised,
                          .rounding = spore_island_system_rounding,
                          .distance = distance,
-                         .held = system->island->integrator == SPORE_INTEGRATOR_STATIC &&
-                                 spore_island_system_is_held(system),
+                         .held = system->balance,
                          .gravity_momentum = system->island->gravity_momentum};
 }
 

@@ -19,6 +19,7 @@ typedef struct SporeIslandSystem {
   double shape_s;        /* forces are evaluated where nodes moved from `shape` along v for this time; 0: anywhere */
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
   bool apart;            /* explicit bodies take part by their mass only: see multirate.c */
+  bool balance;          /* its bodies are to be in balance: they give A their whole stiffness */
   double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */
   size_t contact_couplings, spring_couplings; /* couplings of the current A: see local_assembly.h */
   size_t dragging;                            /* contacts with a drag, which the current A leaves out */

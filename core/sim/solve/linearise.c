@@ -145,7 +145,8 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
   assert(body->preconditioner.matrix.block_count == body->block_count && at->q && at->v);
   const SporeModelType *type = body->model->type;
   spore_block_matrix_zero(&body->preconditioner.matrix);
-  if (spore_body_is_static(body) && type->stiffness) type->stiffness(body->model, at, &body->preconditioner.matrix);
+  if (system->balance && spore_body_is_static(body) && type->stiffness)
+    type->stiffness(body->model, at, &body->preconditioner.matrix);
   else if (type->tangent) type->tangent(body->model, at, &body->preconditioner.matrix);
   else
     type->jacobian(body->model, at->q, at->shape, at->v, at->stiffness_scale, at->damping_scale,
@@ -158,7 +159,7 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
   }
   body->preconditioner.factor_ready = false;
   body->preconditioner.factor_kept &=
-      body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2 && !spore_body_is_static(body);
+      body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2 && !system->balance;
   body->preconditioner.matrix_c = c;
   body->preconditioner.matrix_c2 = c2;
   body->preconditioner.matrix_step = system->world->state.step;
@@ -166,10 +167,10 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
 
 /* Whether the body takes its whole tangent. Compression may make the whole tangent indefinite. A factor detects that,
  * and the matrix is made again without the indefinite part. Conjugate gradients would not detect it, nor would a factor
- * that lacks some terms. */
+ * that lacks some terms. In balance it is for the caller to make the matrix definite. */
 static bool takes_whole(const SporeIslandSystem *system, const SporeBody *body) {
-  if (spore_body_is_static(body)) return body->preconditioner.choice.factorised && body->model->type->stiffness;
-  return body->preconditioner.choice.factorised && body->model->type->tangent &&
+  if (system->balance) return body->preconditioner.choice.factorised && body->model->type->stiffness;
+  return body->preconditioner.choice.factorised && body->model->type->tangent && !spore_body_is_static(body) &&
          system->island->contact_count + system->island->spring_count == 0;
 }
 
@@ -181,8 +182,7 @@ static bool assemble_bodies(const SporeIslandSystem *system, const double *q, co
     const SporeSite *site;
     SporeBody *body = spore_island_system_body(system, b, &site);
     if (!spore_island_system_assembles(system, body)) continue;
-    bool again = !body->preconditioner.factor_ready && takes_whole(system, body) && !spore_body_is_static(body);
-    if (!whole && !again) continue;
+    if (!whole && (body->preconditioner.factor_ready || !takes_whole(system, body))) continue;
     assemble(system, body,
              &(SporeTangent){.q = q + site->q,
                              .shape = (system->shape ? system->shape : q) + site->q,
@@ -204,7 +204,7 @@ void spore_island_system_linearise(void *data, const double *q, const double *fr
   assemble_bodies(system, q, from, v, c, c2, true);
   linearise_terms(system, q, v, c, c2, false);
   make_preconditioner(system, q);
-  if (assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
+  if (!system->balance && assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
 }
 
 bool spore_island_system_definite(void *data) {
@@ -212,9 +212,8 @@ bool spore_island_system_definite(void *data) {
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     const SporeBody *body = spore_island_system_body(system, b, &site);
-    if (spore_body_is_static(body) && takes_whole(system, body) && spore_island_system_assembles(system, body) &&
-        !body->preconditioner.factor_ready)
-      return false;
+    bool tells = takes_whole(system, body) && spore_island_system_assembles(system, body);
+    if (tells && !body->preconditioner.factor_ready) return false;
   }
   return true;
 }
