@@ -84,6 +84,23 @@ static void report_method(SporeCli *cli, const SporeDocument *document, const Sp
   spore_cli_say(cli, "%-*s%s\n", width, body, g_strchomp(row->str));
 }
 
+/* Says which of several balances static finds. */
+static void report_branches(SporeCli *cli, const SporeWorld *world) {
+  SporeMethod method;
+  spore_cli_open_array(cli, "branches");
+  for (guint body = 0; body < spore_world_body_count(world); body++) {
+    if (!spore_world_body_method(world, body, &method) || !method.balances) continue;
+    const char *name = spore_world_body_name(world, body);
+    spore_cli_text(cli, NULL, name);
+    spore_cli_say(
+        cli,
+        _("static: %s: of the balances that it may have, the one reached by following the load from the state "
+          "before; others may lie beyond where its stiffness is negative\n"),
+        name);
+  }
+  spore_cli_close_array(cli);
+}
+
 static void report_bodies(SporeCli *cli, const SporeDocument *document, const SporeWorld *world) {
   SporeMethod method;
   gboolean titled = FALSE;
@@ -126,6 +143,7 @@ static void report(SporeCli *cli, const SporeDocument *document, const SporeWorl
   }
   spore_cli_close_array(cli);
   report_bodies(cli, document, world);
+  report_branches(cli, world);
   spore_cli_open_array(cli, "libraries");
   dl_iterate_phdr(report_library, cli);
   spore_cli_close_array(cli);
@@ -141,6 +159,9 @@ int spore_command_plan(SporeCli *cli, int argc, char **argv) {
           "or count, and said_by (body, scene, default, automatic, monitor); null: nothing is solved; where its steps "
           "are implicit also about how long it takes on one core, by counts: make_s, "
           "factor_s (each time that its matrix is factorised; 0: never), step_s (at least)")},
+      {"branches",
+       N_("names of held bodies by static, which may have several balances: the one reached by following the load "
+          "from the state before is taken")},
       {"libraries", N_("that the program uses")},
       {"mappings",
        N_("what is drawn and felt of each body that physics moves, with points of its own: name, unit (visual or "

@@ -224,6 +224,10 @@ struct SporeModelType {
    * is stiff, to second order; but times the stiffness, which hides all else (the stress is an unknown of its own, as
    * in mixed and primal-dual methods). NULL: jacobian serves. */
   void (*tangent)(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix);
+  /* The same for balance of forces, of a model that may buckle: of `at` without damping and from. The whole is exact,
+   * but where the model says what it leaves out: then a balance is found quickly, and one that is not stable is left.
+   * NULL: jacobian serves. */
+  void (*stiffness)(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix);
   /* Moves q along v for h seconds, free of force: q1, v1 from q, v (may alias). NULL: q1 = q + h v, v1 = v.
    * A rigid body turns here and keeps its angular momentum. */
   void (*drift)(const SporeModel *model, const double *q, const double *v, double h, double *q1, double *v1);

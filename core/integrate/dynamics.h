@@ -51,6 +51,9 @@ typedef struct SporeDynamics {
   /* Assembles A = M + c D + c2 K at (q, v), D = -df/dv, K = -df/dq; multiply and precondition then stand for
    * this A. from: the q of the linearisation whose step led to this one, for SporeModelType.tangent, or NULL. */
   void (*linearise)(void *data, const double *q, const double *from, const double *v, double c, double c2);
+  /* Whether that A is positive definite, as far as its factors tell. Where `held`, K in it is whole, and negative where
+   * something buckles. */
+  bool (*definite)(void *data);
   /* True when the A of an earlier step, made with the same c and c2, may be used again; it is then the current one. */
   bool (*reuse)(void *data, const double *q, const double *v, double c, double c2);
   void (*multiply)(void *data, const double *x, double *y); /* y = A x */

@@ -7,35 +7,48 @@
 #include "core/integrate/stage.h"
 #include "core/nonlinear/line_search.h"
 
-#define LOAD_STEPS_MAXIMUM 16
-#define PARTS_EFFORT 4          /* of the iterations that the load as a whole may take */
+#define EFFORT 16               /* of the iterations of a step, as the doc of newton_iterations says */
 #define PSEUDO_STEP_MAXIMUM 1e5 /* of h: beyond it inertia is nothing beside stiffness */
 #define GROWTH_MINIMUM 3.0
 #define GROWTH_MAXIMUM 100.0
 #define SHRINKING 0.5
+/* Where the matrix is indefinite H is at most BUCKLING_STEP h, which most that buckles bears, and then half, again and
+ * again. */
+#define BUCKLING_STEP 4.0
+#define INDEFINITE_SHRINKING 0.5
+#define INDEFINITE_MOST 40
 #define LINEAR_TOLERANCE 1e-3
 
 /* Balance of forces, f(q) = 0, by Newton's method, damped in two ways: a line search, and the inertia of a pseudo-step
- * H that grows as the residual falls (pseudo-transient continuation; Kelley and Keyes 1998). Where a load is too large
- * for that it comes in parts: f(q) = (1 - s) f(q0), s from 0 to 1. Each iteration moves q = drift(base, x, h) with r =
- * H^2/h (f - (1 - s) f0) and A = M + H^2 K + H^2/h D. */
+ * H that grows as the residual falls (pseudo-transient continuation; Kelley and Keyes 1998). Each iteration moves q =
+ * drift(base, x, h) with r = H^2/h f and A = M + H^2 K + H^2/h D.
+ *
+ * K is the whole stiffness, which is negative where something buckles. H is so small that A is positive definite all
+ * the same: then each iteration goes down in energy, as a body without inertia would move, away from a balance that is
+ * not stable and to the one that the load leads to; near a stable balance H is large, and convergence is that of
+ * Newton's method. With the negative part left out of A it would be slow wherever something is compressed. */
 typedef struct Balance {
   const SporeDynamics *dynamics;
-  double h, pseudo_step, load;
-  double *base, *moved;         /* where it has got to, and the sum of x that took it there: a velocity */
-  double *q, *v, *start, *work; /* start: f at q0 */
+  const SporeSolverFields *fields;
+  double h, pseudo_step;
+  double wanted;        /* norm of the load, N / kg^1/2 */
+  double *base, *moved; /* where it has got to, and the sum of x that took it there: a velocity */
+  double *q, *v, *work;
 } Balance;
 
 static double scale(const Balance *balance) { return balance->pseudo_step * balance->pseudo_step / balance->h; }
 
+static void force_after(Balance *balance, const double *x, double *f) {
+  const SporeDynamics *dynamics = balance->dynamics;
+  dynamics->drift(dynamics->data, balance->base, x, balance->h, balance->q, balance->v);
+  for (size_t i = 0; i < 3 * dynamics->block_count; i++) balance->v[i] = balance->moved[i] + x[i];
+  dynamics->force(dynamics->data, balance->q, balance->v, f);
+}
+
 static void residual(void *data, const double *x, double *r) {
   Balance *balance = data;
-  const SporeDynamics *dynamics = balance->dynamics;
-  size_t n = 3 * dynamics->block_count;
-  dynamics->drift(dynamics->data, balance->base, x, balance->h, balance->q, balance->v);
-  for (size_t i = 0; i < n; i++) balance->v[i] = balance->moved[i] + x[i];
-  dynamics->force(dynamics->data, balance->q, balance->v, r);
-  for (size_t i = 0; i < n; i++) r[i] = scale(balance) * (r[i] - (1 - balance->load) * balance->start[i]);
+  force_after(balance, x, r);
+  for (size_t i = 0; i < 3 * balance->dynamics->block_count; i++) r[i] *= scale(balance);
 }
 
 /* Goes on from where x leads. */
@@ -56,6 +69,10 @@ static double dual_norm(void *data, const double *r) {
   return sqrt(sum);
 }
 
+static void shrink_pseudo_step(Balance *balance) {
+  balance->pseudo_step = fmin(INDEFINITE_SHRINKING * balance->pseudo_step, BUCKLING_STEP * balance->h);
+}
+
 /* The pseudo-step H after a step of the line search: H grows as the residual falls, and shrinks where the step was
  * cut. */
 static void change_pseudo_step(Balance *balance, double length, double before, double after) {
@@ -64,48 +81,79 @@ static void change_pseudo_step(Balance *balance, double length, double before, d
   balance->pseudo_step = fmin(balance->pseudo_step * factor, PSEUDO_STEP_MAXIMUM * balance->h);
 }
 
-/* Over all parts of the load. */
-static size_t most_iterations(const SporeSolverFields *fields) {
-  return PARTS_EFFORT * (size_t)fields->newton_iterations;
+/* Linearises where it has got to, with the largest pseudo-step that leaves the matrix definite. False: there is none.
+ */
+static bool linearise(Balance *balance, SporeStepResult *result) {
+  assert(balance->pseudo_step > 0);
+  const SporeDynamics *dynamics = balance->dynamics;
+  for (int tries = 0; tries < INDEFINITE_MOST && !spore_cancel_asked(dynamics->cancel);
+       tries++, shrink_pseudo_step(balance)) {
+    double c2 = balance->pseudo_step * balance->pseudo_step;
+    dynamics->linearise(dynamics->data, balance->base, NULL, balance->moved, c2 / balance->h, c2);
+    result->linearisations++;
+    if (dynamics->definite(dynamics->data)) return true;
+  }
+  return false;
 }
 
-/* To balance at one load, from `base`. False: not reached. scratch: rest, d, r, trial, trial_r, and those of the linear
- * solver. */
-static bool balance_load(Balance *balance, const SporeSolverFields *fields, double wanted, double *scratch,
-                         SporeStepResult *result) {
-  assert(balance->pseudo_step > 0 && balance->load > 0 && balance->load <= 1);
+/* By the whole of the Jacobian where friction slips. */
+static SporeLinearResult solve(const Balance *balance, const double *r, double *d, double *scratch) {
   const SporeDynamics *dynamics = balance->dynamics;
-  size_t n = 3 * dynamics->block_count;
-  double *rest = scratch, *d = rest + n, *r = d + n, *trial = r + n, *trial_r = trial + n, *linear = trial_r + n;
+  size_t most = (size_t)balance->fields->linear_iterations;
+  SporeLinearOperator operator= {dynamics->data, 3 * dynamics->block_count, dynamics->multiply, dynamics->precondition,
+                                 dynamics->cancel};
+  if (dynamics->drags(dynamics->data)) {
+    operator.multiply = dynamics->multiply_dragged;
+    SporeLinearResult whole = spore_bicgstab(&operator, r, LINEAR_TOLERANCE, most / 2, d, scratch);
+    if (whole.status == SPORE_LINEAR_CONVERGED) return whole;
+    operator.multiply = dynamics->multiply;
+  }
+  return spore_pcg(&operator, r, LINEAR_TOLERANCE, most, d, scratch);
+}
+
+/* One iteration, from the force f at the base. */
+static void iterate(Balance *balance, const double *rest, double *f, double *scratch, SporeStepResult *result) {
+  size_t n = 3 * balance->dynamics->block_count;
+  double *d = scratch, *trial = d + n, *trial_r = trial + n, *linear = trial_r + n;
+  for (size_t i = 0; i < n; i++) f[i] *= scale(balance);
+  SporeLinearResult solved = solve(balance, f, d, linear);
+  result->linear_iterations += solved.iterations;
+  result->unsolved += solved.status == SPORE_LINEAR_TOO_MANY || solved.status == SPORE_LINEAR_BREAKDOWN;
   SporeSystem system = {
-      .data = balance, .count = n, .cancel = dynamics->cancel, .residual = residual, .norm = dual_norm};
-  SporeLinearOperator operator= {dynamics->data, n, dynamics->multiply, dynamics->precondition, dynamics->cancel};
-  double norm = 0;
+      .data = balance, .count = n, .cancel = balance->dynamics->cancel, .residual = residual, .norm = dual_norm};
+  double norm = dual_norm(balance, f), after = 0, length = 0;
+  /* Terms that couple bodies are not in the factors, and may show only now that the matrix is not definite. */
+  if (solved.status != SPORE_LINEAR_INDEFINITE)
+    length = spore_line_search(&system, rest, d, f, norm, false, 0, trial, trial_r, &after, &result->force_evaluations);
+  if (length == 0) {
+    shrink_pseudo_step(balance);
+    return;
+  }
+  move(balance, trial);
+  change_pseudo_step(balance, length, norm, after);
+}
+
+/* False: not reached. scratch: rest, f, three of an iteration, and those of the linear solver. */
+static bool balance_forces(Balance *balance, double *scratch, SporeStepResult *result) {
+  const SporeDynamics *dynamics = balance->dynamics;
+  const SporeSolverFields *fields = balance->fields;
+  size_t n = 3 * dynamics->block_count;
+  double *rest = scratch, *f = rest + n, *work = f + n, norm = 0;
   memset(rest, 0, n * sizeof *rest);
-  for (int64_t i = 0;; i++) {
-    residual(balance, rest, r);
+  for (;;) {
+    force_after(balance, rest, f);
     result->force_evaluations++;
-    norm = dual_norm(balance, r);
-    result->residual = wanted > 0 ? norm / scale(balance) / wanted : norm;
+    norm = dual_norm(balance, f);
+    result->residual = balance->wanted > 0 ? norm / balance->wanted : norm;
     if (!isfinite(norm) || spore_cancel_asked(dynamics->cancel)) return false;
-    if (norm <= fields->tolerance * wanted * scale(balance)) return true;
-    if (i == fields->newton_iterations || result->newton_iterations == most_iterations(fields)) break;
-    double c2 = balance->pseudo_step * balance->pseudo_step;
-    dynamics->linearise(dynamics->data, balance->q, NULL, balance->moved, c2 / balance->h, c2);
-    result->linearisations++;
-    if (norm <= dynamics->rounding(dynamics->data, balance->h, false)) return true;
-    SporeLinearResult solved = spore_pcg(&operator, r, LINEAR_TOLERANCE, (size_t)fields->linear_iterations, d, linear);
+    if (norm <= fields->tolerance * balance->wanted) return true;
+    if (result->newton_iterations == EFFORT * (size_t)fields->newton_iterations || !linearise(balance, result)) break;
+    if (norm * scale(balance) <= dynamics->rounding(dynamics->data, balance->h, false)) return true;
+    iterate(balance, rest, f, work, result);
     result->newton_iterations++;
-    result->linear_iterations += solved.iterations;
-    result->unsolved += solved.status != SPORE_LINEAR_CONVERGED;
-    double after = 0, length = spore_line_search(&system, rest, d, r, norm, false, 0, trial, trial_r, &after,
-                                                 &result->force_evaluations);
-    if (length == 0) break;
-    move(balance, trial);
-    change_pseudo_step(balance, length, norm, after);
   }
   /* Whether the residual is down to rounding, by the last linearisation. */
-  return result->linearisations > 0 && norm <= dynamics->rounding(dynamics->data, balance->h, true);
+  return result->linearisations > 0 && norm * scale(balance) <= dynamics->rounding(dynamics->data, balance->h, true);
 }
 
 /* A body that nothing holds has no balance. It creeps: each step starts from rest and keeps the displacement of that
@@ -125,32 +173,21 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
   assert(h > 0);
   if (!dynamics->held) return creep(dynamics, fields, h, q0, q1, v1, scratch);
   size_t n = 3 * dynamics->block_count;
-  Balance balance = {.dynamics = dynamics, .h = h};
+  Balance balance = {.dynamics = dynamics, .fields = fields, .h = h};
   balance.base = scratch;
   balance.q = balance.base + 2 * n;
   balance.v = balance.q + 2 * n;
-  balance.start = balance.v + n;
-  balance.work = balance.start + n;
+  balance.work = balance.v + n;
   balance.moved = balance.work + n;
-  double *work = balance.moved + n, pseudo_step = history->step_s > 0 ? fmax(history->step_s, h) : h;
+  double *work = balance.moved + n;
+  balance.pseudo_step = history->step_s > 0 ? fmax(history->step_s, h) : h;
   memset(balance.moved, 0, n * sizeof *balance.moved);
-  dynamics->force(dynamics->data, q0, balance.moved, balance.start);
-  double wanted = fmax(dual_norm(&balance, balance.start), dynamics->gravity_momentum);
+  memcpy(balance.base, q0, dynamics->q_count * sizeof *q0);
+  dynamics->force(dynamics->data, q0, balance.moved, work);
+  balance.wanted = fmax(dual_norm(&balance, work), dynamics->gravity_momentum);
   SporeStepResult result = {.force_evaluations = 1};
-  for (int parts = 1; parts <= LOAD_STEPS_MAXIMUM && !result.converged; parts *= 2) {
-    if (result.newton_iterations == most_iterations(fields) || spore_cancel_asked(dynamics->cancel)) break;
-    memcpy(balance.base, q0, dynamics->q_count * sizeof *q0);
-    memset(balance.moved, 0, n * sizeof *balance.moved);
-    dynamics->set_mass(dynamics->data, q0);
-    balance.pseudo_step = pseudo_step;
-    result.converged = true;
-    for (int part = 1; part <= parts && result.converged; part++) {
-      balance.load = (double)part / parts;
-      result.converged = balance_load(&balance, fields, wanted, work, &result);
-    }
-    pseudo_step = h; /* what was learnt before does not hold here */
-  }
-  dynamics->keep(dynamics->data, &(SporeEquation){.load = wanted, .qa = balance.base, .v = balance.moved});
+  result.converged = balance_forces(&balance, work, &result);
+  dynamics->keep(dynamics->data, &(SporeEquation){.load = balance.wanted, .qa = balance.base, .v = balance.moved});
   history->step_s = result.converged ? balance.pseudo_step : 0;
   memcpy(q1, balance.base, dynamics->q_count * sizeof *q1);
   memcpy(v1, balance.moved, n * sizeof *v1);
@@ -159,12 +196,14 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
 
 const SporeIntegrator spore_static = {
     .name = "static",
-    .doc = N_("No inertia and no damping of its own: every step finds where forces balance. For what is held, by a pin "
-              "or a link, and moved slowly; what only contacts hold creeps."),
+    .doc =
+        N_("No inertia and no damping of its own: every step finds where forces balance. Where there are several "
+           "such places, the one that the load leads to from the state before. For what is held, by a pin or a link, "
+           "and moved slowly; what only contacts hold creeps."),
     .implicit = true,
     .remembers = true,
     .chooses_step = true,
     .damping = SPORE_DAMPING_FULL,
-    .scratch = 3 * (13 + SPORE_STAGE_SCRATCH),
+    .scratch = 3 * (12 + SPORE_STAGE_SCRATCH),
     .step = step,
 };

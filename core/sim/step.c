@@ -254,8 +254,10 @@ const SporePlan *spore_world_plan(const SporeWorld *world) {
 }
 
 /* The present meaning of automatic: the body's choice of a factor decides both solvers. */
-static SporeChoice nonlinear_choice(const SporeWorld *world, const SporeBody *body) {
+static SporeChoice nonlinear_choice(const SporeWorld *world, const SporeBody *body, bool balances) {
   int kind = world->solver.nonlinear;
+  if (balances) /* static has its own: see core/integrate/static.c */
+    return (SporeChoice){spore_nonlinear_names[SPORE_NONLINEAR_NEWTON], SPORE_SOURCE_AUTOMATIC};
   if (kind != SPORE_NONLINEAR_AUTOMATIC) return (SporeChoice){spore_nonlinear_names[kind], SPORE_SOURCE_SCENE};
   kind = body->preconditioner.choice.factorised ? SPORE_NONLINEAR_BROYDEN : SPORE_NONLINEAR_NEWTON;
   return (SporeChoice){spore_nonlinear_names[kind], SPORE_SOURCE_AUTOMATIC};
@@ -274,10 +276,11 @@ bool spore_world_body_method(const SporeWorld *world, uint32_t index, SporeMetho
   const SporeIntegrator *integrator = spore_integrator(body->method.integrator);
   *method = (SporeMethod){.integrator = {integrator->name, body->method.integrator_source},
                           .substeps = body->method.substeps,
-                          .substeps_source = body->method.substeps_source};
+                          .substeps_source = body->method.substeps_source,
+                          .balances = spore_body_is_static(body) && spore_body_is_held(world, index)};
   if (body->method.integrator != body->method.chosen) method->integrator.source = SPORE_SOURCE_MONITOR;
   if (!integrator->implicit) return true;
-  method->nonlinear = nonlinear_choice(world, body);
+  method->nonlinear = nonlinear_choice(world, body, method->balances);
   method->linear = linear_choice(world, body);
   return true;
 }

@@ -315,6 +315,7 @@ typedef struct SporeMethod {
   SporeChoice integrator, nonlinear, linear;
   size_t substeps;
   SporeMethodSource substeps_source;
+  bool balances; /* static, and held by a pin or a link: each step finds a balance, one of several that there may be */
 } SporeMethod;
 /* Work that a body takes on one core, s: estimated from counts of blocks, and from how long a block took on a machine
  * of 2024, so that every machine says the same. */

@@ -242,6 +242,7 @@ const SporeModelType spore_deformable_surface = {
     .pattern = pattern,
     .jacobian = jacobian,
     .tangent = tangent,
+    .stiffness = tangent,
     .drift = drift,
     .retune = retune,
 };

@@ -268,6 +268,7 @@ const SporeModelType spore_mass_spring_net = {
     .pattern = pattern,
     .jacobian = jacobian,
     .tangent = tangent,
+    .stiffness = tangent,
     .retune = retune,
     .mend = mend,
     .cut = &cutting,

@@ -153,14 +153,18 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   return spore_spline_pattern(&body->line.spline, blocks) && spore_virtual_core_pattern(&body->root, blocks);
 }
 
-static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
-                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
+static void stiffness(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
   assert(model->type == &spore_intestine);
   const Intestine *body = (const Intestine *)model;
-  SPORE_KERNEL(spore_spline_jacobian)(&body->line.spline, q, shape, stiffness_scale, damping_scale, matrix);
+  SPORE_KERNEL(spore_spline_jacobian)(&body->line.spline, at, matrix);
+  spore_virtual_core_jacobian(&body->root, at, matrix);
+}
+
+static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
+                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
   const SporeTangent at = {
       .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
-  spore_virtual_core_jacobian(&body->root, &at, matrix);
+  stiffness(model, &at, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
@@ -213,6 +217,7 @@ const SporeModelType spore_intestine = {
     .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,
+    .stiffness = stiffness,
     .drift = drift,
     .retune = retune,
     .spheres = spheres,

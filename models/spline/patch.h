@@ -6,6 +6,7 @@
 #include "core/math/simd.h"
 #include "core/mesh/mesh.h"
 #include "core/body/mapping.h"
+#include "core/body/model.h"
 
 #define SPORE_PATCH_POINTS 4     /* Gauss points a cell: two each way */
 #define SPORE_PATCH_FUNCTIONS 16 /* that are not 0 in a cell */
@@ -75,7 +76,7 @@ bool spore_patch_sample(size_t span_u, size_t span_v, const double *control, dou
 SPORE_DECLARE_KERNEL(void, spore_patch_force, const SporePatch *patch, const double *q, const double *shape,
                      const double *v, double h, double *f);
 SPORE_DECLARE_KERNEL(double, spore_patch_potential, const SporePatch *patch, const double *q);
-SPORE_DECLARE_KERNEL(void, spore_patch_jacobian, const SporePatch *patch, const double *q, const double *shape,
-                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+SPORE_DECLARE_KERNEL(void, spore_patch_jacobian, const SporePatch *patch, const SporeTangent *at,
+                     SporeBlockMatrix *matrix);
 
 #endif

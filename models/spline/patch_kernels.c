@@ -311,10 +311,12 @@ SPORE_INLINE Plane without_negative(Plane s, SporeVd *limit) {
 }
 
 /* Of the stress as the sheet turns, and of how the normal turns against the moment, of which as much stays as keeps
- * the sum from being indefinite: its eigenvalues are those of the stress, and between two of them +-|moment|. */
-SPORE_INLINE void add_geometric(Plane stress, SporeVd3 moment, Stiffness *stiffness) {
+ * the sum from being indefinite, unless it is to be whole: its eigenvalues are those of the stress, and between two of
+ * them +-|moment|. */
+SPORE_INLINE void add_geometric(Plane stress, SporeVd3 moment, bool whole, Stiffness *stiffness) {
   SporeVd limit, length = spore_vd_sqrt(spore_vd3_dot(moment, moment));
   Plane tension = without_negative(stress, &limit);
+  if (whole) tension = stress, limit = length;
   add_all(&stiffness->a11, tension.m[0]);
   add_all(&stiffness->a22, tension.m[1]);
   add_all(&stiffness->a12, tension.m[2]);
@@ -342,7 +344,7 @@ SPORE_INLINE void add_normal(Material by, SporeVd scale, const SporePatchGauss *
 }
 
 SPORE_INLINE void add_elastic(const SporePatch *patch, Material by, double scale, const SporePatchGauss *gauss,
-                              size_t lane, const Five *at, Stiffness *stiffness) {
+                              size_t lane, const Five *at, bool whole, Stiffness *stiffness) {
   SporeVd area = scale * spore_vd_load(gauss->area + lane);
   SporeVd3 moment = {0}, bend[3], moments[3];
   add_membrane(by, by.membrane * area, at, stiffness);
@@ -352,7 +354,7 @@ SPORE_INLINE void add_elastic(const SporePatch *patch, Material by, double scale
     moment = normal_moment(gauss, lane, moments);
     add_normal(by, by.bending * area, gauss, lane, at, stiffness);
   }
-  add_geometric(stress_of(by, by.membrane * area, strain_of(at)), moment, stiffness);
+  add_geometric(stress_of(by, by.membrane * area, strain_of(at)), moment, whole, stiffness);
 }
 
 SPORE_INLINE void add_viscosity(Material by, double scale, const SporePatchGauss *gauss, size_t lane, const Five *at,
@@ -467,31 +469,31 @@ SPORE_INLINE void make_blocks(const SporePatch *patch, Material by, size_t group
   }
 }
 
-void SPORE_LEVEL_NAME(spore_patch_jacobian)(const SporePatch *patch, const double *q, const double *shape,
-                                            double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0);
+void SPORE_LEVEL_NAME(spore_patch_jacobian)(const SporePatch *patch, const SporeTangent *tangent,
+                                            SporeBlockMatrix *matrix) {
+  assert(tangent->stiffness_scale >= 0);
   assert(matrix->values);
   Material by = material_of(patch);
-  double viscous = damping_scale * patch->viscous;
+  double viscous = tangent->damping_scale * patch->viscous, scale = tangent->stiffness_scale;
   Rows rows[PAIRS];
-  if (viscous > 0) damp_along(patch, shape);
+  if (viscous > 0) damp_along(patch, tangent->shape);
   for (size_t group = 0; group < patch->group_count; group++)
     for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
       SporeVd3 x[FUNCTIONS];
       Part part;
-      gather(patch, group, lane, q, x);
+      gather(patch, group, lane, tangent->q, x);
       for (int point = 0; point < POINTS; point++) {
         const SporePatchGauss *gauss = patch->gauss + group * POINTS + point;
         Stiffness *stiffness = &part.stiffness[point];
         *stiffness = (Stiffness){0};
         Five at = five_of(gauss, lane, x);
-        add_elastic(patch, by, stiffness_scale, gauss, lane, &at, stiffness);
+        add_elastic(patch, by, scale, gauss, lane, &at, tangent->whole, stiffness);
         if (!(viscous > 0)) continue;
         at = load_five(patch->damped->at[group * POINTS + (size_t)point], lane);
         add_viscosity(by, viscous, gauss, lane, &at, stiffness);
         for (int i = 0; i < FUNCTIONS; i++) rates_of(gauss, lane, i, stiffness, part.rate[point][i]);
       }
-      make_blocks(patch, by, group, lane, &part, stiffness_scale, viscous > 0, rows);
+      make_blocks(patch, by, group, lane, &part, scale, viscous > 0, rows);
       add_blocks(patch, group, lane, rows, matrix);
     }
 }

@@ -7,6 +7,7 @@
 #include "core/math/spline.h"
 #include "core/mesh/mesh.h"
 #include "core/body/mapping.h"
+#include "core/body/model.h"
 
 #define SPORE_SPLINE_POINTS 2  /* Gauss points a span */
 #define SPORE_SPLINE_SAMPLES 8 /* a span, of what a spline is fitted to */
@@ -76,7 +77,7 @@ double *spore_spline_sample(SporeSplineKnots knots, const double *control, size_
 SPORE_DECLARE_KERNEL(void, spore_spline_force, const SporeSpline *spline, const double *q, const double *shape,
                      const double *v, double *f);
 SPORE_DECLARE_KERNEL(double, spore_spline_potential, const SporeSpline *spline, const double *q);
-SPORE_DECLARE_KERNEL(void, spore_spline_jacobian, const SporeSpline *spline, const double *q, const double *shape,
-                     double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+SPORE_DECLARE_KERNEL(void, spore_spline_jacobian, const SporeSpline *spline, const SporeTangent *at,
+                     SporeBlockMatrix *matrix);
 
 #endif

@@ -228,12 +228,18 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   return spore_spline_pattern(&line_now(model)->spline, blocks) && spore_spline_twist_pattern(twist_now(model), blocks);
 }
 
+static void stiffness(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(model->type == &spore_spline_1d);
+  assert(at->stiffness_scale >= 0);
+  SPORE_KERNEL(spore_spline_jacobian)(&line_now(model)->spline, at, matrix);
+  spore_spline_twist_jacobian(twist_now(model), at, matrix);
+}
+
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(model->type == &spore_spline_1d);
-  assert(stiffness_scale >= 0);
-  SPORE_KERNEL(spore_spline_jacobian)(&line_now(model)->spline, q, shape, stiffness_scale, damping_scale, matrix);
-  spore_spline_twist_jacobian(twist_now(model), q, shape, stiffness_scale, damping_scale, matrix);
+  const SporeTangent at = {
+      .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
+  stiffness(model, &at, matrix);
 }
 
 static const char *notice(const SporeModel *model, const double *q) {
@@ -308,6 +314,7 @@ const SporeModelType spore_spline_1d = {
     .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,
+    .stiffness = stiffness,
     .retune = retune,
     .spheres = spheres,
     .notice = notice,

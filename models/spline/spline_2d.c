@@ -136,11 +136,16 @@ static bool pattern(const SporeModel *model, SporeBlockPattern *blocks) {
   return spore_patch_pattern(&((const Spline2d *)model)->patch, blocks);
 }
 
+static void stiffness(const SporeModel *model, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(model->type == &spore_spline_2d);
+  SPORE_KERNEL(spore_patch_jacobian)(&((const Spline2d *)model)->patch, at, matrix);
+}
+
 static void jacobian(const SporeModel *model, const double *q, const double *shape, const double *v,
                      double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(model->type == &spore_spline_2d);
-  SPORE_KERNEL(spore_patch_jacobian)
-  (&((const Spline2d *)model)->patch, q, shape, stiffness_scale, damping_scale, matrix);
+  const SporeTangent at = {
+      .q = q, .shape = shape, .v = v, .stiffness_scale = stiffness_scale, .damping_scale = damping_scale};
+  stiffness(model, &at, matrix);
 }
 
 static bool map(const SporeModel *model, const double *points, size_t count, SporeMapping *mapping, SporeError *error) {
@@ -182,5 +187,6 @@ const SporeModelType spore_spline_2d = {
     .samples = samples,
     .pattern = pattern,
     .jacobian = jacobian,
+    .stiffness = stiffness,
     .retune = retune,
 };

@@ -1,5 +1,6 @@
 /* Forces, energy and Jacobian of a line. */
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 #include "core/math/simd_matrix.h"
@@ -172,16 +173,17 @@ typedef struct Stiffness {
   Symmetric aa, bb, ab;
 } Stiffness;
 
+/* least: of the stiffness across the line and across the bend: 0, or minus infinity for the whole. */
 SPORE_INLINE void add_elastic(const SporeSpline *spline, const SporeSplineGauss *gauss, size_t lane,
-                              const SporeVd3 x[4], double scale, Stiffness *stiffness) {
-  SporeVd rise, zero = {0};
+                              const SporeVd3 x[4], double scale, double least, Stiffness *stiffness) {
+  SporeVd rise, lowest = spore_vd_all(least);
   Strain strain = strain_of(gauss, lane, x);
   SporeVd slope = bending_slope(strain.square, spore_vd_load(gauss->rest + lane), &rise);
   SporeVd stretch = scale * spline->young * spore_vd_load(gauss->area + lane);
   SporeVd bend = scale * spline->young * spline->bending * spore_vd_load(gauss->inertia + lane);
-  SporeVd across = spore_vd_max(1 - strain.inverse, zero);
+  SporeVd across = spore_vd_max(1 - strain.inverse, lowest);
   add_symmetric(&stiffness->aa, stretch * across, stretch * (1 - across), strain.tangent);
-  SporeVd aside = spore_vd_max(slope, zero), along = spore_vd_max(slope + rise, zero);
+  SporeVd aside = spore_vd_max(slope, lowest), along = spore_vd_max(slope + rise, lowest);
   SporeVd inverse = 1 / spore_vd_max(strain.square, spore_vd_all(1e-200));
   add_symmetric(&stiffness->bb, bend * aside, bend * (along - aside) * inverse, strain.b);
 }
@@ -250,16 +252,17 @@ SPORE_INLINE void flush(const SporeSpline *spline, size_t first, size_t count, B
     }
 }
 
-void SPORE_LEVEL_NAME(spore_spline_jacobian)(const SporeSpline *spline, const double *q, const double *shape,
-                                             double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0);
+void SPORE_LEVEL_NAME(spore_spline_jacobian)(const SporeSpline *spline, const SporeTangent *at,
+                                             SporeBlockMatrix *matrix) {
+  assert(at->stiffness_scale >= 0);
   assert(matrix->values);
-  bool drags = damping_scale * spline->viscous > 0;
+  bool drags = at->damping_scale * spline->viscous > 0;
+  double least = at->whole ? -HUGE_VAL : 0;
   double position[3 * NODES], before[3 * NODES], lanes[PAIRS][6][SPORE_LANES];
   Band band = {0};
   for (size_t group = 0; group < spline->group_count; group++) {
-    load_nodes(spline, group, q, position);
-    if (drags) load_nodes(spline, group, shape, before);
+    load_nodes(spline, group, at->q, position);
+    if (drags) load_nodes(spline, group, at->shape, before);
     for (size_t lane = 0; lane < SPORE_LANES; lane += SPORE_WIDTH) {
       SporeVd3 x[4], s[4];
       Symmetric sum[PAIRS] = {0};
@@ -268,10 +271,10 @@ void SPORE_LEVEL_NAME(spore_spline_jacobian)(const SporeSpline *spline, const do
       for (size_t point = 0; point < SPORE_SPLINE_POINTS; point++) {
         const SporeSplineGauss *gauss = spline->gauss + group * SPORE_SPLINE_POINTS + point;
         Stiffness stiffness = {0};
-        add_elastic(spline, gauss, lane, x, stiffness_scale, &stiffness);
+        add_elastic(spline, gauss, lane, x, at->stiffness_scale, least, &stiffness);
         if (drags) {
           Drag drag = drag_of(spline, gauss, lane, s);
-          add_viscosity(&drag, damping_scale, &stiffness);
+          add_viscosity(&drag, at->damping_scale, &stiffness);
         }
         add_pairs(gauss, lane, &stiffness, drags, sum);
       }

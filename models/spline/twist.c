@@ -168,19 +168,19 @@ static void add_stiffness(const SporeTwistSpan *span, const Scalar *scalar, doub
     }
 }
 
-void spore_spline_twist_jacobian(const SporeSplineTwist *twist, const double *q, const double *shape,
-                                 double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix) {
-  assert(stiffness_scale >= 0);
-  double drag = damping_scale * twist->viscous;
+void spore_spline_twist_jacobian(const SporeSplineTwist *twist, const SporeTangent *at, SporeBlockMatrix *matrix) {
+  assert(at->stiffness_scale >= 0);
+  double drag = at->damping_scale * twist->viscous, least = at->whole ? -HUGE_VAL : 0;
   for (size_t index = 0; index < twist->span_count; index++) {
     const SporeTwistSpan *span = &twist->spans[index];
     Scalar scalars[SCALARS];
-    int count = scalars_of(twist, index, q, scalars);
+    int count = scalars_of(twist, index, at->q, scalars);
     for (int k = 0; k < count; k++) {
-      double stiffness = stiffness_scale * scalars[k].stiffness;
-      add_stiffness(span, &scalars[k], stiffness, fmax(stiffness * scalars[k].value, 0) * scalars[k].spread, matrix);
+      double stiffness = at->stiffness_scale * scalars[k].stiffness;
+      add_stiffness(span, &scalars[k], stiffness, fmax(stiffness * scalars[k].value, least) * scalars[k].spread,
+                    matrix);
     }
-    if (drag > 0) count = scalars_of(twist, index, shape, scalars);
+    if (drag > 0) count = scalars_of(twist, index, at->shape, scalars);
     for (int k = 0; drag > 0 && k < count; k++)
       add_stiffness(span, &scalars[k], drag * scalars[k].stiffness, 0, matrix);
   }

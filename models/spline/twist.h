@@ -66,8 +66,7 @@ void spore_spline_twist_insert(const SporeSplineTwist *now, SporeSplineKnots kno
 void spore_spline_twist_force(const SporeSplineTwist *twist, const double *q, const double *shape, const double *v,
                               double *f);
 double spore_spline_twist_potential(const SporeSplineTwist *twist, const double *q);
-void spore_spline_twist_jacobian(const SporeSplineTwist *twist, const double *q, const double *shape,
-                                 double stiffness_scale, double damping_scale, SporeBlockMatrix *matrix);
+void spore_spline_twist_jacobian(const SporeSplineTwist *twist, const SporeTangent *at, SporeBlockMatrix *matrix);
 /* Greatest angle of a span from its rest, rad; above half a turn there is none. */
 double spore_spline_twist_worst(const SporeSplineTwist *twist, const double *q);
 

@@ -858,6 +858,19 @@ def plan_names_methods():
 
 
 @check
+def plan_names_branches():
+    """plan says which of several balances static finds, and of bodies that move says nothing of the kind."""
+    tissue = SCENES / "plate2-tissue.spore"
+    assert report("plan", tissue, "--integrator", "static")["branches"] == ["tissue"]
+    assert "following the load" in spore("plan", tissue, "--integrator", "static").stdout
+    (body,) = report("plan", tissue, "--integrator", "static", "--set", "solver/nonlinear=broyden")["bodies"]
+    assert body["nonlinear"] == {"name": "newton", "said_by": "automatic"}  # static has its own
+    assert report("plan", soft_ball(), "--integrator", "static")["branches"] == []  # nothing holds it: it creeps
+    assert report("plan", tissue)["branches"] == []
+    assert "following the load" not in spore("plan", tissue).stdout
+
+
+@check
 def plan_measures_mappings():
     """plan says how well what is drawn and felt follows each body: exactly at rest and when all moves as one."""
     carried = {(m["name"], m["unit"]): m for m in report("plan", SCENES / "laparoscopy.spore")["mappings"]}

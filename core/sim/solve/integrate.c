@@ -44,6 +44,7 @@ SporeStepResult spore_island_advance(SporeWorld *world, SporeIsland *island, Spo
                               .island = island,
                               .equations = &island->equations,
                               .now_s = island->attempts > 1 ? -1 : world->solver.time_step};
+  system.balance = kind == SPORE_INTEGRATOR_STATIC && spore_island_system_is_held(&system);
   SporeDynamics dynamics = spore_island_system_dynamics(&system);
   const SporeIntegrator *integrator = spore_integrator(kind);
   const double *q0 = island->q0, *v0 = start_velocity(world, island, kind);

@@ -311,8 +311,8 @@ static double distance(void *data, const double *x) {
   return most;
 }
 
-/* Whether a pin holds the island, or a link to a body that physics does not move. */
-static bool is_held(const SporeIslandSystem *system) {
+bool spore_island_system_is_held(const SporeIslandSystem *system) {
+  assert(system->world && system->island);
   for (size_t b = 0; b < system->island->kept_count; b++) {
     const SporeSite *site;
     if (spore_island_system_body(system, b, &site)->held.pin_count > 0) return true;
@@ -344,6 +344,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .switches = switches(system),
                          .cancel = system->world->cancel,
                          .set_shape = set_shape,
+                         .definite = spore_island_system_definite,
                          .force = force,
                          .body_force = body_force,
                          .term_force = term_force,
@@ -366,7 +367,7 @@ SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system) {
                          .rounding = spore_island_system_rounding,
                          .keep = keep,
                          .distance = distance,
-                         .held = system->island->integrator == SPORE_INTEGRATOR_STATIC && is_held(system),
+                         .held = system->balance,
                          .gravity_momentum = system->island->gravity_momentum};
 }
 

@@ -19,6 +19,7 @@ typedef struct SporeIslandSystem {
   double shape_s;        /* forces are evaluated where nodes moved from `shape` along v for this time; 0: anywhere */
   const double *given;   /* a constant force besides those of bodies and terms; NULL: none */
   bool apart;            /* explicit bodies take part by their mass only: see multirate.c */
+  bool balance;          /* its bodies are to be in balance: they give A their whole stiffness */
   double start_s, now_s; /* since the world step began: start of the integrator's step; time of the prescribed ends */
   size_t contact_couplings, spring_couplings; /* couplings of the current A: see local_assembly.h */
   size_t dragging;                            /* contacts with a drag, which the current A leaves out */
@@ -32,6 +33,8 @@ typedef struct SporeIslandSystem {
 SporeDynamics spore_island_system_dynamics(SporeIslandSystem *system);
 /* Whether a step of h seconds is short for all contacts of the island. */
 bool spore_island_system_resolves_contacts(const SporeIslandSystem *system, double h);
+/* Whether a pin holds the island, or a link to a body that physics does not move. */
+bool spore_island_system_is_held(const SporeIslandSystem *system);
 /* contact_lanes.c: writes the forces of contacts into the terms, after the last evaluation. */
 void spore_island_system_keep_contacts(const SporeIslandSystem *system);
 
@@ -148,6 +151,7 @@ void spore_island_system_soften_lanes(const SporeIslandSystem *system);
 /* linearise.c: the slots of SporeDynamics for A = M + c D + c2 K. */
 void spore_island_system_linearise(void *data, const double *q, const double *from, const double *v, double c,
                                    double c2);
+bool spore_island_system_definite(void *data);
 bool spore_island_system_reuse(void *data, const double *q, const double *v, double c, double c2);
 void spore_island_system_multiply(void *data, const double *x, double *y);
 void spore_island_system_multiply_dragged(void *data, const double *x, double *y);

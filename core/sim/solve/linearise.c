@@ -145,7 +145,9 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
   assert(body->preconditioner.matrix.block_count == body->block_count && at->q && at->v);
   const SporeModelType *type = body->model->type;
   spore_block_matrix_zero(&body->preconditioner.matrix);
-  if (type->tangent) type->tangent(body->model, at, &body->preconditioner.matrix);
+  if (system->balance && spore_body_is_static(body) && type->stiffness)
+    type->stiffness(body->model, at, &body->preconditioner.matrix);
+  else if (type->tangent) type->tangent(body->model, at, &body->preconditioner.matrix);
   else
     type->jacobian(body->model, at->q, at->shape, at->v, at->stiffness_scale, at->damping_scale,
                    &body->preconditioner.matrix);
@@ -156,7 +158,8 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
     for (int e = 0; e < 9; e++) block[e] += inertia * mass[9 * i + e];
   }
   body->preconditioner.factor_ready = false;
-  body->preconditioner.factor_kept &= body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2;
+  body->preconditioner.factor_kept &=
+      body->preconditioner.matrix_c == c && body->preconditioner.matrix_c2 == c2 && !system->balance;
   body->preconditioner.matrix_c = c;
   body->preconditioner.matrix_c2 = c2;
   body->preconditioner.matrix_step = system->world->state.step;
@@ -164,8 +167,9 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
 
 /* Whether the body takes its whole tangent. Compression may make the whole tangent indefinite. A factor detects that,
  * and the matrix is made again without the indefinite part. Conjugate gradients would not detect it, nor would a factor
- * that lacks some terms. */
+ * that lacks some terms. In balance it is for the caller to make the matrix definite. */
 static bool takes_whole(const SporeIslandSystem *system, const SporeBody *body) {
+  if (system->balance) return body->preconditioner.choice.factorised && body->model->type->stiffness;
   return body->preconditioner.choice.factorised && body->model->type->tangent && !spore_body_is_static(body) &&
          system->island->contact_count + system->island->spring_count == 0;
 }
@@ -200,7 +204,18 @@ void spore_island_system_linearise(void *data, const double *q, const double *fr
   assemble_bodies(system, q, from, v, c, c2, true);
   linearise_terms(system, q, v, c, c2, false);
   make_preconditioner(system, q);
-  if (assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
+  if (!system->balance && assemble_bodies(system, q, from, v, c, c2, false)) make_preconditioner(system, q);
+}
+
+bool spore_island_system_definite(void *data) {
+  const SporeIslandSystem *system = data;
+  for (size_t b = 0; b < system->island->kept_count; b++) {
+    const SporeSite *site;
+    const SporeBody *body = spore_island_system_body(system, b, &site);
+    bool tells = takes_whole(system, body) && spore_island_system_assembles(system, body);
+    if (tells && !body->preconditioner.factor_ready) return false;
+  }
+  return true;
 }
 
 /* Whether the preconditioner consists of factors only, which were made without couplings. */

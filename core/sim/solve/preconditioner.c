@@ -123,7 +123,8 @@ void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
   bool by_hand = world->solver.linear == SPORE_LINEAR_CHOLESKY || world->solver.linear == SPORE_LINEAR_BANDED;
   bool automatic = world->solver.linear == SPORE_LINEAR_AUTOMATIC;
   body->preconditioner.choice.factorised =
-      (by_hand && body->preconditioner.factor.block_count > 0) || (automatic && is_banded(body));
+      (by_hand && body->preconditioner.factor.block_count > 0) ||
+      (automatic && (is_banded(body) || (spore_body_is_static(body) && body->preconditioner.factor.block_count > 0)));
   body->preconditioner.factor_ready = false;
 }
 
@@ -222,6 +223,7 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   SporeFactorChoice *choice = &body->preconditioner.choice;
   uint32_t factors = choice->factors;
   choice->factors = 0;
+  if (spore_body_is_static(body) && choice->factorised) return;
   if (alone && choice->factorised && is_banded(body)) return;
   if (choice->needed) {
     /* A body that did not converge without a factor may converge now. If not, that step is taken again. */

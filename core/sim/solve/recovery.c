@@ -305,11 +305,20 @@ static void make_safer(SporeWorld *world, SporeIsland *island) {
   }
 }
 
+/* Whether the island is to be in balance: no motion stands in for that. */
+static bool seeks_balance(SporeWorld *world, const SporeIsland *island) {
+  const SporeIslandSystem system = {.world = world, .island = island};
+  return island->integrator == SPORE_INTEGRATOR_STATIC && spore_island_system_is_held(&system);
+}
+
 /* In the end island->trouble is the worst trouble, and island->offender the body that had the first. */
 void spore_island_recover(SporeWorld *world, SporeIsland *island) {
   assert(island->offender < world->body_count);
   bool paused = pauses(world, island);
   if (stands(world, island, paused ? 1 : MISS_OF_LOAD)) return;
+  /* It stays as far on its way to balance as it got. */
+  bool balance = seeks_balance(world, island);
+  if (balance && island->trouble == SPORE_TROUBLE_NOT_CONVERGED) return;
   SporeTrouble worst = island->trouble;
   uint32_t met = island->offender, broken = broken_body(world, island);
   while (island->kept_count > 0) {
@@ -327,6 +336,7 @@ void spore_island_recover(SporeWorld *world, SporeIsland *island) {
     spore_island_freeze(world, island, broken);
     broken = broken_body(world, island);
   }
+  if (balance) island->result.converged = false;
   if (island->kept_count == 0) island->result = (SporeStepResult){.converged = true};
   else if (worst > SPORE_TROUBLE_NOT_CONVERGED) make_safer(world, island);
   island->trouble = worst;

@@ -254,7 +254,9 @@ void spore_island_freeze(SporeWorld *world, SporeIsland *island, uint32_t body);
 /* Lets a frozen body move again. */
 void spore_body_thaw(SporeBody *body);
 
-/* step_limit.c: false for a body that cannot be integrated as the scene asks; the error names the largest possible step
+/* step_limit.c: whether a pin or a link holds the body. */
+bool spore_body_is_held(const SporeWorld *world, uint32_t index);
+/* False for a body that cannot be integrated as the scene asks; the error names the largest possible step
  * where the step is too large. */
 bool spore_body_check_step(const SporeWorld *world, uint32_t body, SporeError *error);
 

@@ -198,17 +198,20 @@ static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_
                          h, name, limit_s);
 }
 
-/* Whether a pin or a link may hold the body, or contacts. */
-static bool may_be_held(const SporeWorld *world, size_t index) {
+bool spore_body_is_held(const SporeWorld *world, uint32_t index) {
   assert(index < world->body_count);
-  const SporeBody *body = &world->bodies[index];
-  if (body->held.pin_count > 0 || body->collision.spheres.point_count > 0) return true;
+  if (world->bodies[index].held.pin_count > 0) return true;
   for (size_t i = 0; i < world->links.term_count; i++)
     if (world->links.springs[i].a.body == index || world->links.springs[i].b.body == index) return true;
   return false;
 }
 
-static bool check_static(const SporeWorld *world, size_t index, SporeError *error) {
+/* Whether a pin or a link holds the body, or contacts may. */
+static bool may_be_held(const SporeWorld *world, uint32_t index) {
+  return spore_body_is_held(world, index) || world->bodies[index].collision.spheres.point_count > 0;
+}
+
+static bool check_static(const SporeWorld *world, uint32_t index, SporeError *error) {
   assert(spore_body_is_static(&world->bodies[index]));
   char place[200];
   snprintf(place, sizeof place, "bodies/%s", world->bodies[index].name);
