@@ -84,6 +84,13 @@ bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphere
   return false;
 }
 
+/* The grid does not say of which bodies the contacts would have been. */
+static void count_left_out(SporeWorld *world) {
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_PASSIVE && world->bodies[b].collision.spheres.point_count > 0)
+      spore_world_count_unsolved(world, b, SPORE_UNSOLVED_LEFT_OUT, (double)world->contact.missed);
+}
+
 static void find_contacts(SporeWorld *world) {
   assert(world->contact.reach);
   SporeSpheres reaching = world->contact.spheres;
@@ -100,6 +107,7 @@ void spore_world_detect(SporeWorld *world) {
   find_contacts(world);
   while (world->contact.missed && spore_world_reserve_contacts(world)) find_contacts(world);
   if (!world->contact.missed) return;
+  count_left_out(world);
   spore_world_report(world, _("%zu contacts are left out: there is no memory for them; use fewer or smaller spheres"),
                      world->contact.missed);
 }

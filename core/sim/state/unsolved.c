@@ -28,6 +28,8 @@ static const struct {
                               N_("take a smaller time_step, or choose implicit_euler for it"), NULL},
     [SPORE_UNSOLVED_FROZEN] = {N_("it stands still, since its motion could not be computed"),
                                N_("reset, or change its parameters"), NULL},
+    [SPORE_UNSOLVED_LEFT_OUT] = {N_("contacts are left out, perhaps its own: there is no memory for them"),
+                                 N_("close other programs, or use fewer or smaller spheres"), ""},
 };
 _Static_assert(sizeof causes / sizeof *causes == SPORE_UNSOLVED_CAUSES, "one row a cause");
 
