@@ -14,7 +14,17 @@
 const char *const spore_mesh_frames[] = {"Y_UP", "RAS", "LPS", NULL};
 
 #define WELD 1e-6 /* of the diagonal */
-static const SporeHelperLimits import_limits = {.time_s = 60, .memory = G_GUINT64_CONSTANT(6) << 30, .output = 1 << 30};
+
+/* What the importer may take grows with the file, so that a small file cannot stand for gigabytes. Text of OBJ and PLY
+ * takes most, up to 60 times its size. */
+#define MEMORY_BASE (G_GUINT64_CONSTANT(512) << 20)
+#define MEMORY_PER_BYTE 100
+#define MEMORY_MOST (G_GUINT64_CONSTANT(6) << 30)
+
+static SporeHelperLimits import_limits(gsize size) {
+  return (SporeHelperLimits){
+      .time_s = 60, .memory = MIN(MEMORY_BASE + MEMORY_PER_BYTE * (guint64)size, MEMORY_MOST), .output = 1 << 30};
+}
 
 static SporeVec3 to_spore_axes(SporeVec3 p, int frame) {
   switch (frame) {
@@ -114,7 +124,8 @@ static gboolean decode_in_helper(const char *place, SporeMeshFormat format, cons
   memcpy(request, &head, sizeof head);
   memcpy(request + sizeof head, content, size);
   GBytes *bytes = g_bytes_new_take(request, sizeof head + size);
-  GBytes *answer = spore_helper_run("spore-import", place, bytes, &import_limits, progress, error);
+  const SporeHelperLimits limits = import_limits(size);
+  GBytes *answer = spore_helper_run("spore-import", place, bytes, &limits, progress, error);
   g_bytes_unref(bytes);
   if (!answer) return FALSE;
   gboolean done = read_answer(place, answer, raw, error);
