@@ -2,6 +2,7 @@
  * and no half-written file. What the editor keeps for recovery stays, since nothing is tidied up. */
 #include "app/ending.h"
 
+#include <errno.h>
 #include <glib/gi18n.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -36,12 +37,20 @@ static void end(const char *domain, GLogLevelFlags level, const char *message, g
   _exit(STATUS_FAULT);
 }
 
+/* Whoever aborts has said why: GLib's allocator of small blocks, which does not ask the log, or an assertion. */
+static void on_abort(int number) {
+  spore_file_batches_withdraw();
+  _exit(STATUS_FAULT);
+}
+
 void spore_ending_prepare(void) {
   g_strlcpy(no_memory,
             _("there is not enough memory to go on; nothing is half-written; close other programs, or use fewer or "
               "coarser meshes"),
             sizeof no_memory);
   g_strlcpy(report_it, _("this is a fault of SPORE; nothing is half-written; report it"), sizeof report_it);
+  (void)(g_strerror)(ENOMEM); /* GLib keeps the text: later there may be no memory to convert it */
   g_log_set_default_handler(end, NULL);
+  signal(SIGABRT, on_abort);
   signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is an error of writing, and not the end */
 }
