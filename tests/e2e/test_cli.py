@@ -1424,17 +1424,17 @@ def short_of_memory():
         middle = (low + high) // 2
         low, high = (low, middle) if run(middle, "--version").returncode == 0 else (middle, high)
     for words in (["run", scene, "--steps", 50, "--record", "short.track"], ["run", SCENES / "minimal.spore", "--steps", 50, "--json"],
-                  ["check", scene], ["edit", scene, "--probe", "-o", "short/new.spore"], ["spheres", file("ball.off", shapes.off(*shapes.sphere())), "--count", 20, "-o", "short.spheres"]):
-        for extra in range(0, 400):
+                  ["check", scene], ["edit", scene, "--probe", "-o", "short/edit/new.spore"], ["import", file("ball.off", shapes.off(*shapes.sphere())), "--unit", "m", "-o", "short/import/ball.spore"]):
+        for extra in range(0, 64, 2): # MiB
             file("short.track", old)
-            done = run(high + (extra << 16), *words)
+            done = run(high + (extra << 20), *words)
             statuses.add(done.returncode)
             found = words[0] == "check" and done.returncode == 1 # what check prints is what it found
             assert done.returncode in (0, 2, 3) or found and "memory" in done.stdout and "correct it" not in done.stdout, (words, extra, done)
             assert done.returncode == 0 or len((done.stdout if found else done.stderr).strip().splitlines()) == 1, (words, extra, done)
             assert not temporaries(), (words, extra)
             assert done.returncode == 0 or (WORK / "short.track").read_text() == old
-            assert words[0] != "edit" or done.returncode != 2 or not (WORK / "short").exists(), extra
+            assert words[0] not in ("edit", "import") or done.returncode != 2 or not (WORK / "short" / words[0]).exists(), extra
             if done.returncode == 0:
                 break
         assert done.returncode == 0, (words, done)
