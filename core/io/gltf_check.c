@@ -249,7 +249,8 @@ static void read_children(Gltf *gltf, gsize index) {
   while (next_item(&gltf->json, ']', &count)) {
     if (!read_index(gltf, NODES, index, "children", NODES, &child)) return;
     if (gltf->parents[child] != NONE)
-      fail(gltf, _("node %llu of the glTF text lies in more than one other node; expected a tree; export the mesh again"),
+      fail(gltf,
+           _("node %llu of the glTF text lies in more than one other node; expected a tree; export the mesh again"),
            (unsigned long long)child);
     gltf->parents[child] = (guint32)index;
   }

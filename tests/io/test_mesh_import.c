@@ -127,7 +127,8 @@ static void test_gltf_text(void) {
       {ASSET "\"accessors\":[{\"byteOffset\":1.5}]}", "byteOffset 1.5"},
       {ASSET "\"accessors\":[{},{\"count\":0}]}", "accessors 1 of the glTF text has count 0"},
       {ASSET "\"accessors\":[{\"count\":99999999999999999999}]}", "count 99999999999999999999"},
-      {ASSET "\"bufferViews\":[{\"byteStride\":2147483648}]}", "byteStride 2147483648; expected a whole number from 4 to"},
+      {ASSET "\"bufferViews\":[{\"byteStride\":2147483648}]}",
+       "byteStride 2147483648; expected a whole number from 4 to"},
       {ASSET "\"bufferViews\":[{\"byteOffset\":-4}]}", "byteOffset -4"},
       {ASSET "\"accessors\":[{\"count\":15000000}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}},"
              "{\"attributes\":{\"POSITION\":0}}]}]}",
