@@ -15,10 +15,10 @@ const char *const spore_mesh_frames[] = {"Y_UP", "RAS", "LPS", NULL};
 
 #define WELD 1e-6 /* of the diagonal */
 
-/* What the importer may take grows with the file, so that a small file cannot stand for gigabytes. Text of OBJ and PLY
- * takes most, up to 60 times its size. */
+/* What the importer may take grows with the file, so that a small file cannot stand for gigabytes. Balls of 480,000
+ * triangles take 1 (GLB, PLY) to 6 (OBJ) times the size of their file; a triangle of 3 bytes of indices takes 100. */
 #define MEMORY_BASE (G_GUINT64_CONSTANT(512) << 20)
-#define MEMORY_PER_BYTE 100
+#define MEMORY_PER_BYTE 40
 #define MEMORY_MOST (G_GUINT64_CONSTANT(6) << 30)
 
 static SporeHelperLimits import_limits(gsize size) {
