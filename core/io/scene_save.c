@@ -62,11 +62,8 @@ gboolean spore_file_may_be_written(const char *file, gboolean makes_folders, GEr
   g_autofree char *folder = makes_folders ? nearest_folder(target) : g_path_get_dirname(target);
   gboolean there = access(target, F_OK) == 0;
   if (!there || !is_stream(target)) {
-    g_autofree char *beside = g_build_filename(folder, ".", NULL);
-    int directory = open_folder_of(beside, error);
-    if (directory < 0) return FALSE;
-    close(directory);
-    if (faccessat(AT_FDCWD, folder, W_OK | X_OK, AT_EACCESS) != 0) return spore_file_refuse(errno, file, error);
+    g_autofree char *inside = g_build_filename(folder, ".", NULL); /* a file is no folder */
+    if (faccessat(AT_FDCWD, inside, W_OK | X_OK, AT_EACCESS) != 0) return spore_file_refuse(errno, file, error);
   }
   return !there || faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) == 0 || spore_file_refuse(errno, file, error);
 }
