@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "app/catalogue.h"
+#include "app/ending.h"
 #include "ui/spore-application.h"
 
 static gboolean show_version;
@@ -25,6 +26,7 @@ static const char *scenes_folder(void) {
 int main(int argc, char **argv) {
   gtk_disable_setlocale(); /* numbers stay in the C locale, as in files */
   spore_catalogue_start();
+  spore_ending_prepare();
   g_set_prgname("spore-editor");
   g_set_application_name("SPORE");
   g_autoptr(SporeApplication) application = spore_application_new(SPORE_VERSION, scenes_folder());

@@ -2,11 +2,14 @@
 #include <glib/gi18n.h>
 #include <locale.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "app/cli/cli.h"
 #include "app/cli/generate.h"
 #include "app/catalogue.h"
+#include "app/ending.h"
 #include "core/author/generator.h"
 #include "models/registry.h"
 
@@ -65,8 +68,18 @@ static int run_command(const Command *command, const SporeGeneratorType *generat
   return status;
 }
 
+/* What was printed is part of what was asked for: a full device must not pass for success. */
+static void close_output(void) {
+  gboolean failed = ferror(stdout) != 0;
+  if (fflush(stdout) == 0 && !failed) return;
+  spore_cli_usage(_("standard output cannot be written; free some space, or send it to another place"));
+  _exit(SPORE_EXIT_INPUT);
+}
+
 int main(int argc, char **argv) {
   spore_catalogue_start();
+  spore_ending_prepare();
+  atexit(close_output);
   if (argc < 2 || g_str_equal(argv[1], "--help") || g_str_equal(argv[1], "help") || g_str_equal(argv[1], "-h")) {
     print_help();
     return argc < 2 ? SPORE_EXIT_INPUT : SPORE_EXIT_DONE;

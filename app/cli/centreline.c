@@ -109,7 +109,7 @@ static gboolean write_scene(SporeCli *cli, const Input *input, const SporeCurve 
   bool carried = spore_centreline_carries(curve, &input->mesh);
   SporeDocument *document = spore_cli_new_scene(cli, output->scene);
   gboolean done = make_body(document, input, curve, &options, carried, error) &&
-                  spore_cli_make_folder_of(output->scene, error) && spore_scene_save(document, output->scene, error);
+                  spore_cli_save_scene(document, output->scene, error);
   spore_document_free(document);
   if (!done) return FALSE;
   spore_cli_text(cli, "skin", carried ? "mesh" : "own");
@@ -145,7 +145,7 @@ static int generate(SporeCli *cli, const char *file, const SporeCliOptions *aske
   SporeCentrelineReport figures = {0};
   gboolean done =
       (!output->curve || spore_cli_has_room(output->curve, file, &error)) &&
-      (!output->scene || spore_cli_keeps(output->scene, file, &error)) &&
+      (!output->scene || spore_cli_has_room_for_scene(output->scene, file, &error)) &&
       spore_cli_read_mesh(cli, file, unit, frame, &input.mesh, &input.content, &input.unit, &input.frame, &error);
   if (done && !spore_centreline_from_mesh(&input.mesh, &options, &curve, &figures, spore_cli_progress(cli), &fault)) {
     spore_error_at(&fault, file);

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <glib/gi18n.h>
+#include <glib/gstdio.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -11,6 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "core/base/number.h"
 #include "core/io/file_batch.h"
 #include "core/io/mesh_import.h"
 #include "core/io/scene_xml.h"
@@ -115,9 +117,9 @@ int spore_cli_fail(GError *error) {
 int spore_cli_usage(const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  vfprintf(stderr, format, arguments);
+  g_autofree char *line = spore_error_line(g_strdup_vprintf(format, arguments));
   va_end(arguments);
-  fputc('\n', stderr);
+  fprintf(stderr, "%s\n", line);
   return SPORE_EXIT_INPUT;
 }
 
@@ -195,14 +197,42 @@ gboolean spore_cli_keeps(const char *output, const char *input, GError **error) 
 }
 
 gboolean spore_cli_has_room(const char *output, const char *input, GError **error) {
-  return spore_file_has_folder(output, error) && spore_cli_keeps(output, input, error);
+  return spore_file_may_be_written(output, FALSE, error) && spore_cli_keeps(output, input, error);
 }
 
-gboolean spore_cli_make_folder_of(const char *file, GError **error) {
+gboolean spore_cli_has_room_for_scene(const char *output, const char *input, GError **error) {
+  return spore_file_may_be_written(output, TRUE, error) && spore_cli_keeps(output, input, error);
+}
+
+/* The folders on the way to the file that do not exist, innermost first. */
+static GPtrArray *missing_folders(const char *file) {
+  GPtrArray *missing = g_ptr_array_new_with_free_func(g_free);
+  char *folder = g_path_get_dirname(file);
+  while (!g_file_test(folder, G_FILE_TEST_EXISTS)) {
+    g_ptr_array_add(missing, folder);
+    folder = g_path_get_dirname(folder);
+  }
+  g_free(folder);
+  return missing;
+}
+
+gboolean spore_cli_save_scene(SporeDocument *document, const char *file, GError **error) {
   g_autofree char *folder = g_path_get_dirname(file);
-  if (g_mkdir_with_parents(folder, 0777) == 0) return TRUE;
-  return spore_error_raise(error, SPORE_ERROR_FILE, folder, _("the folder cannot be made (%s); name another place"),
-                           g_strerror(errno));
+  g_autoptr(GPtrArray) missing = missing_folders(file);
+  gboolean made = g_mkdir_with_parents(folder, 0777) == 0;
+  if (!made)
+    spore_error_raise(error, SPORE_ERROR_FILE, folder, _("the folder cannot be made (%s); name another place"),
+                      g_strerror(errno));
+  if (made && spore_scene_save(document, file, error)) return TRUE;
+  for (guint i = 0; i < missing->len; i++) g_rmdir(g_ptr_array_index(missing, i));
+  return FALSE;
+}
+
+gboolean spore_cli_seconds(const char *option, const char *text, double *seconds, GError **error) {
+  gsize length = strlen(text);
+  if (spore_number_read(text, length, seconds) == length && length > 0 && *seconds >= 0 && isfinite(*seconds))
+    return TRUE;
+  return spore_error_raise(error, SPORE_ERROR_INPUT, option, _("%s s; expected a time of 0 s or more"), text);
 }
 
 int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error) {

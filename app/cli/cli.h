@@ -77,10 +77,14 @@ gboolean spore_cli_read_mesh(SporeCli *cli, const char *file, const char *unit, 
                              GError **error);
 /* TRUE unless output and input are the same file, even under different names: writing would destroy the input. */
 gboolean spore_cli_keeps(const char *output, const char *input, GError **error);
-/* As before, and the folder of the output exists. Checked before work that takes long. */
+/* As before, and the output can be written: its folder exists and takes files. Checked before work that takes long. */
 gboolean spore_cli_has_room(const char *output, const char *input, GError **error);
-/* Makes the folder of the file, if it does not exist. */
-gboolean spore_cli_make_folder_of(const char *file, GError **error);
+/* The same for a scene, whose folder is made where it is missing. */
+gboolean spore_cli_has_room_for_scene(const char *output, const char *input, GError **error);
+/* Saves a scene. Makes its folder where it is missing, and takes the folder back where the scene cannot be saved. */
+gboolean spore_cli_save_scene(SporeDocument *document, const char *file, GError **error);
+/* A duration of 0 s or more that was given as text. */
+gboolean spore_cli_seconds(const char *option, const char *text, double *seconds, GError **error);
 /* Index of text in a NULL-terminated list; -1 with a GError that lists it. */
 int spore_cli_choice(const char *option, const char *text, const char *const *choices, GError **error);
 

@@ -27,9 +27,9 @@ static gboolean apply(SporeDocument *document, const Request *request, GError **
 
 static gboolean edit(SporeCli *cli, const char *file, const Request *request, GError **error) {
   const char *output = request->output ? request->output : file;
+  if (!spore_file_may_be_written(output, TRUE, error)) return FALSE;
   SporeDocument *document = spore_scene_load(cli->schema, file, error);
-  gboolean done = document && apply(document, request, error) && spore_cli_make_folder_of(output, error) &&
-                  spore_scene_save(document, output, error);
+  gboolean done = document && apply(document, request, error) && spore_cli_save_scene(document, output, error);
   if (done) {
     spore_cli_text(cli, "scene", output);
     spore_cli_say(cli, _("%s: written\n"), output);

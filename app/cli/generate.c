@@ -43,6 +43,7 @@ static gboolean add_regions(SporeSceneBody *scene, const GArray *regions, GError
 
 gboolean spore_cli_open_body(SporeCli *cli, const char *file, const char *name, const SporeCliOptions *options,
                              SporeSceneBody *scene, void *fields, GError **error) {
+  if (!spore_file_may_be_written(file, TRUE, error)) return FALSE;
   scene->document = spore_scene_load(cli->schema, file, error);
   scene->body = scene->document ? choose_body(scene->document, file, name, error) : NULL;
   if (!scene->body) return FALSE;

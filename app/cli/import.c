@@ -103,12 +103,12 @@ static SporeDocument *open_scene(SporeCli *cli, const char *output, gboolean add
 static int import(SporeCli *cli, char **meshes, const SporeImportOptions *options, const char *output, gboolean add) {
   GError *error = NULL;
   gboolean done = TRUE;
-  for (char **mesh = meshes; *mesh && done; mesh++) done = spore_cli_keeps(output, *mesh, &error);
+  for (char **mesh = meshes; *mesh && done; mesh++) done = spore_cli_has_room_for_scene(output, *mesh, &error);
   g_autoptr(SporeImport) found = done ? spore_import_read(meshes, options, spore_cli_progress(cli), &error) : NULL;
   g_autoptr(GPtrArray) bodies = NULL;
   SporeDocument *document = found ? open_scene(cli, output, add, &error) : NULL;
   done = document && spore_import_insert(document, found, &bodies, &error) &&
-         spore_cli_make_folder_of(output, &error) && spore_scene_save(document, output, &error);
+         spore_cli_save_scene(document, output, &error);
   if (done) {
     spore_cli_say(cli, _("%s: written\n"), output);
     report(cli, document, found, bodies, options->unit);

@@ -1,6 +1,5 @@
 /* spore render: a picture of a scene, with or without a display. */
 #include <glib/gi18n.h>
-#include <math.h>
 #include <stdio.h>
 
 #include "app/cli/cli.h"
@@ -10,9 +9,8 @@
 #define LARGEST_SIDE 8192
 
 typedef struct RenderOptions {
-  char *size, *output, *camera;
+  char *size, *output, *camera, *time;
   char **level;
-  double time_s;
   gboolean spheres, tetrahedra;
   SporeSceneOptions scene;
 } RenderOptions;
@@ -55,18 +53,20 @@ static gboolean draw(SporeRun *run, const RenderOptions *options, int width, int
 static int render(SporeCli *cli, const char *scene, const RenderOptions *options) {
   GError *error = NULL;
   int width = 0, height = 0;
-  if (!spore_cli_has_room(options->output, scene, &error) || !parse_size(options->size, &width, &height, &error))
+  double time_s = 0;
+  if (!spore_cli_has_room(options->output, scene, &error) || !parse_size(options->size, &width, &height, &error) ||
+      (options->time && !spore_cli_seconds("--time", options->time, &time_s, &error)))
     return spore_cli_fail(error);
   g_autoptr(SporeRun) run = spore_run_open(cli, scene, &options->scene, 1, &error);
   if (!run) return spore_cli_fail(error);
   SporeWorld *world = run->simulation->world;
   g_autoptr(GArray) levels = spore_level_changes_parse(world, options->level, &error);
   if (!levels) return spore_cli_fail(error);
-  while (spore_world_time_s(world) < options->time_s * (1 - 1e-12) && !spore_cli_interrupted()) {
+  while (spore_world_time_s(world) < time_s * (1 - 1e-12) && !spore_cli_interrupted()) {
     spore_level_changes_post(levels, world);
     spore_world_step(world);
     spore_world_tidy(world);
-    spore_progress(spore_cli_progress(cli), spore_world_time_s(world) / options->time_s, _("running"));
+    spore_progress(spore_cli_progress(cli), spore_world_time_s(world) / time_s, _("running"));
   }
   if (spore_cli_interrupted()) return SPORE_EXIT_INTERRUPTED;
   g_autofree char *gl_renderer = NULL;
@@ -89,7 +89,7 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
   RenderOptions options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, N_("Picture to write"), "F.png"},
-      {"time", 't', 0, G_OPTION_ARG_DOUBLE, &options.time_s, N_("Simulated time of the picture (default 0)"), "S"},
+      {"time", 't', 0, G_OPTION_ARG_STRING, &options.time, N_("Simulated time of the picture (default 0)"), "S"},
       {"level", 0, 0, G_OPTION_ARG_STRING_ARRAY, &options.level,
        N_("Change the level of a body while it runs, at 0 s or later: thread=coarse@1.5"), "BODY=LEVEL[@S]"},
       {"size", 's', 0, G_OPTION_ARG_STRING, &options.size, N_("Size in pixels (default 1280x720)"), "WxH"},
@@ -102,12 +102,11 @@ int spore_command_render(SporeCli *cli, int argc, char **argv) {
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) {
     if (!options.output) status = spore_cli_usage(_("spore render: no picture named; expected -o F.png"));
-    else if (!(options.time_s >= 0) || !isfinite(options.time_s))
-      status = spore_cli_usage(_("--time: %g s; expected a time of 0 s or more"), options.time_s);
     else status = render(cli, argv[1], &options);
   }
   spore_scene_options_clear(&options.scene);
   g_free(options.output);
+  g_free(options.time);
   g_free(options.size);
   g_free(options.camera);
   g_strfreev(options.level);

@@ -1,6 +1,7 @@
 /* spore run: the kernel without a window. */
 #include <glib/gi18n.h>
 #include <math.h>
+#include <stdio.h>
 
 #include "app/cli/cli.h"
 #include "app/cli/run_report.h"
@@ -11,9 +12,10 @@
 #define USUAL_STEPS 1000
 #define NOT_GIVEN G_MININT64
 #define ENERGY_LOOKS 1000 /* a run; few enough to cost nothing */
+#define MOST_STEPS 9e15   /* in --time: up to here a double counts one by one */
 
 typedef struct RunOptions {
-  double time_s, dt_s;
+  char *time;
   gint64 steps;
   gboolean realtime;
   char *record;
@@ -21,6 +23,12 @@ typedef struct RunOptions {
   int threads;
   SporeSceneOptions scene;
 } RunOptions;
+
+/* The devices' input. */
+typedef struct Recording {
+  SporeTrack track;
+  gboolean lost; /* a part, for want of memory */
+} Recording;
 
 /* Appends the device states that the last step used. */
 static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
@@ -36,7 +44,7 @@ static gboolean record_inputs(const SporeWorld *world, SporeTrack *recording) {
 
 /* recording: NULL, or a track with a channel for each active body. pace: NULL, or the clock that paces the steps. */
 static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint64 steps, GArray *levels,
-                                    SporePace *pace, SporeTrack *recording) {
+                                    SporePace *pace, Recording *recording) {
   SporeRunStatistics statistics;
   spore_run_statistics_start(&statistics, world);
   gint64 stride = MAX(1, steps / ENERGY_LOOKS);
@@ -49,7 +57,10 @@ static SporeRunStatistics run_steps(const SporeCli *cli, SporeWorld *world, gint
     if (pace) spore_pace_end(pace, spore_world_time_s(world));
     spore_world_tidy(world);
     spore_run_statistics_step(&statistics, world);
-    if (recording && !record_inputs(world, recording)) break;
+    if (recording && !record_inputs(world, &recording->track)) {
+      recording->lost = TRUE;
+      break;
+    }
     if (done % stride == 0 || done == steps) {
       spore_run_statistics_energy(&statistics, world);
       spore_progress(spore_cli_progress(cli), (double)done / (double)steps, _("running"));
@@ -67,15 +78,35 @@ static gboolean add_channels(const SporeWorld *world, SporeTrack *recording) {
   return TRUE;
 }
 
-static int save_recording(const SporeTrack *recording, const char *file) {
+/* An interrupted recording is a part, which must not take the place of a whole one. */
+static int save_recording(const Recording *recording, const char *file) {
   GError *error = NULL;
   gsize size = 0;
-  char *text = spore_track_format(recording, &size);
+  if (spore_cli_interrupted()) {
+    fprintf(stderr, _("%s: interrupted; the recording was not written, and what was there stays\n"), file);
+    return SPORE_EXIT_INTERRUPTED;
+  }
+  char *text = recording->lost ? NULL : spore_track_format(&recording->track, &size);
   gboolean saved =
       text ? spore_write_file(file, text, size, &error)
            : spore_error_raise(&error, SPORE_ERROR_MEMORY, file, _("not enough memory; record fewer steps"));
   spore_free(text);
   return saved ? SPORE_EXIT_DONE : spore_cli_fail(error);
+}
+
+/* Number of steps that the options ask for. */
+static gboolean count_steps(const RunOptions *options, double dt_s, gint64 *steps, GError **error) {
+  *steps = options->steps != NOT_GIVEN ? options->steps : USUAL_STEPS;
+  if (!options->time) return TRUE;
+  double time_s, count;
+  if (!spore_cli_seconds("--time", options->time, &time_s, error)) return FALSE;
+  count = ceil(time_s / dt_s - 1e-9);
+  if (count > MOST_STEPS)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, "--time",
+                             _("%s s are %.3g steps of %g s; expected at most %g; ask for a shorter time"),
+                             options->time, count, dt_s, MOST_STEPS);
+  *steps = (gint64)count;
+  return TRUE;
 }
 
 static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
@@ -88,18 +119,19 @@ static int run(SporeCli *cli, const char *scene, const RunOptions *options) {
   SporeWorld *world = run->simulation->world;
   g_autoptr(GArray) levels = spore_level_changes_parse(world, options->level, &error);
   if (!levels) return spore_cli_fail(error);
-  SporeTrack recording = {0};
-  if (options->record && !add_channels(world, &recording)) return spore_cli_usage(_("--record: not enough memory"));
+  Recording recording = {0};
+  if (options->record && !add_channels(world, &recording.track))
+    return spore_cli_usage(_("--record: not enough memory"));
   double dt_s = spore_object_number(spore_document_section(run->document, "solver"), "time_step");
-  gint64 steps = options->steps != NOT_GIVEN ? options->steps : USUAL_STEPS;
-  if (!isnan(options->time_s)) steps = (gint64)ceil(options->time_s / dt_s - 1e-9);
+  gint64 steps = 0;
+  if (!count_steps(options, dt_s, &steps, &error)) return spore_cli_fail(error);
   g_autofree SporePace *pace = options->realtime ? g_new(SporePace, 1) : NULL;
   if (pace) spore_world_set_budget(world, 1e6 * dt_s);
   SporeRunStatistics result = run_steps(cli, world, steps, levels, pace, options->record ? &recording : NULL);
   int status = spore_cli_finish(cli, spore_run_report(cli, scene, world, &result, pace));
   int saved = options->record ? save_recording(&recording, options->record) : SPORE_EXIT_DONE;
   status = MAX(status, saved);
-  spore_track_clear(&recording);
+  spore_track_clear(&recording.track);
   return spore_cli_interrupted() ? SPORE_EXIT_INTERRUPTED : status;
 }
 
@@ -157,9 +189,9 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       1,
       1,
       members};
-  RunOptions options = {.time_s = NAN, .steps = NOT_GIVEN, .threads = 1};
+  RunOptions options = {.steps = NOT_GIVEN, .threads = 1};
   const GOptionEntry entries[] = {
-      {"time", 't', 0, G_OPTION_ARG_DOUBLE, &options.time_s, N_("Simulated time"), "S"},
+      {"time", 't', 0, G_OPTION_ARG_STRING, &options.time, N_("Simulated time"), "S"},
       {"steps", 'n', 0, G_OPTION_ARG_INT64, &options.steps, N_("Number of steps (default 1000)"), "N"},
       {"threads", 0, 0, G_OPTION_ARG_INT, &options.threads, N_("Threads (default 1); the result is the same"), "N"},
       {"realtime", 0, 0, G_OPTION_ARG_NONE, &options.realtime,
@@ -171,10 +203,8 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
       G_OPTION_ENTRY_NULL};
   int status = spore_cli_parse(cli, &info, entries, &argc, &argv);
   if (status == SPORE_EXIT_DONE) {
-    if (!isnan(options.time_s) && options.steps != NOT_GIVEN)
+    if (options.time && options.steps != NOT_GIVEN)
       status = spore_cli_usage(_("--time, --steps: both given; expected one of them; leave one out"));
-    else if (options.time_s < 0 || isinf(options.time_s))
-      status = spore_cli_usage(_("--time: %g s; expected a time of 0 s or more"), options.time_s);
     else if (options.steps != NOT_GIVEN && options.steps < 0)
       status = spore_cli_usage(_("--steps: %lld; expected 0 or more"), (long long)options.steps);
     else if (options.threads < 1 || options.threads > 256)
@@ -182,6 +212,7 @@ int spore_command_run(SporeCli *cli, int argc, char **argv) {
     else status = run(cli, argv[1], &options);
   }
   spore_scene_options_clear(&options.scene);
+  g_free(options.time);
   g_free(options.record);
   g_strfreev(options.level);
   return status;

@@ -144,7 +144,7 @@ static int generate_labels(SporeCli *cli, const char *file, GBytes *content, con
 static int generate_any(SporeCli *cli, const char *file, const SporeCliOptions *options, const char *unit,
                         const char *frame, const char *labels, const char *output) {
   GError *error = NULL;
-  if (output && !(spore_cli_is_scene(output) ? spore_cli_keeps : spore_cli_has_room)(output, file, &error))
+  if (output && !(spore_cli_is_scene(output) ? spore_cli_has_room_for_scene : spore_cli_has_room)(output, file, &error))
     return spore_cli_fail(error);
   g_autoptr(GBytes) given = spore_cli_read_file(file, _("a mesh or a label map"), &error);
   g_autoptr(GBytes) content = given ? spore_label_map_whole(file, given, &error) : NULL;

@@ -44,8 +44,7 @@ gboolean spore_cli_label_tetrahedra(SporeCli *cli, const char *file, GBytes *con
 
 static gboolean save(SporeCli *cli, const char *output, const SporeLabelBodies *organs, GError **error) {
   SporeDocument *document = spore_cli_new_scene(cli, output);
-  gboolean done = spore_edit_use_labels(document, organs, error) && spore_cli_make_folder_of(output, error) &&
-                  spore_scene_save(document, output, error);
+  gboolean done = spore_edit_use_labels(document, organs, error) && spore_cli_save_scene(document, output, error);
   guint seams = spore_object_child_count(spore_document_section(document, "links"));
   spore_document_free(document);
   if (!done) return FALSE;

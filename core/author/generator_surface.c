@@ -121,9 +121,10 @@ static bool make_wall(SporeGenerateWork *work, const SporeProgress *progress, Sp
 
 /* Measures the distance of each vertex of the given mesh from the result. */
 static bool measure(SporeGenerateWork *work, SporeError *failure) {
+  work->surface_distance = g_try_new(double, work->mesh.vertex_count + 1);
+  if (!work->surface_distance) return spore_error_set(failure, SPORE_ERROR_MEMORY, NULL, "%s", _("not enough memory"));
   SporeBvh *bvh = spore_bvh_create(&work->surface, failure);
   if (!bvh) return false;
-  work->surface_distance = g_new(double, work->mesh.vertex_count);
   for (gsize i = 0; i < work->mesh.vertex_count; i++)
     work->surface_distance[i] = spore_bvh_distance(bvh, spore_vec3_load(work->mesh.vertices + 3 * i), NULL, NULL);
   spore_bvh_free(bvh);

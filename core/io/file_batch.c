@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <glib/gi18n.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -28,9 +27,10 @@ struct SporeFileBatch {
   GPtrArray *entries; /* of Entry * */
   GArray *made;       /* of MadeFolder */
   gboolean committed;
+  SporeFileBatch *next; /* of the open ones */
 };
 
-static gboolean say_why(int fault, const char *place, GError **error) {
+gboolean spore_file_refuse(int fault, const char *place, GError **error) {
   if (fault == EXDEV || fault == ELOOP)
     return spore_error_raise(error, SPORE_ERROR_FILE, place,
                              _("leads out of the scene's folder; nothing was changed; name a file inside it"));
@@ -43,15 +43,20 @@ static gboolean say_why(int fault, const char *place, GError **error) {
                            g_strerror(fault), remedy);
 }
 
-static atomic_int open_count;
+/* The batches that are open. A program that must end withdraws them, and does not wait for the lock then. */
+G_LOCK_DEFINE_STATIC(open_batches);
+static SporeFileBatch *open_batches;
 
-gboolean spore_file_batch_is_open(void) { return atomic_load(&open_count) > 0; }
+gboolean spore_file_batch_is_open(void) { return g_atomic_pointer_get(&open_batches) != NULL; }
 
 SporeFileBatch *spore_file_batch_new(void) {
-  atomic_fetch_add(&open_count, 1);
   SporeFileBatch *batch = g_new0(SporeFileBatch, 1);
   batch->entries = g_ptr_array_new();
   batch->made = g_array_new(FALSE, FALSE, sizeof(MadeFolder));
+  G_LOCK(open_batches);
+  batch->next = open_batches;
+  open_batches = batch;
+  G_UNLOCK(open_batches);
   return batch;
 }
 
@@ -61,25 +66,44 @@ static void take_back(Entry *entry) {
   entry->exchanged = entry->renamed = FALSE;
 }
 
-void spore_file_batch_free(SporeFileBatch *batch) {
+/* Leaves the whole files or the old ones, and no temporary file or empty folder. Takes no memory. */
+static void withdraw(SporeFileBatch *batch) {
   for (guint i = batch->entries->len; i > 0; i--) {
     Entry *entry = g_ptr_array_index(batch->entries, i - 1);
     if (!batch->committed) take_back(entry);
     unlinkat(entry->folder, entry->temporary, 0); /* a renamed file is gone already */
+  }
+  for (guint i = batch->made->len; i > 0 && !batch->committed; i--) {
+    MadeFolder *folder = &g_array_index(batch->made, MadeFolder, i - 1);
+    unlinkat(folder->parent, folder->name, AT_REMOVEDIR);
+  }
+}
+
+void spore_file_batches_withdraw(void) {
+  for (SporeFileBatch *batch = open_batches; batch; batch = batch->next) withdraw(batch);
+}
+
+void spore_file_batch_free(SporeFileBatch *batch) {
+  withdraw(batch);
+  G_LOCK(open_batches);
+  SporeFileBatch **link = &open_batches;
+  while (*link != batch) link = &(*link)->next;
+  *link = batch->next;
+  G_UNLOCK(open_batches);
+  for (guint i = 0; i < batch->entries->len; i++) {
+    Entry *entry = g_ptr_array_index(batch->entries, i);
     close(entry->folder);
     g_free(entry->temporary), g_free(entry->name), g_free(entry->place);
     g_free(entry);
   }
   g_ptr_array_unref(batch->entries);
-  for (guint i = batch->made->len; i > 0; i--) {
-    MadeFolder *folder = &g_array_index(batch->made, MadeFolder, i - 1);
-    if (!batch->committed) unlinkat(folder->parent, folder->name, AT_REMOVEDIR);
+  for (guint i = 0; i < batch->made->len; i++) {
+    MadeFolder *folder = &g_array_index(batch->made, MadeFolder, i);
     close(folder->parent);
     g_free(folder->name);
   }
   g_array_unref(batch->made);
   g_free(batch);
-  atomic_fetch_sub(&open_count, 1);
 }
 
 /* Opens a folder below another folder, and makes it where it is missing. -1 with errno. */
@@ -130,7 +154,7 @@ gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *
                               const void *content, gsize size, GError **error) {
   g_autofree char *path = g_path_get_dirname(name);
   int folder = open_folder(batch, directory, path);
-  if (folder < 0) return say_why(errno, place, error);
+  if (folder < 0) return spore_file_refuse(errno, place, error);
   Entry *entry = g_new0(Entry, 1);
   entry->folder = folder;
   entry->place = g_strdup(place);
@@ -138,7 +162,7 @@ gboolean spore_file_batch_add(SporeFileBatch *batch, int directory, const char *
   entry->temporary = g_strdup_printf(".spore-%d-%08x.tmp", (int)getpid(), g_random_int());
   g_ptr_array_add(batch->entries, entry);
   int fault = write_temporary(entry, content, size);
-  return fault ? say_why(fault, place, error) : TRUE;
+  return fault ? spore_file_refuse(fault, place, error) : TRUE;
 }
 
 /* errno, or 0. */
@@ -162,7 +186,7 @@ gboolean spore_file_batch_commit(SporeFileBatch *batch, GError **error) {
     if (!fault && fsync(entry->folder) != 0) fault = errno;
     if (!fault) continue;
     for (guint j = i + 1; j > 0; j--) take_back(g_ptr_array_index(batch->entries, j - 1));
-    return say_why(fault, entry->place, error);
+    return spore_file_refuse(fault, entry->place, error);
   }
   batch->committed = TRUE;
   return TRUE;

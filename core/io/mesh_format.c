@@ -4,6 +4,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
+#include "core/io/gltf_check.h"
 #include "core/io/off.h"
 #include "core/io/ply_check.h"
 
@@ -83,7 +84,7 @@ static gboolean fail_short(const Content *content, const char *format, guint64 s
                            format, (unsigned long long)said, content->size);
 }
 
-/* Lengths of the container and of its chunks (glTF 2.0, "GLB file format specification"). */
+/* Lengths of the container and of its chunks (glTF 2.0, "GLB file format specification"), and the JSON in the first. */
 static gboolean check_glb(const Content *content, GError **error) {
   if (content->size < 20) return fail_short(content, "GLB", 20, error);
   if (read_u32(content, 4) != 2)
@@ -100,7 +101,11 @@ static gboolean check_glb(const Content *content, GError **error) {
           _("a part of the GLB file reaches beyond its end; expected parts that fit; export it again"));
     at = next;
   }
-  return TRUE;
+  guint32 text_size = read_u32(content, 12);
+  if (read_u32(content, 16) != 0x4E4F534A || text_size > content->size - 20)
+    return spore_error_raise(error, SPORE_ERROR_INPUT, content->place,
+                             _("the GLB file does not begin with its JSON; expected glTF 2.0; export it again"));
+  return spore_gltf_check(content->place, content->bytes + 20, text_size, error);
 }
 
 /* A text that was cut short would still be read, with fewer facets. */
@@ -146,8 +151,11 @@ gboolean spore_mesh_format_find(const char *place, const char *file, const void 
     *format = SPORE_MESH_PLY;
     return spore_ply_check(content.place, content.bytes, size, error);
   }
+  if (is_gltf(&content)) {
+    *format = SPORE_MESH_GLTF;
+    return spore_gltf_check(content.place, content.bytes, size, error);
+  }
   if (spore_off_is(content.bytes, size)) *format = SPORE_MESH_OFF;
-  else if (is_gltf(&content)) *format = SPORE_MESH_GLTF;
   else if (is_obj(&content)) *format = SPORE_MESH_OBJ;
   else return fail_unknown(&content, error);
   return TRUE;

@@ -14,7 +14,17 @@
 const char *const spore_mesh_frames[] = {"Y_UP", "RAS", "LPS", NULL};
 
 #define WELD 1e-6 /* of the diagonal */
-static const SporeHelperLimits import_limits = {.time_s = 60, .memory = G_GUINT64_CONSTANT(6) << 30, .output = 1 << 30};
+
+/* What the importer may take grows with the file, so that a small file cannot stand for gigabytes. Balls of 480,000
+ * triangles take 1 (GLB, PLY) to 6 (OBJ) times the size of their file; a triangle of 3 bytes of indices takes 100. */
+#define MEMORY_BASE (G_GUINT64_CONSTANT(512) << 20)
+#define MEMORY_PER_BYTE 40
+#define MEMORY_MOST (G_GUINT64_CONSTANT(6) << 30)
+
+static SporeHelperLimits import_limits(gsize size) {
+  return (SporeHelperLimits){
+      .time_s = 60, .memory = MIN(MEMORY_BASE + MEMORY_PER_BYTE * (guint64)size, MEMORY_MOST), .output = 1 << 30};
+}
 
 static SporeVec3 to_spore_axes(SporeVec3 p, int frame) {
   switch (frame) {
@@ -47,6 +57,11 @@ static void clear_raw(Raw *raw) {
   g_clear_pointer(&raw->names, g_ptr_array_unref);
 }
 
+static gboolean fail_memory(const char *place, GError **error) {
+  return spore_error_raise(error, SPORE_ERROR_MEMORY, place,
+                           _("there is not enough memory to import it; close other programs"));
+}
+
 static gboolean fail_answer(const char *place, GError **error) {
   return spore_error_raise(
       error, SPORE_ERROR_INTERNAL, place,
@@ -56,9 +71,8 @@ static gboolean fail_answer(const char *place, GError **error) {
 /* The triangles of the parts must add up to the triangles that were sent. */
 static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw *raw) {
   gsize triangle = 0;
-  raw->part = g_try_new(guint32, head->triangle_count);
   raw->names = g_ptr_array_new_with_free_func(g_free);
-  for (guint64 p = 0; raw->part && p < head->part_count; p++) {
+  for (guint64 p = 0; p < head->part_count; p++) {
     SporeImportPart part;
     memcpy(&part, bytes + p * sizeof part, sizeof part);
     if (part.triangle_count > head->triangle_count - triangle) return FALSE;
@@ -66,7 +80,7 @@ static gboolean read_parts(const char *bytes, const SporeImportAnswer *head, Raw
     g_ptr_array_add(raw->names, g_utf8_make_valid(part.name, -1));
     for (guint64 t = 0; t < part.triangle_count; t++) raw->part[triangle++] = (guint32)p;
   }
-  return raw->part && triangle == head->triangle_count;
+  return triangle == head->triangle_count;
 }
 
 /* The helper is not trusted: its counts must agree to the byte with what it sent. */
@@ -82,6 +96,8 @@ static gboolean read_answer(const char *place, GBytes *answer, Raw *raw, GError 
   gsize vertex_bytes = head.vertex_count * 3 * sizeof(double),
         triangle_bytes = head.triangle_count * 3 * sizeof(guint32),
         part_bytes = MIN(head.part_count, head.triangle_count) * sizeof(SporeImportPart);
+  raw->part = g_try_new(guint32, head.triangle_count + 1);
+  if (!raw->part) return fail_memory(place, error);
   if (head.part_count > head.triangle_count || size != sizeof head + part_bytes + vertex_bytes + triangle_bytes ||
       !read_parts(bytes + sizeof head, &head, raw))
     return fail_answer(place, error);
@@ -108,13 +124,12 @@ static gboolean decode_in_helper(const char *place, SporeMeshFormat format, cons
         spore_mesh_format_names[format]);
   SporeImportRequest head = {format};
   char *request = g_try_malloc(sizeof head + size);
-  if (!request)
-    return spore_error_raise(error, SPORE_ERROR_MEMORY, place,
-                             _("there is not enough memory to import it; close other programs"));
+  if (!request) return fail_memory(place, error);
   memcpy(request, &head, sizeof head);
   memcpy(request + sizeof head, content, size);
   GBytes *bytes = g_bytes_new_take(request, sizeof head + size);
-  GBytes *answer = spore_helper_run("spore-import", place, bytes, &import_limits, progress, error);
+  const SporeHelperLimits limits = import_limits(size);
+  GBytes *answer = spore_helper_run("spore-import", place, bytes, &limits, progress, error);
   g_bytes_unref(bytes);
   if (!answer) return FALSE;
   gboolean done = read_answer(place, answer, raw, error);
@@ -129,7 +144,11 @@ static bool turn_outward(SporeTriangleMesh *mesh, SporeError *error) {
   if (!spore_triangle_mesh_report(mesh, &report, error)) return false;
   if (report.boundary_edges + report.nonmanifold_edges > 0) return true;
   gsize size = 3 * mesh->triangle_count * sizeof *mesh->triangles;
-  g_autofree uint32_t *before = g_memdup2(mesh->triangles, size);
+  g_autofree uint32_t *before = g_try_malloc(size);
+  if (!before)
+    return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, "%s",
+                           _("there is not enough memory to import it; close other programs"));
+  memcpy(before, mesh->triangles, size);
   if (!spore_triangle_mesh_orient(mesh, error)) return false;
   mesh->reoriented = memcmp(before, mesh->triangles, size) != 0;
   return true;

@@ -30,11 +30,6 @@ static int open_folder_of(const char *file, GError **error) {
   return directory;
 }
 
-gboolean spore_file_has_folder(const char *file, GError **error) {
-  int directory = open_folder_of(file, error);
-  return directory >= 0 && close(directory) == 0;
-}
-
 static gboolean add_file(SporeFileBatch *batch, const char *file, const void *content, gsize size, GError **error) {
   g_autofree char *target = real_target(file);
   g_autofree char *name = g_path_get_basename(target);
@@ -49,6 +44,28 @@ static gboolean add_file(SporeFileBatch *batch, const char *file, const void *co
 static gboolean is_stream(const char *file) {
   struct stat status;
   return stat(file, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+/* The folder of the file, or the nearest folder above it that exists. g_free. */
+static char *nearest_folder(const char *file) {
+  char *folder = g_path_get_dirname(file);
+  while (access(folder, F_OK) != 0 && errno == ENOENT && strcmp(folder, ".") != 0 && strcmp(folder, "/") != 0) {
+    char *above = g_path_get_dirname(folder);
+    g_free(folder);
+    folder = above;
+  }
+  return folder;
+}
+
+gboolean spore_file_may_be_written(const char *file, gboolean makes_folders, GError **error) {
+  g_autofree char *target = real_target(file);
+  g_autofree char *folder = makes_folders ? nearest_folder(target) : g_path_get_dirname(target);
+  gboolean there = access(target, F_OK) == 0;
+  if (!there || !is_stream(target)) {
+    g_autofree char *inside = g_build_filename(folder, ".", NULL); /* a file is no folder */
+    if (faccessat(AT_FDCWD, inside, W_OK | X_OK, AT_EACCESS) != 0) return spore_file_refuse(errno, file, error);
+  }
+  return !there || faccessat(AT_FDCWD, target, W_OK, AT_EACCESS) == 0 || spore_file_refuse(errno, file, error);
 }
 
 static gboolean write_stream(const char *file, const char *content, gsize size, GError **error) {

@@ -41,6 +41,13 @@ typedef struct Reader {
 
 /* Faults. Only the first fault is reported. */
 
+static void fail_as(Reader *reader, SporeErrorCode code, int line, int column, const char *message) {
+  if (reader->error) return;
+  g_autofree char *place = g_strdup_printf("%s:%d:%d", reader->file, line, column);
+  spore_error_raise(&reader->error, code, place, "%s", message);
+  if (reader->parser) xmlStopParser(reader->parser);
+}
+
 static void fail(Reader *reader, int line, int column, const char *format, ...) G_GNUC_PRINTF(4, 5);
 static void fail(Reader *reader, int line, int column, const char *format, ...) {
   if (reader->error) return;
@@ -48,10 +55,10 @@ static void fail(Reader *reader, int line, int column, const char *format, ...) 
   va_start(arguments, format);
   g_autofree char *message = g_strdup_vprintf(format, arguments);
   va_end(arguments);
-  g_autofree char *place = g_strdup_printf("%s:%d:%d", reader->file, line, column);
-  spore_error_raise(&reader->error, SPORE_ERROR_INPUT, place, "%s", message);
-  if (reader->parser) xmlStopParser(reader->parser);
+  fail_as(reader, SPORE_ERROR_INPUT, line, column, message);
 }
+
+static const char *no_memory(void) { return _("there is not enough memory for the scene; close other programs"); }
 
 #if LIBXML_VERSION >= 21200
 typedef const xmlError *XmlError;
@@ -62,6 +69,10 @@ typedef xmlErrorPtr XmlError;
 static void on_error(void *data, XmlError error) {
   Reader *reader = ((xmlParserCtxtPtr)data)->_private;
   if (error->level < XML_ERR_ERROR) return;
+  if (error->code == XML_ERR_NO_MEMORY) {
+    fail_as(reader, SPORE_ERROR_MEMORY, MAX(error->line, 1), MAX(error->int2, 1), no_memory());
+    return;
+  }
   g_autofree char *message = g_strdup(error->message ? error->message : "");
   g_strstrip(message);
   fail(reader, MAX(error->line, 1), MAX(error->int2, 1),
@@ -147,7 +158,7 @@ static void read_attribute(Reader *reader, SporeObject *object, const SporeMarku
   SporeValue value;
   const SporeParameter *parameter = &object->type->table->parameters[property];
   if (!spore_parameter_parse(parameter, text, &value, &fault)) {
-    fail(reader, at->line, at->column, "%s", fault.message);
+    fail_as(reader, fault.code, at->line, at->column, fault.message);
     return;
   }
   char *source = at->quote == '"' ? g_strndup(reader->text + at->value, at->value_end - at->value) : NULL;
@@ -326,7 +337,10 @@ static void parse(Reader *reader, gsize size) {
                            .internalSubset = on_document_type,
                            .serror = on_error};
   reader->parser = xmlCreatePushParserCtxt(&handler, NULL, NULL, 0, NULL);
-  if (!reader->parser) g_error("not enough memory");
+  if (!reader->parser) {
+    fail_as(reader, SPORE_ERROR_MEMORY, 1, 1, no_memory());
+    return;
+  }
   xmlCtxtUseOptions(reader->parser, XML_PARSE_NONET);
   reader->parser->_private = reader;
   reader->parser->userData = reader->parser;

@@ -21,7 +21,8 @@ gboolean spore_scene_save(SporeDocument *document, const char *file, GError **er
 
 /* Writes a file whole or not at all: temporary file beside it, fsync, rename, fsync of the folder. */
 gboolean spore_write_file(const char *file, const void *content, gsize size, GError **error);
-/* Whether there is a folder for the file: to be checked before long work whose result is written there. */
-gboolean spore_file_has_folder(const char *file, GError **error);
+/* Whether the file can be written, as far as the file system tells beforehand: asked before long work whose result is
+ * written there. makes_folders: a folder that is missing will be made. */
+gboolean spore_file_may_be_written(const char *file, gboolean makes_folders, GError **error);
 
 #endif

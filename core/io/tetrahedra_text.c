@@ -99,7 +99,10 @@ static void turn_positive(const double *vertices, guint32 *corner) {
 
 static gboolean keep_tetrahedra(const char *place, const MeditContent *content, SporeTetrahedralMesh *mesh,
                                 GError **error) {
-  guint32 *number = g_new(guint32, content->vertices->len / 3);
+  guint32 *number = g_try_new(guint32, content->vertices->len / 3 + 1);
+  if (!number)
+    return spore_error_raise(error, SPORE_ERROR_MEMORY, place,
+                             _("there is not enough memory to import it; close other programs"));
   gsize used = number_used(content, number), total = content->vertices->len / 3;
   const double *vertices = (const double *)(const void *)content->vertices->data;
   const guint32 *corners = (const guint32 *)(const void *)content->tetrahedra->data;

@@ -55,8 +55,11 @@ void spore_check_say_error(SporeCheck *check, SporeSeverity severity, const Spor
     object = said;
   }
   const char *end = strrchr(message, ';');
+  gboolean memory = g_error_matches(error, SPORE_ERROR, SPORE_ERROR_MEMORY);
   add(check, severity, object, end ? g_strndup(message, (gsize)(end - message)) : g_strdup(message),
-      end ? end + 1 + strspn(end + 1, " ") : _("correct it"));
+      end      ? end + 1 + strspn(end + 1, " ")
+      : memory ? _("close other programs, or use fewer or coarser meshes")
+               : _("correct it"));
 }
 
 void spore_check_each(SporeCheck *check, const char *section, const char *element, SporeCheckVisit visit) {

@@ -10,8 +10,10 @@ static gboolean is_solid(SporeCompiler *compiler, const SporeObject *mechanical,
                          const SporeTriangleMesh *mesh) {
   SporeMeshReport report;
   SporeError fault = SPORE_ERROR_INIT;
-  return spore_triangle_mesh_report_solid(mesh, &report, &fault) ||
-         spore_compiler_refuse(compiler, mechanical, "\"%s\": %s", spore_object_name(asset), fault.message);
+  if (spore_triangle_mesh_report_solid(mesh, &report, &fault)) return TRUE;
+  g_autofree char *name = g_strdup_printf("\"%s\"", spore_object_name(asset));
+  spore_error_at(&fault, name);
+  return spore_compiler_pass_on(compiler, mechanical, &fault);
 }
 
 /* The kind of asset that each kind of geometry needs, and the words for it in messages. */
@@ -162,7 +164,7 @@ static gboolean make_model(SporeCompiler *compiler, const SporeObject *body, Spo
     description->model = NULL;
     return FALSE;
   }
-  return spore_compiler_refuse(compiler, object, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
+  return spore_compiler_pass_on(compiler, object, &fault);
 }
 
 /* Makes one level of detail: the body's model with the settings that differ. */
@@ -182,8 +184,7 @@ static gboolean make_level(SporeCompiler *compiler, const SporeObject *model, Sp
   spore_object_fields(model, fields);
   if (spore_level_settings_apply(&type->parameters, level_fields.settings, fields, &fault))
     *made = type->create(&geometry, fields, &fault);
-  return *made ||
-         spore_compiler_refuse(compiler, level, "%s%s%s", fault.place, *fault.place ? ": " : "", fault.message);
+  return *made || spore_compiler_pass_on(compiler, level, &fault);
 }
 
 /* Finds the drawn vertices of the body. */
@@ -241,7 +242,7 @@ static gboolean add_own_spheres(SporeCompiler *compiler, const SporeObject *body
   g_ptr_array_add(compiler->spheres, set);
   description->spheres = set;
   return description->model->type->spheres(description->model, set, &fault) ||
-         spore_compiler_refuse(compiler, body, "%s", fault.message);
+         spore_compiler_pass_on(compiler, body, &fault);
 }
 
 static gboolean add_collision(SporeCompiler *compiler, const SporeObject *body, SporeBodyDescription *description) {

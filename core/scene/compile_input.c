@@ -32,7 +32,7 @@ static gboolean add_track(SporeCompiler *compiler, SporeTrack *merged, const Spo
   SporeError fault = SPORE_ERROR_INIT;
   gboolean done;
   if (!spore_track_parse(&track, file, text, size, &fault)) {
-    done = spore_compiler_refuse(compiler, device, "%s: %s", fault.place, fault.message);
+    done = spore_compiler_pass_on(compiler, device, &fault);
   } else {
     const SporeTrackChannel *channel = channel_for(&track, body);
     done = channel

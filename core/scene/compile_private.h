@@ -22,6 +22,8 @@ typedef struct SporeCompiler {
 /* Sets the error to a message about the object, with its place in the file. Returns FALSE. */
 gboolean spore_compiler_refuse(SporeCompiler *compiler, const SporeObject *object, const char *format, ...)
     G_GNUC_PRINTF(3, 4);
+/* The same with a fault of the kernel, whose code stays: want of memory is not bad input. */
+gboolean spore_compiler_pass_on(SporeCompiler *compiler, const SporeObject *object, const SporeError *fault);
 /* The object that a reference names; *target is NULL where the reference is not set. FALSE with an error: no object has
  * that name. */
 gboolean spore_compiler_resolve(SporeCompiler *compiler, const SporeObject *object, const char *property,

@@ -14,6 +14,12 @@ gboolean spore_compiler_refuse(SporeCompiler *compiler, const SporeObject *objec
   return spore_error_raise(compiler->error, SPORE_ERROR_INPUT, where, "%s", message);
 }
 
+gboolean spore_compiler_pass_on(SporeCompiler *compiler, const SporeObject *object, const SporeError *fault) {
+  g_autofree char *where = spore_object_where(object);
+  return spore_error_raise(compiler->error, fault->code, where, "%s%s%s", fault->place, *fault->place ? ": " : "",
+                           fault->message);
+}
+
 /* Nearest name among the objects that a reference may name, or NULL. */
 static const char *nearest_name(const SporeDocument *document, const char *elements, const char *name) {
   g_autoptr(GPtrArray) names = g_ptr_array_new();

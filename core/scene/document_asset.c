@@ -81,6 +81,10 @@ static gboolean say_why(int fault, const char *place, const char *file, GError *
     return spore_error_raise(error, SPORE_ERROR_FILE, place,
                              _("\"%s\" leads out of the scene's folder; expected a file inside it; copy it there"),
                              file);
+  if (fault == ENOMEM)
+    return spore_error_raise(error, SPORE_ERROR_MEMORY, place,
+                             _("there is not enough memory to read \"%s\"; close other programs or make it smaller"),
+                             file);
   if (fault == ENOENT || fault == ENOTDIR)
     return spore_error_raise(error, SPORE_ERROR_FILE, place,
                              _("there is no file \"%s\" in the scene's folder; put it there or correct the name"),

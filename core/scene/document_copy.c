@@ -11,7 +11,8 @@ static void copy_values(const SporeObject *from, SporeObject *to) {
   for (guint i = 0; i < from->order->len; i++) {
     guint property = g_array_index(from->order, guint, i);
     SporeValue value;
-    if (spore_value_copy(&value, &from->slots[property].value)) spore_document_load_value(to, property, &value, NULL);
+    if (!spore_value_copy(&value, &from->slots[property].value)) g_error("not enough memory");
+    spore_document_load_value(to, property, &value, NULL);
   }
 }
 

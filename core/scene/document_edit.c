@@ -102,11 +102,24 @@ gboolean spore_document_set(SporeDocument *document, SporeObject *object, guint 
   return set_value(object, property, value, error);
 }
 
+/* Path of the first property of that name in the objects below; NULL: there is none. g_free. */
+static char *property_below(const SporeObject *object, const char *property) {
+  for (guint i = 0; i < object->children->len; i++) {
+    const SporeObject *child = spore_object_child(object, i);
+    g_autofree char *path = spore_object_path(child);
+    if (spore_parameter_find(child->type->table, property) >= 0) return g_strdup_printf("%s/%s", path, property);
+    char *below = property_below(child, property);
+    if (below) return below;
+  }
+  return NULL;
+}
+
 static int find_property(const SporeObject *object, const char *property, GError **error) {
   int index = spore_parameter_find(object->type->table, property);
   if (index >= 0) return index;
   SporeError fault = SPORE_ERROR_INIT;
-  const char *nearest = spore_parameter_nearest(object->type->table, property);
+  g_autofree char *below = property_below(object, property);
+  const char *nearest = below ? below : spore_parameter_nearest(object->type->table, property);
   spore_error_set(&fault, SPORE_ERROR_INPUT, NULL,
                   nearest ? _("%s has no property \"%s\"; did you mean \"%s\"?")
                           : _("%s has no property \"%s\"; `spore models` and `spore schema` list what there is"),

@@ -2,16 +2,32 @@
 #include "core/scene/error.h"
 
 #include <stdarg.h>
+#include <string.h>
 
 G_DEFINE_QUARK(spore - error - quark, spore_error)
 
-/* Makes a message one line of valid text, since it may quote any bytes of a file. Takes ownership of the message. */
-static char *one_line(char *message) {
-  char *valid = g_utf8_make_valid(message, -1);
-  g_free(message);
+/* A line may quote a name of any length from a file. Its beginning says what is wrong, and its end what to do. */
+#define LONGEST 5000 /* bytes; the longest path of a file is 4096 */
+#define BEGINNING 700
+#define ENDING 300
+
+static char *without_middle(char *line) {
+  gsize length = strlen(line);
+  if (length <= LONGEST) return line;
+  const char *middle = g_utf8_find_prev_char(line, line + BEGINNING + 1);
+  const char *rest = g_utf8_find_next_char(line + length - ENDING - 1, NULL);
+  char *shorter = g_strdup_printf("%.*s … %s", (int)(middle - line), line, rest);
+  g_free(line);
+  return shorter;
+}
+
+/* A line may quote any bytes of a file. */
+char *spore_error_line(char *text) {
+  char *valid = g_utf8_make_valid(text, -1);
+  g_free(text);
   for (char *c = valid; *c; c++)
     if ((unsigned char)*c < ' ' || *c == 127) *c = ' ';
-  return valid;
+  return without_middle(valid);
 }
 
 gboolean spore_error_propagate(const SporeError *from, GError **error) {
@@ -22,10 +38,12 @@ gboolean spore_error_raise(GError **error, SporeErrorCode code, const char *plac
   if (!error) return FALSE;
   va_list arguments;
   va_start(arguments, format);
-  g_autofree char *message = one_line(g_strdup_vprintf(format, arguments));
+  char *message = g_strdup_vprintf(format, arguments);
   va_end(arguments);
-  if (place && *place) g_set_error(error, SPORE_ERROR, (int)code, "%s: %s", place, message);
-  else g_set_error_literal(error, SPORE_ERROR, (int)code, message);
+  gboolean placed = place && *place;
+  g_autofree char *line = spore_error_line(placed ? g_strdup_printf("%s: %s", place, message) : g_strdup(message));
+  g_free(message);
+  g_set_error_literal(error, SPORE_ERROR, (int)code, line);
   return FALSE;
 }
 

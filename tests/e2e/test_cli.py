@@ -730,7 +730,7 @@ def choices_that_make_no_sense():
             ("<rigid_body/>", '<lennard_jones surface_tension="0"/>', "surface_tension"),
     ):
         refuses("run", with_(old, new), says=["odd.spore:", says])
-    hopeless = spore("run", with_("<rigid_body/>", '<lennard_jones surface_tension="1e9"/>'), status=1).stderr
+    hopeless = spore("run", with_("<rigid_body/>", '<lennard_jones surface_tension="1e9"/>'), status=2).stderr
     assert "substeps" not in hopeless and "smaller time_step" in hopeless, hopeless
 
 
@@ -748,6 +748,12 @@ def time_and_dt():
     refuses("run", soft_ball(), "--steps", "-4", says=["-4"])
     refuses("run", soft_ball(), "--steps", 4, "--time", 1, says=["--time", "--steps"])
     assert report("run", soft_ball(), "--time", 0)["steps"] == 0
+    for time_s in ("nan", "inf", "-1", "1e999", "", "1s"):
+        refuses("run", soft_ball(), "--time", time_s, says=["--time", time_s, "0 s or more"])
+    refuses("run", soft_ball(), "--time", "1e300", says=["--time", "1e300", "0.001 s", "shorter"])
+    refuses("run", SCENES / "table1-mass-spring.spore", "--dt", 0.1, "--integrator", "verlet", says=["too large", "implicit_euler"])
+    refuses("run", soft_ball(), "--set", "bodies/ball/mechanical/density=1", says=['"bodies/ball/mechanical/rigid_body/density"'])
+    assert "did you mean" not in refuses("run", soft_ball(), "--set", "bodies/ball/collision/density=1", says=["density"])
 
 
 @check
@@ -1286,6 +1292,167 @@ def disk_full_leaves_things_as_they_were():
     refuses("spheres", "ball.off", "--count", 20, "-o", "keep.spheres", says=["keep.spheres"], preexec_fn=limit)
     assert (WORK / "keep.spheres").read_text() == "0 0 0 1\n"
     assert not [p for p in WORK.iterdir() if p.name.startswith((".keep", "keep.spheres."))]
+
+
+def temporaries(folder=None):
+    """Files that are left where something was not written whole."""
+    return [path for path in (folder or WORK).rglob("*") if path.name.startswith(".spore-")]
+
+
+def writers():
+    """Every command that writes a file: its arguments, and the file."""
+    file("ball.off", shapes.off(*shapes.sphere()))
+    file("tube.off", shapes.off(*shapes.tube()))
+    commands = [("spheres ball.off --count 20 -o", "w.spheres"), ("tetrahedra ball.off --cells 100 --method voxels -o", "w.vtu"),
+                ("surface ball.off --nodes 100 -o", "w.off"), ("centreline tube.off -o", "w.curve"),
+                ("spheres ball.off --counts 4,8 --csv", "w.csv"), ("import ball.off --unit m -o", "w.spore"),
+                (f"edit {organ()} --probe -o", "w.spore"), ("centreline tube.off --scene", "w.spore"),
+                (f"run {grasper()} --steps 20 --record", "w.track")]
+    return commands + ([(f"render {soft_ball()} --size 64x64 -o", "w.png")] if "render" in FEATURES else [])
+
+
+@check
+def a_limit_of_size_leaves_nothing():
+    """A file that grows beyond the limit of its size is an error: no file, no folder and no temporary file is left."""
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16, 16))
+    for command, name in writers():
+        folder = f"limit/{command.split()[0]}" if name.endswith(".spore") else "."
+        stopped = spore(*command.split(), f"{folder}/{name}", status=2, preexec_fn=limit).stderr
+        assert "File too large" in stopped and len(stopped.splitlines()) == 1, stopped
+        assert not (WORK / folder / name).exists() and not temporaries(), command
+    assert not (WORK / "limit").exists()
+
+
+@check
+def a_full_device_is_said():
+    """What cannot be printed, or written to a full device, gives status 2."""
+    scene = soft_ball()
+    with open("/dev/full", "w") as full:
+        for command in ("--help", "--version", "run --help", "models", "models --json", "schema", f"check {scene}", f"check {scene} --json",
+                        f"plan {scene}", f"plan {scene} --json", f"run {scene} --steps 2", f"run {scene} --steps 2 --json"):
+            done = subprocess.run([SPORE, *command.split()], stdout=full, stderr=subprocess.PIPE, text=True, cwd=WORK, timeout=300)
+            assert done.returncode == 2 and "standard output" in done.stderr, (command, done)
+        subprocess.run([SPORE, "run", scene, "--steps", "2", "--quiet"], stdout=full, cwd=WORK, timeout=300, check=True) # prints nothing
+    for command, name in writers():
+        if not name.endswith(".spore"):
+            assert "/dev/full" in spore(*command.split(), "/dev/full", status=2).stderr, command
+
+
+@check
+def a_read_only_folder_is_noticed_first():
+    """A folder that takes no files is noticed before the input is read; nothing else is said."""
+    with tempfile.TemporaryDirectory(prefix="spore-e2e-") as place:
+        os.chmod(place, 0o755)
+        locked = pathlib.Path(place) / "locked"
+        locked.mkdir()
+        (locked / "old.spore").write_text("no scene")
+        locked.chmod(0o555)
+        nobody = (lambda: os.setuid(65534)) if os.geteuid() == 0 else None
+        if nobody and subprocess.run([SPORE, "--version"], preexec_fn=nobody, capture_output=True, cwd="/").returncode != 0:
+            raise Skip("another user cannot run spore here")
+        for command, name in writers():
+            words = [str(word) if not pathlib.Path(word).suffix else f"no-such{pathlib.Path(word).suffix}" for word in command.split()]
+            for target in [name] + ([f"new/{name}"] if name.endswith(".spore") else []):
+                done = subprocess.run([SPORE, *words, locked / target], preexec_fn=nobody, capture_output=True, text=True, cwd="/", timeout=60)
+                assert done.returncode == 2 and "Permission denied" in done.stderr and "no-such" not in done.stderr, (words, done)
+        for command in ("edit --probe", "spheres --count 4"):
+            done = subprocess.run([SPORE, *command.split(), locked / "old.spore"], preexec_fn=nobody, capture_output=True, text=True, cwd="/", timeout=60)
+            assert done.returncode == 2 and "Permission denied" in done.stderr, done
+        locked.chmod(0o755)
+
+
+@check
+def long_names_are_shortened():
+    """A name of a megabyte is not echoed whole; the message keeps its beginning and its remedy."""
+    long = "a" * (1 << 20)
+    good = soft_ball().read_text()
+    for name, text in (("element", good.replace("<rigid_body/>", f"<{long}/>")), ("attribute", good.replace("role=\"passive\"", f"{long}=\"1\"")),
+                       ("value", good.replace("role=\"passive\"", f"role=\"{long}\"")), ("reference", good.replace("spheres=\"one\"", f"spheres=\"{long}\""))):
+        assert text != good, name
+        line = refuses("run", file(f"soft/long-{name}.spore", text), says=[f"long-{name}.spore:"])
+        assert len(line) < 6000, (name, len(line))
+    for words in ([long[:100000]], ["models", long[:100000]], ["run", long[:100000]], ["run", soft_ball(), "--set", f"{long[:100000]}/a=1"],
+                  ["run", soft_ball(), f"--{long[:100000]}"], ["run", soft_ball(), "--integrator", long[:100000]]):
+        line = refuses(*words, says=["aaaa", "; "])
+        assert len(line) < 6000, (words[0][:20], len(line))
+
+
+@check
+def interruption_keeps_a_recording():
+    """Ctrl-C while a run is recorded leaves the track that was there."""
+    track = file("kept.track", "an old track\n")
+    process = subprocess.Popen([SPORE, "run", grasper(), "--steps", "1000000000", "--record", track], cwd=WORK, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    caught = 0
+    while process.poll() is None and not caught >> (signal.SIGINT - 1) & 1: # until Ctrl-C is caught
+        caught = int(re.search(r"SigCgt:\s*(\w+)", pathlib.Path(f"/proc/{process.pid}/status").read_text())[1], 16)
+    time.sleep(0.5) # some steps; the track is kept without them, too
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    assert process.returncode == 130 and track.read_text() == "an old track\n" and not temporaries()
+
+
+@check
+def hostile_meshes_take_little():
+    """glTF that stands for more than it holds is refused before it is expanded, by a helper that may take little."""
+    def altered(change):
+        whole = shapes.glb(ball=shapes.sphere())
+        size = struct.unpack_from("<I", whole, 12)[0]
+        text, rest = json.loads(whole[20:20 + size]), whole[20 + size:]
+        change(text)
+        packed = json.dumps(text).encode()
+        packed += b" " * (-len(packed) % 4)
+        return struct.pack("<4sII", b"glTF", 2, 20 + len(packed) + len(rest)) + struct.pack("<I4s", len(packed), b"JSON") + packed + rest
+
+    def nested(text):
+        text["nodes"] = [{"children": [i + 1, i + 1]} for i in range(60)] + [{"mesh": 0}]
+        text["scenes"] = [{"nodes": [0]}]
+
+    def shown_often(text):
+        text["nodes"] = [{"mesh": 0}] * 100000
+        text["scenes"] = [{"nodes": list(range(100000))}]
+
+    spore("import", file("sound.glb", altered(lambda text: None)), "--unit", "m", "-o", "hostile/sound.spore") if "assimp" in FEATURES else None
+    for name, change, says in (("nested", nested, "tree"), ("often", shown_often, "decimate"),
+                               ("offset", lambda text: text["accessors"][0].update(byteOffset=-12), "byteOffset -12"),
+                               ("view", lambda text: text["bufferViews"][0].update(byteOffset=-12), "byteOffset -12"),
+                               ("stride", lambda text: text["bufferViews"][0].update(byteStride=1 << 31), "byteStride 2147483648")):
+        refuses("import", file(f"{name}.glb", altered(change)), "--unit", "m", "-o", "hostile/no.spore", says=[f"{name}.glb", says])
+
+
+@check
+def short_of_memory():
+    """With any limit of memory a command ends with a status of the contract and one line, and leaves no half-written file."""
+    if "libasan" in subprocess.run(["ldd", SPORE], capture_output=True, text=True).stdout:
+        raise Skip("a sanitizer takes terabytes of address space")
+    scene = soft_ball()
+    old = "an old track\n"
+    statuses = set()
+
+    def run(limit, *words):
+        bound = lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+        return subprocess.run([SPORE, *map(str, words)], capture_output=True, text=True, cwd=WORK, timeout=300, preexec_fn=bound)
+
+    low, high = 1 << 20, 1 << 32 # the least with which the program itself is loaded
+    while high - low > 1 << 16:
+        middle = (low + high) // 2
+        low, high = (low, middle) if run(middle, "--version").returncode == 0 else (middle, high)
+    for words in (["run", scene, "--steps", 50, "--record", "short.track"], ["run", SCENES / "minimal.spore", "--steps", 50, "--json"],
+                  ["check", scene], ["edit", scene, "--probe", "-o", "short/edit/new.spore"], ["import", file("ball.off", shapes.off(*shapes.sphere())), "--unit", "m", "-o", "short/import/ball.spore"]):
+        for extra in range(0, 64, 2): # MiB
+            file("short.track", old)
+            done = run(high + (extra << 20), *words)
+            statuses.add(done.returncode)
+            found = words[0] == "check" and done.returncode == 1 # what check prints is what it found
+            assert done.returncode in (0, 2, 3) or found and "memory" in done.stdout and "correct it" not in done.stdout, (words, extra, done)
+            assert done.returncode == 0 or len((done.stdout if found else done.stderr).strip().splitlines()) == 1, (words, extra, done)
+            assert not temporaries(), (words, extra)
+            assert done.returncode == 0 or (WORK / "short.track").read_text() == old
+            assert words[0] not in ("edit", "import") or done.returncode != 2 or not (WORK / "short" / words[0]).exists(), extra
+            if done.returncode == 0:
+                break
+        assert done.returncode == 0, (words, done)
+    assert statuses >= {0, 2}, statuses
+    print("# statuses:", sorted(statuses))
 
 
 @check

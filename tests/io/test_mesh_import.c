@@ -107,6 +107,47 @@ static void test_ply(void) {
 }
 
 /* The node of these files doubles x: so the volume doubles, and the ball moves. */
+/* Texts of glTF that assimp would expand or misread. */
+static void test_gltf_text(void) {
+#define ASSET "{\"asset\":{\"version\":\"2.0\"},"
+  static const struct {
+    const char *text, *words;
+  } cases[] = {
+      {ASSET "\"nodes\":[{\"children\":[1,1]},{}]}", "node 1 of the glTF text lies in more than one"},
+      {ASSET "\"nodes\":[{\"children\":[1]},{\"children\":[0]}]}", "more than 256 others"},
+      {ASSET "\"nodes\":[{\"children\":[0]}]}", "more than 256 others"},
+      {ASSET "\"nodes\":[{\"children\":[2]},{}]}", "nodes 0 of the glTF text has children 2"},
+      {ASSET "\"nodes\":[{\"children\":[-1]},{}]}", "children -1"},
+      {ASSET "\"nodes\":[{}],\"scenes\":[{\"nodes\":[0,0]}]}", "in its scene twice"},
+      {ASSET "\"nodes\":[{\"children\":[1]},{}],\"scenes\":[{\"nodes\":[1]}]}", "in its scene twice"},
+      {ASSET "\"nodes\":[{\"mesh\":0}]}", "there are none"},
+      {ASSET "\"nodes\":[],\"nodes\":[]}", "nodes twice"},
+      {ASSET "\"\\u006eodes\":[]}", "an escape"},
+      {ASSET "\"accessors\":[{\"byteOffset\":-12}]}", "accessors 0 of the glTF text has byteOffset -12"},
+      {ASSET "\"accessors\":[{\"byteOffset\":1.5}]}", "byteOffset 1.5"},
+      {ASSET "\"accessors\":[{},{\"count\":0}]}", "accessors 1 of the glTF text has count 0"},
+      {ASSET "\"accessors\":[{\"count\":99999999999999999999}]}", "count 99999999999999999999"},
+      {ASSET "\"bufferViews\":[{\"byteStride\":2147483648}]}",
+       "byteStride 2147483648; expected a whole number from 4 to"},
+      {ASSET "\"bufferViews\":[{\"byteOffset\":-4}]}", "byteOffset -4"},
+      {ASSET "\"accessors\":[{\"count\":15000000}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}},"
+             "{\"attributes\":{\"POSITION\":0}}]}]}",
+       "more than 20000000"},
+      {ASSET "\"accessors\":[{\"count\":15000000}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+             "\"nodes\":[{\"mesh\":0},{\"mesh\":0}]}",
+       "more than 20000000"},
+      {ASSET "\"meshes\":[[", "not the JSON of a mesh"},
+      {ASSET "\"nodes\":[{} {}]}", "not the JSON of a mesh"},
+      {ASSET "\"nodes\":{}}", "not the JSON of a mesh"},
+      {ASSET "\"nodes", "not the JSON of a mesh"},
+  };
+  for (gsize i = 0; i < G_N_ELEMENTS(cases); i++) check_refused_text("text.gltf", cases[i].text, cases[i].words);
+  g_autoptr(GString) deep = g_string_new(ASSET "\"extras\":");
+  for (int i = 0; i < 100000; i++) g_string_append_c(deep, '[');
+  check_refused_text("deep.gltf", deep->str, "not the JSON of a mesh");
+#undef ASSET
+}
+
 static void test_gltf(void) {
   SporeTriangleMesh mesh = ball(8), moved;
   check_ball("ball.gltf", file_gltf(&mesh, NULL), 2);
@@ -366,6 +407,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/mesh-import/obj", test_obj);
     g_test_add_func("/mesh-import/ply", test_ply);
     g_test_add_func("/mesh-import/gltf", test_gltf);
+    g_test_add_func("/mesh-import/gltf-text", test_gltf_text);
     g_test_add_func("/mesh-import/polygons", test_polygons);
     g_test_add_func("/mesh-import/points-first", test_points_first);
     g_test_add_func("/mesh-import/large", test_large);

@@ -351,6 +351,55 @@ static void test_create_without_memory(void) {
   spore_world_free(world);
 }
 
+/* A chain in the midst of unmovable spheres: many more contacts than there is room for at first. */
+static SporeWorld *crowd(void) {
+  enum { CROWD = 100 };
+  static double spheres[4 * 8 * CROWD];
+  static const SporeSphereSet set = {8 * CROWD, spheres};
+  for (int i = 0; i < 8 * CROWD; i++) {
+    const double sphere[4] = {0.25 * (i % 8), 0.11 + 1e-4 * (i / 8), 0, 0.03};
+    memcpy(spheres + 4 * i, sphere, sizeof sphere);
+  }
+  SporeBodyDescription bodies[2] = {
+      passive_body("soft", chain(8, HUGE_VAL), (SporeVec3){0, 0, 0}),
+      {.name = "crowd", .role = SPORE_UNMOVABLE, .pose = spore_pose_identity(), .spheres = &set}};
+  bodies[0].spheres = &chain_set;
+  bodies[1].contact = bodies[0].contact;
+  SporeWorldDescription description = world_description(bodies, 2);
+  return create(&description, NULL);
+}
+
+/* Each allocation by which room for contacts grows may fail, in several steps one after the other. These steps leave
+ * contacts out and count as unsolved; with memory again, the world goes on with all of them. */
+static void test_contacts_without_memory(void) {
+  SporeWorld *world = crowd();
+  uint64_t before = spore_allocation_count();
+  spore_world_step(world);
+  uint64_t needed = spore_allocation_count() - before;
+  size_t all = spore_world_counts(world).contacts;
+  g_assert_cmpuint(needed, >, 0);
+  g_assert_cmpuint(spore_world_unsolved_count(world), ==, 0);
+  spore_world_free(world);
+  for (uint64_t n = 1; n <= needed; n++) {
+    world = crowd();
+    uint64_t failed = 0; /* steps; what has grown in one step need not grow in the next */
+    for (int step = 0; step < 3; step++) {
+      before = spore_allocation_count();
+      spore_allocation_fail_at(n);
+      spore_world_step(world);
+      spore_allocation_fail_at(0);
+      failed += spore_allocation_count() - before >= n;
+      g_assert_cmpuint(spore_world_counts(world).contacts < all, ==, failed == (uint64_t)step + 1);
+      g_assert_cmpuint(spore_world_unsolved_count(world), ==, 1);
+      g_assert_cmpuint(spore_world_unsolved(world, 0).steps, ==, failed);
+      g_assert_cmpfloat(spore_world_unsolved(world, 0).worst, >, 0);
+    }
+    run(world, 3);
+    g_assert_cmpuint(spore_world_unsolved(world, 0).steps, ==, failed);
+    spore_world_free(world);
+  }
+}
+
 /* A device that follows a script, and a probe that presses on a body. */
 typedef struct ScriptedDevice {
   SporeDevice base;
@@ -451,6 +500,7 @@ int main(int argc, char **argv) {
   g_test_add_data_func("/sim/world/threads/implicit", implicit, test_threads);
   g_test_add_data_func("/sim/world/reset/symplectic", symplectic, test_reset);
   g_test_add_data_func("/sim/world/reset/implicit", implicit, test_reset);
+  g_test_add_func("/sim/world/contacts-without-memory", test_contacts_without_memory);
   g_test_add_data_func("/sim/world/no-allocation/symplectic", symplectic, test_no_allocation);
   g_test_add_data_func("/sim/world/no-allocation/implicit", implicit, test_no_allocation);
   g_test_add_func("/sim/world/islands-alone", test_islands_alone);

@@ -171,7 +171,7 @@ static void check_model(gconstpointer data) {
         const char *verdict = "refused";
         if (rig_try_build(rig, &error)) verdict = check_cell(rig, kind, steps[i], again, &rise);
         else {
-          g_assert_cmpint(error.code, ==, SPORE_ERROR_NUMERICAL);
+          g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
           g_assert_true(g_str_has_prefix(error.place, "bodies/"));
         }
         const char *limit = strstr(error.message, "at most ");

@@ -96,7 +96,7 @@ static void case_3(gconstpointer data) {
         g_test_message("%s: %g s refused: %s: %s", name, steps[i], error.place, error.message);
         /* Only explicit ones may be, and particles, which no method helps. */
         g_assert_true(kind < SPORE_INTEGRATOR_IMPLICIT_EULER || type->rates);
-        g_assert_cmpint(error.code, ==, SPORE_ERROR_NUMERICAL);
+        g_assert_cmpint(error.code, ==, SPORE_ERROR_INPUT);
         g_assert_nonnull(strstr(error.place, type->name));
         const char *limit = strstr(error.message, "at most ");
         g_assert_nonnull(limit);

@@ -54,12 +54,11 @@ void spore_world_map_spheres(SporeWorld *world) {
   world->contact.mapped = world->state.snapshots.newest;
 }
 
-bool spore_world_reserve_contacts(SporeWorld *world) {
-  assert(world->contact.grid);
-  size_t old = world->contact.capacity, wanted = spore_grid_capacity(world->contact.grid) + world->contact.missed;
-  if (world->contact.missed) wanted += wanted / 2;
-  if (world->contact.missed && !spore_grid_reserve(world->contact.grid, wanted)) return false;
-  wanted = spore_grid_capacity(world->contact.grid);
+/* Makes room for `wanted` contacts in the arrays of the world. An array that has grown where another could not stays
+ * larger than the capacity says. */
+static bool reserve_terms(SporeWorld *world, size_t wanted) {
+  size_t old = world->contact.capacity;
+  assert(wanted >= old);
   SporeContactTerm *terms = spore_reallocate(world->contact.terms, old, wanted, sizeof *terms);
   if (terms) world->contact.terms = terms;
   SporeCoupling *couplings = spore_reallocate(world->contact.couplings, old, wanted, sizeof *couplings);
@@ -75,6 +74,16 @@ bool spore_world_reserve_contacts(SporeWorld *world) {
   if (order) world->contact.order = order;
   if (!terms || !couplings || !lanes || !manifold || !pairs || !order) return false;
   world->contact.capacity = wanted;
+  return true;
+}
+
+/* The grid grows last, so that the grid never finds more contacts than the world has room for. */
+bool spore_world_reserve_contacts(SporeWorld *world) {
+  assert(world->contact.grid);
+  size_t missed = world->contact.missed, wanted = spore_grid_capacity(world->contact.grid) + missed;
+  if (missed) wanted += wanted / 2;
+  if (wanted > world->contact.capacity && !reserve_terms(world, wanted)) return false;
+  if (missed && !spore_grid_reserve(world->contact.grid, wanted)) return false;
   world->contact.missed = 0;
   return true;
 }
@@ -96,6 +105,13 @@ bool spore_body_map_spheres(SporeWorld *world, uint32_t index, const SporeSphere
   return false;
 }
 
+/* The grid does not say of which bodies the contacts would have been. */
+static void count_left_out(SporeWorld *world) {
+  for (uint32_t b = 0; b < world->body_count; b++)
+    if (world->bodies[b].role == SPORE_PASSIVE && world->bodies[b].collision.spheres.point_count > 0)
+      spore_world_count_unsolved(world, b, SPORE_UNSOLVED_LEFT_OUT, (double)world->contact.missed);
+}
+
 static void find_contacts(SporeWorld *world) {
   assert(world->contact.reach);
   SporeSpheres reaching = world->contact.spheres;
@@ -108,14 +124,11 @@ static void find_contacts(SporeWorld *world) {
  * once. This is the only place where a step may allocate. It does so seldom, since the room never shrinks. */
 void spore_world_detect(SporeWorld *world) {
   assert(world->contact.grid);
+  assert(spore_grid_capacity(world->contact.grid) <= world->contact.capacity);
   find_contacts(world);
   while (world->contact.missed && spore_world_reserve_contacts(world)) find_contacts(world);
   if (!world->contact.missed) return;
-  find_contacts(world); /* a reservation that failed half-way lost the contacts found */
-  if (world->contact.count > world->contact.capacity) {
-    world->contact.missed += world->contact.count - world->contact.capacity;
-    world->contact.count = world->contact.capacity;
-  }
+  count_left_out(world);
   spore_world_report(world, _("%zu contacts are left out: there is no memory for them; use fewer or smaller spheres"),
                      world->contact.missed);
 }

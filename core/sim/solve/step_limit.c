@@ -173,26 +173,26 @@ static bool refuse(const SporeWorld *world, const SporeBody *body, double limit_
   double h = world->solver.time_step / (double)body->method.substeps, needed = ceil(world->solver.time_step / limit_s);
   snprintf(place, sizeof place, "bodies/%s", body->name);
   if (limit_s == 0)
-    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+    return spore_error_set(error, SPORE_ERROR_INPUT, place,
                            _("no step is small enough for %s: something here swings without damping; expected another "
                              "method; take integrator symplectic_euler or implicit_euler"),
                            name);
   if (body->model->type->rates && needed <= SPORE_SUBSTEPS_MAXIMUM)
-    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+    return spore_error_set(error, SPORE_ERROR_INPUT, place,
                            _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take "
                              "%.0f substeps, a smaller time_step or fewer particles"),
                            h, limit_s, needed);
   if (body->model->type->rates)
-    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+    return spore_error_set(error, SPORE_ERROR_INPUT, place,
                            _("a step of %.3g s is too large for particles like these; expected at most %.3g s; take a "
                              "smaller time_step, fewer or heavier particles, or forces less strong"),
                            h, limit_s);
   if (needed <= SPORE_SUBSTEPS_MAXIMUM)
-    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+    return spore_error_set(error, SPORE_ERROR_INPUT, place,
                            _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; take "
                              "%.0f substeps, a smaller time_step or integrator implicit_euler"),
                            h, name, limit_s, needed);
-  return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+  return spore_error_set(error, SPORE_ERROR_INPUT, place,
                          _("a step of %.3g s is too large for %s with this stiffness; expected at most %.3g s; take a "
                            "smaller time_step or integrator implicit_euler"),
                          h, name, limit_s);
@@ -216,11 +216,11 @@ static bool check_static(const SporeWorld *world, uint32_t index, SporeError *er
   char place[200];
   snprintf(place, sizeof place, "bodies/%s", world->bodies[index].name);
   if (world->bodies[index].model->type->rates)
-    return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+    return spore_error_set(error, SPORE_ERROR_INPUT, place,
                            _("particles have no one balance of forces to be found; expected a method that moves them; "
                              "leave the integrator open, or take verlet"));
   if (may_be_held(world, index)) return true;
-  return spore_error_set(error, SPORE_ERROR_NUMERICAL, place,
+  return spore_error_set(error, SPORE_ERROR_INPUT, place,
                          _("nothing can hold the body, so that its forces have no balance; expected a pin, a link or "
                            "spheres; pin it, or take integrator implicit_euler"));
 }

@@ -41,6 +41,7 @@ typedef enum SporeUnsolvedCause {
   SPORE_UNSOLVED_SAFER,    /* another integrator than the scene's moves the body; no figure */
   SPORE_UNSOLVED_FROZEN,   /* the body stands still; no figure */
   SPORE_UNSOLVED_PASSED,   /* a contact did not hold the body; figure: its speed, m/s */
+  SPORE_UNSOLVED_LEFT_OUT, /* contacts had no room; figure: number of contacts, of all bodies together */
   SPORE_UNSOLVED_CAUSES
 } SporeUnsolvedCause;
 /* Register of the steps that were not solved, since time 0. */

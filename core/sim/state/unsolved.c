@@ -31,6 +31,8 @@ static const struct {
     [SPORE_UNSOLVED_PASSED] = {N_("a contact does not hold it: it comes too fast, or a sphere goes deeper than its "
                                   "radius, or passes another"),
                                N_("take a larger contact stiffness, or a smaller time_step"), "m/s"},
+    [SPORE_UNSOLVED_LEFT_OUT] = {N_("contacts are left out, perhaps its own: there is no memory for them"),
+                                 N_("close other programs, or use fewer or smaller spheres"), ""},
 };
 _Static_assert(sizeof causes / sizeof *causes == SPORE_UNSOLVED_CAUSES, "one row a cause");
 

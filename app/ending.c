@@ -1,0 +1,56 @@
+/* The end of a program that cannot go on: where GLib ends it, mostly for want of memory, there is one line, status 3,
+ * and no half-written file. What the editor keeps for recovery stays, since nothing is tidied up. */
+#include "app/ending.h"
+
+#include <errno.h>
+#include <glib/gi18n.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/io/file_batch.h"
+
+#define STATUS_FAULT 3
+
+static char no_memory[512], report_it[512]; /* translated beforehand: a translation takes memory */
+
+static void say(const char *text) {
+  for (size_t left = strlen(text); left > 0;) {
+    ssize_t written = write(STDERR_FILENO, text, left);
+    if (written <= 0) return;
+    text += written, left -= (size_t)written;
+  }
+}
+
+/* Takes no memory. */
+static void end(const char *domain, GLogLevelFlags level, const char *message, gpointer data) {
+  if (!(level & (G_LOG_FLAG_FATAL | G_LOG_LEVEL_ERROR))) {
+    g_log_default_handler(domain, level, message, data);
+    return;
+  }
+  spore_file_batches_withdraw();
+  gboolean memory = !message || strstr(message, "allocate") || strstr(message, "memory");
+  if (!memory) say(message), say("; ");
+  say(memory ? no_memory : report_it);
+  say("\n");
+  _exit(STATUS_FAULT);
+}
+
+/* Whoever aborts has said why: GLib's allocator of small blocks, which does not ask the log, or an assertion. */
+static void on_abort(int number) {
+  spore_file_batches_withdraw();
+  _exit(STATUS_FAULT);
+}
+
+void spore_ending_prepare(void) {
+  g_strlcpy(no_memory,
+            _("there is not enough memory to go on; nothing is half-written; close other programs, or use fewer or "
+              "coarser meshes"),
+            sizeof no_memory);
+  g_strlcpy(report_it, _("this is a fault of SPORE; nothing is half-written; report it"), sizeof report_it);
+  (void)(g_strerror)(ENOMEM); /* GLib keeps the text: later there may be no memory to convert it */
+  g_log_set_default_handler(end, NULL);
+  signal(SIGABRT, on_abort);
+  signal(SIGXFSZ, SIG_IGN); /* a file that grows too large is an error of writing, and not the end */
+}
