@@ -4,8 +4,10 @@
 #include <string.h>
 
 #include "core/base/text.h"
+#include "core/math/vector.h"
 #include "core/integrate/stage.h"
 #include "core/nonlinear/line_search.h"
+#include "core/nonlinear/trust.h"
 
 #define LOAD_STEPS_MAXIMUM 16
 #define PARTS_EFFORT 4          /* of the iterations that the load as a whole may take */
@@ -16,15 +18,28 @@
 #define LINEAR_TOLERANCE 1e-3
 
 /* Balance of forces, f(q) = 0, by Newton's method, damped in two ways: a line search, and the inertia of a pseudo-step
- * H that grows as the residual falls (pseudo-transient continuation; Kelley and Keyes 1998). Where a load is too large
- * for that it comes in parts: f(q) = (1 - s) f(q0), s from 0 to 1. Each iteration moves q = drift(base, x, h) with r =
- * H^2/h (f - (1 - s) f0) and A = M + H^2 K + H^2/h D. */
+ * H that grows as the residual falls (pseudo-transient continuation; Kelley and Keyes 1998). The first attempt has H so
+ * long that there is no inertia; the next begin with a short H. Where a load is too large for that it comes in parts:
+ * f(q) = (1 - s) f(q0), s from 0 to 1. Each iteration moves q = drift(base, x, h) with r = H^2/h (f - (1 - s) f0) and A
+ * = M + H^2 K + H^2/h D. */
 typedef struct Balance {
   const SporeDynamics *dynamics;
   double h, pseudo_step, load;
   double *base, *moved;         /* where it has got to, and the sum of x that took it there: a velocity */
   double *q, *v, *start, *work; /* start: f at q0 */
+  double *from;                 /* where it was before the last iteration */
+  bool came;                    /* by an iteration with this load, from there */
 } Balance;
+
+/* Newton's method at one load. */
+typedef struct Search {
+  SporeSystem system;
+  double *rest, *d, *r; /* zeros: where it is; the step; the residual there */
+  double *trial, *trial_r;
+  double norm, after; /* of the residual where it is, and at the trial */
+  SporeTrust trust;
+  double *base, *moved, *trusted; /* where trust was given, and the step that was taken on it */
+} Search;
 
 static double scale(const Balance *balance) { return balance->pseudo_step * balance->pseudo_step / balance->h; }
 
@@ -41,6 +56,8 @@ static void residual(void *data, const double *x, double *r) {
 /* Goes on from where x leads. */
 static void move(Balance *balance, const double *x) {
   const SporeDynamics *dynamics = balance->dynamics;
+  memcpy(balance->from, balance->base, dynamics->q_count * sizeof *balance->from);
+  balance->came = true;
   dynamics->drift(dynamics->data, balance->base, x, balance->h, balance->base, balance->v);
   for (size_t i = 0; i < 3 * dynamics->block_count; i++) balance->moved[i] += x[i];
   dynamics->set_mass(dynamics->data, balance->base);
@@ -64,48 +81,120 @@ static void change_pseudo_step(Balance *balance, double length, double before, d
   balance->pseudo_step = fmin(balance->pseudo_step * factor, PSEUDO_STEP_MAXIMUM * balance->h);
 }
 
+static double kinetic_length(const Balance *balance, const double *d) {
+  balance->dynamics->mass_multiply(balance->dynamics->data, d, balance->work);
+  return sqrt(spore_vector_dot(3 * balance->dynamics->block_count, d, balance->work));
+}
+
+static void give_trust(const Balance *balance, Search *search, double step) {
+  size_t n = search->system.count;
+  spore_trust_give(&search->trust, step, search->norm);
+  memcpy(search->base, balance->base, balance->dynamics->q_count * sizeof *search->base);
+  memcpy(search->moved, balance->moved, n * sizeof *search->moved);
+  memcpy(search->trusted, search->d, n * sizeof *search->trusted);
+}
+
+/* Back to where trust was given. */
+static void take_trust(Search *search, Balance *balance, size_t *evaluations) {
+  const SporeDynamics *dynamics = balance->dynamics;
+  size_t n = search->system.count;
+  search->trust.given = false;
+  search->trust.failures++;
+  search->norm = search->trust.norm;
+  memcpy(balance->base, search->base, dynamics->q_count * sizeof *search->base);
+  memcpy(balance->moved, search->moved, n * sizeof *search->moved);
+  memcpy(search->d, search->trusted, n * sizeof *search->d);
+  dynamics->set_mass(dynamics->data, balance->base);
+  residual(balance, search->rest, search->r);
+  ++*evaluations;
+}
+
+/* A step along d, to the trial: the full one where that halves the residual or deserves trust, else one along the line.
+ * Returns its length, or 0 where no length helps. */
+static double take_step(Balance *balance, Search *search, size_t *evaluations) {
+  size_t n = search->system.count;
+  SporeTrust *trust = &search->trust;
+  memcpy(search->trial, search->d, n * sizeof *search->trial);
+  residual(balance, search->trial, search->trial_r);
+  ++*evaluations;
+  search->after = dual_norm(balance, search->trial_r);
+  double step = kinetic_length(balance, search->d);
+  if (search->after <= 0.5 * (trust->given ? trust->norm : search->norm)) {
+    trust->given = false;
+    return 1;
+  }
+  if (trust->given && spore_trust_is_promising(trust, step, search->after)) return 1;
+  bool tried = !trust->given;
+  if (trust->given) {
+    take_trust(search, balance, evaluations);
+  } else if (!balance->dynamics->switches && trust->failures < SPORE_TRUST_FAILURES && isfinite(search->after) &&
+             spore_vector_dot(n, search->trial_r, search->d) < 0) {
+    give_trust(balance, search, step);
+    return 1;
+  }
+  return spore_line_search(&search->system, search->rest, search->d, search->r, search->norm, tried, 0, search->trial,
+                           search->trial_r, &search->after, evaluations);
+}
+
 /* Over all parts of the load. */
 static size_t most_iterations(const SporeSolverFields *fields) {
   return PARTS_EFFORT * (size_t)fields->newton_iterations;
 }
 
-/* To balance at one load, from `base`. False: not reached. scratch: rest, d, r, trial, trial_r, and those of the linear
- * solver. */
+static Search begin_search(Balance *balance, double *scratch) {
+  size_t n = 3 * balance->dynamics->block_count;
+  Search search = {
+      .system = {
+          .data = balance, .count = n, .cancel = balance->dynamics->cancel, .residual = residual, .norm = dual_norm}};
+  search.rest = scratch;
+  search.d = search.rest + n;
+  search.r = search.d + n;
+  search.trial = search.r + n;
+  search.trial_r = search.trial + n;
+  search.base = search.trial_r + n;
+  search.moved = search.base + 2 * n;
+  search.trusted = search.moved + n;
+  memset(search.rest, 0, n * sizeof *search.rest);
+  return search;
+}
+
+/* To balance at one load, from `base`. False: not reached. scratch: the search's, and that of the linear solver. */
 static bool balance_load(Balance *balance, const SporeSolverFields *fields, double wanted, double *scratch,
                          SporeStepResult *result) {
   assert(balance->pseudo_step > 0 && balance->load > 0 && balance->load <= 1);
   const SporeDynamics *dynamics = balance->dynamics;
   size_t n = 3 * dynamics->block_count;
-  double *rest = scratch, *d = rest + n, *r = d + n, *trial = r + n, *trial_r = trial + n, *linear = trial_r + n;
-  SporeSystem system = {
-      .data = balance, .count = n, .cancel = dynamics->cancel, .residual = residual, .norm = dual_norm};
+  Search search = begin_search(balance, scratch);
+  double *linear = search.trusted + n;
   SporeLinearOperator operator= {dynamics->data, n, dynamics->multiply, dynamics->precondition, dynamics->cancel};
-  double norm = 0;
-  memset(rest, 0, n * sizeof *rest);
+  bool stirs = false; /* the last iteration left more than half of the residual: along what is stiff that is rounding */
+  balance->came = false;
   for (int64_t i = 0;; i++) {
-    residual(balance, rest, r);
+    residual(balance, search.rest, search.r);
     result->force_evaluations++;
-    norm = dual_norm(balance, r);
-    result->residual = wanted > 0 ? norm / scale(balance) / wanted : norm;
-    if (!isfinite(norm) || spore_cancel_asked(dynamics->cancel)) return false;
-    if (norm <= fields->tolerance * wanted * scale(balance)) return true;
+    search.norm = dual_norm(balance, search.r);
+    result->residual = wanted > 0 ? search.norm / scale(balance) / wanted : search.norm;
+    if (!isfinite(search.norm) || spore_cancel_asked(dynamics->cancel)) return false;
+    if (search.norm <= fields->tolerance * wanted * scale(balance)) return true;
     if (i == fields->newton_iterations || result->newton_iterations == most_iterations(fields)) break;
     double c2 = balance->pseudo_step * balance->pseudo_step;
-    dynamics->linearise(dynamics->data, balance->q, NULL, balance->moved, c2 / balance->h, c2);
+    dynamics->linearise(dynamics->data, balance->q, balance->came ? balance->from : NULL, balance->moved,
+                        c2 / balance->h, c2);
     result->linearisations++;
-    if (norm <= dynamics->rounding(dynamics->data, balance->h, false)) return true;
-    SporeLinearResult solved = spore_pcg(&operator, r, LINEAR_TOLERANCE, (size_t)fields->linear_iterations, d, linear);
+    if (search.norm <= dynamics->rounding(dynamics->data, balance->h, stirs)) return true;
+    SporeLinearResult solved =
+        spore_pcg(&operator, search.r, LINEAR_TOLERANCE, (size_t)fields->linear_iterations, search.d, linear);
     result->newton_iterations++;
     result->linear_iterations += solved.iterations;
     result->unsolved += solved.status != SPORE_LINEAR_CONVERGED;
-    double after = 0, length = spore_line_search(&system, rest, d, r, norm, false, 0, trial, trial_r, &after,
-                                                 &result->force_evaluations);
+    double length = take_step(balance, &search, &result->force_evaluations);
     if (length == 0) break;
-    move(balance, trial);
-    change_pseudo_step(balance, length, norm, after);
+    stirs = !(search.after <= 0.5 * search.norm);
+    move(balance, search.trial);
+    if (!search.trust.given) change_pseudo_step(balance, length, search.norm, search.after);
   }
   /* Whether the residual is down to rounding, by the last linearisation. */
-  return result->linearisations > 0 && norm <= dynamics->rounding(dynamics->data, balance->h, true);
+  return result->linearisations > 0 && search.norm <= dynamics->rounding(dynamics->data, balance->h, true);
 }
 
 /* A body that nothing holds has no balance. It creeps: each step starts from rest and keeps the displacement of that
@@ -132,12 +221,14 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
   balance.start = balance.v + n;
   balance.work = balance.start + n;
   balance.moved = balance.work + n;
-  double *work = balance.moved + n, pseudo_step = history->step_s > 0 ? fmax(history->step_s, h) : h;
+  balance.from = balance.moved + n;
+  double *work = balance.from + 2 * n,
+         pseudo_step = history->step_s > 0 ? fmax(history->step_s, h) : PSEUDO_STEP_MAXIMUM * h;
   memset(balance.moved, 0, n * sizeof *balance.moved);
   dynamics->force(dynamics->data, q0, balance.moved, balance.start);
   double wanted = fmax(dual_norm(&balance, balance.start), dynamics->gravity_momentum);
   SporeStepResult result = {.force_evaluations = 1};
-  for (int parts = 1; parts <= LOAD_STEPS_MAXIMUM && !result.converged; parts *= 2) {
+  for (int parts = 1; parts <= LOAD_STEPS_MAXIMUM && !result.converged;) {
     if (result.newton_iterations == most_iterations(fields) || spore_cancel_asked(dynamics->cancel)) break;
     memcpy(balance.base, q0, dynamics->q_count * sizeof *q0);
     memset(balance.moved, 0, n * sizeof *balance.moved);
@@ -148,7 +239,8 @@ static SporeStepResult step(const SporeDynamics *dynamics, const SporeSolverFiel
       balance.load = (double)part / parts;
       result.converged = balance_load(&balance, fields, wanted, work, &result);
     }
-    pseudo_step = h; /* what was learnt before does not hold here */
+    if (pseudo_step == h) parts *= 2;
+    pseudo_step = h; /* boldly first, then with care */
   }
   dynamics->keep(dynamics->data, &(SporeEquation){.load = wanted, .qa = balance.base, .v = balance.moved});
   history->step_s = result.converged ? balance.pseudo_step : 0;
@@ -165,6 +257,6 @@ const SporeIntegrator spore_static = {
     .remembers = true,
     .chooses_step = true,
     .damping = SPORE_DAMPING_FULL,
-    .scratch = 3 * (13 + SPORE_STAGE_SCRATCH),
+    .scratch = 3 * (19 + SPORE_STAGE_SCRATCH),
     .step = step,
 };

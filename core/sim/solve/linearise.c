@@ -166,7 +166,7 @@ static void assemble(const SporeIslandSystem *system, SporeBody *body, const Spo
  * and the matrix is made again without the indefinite part. Conjugate gradients would not detect it, nor would a factor
  * that lacks some terms. */
 static bool takes_whole(const SporeIslandSystem *system, const SporeBody *body) {
-  return body->preconditioner.choice.factorised && body->model->type->tangent && !spore_body_is_static(body) &&
+  return body->preconditioner.choice.factorised && body->model->type->tangent &&
          system->island->contact_count + system->island->spring_count == 0;
 }
 

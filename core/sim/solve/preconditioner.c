@@ -11,6 +11,7 @@
 #include "core/sim/solve/local_assembly.h"
 
 #define WORTH_ITERATIONS 2000 /* a factor that takes more work than this many iterations is not made */
+#define WORTH_STATIC 12500    /* the same of a static body */
 #define GAIN 1.25             /* cost of the present choice over the other, above which it changes */
 #define PATIENCE 4            /* steps over which costs are compared */
 #define PATIENCE_MAXIMUM 256
@@ -99,11 +100,12 @@ bool spore_body_create_factor(const SporeWorld *world, SporeBody *body, SporeErr
       body->preconditioner.matrix.row_start[body->preconditioner.matrix.block_count] ==
           body->preconditioner.matrix.block_count)
     return true;
+  double worth = spore_body_is_static(body) ? WORTH_STATIC : WORTH_ITERATIONS;
   if (!body->held.flags) body->held.flags = SPORE_NEW_ARRAY(uint8_t, body->preconditioner.matrix.block_room);
   if (!body->held.flags ||
       !spore_block_cholesky_create(&body->preconditioner.factor, &body->preconditioner.matrix,
                                    layout_of(world->solver.linear),
-                                   WORTH_ITERATIONS / FACTOR_WEIGHT * spore_body_gradient_work(body), world->cancel))
+                                   worth / FACTOR_WEIGHT * spore_body_gradient_work(body), world->cancel))
     return spore_error_set(error, SPORE_ERROR_MEMORY, NULL, _("not enough memory for the world"));
   for (size_t i = 0; i < body->held.count; i++) body->held.flags[body->held.blocks[i]] = 1;
   return true;
@@ -115,15 +117,19 @@ bool spore_world_create_factors(SporeWorld *world, SporeError *error) {
   return true;
 }
 
-/* A banded factor takes less work than the matrix itself, so it is always chosen. */
-static bool is_banded(const SporeBody *body) { return body->preconditioner.factor.band.block_count > 0; }
+/* A banded factor takes less work than the matrix itself, so it is always chosen. So is any factor of a static body:
+ * its steps are as long as steps can be. */
+static bool wants_factor(const SporeBody *body) {
+  return body->preconditioner.factor.band.block_count > 0 ||
+         (body->preconditioner.factor.block_count > 0 && spore_body_is_static(body));
+}
 
 void spore_body_reset_choice(const SporeWorld *world, SporeBody *body) {
   body->preconditioner.choice = (SporeFactorChoice){.patience = PATIENCE, .keep = KEEP, .trial = PATIENCE};
   bool by_hand = world->solver.linear == SPORE_LINEAR_CHOLESKY || world->solver.linear == SPORE_LINEAR_BANDED;
   bool automatic = world->solver.linear == SPORE_LINEAR_AUTOMATIC;
   body->preconditioner.choice.factorised =
-      (by_hand && body->preconditioner.factor.block_count > 0) || (automatic && is_banded(body));
+      (by_hand && body->preconditioner.factor.block_count > 0) || (automatic && wants_factor(body));
   body->preconditioner.factor_ready = false;
 }
 
@@ -222,7 +228,7 @@ static void choose(const SporeWorld *world, SporeBody *body, const SporeStepResu
   SporeFactorChoice *choice = &body->preconditioner.choice;
   uint32_t factors = choice->factors;
   choice->factors = 0;
-  if (alone && choice->factorised && is_banded(body)) return;
+  if (alone && choice->factorised && wants_factor(body)) return;
   if (choice->needed) {
     /* A body that did not converge without a factor may converge now. If not, that step is taken again. */
     if (++choice->steps < TRIAL_STEPS) return;
